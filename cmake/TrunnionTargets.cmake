@@ -1,0 +1,53 @@
+# The few functions every room uses, so that a room's CMakeLists.txt says only what is in it.
+
+# What every target of ours is compiled with. Fused multiply-add would make the stream depend on the
+# compiler's choice of instruction, so contraction is off everywhere.
+add_library(trunnion_options INTERFACE)
+target_compile_options(trunnion_options INTERFACE -Wall -Wextra -Wshadow -Wnon-virtual-dtor -ffp-contract=off)
+target_include_directories(trunnion_options INTERFACE ${CMAKE_SOURCE_DIR}/libs)
+option(TRUNNION_SANITIZE "Build with the address and undefined-behaviour sanitizers" OFF)
+if(TRUNNION_SANITIZE)
+  add_compile_options(-fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  add_link_options(-fsanitize=address,undefined)
+endif()
+option(TRUNNION_FUZZ "Build the libFuzzer targets (needs clang)" OFF)
+
+# trunnion_library(name SOURCES a.cpp ... [LINK libs...])
+function(trunnion_library name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
+  add_library(${name} STATIC ${ARG_SOURCES})
+  target_link_libraries(${name} PUBLIC trunnion_options ${ARG_LINK})
+endfunction()
+
+# trunnion_test(name SOURCES a_test.cpp ... [LINK libs...] [LABELS unit]): one GoogleTest program, one CTest entry.
+function(trunnion_test name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LINK;LABELS" ${ARGN})
+  if(NOT ARG_LABELS)
+    set(ARG_LABELS unit)
+  endif()
+  add_executable(${name} ${ARG_SOURCES})
+  target_link_libraries(${name} PRIVATE trunnion_options ${ARG_LINK} GTest::gmock GTest::gtest_main)
+  add_test(NAME ${name} COMMAND ${name})
+  set_tests_properties(${name} PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT 120)
+endfunction()
+
+# trunnion_benchmark(name SOURCES a_bench.cpp ... [LINK libs...]): a Google Benchmark program beside the code.
+function(trunnion_benchmark name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
+  add_executable(${name} ${ARG_SOURCES})
+  target_link_libraries(${name} PRIVATE trunnion_options ${ARG_LINK} benchmark::benchmark_main)
+endfunction()
+
+# trunnion_fuzzer(name SOURCES a_fuzz.cpp CORPUS dir [LINK libs...]): a libFuzzer target; only with TRUNNION_FUZZ.
+function(trunnion_fuzzer name)
+  cmake_parse_arguments(ARG "" "CORPUS" "SOURCES;LINK" ${ARGN})
+  if(TRUNNION_FUZZ)
+    add_executable(${name} ${ARG_SOURCES})
+    target_compile_options(${name} PRIVATE -fsanitize=fuzzer)
+    target_link_options(${name} PRIVATE -fsanitize=fuzzer)
+    target_link_libraries(${name} PRIVATE trunnion_options ${ARG_LINK})
+    add_test(NAME ${name} COMMAND ${name} -runs=20000 -seed=1 -print_final_stats=0 ${CMAKE_BINARY_DIR}/corpus-${name} ${ARG_CORPUS})
+    file(MAKE_DIRECTORY ${CMAKE_BINARY_DIR}/corpus-${name})
+    set_tests_properties(${name} PROPERTIES LABELS fuzz TIMEOUT 300)
+  endif()
+endfunction()
