@@ -1,0 +1,41 @@
+#include "bus/bus.hpp"
+
+#include <chrono>
+#include <stdexcept>
+
+namespace trunnion::bus {
+
+void Signal::notify() {
+  {
+    const std::lock_guard lock(mutex_);
+    set_ = true;
+  }
+  condition_.notify_one();
+}
+
+bool Signal::wait(double seconds) {
+  std::unique_lock lock(mutex_);
+  const bool notified =
+      condition_.wait_for(lock, std::chrono::duration<double>(seconds), [this] { return set_; });
+  set_ = false;
+  return notified;
+}
+
+const char* to_string(Vendor vendor) { return vendor == Vendor::fastdds ? "fastdds" : "cyclonedds"; }
+
+Vendor vendor_from(const std::string& name) {
+  if (name == "fastdds") return Vendor::fastdds;
+  if (name == "cyclonedds") return Vendor::cyclonedds;
+  throw std::invalid_argument("unknown DDS vendor '" + name + "': fastdds or cyclonedds");
+}
+
+namespace {
+std::unique_ptr<Backend> make_backend(Vendor vendor, const NetworkSettings& network) {
+  return vendor == Vendor::fastdds ? make_fastdds(network) : make_cyclonedds(network);
+}
+}  // namespace
+
+Bus::Bus(Vendor vendor, const NetworkSettings& network, StreamDepth depth)
+    : vendor_(vendor), backend_(make_backend(vendor, network)), depth_(depth) {}
+
+}  // namespace trunnion::bus

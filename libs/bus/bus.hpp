@@ -1,0 +1,133 @@
+// Typed writers and readers over either vendor.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "bus/cdr.hpp"
+#include "bus/endpoint.hpp"
+#include "bus/topic.hpp"
+
+namespace trunnion::bus {
+
+template <Struct T>
+bool key_of(std::span<const std::uint8_t> cdr, KeyHash& key) {
+  thread_local T value;
+  thread_local Bytes bytes;
+  if (!decode(cdr, value)) return false;
+  CdrWriter writer(bytes, true);
+  Fields<T>::visit_key(value, writer);
+  key.fill(0);
+  std::memcpy(key.data(), bytes.data() + cdr_header, std::min<std::size_t>(16, bytes.size() - cdr_header));
+  return true;
+}
+
+template <class T>
+TopicDescription describe(const Topic<T>& topic) {
+  return {topic.name, topic.wire_type, Fields<T>::keyed, &key_of<T>};
+}
+
+/// Depths of the stream's writers; everything else has a fixed one.
+struct StreamDepth {
+  int frames = 64;
+};
+
+inline EndpointQos writer_qos(QosKind kind, StreamDepth depth) {
+  switch (kind) {
+    case QosKind::frame:
+      return {true, depth.frames};
+    case QosKind::state:
+      return {true, 1};
+    case QosKind::event:
+      return {false, 64};
+    case QosKind::history:
+      return {true, 16};
+  }
+  return {};
+}
+
+inline EndpointQos reader_qos(QosKind kind) {
+  switch (kind) {
+    case QosKind::frame:
+      return {true, 0};
+    case QosKind::state:
+      return {true, 1};
+    case QosKind::event:
+      return {false, 64};
+    case QosKind::history:
+      return {true, 64};
+  }
+  return {};
+}
+
+template <class T>
+class Writer {
+ public:
+  explicit Writer(std::unique_ptr<RawWriter> raw) : raw_(std::move(raw)) {}
+  /// Throws CdrError when a field is beyond its bound; false when the vendor could not send.
+  bool write(const T& value) {
+    encode(value, buffer_);
+    return raw_->write(buffer_);
+  }
+  int matched() { return raw_->matched(); }
+
+ private:
+  std::unique_ptr<RawWriter> raw_;
+  Bytes buffer_;
+};
+
+template <class T>
+class Reader {
+ public:
+  explicit Reader(std::unique_ptr<RawReader> raw) : raw_(std::move(raw)) {}
+  /// The next sample that decodes; samples that do not are counted and skipped.
+  bool take(T& value) {
+    while (raw_->take(buffer_, info_)) {
+      if (decode(buffer_, value)) return true;
+      ++undecodable_;
+    }
+    return false;
+  }
+  /// The newest of what has arrived, or false when nothing has.
+  bool take_newest(T& value) {
+    bool any = false;
+    while (take(value)) any = true;
+    return any;
+  }
+  int matched() { return raw_->matched(); }
+  const SampleInfo& info() const { return info_; }
+  std::uint64_t undecodable() const { return undecodable_; }
+
+ private:
+  std::unique_ptr<RawReader> raw_;
+  Bytes buffer_;
+  SampleInfo info_;
+  std::uint64_t undecodable_ = 0;
+};
+
+/// One DDS participant. Everything made from it must be destroyed before it.
+class Bus {
+ public:
+  Bus(Vendor vendor, const NetworkSettings& network, StreamDepth depth = {});
+
+  template <class T>
+  Writer<T> writer(const Topic<T>& topic) {
+    return Writer<T>(backend_->writer(describe(topic), writer_qos(topic.qos, depth_)));
+  }
+  template <class T>
+  Reader<T> reader(const Topic<T>& topic) {
+    return Reader<T>(backend_->reader(describe(topic), reader_qos(topic.qos), &signal_));
+  }
+  Backend& backend() { return *backend_; }
+  Signal& signal() { return signal_; }
+  Vendor vendor() const { return vendor_; }
+  void set_depth(StreamDepth depth) { depth_ = depth; }
+
+ private:
+  Vendor vendor_;
+  Signal signal_;
+  std::unique_ptr<Backend> backend_;
+  StreamDepth depth_;
+};
+
+}  // namespace trunnion::bus

@@ -1,0 +1,204 @@
+// XCDR1 (PLAIN_CDR, little endian) of the generated types: what goes over the wire and into recordings.
+// Source: OMG DDS-XTypes 1.3, 7.4.1 to 7.4.3; primitives are aligned to their size, at most 8, from the end
+// of the header.
+#pragma once
+
+#include <bit>
+#include <cstdint>
+#include <cstring>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "bus/fields.hpp"
+
+namespace trunnion::bus {
+
+using Bytes = std::vector<std::uint8_t>;
+static_assert(std::endian::native == std::endian::little, "the bus writes memory as it is");
+
+/// Thrown by both directions: a value beyond its bound, or bytes that are not this type.
+struct CdrError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+inline constexpr std::size_t cdr_header = 4;
+
+/// Appends values to a byte vector that is reused from message to message, so that the steady state does not
+/// allocate.
+class CdrWriter {
+ public:
+  explicit CdrWriter(Bytes& out, bool big_endian = false) : out_(out), big_endian_(big_endian) {
+    out_.assign(cdr_header, 0);
+    out_[1] = big_endian ? 0 : 1;
+  }
+
+  template <class T>
+  void operator()(const char* name, const T& value, std::size_t bound, std::size_t element_bound = 0) {
+    name_ = name;
+    write(value, bound, element_bound);
+  }
+
+ private:
+  template <class T>
+  void write(const T& value, std::size_t bound, std::size_t element_bound = 0) {
+    if constexpr (Struct<T>) {
+      Fields<T>::visit(value, *this);
+    } else if constexpr (std::is_enum_v<T>) {
+      primitive(static_cast<std::uint32_t>(value));
+    } else if constexpr (std::is_arithmetic_v<T>) {
+      primitive(value);
+    } else if constexpr (std::is_same_v<T, std::string>) {
+      check(value.size(), bound);
+      primitive(static_cast<std::uint32_t>(value.size() + 1));
+      append(value.c_str(), value.size() + 1);
+    } else {
+      check(value.size(), bound);
+      primitive(static_cast<std::uint32_t>(value.size()));
+      using Element = typename T::value_type;
+      if constexpr (std::is_arithmetic_v<Element>) {
+        if (!value.empty()) {
+          align(sizeof(Element));
+          append(value.data(), value.size() * sizeof(Element));
+        }
+      } else {
+        for (const auto& element : value) write(element, element_bound);
+      }
+    }
+  }
+
+  void check(std::size_t size, std::size_t bound) const {
+    if (bound != 0 && size > bound)
+      throw CdrError(std::string(name_) + ": " + std::to_string(size) + " elements, at most " +
+                     std::to_string(bound));
+  }
+  void align(std::size_t size) {
+    const std::size_t at = out_.size() - cdr_header;
+    out_.resize(out_.size() + ((size - at % size) % size), 0);
+  }
+  void append(const void* data, std::size_t size) {
+    const std::size_t at = out_.size();
+    out_.resize(at + size);
+    std::memcpy(out_.data() + at, data, size);
+  }
+  template <class T>
+  void primitive(T value) {
+    align(sizeof(T));
+    if constexpr (sizeof(T) > 1) {
+      if (big_endian_) {
+        std::uint8_t bytes[sizeof(T)];
+        std::memcpy(bytes, &value, sizeof(T));
+        for (std::size_t i = 0; i < sizeof(T) / 2; ++i) std::swap(bytes[i], bytes[sizeof(T) - 1 - i]);
+        append(bytes, sizeof(T));
+        return;
+      }
+    }
+    append(&value, sizeof(T));
+  }
+
+  Bytes& out_;
+  bool big_endian_;
+  const char* name_ = "";
+};
+
+/// Reads what CdrWriter wrote. Never trusts a length: every one is checked against the bytes left and the
+/// bound.
+class CdrReader {
+ public:
+  explicit CdrReader(std::span<const std::uint8_t> data) : data_(data) {
+    if (data.size() < cdr_header || data[0] != 0 || data[1] != 1)
+      throw CdrError("not little-endian plain CDR");
+    data_ = data.subspan(cdr_header);
+  }
+
+  template <class T>
+  void operator()(const char* name, T& value, std::size_t bound, std::size_t element_bound = 0) {
+    name_ = name;
+    read(value, bound, element_bound);
+  }
+
+ private:
+  template <class T>
+  void read(T& value, std::size_t bound, std::size_t element_bound = 0) {
+    if constexpr (Struct<T>) {
+      Fields<T>::visit(value, *this);
+    } else if constexpr (std::is_enum_v<T>) {
+      const auto raw = primitive<std::uint32_t>();
+      if (raw >= enum_size<T>()) throw CdrError(std::string(name_) + ": no such enumerator");
+      value = static_cast<T>(raw);
+    } else if constexpr (std::is_same_v<T, bool>) {
+      value = primitive<std::uint8_t>() != 0;
+    } else if constexpr (std::is_arithmetic_v<T>) {
+      value = primitive<T>();
+    } else if constexpr (std::is_same_v<T, std::string>) {
+      const std::size_t size = primitive<std::uint32_t>();
+      if (size == 0 || size > data_.size() - at_) throw CdrError(std::string(name_) + ": string cut off");
+      check(size - 1, bound);
+      value.assign(reinterpret_cast<const char*>(data_.data() + at_), size - 1);
+      at_ += size;
+    } else {
+      const std::size_t size = primitive<std::uint32_t>();
+      check(size, bound);
+      using Element = typename T::value_type;
+      if constexpr (std::is_arithmetic_v<Element>) {
+        if (size == 0) {
+          value.clear();
+          return;
+        }
+        align(sizeof(Element));
+        if (size > (data_.size() - at_) / sizeof(Element)) throw CdrError(std::string(name_) + ": cut off");
+        value.resize(size);
+        std::memcpy(value.data(), data_.data() + at_, size * sizeof(Element));
+        at_ += size * sizeof(Element);
+      } else {
+        if (size > data_.size() - at_) throw CdrError(std::string(name_) + ": cut off");
+        value.resize(size);
+        for (auto& element : value) read(element, element_bound);
+      }
+    }
+  }
+
+  void check(std::size_t size, std::size_t bound) const {
+    if (bound != 0 && size > bound) throw CdrError(std::string(name_) + ": longer than its bound");
+  }
+  void align(std::size_t size) {
+    at_ += (size - at_ % size) % size;
+    if (at_ > data_.size()) throw CdrError(std::string(name_) + ": cut off");
+  }
+  template <class T>
+  T primitive() {
+    align(sizeof(T));
+    if (sizeof(T) > data_.size() - at_) throw CdrError(std::string(name_) + ": cut off");
+    T value;
+    std::memcpy(&value, data_.data() + at_, sizeof(T));
+    at_ += sizeof(T);
+    return value;
+  }
+
+  std::span<const std::uint8_t> data_;
+  std::size_t at_ = 0;
+  const char* name_ = "";
+};
+
+/// CDR with its 4-byte header. Throws CdrError when a string or sequence is beyond its bound.
+template <Struct T>
+void encode(const T& value, Bytes& out) {
+  CdrWriter writer(out);
+  Fields<T>::visit(value, writer);
+}
+
+/// False when the bytes are not a T; `value` is then unspecified.
+template <Struct T>
+bool decode(std::span<const std::uint8_t> cdr, T& value) {
+  try {
+    CdrReader reader(cdr);
+    Fields<T>::visit(value, reader);
+    return true;
+  } catch (const std::exception&) {
+    return false;
+  }
+}
+
+}  // namespace trunnion::bus

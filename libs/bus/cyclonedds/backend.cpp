@@ -1,0 +1,323 @@
+// Cyclone DDS 0.10 back end. A custom sertype carries CDR bytes made by bus/cdr.hpp, so that both vendors and
+// every tool share one set of types. No TypeObjects are registered: mixed clusters match by (hashed) type
+// name alone.
+#include <dds/dds.h>
+#include <dds/ddsi/ddsi_keyhash.h>
+#include <dds/ddsi/ddsi_serdata.h>
+#include <dds/ddsi/ddsi_sertype.h>
+#include <dds/ddsi/q_radmin.h>
+
+#include <cstdlib>
+#include <cstring>
+#include <sstream>
+#include <stdexcept>
+
+#include "bus/endpoint.hpp"
+
+namespace trunnion::bus {
+namespace {
+
+using KeyFunction = bool (*)(std::span<const std::uint8_t>, KeyHash&);
+
+struct SerType : ddsi_sertype {
+  bool keyed;
+  KeyFunction key_of;
+};
+
+struct SerData : ddsi_serdata {
+  std::uint8_t* bytes;
+  std::uint32_t size;
+  KeyHash key;
+};
+
+SerData* cast(const ddsi_serdata* data) { return static_cast<SerData*>(const_cast<ddsi_serdata*>(data)); }
+const SerType& type_of(const ddsi_sertype* type) { return *static_cast<const SerType*>(type); }
+
+// The protocol may read up to the next multiple of four, so the buffer is padded with zeros.
+SerData* make_data(const ddsi_sertype* type, ddsi_serdata_kind kind, std::size_t size) {
+  auto* data = new SerData{};
+  ddsi_serdata_init(data, type, kind);
+  data->size = static_cast<std::uint32_t>(size);
+  data->bytes = static_cast<std::uint8_t*>(std::calloc(1, (size + 3) & ~std::size_t{3}));
+  return data;
+}
+
+void free_data(ddsi_serdata* base) {
+  auto* data = cast(base);
+  std::free(data->bytes);
+  delete data;
+}
+
+void set_hash(SerData* data) {
+  data->hash = data->type->serdata_basehash;
+  for (int i = 0; i < 4; ++i) {
+    std::uint32_t word;
+    std::memcpy(&word, data->key.data() + 4 * i, 4);
+    data->hash = data->hash * 31 + word;
+  }
+}
+
+// Data from the wire: a keyed sample whose key cannot be read is not this type and is dropped.
+ddsi_serdata* finish(SerData* data) {
+  const auto& type = type_of(data->type);
+  if (type.keyed) {
+    if (data->kind == SDK_KEY) {
+      if (data->size > cdr_header)
+        std::memcpy(data->key.data(), data->bytes + cdr_header,
+                    std::min<std::size_t>(16, data->size - cdr_header));
+    } else if (!type.key_of({data->bytes, data->size}, data->key)) {
+      free_data(data);
+      return nullptr;
+    }
+  }
+  set_hash(data);
+  return data;
+}
+
+ddsi_serdata* from_wire(const ddsi_sertype* type, ddsi_serdata_kind kind, const nn_rdata* fragments,
+                        std::size_t size) {
+  auto* data = make_data(type, kind, size);
+  std::size_t at = 0;
+  for (; fragments != nullptr; fragments = fragments->nextfrag) {
+    if (fragments->maxp1 <= at) continue;
+    const unsigned char* payload = NN_RMSG_PAYLOADOFF(fragments->rmsg, NN_RDATA_PAYLOAD_OFF(fragments));
+    std::memcpy(data->bytes + at, payload + at - fragments->min, fragments->maxp1 - at);
+    at = fragments->maxp1;
+  }
+  return finish(data);
+}
+
+ddsi_serdata* from_vectors(const ddsi_sertype* type, ddsi_serdata_kind kind, ddsrt_msg_iovlen_t count,
+                           const ddsrt_iovec_t* vectors, std::size_t size) {
+  auto* data = make_data(type, kind, size);
+  std::size_t at = 0;
+  for (std::size_t i = 0; i < count && at < size; ++i) {
+    const std::size_t part = std::min<std::size_t>(vectors[i].iov_len, size - at);
+    std::memcpy(data->bytes + at, vectors[i].iov_base, part);
+    at += part;
+  }
+  return finish(data);
+}
+
+ddsi_serdata* from_keyhash(const ddsi_sertype* type, const ddsi_keyhash* hash) {
+  if (!type_of(type).keyed) return nullptr;
+  auto* data = make_data(type, SDK_KEY, cdr_header);
+  std::memcpy(data->key.data(), hash->value, data->key.size());
+  set_hash(data);
+  return data;
+}
+
+// Our "sample" is a span of CDR bytes.
+ddsi_serdata* from_sample(const ddsi_sertype* type, ddsi_serdata_kind kind, const void* sample) {
+  const auto& cdr = *static_cast<const std::span<const std::uint8_t>*>(sample);
+  auto* data = make_data(type, kind, cdr.size());
+  std::memcpy(data->bytes, cdr.data(), cdr.size());
+  return finish(data);
+}
+
+const ddsi_serdata_ops serdata_ops = [] {
+  ddsi_serdata_ops ops{};
+  ops.eqkey = [](const ddsi_serdata* a, const ddsi_serdata* b) { return cast(a)->key == cast(b)->key; };
+  ops.get_size = [](const ddsi_serdata* d) { return cast(d)->size; };
+  ops.from_ser = from_wire;
+  ops.from_ser_iov = from_vectors;
+  ops.from_keyhash = from_keyhash;
+  ops.from_sample = from_sample;
+  ops.to_ser = [](const ddsi_serdata* d, std::size_t at, std::size_t size, void* out) {
+    std::memcpy(out, cast(d)->bytes + at, size);
+  };
+  ops.to_ser_ref = [](const ddsi_serdata* d, std::size_t at, std::size_t size, ddsrt_iovec_t* out) {
+    out->iov_base = cast(d)->bytes + at;
+    out->iov_len = size;
+    return ddsi_serdata_ref(d);
+  };
+  ops.to_ser_unref = [](ddsi_serdata* d, const ddsrt_iovec_t*) { ddsi_serdata_unref(d); };
+  ops.to_sample = [](const ddsi_serdata*, void*, void**, void*) { return false; };
+  ops.to_untyped = [](const ddsi_serdata* d) -> ddsi_serdata* {
+    auto* key = make_data(d->type, SDK_KEY, cdr_header);
+    key->type = nullptr;
+    key->key = cast(d)->key;
+    key->hash = d->hash;
+    return key;
+  };
+  ops.untyped_to_sample = [](const ddsi_sertype*, const ddsi_serdata*, void*, void**, void*) { return true; };
+  ops.free = free_data;
+  ops.print = [](const ddsi_sertype*, const ddsi_serdata*, char* out, std::size_t size) {
+    return static_cast<std::size_t>(std::snprintf(out, size, "[cdr]"));
+  };
+  ops.get_keyhash = [](const ddsi_serdata* d, ddsi_keyhash* out, bool) {
+    std::memcpy(out->value, cast(d)->key.data(), cast(d)->key.size());
+  };
+  return ops;
+}();
+
+const ddsi_sertype_ops sertype_ops = [] {
+  ddsi_sertype_ops ops{};
+  ops.version = ddsi_sertype_v0;
+  ops.free = [](ddsi_sertype* type) {
+    ddsi_sertype_fini(type);
+    delete static_cast<SerType*>(type);
+  };
+  ops.zero_samples = [](const ddsi_sertype*, void*, std::size_t) {};
+  ops.realloc_samples = [](void**, const ddsi_sertype*, void*, std::size_t, std::size_t) {};
+  ops.free_samples = [](const ddsi_sertype*, void**, std::size_t, dds_free_op_t) {};
+  ops.equal = [](const ddsi_sertype* a, const ddsi_sertype* b) {
+    return type_of(a).keyed == type_of(b).keyed && type_of(a).key_of == type_of(b).key_of;
+  };
+  ops.hash = [](const ddsi_sertype* type) {
+    std::uint32_t hash = 5381;
+    for (const char* c = type->type_name; *c != 0; ++c) hash = hash * 33 + static_cast<std::uint8_t>(*c);
+    return hash;
+  };
+  return ops;
+}();
+
+[[noreturn]] void fail(const std::string& what, dds_return_t code) {
+  throw std::runtime_error("Cyclone DDS: " + what + ": " + dds_strretcode(code));
+}
+
+dds_entity_t make_topic(dds_entity_t participant, const TopicDescription& topic) {
+  auto* type = new SerType{};
+  type->keyed = topic.keyed;
+  type->key_of = topic.key_of;
+  ddsi_sertype_init_flags(
+      type, topic.wire_type.c_str(), &sertype_ops, &serdata_ops,
+      topic.keyed ? DDSI_SERTYPE_FLAG_REQUEST_KEYHASH : DDSI_SERTYPE_FLAG_TOPICKIND_NO_KEY);
+  type->allowed_data_representation = DDS_DATA_REPRESENTATION_FLAG_XCDR1;
+  ddsi_sertype* base = type;
+  const dds_entity_t entity =
+      dds_create_topic_sertype(participant, topic.name.c_str(), &base, nullptr, nullptr, nullptr);
+  if (entity < 0) fail("topic " + topic.name, entity);
+  return entity;
+}
+
+struct QosDeleter {
+  void operator()(dds_qos_t* qos) const { dds_delete_qos(qos); }
+};
+
+std::unique_ptr<dds_qos_t, QosDeleter> make_qos(const EndpointQos& qos, bool writer) {
+  std::unique_ptr<dds_qos_t, QosDeleter> result(dds_create_qos());
+  const auto history = qos.depth > 0 ? DDS_HISTORY_KEEP_LAST : DDS_HISTORY_KEEP_ALL;
+  const int depth = qos.depth > 0 ? qos.depth : 1;
+  dds_qset_reliability(result.get(), DDS_RELIABILITY_RELIABLE, DDS_MSECS(100));
+  dds_qset_durability(result.get(),
+                      qos.transient_local ? DDS_DURABILITY_TRANSIENT_LOCAL : DDS_DURABILITY_VOLATILE);
+  dds_qset_history(result.get(), history, depth);
+  if (writer) {
+    if (qos.transient_local)
+      dds_qset_durability_service(result.get(), 0, DDS_HISTORY_KEEP_LAST, depth, DDS_LENGTH_UNLIMITED,
+                                  DDS_LENGTH_UNLIMITED, DDS_LENGTH_UNLIMITED);
+    dds_qset_writer_data_lifecycle(result.get(), false);
+  }
+  return result;
+}
+
+class Writer : public RawWriter {
+ public:
+  Writer(dds_entity_t participant, const TopicDescription& description, const EndpointQos& qos)
+      : topic_(make_topic(participant, description)),
+        writer_(dds_create_writer(participant, topic_, make_qos(qos, true).get(), nullptr)) {
+    if (writer_ < 0) fail("writer of " + description.name, writer_);
+  }
+  ~Writer() override {
+    dds_delete(writer_);
+    dds_delete(topic_);
+  }
+  bool write(std::span<const std::uint8_t> cdr) override {
+    return dds_write(writer_, &cdr) == DDS_RETCODE_OK;
+  }
+  int matched() override {
+    dds_publication_matched_status_t status{};
+    dds_get_publication_matched_status(writer_, &status);
+    return static_cast<int>(status.current_count);
+  }
+
+ private:
+  dds_entity_t topic_, writer_;
+};
+
+class Reader : public RawReader {
+ public:
+  Reader(dds_entity_t participant, const TopicDescription& description, const EndpointQos& qos,
+         Signal* signal)
+      : topic_(make_topic(participant, description)) {
+    dds_listener_t* listener = nullptr;
+    if (signal != nullptr) {
+      listener = dds_create_listener(signal);
+      dds_lset_data_available(listener, [](dds_entity_t, void* arg) { static_cast<Signal*>(arg)->notify(); });
+    }
+    reader_ = dds_create_reader(participant, topic_, make_qos(qos, false).get(), listener);
+    if (listener != nullptr) dds_delete_listener(listener);
+    if (reader_ < 0) fail("reader of " + description.name, reader_);
+  }
+  ~Reader() override {
+    dds_delete(reader_);
+    dds_delete(topic_);
+  }
+  bool take(Bytes& cdr, SampleInfo& info) override {
+    for (;;) {
+      ddsi_serdata* base = nullptr;
+      dds_sample_info_t sample;
+      if (dds_takecdr(reader_, &base, 1, &sample, DDS_ANY_STATE) <= 0) return false;
+      const auto* data = cast(base);
+      const bool valid = sample.valid_data && data->kind == SDK_DATA;
+      if (valid) {
+        cdr.assign(data->bytes, data->bytes + data->size);
+        info.source_timestamp = sample.source_timestamp;
+      }
+      ddsi_serdata_unref(base);
+      if (valid) return true;
+    }
+  }
+  int matched() override {
+    dds_subscription_matched_status_t status{};
+    dds_get_subscription_matched_status(reader_, &status);
+    return static_cast<int>(status.current_count);
+  }
+
+ private:
+  dds_entity_t topic_, reader_;
+};
+
+std::string configuration(const NetworkSettings& network) {
+  std::ostringstream xml;
+  xml << "<CycloneDDS><Domain id=\"any\"><General><Interfaces><NetworkInterface address=\""
+      << network.interface_address
+      << "\"/></Interfaces><AllowMulticast>false</AllowMulticast></General>"
+         "<Discovery><ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>39</"
+         "MaxAutoParticipantIndex><Peers>";
+  std::istringstream peers(network.peers);
+  for (std::string peer; std::getline(peers, peer, ',');) xml << "<Peer address=\"" << peer << "\"/>";
+  xml << "</Peers><SPDPInterval>0.5s</SPDPInterval><LeaseDuration>3s</LeaseDuration></Discovery>"
+         "</Domain></CycloneDDS>";
+  return xml.str();
+}
+
+class CycloneBackend : public Backend {
+ public:
+  explicit CycloneBackend(const NetworkSettings& network) {
+    // The domain outlives this object on purpose: a second participant in the process (tests) shares it.
+    dds_create_domain(network.domain, configuration(network).c_str());
+    participant_ = dds_create_participant(network.domain, nullptr, nullptr);
+    if (participant_ < 0) fail("participant in domain " + std::to_string(network.domain), participant_);
+  }
+  ~CycloneBackend() override { dds_delete(participant_); }
+  std::unique_ptr<RawWriter> writer(const TopicDescription& topic, const EndpointQos& qos) override {
+    return std::make_unique<Writer>(participant_, topic, qos);
+  }
+  std::unique_ptr<RawReader> reader(const TopicDescription& topic, const EndpointQos& qos,
+                                    Signal* signal) override {
+    return std::make_unique<Reader>(participant_, topic, qos, signal);
+  }
+
+ private:
+  dds_entity_t participant_;
+};
+
+}  // namespace
+
+std::unique_ptr<Backend> make_cyclonedds(const NetworkSettings& network) {
+  return std::make_unique<CycloneBackend>(network);
+}
+
+}  // namespace trunnion::bus

@@ -1,0 +1,92 @@
+// The small interface behind which a DDS vendor hides. It moves CDR bytes and knows no types.
+#pragma once
+
+#include <array>
+#include <condition_variable>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <span>
+#include <string>
+
+#include "bus/cdr.hpp"
+#include "bus/topic.hpp"
+
+namespace trunnion::bus {
+
+/// Wakes the one thread of a service. Listeners only ever call notify(): writing or locking there deadlocks
+/// both vendors.
+class Signal {
+ public:
+  void notify();
+  /// True when notified since the last wait, false after `seconds`.
+  bool wait(double seconds);
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable condition_;
+  bool set_ = false;
+};
+
+using KeyHash = std::array<std::uint8_t, 16>;
+
+/// What a back end must know of a topic. key_of gives the RTPS key hash (9.6.3.8) of a CDR sample: the key in
+/// big-endian CDR.
+struct TopicDescription {
+  std::string name;
+  std::string wire_type;
+  bool keyed = false;
+  bool (*key_of)(std::span<const std::uint8_t> cdr, KeyHash& key) = nullptr;
+};
+
+struct EndpointQos {
+  bool transient_local = false;
+  int depth = 1;  ///< KEEP_LAST; 0 = KEEP_ALL (readers only)
+};
+
+struct SampleInfo {
+  std::int64_t source_timestamp =
+      0;  ///< ns since the epoch, the writer's clock: for statistics, never for order
+};
+
+class RawWriter {
+ public:
+  virtual ~RawWriter() = default;
+  virtual bool write(std::span<const std::uint8_t> cdr) = 0;
+  virtual int matched() = 0;
+};
+
+class RawReader {
+ public:
+  virtual ~RawReader() = default;
+  /// The next sample in `cdr`, or false.
+  virtual bool take(Bytes& cdr, SampleInfo& info) = 0;
+  virtual int matched() = 0;
+};
+
+enum class Vendor { fastdds, cyclonedds };
+const char* to_string(Vendor vendor);
+/// Throws std::invalid_argument naming the two that exist.
+Vendor vendor_from(const std::string& name);
+
+/// Where the participants of a cluster are.
+struct NetworkSettings {
+  std::uint32_t domain = 0;  ///< 0..100
+  std::string interface_address = "127.0.0.1";
+  std::string peers = "127.0.0.1";  ///< comma-separated addresses
+};
+
+class Backend {
+ public:
+  virtual ~Backend() = default;
+  virtual std::unique_ptr<RawWriter> writer(const TopicDescription& topic, const EndpointQos& qos) = 0;
+  /// `signal` may be null; it is notified whenever data arrives.
+  virtual std::unique_ptr<RawReader> reader(const TopicDescription& topic, const EndpointQos& qos,
+                                            Signal* signal) = 0;
+};
+
+/// Throws std::runtime_error with the vendor's reason.
+std::unique_ptr<Backend> make_cyclonedds(const NetworkSettings& network);
+std::unique_ptr<Backend> make_fastdds(const NetworkSettings& network);
+
+}  // namespace trunnion::bus

@@ -1,0 +1,39 @@
+// What the generated types offer to everything that walks over them: CDR, JSON, hashing.
+#pragma once
+
+#include <cstddef>
+
+namespace trunnion::bus {
+
+/// Specialised for every IDL struct: name, keyed, visit(value, visitor) and visit_key(value, visitor).
+/// The visitor is called as visitor(field name, field, bound[, bound of the elements]); a bound of 0 means
+/// none.
+template <class T>
+struct Fields;
+
+/// Specialised for every IDL enum: names[] in the order of the values.
+template <class E>
+struct EnumNames;
+
+template <class T>
+concept Struct = requires {
+  Fields<T>::name;
+};
+
+template <class E>
+concept Enumeration = requires {
+  EnumNames<E>::names;
+};
+
+template <Enumeration E>
+constexpr std::size_t enum_size() {
+  return sizeof(EnumNames<E>::names) / sizeof(EnumNames<E>::names[0]);
+}
+
+template <Enumeration E>
+constexpr const char* to_string(E value) {
+  const auto index = static_cast<std::size_t>(value);
+  return index < enum_size<E>() ? EnumNames<E>::names[index] : "?";
+}
+
+}  // namespace trunnion::bus

@@ -1,0 +1,30 @@
+// JSON of the generated types, for tools and the gateway: field names as in the IDL, enums by name.
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "bus/fields.hpp"
+
+namespace trunnion::bus {
+
+using Json = nlohmann::ordered_json;
+
+template <class T>
+Json to_json(const T& value) {
+  if constexpr (Struct<T>) {
+    Json object = Json::object();
+    Fields<T>::visit(value,
+                     [&](const char* name, const auto& field, auto...) { object[name] = to_json(field); });
+    return object;
+  } else if constexpr (std::is_enum_v<T>) {
+    return to_string(value);
+  } else if constexpr (std::is_arithmetic_v<T> || std::is_same_v<T, std::string>) {
+    return value;
+  } else {
+    Json array = Json::array();
+    for (const auto& element : value) array.push_back(to_json(element));
+    return array;
+  }
+}
+
+}  // namespace trunnion::bus

@@ -1,0 +1,27 @@
+// Every topic as data: for `trunnion topic`, the recorder and the gateway.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "bus/endpoint.hpp"
+#include "bus/json.hpp"
+
+namespace trunnion::bus {
+
+struct TopicEntry {
+  TopicDescription description;
+  QosKind qos;
+  std::string handle;  ///< short name, e.g. path_frame
+  std::string type;    ///< IDL type name without hash
+  std::string schema;  ///< self-contained IDL of the type
+  std::string about;
+  /// Throws CdrError when the bytes are not of the type.
+  Json (*to_json)(std::span<const std::uint8_t> cdr);
+};
+
+const std::vector<TopicEntry>& all_topics();
+/// By topic name or handle; null when there is none.
+const TopicEntry* find_topic(const std::string& name);
+
+}  // namespace trunnion::bus

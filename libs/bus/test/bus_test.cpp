@@ -1,0 +1,101 @@
+// Every pair of vendors in one process, each test in a domain of its own.
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <thread>
+
+#include "bus/bus.hpp"
+#include "contracts/topics.hpp"
+
+namespace trunnion::bus {
+namespace {
+
+template <class Condition>
+bool eventually(Condition condition) {
+  for (int i = 0; i < 5000; ++i) {
+    if (condition()) return true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  return false;
+}
+
+struct Pair {
+  Vendor writer, reader;
+  std::uint32_t domain;
+};
+
+class BusOverVendors : public testing::TestWithParam<Pair> {};
+
+TEST_P(BusOverVendors, KeyedStateReachesALateJoinerWithTheNewestOfEachKey) {
+  const auto [from, to, domain] = GetParam();
+  Bus a(from, {domain}), b(to, {domain});
+  auto writer = a.writer(topics::stream_request);
+  for (std::uint16_t channel = 0; channel < 3; ++channel)
+    for (std::uint32_t request = 1; request <= 4; ++request) writer.write({channel, request, 1, 0});
+  auto reader = b.reader(topics::stream_request);
+  std::vector<int> newest(3);
+  EXPECT_TRUE(eventually([&] {
+    idl::stream::StreamRequest request;
+    while (reader.take(request)) newest[request.channel] = static_cast<int>(request.request);
+    return newest == std::vector<int>{4, 4, 4};
+  }));
+}
+
+TEST_P(BusOverVendors, FramesArriveInOrderAndHistoryIsAsDeepAsAsked) {
+  const auto [from, to, domain] = GetParam();
+  Bus a(from, {domain + 10}, {16}), b(to, {domain + 10});
+  auto writer = a.writer(topics::gantry_frame);
+  idl::stream::AxisFrame frame;
+  for (frame.first = 1; frame.first <= 40; ++frame.first) writer.write(frame);
+  auto reader = b.reader(topics::gantry_frame);
+  std::vector<std::uint64_t> seen;
+  const auto drain = [&] {
+    idl::stream::AxisFrame in;
+    while (reader.take(in)) seen.push_back(in.first);
+    return !seen.empty() && seen.back() == frame.first - 1;
+  };
+  ASSERT_TRUE(eventually(drain));
+  EXPECT_EQ(seen.size(), 16u) << "the writer keeps its last 16";
+  for (; frame.first <= 200; ++frame.first) writer.write(frame);
+  ASSERT_TRUE(eventually(drain));
+  ASSERT_EQ(seen.size(), 176u);
+  for (std::size_t i = 0; i < seen.size(); ++i) EXPECT_EQ(seen[i], 25 + i);
+}
+
+TEST_P(BusOverVendors, AnotherContractDoesNotMatch) {
+  const auto [from, to, domain] = GetParam();
+  Bus a(from, {domain + 20}), b(to, {domain + 20});
+  auto other = topics::alarm;
+  other.wire_type = "trunnion::service::Alarm_00000000";
+  auto stranger = a.writer(other);
+  auto writer = a.backend().writer(describe(topics::cluster), {true, 1});
+  auto reader = b.reader(topics::alarm);
+  auto known = b.reader(topics::cluster);
+  ASSERT_TRUE(eventually([&] { return known.matched() == 1; })) << "discovery of the pair that does match";
+  EXPECT_EQ(reader.matched(), 0);
+}
+
+TEST_P(BusOverVendors, ASampleOf60KilobytesIsDelivered) {
+  const auto [from, to, domain] = GetParam();
+  Bus a(from, {domain + 30}), b(to, {domain + 30});
+  auto writer = a.writer(topics::program_reply);
+  auto reader = b.reader(topics::program_reply);
+  idl::program::ProgramReply reply, in;
+  for (int i = 0; i < 60000; ++i) reply.data.push_back(static_cast<std::uint8_t>(i * 7));
+  writer.write(reply);
+  ASSERT_TRUE(eventually([&] { return reader.take(in); }));
+  EXPECT_EQ(in, reply);
+}
+
+INSTANTIATE_TEST_SUITE_P(Vendors, BusOverVendors,
+                         testing::Values(Pair{Vendor::cyclonedds, Vendor::cyclonedds, 41},
+                                         Pair{Vendor::fastdds, Vendor::fastdds, 42},
+                                         Pair{Vendor::cyclonedds, Vendor::fastdds, 43},
+                                         Pair{Vendor::fastdds, Vendor::cyclonedds, 44}),
+                         [](const auto& vendors) {
+                           return std::string(to_string(vendors.param.writer)) + "_to_" +
+                                  to_string(vendors.param.reader);
+                         });
+
+}  // namespace
+}  // namespace trunnion::bus

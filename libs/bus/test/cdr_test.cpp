@@ -1,0 +1,97 @@
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "bus/bus.hpp"
+#include "bus/registry.hpp"
+#include "contracts/types.hpp"
+
+namespace trunnion::bus {
+namespace {
+
+TEST(Cdr, AlignsPrimitivesToTheirSizeFromTheEndOfTheHeader) {
+  idl::stream::StageState state;
+  state.stage = 3;
+  state.cycle = 0x0102030405060708;
+  state.values = {1.0};
+  Bytes bytes;
+  encode(state, bytes);
+  // header 4, octet at 0, padding to 8, uint64 at 8, length at 16, padding to 24, one double: 4 + 32 bytes.
+  ASSERT_EQ(bytes.size(), 36u);
+  EXPECT_EQ(bytes[1], 1) << "little-endian plain CDR";
+  EXPECT_EQ(bytes[4], 3);
+  EXPECT_EQ(bytes[4 + 8], 0x08);
+  EXPECT_EQ(bytes[4 + 16], 1);
+  EXPECT_EQ(bytes[4 + 31], 0x3f) << "1.0 is 0x3ff0000000000000";
+}
+
+TEST(Cdr, WritesAStringWithItsLengthAndItsNul) {
+  idl::program::ProgramEntry entry;
+  entry.name = "O1";
+  Bytes bytes;
+  encode(entry, bytes);
+  EXPECT_EQ(bytes[4], 3) << "two letters and the NUL";
+  EXPECT_EQ(bytes[8], 'O');
+  EXPECT_EQ(bytes[10], 0);
+}
+
+TEST(Cdr, DecodesWhatItEncodes) {
+  idl::stream::PathFrame frame, copy;
+  frame.first = 77;
+  frame.count = 2;
+  frame.setpoints.assign(18, 0.1);
+  frame.lines = {5, 6};
+  frame.states.push_back({1, 78, {1, 2, 3}});
+  frame.states.push_back({2, 78, {}});
+  Bytes bytes;
+  encode(frame, bytes);
+  ASSERT_TRUE(decode(bytes, copy));
+  EXPECT_EQ(frame, copy);
+}
+
+TEST(Cdr, RefusesASequenceBeyondItsBoundOnBothSides) {
+  idl::stream::PathFrame frame;
+  frame.lines.assign(65, 0);
+  Bytes bytes;
+  EXPECT_THROW(encode(frame, bytes), CdrError);
+}
+
+TEST(Cdr, RefusesAnEnumeratorThatDoesNotExist) {
+  idl::channel::ChannelReply reply;
+  idl::service::Alarm alarm;
+  Bytes bytes;
+  encode(alarm, bytes);
+  bytes[4 + 16] = 9;  // severity follows three uint32 and a boolean padded to four
+  EXPECT_FALSE(decode(bytes, alarm));
+}
+
+TEST(Cdr, SurvivesEveryTruncationAndSeededNoise) {
+  std::mt19937 random(1);
+  for (const auto& topic : all_topics()) {
+    Bytes noise(400);
+    for (int round = 0; round < 300; ++round) {
+      for (auto& byte : noise) byte = static_cast<std::uint8_t>(random() % 5 == 0 ? random() : 0);
+      noise[0] = 0, noise[1] = 1;
+      noise.resize(4 + random() % 396);
+      try {
+        topic.to_json(noise);
+      } catch (const CdrError&) {
+      }
+      noise.resize(400);
+    }
+  }
+}
+
+TEST(Registry, EveryTopicHasASelfContainedSchemaAndAnUniqueName) {
+  std::vector<std::string> names;
+  for (const auto& topic : all_topics()) {
+    const auto type = topic.type.substr(topic.type.rfind(':') + 1);
+    EXPECT_NE(topic.schema.find("struct " + type + " {"), std::string::npos) << topic.description.name;
+    names.push_back(topic.description.name);
+  }
+  std::sort(names.begin(), names.end());
+  EXPECT_EQ(std::adjacent_find(names.begin(), names.end()), names.end());
+}
+
+}  // namespace
+}  // namespace trunnion::bus
