@@ -36,6 +36,7 @@ struct ModalState {
   std::uint8_t work_offset = 0;     ///< 0 = G54 .. 5 = G59
   Transformation transformation = Transformation::none;
   std::uint16_t tool = 0;           ///< T in the spindle (after M6)
+  std::uint16_t selected_tool = 0;  ///< T made ready, which the next M6 brings into the spindle
   std::uint16_t length_offset = 0;  ///< H of the active G43 / G43.4, 0 when G49
   double tool_length = 0;           ///< mm, of length_offset
   double feed = 0;                  ///< F as it applies: mm/min (deg/min for purely rotary moves), 1/min, mm/rev
@@ -64,12 +65,13 @@ struct Arc {
 /// One canonical command. Trivially copyable, no strings: text is looked up by line when somebody wants to read it.
 struct Command {
   CommandKind kind = CommandKind::end;
+  std::uint32_t program = 0;     ///< text the line is in: 0 the started one, n a text resolved as subprogram n
   std::uint32_t line = 0;        ///< source line, from 1
   std::uint32_t sequence = 0;    ///< counts the commands of a program from 1: names the point of a restart
   AxisValues target{};           ///< end of a move, in the frame modal.transformation says
   Arc arc{};
   double dwell_seconds = 0;
-  std::uint32_t number = 0;      ///< M or T number
+  std::uint32_t number = 0;      ///< M or T number; of end: 2, 30, or 0 for the end of the text
   double value = 0;              ///< S
   ModalState modal{};
 };
