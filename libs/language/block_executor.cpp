@@ -1,5 +1,6 @@
 #include "language/block_executor.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 

@@ -1,6 +1,7 @@
 #include "language/interpreter.hpp"
 
 #include <charconv>
+#include <string_view>
 
 namespace trunnion::language {
 namespace {
@@ -40,6 +41,8 @@ void Interpreter::start(TextSource& text, const AxisValues& position, const Moda
   queue_.clear();
   alarm_ = Alarm{};
   depth_ = 0;
+  found_.fill({});
+  next_found_ = 0;
   frames_[0] = Frame{};
   frames_[0].source = &text;
   reader_.reset();
@@ -112,6 +115,9 @@ Interpreter::State Interpreter::go(const Flow& flow, std::string_view line) {
   if (depth_ == max_nesting) return fail({AlarmNumber::nesting_too_deep, flow.offset}, line);
   call_ = flow;
   after_call_ = reader_.position();
+  for (const Found& known : found_) {
+    if (known.caller == frames_[depth_].source && known.number == flow.subprogram) return enter(known);
+  }
   not_found_ =
       make_alarm({AlarmNumber::subprogram_missing, block_.offset('P')}, line, frames_[depth_].program, line_);
   reader_.seek(*frames_[depth_].source, {});
@@ -125,24 +131,31 @@ Interpreter::State Interpreter::search_line(Step& step) {
   const LineReader::Status status = reader_.next(line);
   if (status == LineReader::Status::line) {
     if (dialect_.program_head(line) != call_.subprogram) return State::searching;
-    return enter(source, frames_[depth_].program, position);
+    return found(source, frames_[depth_].program, position);
   }
   if (status != LineReader::Status::end) return report_line_status(status, step);
   TextSource* const other = environment_.subprogram(ProgramName(call_.subprogram).view());
-  if (other != nullptr) return enter(*other, call_.subprogram, {});
+  if (other != nullptr) return found(*other, call_.subprogram, {});
   alarm_ = not_found_;
   return State::failed;
 }
 
-Interpreter::State Interpreter::enter(TextSource& source, std::uint32_t program, TextPosition top) {
+Interpreter::State Interpreter::found(TextSource& source, std::uint32_t program, TextPosition top) {
+  Found& entry = found_[next_found_];
+  next_found_ = (next_found_ + 1) % found_.size();
+  entry = {frames_[depth_].source, call_.subprogram, &source, program, top};
+  return enter(entry);
+}
+
+Interpreter::State Interpreter::enter(const Found& target) {
   frames_[depth_].resume = after_call_;
   Frame& frame = frames_[++depth_];
   frame = Frame{};
-  frame.source = &source;
-  frame.program = program;
-  frame.top = top;
+  frame.source = target.source;
+  frame.program = target.program;
+  frame.top = target.top;
   frame.remaining = call_.repetitions - 1;
-  reader_.seek(source, top);
+  reader_.seek(*frame.source, frame.top);
   return State::running;
 }
 

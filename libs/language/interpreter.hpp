@@ -68,6 +68,14 @@ class Interpreter {
     std::uint32_t remaining = 0;  // repetitions after this one
     bool begun = false;           // a head or a word has been read
   };
+  /// Where a call from one text leads, so that a long text is searched once and not at every call.
+  struct Found {
+    const TextSource* caller = nullptr;
+    std::uint32_t number = 0;
+    TextSource* source = nullptr;
+    std::uint32_t program = 0;
+    TextPosition top;
+  };
   enum class State : std::uint8_t { running, searching, done, failed };
 
   State run_line(Step& step);
@@ -75,7 +83,8 @@ class Interpreter {
   State execute(std::string_view line);
   State go(const Flow& flow, std::string_view line);
   State end_of_text();
-  State enter(TextSource& source, std::uint32_t program, TextPosition top);
+  State found(TextSource& source, std::uint32_t program, TextPosition top);
+  State enter(const Found& target);
   State return_from_subprogram();
   State fail(const Fault& fault, std::string_view line);
   State report_line_status(LineReader::Status status, Step& step);
@@ -96,6 +105,8 @@ class Interpreter {
   Flow call_;
   TextPosition after_call_;
   Alarm not_found_;
+  std::array<Found, 16> found_{};
+  std::size_t next_found_ = 0;  // the entry the next search replaces
 };
 
 }  // namespace trunnion::language

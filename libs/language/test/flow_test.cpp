@@ -109,6 +109,45 @@ TEST(Flow, LongSearchGivesTheThreadBack) {
   EXPECT_EQ(step, Step::command);
 }
 
+/// Counts the bytes it is asked for.
+struct CountingSource : TextSource {
+  explicit CountingSource(std::string_view text) : whole(text) {}
+  ReadResult read(std::uint64_t offset, char* buffer, std::size_t capacity) override {
+    const ReadResult result = whole.read(offset, buffer, capacity);
+    bytes += result.size;
+    return result;
+  }
+  StringSource whole;
+  std::size_t bytes = 0;
+};
+
+TEST(Flow, LongTextIsSearchedOnceForEachSubprogram) {
+  TestMachine machine;
+  std::string text;
+  for (int i = 0; i < 100; ++i) text += "M98 P1\n";
+  text += "M30\n" + std::string(1000000, '\n') + "O1\nG91 G0 X1\nM99\n";
+  CountingSource source(text);
+  const Interpretation result = run(machine, source);
+  ASSERT_EQ(result.commands.size(), 101u);
+  EXPECT_EQ(result.commands[99].target[X], 100);
+  // One search of the text, then at most two windows of 16384 bytes for each of 100 calls and returns.
+  EXPECT_LT(source.bytes, text.size() + 100 * 2 * 16384 + 2 * 16384);
+}
+
+TEST(Flow, MoreSubprogramsThanAreRememberedAreFoundAgain) {
+  TestMachine machine;
+  std::string calls;
+  std::string bodies;
+  for (int i = 1; i <= 40; ++i) {
+    const std::string n = std::to_string(i);
+    calls += "M98 P" + n + "\n";
+    bodies += "O" + n + "\nX" + n + "\nM99\n";
+  }
+  const Interpretation result = run(machine, "G90 G0\n" + calls + calls + "M30\n" + bodies);
+  ASSERT_EQ(result.commands.size(), 81u);
+  for (int i = 0; i < 80; ++i) EXPECT_EQ(result.commands[static_cast<std::size_t>(i)].target[X], i % 40 + 1);
+}
+
 TEST(Flow, PendingTextIsPassedOnAndResumed) {
   TestMachine machine;
   SlowSource text("G0 X1\n", 4);
