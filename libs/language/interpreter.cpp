@@ -13,7 +13,7 @@ constexpr int lines_per_call = 1000;
 class ProgramName {
  public:
   explicit ProgramName(std::uint32_t number) {
-    char digits[10];
+    char digits[10] = {};
     const auto end = std::to_chars(digits, digits + sizeof digits, number).ptr;
     text_[size_++] = 'O';
     for (auto missing = 4 - (end - digits); missing > 0; --missing) text_[size_++] = '0';

@@ -27,7 +27,7 @@ struct PlainMachine : Environment {
 void interpret(benchmark::State& state, const std::string& text) {
   PlainMachine machine;
   Interpreter interpreter(machine);
-  for (auto _ : state) {
+  while (state.KeepRunning()) {
     StringSource source(text);
     interpreter.start(source, {}, {});
     Command command;

@@ -140,8 +140,8 @@ TEST(Flow, MoreSubprogramsThanAreRememberedAreFoundAgain) {
   std::string bodies;
   for (int i = 1; i <= 40; ++i) {
     const std::string n = std::to_string(i);
-    calls += "M98 P" + n + "\n";
-    bodies += "O" + n + "\nX" + n + "\nM99\n";
+    calls.append("M98 P").append(n).append("\n");
+    bodies.append("O").append(n).append("\nX").append(n).append("\nM99\n");
   }
   const Interpretation result = run(machine, "G90 G0\n" + calls + calls + "M30\n" + bodies);
   ASSERT_EQ(result.commands.size(), 81u);

@@ -214,6 +214,37 @@ TEST(Interpreter, BlockSkipIsAnOption) {
               testing::ElementsAre("rapid X3", "end 0"));
 }
 
+TEST(Interpreter, ObeysEveryGCodeOfTheTable) {
+  for (const GCode& code : g_codes) {
+    TestMachine machine = three_offsets();
+    const std::string number = std::to_string(code.tenths / 10) + "." + std::to_string(code.tenths % 10);
+    const bool needs_h = code.tenths == 430 || code.tenths == 434;
+    const bool needs_axis = code.group == Group::one_block;
+    const Interpretation result =
+        run(machine, "G" + number + (needs_h ? " H1" : "") + (needs_axis ? " X1" : "") + "\n");
+    const auto expected = code.available ? AlarmNumber::none : AlarmNumber::unavailable_g;
+    EXPECT_EQ(result.alarm.number, expected) << number << " " << result.alarm.text.data();
+    // What a block may hold once of, it may not hold twice.
+    const Interpretation twice = run(machine, std::string("G").append(number).append(" G").append(number));
+    EXPECT_EQ(twice.alarm.number, code.available ? AlarmNumber::group_twice : AlarmNumber::unavailable_g)
+        << number;
+  }
+}
+
+TEST(Interpreter, PassesEveryMCodeOnOrEnds) {
+  for (unsigned number = 0; number <= highest_m; ++number) {
+    if (number == 98 || number == 99) continue;
+    TestMachine machine;
+    const Interpretation result = run(machine, "G0 X1 M" + std::to_string(number) + "\n");
+    ASSERT_EQ(result.last, Step::end) << number;
+    const bool before = m_code(static_cast<std::uint16_t>(number)).when == When::before;
+    const Command& command = result.commands[before ? 0 : 1];
+    const bool end = number == 2 || number == 30;
+    EXPECT_EQ(command.kind, end ? CommandKind::end : CommandKind::auxiliary) << number;
+    EXPECT_EQ(command.number, number);
+  }
+}
+
 TEST(Interpreter, BeforeStartThereIsOnlyTheEnd) {
   TestMachine machine;
   Interpreter interpreter(machine);
