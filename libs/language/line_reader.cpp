@@ -35,6 +35,8 @@ ReadStatus LineReader::refill() {
   end_ -= begin_;
   begin_ = 0;
   const ReadResult result = source_->read(base_ + end_, buffer_.data() + end_, buffer_.size() - end_);
+  // No bytes are no progress: asking again at once could go on for ever.
+  if (result.status == ReadStatus::bytes && result.size == 0) return ReadStatus::pending;
   if (result.status == ReadStatus::bytes) end_ += std::min(result.size, buffer_.size() - end_);
   if (result.status == ReadStatus::end) at_end_ = true;
   return result.status;

@@ -78,6 +78,27 @@ TEST(FiveAxis, RotaryMoveHoldsTheTipInItsFrame) {
   EXPECT_EQ(result.commands[3].target[X], before[X] + 1);
 }
 
+TEST(FiveAxis, TestProgramOfTheSimultaneousMotionCheck) {
+  TestMachine machine = machine_with_tools();
+  const Interpretation result =
+      run(machine,
+          "%12345; RTCP\nG54 X10 Y20 Z150 F3000\nG01 C0\nG43.4 H1\nM00\nG91 C360\nM00\n"
+          "G90 G01 C0\nM30\n");
+  ASSERT_EQ(result.last, Step::end) << result.alarm.text.data();
+  using enum CommandKind;
+  const CommandKind kinds[] = {rapid, transformation, auxiliary, line, auxiliary, line, end};
+  ASSERT_EQ(result.commands.size(), std::size(kinds));
+  for (std::size_t i = 0; i < std::size(kinds); ++i) EXPECT_EQ(result.commands[i].kind, kinds[i]) << i;
+  // The tip stays where it is in the turning frame: over the offset (-150, -100, -400) and a tool of 120.
+  for (const std::size_t i : {3u, 5u}) {
+    EXPECT_NEAR(result.commands[i].target[X], -140, 1e-9);
+    EXPECT_NEAR(result.commands[i].target[Y], -80, 1e-9);
+    EXPECT_NEAR(result.commands[i].target[Z], -250 - 120, 1e-9);
+  }
+  EXPECT_EQ(result.commands[3].target[C], 360);
+  EXPECT_EQ(result.commands[5].target[C], 0);
+}
+
 TEST(FiveAxis, ArcsAreInTheTipFrame) {
   TestMachine machine = machine_with_tools();
   const Interpretation result = run(machine, "G43.4 H1\nG0 X10 Y0 Z0\nG3 X0 Y10 I-10 A-20 C40 F500\n");

@@ -50,6 +50,18 @@ TEST(LineReader, LongestLine) {
   EXPECT_EQ(reader.next(line), LineReader::Status::too_long);
 }
 
+struct EmptySource : TextSource {
+  ReadResult read(std::uint64_t, char*, std::size_t) override { return {ReadStatus::bytes, 0}; }
+};
+
+TEST(LineReader, SourceThatDeliversNothingIsPending) {
+  EmptySource source;
+  LineReader reader;
+  reader.seek(source, {});
+  std::string_view line;
+  EXPECT_EQ(reader.next(line), LineReader::Status::pending);
+}
+
 TEST(LineReader, ByteOrderMarkIsLeftOut) { EXPECT_THAT(lines("\xef\xbb\xbfG0\nX"), ElementsAre("G0", "X")); }
 
 TEST(LineReader, SeekGoesBackToAPosition) {
