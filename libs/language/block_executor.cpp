@@ -37,13 +37,11 @@ Fault BlockExecutor::execute(const Block& block, std::uint32_t program, std::uin
 
   const ModalState modal = modal_;
   const AxisValues position = position_;
-  const std::uint32_t sequence = sequence_;
   const Fault fault = run(block, codes, m, out, flow);
   if (fault) {
     if (modal_.work_offset != modal.work_offset) work_offset_ = environment_.work_offset(modal.work_offset);
     modal_ = modal;
     position_ = position;
-    sequence_ = sequence;
     out.clear();
   }
   return fault;

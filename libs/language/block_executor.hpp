@@ -26,7 +26,8 @@ struct Flow {
 ///  4. M that act before the motion   5. plane, distance, path control, work offset
 ///  6. tool length, tool tip control  7. dwell, reference return or motion
 ///  8. M that act after the motion    9. call, return or end
-/// A block with a fault makes no command and changes nothing.
+/// A block with a fault makes no command and leaves modal state and position as they were; start() comes
+/// next.
 ///
 /// Feeds: F is mm (inch) of the path of the linear axes per minute or revolution; a line of rotary axes alone
 /// takes the number as degrees, in G20 too. A change of G93 G94 G95 forgets F.

@@ -134,6 +134,21 @@ TEST(Flow, LongTextIsSearchedOnceForEachSubprogram) {
   EXPECT_LT(source.bytes, text.size() + 100 * 2 * 16384 + 2 * 16384);
 }
 
+TEST(Flow, StartForgetsTheTextBefore) {
+  TestMachine machine;
+  Interpreter interpreter(machine);
+  StringSource source("M98 P1\nM30\nO1\nG0 X1\nM99\n");
+  Command command;
+  interpreter.start(source, {}, {});
+  ASSERT_EQ(interpreter.next(command), Step::command);
+  EXPECT_EQ(command.target[X], 1);
+  // Another text in the same object: neither its bytes nor its subprograms are where they were.
+  source = StringSource("M98 P1\nM30\nG0 X7\nX8\nX9\nO1\nG0 X2\nM99\n");
+  interpreter.start(source, {}, {});
+  ASSERT_EQ(interpreter.next(command), Step::command);
+  EXPECT_EQ(command.target[X], 2);
+}
+
 TEST(Flow, MoreSubprogramsThanAreRememberedAreFoundAgain) {
   TestMachine machine;
   std::string calls;
