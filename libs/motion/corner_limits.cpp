@@ -154,21 +154,16 @@ double tangential_acceleration(const SegmentRing& ring, std::uint64_t index, con
 
 // With v the speed at this corner, a window that ends behind it saw the first rate at up to v + a1 t1 and the
 // second at up to v + a2 t2, t1 + t2 = T, where a1 is the largest acceleration between the two; neither gain
-// exceeds the speed limit.
+// exceeds the speed limit. The worst split of T gives the axis with the larger a |q'| its time first.
 double acceleration_speed(const SegmentRing& ring, std::uint64_t index, double highest,
                           const CornerRules& rules) {
   const PlannedSegment& second = ring[index];
   const double window = rules.window;
+  const double second_time = second.limit / second.acceleration;
   double speed = highest;
   double distance = 0;
   double acceleration = 0;
   double fastest = 0;
-  AxisValues second_need{};
-  const double second_gain = std::min(second.acceleration * window, second.limit);
-  for (std::size_t i = 0; i < axis_count; ++i) {
-    second_need[i] =
-        second_gain * second.rates.largest[i] + square(second.limit) * second.rates.bend[i] * window;
-  }
   for (std::uint64_t k = index; k > ring.oldest() && !ring[k].full_stop; --k) {
     const PlannedSegment& first = ring[k - 1];
     // A window can only hold both ends of this stretch when it is passed within T.
@@ -176,15 +171,21 @@ double acceleration_speed(const SegmentRing& ring, std::uint64_t index, double h
     if (apart >= speed || (k < index && distance >= fastest * rules.reach_window)) break;
     acceleration = std::max(acceleration, first.acceleration);
     fastest = std::max(fastest, first.limit);
-    const double gain = std::min(acceleration * window, fastest);
+    const double first_time = fastest / acceleration;
     double held = speed;
     for (std::size_t i = 0; i < axis_count; ++i) {
       const double change = std::abs(second.rates.at_start[i] - first.rates.at_end[i]);
       if (change <= 0) continue;
-      const double first_need =
-          gain * first.rates.largest[i] + square(first.limit) * first.rates.bend[i] * window;
-      const double budget = rules.acceleration_share * rules.limits.axes[i].acceleration * window;
-      held = std::min(held, std::max(0.0, budget - std::max(first_need, second_need[i])) / change);
+      const double first_rate = acceleration * first.rates.largest[i];
+      const double second_rate = second.acceleration * second.rates.largest[i];
+      const bool first_leads = first_rate > second_rate;
+      const double lead = std::min(window, first_leads ? first_time : second_time);
+      const double rest = std::min(window - lead, first_leads ? second_time : first_time);
+      const double gain = std::max(first_rate, second_rate) * lead + std::min(first_rate, second_rate) * rest;
+      const double bend =
+          std::max(square(first.limit) * first.rates.bend[i], square(second.limit) * second.rates.bend[i]);
+      const double budget = rules.acceleration_share * rules.limits.axes[i].acceleration;
+      held = std::min(held, std::max(0.0, (budget - bend) * window - gain) / change);
     }
     speed = std::min(speed, std::max(held, apart));
     distance += first.path.length();

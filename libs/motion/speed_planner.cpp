@@ -44,7 +44,8 @@ void SpeedPlanner::push(const PlannedSegment& segment, bool stop_before, int wai
                     before->path.unit() != segment.path.unit() || before->path.length() <= 0 ||
                     segment.path.length() <= 0;
   // The landing on the corner counts as one of the N equal positions that flush the smoothing.
-  const int flush = entry.full_stop && !first ? rules_.limits.smoothing_cycles : 0;
+  const bool moved = before != nullptr && before->path.length() > 0;
+  const int flush = entry.full_stop && moved ? rules_.limits.smoothing_cycles : 0;
   entry.wait_cycles = flush + wait_cycles;
   rate_segment(entry, entry.full_stop ? nullptr : before, rules_);
   stop_next_ = false;
@@ -156,19 +157,28 @@ double SpeedPlanner::soft_limit(const PlannedSegment& segment) const {
                        : std::min(segment.limit, segment.feed * feed_override_);
 }
 
+// A cycle that crosses into this segment may only brake with the acceleration of the segment before it. When
+// that is less, the crossing cycle is left out of the braking here, or all of it is done with the lesser
+// acceleration.
+double SpeedPlanner::braking(double distance, double end, double acceleration, double before) const {
+  if (acceleration <= before) return std::sqrt(end * end + 2 * acceleration * distance);
+  return std::max(approach(distance, end, acceleration, cycle_),
+                  std::sqrt(end * end + 2 * before * distance));
+}
+
 double SpeedPlanner::start_speed(std::uint64_t index) const {
   const PlannedSegment& segment = ring_[index];
   if (segment.full_stop) return 0;
+  const PlannedSegment& before = ring_[index - 1];
   double end = index + 1 < released_ ? ring_[index + 1].reach : 0;
-  double speed = std::min({segment.start_limit, soft_limit(segment), soft_limit(ring_[index - 1])});
-  const double a2 = 2 * segment.acceleration;
+  double speed = std::min({segment.start_limit, soft_limit(segment), soft_limit(before)});
   const double length = segment.path.length();
+  const double a = segment.acceleration;
   if (segment.exit_zone > 0) {
     end = std::min(end, segment.exit_limit);
-    speed = std::min(speed,
-                     std::sqrt(segment.exit_limit * segment.exit_limit + a2 * (length - segment.exit_zone)));
+    speed = std::min(speed, braking(length - segment.exit_zone, segment.exit_limit, a, before.acceleration));
   }
-  return std::min(speed, std::sqrt(end * end + a2 * length));
+  return std::min(speed, braking(length, end, a, before.acceleration));
 }
 
 // Speeds at the starts from the last planned segment backwards; what did not change leaves everything before
@@ -202,6 +212,17 @@ double SpeedPlanner::feasible(double speed) const {
     if (end <= 0 || speed * cycle_ < ahead) return speed;
     s = 0;
   }
+}
+
+// The least acceleration of the segments that the coming cycle runs over.
+double SpeedPlanner::crossing_acceleration(double distance) const {
+  double acceleration = ring_[current_].acceleration;
+  double rest = ring_[current_].path.length() - travelled_;
+  for (std::uint64_t i = current_ + 1; i < released_ && rest < distance; ++i) {
+    acceleration = std::min(acceleration, ring_[i].acceleration);
+    rest += ring_[i].path.length();
+  }
+  return acceleration;
 }
 
 void SpeedPlanner::enter(std::uint64_t index) {
@@ -262,6 +283,7 @@ void SpeedPlanner::step(const Overrides& overrides) {
   const double change = segment.acceleration * cycle_;
   const double wanted = hold ? 0 : soft_limit(segment);
   double speed = std::clamp(wanted, std::max(0.0, speed_ - change), speed_ + change);
+  if (speed > speed_) speed = std::min(speed, speed_ + crossing_acceleration(speed * cycle_) * cycle_);
   if (speed > 0) speed = feasible(speed);
   speed_ = speed;
   if (speed > 0) advance(speed * cycle_);

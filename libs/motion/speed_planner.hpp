@@ -63,9 +63,11 @@ class SpeedPlanner {
   bool limit_around(std::uint64_t corner, double speed);
   void release();
   double soft_limit(const PlannedSegment& segment) const;
+  double braking(double distance, double end, double acceleration, double before) const;
   double start_speed(std::uint64_t index) const;
   void reach_back(std::uint64_t from);
   double feasible(double speed) const;
+  double crossing_acceleration(double distance) const;
   void enter(std::uint64_t index);
   void advance(double distance);
 
