@@ -79,6 +79,7 @@ class DriveCore {
     stream::FrameWindow<idl::stream::AxisFrame> window;
     bool active = false;
     bool prefilled = false;  // enough has arrived to begin
+    bool begun = false;      // an epoch was begun in this process
     std::uint32_t epoch = 0, request = 0;
     std::uint64_t start = 0;
     std::vector<idl::stream::StageState> states;

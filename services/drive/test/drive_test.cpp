@@ -32,8 +32,9 @@ struct Fixture : testing::Test {
     core.configure(two_axes(), true);
     core.set_enables({1, 1}, false);
   }
-  void begin(std::uint8_t kind = 1) {
-    core.request({0, ++number, kind, kind == 3 ? ++epoch : std::max(epoch, epoch = std::max(1u, epoch))});
+  void begin(std::uint8_t kind = 3) {
+    if (kind == 3) ++epoch;
+    core.request({0, ++number, kind, epoch});
   }
   // A ramp from 0 to `speed` mm per cycle within 100 cycles and on.
   static double path(std::uint64_t n) { return n < 100 ? 0.1 * n * n / 200.0 : 0.1 * (n - 50.0); }

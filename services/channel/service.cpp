@@ -1,0 +1,150 @@
+#include "service.hpp"
+
+#include "stream/stage_service.hpp"
+
+namespace trunnion::channel {
+
+ChannelService::ChannelService(node::Node& node)
+    : node_(node),
+      parameters_(node.bus()),
+      core_(static_cast<std::uint16_t>(node.options().channel), node.options().virtual_time),
+      requests_(node.bus(), topics::channel_request, topics::channel_reply),
+      program_client_(node.bus(), topics::program_request, topics::program_reply),
+      tools_(node.bus().reader(topics::tool_table)),
+      offsets_(node.bus().reader(topics::work_offsets)),
+      programs_(node.bus().reader(topics::program_list)),
+      done_(node.bus().reader(topics::auxiliary_done)),
+      outputs_(node.bus().reader(topics::plc_outputs)),
+      alarm_reader_(node.bus().reader(topics::alarm)),
+      cluster_reader_(node.bus().reader(topics::cluster)),
+      state_writer_(node.bus().writer(topics::channel_state)),
+      auxiliary_writer_(node.bus().writer(topics::auxiliary_request)),
+      stream_writer_(node.bus().writer(topics::stream_request)) {}
+
+void ChannelService::start_stream() {
+  const auto& p = *parameters_.newest();
+  const int frame = static_cast<int>(core_.machine().frame_cycles(node_.options().virtual_time));
+  node_.bus().set_depth({stream::stream_depth(p.integer("stream_lead"), frame, 1)});
+  frame_writer_.emplace(node_.bus().writer(topics::path_frame));
+  feedback_reader_.emplace(node_.bus().reader(topics::feedback_frame));
+}
+
+void ChannelService::watch_alarms() {
+  idl::service::Alarm alarm;
+  bool news = false;
+  while (alarm_reader_.take(alarm)) {
+    const AlarmKey key{alarm.instance, alarm.number, alarm.part};
+    const bool holds = alarm.active && alarm.reaction != idl::service::Reaction::SHOW;
+    if (holds)
+      holding_alarms_[key] = "Alarm " + std::to_string(alarm.number) + ": " + alarm.text;
+    else
+      holding_alarms_.erase(key);
+    news = true;
+  }
+  idl::plc::Outputs outputs;
+  while (outputs_.take(outputs)) {
+    plc_hold_ = outputs.feed_hold;
+    news = true;
+  }
+  if (!news) return;
+  core_.set_hold(!holding_alarms_.empty() ? holding_alarms_.begin()->second : plc_hold_ ? "Feed hold of the PLC" : "");
+}
+
+void ChannelService::answer_requests() {
+  idl::channel::ChannelRequest request;
+  while (requests_.take(request)) {
+    if (request.channel != node_.options().channel) continue;
+    const auto answer = core_.handle(request);
+    requests_.reply(request, {0, 0, answer.accepted, answer.alarm, answer.reason.substr(0, 256), core_.link().next()});
+    changed_ = true;
+  }
+}
+
+void ChannelService::fetch_text() {
+  if (auto reply = program_client_.poll()) {
+    if (reply->accepted)
+      core_.deliver(wanted_.name, wanted_.offset, std::move(reply->data));
+    else
+      core_.chunk_failed(wanted_.name);
+  }
+  if (program_client_.busy()) return;
+  const auto chunk = core_.wanted();
+  if (!chunk) return;
+  wanted_ = {};
+  wanted_.operation = idl::program::Operation::READ;
+  wanted_.name = chunk->name;
+  wanted_.revision = chunk->revision;
+  wanted_.offset = chunk->offset;
+  wanted_.length = ProgramText::chunk_size;
+  program_client_.send(wanted_);
+}
+
+void ChannelService::drain() {
+  if (parameters_.poll()) core_.set_parameters(parameters_.newest());
+  idl::parameters::ToolTable tools;
+  while (tools_.take(tools)) core_.set_tools(tools), have_tools_ = true;
+  idl::parameters::WorkOffsets offsets;
+  while (offsets_.take(offsets)) core_.set_offsets(offsets), have_offsets_ = true;
+  idl::program::ProgramList list;
+  while (programs_.take(list)) core_.set_programs(list), have_programs_ = true;
+  idl::plc::AuxiliaryDone done;
+  while (done_.take(done))
+    if (done.channel == node_.options().channel) core_.on_auxiliary_done(done);
+  idl::service::Cluster cluster;
+  while (cluster_reader_.take(cluster)) core_.set_ready(cluster.ready);
+  watch_alarms();
+}
+
+void ChannelService::pump() {
+  drain();
+  if (!core_.configured() || !have_tools_ || !have_offsets_ || !have_programs_) return publish();
+  if (!frame_writer_) start_stream();
+  while (feedback_reader_->take(feedback_)) {
+    ++frames_in_;
+    core_.on_feedback(feedback_);
+  }
+  answer_requests();
+  fetch_text();
+  core_.advance();
+  if (const auto request = core_.take_stream_request()) stream_writer_.write(*request);
+  while (core_.produce(frame_)) {
+    frame_writer_->write(frame_);
+    ++frames_out_;
+  }
+  if (const auto auxiliary = core_.take_auxiliary()) auxiliary_writer_.write(*auxiliary);
+  for (const auto& event : core_.take_events()) {
+    const auto channel = static_cast<std::uint32_t>(node_.options().channel);
+    if (event.number != 0 && event.alarm.empty()) {
+      node_.alarms().raise_number(event.number, channel, event.text, core_.link().executed());
+    } else {
+      node_.alarms().raise(event.alarm, channel, event.text, core_.link().executed());
+      node_.alarms().release(event.alarm, channel);
+    }
+  }
+  publish();
+}
+
+void ChannelService::publish() {
+  const double now = node::monotonic_seconds();
+  if (!changed_ && last_run_ == core_.run_state() && now - last_state_ < 0.05) return;
+  state_writer_.write(core_.state());
+  last_state_ = now;
+  last_run_ = core_.run_state();
+  changed_ = false;
+}
+
+node::Health ChannelService::health() const {
+  using idl::service::Lifecycle;
+  node::Health health;
+  const bool tables = have_tools_ && have_offsets_ && have_programs_;
+  health.lifecycle = !core_.configured() || !tables ? Lifecycle::UNCONFIGURED
+                     : core_.link().has_feedback() ? Lifecycle::ACTIVE
+                                                   : Lifecycle::INACTIVE;
+  health.detail = !core_.configured() ? "waiting for parameters" : !tables ? "waiting for tools, offsets and programs" : !core_.link().has_feedback() ? "waiting for the drive" : "";
+  health.frames_in = frames_in_;
+  health.frames_out = frames_out_;
+  health.revision = core_.machine().revision();
+  return health;
+}
+
+}  // namespace trunnion::channel

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <map>
+#include <optional>
+
+#include "node/node.hpp"
+#include "node/parameter_client.hpp"
+#include "node/request.hpp"
+#include "src/channel_core.hpp"
+
+namespace trunnion::channel {
+
+class ChannelService : public node::Service {
+ public:
+  explicit ChannelService(node::Node& node);
+  void pump() override;
+  double period() const override { return 0.02; }
+  node::Health health() const override;
+
+ private:
+  void start_stream();
+  void drain();
+  void answer_requests();
+  void fetch_text();
+  void watch_alarms();
+  void publish();
+
+  node::Node& node_;
+  node::ParameterClient parameters_;
+  ChannelCore core_;
+  node::RequestServer<idl::channel::ChannelRequest, idl::channel::ChannelReply> requests_;
+  node::RequestClient<idl::program::ProgramRequest, idl::program::ProgramReply> program_client_;
+  bus::Reader<idl::parameters::ToolTable> tools_;
+  bus::Reader<idl::parameters::WorkOffsets> offsets_;
+  bus::Reader<idl::program::ProgramList> programs_;
+  bus::Reader<idl::plc::AuxiliaryDone> done_;
+  bus::Reader<idl::plc::Outputs> outputs_;
+  bus::Reader<idl::service::Alarm> alarm_reader_;
+  bus::Reader<idl::service::Cluster> cluster_reader_;
+  bus::Writer<idl::channel::ChannelState> state_writer_;
+  bus::Writer<idl::channel::AuxiliaryRequest> auxiliary_writer_;
+  bus::Writer<idl::stream::StreamRequest> stream_writer_;
+  std::optional<bus::Writer<idl::stream::PathFrame>> frame_writer_;
+  std::optional<bus::Reader<idl::stream::FeedbackFrame>> feedback_reader_;
+
+  using AlarmKey = std::array<std::uint32_t, 3>;
+  std::map<AlarmKey, std::string> holding_alarms_;
+  bool plc_hold_ = false;
+  bool have_tools_ = false, have_offsets_ = false, have_programs_ = false;
+  idl::stream::PathFrame frame_;
+  idl::stream::FeedbackFrame feedback_;
+  idl::program::ProgramRequest wanted_;
+  std::uint64_t frames_in_ = 0, frames_out_ = 0;
+  double last_state_ = 0;
+  RunState last_run_ = RunState::IDLE;
+  bool changed_ = true;
+};
+
+}  // namespace trunnion::channel

@@ -1,0 +1,61 @@
+#include "stream_link.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace trunnion::channel {
+
+void StreamLink::on_feedback(const idl::stream::FeedbackFrame& feedback) {
+  mode_ = static_cast<DriveMode>(feedback.mode);
+  executed_ = std::max(executed_, feedback.first + feedback.count);
+  positions_ = feedback.position;
+  for (const auto& echo : feedback.channels) {
+    if (echo.channel != channel_) continue;
+    echo_active_ = echo.active;
+    if (!echo.states.empty()) states_ = echo.states;
+    if (request_ == 0) {  // a process before this one may have asked already: numbers and epochs go on from its
+      request_ = echo.request;
+      epoch_ = echo.epoch;
+    }
+    const bool ours = echo.request == request_ && echo.epoch == epoch_;
+    switch (state_) {
+      case LinkState::requested:
+        if (!ours) break;
+        if (echo.active) {
+          state_ = LinkState::active;
+          next_ = echo.start;
+          starts_ = true;
+          new_epoch_ = false;
+        } else {
+          state_ = LinkState::refused;
+        }
+        break;
+      case LinkState::active:
+      case LinkState::ending:
+        if (echo.active) break;
+        state_ = state_ == LinkState::ending && executed_ >= next_ ? LinkState::idle : LinkState::lost;
+        break;
+      default: break;
+    }
+  }
+}
+
+void StreamLink::request(std::uint8_t kind) { outgoing_ = {channel_, ++request_, kind, epoch_}; }
+
+void StreamLink::request_start() {
+  if (new_epoch_) ++epoch_;
+  state_ = LinkState::requested;
+  request(new_epoch_ ? 3 : 1);
+}
+
+void StreamLink::request_resume() { request(2); }
+
+void StreamLink::leave() {
+  request(4);
+  state_ = LinkState::idle;
+  new_epoch_ = true;
+}
+
+std::optional<idl::stream::StreamRequest> StreamLink::take_request() { return std::exchange(outgoing_, std::nullopt); }
+
+}  // namespace trunnion::channel

@@ -1,0 +1,73 @@
+// The channel's end of the stream: its place in it, its credits, and what the drive says of it.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "contracts/types.hpp"
+
+namespace trunnion::channel {
+
+enum class LinkState {
+  idle,       ///< owes nothing
+  requested,  ///< has asked the drive for a place
+  active,     ///< writes frames
+  ending,     ///< has written its last frame; the drive has yet to execute it
+  refused,    ///< the drive gave no place
+  lost,       ///< the drive forgot the stream: it was restarted
+};
+
+enum class DriveMode : std::uint8_t { following, braking, held, returning, off, unknown = 255 };
+
+class StreamLink {
+ public:
+  explicit StreamLink(std::uint16_t channel) : channel_(channel) {}
+
+  void on_feedback(const idl::stream::FeedbackFrame& feedback);
+  /// Asks for a place; with a new epoch when the drive's position is where the stream must begin.
+  void request_start();
+  /// A hold of the drive is over.
+  void request_resume();
+  /// What was written and not executed is void; the next start is a new epoch.
+  void leave();
+  /// A frame of `count` setpoints may be written now.
+  bool credit(std::uint32_t count, std::uint64_t lead) const {
+    return state_ == LinkState::active && next_ + count <= executed_ + lead;
+  }
+  void written(std::uint32_t count, bool ends) {
+    next_ += count;
+    starts_ = false;
+    if (ends) state_ = LinkState::ending;
+  }
+  /// After refused or lost.
+  void acknowledge() { state_ = LinkState::idle; new_epoch_ = true; }
+
+  LinkState state() const { return state_; }
+  DriveMode drive_mode() const { return mode_; }
+  bool has_feedback() const { return mode_ != DriveMode::unknown; }
+  std::uint64_t next() const { return next_; }
+  std::uint64_t executed() const { return executed_; }
+  std::uint32_t epoch() const { return epoch_; }
+  bool starts() const { return starts_; }
+  bool needs_epoch() const { return new_epoch_; }
+  /// States of every stage at the consistent cut.
+  const std::vector<idl::stream::StageState>& states() const { return states_; }
+  const std::vector<double>& positions() const { return positions_; }
+  /// The drive still executes (or holds) a stream of ours that this process did not write.
+  bool echo_active() const { return echo_active_; }
+  std::optional<idl::stream::StreamRequest> take_request();
+
+ private:
+  void request(std::uint8_t kind);
+  std::uint16_t channel_;
+  LinkState state_ = LinkState::idle;
+  DriveMode mode_ = DriveMode::unknown;
+  std::uint64_t next_ = 0, executed_ = 0;
+  std::uint32_t epoch_ = 0, request_ = 0;
+  bool new_epoch_ = true, starts_ = false, echo_active_ = false;
+  std::vector<idl::stream::StageState> states_;
+  std::vector<double> positions_;
+  std::optional<idl::stream::StreamRequest> outgoing_;
+};
+
+}  // namespace trunnion::channel
