@@ -1,0 +1,92 @@
+#include "cluster_files.hpp"
+
+#include <sys/file.h>
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+#include <vector>
+
+namespace trunnion::deploy {
+namespace fs = std::filesystem;
+
+namespace {
+std::string base() { return "/tmp/trunnion-" + std::to_string(getuid()); }
+}  // namespace
+
+std::string binary_directory() { return fs::read_symlink("/proc/self/exe").parent_path().string(); }
+
+std::string find_machine(const std::string& name) {
+  if (fs::exists(fs::path(name) / "machine.yaml")) return fs::absolute(name).lexically_normal().string();
+  std::vector<fs::path> roots;
+  if (const char* configs = std::getenv("TRUNNION_CONFIGS")) roots.emplace_back(configs);
+  for (fs::path up = binary_directory(); up.has_relative_path(); up = up.parent_path()) {
+    roots.push_back(up / "configs" / "machines");
+    roots.push_back(up / "share" / "trunnion" / "machines");
+  }
+  roots.push_back(fs::current_path() / "configs" / "machines");
+  for (const auto& root : roots)
+    if (fs::exists(root / name / "machine.yaml")) return fs::canonical(root / name).string();
+  throw std::runtime_error("machine '" + name + "': no such directory, and configs/machines has none of this name");
+}
+
+std::string web_directory() {
+  const auto directory = fs::path(binary_directory()).parent_path() / "share" / "web";
+  return fs::exists(directory / "index.html") ? directory.string() : "";
+}
+
+std::string default_state_directory(const std::string& machine) {
+  const char* state = std::getenv("XDG_STATE_HOME");
+  const char* home = std::getenv("HOME");
+  const fs::path root = state != nullptr && *state != 0 ? fs::path(state) : fs::path(home != nullptr ? home : "/tmp") / ".local" / "state";
+  return (root / "trunnion" / machine).string();
+}
+
+std::string RunDirectory::path() const { return base() + "/" + std::to_string(domain); }
+
+std::optional<int> RunDirectory::launcher() const {
+  std::ifstream in(pid_file());
+  int pid = 0;
+  if (!(in >> pid) || pid <= 0 || kill(pid, 0) != 0) return std::nullopt;
+  return pid;
+}
+
+void RunDirectory::remove() const {
+  std::error_code ignored;
+  fs::remove_all(path(), ignored);
+  fs::remove(base(), ignored);  // only when it is empty
+}
+
+std::uint32_t free_domain() {
+  // A directory is made by one process only, so it reserves the domain.
+  std::error_code ignored;
+  fs::create_directories(base(), ignored);
+  const auto first = static_cast<std::uint32_t>(getpid()) % 40;
+  for (std::uint32_t i = 0; i < 40; ++i) {
+    const RunDirectory run{60 + (first + i) % 40};
+    if (fs::exists(run.path()) && !run.launcher() && fs::last_write_time(run.path()) < fs::file_time_type::clock::now() - std::chrono::minutes(1)) run.remove();
+    fs::create_directories(base(), ignored);
+    if (fs::create_directory(run.path(), ignored)) return run.domain;
+  }
+  throw std::runtime_error("domains 60 .. 99 are all taken: stop a cluster with 'trunnion down'");
+}
+
+std::optional<std::uint32_t> only_running_domain() {
+  std::optional<std::uint32_t> found;
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(base(), ignored)) {
+    const auto name = entry.path().filename().string();
+    if (name.find_first_not_of("0123456789") != std::string::npos || name.size() > 3) continue;
+    const RunDirectory run{static_cast<std::uint32_t>(std::stoul(name))};
+    if (!run.launcher()) continue;
+    if (found) throw std::runtime_error("several clusters are running: say which with --domain");
+    found = run.domain;
+  }
+  return found;
+}
+
+}  // namespace trunnion::deploy

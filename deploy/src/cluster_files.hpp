@@ -1,0 +1,36 @@
+// Where machines, executables and the files of a running cluster are.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace trunnion::deploy {
+
+/// Directory of this executable and of the services beside it.
+std::string binary_directory();
+/// A directory with machine.yaml, or the name of a machine under configs/machines. Throws std::runtime_error.
+std::string find_machine(const std::string& name);
+/// The built page, or empty.
+std::string web_directory();
+/// <XDG_STATE_HOME or ~/.local/state>/trunnion/<machine>
+std::string default_state_directory(const std::string& machine);
+
+/// Files of one running cluster; all of them are gone after `down`.
+struct RunDirectory {
+  std::uint32_t domain = 0;
+  std::string path() const;
+  std::string pid_file() const { return path() + "/launcher.pid"; }
+  std::string info_file() const { return path() + "/cluster.json"; }
+  std::string log_file(const std::string& service) const { return path() + "/" + service + ".log"; }
+  /// Process id of the launcher when it is alive.
+  std::optional<int> launcher() const;
+  void remove() const;
+};
+
+/// A domain in 60 .. 99 that no cluster of this user runs in. Throws std::runtime_error when all are taken.
+std::uint32_t free_domain();
+/// Domains of this user's clusters that are running.
+std::optional<std::uint32_t> only_running_domain();
+
+}  // namespace trunnion::deploy

@@ -1,0 +1,241 @@
+#include "launcher.hpp"
+
+#include <fcntl.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <random>
+#include <thread>
+
+#include "node/node.hpp"
+
+namespace trunnion::deploy {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr std::uint32_t launcher_instance = 1000;
+constexpr double start_patience = 15;  // s until a cluster that is not ready has failed
+constexpr double beat_patience = 2.0;  // s without a heartbeat until a process counts as hung
+volatile std::sig_atomic_t stop_requested = 0;
+void request_stop(int) { stop_requested = 1; }
+
+}  // namespace
+
+std::string last_line(const std::string& path) {
+  std::ifstream in(path);
+  std::string line, last;
+  while (std::getline(in, line))
+    if (!line.empty()) last = line;
+  return last;
+}
+
+Launcher::Launcher(LaunchOptions options)
+    : options_(std::move(options)),
+      bus_(bus::Vendor::cyclonedds, {options_.machine.domain}),
+      alarms_(bus_, launcher_instance, "launcher"),
+      states_(bus_.reader(topics::service_state)),
+      announcements_(bus_.reader(topics::announcement)),
+      resets_(bus_.reader(topics::alarm_reset)),
+      cluster_writer_(bus_.writer(topics::cluster)) {
+  struct sigaction action {};
+  action.sa_handler = request_stop;
+  sigaction(SIGTERM, &action, nullptr);
+  sigaction(SIGINT, &action, nullptr);
+  signal(SIGPIPE, SIG_IGN);
+  fs::create_directories(options_.run.path());
+  fs::create_directories(options_.state_directory);
+  std::random_device random;
+  std::ofstream(options_.state_directory + "/cluster.boot") << random() << random() << "\n";
+  for (const auto& entry : options_.machine.services) {
+    Process process;
+    process.entry = entry;
+    process.log = options_.run.log_file(entry.service + "-" + std::to_string(entry.service == "channel" ? entry.channel : entry.copy));
+    processes_.push_back(std::move(process));
+  }
+}
+
+Launcher::~Launcher() { stop_all(); }
+
+void Launcher::start(Process& process) {
+  const auto& e = process.entry;
+  std::vector<std::string> args{binary_directory() + "/trunnion-" + e.service, "--machine", options_.machine.directory, "--state",
+                                options_.state_directory, "--instance", std::to_string(e.instance), "--copy", std::to_string(e.copy),
+                                "--channel", std::to_string(e.channel), "--domain", std::to_string(options_.machine.domain), "--vendor", e.vendor,
+                                "--parent-bound"};
+  if (options_.virtual_time) args.emplace_back("--virtual-time");
+  if (e.service == "gateway") {
+    args.insert(args.end(), {"--port", std::to_string(options_.port)});
+    if (const auto web = web_directory(); !web.empty()) args.insert(args.end(), {"--web", web});
+  }
+  std::vector<char*> argv;
+  for (auto& arg : args) argv.push_back(arg.data());
+  argv.push_back(nullptr);
+  const int pid = fork();
+  if (pid == 0) {
+    const int log = open(process.log.c_str(), O_WRONLY | O_CREAT | O_APPEND, 0644);
+    if (log >= 0) {
+      dup2(log, 1);
+      dup2(log, 2);
+    }
+    const int null = open("/dev/null", O_RDONLY);
+    if (null >= 0) dup2(null, 0);
+    for (int fd = 3; fd < 256; ++fd) close(fd);
+    execv(argv[0], argv.data());
+    dprintf(2, "%s: cannot be started\n", argv[0]);
+    _exit(127);
+  }
+  process.pid = pid;
+  process.started = process.heard = node::monotonic_seconds();
+  process.lifecycle = idl::service::Lifecycle::UNCONFIGURED;
+}
+
+bool Launcher::has_live_twin(const Process& process) const {
+  return std::any_of(processes_.begin(), processes_.end(), [&](const Process& other) {
+    return &other != &process && other.entry.service == process.entry.service && other.entry.service != "channel" && other.pid != 0 &&
+           other.lifecycle == idl::service::Lifecycle::ACTIVE;
+  });
+}
+
+// Collects dead children; before the first readiness a death is a failed start.
+bool Launcher::reap(std::string& failure) {
+  int status = 0;
+  for (int pid; (pid = waitpid(-1, &status, WNOHANG)) > 0;) {
+    for (auto& process : processes_) {
+      if (process.pid != pid) continue;
+      process.pid = 0;
+      process.lifecycle = idl::service::Lifecycle::UNCONFIGURED;
+      const auto& e = process.entry;
+      const std::string how = WIFSIGNALED(status) ? "was ended by signal " + std::to_string(WTERMSIG(status))
+                                                  : "ended with status " + std::to_string(WEXITSTATUS(status));
+      if (!was_ready_) {
+        const auto line = last_line(process.log);
+        failure = line.empty() ? e.service + " " + how : line;
+        return false;
+      }
+      const auto what = e.service + (e.service == "channel" ? " " + std::to_string(e.channel) : e.copy > 0 ? " (copy " + std::to_string(e.copy) + ")" : "") + " " + how;
+      process.lost = true;
+      alarms_.raise(has_live_twin(process) ? "redundancy_lost" : "service_lost", e.instance, "Service " + what);
+      const double lived = node::monotonic_seconds() - process.started;
+      process.start_again_at = node::monotonic_seconds() + (lived > 5 ? 0 : std::min(2.0, 0.1 * (1u << std::min(process.restarts, 5u))));
+      ++process.restarts;
+    }
+  }
+  return true;
+}
+
+void Launcher::listen() {
+  const double now = node::monotonic_seconds();
+  idl::service::ServiceState state;
+  while (states_.take(state))
+    for (auto& process : processes_)
+      if (process.entry.instance == state.instance && process.pid == state.pid) {
+        process.heard = now;
+        process.lifecycle = state.lifecycle;
+        process.detail = state.detail;
+      }
+  idl::service::Announcement announcement;
+  while (announcements_.take(announcement)) {
+    if (announcement.contract != topics::contract_hash)
+      alarms_.raise("contract_mismatch", announcement.instance,
+                    "Service " + announcement.service + " (" + announcement.version + ") was built with contract " + announcement.contract +
+                        ", this cluster with " + topics::contract_hash);
+    else
+      alarms_.clear("contract_mismatch", announcement.instance);
+  }
+  idl::service::AlarmReset reset;
+  while (resets_.take(reset)) alarms_.reset();
+}
+
+void Launcher::watch() {
+  const double now = node::monotonic_seconds();
+  for (auto& process : processes_) {
+    if (process.pid == 0) {
+      if (now >= process.start_again_at) start(process);
+    } else if (now - process.heard > beat_patience && now - process.started > start_patience / 2) {
+      // A process that does not beat hangs; it is replaced like one that died.
+      kill(process.pid, SIGKILL);
+      process.heard = now;
+    }
+    if (process.lost && process.lifecycle == idl::service::Lifecycle::ACTIVE) {
+      process.lost = false;
+      alarms_.release("service_lost", process.entry.instance);
+      alarms_.clear("redundancy_lost", process.entry.instance);
+    }
+  }
+}
+
+bool Launcher::all_ready() const {
+  return std::all_of(processes_.begin(), processes_.end(),
+                     [](const Process& p) { return p.pid != 0 && p.lifecycle == idl::service::Lifecycle::ACTIVE; });
+}
+
+void Launcher::publish() {
+  const double now = node::monotonic_seconds();
+  const bool ready = all_ready();
+  if (ready == ready_ && now - last_published_ < 0.5) return;
+  ready_ = ready;
+  last_published_ = now;
+  idl::service::Cluster cluster;
+  cluster.domain = static_cast<std::uint16_t>(options_.machine.domain);
+  cluster.machine = options_.machine.name;
+  cluster.ready = ready;
+  cluster.virtual_time = options_.virtual_time;
+  for (const auto& p : processes_)
+    cluster.services.push_back({p.entry.instance, p.entry.service, static_cast<std::uint8_t>(p.entry.copy), p.entry.vendor, p.pid, p.restarts,
+                                p.pid != 0 && p.lifecycle == idl::service::Lifecycle::ACTIVE});
+  cluster_writer_.write(cluster);
+}
+
+int Launcher::run(void (*report)(const std::string&)) {
+  std::ofstream(options_.run.pid_file()) << getpid() << "\n";
+  const double began = node::monotonic_seconds();
+  for (auto& process : processes_) start(process);
+  std::string failure;
+  while (stop_requested == 0) {
+    bus_.signal().wait(0.02);
+    if (!reap(failure)) break;
+    listen();
+    watch();
+    publish();
+    if (ready_ && !was_ready_) {
+      was_ready_ = true;
+      report("");
+    }
+    if (!was_ready_ && node::monotonic_seconds() - began > start_patience) {
+      for (const auto& p : processes_)
+        if (p.lifecycle != idl::service::Lifecycle::ACTIVE) failure += (failure.empty() ? "not ready: " : "; ") + p.entry.service + (p.detail.empty() ? "" : " (" + p.detail + ")");
+      break;
+    }
+  }
+  stop_all();
+  if (!failure.empty()) report(failure);
+  options_.run.remove();
+  return failure.empty() ? 0 : 1;
+}
+
+void Launcher::stop_all() {
+  for (auto it = processes_.rbegin(); it != processes_.rend(); ++it)
+    if (it->pid > 0) kill(it->pid, SIGTERM);
+  const double until = node::monotonic_seconds() + 2;
+  const auto alive = [&] {
+    int status = 0;
+    for (int pid; (pid = waitpid(-1, &status, WNOHANG)) > 0;)
+      for (auto& p : processes_)
+        if (p.pid == pid) p.pid = 0;
+    return std::any_of(processes_.begin(), processes_.end(), [](const Process& p) { return p.pid > 0; });
+  };
+  while (alive() && node::monotonic_seconds() < until) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  for (auto& p : processes_)
+    if (p.pid > 0) {
+      kill(p.pid, SIGKILL);
+      waitpid(p.pid, nullptr, 0);
+      p.pid = 0;
+    }
+}
+
+}  // namespace trunnion::deploy
