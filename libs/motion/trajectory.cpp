@@ -105,7 +105,7 @@ bool Trajectory::push_move(const Command& command, double fraction) {
     settled_cycles_ = 0;
     end_ = command.target;
   }
-  if (command.modal.path_control == language::PathControl::exact_stop && !segment.rapid) stop_next_ = true;
+  if (command.modal.path_control == language::PathControl::exact_stop) stop_next_ = true;
   return true;
 }
 

@@ -148,6 +148,24 @@ INSTANTIATE_TEST_SUITE_P(feeds, FiveAxis,
                          testing::Combine(testing::Values(5, 20, 50),
                                           testing::Values(1000.0, 4000.0, 20000.0)));
 
+// A follows X degree by millimetre up to X10 and then stands: its corner may be rounded by the orientation
+// tolerance only.
+TEST(Contour, corners_of_a_rotary_axis_keep_the_orientation_tolerance) {
+  for (const double tolerance : {0.001, 0.05}) {
+    Limits limits = uniform_limits(500, 3000, 40);
+    limits.orientation_tolerance = tolerance;
+    Trajectory t(limits, nullptr, cycle);
+    const Motion result = run(t, {line_to({10, 0, 0, 10}, 6000), line_to({20, 0, 0, 10}, 6000)});
+    expect_within(result, {}, limits, nullptr, 0);
+    double worst = 0;
+    for (const Setpoint& s : result.setpoints) {
+      worst = std::max(worst, std::abs(s.position[language::A] - std::min(s.position[0], 10.0)));
+    }
+    EXPECT_LE(worst, tolerance);
+    EXPECT_GE(worst, 0.2 * tolerance);  // the corner is rounded, not stopped at
+  }
+}
+
 TEST(Contour, random_five_axis_corners_with_rtcp_keep_the_limits_and_the_tolerance) {
   const geometry::Chain chain = ac_table();
   for (const int cycles : {5, 20, 50}) {
