@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace trunnion::motion {
 namespace {
@@ -34,7 +35,7 @@ AxisRates sample_rates(const PathSegment& segment, const geometry::Chain* chain,
   }
   const double rotary = length * std::hypot(rates.at_start[language::A], rates.at_start[language::B],
                                             rates.at_start[language::C]);
-  const double turning = segment.curvature() * length * (180.0 / 3.14159265358979);
+  const double turning = segment.curvature() * length * (180.0 / std::numbers::pi);
   const int intervals = static_cast<int>(std::clamp(std::ceil(std::max(rotary / 2, turning / 6)), 2.0, 64.0));
   AxisValues before = rates.at_start;
   for (std::size_t i = 0; i < axis_count; ++i) rates.largest[i] = std::abs(before[i]);

@@ -59,7 +59,7 @@ void rate_segment(PlannedSegment& segment, const PlannedSegment* before, const C
   double limit = segment.rapid ? 1e9 : segment.feed * highest_override;
   for (std::size_t i = 0; i < axis_count; ++i) {
     const AxisLimits& axis = rules.limits.axes[i];
-    const double velocity = segment.rapid ? axis.rapid_velocity : axis.velocity;
+    const double velocity = rules.velocity_share * (segment.rapid ? axis.rapid_velocity : axis.velocity);
     if (segment.rates.largest[i] > 0) limit = std::min(limit, velocity / segment.rates.largest[i]);
     if (segment.rates.bend[i] > 0) {
       const double normal = normal_share * rules.acceleration_share * axis.acceleration;

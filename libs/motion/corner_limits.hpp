@@ -24,12 +24,13 @@ namespace trunnion::motion {
 
 struct CornerRules {
   Limits limits;
-  double window = 0;        ///< T, s
-  double reach_window = 0;  ///< (N + 1) dt: all that two cycle speeds a window apart are averages over
-  double contour_window =
-      0;  ///< T with the allowance for the finite cycle: (N + 2) dt, 0 when nothing is smoothed
-  double acceleration_share =
-      1;  ///< below 1 when the axes depend on the path through a chain: its curvature within a window
+  double window = 0;        ///< T = N dt, s
+  double reach_window = 0;  ///< (N + 1) dt: the cycles whose speeds a window apart are compared
+  /// T with an allowance for the finite cycle: (N + 2) dt; 0 when nothing is smoothed.
+  double contour_window = 0;
+  // Parts of the axis limits that are planned with; below 1 when the axes depend on the path through a chain.
+  double velocity_share = 1;
+  double acceleration_share = 1;
 };
 
 inline constexpr double normal_share = 0.5;

@@ -1,6 +1,7 @@
 // A segment with everything the speed stage knows about it, and the ring that holds them.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -28,7 +29,8 @@ struct PlannedSegment {
   double start_limit = 0;                  ///< highest speed at the start
   double entry_zone = 0, entry_limit = 0;  ///< slower part behind the start: length, speed
   double exit_zone = 0, exit_limit = 0;    ///< slower part before the end
-  double reach = 0;  ///< speed at the start from which everything known ahead is feasible
+  std::array<double, 2>
+      reach{};  ///< speed at the start from which all known ahead is feasible, see SpeedPlanner
 
   double end() const { return at + path.length(); }
 };

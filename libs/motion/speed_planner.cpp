@@ -166,12 +166,13 @@ double SpeedPlanner::braking(double distance, double end, double acceleration, d
                   std::sqrt(end * end + 2 * before * distance));
 }
 
-double SpeedPlanner::start_speed(std::uint64_t index) const {
+double SpeedPlanner::start_speed(std::uint64_t index, Plan plan) const {
   const PlannedSegment& segment = ring_[index];
   if (segment.full_stop) return 0;
   const PlannedSegment& before = ring_[index - 1];
-  double end = index + 1 < released_ ? ring_[index + 1].reach : 0;
-  double speed = std::min({segment.start_limit, soft_limit(segment), soft_limit(before)});
+  double end = index + 1 < released_ ? ring_[index + 1].reach[plan] : 0;
+  double speed = segment.start_limit;
+  if (plan == feed) speed = std::min({speed, soft_limit(segment), soft_limit(before)});
   const double length = segment.path.length();
   const double a = segment.acceleration;
   if (segment.exit_zone > 0) {
@@ -185,14 +186,14 @@ double SpeedPlanner::start_speed(std::uint64_t index) const {
 // it as it was.
 void SpeedPlanner::reach_back(std::uint64_t from) {
   for (std::uint64_t i = from; i-- > current_ + 1;) {
-    const double reach = start_speed(i);
+    const std::array<double, 2> reach{start_speed(i, hard), start_speed(i, feed)};
     if (i + 1 < from && reach == ring_[i].reach) break;
     ring_[i].reach = reach;
   }
 }
 
-// The highest speed not above `speed` that keeps every limit from here on.
-double SpeedPlanner::feasible(double speed) const {
+// The highest speed not above `speed` that keeps every limit of the plan from here on.
+double SpeedPlanner::feasible(double speed, Plan plan) const {
   double ahead = 0;
   double s = travelled_;
   for (std::uint64_t i = current_;; ++i) {
@@ -206,7 +207,7 @@ double SpeedPlanner::feasible(double speed) const {
       speed = std::min(speed, approach(ahead + to_zone, segment.exit_limit, a, cycle_));
     }
     ahead += rest;
-    const double end = i + 1 < released_ ? ring_[i + 1].reach : 0;
+    const double end = i + 1 < released_ ? ring_[i + 1].reach[plan] : 0;
     if (end <= 0 && ahead <= a * cycle_ * cycle_ / 2) return std::min(speed, ahead / cycle_);
     speed = std::min(speed, approach(ahead, end, a, cycle_));
     if (end <= 0 || speed * cycle_ < ahead) return speed;
@@ -243,7 +244,7 @@ void SpeedPlanner::advance(double distance) {
     }
     distance -= rest;
     travelled_ = ring_[current_].path.length();
-    if (current_ + 1 >= released_ || ring_[current_ + 1].reach <= 0) {
+    if (current_ + 1 >= released_ || ring_[current_ + 1].reach[hard] <= 0) {
       return;
     }
     enter(current_ + 1);
@@ -252,12 +253,13 @@ void SpeedPlanner::advance(double distance) {
 }
 
 void SpeedPlanner::step(const Overrides& overrides) {
-  const double feed = std::clamp(overrides.feed, 0.0, highest_override);
-  const double rapid = std::clamp(overrides.rapid, 0.0, 1.0);
-  if ((feed > 0 && feed != feed_override_) || (rapid > 0 && rapid != rapid_override_)) {
-    if (feed > 0) feed_override_ = feed;
-    if (rapid > 0) rapid_override_ = rapid;
-    for (std::uint64_t i = released_; i-- > current_ + 1;) ring_[i].reach = start_speed(i);
+  const double feed_override = std::clamp(overrides.feed, 0.0, highest_override);
+  const double rapid_override = std::clamp(overrides.rapid, 0.0, 1.0);
+  if ((feed_override > 0 && feed_override != feed_override_) ||
+      (rapid_override > 0 && rapid_override != rapid_override_)) {
+    if (feed_override > 0) feed_override_ = feed_override;
+    if (rapid_override > 0) rapid_override_ = rapid_override;
+    for (std::uint64_t i = released_; i-- > current_ + 1;) ring_[i].reach[feed] = start_speed(i, feed);
   }
   if (aborting_ && speed_ <= 0) {
     clear();
@@ -274,7 +276,7 @@ void SpeedPlanner::step(const Overrides& overrides) {
     enter(next);
   }
   const PlannedSegment& segment = ring_[current_];
-  const bool hold = overrides.hold || aborting_ || (segment.rapid ? rapid <= 0 : feed <= 0);
+  const bool hold = overrides.hold || aborting_ || (segment.rapid ? rapid_override <= 0 : feed_override <= 0);
   if (wait_ > 0) {
     if (!overrides.hold && !aborting_) --wait_;
     speed_ = 0;
@@ -282,9 +284,11 @@ void SpeedPlanner::step(const Overrides& overrides) {
   }
   const double change = segment.acceleration * cycle_;
   const double wanted = hold ? 0 : soft_limit(segment);
-  double speed = std::clamp(wanted, std::max(0.0, speed_ - change), speed_ + change);
+  double speed = std::min(wanted, speed_ + change);
   if (speed > speed_) speed = std::min(speed, speed_ + crossing_acceleration(speed * cycle_) * cycle_);
-  if (speed > 0) speed = feasible(speed);
+  if (speed > 0) speed = feasible(speed, feed);
+  speed = std::max({speed, speed_ - change, 0.0});
+  if (speed > 0) speed = feasible(speed, hard);
   speed_ = speed;
   if (speed > 0) advance(speed * cycle_);
 }

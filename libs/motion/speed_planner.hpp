@@ -58,15 +58,20 @@ class SpeedPlanner {
   bool waiting() const { return wait_ > 0; }
 
  private:
+  // Two plans over the same segments: `hard` holds what must never be exceeded, `feed` the programmed speeds
+  // under the present overrides as well. An override may change so that the feed plan cannot be met any more;
+  // then the speed is braked towards it at the allowed acceleration, which never breaks the hard plan.
+  enum Plan : std::size_t { hard, feed };
+
   void plan();
   bool rate_corner(std::uint64_t index);
   bool limit_around(std::uint64_t corner, double speed);
   void release();
   double soft_limit(const PlannedSegment& segment) const;
   double braking(double distance, double end, double acceleration, double before) const;
-  double start_speed(std::uint64_t index) const;
+  double start_speed(std::uint64_t index, Plan plan) const;
   void reach_back(std::uint64_t from);
-  double feasible(double speed) const;
+  double feasible(double speed, Plan plan) const;
   double crossing_acceleration(double distance) const;
   void enter(std::uint64_t index);
   void advance(double distance);

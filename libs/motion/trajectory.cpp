@@ -9,9 +9,10 @@ namespace {
 using language::Command;
 using language::CommandKind;
 
-// Through a chain the axes' rates change within a smoothing window, which the corner rules see only to first
-// order.
-constexpr double chained_acceleration_share = 0.9;
+// Through a chain the rates of the axes change between their samples and within a smoothing window, which the
+// corner rules see only to first order. The shares leave room for that.
+constexpr double chained_velocity_share = 0.995;
+constexpr double chained_acceleration_share = 0.95;
 constexpr double longest_dwell_cycles = 1e9;
 
 CornerRules make_rules(const Limits& limits, double cycle) {
@@ -43,6 +44,7 @@ void Trajectory::start(const AxisValues& position, language::Transformation tran
                        double tool_length) {
   active_chain_ = transformation == language::Transformation::rtcp ? chain_ : nullptr;
   tool_length_ = tool_length;
+  rules_.velocity_share = active_chain_ != nullptr ? chained_velocity_share : 1;
   rules_.acceleration_share = active_chain_ != nullptr ? chained_acceleration_share : 1;
   planner_.restart(rules_);
   interpolator_.reset(position);
@@ -105,7 +107,7 @@ bool Trajectory::push_move(const Command& command, double fraction) {
     settled_cycles_ = 0;
     end_ = command.target;
   }
-  if (command.modal.path_control == language::PathControl::exact_stop && !segment.rapid) stop_next_ = true;
+  if (command.modal.path_control == language::PathControl::exact_stop) stop_next_ = true;
   return true;
 }
 

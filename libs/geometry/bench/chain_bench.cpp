@@ -15,7 +15,7 @@ Chain ac_table() {
 void machine_from_tip(benchmark::State& state) {
   const Chain chain = ac_table();
   Angles angles{12, 0, 34};
-  for (auto _ : state) {
+  while (state.KeepRunning()) {
     angles[2] += 0.01;
     benchmark::DoNotOptimize(chain.machine_from_tip(Vec3(1, 2, 3), angles, 100));
   }
@@ -25,7 +25,7 @@ BENCHMARK(machine_from_tip);
 void jacobian(benchmark::State& state) {
   const Chain chain = ac_table();
   Angles angles{12, 0, 34};
-  for (auto _ : state) {
+  while (state.KeepRunning()) {
     angles[2] += 0.01;
     benchmark::DoNotOptimize(chain.jacobian(Vec3(1, 2, 3), angles, 100));
   }

@@ -40,7 +40,7 @@ void step_rtcp_ac_table(benchmark::State& state) {
   const Cap cap = wavy_cap(2500, 1000);
   Trajectory t(cap.limits, &cap.chain, cycle);
   std::int64_t cycles = 0;
-  for (auto _ : state) {
+  while (state.KeepRunning()) {
     if (t.at_rest()) {
       state.PauseTiming();
       t.start(cap.start, Transformation::rtcp, 100);
@@ -59,7 +59,7 @@ void plan_rtcp_ac_table(benchmark::State& state) {
   const Cap cap = wavy_cap(2500, static_cast<double>(state.range(0)));
   Trajectory t(cap.limits, &cap.chain, cycle);
   std::int64_t segments = 0;
-  for (auto _ : state) {
+  while (state.KeepRunning()) {
     t.start(cap.start, Transformation::rtcp, 100);
     for (const Command& c : cap.program) t.push(c);
     t.finish();
@@ -74,7 +74,7 @@ void machining_time(benchmark::State& state, const std::vector<Command>& program
                     const geometry::Chain* chain, const AxisValues& start) {
   Trajectory t(limits, chain, cycle);
   std::size_t cycles = 0;
-  for (auto _ : state) {
+  while (state.KeepRunning()) {
     t.start(start, chain != nullptr ? Transformation::rtcp : Transformation::none,
             chain != nullptr ? 100 : 0);
     cycles = run(t, program).setpoints.size();

@@ -148,6 +148,24 @@ INSTANTIATE_TEST_SUITE_P(feeds, FiveAxis,
                          testing::Combine(testing::Values(5, 20, 50),
                                           testing::Values(1000.0, 4000.0, 20000.0)));
 
+// A follows X degree by millimetre up to X10 and then stands: its corner may be rounded by the orientation
+// tolerance only.
+TEST(Contour, corners_of_a_rotary_axis_keep_the_orientation_tolerance) {
+  for (const double tolerance : {0.001, 0.05}) {
+    Limits limits = uniform_limits(500, 3000, 40);
+    limits.orientation_tolerance = tolerance;
+    Trajectory t(limits, nullptr, cycle);
+    const Motion result = run(t, {line_to({10, 0, 0, 10}, 6000), line_to({20, 0, 0, 10}, 6000)});
+    expect_within(result, {}, limits, nullptr, 0);
+    double worst = 0;
+    for (const Setpoint& s : result.setpoints) {
+      worst = std::max(worst, std::abs(s.position[language::A] - std::min(s.position[0], 10.0)));
+    }
+    EXPECT_LE(worst, tolerance);
+    EXPECT_GE(worst, 0.2 * tolerance);  // the corner is rounded, not stopped at
+  }
+}
+
 TEST(Contour, random_five_axis_corners_with_rtcp_keep_the_limits_and_the_tolerance) {
   const geometry::Chain chain = ac_table();
   for (const int cycles : {5, 20, 50}) {
@@ -170,6 +188,31 @@ TEST(Contour, random_five_axis_corners_with_rtcp_keep_the_limits_and_the_toleran
       expect_within(result, path.points[0], limits, &chain, 80);
       EXPECT_LE(contour_error(result, path.points), limits.contour_tolerance);
     }
+  }
+}
+
+// Close to the centre of the table little travel is much rotation, and within a window the table turns by
+// many degrees: the rates of X and Y change faster than anywhere else.
+TEST(Contour, fast_rotation_near_the_centre_of_the_table_with_rtcp_keeps_the_limits) {
+  const geometry::Chain chain = ac_table();
+  for (const int cycles : {10, 30, 64}) {
+    std::mt19937_64 random(23);
+    std::uniform_real_distribution<double> unit(-1, 1);
+    Limits limits = uniform_limits(150, 2000, cycles);
+    for (std::size_t i = 3; i < 6; ++i) limits.axes[i] = {350, 400, 3000};
+    Polyline path;
+    for (int i = 0; i < 120; ++i) {
+      AxisValues p{5 + unit(random), -4 + unit(random), unit(random)};
+      p[language::A] = 10 * unit(random);
+      p[language::C] = (i % 30 < 15 ? 20.0 : 5.0) * i;
+      path.add(p, 6000);
+    }
+    Trajectory t(limits, &chain, cycle);
+    t.start(path.points[0], Transformation::rtcp, 10);
+    const Motion result = run(t, path.program);
+    SCOPED_TRACE(cycles);
+    expect_within(result, path.points[0], limits, &chain, 10);
+    EXPECT_LE(contour_error(result, path.points), limits.contour_tolerance);
   }
 }
 
