@@ -51,3 +51,10 @@ function(trunnion_fuzzer name)
     set_tests_properties(${name} PROPERTIES LABELS fuzz TIMEOUT 300)
   endif()
 endfunction()
+
+# trunnion_service(name [LINK libs...]): the executable trunnion-<name> from main.cpp and service.cpp of this folder.
+function(trunnion_service name)
+  cmake_parse_arguments(ARG "" "" "LINK" ${ARGN})
+  add_executable(trunnion-${name} main.cpp service.cpp)
+  target_link_libraries(trunnion-${name} PRIVATE trunnion_options trunnion_node ${ARG_LINK})
+endfunction()

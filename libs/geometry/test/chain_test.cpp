@@ -1,0 +1,225 @@
+#include "geometry/chain.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+#include <vector>
+
+namespace trunnion::geometry {
+namespace {
+
+Chain make(const ChainParameters& p) { return std::get<Chain>(Chain::make(p)); }
+
+ChainParameters ac_table() {
+  ChainParameters p;
+  p.table_1 = RotaryAxis{Vec3(-1, 0, 0), Vec3(0, 0.1028, 0), 0};
+  p.table_2 = RotaryAxis{Vec3(0, 0, -1), Vec3(-200.3605, -190.1897, -516.0118), 2};
+  return p;
+}
+
+ChainParameters cb_head() {
+  ChainParameters p;
+  p.head_1 = RotaryAxis{Vec3(0, 0, 1), Vec3(1.5, -2.5, 0), 2};
+  p.head_2 = RotaryAxis{Vec3(0, 1, 0), Vec3(0.2, 0, 251.3), 1};
+  return p;
+}
+
+ChainParameters b_head_c_table() {
+  ChainParameters p;
+  p.head_2 = RotaryAxis{Vec3(0, 1, 0), Vec3(0.3, 0, 180), 1};
+  p.table_2 = RotaryAxis{Vec3(0, 0, -1), Vec3(10, 20, 0), 2};
+  return p;
+}
+
+ChainParameters a_table() {
+  ChainParameters p;
+  p.table_2 = RotaryAxis{Vec3(-1, 0, 0), Vec3(0, 5, -300), 0};
+  return p;
+}
+
+ChainParameters skewed_ac_table() {  // the directions a calibration finds on a real machine
+  ChainParameters p = ac_table();
+  p.table_1->direction = Vec3(-1, 0, 9.3e-5);
+  p.table_2->direction = Vec3(2e-4, 1e-5, -1);
+  return p;
+}
+
+struct Machine {
+  const char* name;
+  ChainParameters parameters;
+};
+
+const std::vector<Machine>& machines() {
+  static const std::vector<Machine> all{{"AC table", ac_table()},
+                                        {"CB head", cb_head()},
+                                        {"B head C table", b_head_c_table()},
+                                        {"A table", a_table()},
+                                        {"skewed AC table", skewed_ac_table()}};
+  return all;
+}
+
+// A turns about -X, so A90 turns about +X by -90: (x, y, z) -> (x, z, -y). With both offsets zero the point
+// (1, 2, 3) goes to (1, 3, -2), and the tool of 100 stands above it at z = 98.
+TEST(Chain, ac_trunnion_at_a90_turns_a_point_of_the_table_by_hand) {
+  ChainParameters p;
+  p.table_1 = RotaryAxis{Vec3(-1, 0, 0), Vec3::Zero(), 0};
+  p.table_2 = RotaryAxis{Vec3(0, 0, -1), Vec3::Zero(), 2};
+  EXPECT_EQ(make(p).machine_from_tip(Vec3(1, 2, 3), {90, 0, 0}, 100), Vec3(1, 3, 98));
+}
+
+// v1 = (0, 4, 0), v2 = (10, 20, 30), w = (11, 22, 33): w - v2 = (1, 2, 3). C90 about -Z: (x, y) -> (y, -x):
+// (2, -1, 3). minus v1: (2, -5, 3). A90: (x, z, -y): (2, 3, 5). plus v1 + v2: (12, 27, 35). plus the tool of
+// 50: z = 85.
+TEST(Chain, ac_trunnion_with_offsets_at_a90_c90_by_hand) {
+  ChainParameters p;
+  p.table_1 = RotaryAxis{Vec3(-1, 0, 0), Vec3(0, 4, 0), 0};
+  p.table_2 = RotaryAxis{Vec3(0, 0, -1), Vec3(10, 20, 30), 2};
+  const Vec3 x = make(p).machine_from_tip(Vec3(11, 22, 33), {90, 0, 90}, 50);
+  EXPECT_LT((x - Vec3(12, 27, 85)).norm(), 1e-12);
+}
+
+// v1 = (1, 0, 0), v2 = (0, 0, 200), L = 100. B90 about +Y: (0, 0, 300) -> (300, 0, 0); plus v1: (301, 0, 0);
+// C90 about +Z: (0, 301, 0). X = w - (v1 + v2) + that = (-1, 301, -200) for w = 0.
+TEST(Chain, cb_head_at_b90_c90_by_hand) {
+  ChainParameters p;
+  p.head_1 = RotaryAxis{Vec3(0, 0, 1), Vec3(1, 0, 0), 2};
+  p.head_2 = RotaryAxis{Vec3(0, 1, 0), Vec3(0, 0, 200), 1};
+  const Vec3 x = make(p).machine_from_tip(Vec3::Zero(), {0, 90, 90}, 100);
+  EXPECT_LT((x - Vec3(-1, 301, -200)).norm(), 1e-12);
+}
+
+// Table C180 about -Z around (10, 20): w = (0, 0, 0) -> (20, 40, 0). Head B-90: (0, 0, 180 + 20) -> (-200, 0,
+// 0); X = (20, 40, 0) - (0, 0, 180) + (-200, 0, 0).
+TEST(Chain, b_head_with_c_table_by_hand) {
+  ChainParameters p = b_head_c_table();
+  p.head_2->offset = Vec3(0, 0, 180);
+  const Vec3 x = make(p).machine_from_tip(Vec3::Zero(), {0, -90, 180}, 20);
+  EXPECT_LT((x - Vec3(-180, 40, -180)).norm(), 1e-12);
+}
+
+// A turns the table about -X, so for the workpiece the tool turns about +X: at A30 it leans to (0, -sin 30,
+// cos 30). A B head at B30 leans to (sin 30, 0, cos 30) whatever the offsets.
+TEST(Chain, tool_direction_as_the_workpiece_sees_it) {
+  EXPECT_LT((make(a_table()).tool_direction_in_workpiece({30, 0, 0}) - Vec3(0, -0.5, std::sqrt(0.75))).norm(),
+            1e-15);
+  EXPECT_LT((make(cb_head()).tool_direction_in_workpiece({0, 30, 0}) - Vec3(0.5, 0, std::sqrt(0.75))).norm(),
+            1e-15);
+}
+
+TEST(Chain, at_zero_angles_the_machine_stands_one_tool_length_above_the_tip) {
+  for (const Machine& m : machines()) {
+    const Vec3 x = make(m.parameters).machine_from_tip(Vec3(7, -8, 9), {0, 0, 0}, 123);
+    EXPECT_LT((x - Vec3(7, -8, 132)).norm(), 1e-12) << m.name;
+  }
+}
+
+TEST(Chain, a_machine_without_rotary_axes_only_adds_the_tool) {
+  const Chain chain = make(ChainParameters{});
+  EXPECT_EQ(chain.machine_from_tip(Vec3(1, 2, 3), {10, 20, 30}, 5), Vec3(1, 2, 8));
+  EXPECT_FALSE(chain.turns(0));
+}
+
+TEST(Chain, inverse_returns_the_tip_within_1e_10_mm_over_random_poses) {
+  std::mt19937_64 random(1);
+  std::uniform_real_distribution<double> position(-1000, 1000), angle(-720, 720), length(0, 400);
+  for (const Machine& m : machines()) {
+    const Chain chain = make(m.parameters);
+    for (int i = 0; i < 20000; ++i) {
+      const Vec3 w(position(random), position(random), position(random));
+      const Angles a{angle(random), angle(random), angle(random)};
+      const double l = length(random);
+      ASSERT_LT((chain.tip_from_machine(chain.machine_from_tip(w, a, l), a, l) - w).norm(), 1e-10) << m.name;
+    }
+  }
+}
+
+// Two tips on the same pose keep their distance, and lengthening the tool moves the machine along the tool
+// direction turned with the table: properties that hold for any rigid chain, independent of the formulae.
+TEST(Chain, moves_are_rigid_and_the_tool_acts_along_its_direction) {
+  std::mt19937_64 random(2);
+  std::uniform_real_distribution<double> position(-500, 500), angle(-180, 180);
+  for (const Machine& m : machines()) {
+    const Chain chain = make(m.parameters);
+    for (int i = 0; i < 5000; ++i) {
+      const Vec3 w1(position(random), position(random), position(random));
+      const Vec3 w2(position(random), position(random), position(random));
+      const Angles a{angle(random), angle(random), angle(random)};
+      const Vec3 x1 = chain.machine_from_tip(w1, a, 100);
+      ASSERT_NEAR((x1 - chain.machine_from_tip(w2, a, 100)).norm(), (w1 - w2).norm(), 1e-9) << m.name;
+      const Vec3 along = chain.tip_from_machine(x1, a, 90);
+      ASSERT_LT((along - (w1 + 10 * chain.tool_direction_in_workpiece(a))).norm(), 1e-9) << m.name;
+    }
+  }
+}
+
+// Central differences with a step h = 1e-3 (degrees or mm): the truncation is below R h^2 (pi/180)^3 / 6 ~
+// 1e-9 mm/deg and rounding about 1e-13 / 1e-3 = 1e-10, both below the tolerance.
+TEST(Chain, jacobian_agrees_with_central_differences) {
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<double> position(-500, 500), angle(-180, 180);
+  const double h = 1e-3;
+  for (const Machine& m : machines()) {
+    const Chain chain = make(m.parameters);
+    for (int i = 0; i < 2000; ++i) {
+      const Vec3 w(position(random), position(random), position(random));
+      const Angles a{angle(random), angle(random), angle(random)};
+      const Jacobian j = chain.jacobian(w, a, 150);
+      for (int k = 0; k < 3; ++k) {
+        Angles up = a, down = a;
+        up[static_cast<std::size_t>(k)] += h;
+        down[static_cast<std::size_t>(k)] -= h;
+        const Vec3 by_angle =
+            (chain.machine_from_tip(w, up, 150) - chain.machine_from_tip(w, down, 150)) / (2 * h);
+        ASSERT_LT((by_angle - j.angle.col(k)).norm(), 1e-8) << m.name << " angle " << k;
+        const Vec3 step = h * Vec3::Unit(k);
+        const Vec3 by_tip =
+            (chain.machine_from_tip(w + step, a, 150) - chain.machine_from_tip(w - step, a, 150)) / (2 * h);
+        ASSERT_LT((by_tip - j.tip.col(k)).norm(), 1e-8) << m.name << " tip " << k;
+      }
+    }
+  }
+}
+
+TEST(Chain, quarter_turns_are_exact_even_after_many_revolutions) {
+  ChainParameters p;
+  p.table_2 = RotaryAxis{Vec3(0, 0, 1), Vec3::Zero(), 2};
+  EXPECT_EQ(make(p).machine_from_tip(Vec3(1, 2, 3), {0, 0, 360.0 * 1000 + 90}, 0), Vec3(-2, 1, 3));
+}
+
+TEST(Chain, direction_vectors_are_normalized) {
+  ChainParameters p = ac_table();
+  p.table_2->direction = Vec3(0, 0, -1.000007);
+  p.tool_direction = Vec3(0, 0, 2);
+  const Angles a{20, 0, 70};
+  EXPECT_LT(
+      (make(p).machine_from_tip(Vec3(1, 2, 3), a, 9) - make(ac_table()).machine_from_tip(Vec3(1, 2, 3), a, 9))
+          .norm(),
+      1e-12);
+}
+
+TEST(Chain, refuses_parameters_that_describe_no_machine) {
+  const auto error = [](const ChainParameters& p) { return std::get<ChainError>(Chain::make(p)); };
+  ChainParameters p = ac_table();
+  p.table_1->direction = Vec3::Zero();
+  EXPECT_EQ(error(p), ChainError::zero_direction);
+  p = ac_table();
+  p.tool_direction = Vec3::Zero();
+  EXPECT_EQ(error(p), ChainError::zero_direction);
+  p = ac_table();
+  p.table_2->offset.y() = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(error(p), ChainError::not_finite);
+  p = cb_head();
+  p.head_1->direction.x() = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(error(p), ChainError::not_finite);
+  p = cb_head();
+  p.head_1->angle = 3;
+  EXPECT_EQ(error(p), ChainError::bad_angle);
+  p = cb_head();
+  p.head_1->angle = p.head_2->angle;
+  EXPECT_EQ(error(p), ChainError::shared_angle);
+}
+
+}  // namespace
+}  // namespace trunnion::geometry

@@ -1,0 +1,190 @@
+#include "machine/parameters.hpp"
+
+#include <yaml-cpp/yaml.h>
+
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+
+#include "machine/yaml.hpp"
+
+namespace trunnion::machine {
+
+extern const char* const catalogue_text;
+
+const char* to_string(Activation activation) {
+  switch (activation) {
+    case Activation::save: return "save";
+    case Activation::reset: return "reset";
+    case Activation::restart: return "restart";
+  }
+  return "";
+}
+
+const char* to_string(ParameterType type) {
+  switch (type) {
+    case ParameterType::integer: return "integer";
+    case ParameterType::real: return "real";
+    case ParameterType::text: return "text";
+  }
+  return "";
+}
+
+std::string number_text(std::uint32_t number) {
+  char out[16];
+  std::snprintf(out, sizeof out, "%06u", number);
+  return out;
+}
+
+const Catalogue& Catalogue::instance() {
+  static const Catalogue catalogue = parse(catalogue_text);
+  return catalogue;
+}
+
+Catalogue Catalogue::parse(const std::string& yaml) {
+  Catalogue result;
+  const auto document = parse_yaml(yaml, "catalogue.yaml");
+  const auto classes = document["classes"];
+  for (const auto& node : document["parameters"]) {
+    Definition d;
+    const auto text = [&](const char* key) { return node[key] ? node[key].as<std::string>() : std::string(); };
+    d.name = text("name"), d.unit = text("unit"), d.help = text("help"), d.access = text("access");
+    const auto group = classes[text("class")];
+    if (!group) throw std::runtime_error(at("catalogue.yaml", node) + "unknown class '" + text("class") + "'");
+    d.base = group["base"].as<std::uint32_t>();
+    d.units = group["units"].as<std::uint32_t>();
+    d.offset = node["offset"].as<std::uint32_t>();
+    if (node["count"]) d.count = node["count"].as<std::uint32_t>();
+    const auto type = text("type"), activation = text("activation");
+    d.type = type == "integer" ? ParameterType::integer : type == "text" ? ParameterType::text : ParameterType::real;
+    d.activation = activation == "save"      ? Activation::save
+                   : activation == "restart" ? Activation::restart
+                                             : Activation::reset;
+    if (d.type != ParameterType::text) {
+      d.minimum = node["min"].as<double>();
+      d.maximum = node["max"].as<double>();
+      if (node["default"].IsSequence())
+        d.defaults = node["default"].as<std::vector<double>>();
+      else
+        d.defaults = {node["default"].as<double>()};
+      for (const double value : d.defaults)
+        if (!(value >= d.minimum && value <= d.maximum))
+          throw std::runtime_error(at("catalogue.yaml", node) + "default of " + d.name + " is outside its limits");
+    }
+    if (!result.names_.emplace(d.name, result.definitions_.size()).second)
+      throw std::runtime_error(at("catalogue.yaml", node) + "'" + d.name + "' is defined twice");
+    result.definitions_.push_back(std::move(d));
+  }
+  return result;
+}
+
+const Definition* Catalogue::find(std::uint32_t number) const {
+  for (const auto& d : definitions_) {
+    if (number < d.base || number >= d.base + (d.units > 1 ? d.units * 1000 : 10000)) continue;
+    const std::uint32_t offset = d.units > 1 ? (number - d.base) % 1000 : number - d.base;
+    if (offset >= d.offset && offset < d.offset + d.count) return &d;
+  }
+  return nullptr;
+}
+
+const Definition& Catalogue::by_name(const std::string& name) const {
+  const auto found = names_.find(name);
+  if (found == names_.end()) throw std::out_of_range("no parameter is called " + name);
+  return definitions_[found->second];
+}
+
+double Catalogue::default_of(std::uint32_t number) const {
+  const auto* d = find(number);
+  if (d == nullptr) return 0;
+  const std::uint32_t offset = d->units > 1 ? (number - d->base) % 1000 : number - d->base;
+  return d->default_at(offset - d->offset);
+}
+
+std::string Catalogue::check(std::uint32_t number, double value, const std::string& text) const {
+  const auto* d = find(number);
+  if (d == nullptr) return "parameter " + number_text(number) + " does not exist";
+  const auto who = "parameter " + number_text(number) + " (" + d->name + ")";
+  if (d->type == ParameterType::text)
+    return text.size() <= 64 ? "" : who + ": text of " + std::to_string(text.size()) + " bytes, at most 64";
+  if (!text.empty()) return who + ": expected a number, got '" + text + "'";
+  std::ostringstream limits;
+  limits << who << ": " << value << " is outside " << d->minimum << " .. " << d->maximum;
+  if (!d->unit.empty()) limits << " " << d->unit;
+  if (!(value >= d->minimum && value <= d->maximum)) return limits.str();
+  if (d->type == ParameterType::integer && value != std::floor(value)) {
+    std::ostringstream whole;
+    whole << who << ": " << value << " is not a whole number";
+    return whole.str();
+  }
+  return "";
+}
+
+double Parameters::at(std::uint32_t number) const {
+  const auto found = values.find(number);
+  return found != values.end() ? found->second.value : Catalogue::instance().default_of(number);
+}
+
+double Parameters::get(const std::string& name, std::uint32_t unit, std::uint32_t index) const {
+  return at(Catalogue::instance().by_name(name).number(unit, index));
+}
+
+int Parameters::integer(const std::string& name, std::uint32_t unit, std::uint32_t index) const {
+  return static_cast<int>(get(name, unit, index));
+}
+
+std::string Parameters::text(const std::string& name, std::uint32_t unit) const {
+  const auto found = values.find(Catalogue::instance().by_name(name).number(unit));
+  return found != values.end() ? found->second.text : "";
+}
+
+std::map<std::uint32_t, ParameterValue> read_parameter_file(const std::string& path) {
+  std::map<std::uint32_t, ParameterValue> result;
+  const auto document = load_yaml(path);
+  if (document.IsNull()) return result;
+  if (!document.IsMap()) throw std::runtime_error(at(path, document) + "expected lines of 'number: value'");
+  for (const auto& entry : document) {
+    const auto key = entry.first.as<std::string>();
+    if (key.size() != 6 || key.find_first_not_of("0123456789") != std::string::npos)
+      throw std::runtime_error(at(path, entry.first) + "'" + key + "' is not a parameter number of six digits");
+    const auto number = static_cast<std::uint32_t>(std::stoul(key));
+    const auto* definition = Catalogue::instance().find(number);
+    if (definition == nullptr) throw std::runtime_error(at(path, entry.first) + "parameter " + key + " does not exist");
+    ParameterValue value;
+    if (!entry.second.IsScalar()) throw std::runtime_error(at(path, entry.second) + "expected one value");
+    if (definition->type == ParameterType::text) {
+      value.text = entry.second.as<std::string>();
+    } else {
+      try {
+        value.value = entry.second.as<double>();
+      } catch (const YAML::Exception&) {
+        throw std::runtime_error(at(path, entry.second) + "parameter " + key + " (" + definition->name +
+                                 "): '" + entry.second.Scalar() + "' is not a number");
+      }
+    }
+    const auto error = Catalogue::instance().check(number, value.value, value.text);
+    if (!error.empty()) throw std::runtime_error(at(path, entry.second) + error);
+    if (!result.emplace(number, value).second)
+      throw std::runtime_error(at(path, entry.first) + "parameter " + key + " is given twice");
+  }
+  return result;
+}
+
+std::string write_parameter_text(const std::map<std::uint32_t, ParameterValue>& values) {
+  std::ostringstream out;
+  out.precision(17);
+  for (const auto& [number, value] : values) {
+    const auto* definition = Catalogue::instance().find(number);
+    if (definition == nullptr) continue;
+    out << '"' << number_text(number) << "\": ";
+    if (definition->type == ParameterType::text)
+      out << YAML::Dump(YAML::Node(value.text));
+    else
+      out << value.value;
+    out << "  # " << definition->name << (definition->unit.empty() ? "" : ", " + definition->unit) << "\n";
+  }
+  return out.str();
+}
+
+}  // namespace trunnion::machine

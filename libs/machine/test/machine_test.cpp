@@ -1,0 +1,62 @@
+#include "machine/machine.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+namespace trunnion::machine {
+namespace {
+
+const std::string all_services =
+    "services:\n  - {service: parameters}\n  - {service: program}\n  - {service: plc}\n  - {service: drive}\n"
+    "  - {service: gantry}\n  - {service: compensation}\n  - {service: kinematics, replicas: 2, vendor: [cyclonedds, fastdds]}\n"
+    "  - {service: channel, channel: 0}\n  - {service: gateway}\n";
+
+std::string directory_with(const std::string& yaml) {
+  const std::string directory = testing::TempDir() + "machine_test";
+  std::filesystem::create_directories(directory);
+  std::ofstream(directory + "/machine.yaml") << yaml;
+  return directory;
+}
+
+std::string error_of(const std::string& yaml) {
+  const auto directory = directory_with(yaml);
+  try {
+    load_machine(directory);
+  } catch (const std::runtime_error& e) {
+    return std::string(e.what()).substr(directory.size() + 1);
+  }
+  return "";
+}
+
+TEST(Machine, TwinsAreServicesOfTheirOwnWithTheirOwnVendor) {
+  const auto config = load_machine(directory_with("name: m\n" + all_services));
+  ASSERT_EQ(config.services.size(), 10u);
+  EXPECT_EQ(config.services[7].service, "kinematics");
+  EXPECT_EQ(config.services[7].copy, 1u);
+  EXPECT_EQ(config.services[7].vendor, "fastdds");
+  EXPECT_EQ(config.channels, 1u);
+}
+
+TEST(Machine, MixedAlternatesTheVendors) {
+  const auto config = load_machine(directory_with("name: m\n" + all_services), "mixed");
+  for (std::size_t i = 1; i < config.services.size(); ++i)
+    EXPECT_NE(config.services[i].vendor, config.services[i - 1].vendor);
+}
+
+TEST(Machine, ErrorsNameLineAndColumn) {
+  EXPECT_EQ(error_of("name: m\ndomain: 101\n" + all_services), "machine.yaml:2:9: error: domain must be 0 .. 100");
+  EXPECT_EQ(error_of("name: m\ncolour: red\n" + all_services), "machine.yaml:2:1: error: unknown key 'colour'");
+  EXPECT_EQ(error_of("name: m\nservices:\n  - {service: coffee}\n"),
+            "machine.yaml:3:5: error: unknown service 'coffee'");
+  EXPECT_EQ(error_of("name: m\nport: many\n" + all_services),
+            "machine.yaml:2:7: error: 'port' has a value of the wrong kind");
+  EXPECT_EQ(error_of("name: m\nservices:\n  - {service: drive, replicas: 2}\n"),
+            "machine.yaml:3:32: error: replicas must be 1, or 2 for kinematics, compensation and gantry");
+  EXPECT_EQ(error_of("name: m\n" + all_services + "  - {service: drive, vendor: opendds}\n"),
+            "machine.yaml:12:30: error: unknown vendor 'opendds': fastdds or cyclonedds");
+}
+
+}  // namespace
+}  // namespace trunnion::machine

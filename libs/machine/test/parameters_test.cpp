@@ -1,0 +1,85 @@
+#include "machine/parameters.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+
+#include "machine/alarms.hpp"
+
+namespace trunnion::machine {
+namespace {
+
+TEST(Catalogue, NumbersFollowClassUnitAndOffset) {
+  const auto& catalogue = Catalogue::instance();
+  EXPECT_EQ(catalogue.by_name("rapid_feed").number(2), 102034u) << "10axxx of axis 2";
+  EXPECT_EQ(catalogue.by_name("table_offset_2").number(1, 2), 41437u) << "041437 is Zc of channel 1";
+  EXPECT_EQ(catalogue.by_name("backlash").number(12), 312001u);
+  EXPECT_EQ(catalogue.find(41437)->name, "table_offset_2");
+  EXPECT_EQ(catalogue.find(1)->name, "interpolation_cycle");
+  EXPECT_EQ(catalogue.find(700123)->name, "table_value");
+  EXPECT_EQ(catalogue.find(999999), nullptr);
+}
+
+TEST(Catalogue, EveryNumberBelongsToOneDefinition) {
+  const auto& catalogue = Catalogue::instance();
+  for (const auto& d : catalogue.definitions())
+    for (std::uint32_t i = 0; i < d.count; ++i) EXPECT_EQ(catalogue.find(d.number(0, i)), &d) << d.name;
+}
+
+TEST(Catalogue, RefusesValuesOutsideTheLimitsAndNamesThem) {
+  const auto& catalogue = Catalogue::instance();
+  EXPECT_EQ(catalogue.check(100900, 60, ""), "");
+  EXPECT_EQ(catalogue.check(100900, 1001, ""), "parameter 100900 (position_gain): 1001 is outside 1 .. 1000 1/s");
+  EXPECT_EQ(catalogue.check(100900, std::nan(""), "").substr(0, 16), "parameter 100900");
+  EXPECT_EQ(catalogue.check(1, 1000.5, ""), "parameter 000001 (interpolation_cycle): 1000.5 is not a whole number");
+  EXPECT_EQ(catalogue.check(5, 1, ""), "parameter 000005 does not exist");
+}
+
+TEST(Catalogue, IntegerDefaultsPerIndexAreKept) {
+  Parameters parameters;
+  EXPECT_EQ(parameters.get("tool_direction", 0, 2), 1) << "the tool points along Z unless said otherwise";
+  EXPECT_EQ(parameters.get("tool_direction", 0, 0), 0);
+}
+
+std::string file_with(const std::string& text) {
+  const std::string path = testing::TempDir() + "parameters.yaml";
+  std::ofstream(path) << text;
+  return path;
+}
+
+std::string error_of(const std::string& text) {
+  try {
+    read_parameter_file(file_with(text));
+  } catch (const std::runtime_error& e) {
+    return std::string(e.what()).substr(testing::TempDir().size());
+  }
+  return "";
+}
+
+TEST(ParameterFile, ErrorsNameLineAndColumn) {
+  EXPECT_EQ(error_of("\"100900\": 60\n\"100901\": fast\n"),
+            "parameters.yaml:2:11: error: parameter 100901 (speed_gain): 'fast' is not a number");
+  EXPECT_EQ(error_of("\"1009\": 60\n"), "parameters.yaml:1:1: error: '1009' is not a parameter number of six digits");
+  EXPECT_EQ(error_of("\"100900\": 0\n"),
+            "parameters.yaml:1:11: error: parameter 100900 (position_gain): 0 is outside 1 .. 1000 1/s");
+  EXPECT_NE(error_of("\"100900\": [1\n").find("parameters.yaml:2:1: error:"), std::string::npos);
+}
+
+TEST(ParameterFile, WrittenTextReadsBackTheSame) {
+  std::map<std::uint32_t, ParameterValue> values{{100000, {0, "X: \"1\" # no"}}, {100900, {0.1 + 60, ""}}};
+  EXPECT_EQ(read_parameter_file(file_with(write_parameter_text(values))), values);
+}
+
+TEST(Alarms, NumbersAndNamesAreUnique) {
+  std::map<std::uint32_t, int> numbers;
+  std::map<std::string, int> names;
+  for (const auto& alarm : alarm_list()) {
+    EXPECT_EQ(numbers[alarm.number]++, 0) << alarm.number;
+    EXPECT_EQ(names[alarm.name]++, 0) << alarm.name;
+    EXPECT_TRUE(alarm.number < 1000 || alarm.number >= 2000) << "1000..1999 are the language's";
+  }
+}
+
+}  // namespace
+}  // namespace trunnion::machine

@@ -1,0 +1,32 @@
+#include "machine/yaml.hpp"
+
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+
+namespace trunnion::machine {
+namespace {
+std::string position(const std::string& file, const YAML::Mark& mark) {
+  return file + ":" + std::to_string(mark.line + 1) + ":" + std::to_string(mark.column + 1) + ": error: ";
+}
+}  // namespace
+
+std::string at(const std::string& file, const YAML::Node& node) { return position(file, node.Mark()); }
+
+YAML::Node parse_yaml(const std::string& text, const std::string& file) {
+  try {
+    return YAML::Load(text);
+  } catch (const YAML::Exception& e) {
+    throw std::runtime_error(position(file, e.mark) + e.msg);
+  }
+}
+
+YAML::Node load_yaml(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  if (!in) throw std::runtime_error(path + ": error: cannot be opened");
+  std::ostringstream text;
+  text << in.rdbuf();
+  return parse_yaml(text.str(), path);
+}
+
+}  // namespace trunnion::machine

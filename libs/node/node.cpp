@@ -1,0 +1,101 @@
+#include "node/node.hpp"
+
+#include <sys/prctl.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <chrono>
+#include <csignal>
+
+namespace trunnion::node {
+namespace {
+
+volatile std::sig_atomic_t stop_requested = 0;
+void request_stop(int) { stop_requested = 1; }
+
+std::string host_name() {
+  char name[64] = {};
+  gethostname(name, sizeof name - 1);
+  return name;
+}
+
+}  // namespace
+
+double monotonic_seconds() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+Node::Node(Options options)
+    : options_(std::move(options)),
+      bus_(options_.vendor, options_.network),
+      alarms_(bus_, options_.instance, options_.service),
+      announcement_(bus_.writer(topics::announcement)),
+      state_writer_(bus_.writer(topics::service_state)),
+      alarm_reset_(bus_.reader(topics::alarm_reset)) {
+  struct sigaction action {};
+  action.sa_handler = request_stop;
+  sigaction(SIGTERM, &action, nullptr);
+  sigaction(SIGINT, &action, nullptr);
+  signal(SIGPIPE, SIG_IGN);
+  if (options_.parent_bound) {
+    prctl(PR_SET_PDEATHSIG, SIGTERM);
+    if (getppid() == 1) stop_requested = 1;
+  }
+  started_ = monotonic_seconds();
+  state_.instance = options_.instance;
+  state_.service = options_.service;
+  state_.vendor = bus::to_string(options_.vendor);
+  state_.pid = getpid();
+  state_.copy = static_cast<std::uint8_t>(options_.copy);
+  announce();
+}
+
+void Node::announce() {
+  announcement_.write({options_.instance, options_.service, bus::to_string(options_.vendor), host_name(), getpid(),
+                       topics::contract_hash, "0.1.0"});
+}
+
+void Node::beat(const Service& service) {
+  const double now = monotonic_seconds();
+  const auto health = service.health();
+  const double elapsed = now - last_beat_;
+  state_.lifecycle = health.lifecycle;
+  state_.detail = health.detail.substr(0, 128);
+  state_.frames_in = health.frames_in;
+  state_.frames_out = health.frames_out;
+  state_.frames_lost = health.frames_lost;
+  state_.frames_per_second = last_beat_ > 0 ? static_cast<double>(health.frames_out - last_frames_) / elapsed : 0;
+  state_.revision = health.revision;
+  state_.in_step = health.in_step;
+  state_.uptime = now - started_;
+  ++state_.beats;
+  state_writer_.write(state_);
+  last_beat_ = now;
+  last_frames_ = health.frames_out;
+}
+
+int Node::run(Service& service) {
+  constexpr double beat_period = 0.25;
+  auto last_lifecycle = idl::service::Lifecycle::UNCONFIGURED;
+  while (stop_requested == 0) {
+    bus_.signal().wait(std::min(service.period(), beat_period));
+    if (stop_requested != 0) break;
+    idl::service::AlarmReset reset;
+    bool any_reset = false;
+    while (alarm_reset_.take(reset)) any_reset = true;
+    if (any_reset) {
+      service.alarms_reset();
+      alarms_.reset();
+    }
+    service.pump();
+    if (const double now = monotonic_seconds(); now - last_beat_ >= beat_period) {
+      beat(service);
+    } else if (now - last_beat_ >= 0.02 && service.health().lifecycle != last_lifecycle) {
+      last_lifecycle = service.health().lifecycle;
+      beat(service);  // a change of lifecycle is news: start-up waits for it
+    }
+  }
+  return 0;
+}
+
+}  // namespace trunnion::node

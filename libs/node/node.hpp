@@ -1,0 +1,73 @@
+// The shell every service runs in: one thread that waits, takes, computes and writes; lifecycle, heartbeat, alarms.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "bus/bus.hpp"
+#include "contracts/topics.hpp"
+#include "node/alarm_board.hpp"
+#include "node/options.hpp"
+
+namespace trunnion::node {
+
+/// What a service shows of itself four times a second.
+struct Health {
+  idl::service::Lifecycle lifecycle = idl::service::Lifecycle::UNCONFIGURED;
+  std::string detail;
+  std::uint64_t frames_in = 0, frames_out = 0, frames_lost = 0;
+  std::uint64_t revision = 0;
+  bool in_step = true;
+};
+
+class Node;
+
+/// One service. Its constructor makes its readers and writers from the node's bus.
+class Service {
+ public:
+  virtual ~Service() = default;
+  /// Data has arrived or `period()` has passed: take everything, compute, write.
+  virtual void pump() = 0;
+  /// Longest time in seconds between two calls of pump().
+  virtual double period() const { return 0.05; }
+  virtual Health health() const = 0;
+  /// Alarms without a cause are being cleared.
+  virtual void alarms_reset() {}
+};
+
+class Node {
+ public:
+  explicit Node(Options options);
+
+  const Options& options() const { return options_; }
+  bus::Bus& bus() { return bus_; }
+  AlarmBoard& alarms() { return alarms_; }
+
+  /// Runs until SIGTERM or SIGINT; returns the exit status.
+  int run(Service& service);
+
+ private:
+  void announce();
+  void beat(const Service& service);
+  Options options_;
+  bus::Bus bus_;
+  AlarmBoard alarms_;
+  bus::Writer<idl::service::Announcement> announcement_;
+  bus::Writer<idl::service::ServiceState> state_writer_;
+  bus::Reader<idl::service::AlarmReset> alarm_reset_;
+  idl::service::ServiceState state_;
+  double started_ = 0;
+  double last_beat_ = 0;
+  std::uint64_t last_frames_ = 0;
+};
+
+/// Monotonic seconds, for time-outs and statistics only.
+double monotonic_seconds();
+
+/// main() of a service: parse, make the node and the service, run. One line on stderr and status 1 on failure.
+template <class S>
+int service_main(int argc, char** argv, const char* name);
+
+}  // namespace trunnion::node
+
+#include "node/service_main.hpp"

@@ -1,0 +1,26 @@
+#include "node/parameter_client.hpp"
+
+namespace trunnion::node {
+
+bool ParameterClient::poll() {
+  bool any = false;
+  idl::parameters::ParameterSet set;
+  while (reader_.take(set)) {
+    if (newest_ && set.revision == newest_->revision) continue;
+    auto parameters = std::make_shared<machine::Parameters>();
+    parameters->revision = set.revision;
+    for (const auto& value : set.values) parameters->values[value.number] = {value.value, value.text};
+    previous_ = newest_;
+    newest_ = parameters;
+    any = true;
+  }
+  return any;
+}
+
+std::shared_ptr<const machine::Parameters> ParameterClient::find(std::uint64_t revision) const {
+  if (newest_ && newest_->revision == revision) return newest_;
+  if (previous_ && previous_->revision == revision) return previous_;
+  return nullptr;
+}
+
+}  // namespace trunnion::node
