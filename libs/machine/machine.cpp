@@ -8,7 +8,7 @@
 namespace trunnion::machine {
 namespace {
 
-const std::vector<std::string> known_services = {"parameters", "program", "plc",    "drive",  "gantry",
+const std::vector<std::string> known_services = {"parameters",   "program",    "plc",     "drive",  "gantry",
                                                  "compensation", "kinematics", "channel", "gateway"};
 
 template <class T>
@@ -45,7 +45,8 @@ MachineConfig load_machine(const std::string& directory, const std::string& vend
   config.domain = value<std::uint32_t>(file, document, "domain", 1);
   if (config.domain > 100) throw std::runtime_error(at(file, document["domain"]) + "domain must be 0 .. 100");
   const int port = value<int>(file, document, "port", 8080);
-  if (port < 1 || port > 65535) throw std::runtime_error(at(file, document["port"]) + "port must be 1 .. 65535");
+  if (port < 1 || port > 65535)
+    throw std::runtime_error(at(file, document["port"]) + "port must be 1 .. 65535");
   config.port = static_cast<std::uint16_t>(port);
   const auto time = value<std::string>(file, document, "time", "real");
   if (time != "real" && time != "virtual")
@@ -54,7 +55,8 @@ MachineConfig load_machine(const std::string& directory, const std::string& vend
   const auto default_vendor = value<std::string>(file, document, "vendor", "cyclonedds");
 
   const auto services = document["services"];
-  if (!services || !services.IsSequence()) throw std::runtime_error(file + ":1:1: error: 'services' is missing");
+  if (!services || !services.IsSequence())
+    throw std::runtime_error(file + ":1:1: error: 'services' is missing");
   config.channels = 0;
   for (const auto& node : services) {
     check_keys(file, node, {"service", "vendor", "replicas", "channel"});
@@ -65,18 +67,20 @@ MachineConfig load_machine(const std::string& directory, const std::string& vend
     entry.channel = value<std::uint32_t>(file, node, "channel", 0);
     if (entry.service == "channel") config.channels = std::max(config.channels, entry.channel + 1);
     const auto replicas = value<std::uint32_t>(file, node, "replicas", 1);
-    const bool stage = entry.service == "kinematics" || entry.service == "compensation" || entry.service == "gantry";
+    const bool stage =
+        entry.service == "kinematics" || entry.service == "compensation" || entry.service == "gantry";
     if (replicas < 1 || replicas > 2 || (replicas == 2 && !stage))
       throw std::runtime_error(at(file, node["replicas"]) +
                                "replicas must be 1, or 2 for kinematics, compensation and gantry");
     for (std::uint32_t copy = 0; copy < replicas; ++copy) {
       entry.copy = copy;
       const auto vendor = node["vendor"];
-      entry.vendor = vendor && vendor.IsSequence() ? (copy < vendor.size() ? vendor[copy].as<std::string>() : default_vendor)
-                                                   : value<std::string>(file, node, "vendor", default_vendor);
+      entry.vendor = vendor && vendor.IsSequence()
+                         ? (copy < vendor.size() ? vendor[copy].as<std::string>() : default_vendor)
+                         : value<std::string>(file, node, "vendor", default_vendor);
       if (entry.vendor != "fastdds" && entry.vendor != "cyclonedds")
-        throw std::runtime_error(at(file, vendor ? vendor : document["vendor"]) + "unknown vendor '" + entry.vendor +
-                                 "': fastdds or cyclonedds");
+        throw std::runtime_error(at(file, vendor ? vendor : document["vendor"]) + "unknown vendor '" +
+                                 entry.vendor + "': fastdds or cyclonedds");
       entry.instance = static_cast<std::uint32_t>(config.services.size() + 1);
       if (vendor_override == "mixed")
         entry.vendor = entry.instance % 2 == 0 ? "fastdds" : "cyclonedds";
@@ -86,7 +90,8 @@ MachineConfig load_machine(const std::string& directory, const std::string& vend
     }
   }
   for (const auto& needed : known_services)
-    if (std::none_of(config.services.begin(), config.services.end(), [&](const auto& s) { return s.service == needed; }))
+    if (std::none_of(config.services.begin(), config.services.end(),
+                     [&](const auto& s) { return s.service == needed; }))
       throw std::runtime_error(at(file, services) + "service '" + needed + "' is missing");
   return config;
 }

@@ -9,11 +9,12 @@ namespace trunnion::machine {
 
 /// One process of the cluster.
 struct ServiceEntry {
-  std::string service;      ///< parameters, program, channel, kinematics, compensation, gantry, plc, drive, gateway
-  std::string vendor;       ///< fastdds or cyclonedds
+  std::string
+      service;  ///< parameters, program, channel, kinematics, compensation, gantry, plc, drive, gateway
+  std::string vendor;          ///< fastdds or cyclonedds
   std::uint32_t instance = 0;  ///< unique in the cluster, in the order of machine.yaml
-  std::uint32_t copy = 0;   ///< twin number
-  std::uint32_t channel = 0;  ///< of a channel service
+  std::uint32_t copy = 0;      ///< twin number
+  std::uint32_t channel = 0;   ///< of a channel service
 };
 
 struct MachineConfig {
@@ -21,7 +22,7 @@ struct MachineConfig {
   std::string name;
   std::string title;
   std::uint32_t domain = 1;
-  std::uint16_t port = 8080;   ///< of the gateway
+  std::uint16_t port = 8080;  ///< of the gateway
   bool virtual_time = false;
   std::uint32_t channels = 1;
   std::vector<ServiceEntry> services;
@@ -31,7 +32,8 @@ struct MachineConfig {
   std::string plc_directory() const { return directory + "/plc"; }
 };
 
-/// `vendor_override`: empty, fastdds, cyclonedds or mixed (alternating). Throws std::runtime_error with file:line:column.
+/// `vendor_override`: empty, fastdds, cyclonedds or mixed (alternating). Throws std::runtime_error with
+/// file:line:column.
 MachineConfig load_machine(const std::string& directory, const std::string& vendor_override = "");
 
 }  // namespace trunnion::machine

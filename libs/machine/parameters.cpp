@@ -16,18 +16,24 @@ extern const char* const catalogue_text;
 
 const char* to_string(Activation activation) {
   switch (activation) {
-    case Activation::save: return "save";
-    case Activation::reset: return "reset";
-    case Activation::restart: return "restart";
+    case Activation::save:
+      return "save";
+    case Activation::reset:
+      return "reset";
+    case Activation::restart:
+      return "restart";
   }
   return "";
 }
 
 const char* to_string(ParameterType type) {
   switch (type) {
-    case ParameterType::integer: return "integer";
-    case ParameterType::real: return "real";
-    case ParameterType::text: return "text";
+    case ParameterType::integer:
+      return "integer";
+    case ParameterType::real:
+      return "real";
+    case ParameterType::text:
+      return "text";
   }
   return "";
 }
@@ -49,16 +55,21 @@ Catalogue Catalogue::parse(const std::string& yaml) {
   const auto classes = document["classes"];
   for (const auto& node : document["parameters"]) {
     Definition d;
-    const auto text = [&](const char* key) { return node[key] ? node[key].as<std::string>() : std::string(); };
+    const auto text = [&](const char* key) {
+      return node[key] ? node[key].as<std::string>() : std::string();
+    };
     d.name = text("name"), d.unit = text("unit"), d.help = text("help"), d.access = text("access");
     const auto group = classes[text("class")];
-    if (!group) throw std::runtime_error(at("catalogue.yaml", node) + "unknown class '" + text("class") + "'");
+    if (!group)
+      throw std::runtime_error(at("catalogue.yaml", node) + "unknown class '" + text("class") + "'");
     d.base = group["base"].as<std::uint32_t>();
     d.units = group["units"].as<std::uint32_t>();
     d.offset = node["offset"].as<std::uint32_t>();
     if (node["count"]) d.count = node["count"].as<std::uint32_t>();
     const auto type = text("type"), activation = text("activation");
-    d.type = type == "integer" ? ParameterType::integer : type == "text" ? ParameterType::text : ParameterType::real;
+    d.type = type == "integer" ? ParameterType::integer
+             : type == "text"  ? ParameterType::text
+                               : ParameterType::real;
     d.activation = activation == "save"      ? Activation::save
                    : activation == "restart" ? Activation::restart
                                              : Activation::reset;
@@ -71,7 +82,8 @@ Catalogue Catalogue::parse(const std::string& yaml) {
         d.defaults = {node["default"].as<double>()};
       for (const double value : d.defaults)
         if (!(value >= d.minimum && value <= d.maximum))
-          throw std::runtime_error(at("catalogue.yaml", node) + "default of " + d.name + " is outside its limits");
+          throw std::runtime_error(at("catalogue.yaml", node) + "default of " + d.name +
+                                   " is outside its limits");
     }
     if (!result.names_.emplace(d.name, result.definitions_.size()).second)
       throw std::runtime_error(at("catalogue.yaml", node) + "'" + d.name + "' is defined twice");
@@ -147,10 +159,12 @@ std::map<std::uint32_t, ParameterValue> read_parameter_file(const std::string& p
   for (const auto& entry : document) {
     const auto key = entry.first.as<std::string>();
     if (key.size() != 6 || key.find_first_not_of("0123456789") != std::string::npos)
-      throw std::runtime_error(at(path, entry.first) + "'" + key + "' is not a parameter number of six digits");
+      throw std::runtime_error(at(path, entry.first) + "'" + key +
+                               "' is not a parameter number of six digits");
     const auto number = static_cast<std::uint32_t>(std::stoul(key));
     const auto* definition = Catalogue::instance().find(number);
-    if (definition == nullptr) throw std::runtime_error(at(path, entry.first) + "parameter " + key + " does not exist");
+    if (definition == nullptr)
+      throw std::runtime_error(at(path, entry.first) + "parameter " + key + " does not exist");
     ParameterValue value;
     if (!entry.second.IsScalar()) throw std::runtime_error(at(path, entry.second) + "expected one value");
     if (definition->type == ParameterType::text) {

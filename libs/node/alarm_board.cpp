@@ -16,7 +16,8 @@ std::string cut(std::string text) {
 }
 }  // namespace
 
-void AlarmBoard::raise(const std::string& name, std::uint32_t part, const std::string& text, std::uint64_t cycle) {
+void AlarmBoard::raise(const std::string& name, std::uint32_t part, const std::string& text,
+                       std::uint64_t cycle) {
   const auto& definition = machine::alarm_definition(name);
   auto& entry = entries_[{definition.number, part}];
   const bool news = !entry.alarm.active || entry.alarm.text != cut(text);
@@ -32,7 +33,8 @@ void AlarmBoard::raise(const std::string& name, std::uint32_t part, const std::s
   publish(entry);
 }
 
-void AlarmBoard::raise_number(std::uint32_t number, std::uint32_t part, const std::string& text, std::uint64_t cycle) {
+void AlarmBoard::raise_number(std::uint32_t number, std::uint32_t part, const std::string& text,
+                              std::uint64_t cycle) {
   auto& entry = entries_[{number, part}];
   entry.cause = false;
   auto& a = entry.alarm;

@@ -1,4 +1,5 @@
-// The alarms one service has raised: latched, published when they change, cleared on request once their cause is gone.
+// The alarms one service has raised: latched, published when they change, cleared on request once their cause
+// is gone.
 #pragma once
 
 #include <map>
@@ -14,8 +15,10 @@ class AlarmBoard {
 
   /// Raises (or repeats) the alarm called `name` in alarms.yaml about `part` (axis, channel, instance).
   void raise(const std::string& name, std::uint32_t part, const std::string& text, std::uint64_t cycle = 0);
-  /// The same for alarms of the NC language, which carry their own number; always an error that stops the program.
-  void raise_number(std::uint32_t number, std::uint32_t part, const std::string& text, std::uint64_t cycle = 0);
+  /// The same for alarms of the NC language, which carry their own number; always an error that stops the
+  /// program.
+  void raise_number(std::uint32_t number, std::uint32_t part, const std::string& text,
+                    std::uint64_t cycle = 0);
   /// The cause is gone; the alarm stays until it is reset.
   void release(const std::string& name, std::uint32_t part);
   /// Gone at once, for causes that nobody needs to acknowledge.

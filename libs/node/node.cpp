@@ -51,8 +51,8 @@ Node::Node(Options options)
 }
 
 void Node::announce() {
-  announcement_.write({options_.instance, options_.service, bus::to_string(options_.vendor), host_name(), getpid(),
-                       topics::contract_hash, "0.1.0"});
+  announcement_.write({options_.instance, options_.service, bus::to_string(options_.vendor), host_name(),
+                       getpid(), topics::contract_hash, "0.1.0"});
 }
 
 void Node::beat(const Service& service) {
@@ -64,7 +64,8 @@ void Node::beat(const Service& service) {
   state_.frames_in = health.frames_in;
   state_.frames_out = health.frames_out;
   state_.frames_lost = health.frames_lost;
-  state_.frames_per_second = last_beat_ > 0 ? static_cast<double>(health.frames_out - last_frames_) / elapsed : 0;
+  state_.frames_per_second =
+      last_beat_ > 0 ? static_cast<double>(health.frames_out - last_frames_) / elapsed : 0;
   state_.revision = health.revision;
   state_.in_step = health.in_step;
   state_.uptime = now - started_;

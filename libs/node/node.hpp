@@ -1,4 +1,5 @@
-// The shell every service runs in: one thread that waits, takes, computes and writes; lifecycle, heartbeat, alarms.
+// The shell every service runs in: one thread that waits, takes, computes and writes; lifecycle, heartbeat,
+// alarms.
 #pragma once
 
 #include <memory>
@@ -64,7 +65,8 @@ class Node {
 /// Monotonic seconds, for time-outs and statistics only.
 double monotonic_seconds();
 
-/// main() of a service: parse, make the node and the service, run. One line on stderr and status 1 on failure.
+/// main() of a service: parse, make the node and the service, run. One line on stderr and status 1 on
+/// failure.
 template <class S>
 int service_main(int argc, char** argv, const char* name);
 

@@ -13,16 +13,17 @@ class App;
 namespace trunnion::node {
 
 struct Options {
-  std::string service;          ///< name of the executable without "trunnion-"
+  std::string service;  ///< name of the executable without "trunnion-"
   std::string machine_directory;
-  std::string state_directory;  ///< where this machine keeps what must survive: parameters, programs, encoder positions
+  std::string state_directory;  ///< where this machine keeps what must survive: parameters, programs, encoder
+                                ///< positions
   std::uint32_t instance = 0;
   std::uint32_t copy = 0;
   std::uint32_t channel = 0;
   bus::Vendor vendor = bus::Vendor::cyclonedds;
   bus::NetworkSettings network;
   bool virtual_time = false;
-  bool parent_bound = false;    ///< stop when the launcher is gone
+  bool parent_bound = false;  ///< stop when the launcher is gone
 
   machine::MachineConfig machine;  ///< loaded from machine_directory
 };

@@ -17,7 +17,8 @@ namespace trunnion::node {
 /// A client id that no other process has.
 inline std::uint64_t make_client_id() {
   std::random_device device;
-  return (static_cast<std::uint64_t>(device()) << 32) ^ device() ^ (static_cast<std::uint64_t>(getpid()) << 16);
+  return (static_cast<std::uint64_t>(device()) << 32) ^ device() ^
+         (static_cast<std::uint64_t>(getpid()) << 16);
 }
 
 template <class Request, class Reply>

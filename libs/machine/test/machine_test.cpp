@@ -10,7 +10,8 @@ namespace {
 
 const std::string all_services =
     "services:\n  - {service: parameters}\n  - {service: program}\n  - {service: plc}\n  - {service: drive}\n"
-    "  - {service: gantry}\n  - {service: compensation}\n  - {service: kinematics, replicas: 2, vendor: [cyclonedds, fastdds]}\n"
+    "  - {service: gantry}\n  - {service: compensation}\n  - {service: kinematics, replicas: 2, vendor: "
+    "[cyclonedds, fastdds]}\n"
     "  - {service: channel, channel: 0}\n  - {service: gateway}\n";
 
 std::string directory_with(const std::string& yaml) {
@@ -46,8 +47,10 @@ TEST(Machine, MixedAlternatesTheVendors) {
 }
 
 TEST(Machine, ErrorsNameLineAndColumn) {
-  EXPECT_EQ(error_of("name: m\ndomain: 101\n" + all_services), "machine.yaml:2:9: error: domain must be 0 .. 100");
-  EXPECT_EQ(error_of("name: m\ncolour: red\n" + all_services), "machine.yaml:2:1: error: unknown key 'colour'");
+  EXPECT_EQ(error_of("name: m\ndomain: 101\n" + all_services),
+            "machine.yaml:2:9: error: domain must be 0 .. 100");
+  EXPECT_EQ(error_of("name: m\ncolour: red\n" + all_services),
+            "machine.yaml:2:1: error: unknown key 'colour'");
   EXPECT_EQ(error_of("name: m\nservices:\n  - {service: coffee}\n"),
             "machine.yaml:3:5: error: unknown service 'coffee'");
   EXPECT_EQ(error_of("name: m\nport: many\n" + all_services),

@@ -30,9 +30,11 @@ TEST(Catalogue, EveryNumberBelongsToOneDefinition) {
 TEST(Catalogue, RefusesValuesOutsideTheLimitsAndNamesThem) {
   const auto& catalogue = Catalogue::instance();
   EXPECT_EQ(catalogue.check(100900, 60, ""), "");
-  EXPECT_EQ(catalogue.check(100900, 1001, ""), "parameter 100900 (position_gain): 1001 is outside 1 .. 1000 1/s");
+  EXPECT_EQ(catalogue.check(100900, 1001, ""),
+            "parameter 100900 (position_gain): 1001 is outside 1 .. 1000 1/s");
   EXPECT_EQ(catalogue.check(100900, std::nan(""), "").substr(0, 16), "parameter 100900");
-  EXPECT_EQ(catalogue.check(1, 1000.5, ""), "parameter 000001 (interpolation_cycle): 1000.5 is not a whole number");
+  EXPECT_EQ(catalogue.check(1, 1000.5, ""),
+            "parameter 000001 (interpolation_cycle): 1000.5 is not a whole number");
   EXPECT_EQ(catalogue.check(5, 1, ""), "parameter 000005 does not exist");
 }
 
@@ -60,7 +62,8 @@ std::string error_of(const std::string& text) {
 TEST(ParameterFile, ErrorsNameLineAndColumn) {
   EXPECT_EQ(error_of("\"100900\": 60\n\"100901\": fast\n"),
             "parameters.yaml:2:11: error: parameter 100901 (speed_gain): 'fast' is not a number");
-  EXPECT_EQ(error_of("\"1009\": 60\n"), "parameters.yaml:1:1: error: '1009' is not a parameter number of six digits");
+  EXPECT_EQ(error_of("\"1009\": 60\n"),
+            "parameters.yaml:1:1: error: '1009' is not a parameter number of six digits");
   EXPECT_EQ(error_of("\"100900\": 0\n"),
             "parameters.yaml:1:11: error: parameter 100900 (position_gain): 0 is outside 1 .. 1000 1/s");
   EXPECT_NE(error_of("\"100900\": [1\n").find("parameters.yaml:2:1: error:"), std::string::npos);

@@ -1,0 +1,117 @@
+// Alarms of the language room: numbers 1000..1999, each with one text, all of them here.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+
+namespace trunnion::language {
+
+enum class AlarmNumber : std::uint16_t {
+  none = 0,
+  line_too_long = 1001,
+  not_utf8 = 1002,
+  unknown_character = 1003,
+  open_comment = 1004,
+  number_missing = 1005,
+  number_range = 1006,
+  letter_twice = 1007,
+  too_many_codes = 1008,
+  misplaced_head = 1009,
+  text_unreadable = 1010,
+  unknown_g = 1101,
+  unavailable_g = 1102,
+  group_twice = 1103,
+  unknown_m = 1104,
+  not_an_integer = 1105,
+  value_range = 1106,
+  unused_word = 1107,
+  missing_word = 1108,
+  axis_absent = 1109,
+  motion_missing = 1110,
+  feed_missing = 1111,
+  feed_not_positive = 1112,
+  arc_centre_missing = 1201,
+  arc_centre_and_radius = 1202,
+  arc_radius_zero = 1203,
+  arc_radii_differ = 1204,
+  arc_radius_too_small = 1205,
+  arc_full_with_radius = 1206,
+  machine_coordinates_motion = 1301,
+  machine_coordinates_rtcp = 1302,
+  tool_length_unknown = 1303,
+  subprogram_missing = 1401,
+  nesting_too_deep = 1402,
+  subprogram_without_end = 1403,
+};
+
+struct AlarmText {
+  AlarmNumber number;
+  std::string_view text;
+};
+
+/// The texts. The word at fault is appended after a colon.
+inline constexpr std::array alarm_texts = {
+    AlarmText{AlarmNumber::line_too_long, "line longer than 1024 bytes"},
+    AlarmText{AlarmNumber::not_utf8, "text is not valid UTF-8"},
+    AlarmText{AlarmNumber::unknown_character, "character has no meaning outside a comment"},
+    AlarmText{AlarmNumber::open_comment, "comment is not closed in its line"},
+    AlarmText{AlarmNumber::number_missing, "letter without a number"},
+    AlarmText{AlarmNumber::number_range, "number too large: at most 999999999"},
+    AlarmText{AlarmNumber::letter_twice, "letter twice in one block"},
+    AlarmText{AlarmNumber::too_many_codes, "too many codes in one block: at most 12 G and 4 M"},
+    AlarmText{AlarmNumber::misplaced_head, "program number or block skip only at the start of a line"},
+    AlarmText{AlarmNumber::text_unreadable, "program text cannot be read"},
+    AlarmText{AlarmNumber::unknown_g, "unknown G code"},
+    AlarmText{AlarmNumber::unavailable_g, "G code not available in this dialect yet"},
+    AlarmText{AlarmNumber::group_twice, "second code of the same group in one block"},
+    AlarmText{AlarmNumber::unknown_m, "unknown M code: M0 to M999 exist"},
+    AlarmText{AlarmNumber::not_an_integer, "word needs a whole number"},
+    AlarmText{AlarmNumber::value_range, "value of the word is out of range"},
+    AlarmText{AlarmNumber::unused_word, "word has no meaning in this block"},
+    AlarmText{AlarmNumber::missing_word, "code lacks a word it needs"},
+    AlarmText{AlarmNumber::axis_absent, "channel does not have this axis"},
+    AlarmText{AlarmNumber::motion_missing, "axis word without a motion code"},
+    AlarmText{AlarmNumber::feed_missing, "motion at feed without F"},
+    AlarmText{AlarmNumber::feed_not_positive, "feed must be above zero"},
+    AlarmText{AlarmNumber::arc_centre_missing, "circle without centre or radius"},
+    AlarmText{AlarmNumber::arc_centre_and_radius, "circle with both centre and radius"},
+    AlarmText{AlarmNumber::arc_radius_zero, "circle with radius zero"},
+    AlarmText{AlarmNumber::arc_radii_differ, "radii of the start and the end of the circle differ too much"},
+    AlarmText{AlarmNumber::arc_radius_too_small, "radius too small to reach the end of the circle"},
+    AlarmText{AlarmNumber::arc_full_with_radius, "circle with R must end elsewhere than it starts"},
+    AlarmText{AlarmNumber::machine_coordinates_motion, "machine coordinates need G0 or G1"},
+    AlarmText{AlarmNumber::machine_coordinates_rtcp, "not allowed while tool tip control is active"},
+    AlarmText{AlarmNumber::tool_length_unknown, "tool length is not in the table"},
+    AlarmText{AlarmNumber::subprogram_missing, "subprogram not found"},
+    AlarmText{AlarmNumber::nesting_too_deep, "subprograms nested deeper than 8"},
+    AlarmText{AlarmNumber::subprogram_without_end, "subprogram ends without M99"},
+};
+
+constexpr std::string_view alarm_text(AlarmNumber number) {
+  for (const AlarmText& entry : alarm_texts) {
+    if (entry.number == number) return entry.text;
+  }
+  return "";
+}
+
+/// A fault inside one line, before anybody looks up the line's text.
+struct Fault {
+  AlarmNumber number = AlarmNumber::none;
+  std::uint16_t offset = 0;  ///< byte of the line, from 0
+  explicit operator bool() const { return number != AlarmNumber::none; }
+};
+
+/// An alarm with its place. The caller knows the file name and formats `file:line:column: text`.
+struct Alarm {
+  AlarmNumber number = AlarmNumber::none;
+  std::uint32_t program = 0;     ///< as Command::program
+  std::uint32_t line = 0;        ///< from 1
+  std::uint32_t column = 0;      ///< in characters (code points) from 1
+  std::array<char, 128> text{};  ///< what is wrong and the word at fault, ends with a zero
+};
+
+/// Composes the alarm for a fault in `line_text`; `line_text` may be empty when the line is not at hand.
+Alarm make_alarm(const Fault& fault, std::string_view line_text, std::uint32_t program, std::uint32_t line);
+
+}  // namespace trunnion::language

@@ -1,0 +1,69 @@
+#include "language/arc_geometry.hpp"
+
+#include <cmath>
+#include <numbers>
+
+namespace trunnion::language {
+namespace {
+
+constexpr double degrees_per_radian = 180.0 / std::numbers::pi;
+
+/// Degrees in (0, 360] from the start's direction to the end's, both seen from the centre.
+double sweep_between(double start_first, double start_second, double end_first, double end_second,
+                     bool clockwise) {
+  const double cross = start_first * end_second - start_second * end_first;
+  const double dot = start_first * end_first + start_second * end_second;
+  const double anticlockwise = std::atan2(cross, dot) * degrees_per_radian;
+  const double sweep = clockwise ? -anticlockwise : anticlockwise;
+  return sweep > 0 ? sweep : sweep + 360.0;
+}
+
+}  // namespace
+
+AlarmNumber arc_from_centre(const AxisValues& start, const AxisValues& target,
+                            const std::array<double, 3>& centre_offset, unsigned turns, double deviation,
+                            Arc& arc) {
+  const auto [first, second, normal] = plane_axes(arc.plane);
+  arc.centre[first] = start[first] + centre_offset[first];
+  arc.centre[second] = start[second] + centre_offset[second];
+  arc.centre[normal] = start[normal];
+  const double start_first = -centre_offset[first];
+  const double start_second = -centre_offset[second];
+  const double end_first = target[first] - arc.centre[first];
+  const double end_second = target[second] - arc.centre[second];
+  const double start_radius = std::hypot(start_first, start_second);
+  const double end_radius = std::hypot(end_first, end_second);
+  if (start_radius < same_point) return AlarmNumber::arc_radius_zero;
+  if (std::abs(start_radius - end_radius) > deviation) return AlarmNumber::arc_radii_differ;
+  const bool full = std::hypot(target[first] - start[first], target[second] - start[second]) < same_point;
+  arc.sweep = full ? 360.0 : sweep_between(start_first, start_second, end_first, end_second, arc.clockwise);
+  arc.sweep += 360.0 * (turns - 1);
+  return AlarmNumber::none;
+}
+
+AlarmNumber arc_from_radius(const AxisValues& start, const AxisValues& target, double radius, unsigned turns,
+                            double deviation, Arc& arc) {
+  const auto [first, second, normal] = plane_axes(arc.plane);
+  if (std::abs(radius) < same_point) return AlarmNumber::arc_radius_zero;
+  const double chord_first = target[first] - start[first];
+  const double chord_second = target[second] - start[second];
+  const double chord = std::hypot(chord_first, chord_second);
+  if (chord < same_point) return AlarmNumber::arc_full_with_radius;
+  const double half = chord / 2;
+  const double size = std::abs(radius);
+  if (half - size > deviation) return AlarmNumber::arc_radius_too_small;
+  // (size - half) * (size + half) keeps its digits when the arc is nearly a half circle.
+  const double height = half < size ? std::sqrt((size - half) * (size + half)) : 0.0;
+  // The centre of the shorter anticlockwise arc is to the left of the chord; either change puts it to the
+  // right.
+  const double side = arc.clockwise != (radius < 0) ? -height : height;
+  arc.centre[first] = start[first] + chord_first / 2 - side * chord_second / chord;
+  arc.centre[second] = start[second] + chord_second / 2 + side * chord_first / chord;
+  arc.centre[normal] = start[normal];
+  // The sign of R decides which arc is meant, so a half circle never depends on rounding.
+  const double angle = half < size ? 2 * std::asin(half / size) * degrees_per_radian : 180.0;
+  arc.sweep = (radius < 0 ? 360.0 - angle : angle) + 360.0 * (turns - 1);
+  return AlarmNumber::none;
+}
+
+}  // namespace trunnion::language

@@ -1,0 +1,45 @@
+// Centre and sweep of a programmed circle or helix.
+#pragma once
+
+#include <array>
+
+#include "language/alarms.hpp"
+#include "language/canonical.hpp"
+
+namespace trunnion::language {
+
+/// Axes of a plane: an anticlockwise turn about `normal` goes from `first` to `second`.
+struct PlaneAxes {
+  std::uint8_t first;
+  std::uint8_t second;
+  std::uint8_t normal;
+};
+
+constexpr PlaneAxes plane_axes(Plane plane) {
+  switch (plane) {
+    case Plane::zx:
+      return {Z, X, Y};
+    case Plane::yz:
+      return {Y, Z, X};
+    case Plane::xy:
+      break;
+  }
+  return {X, Y, Z};
+}
+
+/// Ends of an arc nearer to each other in the plane than this (mm) are one point: a full circle.
+inline constexpr double same_point = 1e-6;
+
+/// Given plane and clockwise in `arc`, sets centre and sweep from the centre's offset to the start (I, J, K).
+/// `turns` (>= 1) counts begun turns: each above 1 adds 360 degrees. The radii at both ends may differ by at
+/// most `deviation` mm. Frames and units as in Command.
+AlarmNumber arc_from_centre(const AxisValues& start, const AxisValues& target,
+                            const std::array<double, 3>& centre_offset, unsigned turns, double deviation,
+                            Arc& arc);
+
+/// As above from a radius (R): > 0 for the arc up to 180 degrees, < 0 for the longer one. A radius short of
+/// half the chord by at most `deviation` makes a half circle.
+AlarmNumber arc_from_radius(const AxisValues& start, const AxisValues& target, double radius, unsigned turns,
+                            double deviation, Arc& arc);
+
+}  // namespace trunnion::language

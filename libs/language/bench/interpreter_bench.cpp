@@ -1,0 +1,79 @@
+// Blocks per second of whole programs in memory.
+#include <benchmark/benchmark.h>
+
+#include <cmath>
+#include <cstdio>
+#include <string>
+
+#include "language/interpreter.hpp"
+
+namespace trunnion::language {
+namespace {
+
+constexpr int blocks = 200000;
+
+/// Tables without content; frames that are the same, because the blocks do not change them.
+struct PlainMachine : Environment {
+  AxisValues work_offset(std::uint8_t) const override { return {10, 20, 30}; }
+  std::optional<double> tool_length(std::uint16_t) const override { return 100; }
+  AxisValues reference_position() const override { return {}; }
+  AxisValues tip_from_machine(const AxisValues& machine, double) const override { return machine; }
+  AxisValues machine_from_tip(const AxisValues& tip, double) const override { return tip; }
+  std::uint16_t axes() const override { return 0b111111111; }
+  double radius_deviation() const override { return 0.1; }
+  TextSource* subprogram(std::string_view) override { return nullptr; }
+};
+
+void interpret(benchmark::State& state, const std::string& text) {
+  PlainMachine machine;
+  Interpreter interpreter(machine);
+  while (state.KeepRunning()) {
+    StringSource source(text);
+    interpreter.start(source, {}, {});
+    Command command;
+    double sum = 0;
+    Step step = interpreter.next(command);
+    for (; step != Step::end && step != Step::alarm; step = interpreter.next(command))
+      sum += command.target[X];
+    if (step == Step::alarm) state.SkipWithError(interpreter.alarm().text.data());
+    benchmark::DoNotOptimize(sum);
+  }
+  state.SetItemsProcessed(state.iterations() * blocks);
+  state.SetBytesProcessed(state.iterations() * static_cast<std::int64_t>(text.size()));
+}
+
+void BM_ThreeAxisLines(benchmark::State& state) {
+  std::string text = "%1\nG90 G54 G43 H1 G1 F2000\n";
+  char line[120];
+  for (int i = 0; i < blocks; ++i) {
+    const double t = i * 0.001;
+    std::snprintf(line, sizeof line, "X%.3f Y%.3f Z%.3f\n", 90 * std::sin(t), 90 * std::cos(t),
+                  5 * std::sin(7 * t));
+    text += line;
+  }
+  interpret(state, text + "M30\n");
+}
+BENCHMARK(BM_ThreeAxisLines)->Unit(benchmark::kMillisecond);
+
+void BM_FiveAxisLines(benchmark::State& state) {
+  std::string text = "%1\nG90 G54 G43.4 H1 F2000\n";
+  char line[160];
+  for (int i = 0; i < blocks; ++i) {
+    const double t = i * 0.001;
+    std::snprintf(line, sizeof line, "N%d G01 X%.4f Y%.4f Z%.4f A%.4f C%.4f\n", 10 * (i + 1),
+                  90 * std::sin(t), 90 * std::cos(t), 5 * std::sin(7 * t), 30 * std::sin(3 * t), 0.05 * i);
+    text += line;
+  }
+  interpret(state, text + "M30\n");
+}
+BENCHMARK(BM_FiveAxisLines)->Unit(benchmark::kMillisecond);
+
+void BM_Arcs(benchmark::State& state) {
+  std::string text = "%1\nG91 G17 F2000\n";
+  for (int i = 0; i < blocks; ++i) text += i % 2 == 0 ? "G3 X-10. Y10. I-10. J0\n" : "G2 X10. Y-10. R10.\n";
+  interpret(state, text + "M30\n");
+}
+BENCHMARK(BM_Arcs)->Unit(benchmark::kMillisecond);
+
+}  // namespace
+}  // namespace trunnion::language

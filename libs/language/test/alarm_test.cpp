@@ -1,0 +1,202 @@
+// Every alarm, with the place it points at.
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "test_machine.hpp"
+
+namespace trunnion::language::test {
+namespace {
+
+struct Wrong {
+  AlarmNumber number;
+  std::string program;
+  unsigned line;
+  unsigned column;
+  std::string word;  ///< as the text ends
+};
+
+std::vector<Wrong> wrong_programs() {
+  using enum AlarmNumber;
+  const std::string deep = [] {
+    std::string text = "M98 P1\nM30\n";
+    for (int i = 1; i <= 9; ++i) {
+      text += "O" + std::to_string(i) + "\nM98 P" + std::to_string(i + 1) + "\nM99\n";
+    }
+    return text;
+  }();
+  return {
+      {line_too_long, "G0\n" + std::string(1025, ' ') + "\n", 2, 1, ""},
+      {not_utf8, "G0 X1 (\xc3\xa4\xff)", 1, 9, ""},
+      {not_utf8, "(\xed\xa0\x80)", 1, 2, ""},  // a surrogate
+      {unknown_character, "G0 X1 #5", 1, 7, ": #5"},
+      {unknown_character, "(\xe5\x8f\xb0) \xe5\x8f\xb0", 1, 5, ": \xe5\x8f\xb0"},
+      {unknown_character, std::string("G0\0X1", 5), 1, 3, ": ?"},
+      {unknown_character, "G0 X1 )", 1, 7, ": )"},
+      {unknown_character, "X5 5", 1, 4, ": 5"},
+      {open_comment, "G0\r\nX1 (open\nX2)", 2, 4, ": ("},
+      {number_missing, "G0 X Y1", 1, 4, ": X"},
+      {number_missing, "G0 X-", 1, 4, ": X-"},
+      {number_missing, "O\n", 1, 1, ": O"},
+      {number_range, "G0 X1234567890", 1, 4, ": X1234567890"},
+      {number_range, "O1234567890", 1, 1, ": O1234567890"},
+      {letter_twice, "G0 X1 Y1 X2", 1, 10, ": X2"},
+      {too_many_codes, "M10 M11 M12 M13 M14", 1, 17, ": M14"},
+      {too_many_codes, "G0G0G0G0G0G0G0G0G0G0G0G0G0", 1, 25, ": G0"},
+      {misplaced_head, "G0 O1234", 1, 4, ": O1234"},
+      {misplaced_head, "G0 /X1", 1, 4, ": /"},
+      {misplaced_head, "G0 %", 1, 4, ": %"},
+      {unknown_g, "G0 X1\nG77 X2", 2, 1, ": G77"},
+      {unknown_g, "G43.45", 1, 1, ": G43.45"},
+      {unknown_g, "G-1", 1, 1, ": G-1"},
+      {unknown_g, "G100000000", 1, 1, ": G100000000"},
+      {unavailable_g, "G41 D1", 1, 1, ": G41"},
+      {unavailable_g, "G42", 1, 1, ": G42"},
+      {group_twice, "G0 G1 X1", 1, 4, ": G1"},
+      {group_twice, "G1 G80", 1, 4, ": G80"},
+      {group_twice, "G90 G90", 1, 5, ": G90"},
+      {group_twice, "G4 G28 X1", 1, 4, ": G28"},
+      {group_twice, "M3 M5", 1, 4, ": M5"},
+      {group_twice, "M0 M30", 1, 4, ": M30"},
+      {group_twice, "M8 M8", 1, 4, ": M8"},
+      {unknown_m, "M1000", 1, 1, ": M1000"},
+      {unknown_m, "M3.5", 1, 1, ": M3.5"},
+      {not_an_integer, "T1.5", 1, 1, ": T1.5"},
+      {not_an_integer, "G43 H1.5", 1, 5, ": H1.5"},
+      {not_an_integer, "M98 P1.5", 1, 5, ": P1.5"},
+      {not_an_integer, "O1.5", 1, 1, ": O1.5"},
+      {value_range, "T65536", 1, 1, ": T65536"},
+      {value_range, "S-1", 1, 1, ": S-1"},
+      {value_range, "G4 P-1", 1, 4, ": P-1"},
+      {value_range, "G4 X100000", 1, 4, ": X100000"},
+      {value_range, "M98 P1 L0", 1, 8, ": L0"},
+      {value_range, "G2 I1 L0 F1", 1, 7, ": L0"},
+      {unused_word, "G1 X1 F1 R5", 1, 10, ": R5"},
+      {unused_word, "G0 X1\nG2 X3 I1 K1 F1", 2, 10, ": K1"},
+      {unused_word, "H1", 1, 1, ": H1"},
+      {unused_word, "G4 P1 X1", 1, 7, ": X1"},
+      {unused_word, "G4 P100 M98", 1, 4, ": P100"},
+      {unused_word, "M99 P10", 1, 5, ": P10"},
+      {unused_word, "E1 D1", 1, 1, ": E1"},
+      {missing_word, "G43", 1, 1, ": G43"},
+      {missing_word, "G90 G4", 1, 5, ": G4"},
+      {missing_word, "G28", 1, 1, ": G28"},
+      {missing_word, "G53 G0", 1, 1, ": G53"},
+      {missing_word, "M98", 1, 1, ": M98"},
+      {axis_absent, "G0 X1 W1", 1, 7, ": W1"},
+      {axis_absent, "G28 W1", 1, 5, ": W1"},
+      {axis_absent, "G53 W1", 1, 5, ": W1"},
+      {motion_missing, "G80\nX1", 2, 1, ": X1"},
+      {feed_missing, "G1 X1", 1, 4, ": X1"},
+      {feed_missing, "G1 F5 X1\nG93 X2", 2, 5, ": X2"},
+      {feed_missing, "G93 G1 F5 X1\nX2", 2, 1, ": X2"},
+      {feed_missing, "G1 F5 X1\nG95 X2", 2, 5, ": X2"},
+      {feed_missing, "G53 G1 X1", 1, 1, ": G53"},
+      {feed_not_positive, "F0", 1, 1, ": F0"},
+      {feed_not_positive, "G1 X1 F-5", 1, 7, ": F-5"},
+      {arc_centre_missing, "G2 X1 F1", 1, 4, ": X1"},
+      {arc_centre_and_radius, "G2 X1 I1 R1 F1", 1, 10, ": R1"},
+      {arc_radius_zero, "G2 X1 I0 J0 F1", 1, 10, ": J0"},
+      {arc_radius_zero, "G2 X1 R0 F1", 1, 7, ": R0"},
+      // Start radius 5, end radius |(10.11, 0) - (5, 0)| = 5.11: 0.11 apart, 0.1 allowed.
+      {arc_radii_differ, "G2 X10.11 I5 F1", 1, 11, ": I5"},
+      // Half the chord is 5; 0.1 less is the smallest radius.
+      {arc_radius_too_small, "G2 X10 R4.89 F1", 1, 8, ": R4.89"},
+      {arc_full_with_radius, "G2 X0 R5 F1", 1, 7, ": R5"},
+      {machine_coordinates_motion, "G3 G53 X1 F1", 1, 4, ": G53"},
+      {machine_coordinates_motion, "G80 G53 X1", 1, 5, ": G53"},
+      {machine_coordinates_rtcp, "G43.4 H1\nG53 G0 X1", 2, 1, ": G53"},
+      {machine_coordinates_rtcp, "G43.4 H1\nG28 X1", 2, 1, ": G28"},
+      {tool_length_unknown, "G43 H7", 1, 5, ": H7"},
+      {tool_length_unknown, "G43.4 H7", 1, 7, ": H7"},
+      {subprogram_missing, "G0 X1\nX2 M98 P77\nX3", 2, 8, ": P77"},
+      {nesting_too_deep, deep, 25, 1, ": M98"},  // O8 begins in line 24 = 2 + 7 * 3 + 1
+      {subprogram_without_end, "M98 P5\nM30\nO5\nG0 X1\n", 5, 1, ""},
+      {subprogram_without_end, "M98 P5\nM30\nO5\nG0 X1\nO6\nM99", 5, 1, ""},
+  };
+}
+
+TestMachine machine_without_w() {
+  TestMachine machine;
+  machine.axis_mask = 0b011111111;
+  machine.lengths = {{1, 50.0}};
+  return machine;
+}
+
+TEST(Alarm, PointsAtTheWordThatIsWrong) {
+  for (const Wrong& wrong : wrong_programs()) {
+    TestMachine machine = machine_without_w();
+    const Interpretation result = run(machine, wrong.program);
+    SCOPED_TRACE(wrong.program);
+    ASSERT_EQ(result.last, Step::alarm);
+    EXPECT_EQ(result.alarm.number, wrong.number) << result.alarm.text.data();
+    EXPECT_EQ(result.alarm.line, wrong.line);
+    EXPECT_EQ(result.alarm.column, wrong.column);
+    EXPECT_EQ(std::string(result.alarm.text.data()), std::string(alarm_text(wrong.number)) + wrong.word);
+  }
+}
+
+struct FailingSource : TextSource {
+  ReadResult read(std::uint64_t offset, char* buffer, std::size_t) override {
+    if (offset != 0) return {ReadStatus::failed, 0};
+    std::copy_n("G0 X1\n", 6, buffer);
+    return {ReadStatus::bytes, 6};
+  }
+};
+
+TEST(Alarm, TextThatCannotBeReadIsOne) {
+  TestMachine machine;
+  FailingSource text;
+  const Interpretation result = run(machine, text);
+  EXPECT_EQ(result.commands.size(), 1u);
+  EXPECT_EQ(result.alarm.number, AlarmNumber::text_unreadable);
+  EXPECT_EQ(result.alarm.line, 2u);
+}
+
+TEST(Alarm, EveryNumberOfTheTableHasATest) {
+  std::set<AlarmNumber> tested{AlarmNumber::text_unreadable};
+  for (const Wrong& wrong : wrong_programs()) tested.insert(wrong.number);
+  for (const AlarmText& entry : alarm_texts) {
+    EXPECT_TRUE(tested.contains(entry.number)) << entry.text;
+    // The buffer holds the longest text with ": " and a word of 32 bytes.
+    EXPECT_LE(entry.text.size() + 2 + 32 + 1, Alarm{}.text.size());
+  }
+}
+
+TEST(Alarm, LongWordIsCutToTheBuffer) {
+  TestMachine machine;
+  const Interpretation result = run(machine, "G0 X" + std::string(500, '9'));
+  EXPECT_EQ(result.alarm.number, AlarmNumber::number_range);
+  EXPECT_EQ(std::string(result.alarm.text.data()).size(),
+            alarm_text(AlarmNumber::number_range).size() + 2 + 32);
+}
+
+TEST(Alarm, BlockWithAFaultMakesNoCommandAndChangesNothing) {
+  TestMachine machine = machine_without_w();
+  const Interpretation result = run(machine, "G0 X1\nG55 G91 T2 M8 S100 G43 H1 X5 R7\n");
+  EXPECT_EQ(result.commands.size(), 1u);
+  EXPECT_EQ(result.last, Step::alarm);
+  EXPECT_EQ(result.modal.work_offset, 0);
+  EXPECT_TRUE(result.modal.absolute);
+  EXPECT_EQ(result.modal.selected_tool, 0);
+  EXPECT_EQ(result.modal.spindle_speed, 0);
+  EXPECT_EQ(result.modal.length_offset, 0);
+}
+
+TEST(Alarm, StaysUntilStart) {
+  TestMachine machine;
+  StringSource text("G77");
+  Interpreter interpreter(machine);
+  interpreter.start(text, {}, {});
+  Command command;
+  EXPECT_EQ(interpreter.next(command), Step::alarm);
+  EXPECT_EQ(interpreter.next(command), Step::alarm);
+  StringSource good("M30");
+  interpreter.start(good, {}, {});
+  EXPECT_EQ(interpreter.alarm().number, AlarmNumber::none);
+  EXPECT_EQ(interpreter.next(command), Step::command);
+  EXPECT_EQ(command.kind, CommandKind::end);
+}
+
+}  // namespace
+}  // namespace trunnion::language::test

@@ -1,0 +1,61 @@
+// The interpreter allocates when it is made and never again.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <new>
+
+#include "test_machine.hpp"
+
+namespace {
+std::size_t allocations = 0;
+}
+
+// Kept out of line: inlined, malloc and delete look mismatched to the compiler.
+[[gnu::noinline]] void* operator new(std::size_t size) {
+  ++allocations;
+  if (void* const memory = std::malloc(size == 0 ? 1 : size)) return memory;
+  throw std::bad_alloc();
+}
+[[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
+[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+
+namespace trunnion::language::test {
+namespace {
+
+TEST(Allocation, NoneFromStartToEndWithCallsArcsAndTransformations) {
+  TestMachine machine;
+  machine.lengths = {{1, 100.0}};
+  std::string text = "G90 G54 F100 S1000 M3\nG43.4 H1\n";
+  for (int i = 0; i < 2000; ++i) text += "G1 X1.5 Y2 A10 C20\nG3 X3 R10 L2\nG0 X0 (comment) M8\n";
+  text += "M98 P5 L100\nG49\nG4 P10\nM30\nO5\nG91 X1\nM99\n";
+  StringSource source(text);
+  Interpreter interpreter(machine);
+  Command command;
+  std::size_t commands = 0;
+  const std::size_t before = allocations;
+  interpreter.start(source, {}, {});
+  Step step = Step::command;
+  while (step == Step::command || step == Step::working) {
+    step = interpreter.next(command);
+    commands += step == Step::command ? 1 : 0;
+  }
+  EXPECT_EQ(allocations, before);
+  EXPECT_EQ(step, Step::end) << interpreter.alarm().text.data();
+  // S, M3, frame; 2000 times line, arc, M8, rapid; 100 calls of one move; frame, dwell, end.
+  EXPECT_EQ(commands, 3u + 2000u * 4 + 100 + 3);
+}
+
+TEST(Allocation, NoneForAnAlarm) {
+  TestMachine machine;
+  StringSource source("G0 X1\nG77\n");
+  Interpreter interpreter(machine);
+  Command command;
+  interpreter.start(source, {}, {});
+  const std::size_t before = allocations;
+  EXPECT_EQ(interpreter.next(command), Step::command);
+  EXPECT_EQ(interpreter.next(command), Step::alarm);
+  EXPECT_EQ(allocations, before);
+}
+
+}  // namespace
+}  // namespace trunnion::language::test

@@ -1,0 +1,91 @@
+// Any bytes, in chunks of any size: no crash, finite commands, and the same stream for every chunk size.
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+
+#include "test_machine.hpp"
+
+namespace trunnion::language::test {
+namespace {
+
+constexpr int most_steps = 400;
+
+struct ChunkedSource : TextSource {
+  ChunkedSource(std::string_view text, std::size_t size) : whole(text), chunk(size) {}
+  ReadResult read(std::uint64_t offset, char* buffer, std::size_t capacity) override {
+    if (chunk != 0 && ++reads % 3 == 0) return {ReadStatus::pending, 0};
+    return whole.read(offset, buffer, chunk == 0 ? capacity : std::min(chunk, capacity));
+  }
+  StringSource whole;
+  std::size_t chunk;
+  unsigned reads = 0;
+};
+
+void require(bool condition) {
+  if (!condition) std::abort();
+}
+
+void check(const Command& command) {
+  for (const double value : command.target) require(std::isfinite(value));
+  if (command.kind == CommandKind::arc) {
+    require(command.arc.sweep > 0 && std::isfinite(command.arc.sweep));
+    for (const double value : command.arc.centre) require(std::isfinite(value));
+  }
+  if (command.kind == CommandKind::line || command.kind == CommandKind::arc) require(command.modal.feed > 0);
+}
+
+struct Stepper {
+  Stepper(Environment& machine, std::string_view text, std::size_t chunk)
+      : source(text, chunk), interpreter(machine) {
+    interpreter.start(source, {}, {});
+  }
+  /// The next command, end or alarm; working when the program goes on without one.
+  Step next(Command& command) {
+    Step step = Step::pending;
+    while (step == Step::pending) step = interpreter.next(command);
+    return step;
+  }
+  ChunkedSource source;
+  Interpreter interpreter;
+};
+
+}  // namespace
+}  // namespace trunnion::language::test
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace trunnion::language;
+  using namespace trunnion::language::test;
+  if (size == 0) return 0;
+  const std::string_view text(reinterpret_cast<const char*>(data) + 1, size - 1);
+  TestMachine machine;
+  machine.lengths = {{1, 100.0}, {2, 55.5}};
+  machine.offsets[1] = {10, 20, 30, 0, 0, 45, 0, 0, 0};
+  machine.axis_mask = 0b000111111;
+  machine.programs["O0009"] = std::make_unique<StringSource>("G91 X1\nM99\n");
+  Stepper whole(machine, text, 0);
+  Stepper pieces(machine, text, 1 + data[0]);
+  for (int i = 0; i < most_steps; ++i) {
+    Command a;
+    Command b;
+    const Step step = whole.next(a);
+    // Working depends on how often the reader had to ask, so the two may pass it at different calls.
+    if (step == Step::working) break;
+    Step other = pieces.next(b);
+    for (int k = 0; other == Step::working && k < 8; ++k) other = pieces.next(b);
+    require(step == other);
+    if (step == Step::command) {
+      check(a);
+      require(a.kind == b.kind && a.line == b.line && a.sequence == b.sequence && a.target == b.target);
+      require(a.sequence == static_cast<std::uint32_t>(i + 1));
+      continue;
+    }
+    if (step == Step::alarm) {
+      require(whole.interpreter.alarm().number == pieces.interpreter.alarm().number);
+      require(whole.interpreter.alarm().line == pieces.interpreter.alarm().line);
+      require(whole.interpreter.alarm().column == pieces.interpreter.alarm().column);
+      require(whole.interpreter.alarm().text == pieces.interpreter.alarm().text);
+    }
+    break;
+  }
+  return 0;
+}

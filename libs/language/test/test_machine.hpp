@@ -1,0 +1,171 @@
+// A small machine for the language tests: tables, an AC rotary table, and texts in memory.
+#pragma once
+
+#include <cmath>
+#include <map>
+#include <memory>
+#include <numbers>
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include "language/interpreter.hpp"
+
+namespace trunnion::language::test {
+
+/// An AC table: P = v2 + v1 + R1 [-v1 + R2 (w - v2)] with A about (-1,0,0), C about (0,0,-1), v1 = (0, off_y,
+/// 0) and v2 = (Xc, Yc, Zc); P is the tool tip in machine coordinates, w the point on the table as it is at
+/// A0 C0.
+struct TestMachine : Environment {
+  std::array<AxisValues, 6> offsets{};
+  std::map<int, double> lengths;
+  AxisValues reference{};
+  std::uint16_t axis_mask = 0b111111111;
+  double deviation = 0.1;
+  double off_y = 0.1028;
+  std::array<double, 3> centre = {-200.3605, -190.1897, -516.0118};
+  std::map<std::string, std::unique_ptr<TextSource>, std::less<>> programs;
+
+  AxisValues work_offset(std::uint8_t index) const override { return offsets.at(index); }
+  std::optional<double> tool_length(std::uint16_t h) const override {
+    const auto found = lengths.find(h);
+    return found == lengths.end() ? std::nullopt : std::optional(found->second);
+  }
+  AxisValues reference_position() const override { return reference; }
+  std::uint16_t axes() const override { return axis_mask; }
+  double radius_deviation() const override { return deviation; }
+  TextSource* subprogram(std::string_view name) override {
+    const auto found = programs.find(name);
+    return found == programs.end() ? nullptr : found->second.get();
+  }
+
+  AxisValues machine_from_tip(const AxisValues& tip, double tool_length) const override {
+    const double a = -tip[A] * std::numbers::pi / 180;
+    const double c = -tip[C] * std::numbers::pi / 180;
+    const double x = tip[X] - centre[0];
+    const double y = tip[Y] - centre[1];
+    const double z = tip[Z] - centre[2];
+    const double x2 = std::cos(c) * x - std::sin(c) * y;
+    const double y2 = std::sin(c) * x + std::cos(c) * y - off_y;
+    AxisValues machine = tip;
+    machine[X] = x2 + centre[0];
+    machine[Y] = std::cos(a) * y2 - std::sin(a) * z + off_y + centre[1];
+    machine[Z] = std::sin(a) * y2 + std::cos(a) * z + centre[2] + tool_length;
+    return machine;
+  }
+  AxisValues tip_from_machine(const AxisValues& machine, double tool_length) const override {
+    const double a = machine[A] * std::numbers::pi / 180;
+    const double c = machine[C] * std::numbers::pi / 180;
+    const double y1 = machine[Y] - off_y - centre[1];
+    const double z1 = machine[Z] - tool_length - centre[2];
+    const double x = machine[X] - centre[0];
+    const double y = std::cos(a) * y1 - std::sin(a) * z1 + off_y;
+    AxisValues tip = machine;
+    tip[X] = std::cos(c) * x - std::sin(c) * y + centre[0];
+    tip[Y] = std::sin(c) * x + std::cos(c) * y + centre[1];
+    tip[Z] = std::sin(a) * y1 + std::cos(a) * z1 + centre[2];
+    return tip;
+  }
+};
+
+struct Interpretation {
+  std::vector<Command> commands;
+  Step last = Step::end;
+  Alarm alarm;
+  ModalState modal;
+};
+
+/// Takes commands until the end, an alarm, or `most` commands.
+inline Interpretation run(Environment& machine, TextSource& text, const AxisValues& position = {},
+                          const ModalState& modal = {}, InterpreterOptions options = {},
+                          std::size_t most = 100000) {
+  Interpreter interpreter(machine, options);
+  interpreter.start(text, position, modal);
+  Interpretation result;
+  Command command;
+  do {
+    result.last = interpreter.next(command);
+    if (result.last == Step::command) result.commands.push_back(command);
+  } while (result.last != Step::end && result.last != Step::alarm && result.commands.size() < most);
+  result.alarm = interpreter.alarm();
+  result.modal = interpreter.modal();
+  return result;
+}
+
+inline Interpretation run(Environment& machine, std::string_view text, const AxisValues& position = {},
+                          const ModalState& modal = {}, InterpreterOptions options = {},
+                          std::size_t most = 100000) {
+  StringSource source(text);
+  return run(machine, source, position, modal, options, most);
+}
+
+/// One command in a short form, for comparing streams: kind, the axes that are not 0, and what the kind adds.
+inline std::string brief(const Command& command) {
+  static constexpr const char* kinds[] = {"rapid", "line", "arc", "dwell", "T", "S", "M", "frame", "end"};
+  const auto number = [](double value) {
+    char text[40];
+    std::snprintf(text, sizeof text, "%.10g", std::abs(value) < 1e-12 ? 0.0 : value);
+    return std::string(text);
+  };
+  std::string text = kinds[static_cast<std::size_t>(command.kind)];
+  const auto values = [&] {
+    for (std::size_t axis = 0; axis < axis_count; ++axis) {
+      if (command.target[axis] != 0)
+        text += std::string(" ") + axis_letters[axis] + number(command.target[axis]);
+    }
+  };
+  switch (command.kind) {
+    case CommandKind::rapid:
+      values();
+      break;
+    case CommandKind::line:
+      values();
+      text += " F" + number(command.modal.feed);
+      break;
+    case CommandKind::arc:
+      values();
+      text += command.arc.clockwise ? " cw" : " ccw";
+      for (const double centre : command.arc.centre) text += " " + number(centre);
+      text += " " + number(command.arc.sweep) + "deg F" + number(command.modal.feed);
+      break;
+    case CommandKind::dwell:
+      text += " " + number(command.dwell_seconds);
+      break;
+    case CommandKind::spindle_speed:
+      text += number(command.value);
+      break;
+    case CommandKind::tool:
+    case CommandKind::auxiliary:
+      text += std::to_string(command.number);
+      break;
+    case CommandKind::transformation:
+      text += command.modal.transformation == Transformation::rtcp ? " rtcp" : " none";
+      text += " L" + number(command.modal.tool_length);
+      values();
+      break;
+    case CommandKind::end:
+      text += " " + std::to_string(command.number);
+      break;
+  }
+  return text;
+}
+
+/// The whole stream in short form; an alarm as "alarm NUMBER LINE:COLUMN".
+inline std::vector<std::string> stream(const Interpretation& result) {
+  std::vector<std::string> lines;
+  for (const Command& command : result.commands) lines.push_back(brief(command));
+  if (result.last == Step::alarm) {
+    lines.push_back("alarm " + std::to_string(static_cast<int>(result.alarm.number)) + " " +
+                    std::to_string(result.alarm.line) + ":" + std::to_string(result.alarm.column));
+  }
+  return lines;
+}
+
+/// A program, what it means, and which rule the pair shows.
+struct Golden {
+  const char* rule;
+  const char* program;
+  std::vector<std::string> commands;
+};
+
+}  // namespace trunnion::language::test

@@ -1,0 +1,42 @@
+// Which axes a machine has and how a channel's kinematic chain is built from parameters.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "geometry/chain.hpp"
+#include "machine/parameters.hpp"
+
+namespace trunnion::machine {
+
+inline constexpr int axis_type_linear = 1, axis_type_swivel = 2, axis_type_rotary = 3, axis_type_spindle = 10;
+
+struct AxisInfo {
+  std::uint16_t number = 0;  ///< logical axis number
+  std::string name;
+  int type = axis_type_linear;
+};
+
+/// Servo axes in the order of their logical numbers: the columns of the drive's feedback. Spindles are left
+/// out.
+std::vector<AxisInfo> drive_axes(const Parameters& parameters);
+std::vector<AxisInfo> spindles(const Parameters& parameters);
+
+/// Column of logical axis `number` in drive_axes, or -1.
+int column_of(const std::vector<AxisInfo>& axes, std::uint16_t number);
+
+struct ChannelAxes {
+  std::vector<std::uint8_t> index;    ///< 0..8 for X Y Z A B C U V W
+  std::vector<std::uint16_t> number;  ///< logical axis number of each
+  std::string letters;
+};
+
+/// Axes of a channel in the order X Y Z A B C U V W (parameters 04c001..04c009).
+ChannelAxes channel_axes(const Parameters& parameters, std::uint16_t channel);
+
+/// Parameters 04c400..04c437. Throws std::runtime_error naming the parameter that makes no chain.
+geometry::Chain make_chain(const Parameters& parameters, std::uint16_t channel);
+
+}  // namespace trunnion::machine

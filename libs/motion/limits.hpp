@@ -1,0 +1,30 @@
+// What the axes and the path tolerate.
+#pragma once
+
+#include <array>
+
+#include "language/canonical.hpp"
+
+namespace trunnion::motion {
+
+using language::AxisValues;
+
+/// Limits of one machine axis. Units per axis: mm or degrees, seconds. All above zero.
+struct AxisLimits {
+  double velocity = 100;        ///< at feed, unit/s
+  double rapid_velocity = 100;  ///< at rapid, unit/s
+  double acceleration = 1000;   ///< unit/s^2, sum of the tangential and the normal part
+};
+
+/// Limits of a trajectory. The tolerances bound how far the smoothed path may leave the programmed one.
+struct Limits {
+  std::array<AxisLimits, language::axis_count> axes{};
+  int smoothing_cycles = 20;            ///< N of the moving average, 1..64
+  double contour_tolerance = 0.01;      ///< mm at corners and along short segments
+  double arc_tolerance = 0.005;         ///< mm along programmed arcs
+  double orientation_tolerance = 0.05;  ///< degrees of the rotary axes together
+};
+
+inline constexpr int max_smoothing_cycles = 64;
+
+}  // namespace trunnion::motion

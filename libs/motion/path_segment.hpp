@@ -1,0 +1,57 @@
+// The geometry stage: one command as a curve by its length.
+#pragma once
+
+#include <array>
+
+#include "language/canonical.hpp"
+
+namespace trunnion::motion {
+
+using language::AxisValues;
+
+/// What a path length of a segment counts.
+enum class LengthUnit : std::uint8_t {
+  millimetre,  ///< travel of X Y Z, or of U V W when X Y Z stand
+  degree,      ///< of the rotary axes together, when no linear axis moves
+};
+
+/// Line, arc or helix from a start to a target in the frame of the command. X Y Z follow the curve; every
+/// other axis moves in proportion to the length. position(length()) is the target bit for bit.
+class PathSegment {
+ public:
+  PathSegment() = default;
+
+  /// Straight line. Linear travel below a millionth of the rotary travel (mm per degree) counts as none.
+  static PathSegment line(const AxisValues& start, const AxisValues& target);
+
+  /// Arc by centre and sweep (degrees, above 0). Where start and target lie at different radii the radius
+  /// runs linearly between them; what then remains between the end of the sweep and the target is closed in
+  /// proportion.
+  static PathSegment arc(const AxisValues& start, const AxisValues& target, const language::Arc& arc);
+
+  double length() const { return length_; }
+  LengthUnit unit() const { return unit_; }
+  const AxisValues& target() const { return target_; }
+
+  /// Position at `s` in 0..length(); values outside are clamped.
+  AxisValues position(double s) const;
+
+  /// Derivative of the position by s, unit per mm (or per degree, see unit()).
+  AxisValues derivative(double s) const;
+
+  /// Largest curvature of the X Y Z curve, 1/mm; 0 for lines.
+  double curvature() const { return curvature_; }
+
+ private:
+  AxisValues start_{}, target_{}, slope_{};  // slope: change of the proportional part per unit of length
+  double length_ = 0;
+  double curvature_ = 0;
+  LengthUnit unit_ = LengthUnit::millimetre;
+  bool is_arc_ = false;
+  std::array<std::size_t, 2> plane_{0, 1};
+  std::array<double, 2> centre_{};
+  double radius_ = 0, radius_slope_ = 0;  // mm, mm per mm
+  double angle_ = 0, angle_slope_ = 0;    // rad, rad per mm
+};
+
+}  // namespace trunnion::motion

@@ -1,0 +1,163 @@
+// Paths no post-processor should write. They must end, stay finite and keep the limits.
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "motion_fixture.hpp"
+
+namespace trunnion::motion::test {
+namespace {
+
+using language::Transformation;
+
+void expect_sound(const Motion& result, const AxisValues& start, const AxisValues& end, const Limits& limits,
+                  const geometry::Chain* chain = nullptr) {
+  ASSERT_TRUE(result.stopped);
+  for (const Setpoint& s : result.setpoints) {
+    for (const double v : s.position) ASSERT_TRUE(std::isfinite(v));
+  }
+  EXPECT_EQ(result.setpoints.back().position, end);
+  const Ratios ratios = axis_ratios(result, start, limits, chain, 0);
+  EXPECT_LE(ratios.velocity, 1.001);
+  EXPECT_LE(ratios.acceleration, 1.001);
+}
+
+TEST(Robustness, duplicate_points_do_nothing) {
+  const Limits limits = uniform_limits(100, 1000, 20);
+  Trajectory t(limits, nullptr, cycle);
+  const Motion result = run(t, {line_to({}, 600), line_to({10}, 6000), line_to({10}, 6000),
+                                line_to({10}, 6000), line_to({20}, 6000), line_to({20}, 6000)});
+  expect_sound(result, {}, {20}, limits);
+  // No corner, so no slower than one line of 20 mm: 0.1 s ramp, 0.1 s at 100, 0.1 s ramp, window; and 5 %
+  // less acceleration is kept for the joint.
+  EXPECT_LE(result.setpoints.size(), 345U);
+}
+
+TEST(Robustness, program_of_moves_without_length_is_at_rest_at_once) {
+  Trajectory t(uniform_limits(100, 1000, 20), nullptr, cycle);
+  EXPECT_EQ(run(t, {line_to({}, 600), line_to({}, 600)}).setpoints.size(), 1U);
+}
+
+TEST(Robustness, thousands_of_segments_of_a_nanometre_end_soon) {
+  const Limits limits = uniform_limits(100, 1000, 20);
+  Trajectory t(limits, nullptr, cycle);
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  AxisValues p{};
+  std::vector<Command> program;
+  for (int i = 0; i < 8000; ++i) {
+    p[0] += 1e-6;
+    p[1] = 1e-6 * unit(random);
+    program.push_back(line_to(p, 6000));
+  }
+  p = {1, 1};
+  program.push_back(line_to(p, 6000));
+  const Motion result = run(t, program, 60000);
+  expect_sound(result, {}, p, limits);
+}
+
+TEST(Robustness, segments_of_1e_9_mm_between_long_ones_do_not_stall) {
+  const Limits limits = uniform_limits(100, 1000, 20);
+  Trajectory t(limits, nullptr, cycle);
+  std::vector<Command> program;
+  AxisValues p{};
+  for (int i = 0; i < 50; ++i) {
+    p[0] += 5;
+    program.push_back(line_to(p, 6000));
+    p[1] += 1e-9;
+    program.push_back(line_to(p, 6000));
+  }
+  const Motion result = run(t, program, 60000);
+  expect_sound(result, {}, p, limits);
+}
+
+TEST(Robustness, reversals_of_180_degrees_reach_the_turning_point_within_the_tolerance) {
+  Limits limits = uniform_limits(100, 1000, 20);
+  limits.contour_tolerance = 0.02;
+  Trajectory t(limits, nullptr, cycle);
+  const Motion result = run(t, {line_to({10}, 6000), line_to({0}, 6000), line_to({5}, 6000)});
+  expect_sound(result, {}, {5}, limits);
+  double furthest = 0;
+  for (const Setpoint& s : result.setpoints) furthest = std::max(furthest, s.position[0]);
+  EXPECT_GE(furthest, 10 - 0.02);
+  EXPECT_LE(furthest, 10);
+}
+
+TEST(Robustness, arc_of_a_kilometre_radius_runs_like_a_line) {
+  const Limits limits = uniform_limits(100, 1000, 20);
+  Trajectory t(limits, nullptr, cycle);
+  const double r = 1e6, sweep = 1e-4;  // radians: 100 mm
+  const AxisValues end{r * std::sin(sweep), r * (1 - std::cos(sweep))};
+  const Motion result = run(t, {arc_to(end, 0, r, sweep * 180 / 3.14159265358979323846, false, 6000)});
+  expect_sound(result, {}, end, limits);
+  EXPECT_NEAR(static_cast<double>(result.setpoints.size()), 1120,
+              10);  // 100 mm at 100 mm/s, a ramp, the window
+}
+
+TEST(Robustness, arc_of_a_micrometre_radius_ends) {
+  const Limits limits = uniform_limits(100, 1000, 20);
+  Trajectory t(limits, nullptr, cycle);
+  const Motion result =
+      run(t, {line_to({1}, 6000), arc_to({1.002, 0}, 1.001, 0, 180, true, 6000), line_to({5}, 6000)});
+  expect_sound(result, {}, {5}, limits);
+}
+
+TEST(Robustness, tiny_feed_moves_at_that_feed) {
+  const Limits limits = uniform_limits(100, 1000, 20);
+  Trajectory t(limits, nullptr, cycle);
+  const Motion result = run(t, {line_to({0.001}, 0.06)});  // 1 um/s over 1 um
+  expect_sound(result, {}, {0.001}, limits);
+  EXPECT_NEAR(static_cast<double>(result.setpoints.size()), 1020, 5);
+}
+
+TEST(Robustness, rotary_move_with_a_trace_of_linear_travel_ends) {
+  const geometry::Chain chain = ac_table();
+  const Limits limits = uniform_limits(100, 1000, 20);
+  for (const double trace : {0.0, 1e-12, 1e-9, 1e-6, 1e-3}) {
+    Trajectory t(limits, &chain, cycle);
+    t.start({20, 0, 0}, Transformation::rtcp, 0);
+    AxisValues a{20, 0, 0}, b{20 + trace, 0, 0};
+    b[language::C] = 30;
+    AxisValues c = b;
+    c[0] += 10;
+    const Motion result = run(t, {line_to(b, 6000), line_to(c, 6000)}, 200000);
+    SCOPED_TRACE(trace);
+    expect_sound(result, a, c, limits, &chain);
+  }
+}
+
+TEST(Robustness, mixed_noise_of_every_kind_ends_and_keeps_the_limits) {
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    std::mt19937_64 random(seed);
+    std::uniform_real_distribution<double> unit(-1, 1);
+    const Limits limits = uniform_limits(100, 1000, static_cast<int>(1 + random() % 64));
+    Trajectory t(limits, nullptr, cycle);
+    AxisValues p{};
+    std::vector<Command> program;
+    for (int i = 0; i < 150; ++i) {
+      const AxisValues from = p;
+      const double size = std::pow(10, 4 * unit(random) - 2.5);
+      for (std::size_t k = 0; k < 9; ++k) {
+        if (random() % 3 == 0) p[k] += size * unit(random);
+      }
+      if (random() % 4 == 0) {
+        const double cx = from[0] + size * unit(random), cy = from[1] + size * unit(random);
+        const double r = std::hypot(from[0] - cx, from[1] - cy);
+        const double sweep = 180 * (1 + unit(random)) + 1;
+        const double end = std::atan2(from[1] - cy, from[0] - cx) + sweep * 3.14159265358979323846 / 180;
+        p[0] = cx + r * std::cos(end);
+        p[1] = cy + r * std::sin(end);
+        program.push_back(arc_to(p, cx, cy, sweep, false, 3000));
+      } else {
+        program.push_back(line_to(p, 3000 + 2900 * unit(random)));
+      }
+      if (random() % 20 == 0) program.back().modal.path_control = language::PathControl::exact_stop;
+    }
+    const Motion result = run(t, program, 400000);
+    SCOPED_TRACE(seed);
+    expect_sound(result, {}, p, limits);
+  }
+}
+
+}  // namespace
+}  // namespace trunnion::motion::test

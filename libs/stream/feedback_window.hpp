@@ -1,0 +1,44 @@
+// Feedback rows by cycle: what a stage computes for cycle n may use the row of cycle n - lead - 1, never "the
+// latest".
+#pragma once
+
+#include <cstdint>
+#include <cstring>
+#include <vector>
+
+#include "contracts/types.hpp"
+
+namespace trunnion::stream {
+
+class FeedbackWindow {
+ public:
+  static constexpr std::size_t rows = 2048;
+
+  void put(const idl::stream::FeedbackFrame& frame) {
+    if (frame.axis_count == 0) return;
+    if (frame.axis_count != axes_) {
+      axes_ = frame.axis_count;
+      actual_.assign(rows * axes_, 0.0);
+      cycle_.assign(rows, none);
+    }
+    for (std::uint32_t i = 0; i < frame.count; ++i) {
+      const std::uint64_t cycle = frame.first + i;
+      if ((i + 1) * axes_ > frame.actual.size()) break;
+      cycle_[cycle % rows] = cycle;
+      std::memcpy(&actual_[cycle % rows * axes_], &frame.actual[i * axes_], axes_ * sizeof(double));
+    }
+  }
+  /// Encoder positions of every axis at `cycle`, or null when that row is not here.
+  const double* actual(std::uint64_t cycle) const {
+    return axes_ != 0 && cycle_[cycle % rows] == cycle ? &actual_[cycle % rows * axes_] : nullptr;
+  }
+  std::size_t axes() const { return axes_; }
+
+ private:
+  static constexpr std::uint64_t none = ~0ull;
+  std::size_t axes_ = 0;
+  std::vector<std::uint64_t> cycle_;
+  std::vector<double> actual_;
+};
+
+}  // namespace trunnion::stream

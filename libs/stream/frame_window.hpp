@@ -1,0 +1,103 @@
+// Frames of one channel between two stages: keyed by their first cycle, first arrival wins, order restored.
+#pragma once
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace trunnion::stream {
+
+enum class Arrival { news, duplicate, differs, stale };
+
+/// Holds the frames from `next()` on. Frame boundaries are the channel's and every copy of a stage keeps
+/// them, so a whole frame is the unit. Slots are reused by swapping, so the steady state does not allocate.
+template <class Frame>
+class FrameWindow {
+ public:
+  static constexpr std::size_t slots = 1024;  // above 2 * lead + 6 frames for every lead of the catalogue
+  FrameWindow() : slots_(slots) {}
+
+  /// `frame` is swapped with an old one when it is news.
+  Arrival put(Frame& frame) {
+    if (frame.epoch < epoch_ ||
+        (frame.epoch == epoch_ && frame.first + frame.count <= next_ && !frame.starts)) {
+      // A frame behind `next` may still be checked against what was taken: a copy that computes otherwise
+      // must be seen.
+      const auto& old = slots_[frame.first % slots];
+      if (old.used && old.frame.epoch == frame.epoch && old.frame.first == frame.first)
+        return same(old.frame, frame) ? Arrival::duplicate : Arrival::differs;
+      return Arrival::stale;
+    }
+    auto& slot = slots_[frame.first % slots];
+    if (slot.used && slot.frame.epoch == frame.epoch && slot.frame.first == frame.first)
+      return same(slot.frame, frame) ? Arrival::duplicate : Arrival::differs;
+    if (frame.starts &&
+        (frame.epoch > start_epoch_ || (frame.epoch == start_epoch_ && frame.first > start_first_))) {
+      start_epoch_ = frame.epoch;
+      start_first_ = frame.first;
+    }
+    if (frame.epoch > newest_epoch_ || frame.first > newest_) {
+      newest_epoch_ = frame.epoch;
+      newest_ = frame.first;
+    }
+    std::swap(slot.frame, frame);
+    slot.used = true;
+    return Arrival::news;
+  }
+
+  /// A start that has arrived and lies ahead moves the window there: what was before it is over.
+  bool jump_to_start() {
+    if (start_epoch_ < epoch_ || (start_epoch_ == epoch_ && start_first_ < next_) || start_epoch_ == 0)
+      return false;
+    if (start_epoch_ == epoch_ && start_first_ == next_ && has_next()) {
+      start_taken();
+      return true;
+    }
+    epoch_ = start_epoch_;
+    next_ = start_first_;
+    start_taken();
+    return true;
+  }
+
+  /// Goes on at `cycle` of `epoch`, for a process that has just begun.
+  void set_next(std::uint32_t epoch, std::uint64_t cycle) {
+    epoch_ = epoch;
+    next_ = cycle;
+  }
+
+  /// The frame that begins at next(), or null.
+  const Frame* peek() const {
+    const auto& slot = slots_[next_ % slots];
+    return slot.used && slot.frame.epoch == epoch_ && slot.frame.first == next_ ? &slot.frame : nullptr;
+  }
+  /// Any frame held, by its first cycle.
+  const Frame* find(std::uint64_t first) const {
+    const auto& slot = slots_[first % slots];
+    return slot.used && slot.frame.epoch == epoch_ && slot.frame.first == first ? &slot.frame : nullptr;
+  }
+  void advance() {
+    if (const auto* frame = peek()) next_ = frame->first + frame->count;
+  }
+  std::uint64_t next() const { return next_; }
+  std::uint32_t epoch() const { return epoch_; }
+  bool has_next() const { return peek() != nullptr; }
+  /// A later frame is here while the next is missing.
+  bool gap() const { return newest_epoch_ == epoch_ && newest_ > next_ && !has_next(); }
+
+ private:
+  struct Slot {
+    Frame frame;
+    bool used = false;
+  };
+  static bool same(const Frame& a, const Frame& b) {
+    return a.first == b.first && a.count == b.count && a.revision == b.revision &&
+           a.setpoints == b.setpoints && a.states == b.states;
+  }
+  void start_taken() { start_epoch_ = 0, start_first_ = 0; }
+
+  std::vector<Slot> slots_;
+  std::uint32_t epoch_ = 0, newest_epoch_ = 0, start_epoch_ = 0;
+  std::uint64_t next_ = 0, newest_ = 0, start_first_ = 0;
+};
+
+}  // namespace trunnion::stream

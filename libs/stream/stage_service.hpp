@@ -1,0 +1,222 @@
+// The shell of kinematics, compensation and gantry: frames in, frames out, joining, restarting, revisions.
+#pragma once
+
+#include <functional>
+#include <map>
+
+#include "node/node.hpp"
+#include "node/parameter_client.hpp"
+#include "stream/frame_window.hpp"
+#include "stream/stage_core.hpp"
+
+namespace trunnion::stream {
+
+/// How many frames a writer of the stream must keep: twice the lead, in frames, and a few, for every channel.
+inline int stream_depth(int lead, int frame_cycles, int channels) {
+  return (2 * lead / std::max(1, frame_cycles) + 6) * std::max(1, channels);
+}
+
+template <class In>
+class StageService : public node::Service {
+ public:
+  using MakeCore = std::function<std::unique_ptr<StageCore<In>>()>;
+
+  StageService(node::Node& node, std::uint8_t stage, const bus::Topic<In>& in,
+               const bus::Topic<idl::stream::AxisFrame>& out, MakeCore make_core)
+      : node_(node),
+        parameters_(node.bus()),
+        stage_(stage),
+        in_topic_(in),
+        out_topic_(out),
+        make_core_(std::move(make_core)),
+        progress_writer_(node.bus().writer(topics::stage_progress)) {}
+
+  void pump() override {
+    parameters_.poll();
+    if (!reader_) {
+      if (!parameters_.newest()) return;
+      start();
+    }
+    idl::stream::FeedbackFrame feedback;
+    while (feedback_reader_->take(feedback)) {
+      feedback_.put(feedback);
+      std::swap(newest_feedback_, feedback);
+      have_feedback_ = true;
+      on_feedback(newest_feedback_);
+    }
+    while (reader_->take(frame_)) {
+      ++frames_in_;
+      const auto channel = frame_.channel;
+      const auto first = frame_.first;
+      if (lane(channel).window.put(frame_) == Arrival::differs)
+        node_.alarms().raise("copies_differ", channel,
+                             "Copies of the stage before " + node_.options().service + " differ at cycle " +
+                                 std::to_string(first),
+                             first);
+    }
+    for (auto& [channel, lane] : lanes_) run(channel, lane);
+    if (const double now = node::monotonic_seconds(); now - last_progress_ > 0.1) {
+      last_progress_ = now;
+      for (const auto& [channel, lane] : lanes_)
+        progress_writer_.write(
+            {stage_, static_cast<std::uint8_t>(node_.options().copy), lane.in_step, lane.window.next()});
+    }
+  }
+  double period() const override { return 0.02; }
+
+  node::Health health() const override {
+    using idl::service::Lifecycle;
+    node::Health health;
+    health.lifecycle =
+        reader_ ? (have_feedback_ ? Lifecycle::ACTIVE : Lifecycle::INACTIVE) : Lifecycle::UNCONFIGURED;
+    health.detail = !fault_.empty()   ? fault_
+                    : !reader_        ? "waiting for parameters"
+                    : !have_feedback_ ? "waiting for the drive"
+                                      : "";
+    if (!fault_.empty()) health.lifecycle = Lifecycle::FAULT;
+    health.frames_in = frames_in_;
+    health.frames_out = frames_out_;
+    health.frames_lost = frames_lost_;
+    health.revision = parameters_.newest() ? parameters_.newest()->revision : 0;
+    for (const auto& [channel, lane] : lanes_) health.in_step = health.in_step && lane.in_step;
+    return health;
+  }
+
+ protected:
+  /// For supervision that does not belong to a setpoint.
+  virtual void on_feedback(const idl::stream::FeedbackFrame&) {}
+  node::Node& node_;
+  node::ParameterClient parameters_;
+
+ private:
+  struct Lane {
+    FrameWindow<In> window;
+    std::unique_ptr<StageCore<In>> core;
+    std::uint64_t revision = 0;
+    bool in_step = false;
+    double gap_since = 0;
+  };
+
+  void start() {
+    const auto& p = *parameters_.newest();
+    const int frame =
+        p.integer(node_.options().virtual_time ? "frame_cycles_virtual_time" : "frame_cycles_real_time");
+    node_.bus().set_depth(
+        {stream_depth(p.integer("stream_lead"), frame, static_cast<int>(node_.options().machine.channels))});
+    writer_.emplace(node_.bus().writer(out_topic_));
+    feedback_reader_.emplace(node_.bus().reader(topics::feedback_frame));
+    reader_.emplace(node_.bus().reader(in_topic_));
+  }
+
+  Lane& lane(std::uint16_t channel) {
+    auto& result = lanes_[channel];
+    if (!result.core) result.core = make_core_();
+    return result;
+  }
+
+  const idl::stream::ChannelEcho* echo(std::uint16_t channel) const {
+    for (const auto& echo : newest_feedback_.channels)
+      if (echo.channel == channel) return &echo;
+    return nullptr;
+  }
+
+  // A process that has just begun, or has fallen behind, goes on from the consistent cut in the drive's
+  // feedback as soon as it holds the input that follows it.
+  void join(std::uint16_t channel, Lane& lane) {
+    const auto* cut = echo(channel);
+    if (cut == nullptr) return;
+    if (!cut->active) return;
+    const auto* state = find_state(cut->states, stage_);
+    if (state == nullptr) return;
+    lane.window.set_next(cut->epoch, state->cycle + 1);
+    if (!lane.window.has_next()) return;
+    lane.core->load(state->values);
+    lane.revision = 0;
+    lane.in_step = true;
+  }
+
+  bool use_revision(std::uint16_t channel, Lane& lane, std::uint64_t revision) {
+    if (lane.revision == revision) return true;
+    const auto parameters = parameters_.find(revision);
+    if (!parameters) {
+      const double now = node::monotonic_seconds();
+      if (unknown_since_ == 0) unknown_since_ = now;
+      if (now - unknown_since_ > 1)
+        node_.alarms().raise("revision_unknown", channel,
+                             "Frames are made with parameter revision " + std::to_string(revision) +
+                                 ", which has not arrived");
+      return false;
+    }
+    unknown_since_ = 0;
+    node_.alarms().clear("revision_unknown", channel);
+    StateValues state;
+    lane.core->save(state);
+    try {
+      lane.core->configure(*parameters, channel);
+      fault_.clear();
+    } catch (const std::exception& e) {
+      fault_ = e.what();
+      node_.alarms().raise("kinematics_invalid", channel, e.what());
+      return false;
+    }
+    lane.core->load(state);
+    lane.revision = revision;
+    return true;
+  }
+
+  void run(std::uint16_t channel, Lane& lane) {
+    if (lane.window.jump_to_start()) lane.in_step = true;
+    if (!lane.in_step) join(channel, lane);
+    if (!lane.in_step) return;
+    while (const In* in = lane.window.peek()) {
+      if (!use_revision(channel, lane, in->revision)) return;
+      if (in->starts)
+        if (const auto* state = find_state(in->states, stage_)) lane.core->load(state->values);
+      if (!lane.core->process(*in, feedback_, out_)) break;
+      out_.channel = in->channel, out_.stage = stage_,
+      out_.copy = static_cast<std::uint8_t>(node_.options().copy);
+      out_.epoch = in->epoch, out_.first = in->first, out_.count = in->count, out_.revision = in->revision;
+      out_.starts = in->starts, out_.ends = in->ends;
+      out_.lines = in->lines;
+      out_.states = in->states;
+      auto& own = state_of(out_.states, stage_);
+      own.cycle = in->first + in->count - 1;
+      lane.core->save(own.values);
+      writer_->write(out_);
+      ++frames_out_;
+      lane.window.advance();
+      lane.gap_since = 0;
+      lane.window.jump_to_start();
+    }
+    // The next frame is missing while later ones are here: it will not come any more, so go on from the cut.
+    if (lane.window.gap()) {
+      const double now = node::monotonic_seconds();
+      if (lane.gap_since == 0) lane.gap_since = now;
+      if (now - lane.gap_since > 0.02) {
+        ++frames_lost_;
+        lane.in_step = false;
+        lane.gap_since = 0;
+      }
+    }
+  }
+
+  std::uint8_t stage_;
+  bus::Topic<In> in_topic_;
+  bus::Topic<idl::stream::AxisFrame> out_topic_;
+  MakeCore make_core_;
+  std::optional<bus::Reader<In>> reader_;
+  std::optional<bus::Reader<idl::stream::FeedbackFrame>> feedback_reader_;
+  std::optional<bus::Writer<idl::stream::AxisFrame>> writer_;
+  bus::Writer<idl::stream::StageProgress> progress_writer_;
+  std::map<std::uint16_t, Lane> lanes_;
+  FeedbackWindow feedback_;
+  In frame_;
+  idl::stream::AxisFrame out_;
+  idl::stream::FeedbackFrame newest_feedback_;
+  bool have_feedback_ = false;
+  std::uint64_t frames_in_ = 0, frames_out_ = 0, frames_lost_ = 0;
+  double unknown_since_ = 0, last_progress_ = 0;
+  std::string fault_;
+};
+
+}  // namespace trunnion::stream

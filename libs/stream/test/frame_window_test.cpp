@@ -1,0 +1,102 @@
+#include "stream/frame_window.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+
+#include "contracts/types.hpp"
+#include "stream/feedback_window.hpp"
+
+namespace trunnion::stream {
+namespace {
+
+using idl::stream::AxisFrame;
+
+AxisFrame frame(std::uint64_t first, std::uint32_t count, std::uint32_t epoch = 1, bool starts = false) {
+  AxisFrame f;
+  f.epoch = epoch, f.first = first, f.count = count, f.starts = starts;
+  f.setpoints.assign(count, static_cast<double>(first));
+  return f;
+}
+
+Arrival put(FrameWindow<AxisFrame>& window, AxisFrame f) { return window.put(f); }
+
+std::vector<std::uint64_t> drain(FrameWindow<AxisFrame>& window) {
+  std::vector<std::uint64_t> taken;
+  window.jump_to_start();
+  while (const auto* f = window.peek()) {
+    taken.push_back(f->first);
+    window.advance();
+    window.jump_to_start();
+  }
+  return taken;
+}
+
+TEST(FrameWindow, NothingIsTakenBeforeAStart) {
+  FrameWindow<AxisFrame> window;
+  put(window, frame(8, 8));
+  EXPECT_TRUE(drain(window).empty());
+}
+
+TEST(FrameWindow, TwoCopiesInAnyOrderGiveEachFrameOnce) {
+  // Property over 200 seeded shufflings of two copies of 30 frames in which each copy keeps its own order.
+  for (unsigned seed = 0; seed < 200; ++seed) {
+    std::mt19937 random(seed);
+    FrameWindow<AxisFrame> window;
+    std::vector<std::uint64_t> taken;
+    int at[2] = {0, 0};
+    while (at[0] < 30 || at[1] < 30) {
+      const int copy = at[0] == 30 ? 1 : at[1] == 30 ? 0 : static_cast<int>(random() % 2);
+      put(window, frame(100 + 8 * static_cast<std::uint64_t>(at[copy]), 8, 1, at[copy] == 0));
+      ++at[copy];
+      for (const auto first : drain(window)) taken.push_back(first);
+    }
+    ASSERT_EQ(taken.size(), 30u);
+    for (std::size_t i = 0; i < 30; ++i) EXPECT_EQ(taken[i], 100 + 8 * i);
+  }
+}
+
+TEST(FrameWindow, ACopyThatComputesOtherwiseIsSeenEvenAfterTheFrameWasTaken) {
+  FrameWindow<AxisFrame> window;
+  put(window, frame(0, 8, 1, true));
+  EXPECT_EQ(drain(window).size(), 1u);
+  EXPECT_EQ(put(window, frame(0, 8, 1, true)), Arrival::duplicate);
+  auto other = frame(0, 8, 1, true);
+  other.setpoints[3] = std::nextafter(other.setpoints[3], 1.0);
+  EXPECT_EQ(put(window, other), Arrival::differs);
+}
+
+TEST(FrameWindow, ANewEpochDropsWhatIsLeftOfTheOld) {
+  FrameWindow<AxisFrame> window;
+  put(window, frame(0, 8, 1, true));
+  put(window, frame(8, 8, 1));
+  put(window, frame(5, 8, 2, true));
+  EXPECT_EQ(drain(window), std::vector<std::uint64_t>{5});
+  EXPECT_EQ(put(window, frame(16, 8, 1)), Arrival::stale);
+}
+
+TEST(FrameWindow, AMissingFrameIsAGapOnceALaterOneIsHere) {
+  FrameWindow<AxisFrame> window;
+  put(window, frame(0, 8, 1, true));
+  drain(window);
+  EXPECT_FALSE(window.gap());
+  put(window, frame(16, 8, 1));
+  EXPECT_TRUE(window.gap());
+  put(window, frame(8, 8, 1));
+  EXPECT_EQ(drain(window), (std::vector<std::uint64_t>{8, 16}));
+}
+
+TEST(FeedbackWindow, RowsAreFoundByTheirCycleOnly) {
+  FeedbackWindow window;
+  idl::stream::FeedbackFrame f;
+  f.first = 40, f.count = 2, f.axis_count = 2;
+  f.actual = {1, 2, 3, 4};
+  window.put(f);
+  EXPECT_EQ(window.actual(39), nullptr);
+  EXPECT_EQ(window.actual(41)[1], 4);
+  EXPECT_EQ(window.actual(40 + FeedbackWindow::rows), nullptr);
+}
+
+}  // namespace
+}  // namespace trunnion::stream

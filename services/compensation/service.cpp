@@ -1,0 +1,9 @@
+#include "service.hpp"
+
+namespace trunnion::compensation {
+
+CompensationService::CompensationService(node::Node& node)
+    : StageService(node, stream::stage_compensation, topics::kinematics_frame, topics::compensation_frame,
+                   [] { return std::make_unique<CompensationCore>(); }) {}
+
+}  // namespace trunnion::compensation

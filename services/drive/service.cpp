@@ -1,0 +1,185 @@
+#include "service.hpp"
+
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <stdexcept>
+
+#include "stream/stage_service.hpp"
+
+namespace trunnion::drive {
+namespace {
+constexpr double patience = 0.25;      // s of wall time that virtual time waits for a missing setpoint
+constexpr double plc_patience = 1.5;   // s without a sign of the PLC until the drive stops
+constexpr double idle_feedback = 0.1;  // s between two feedback frames while nothing moves
+}  // namespace
+
+EncoderMemory::EncoderMemory(const std::string& path) {
+  const int file = open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
+  if (file < 0 || ftruncate(file, sizeof(Memory)) != 0) {
+    if (file >= 0) close(file);
+    throw std::runtime_error(path + ": cannot be opened for writing");
+  }
+  void* address = mmap(nullptr, sizeof(Memory), PROT_READ | PROT_WRITE, MAP_SHARED, file, 0);
+  close(file);
+  if (address == MAP_FAILED) throw std::runtime_error(path + ": cannot be mapped");
+  memory_ = static_cast<Memory*>(address);
+}
+
+EncoderMemory::~EncoderMemory() { munmap(memory_, sizeof(Memory)); }
+
+DriveService::DriveService(node::Node& node)
+    : node_(node), parameters_(node.bus()), memory_(node.options().state_directory + "/encoders.bin") {}
+
+void DriveService::start() {
+  const auto& p = *parameters_.newest();
+  core_.configure(p, node_.options().virtual_time);
+  revision_ = p.revision;
+  core_.restore(*memory_.get());
+  frame_cycles_ = static_cast<std::uint32_t>(
+      p.integer(node_.options().virtual_time ? "frame_cycles_virtual_time" : "frame_cycles_real_time"));
+  node_.bus().set_depth({stream::stream_depth(p.integer("stream_lead"), static_cast<int>(frame_cycles_), 1)});
+  writer_.emplace(node_.bus().writer(topics::feedback_frame));
+  outputs_.emplace(node_.bus().reader(topics::plc_outputs));
+  services_.emplace(node_.bus().reader(topics::service_state));
+  requests_.emplace(node_.bus().reader(topics::stream_request));
+  frames_.emplace(node_.bus().reader(topics::gantry_frame));
+  next_tick_ = node::monotonic_seconds();
+  send();
+}
+
+void DriveService::drain() {
+  if (parameters_.poll() && core_.configured() && !core_.any_active()) {
+    core_.configure(*parameters_.newest(), node_.options().virtual_time);
+    revision_ = parameters_.newest()->revision;
+  }
+  const double now = node::monotonic_seconds();
+  while (frames_->take(frame_)) {
+    ++frames_in_;
+    // The revision of the frames that move it is the one the drive runs with.
+    if (frame_.revision != revision_) {
+      if (const auto p = parameters_.find(frame_.revision)) {
+        core_.configure(*p, node_.options().virtual_time);
+        revision_ = p->revision;
+      } else {
+        node_.alarms().raise("revision_unknown", frame_.channel,
+                             "Frames are made with parameter revision " + std::to_string(frame_.revision) +
+                                 ", which has not arrived",
+                             frame_.first);
+        continue;
+      }
+    }
+    const auto channel = frame_.channel;
+    const auto first = frame_.first;
+    if (!core_.put(frame_))
+      node_.alarms().raise("copies_differ", channel,
+                           "Copies of the gantry stage differ at cycle " + std::to_string(first), first);
+  }
+  idl::stream::StreamRequest request;
+  while (requests_->take(request)) {
+    core_.request(request);
+    changed_ = true;
+  }
+  while (outputs_->take(plc_)) {
+    have_plc_ = true;
+    plc_seen_ = now;
+    core_.set_enables(plc_.axis_enable, plc_.emergency_stop);
+    core_.set_spindle_speed(plc_.spindle_speed);
+    changed_ = true;
+  }
+  idl::service::ServiceState state;
+  while (services_->take(state))
+    if (state.service == "plc") plc_seen_ = now;
+  // An emergency stop is also the drive's own reaction to the silence of the one who could order it.
+  if (have_plc_ && now - plc_seen_ > plc_patience) {
+    node_.alarms().raise("plc_absent", 0, "No sign of the PLC for " + std::to_string(plc_patience) + " s",
+                         core_.next());
+    core_.set_enables({}, true);
+    have_plc_ = false;
+    changed_ = true;
+  } else if (have_plc_) {
+    node_.alarms().release("plc_absent", 0);
+  }
+}
+
+void DriveService::send() {
+  core_.fill(feedback_);
+  writer_->write(feedback_);
+  ++frames_out_;
+  *memory_.get() = core_.memory();
+  last_sent_ = node::monotonic_seconds();
+  changed_ = false;
+}
+
+void DriveService::run_virtual() {
+  bool give_up = false;
+  if (core_.waiting()) {
+    const double now = node::monotonic_seconds();
+    if (waiting_since_ == 0) waiting_since_ = now;
+    give_up = now - waiting_since_ > patience;
+  } else {
+    waiting_since_ = 0;
+  }
+  while (core_.can_step(give_up)) {
+    core_.step();
+    waiting_since_ = 0;
+    if (core_.pending_rows() >= frame_cycles_) send();
+    if (core_.tick() % 256 == 0)
+      drain();  // an emergency stop is not kept waiting by a long way back to the path
+  }
+  // Nobody moves: time goes on as far as the PLC asked for its timers and the spindle.
+  while (!core_.any_active() && have_plc_ && core_.tick() < plc_.run_until_tick) {
+    core_.step();
+    changed_ = true;
+  }
+  if (core_.pending_rows() > 0) send();
+}
+
+void DriveService::run_real() {
+  const double now = node::monotonic_seconds();
+  if (now - next_tick_ > 0.5) next_tick_ = now;  // suspended: time that nobody lived through is not made up
+  while (next_tick_ <= now) {
+    core_.step();
+    next_tick_ += core_.period();
+    if (core_.pending_rows() >= frame_cycles_) send();
+  }
+}
+
+void DriveService::pump() {
+  if (!core_.configured()) {
+    if (parameters_.poll() || parameters_.newest()) start();
+    return;
+  }
+  drain();
+  const auto mode = core_.mode();
+  if (node_.options().virtual_time)
+    run_virtual();
+  else
+    run_real();
+  for (const auto& event : core_.take_events()) {
+    node_.alarms().raise(event.alarm, event.part, event.text, core_.next());
+    node_.alarms().release(event.alarm, event.part);
+  }
+  if (changed_ || mode != core_.mode() || node::monotonic_seconds() - last_sent_ > idle_feedback) send();
+}
+
+double DriveService::period() const {
+  if (!core_.configured() || node_.options().virtual_time) return 0.02;
+  return std::max(0.0, next_tick_ - node::monotonic_seconds());
+}
+
+node::Health DriveService::health() const {
+  using idl::service::Lifecycle;
+  node::Health health;
+  health.lifecycle = !core_.configured() ? Lifecycle::UNCONFIGURED
+                     : have_plc_         ? Lifecycle::ACTIVE
+                                         : Lifecycle::INACTIVE;
+  health.detail = !core_.configured() ? "waiting for parameters" : !have_plc_ ? "waiting for the PLC" : "";
+  health.frames_in = frames_in_;
+  health.frames_out = frames_out_;
+  health.revision = revision_;
+  return health;
+}
+
+}  // namespace trunnion::drive

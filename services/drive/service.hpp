@@ -1,0 +1,59 @@
+#pragma once
+
+#include <optional>
+
+#include "node/node.hpp"
+#include "node/parameter_client.hpp"
+#include "src/drive_core.hpp"
+
+namespace trunnion::drive {
+
+/// A memory-mapped file: what is written survives kill -9 of the process, as an absolute encoder would.
+class EncoderMemory {
+ public:
+  explicit EncoderMemory(const std::string& path);
+  ~EncoderMemory();
+  EncoderMemory(const EncoderMemory&) = delete;
+  EncoderMemory& operator=(const EncoderMemory&) = delete;
+  Memory* get() { return memory_; }
+
+ private:
+  Memory* memory_ = nullptr;
+};
+
+class DriveService : public node::Service {
+ public:
+  explicit DriveService(node::Node& node);
+  void pump() override;
+  double period() const override;
+  node::Health health() const override;
+  void alarms_reset() override { core_.acknowledge(); }
+
+ private:
+  void start();
+  void drain();
+  void run_virtual();
+  void run_real();
+  void send();
+
+  node::Node& node_;
+  node::ParameterClient parameters_;
+  EncoderMemory memory_;
+  DriveCore core_;
+  std::optional<bus::Reader<idl::stream::AxisFrame>> frames_;
+  std::optional<bus::Reader<idl::stream::StreamRequest>> requests_;
+  std::optional<bus::Reader<idl::plc::Outputs>> outputs_;
+  std::optional<bus::Reader<idl::service::ServiceState>> services_;
+  std::optional<bus::Writer<idl::stream::FeedbackFrame>> writer_;
+  idl::stream::AxisFrame frame_;
+  idl::stream::FeedbackFrame feedback_;
+  idl::plc::Outputs plc_;
+  bool have_plc_ = false;
+  double plc_seen_ = 0;
+  std::uint64_t frames_in_ = 0, frames_out_ = 0, revision_ = 0;
+  std::uint32_t frame_cycles_ = 4;
+  double next_tick_ = 0, waiting_since_ = 0, last_sent_ = 0;
+  bool changed_ = false;
+};
+
+}  // namespace trunnion::drive

@@ -1,0 +1,523 @@
+#include "drive_core.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+namespace trunnion::drive {
+namespace {
+constexpr double on_path = 1e-6;         // mm or deg: below this the axes need not be moved back to the path
+constexpr std::uint32_t settling = 250;  // periods after motion in virtual time, until the servos stand still
+constexpr std::uint64_t forever = std::numeric_limits<std::uint64_t>::max();
+}  // namespace
+
+void DriveCore::configure(const machine::Parameters& p, bool virtual_time) {
+  const bool first = axes_.empty();
+  virtual_time_ = virtual_time;
+  revision_ = p.revision;
+  dt_ = p.get("interpolation_cycle") * 1e-6;
+  lead_ = static_cast<std::uint64_t>(p.integer("stream_lead"));
+  if (first) {
+    axes_ = machine::drive_axes(p);
+    const std::size_t n = axes_.size();
+    servos_.resize(n);
+    for (auto* v : {&command_, &target_, &velocity_, &scratch_, &return_from_, &return_to_})
+      v->assign(n, 0.0);
+    reported_.assign(n, false);
+    for (std::size_t i = 0; i < n; ++i) {
+      command_[i] = target_[i] = p.get("reference_coordinate", axes_[i].number);
+      servos_[i].place(command_[i]);
+    }
+    for (std::uint16_t c = 0; c < 10; ++c)
+      if (!machine::channel_axes(p, c).number.empty()) channels_[c];
+  }
+  limits_.resize(axes_.size());
+  for (std::size_t i = 0; i < axes_.size(); ++i) {
+    const auto a = axes_[i].number;
+    limits_[i] = {std::max(p.get("rapid_feed", a), p.get("maximum_feed", a)) / 60,
+                  p.get("maximum_acceleration", a), p.get("positive_limit", a), p.get("negative_limit", a),
+                  p.get("following_error_limit", a)};
+    servos_[i].configure(ServoParameters::from(p, a));
+  }
+  spindle_step_.clear();
+  for (const auto& spindle : machine::spindles(p))  // deg/s2 to 1/min per period
+    spindle_step_.push_back(p.get("maximum_acceleration", spindle.number) / 6 * dt_);
+  spindle_speed_.resize(spindle_step_.size(), 0.0);
+  spindle_command_.resize(spindle_step_.size(), 0.0);
+}
+
+void DriveCore::restore(const Memory& memory) {
+  if (memory.magic != Memory::magic_value || memory.axes != axes_.size()) return;
+  next_ = memory.next;
+  tick_ = memory.tick;
+  for (auto& [number, channel] : channels_) channel.epoch = memory.epoch;
+  for (std::size_t i = 0; i < axes_.size(); ++i) {
+    command_[i] = target_[i] = memory.position[i];
+    servos_[i].place(memory.position[i]);
+  }
+}
+
+Memory DriveCore::memory() const {
+  Memory memory;
+  memory.magic = Memory::magic_value;
+  memory.axes = static_cast<std::uint32_t>(axes_.size());
+  memory.next = next_;
+  memory.tick = tick_;
+  for (const auto& [number, channel] : channels_) memory.epoch = std::max(memory.epoch, channel.epoch);
+  for (std::size_t i = 0; i < axes_.size(); ++i) memory.position[i] = servos_[i].encoder();
+  return memory;
+}
+
+bool DriveCore::put(idl::stream::AxisFrame& frame) {
+  return channels_[frame.channel].window.put(frame) != stream::Arrival::differs;
+}
+
+bool DriveCore::any_active() const {
+  return std::any_of(channels_.begin(), channels_.end(), [](const auto& c) { return c.second.active; });
+}
+
+void DriveCore::leave(Channel& channel) {
+  channel.active = false;
+  if (any_active()) return;
+  if (mode_ == Mode::held || mode_ == Mode::returning) mode_ = Mode::following;
+  target_ = command_;
+  std::fill(velocity_.begin(), velocity_.end(), 0.0);
+  rate_ = 1, phase_ = 0, reserve_ = 0;
+  off_path_ = resume_ = false;
+}
+
+void DriveCore::request(const idl::stream::StreamRequest& request) {
+  auto& channel = channels_[request.channel];
+  if (request.request == channel.request && request.epoch == channel.epoch) return;
+  channel.request = request.request;
+  switch (request.kind) {
+    case 1:
+    case 3: {
+      leave(channel);
+      channel.epoch = request.epoch;
+      channel.active = mode_ != Mode::off && mode_ != Mode::braking;
+      channel.prefilled = false;
+      channel.start = next_ + (std::count_if(channels_.begin(), channels_.end(),
+                                             [](const auto& c) { return c.second.active; }) > 1
+                                   ? lead_
+                                   : 0);
+      channel.window.set_next(channel.epoch, channel.start);
+      break;
+    }
+    case 2:
+      resume_ = mode_ == Mode::held;
+      break;
+    case 4:
+      leave(channel);
+      break;
+    default:
+      break;
+  }
+}
+
+void DriveCore::set_enables(const std::vector<std::uint8_t>& enable, bool emergency_stop) {
+  bool all = !axes_.empty();
+  for (const auto& axis : axes_) all = all && axis.number < enable.size() && enable[axis.number] != 0;
+  const bool on = all && !emergency_stop;
+  emergency_stop_ = emergency_stop;
+  enabled_ = on;
+  if (on && mode_ == Mode::off) {
+    mode_ = any_active() ? Mode::held : Mode::following;
+    rate_ = any_active() ? 0 : 1;
+  } else if (!on && mode_ != Mode::off) {
+    if (mode_ == Mode::held || (mode_ == Mode::following && !any_active()))
+      mode_ = Mode::off;
+    else if (mode_ != Mode::braking)
+      begin_braking();
+  }
+}
+
+const double* DriveCore::row(const Channel& channel, std::uint64_t cycle) const {
+  for (const auto* frame = channel.window.peek(); frame != nullptr;
+       frame = channel.window.find(frame->first + frame->count))
+    if (cycle >= frame->first && cycle < frame->first + frame->count)
+      return &frame->setpoints[(cycle - frame->first) * frame->axes.size()];
+  return nullptr;
+}
+
+DriveCore::Supply DriveCore::supply() const {
+  std::uint64_t until = forever, last = next_;
+  bool ends = true;
+  for (const auto& [number, channel] : channels_) {
+    if (!channel.active) continue;
+    std::uint64_t end = std::max(channel.window.next(), next_);
+    bool ended = false;
+    for (const auto* frame = channel.window.peek(); frame != nullptr && !ended && end < next_ + 4 * lead_;
+         frame = channel.window.find(frame->first + frame->count)) {
+      end = frame->first + frame->count;
+      ended = frame->ends;
+    }
+    last = std::max(last, end);
+    if (!ended) {
+      ends = false;
+      until = std::min(until, end);
+    }
+  }
+  return {(ends ? last : until) - next_, ends};
+}
+
+// Setpoints of every axis at `cycle`; axes no channel moves then keep the point of the path they are at.
+void DriveCore::target_of(std::uint64_t cycle, std::vector<double>& out) {
+  out = target_;
+  for (auto& [number, channel] : channels_) {
+    if (!channel.active) continue;
+    const double* values = row(channel, cycle);
+    if (values == nullptr) continue;
+    const auto* frame = channel.window.peek();
+    if (channel.axes != frame->axes) {
+      channel.axes = frame->axes;
+      channel.columns.clear();
+      for (const auto axis : channel.axes) channel.columns.push_back(machine::column_of(axes_, axis));
+    }
+    for (std::size_t i = 0; i < channel.columns.size(); ++i)
+      if (channel.columns[i] >= 0) out[static_cast<std::size_t>(channel.columns[i])] = values[i];
+  }
+}
+
+// Periods it takes to stop from the fastest speed of the next `cycles` cycles with every axis within its
+// acceleration.
+double DriveCore::stop_periods(std::uint64_t cycles) {
+  double periods = 0;
+  auto before = target_;
+  for (std::uint64_t c = next_; c < next_ + cycles; ++c) {
+    target_of(c, scratch_);
+    for (std::size_t i = 0; i < axes_.size(); ++i)
+      periods = std::max(periods, std::abs(scratch_[i] - before[i]) / (limits_[i].acceleration * dt_ * dt_));
+    before = scratch_;
+  }
+  return periods;
+}
+
+bool DriveCore::enough(const Supply& s) const { return s.cycles > 0 && (s.ends || s.cycles > reserve_); }
+
+bool DriveCore::prefilled(const Supply& s) const { return s.ends || s.cycles * 4 >= lead_ * 3 - 4; }
+
+bool DriveCore::waiting() const { return mode_ == Mode::following && any_active() && !enough(supply()); }
+
+bool DriveCore::can_step(bool give_up) const {
+  switch (mode_) {
+    case Mode::braking:
+    case Mode::returning:
+      return true;
+    case Mode::held:
+      return resume_ && prefilled(supply());
+    case Mode::off:
+      return false;
+    case Mode::following:
+      break;
+  }
+  if (!any_active()) return settle_ > 0;
+  const auto s = supply();
+  return enough(s) || (give_up && reserve_ > 0);
+}
+
+void DriveCore::step() {
+  ++tick_;
+  for (std::size_t i = 0; i < spindle_speed_.size(); ++i) {
+    const double wanted = i < spindle_command_.size() && mode_ != Mode::off ? spindle_command_[i] : 0;
+    spindle_speed_[i] += std::clamp(wanted - spindle_speed_[i], -spindle_step_[i], spindle_step_[i]);
+  }
+  switch (mode_) {
+    case Mode::off:
+      for (auto& servo : servos_) servo.hold();
+      for (std::size_t i = 0; i < axes_.size(); ++i) command_[i] = servos_[i].command();
+      return;
+    case Mode::held:
+      if (resume_ && prefilled(supply())) resume();
+      break;
+    case Mode::returning:
+      step_return();
+      break;
+    case Mode::braking:
+      brake();
+      break;
+    case Mode::following: {
+      if (!any_active()) {
+        if (settle_ > 0) --settle_;
+        break;
+      }
+      const auto s = supply();
+      bool begun = reserve_ > 0;
+      for (auto& [number, channel] : channels_) {
+        if (channel.active && !channel.prefilled && channel.start <= next_)
+          channel.prefilled = virtual_time_ || prefilled(s);
+        begun = begun || (channel.active && channel.prefilled);
+      }
+      if (!begun) break;
+      if (enough(s)) {
+        follow();
+      } else if (reserve_ > 0) {  // moving: stop within what is at hand
+        ++starved_;
+        char text[160];
+        std::snprintf(text, sizeof text,
+                      "No setpoint for cycle %llu in time; %llu cycles at hand, %llu needed to stop",
+                      static_cast<unsigned long long>(next_ + s.cycles),
+                      static_cast<unsigned long long>(s.cycles), static_cast<unsigned long long>(reserve_));
+        raise("setpoint_missing", 0, text);
+        begin_braking();
+        brake();
+      } else {
+        ++starved_;
+      }
+      break;
+    }
+  }
+  move_axes();
+}
+
+void DriveCore::begin_braking() {
+  const auto s = supply();
+  const double periods = std::max(2.0, stop_periods(std::min(s.cycles, lead_)));
+  rate_step_ = 1 / periods;
+  if (reserve_ == 0 && mode_ == Mode::following && phase_ == 0 && s.cycles == 0) rate_ = 0;  // standing still
+  if (mode_ == Mode::returning) rate_ = 0;
+  mode_ = Mode::braking;
+  resume_ = false;
+}
+
+// The setpoint of the next cycle is passed: it is executed, reported and forgotten. False when it is not
+// here.
+bool DriveCore::pass_cycle() {
+  if (supply().cycles == 0) return false;
+  target_of(next_, scratch_);
+  for (std::size_t i = 0; i < axes_.size(); ++i) {
+    velocity_[i] = scratch_[i] - target_[i];
+    if (std::abs(velocity_[i]) > 1.5 * limits_[i].velocity * dt_ + on_path) {
+      char text[200];
+      std::snprintf(text, sizeof text, "Axis %s would jump by %.6f in cycle %llu; its fastest is %.6f",
+                    axes_[i].name.c_str(), velocity_[i], static_cast<unsigned long long>(next_),
+                    limits_[i].velocity * dt_);
+      raise("setpoint_jump", axes_[i].number, text);
+      rate_ = 0;
+      mode_ = Mode::held;
+      return false;
+    }
+  }
+  target_ = scratch_;
+  if (rows_ == 0) first_row_ = next_;
+  ++rows_;
+  commanded_rows_.insert(commanded_rows_.end(), target_.begin(), target_.end());
+  for (const auto& servo : servos_) actual_rows_.push_back(servo.encoder());
+  for (auto& [number, channel] : channels_) {
+    if (!channel.active) continue;
+    const auto* frame = channel.window.peek();
+    if (frame == nullptr || next_ + 1 != frame->first + frame->count) continue;
+    channel.states = frame->states;
+    const bool ends = frame->ends;
+    channel.window.advance();
+    if (ends) channel.active = false;
+  }
+  ++next_;
+  return true;
+}
+
+void DriveCore::advance(double cycles) {
+  phase_ += cycles;
+  while (phase_ >= 1) {
+    if (!pass_cycle()) {
+      phase_ = 0;
+      break;
+    }
+    phase_ -= 1;
+  }
+  if (mode_ == Mode::held) return;
+  if (phase_ > 0 && supply().cycles > 0) {
+    target_of(next_, scratch_);
+    for (std::size_t i = 0; i < axes_.size(); ++i)
+      command_[i] = target_[i] + phase_ * (scratch_[i] - target_[i]);
+  } else {
+    command_ = target_;
+    if (phase_ > 0 && mode_ == Mode::braking) {  // the last setpoint at hand is passed while still moving
+      for (std::size_t i = 0; i < axes_.size(); ++i) command_[i] += phase_ * velocity_[i];
+      off_path_ = true;
+      phase_ = 0;
+    }
+  }
+}
+
+void DriveCore::follow() {
+  if (rate_ == 1 && phase_ == 0) {  // the ordinary case: one cycle in one period, the setpoint as it is
+    if (std::any_of(channels_.begin(), channels_.end(),
+                    [&](const auto& c) { return c.second.active && c.second.start == next_; })) {
+      target_of(next_, scratch_);
+      for (std::size_t i = 0; i < axes_.size(); ++i)
+        if (std::abs(scratch_[i] - command_[i]) > on_path) {
+          const auto start = scratch_;
+          plan_return(start);
+          return;
+        }
+    }
+    if (!pass_cycle()) return;
+    command_ = target_;
+  } else if (rate_ < 1) {
+    rate_ = std::min(1.0, rate_ + rate_step_);
+    advance(rate_);
+  } else {  // back at full rate: come back to whole cycles over the next ones
+    const double lag = std::min(phase_, 1.0 / 32);
+    advance(1 - lag);
+    if (phase_ < 1e-9) phase_ = 0;
+  }
+  double moving = 0;
+  for (std::size_t i = 0; i < axes_.size(); ++i)
+    moving = std::max(moving, std::abs(velocity_[i]) / (limits_[i].acceleration * dt_ * dt_));
+  reserve_ = std::min<std::uint64_t>(static_cast<std::uint64_t>(std::ceil(moving / 2)), lead_ / 2);
+  if (!any_active()) {
+    settle_ = virtual_time_ ? settling : 0;
+    reserve_ = 0, rate_ = 1, phase_ = 0;
+    std::fill(velocity_.begin(), velocity_.end(), 0.0);
+  }
+}
+
+void DriveCore::brake() {
+  rate_ -= rate_step_;
+  if (rate_ <= 0) {
+    stopped();
+    return;
+  }
+  if (supply().cycles > 0 && !off_path_) {
+    advance(rate_);
+    return;
+  }
+  // Out of setpoints: on along the tangent. The path is left at its last known point.
+  off_path_ = true;
+  phase_ = 0;
+  for (std::size_t i = 0; i < axes_.size(); ++i) command_[i] += rate_ * velocity_[i];
+}
+
+void DriveCore::stopped() {
+  rate_ = 0, reserve_ = 0;
+  if (!enabled_) {
+    mode_ = Mode::off;
+  } else {
+    mode_ = any_active() ? Mode::held : Mode::following;
+    if (!any_active()) rate_ = 1, phase_ = 0;
+  }
+}
+
+void DriveCore::resume() {
+  resume_ = false;
+  bool away = off_path_;
+  for (std::size_t i = 0; i < axes_.size() && phase_ == 0; ++i)
+    away = away || std::abs(command_[i] - target_[i]) > on_path;
+  if (away) {
+    plan_return(target_);
+    return;
+  }
+  rate_ = 0;
+  rate_step_ = 1 / std::max(2.0, stop_periods(std::min(supply().cycles, lead_)));
+  mode_ = Mode::following;
+}
+
+// A move with a quintic profile: its largest speed is 1.875 d/T, its largest acceleration 5.774 d/T^2.
+void DriveCore::plan_return(const std::vector<double>& target) {
+  double seconds = dt_;
+  for (std::size_t i = 0; i < axes_.size(); ++i) {
+    const double d = std::abs(target[i] - command_[i]);
+    seconds =
+        std::max({seconds, 1.875 * d / limits_[i].velocity, std::sqrt(5.774 * d / limits_[i].acceleration)});
+  }
+  return_from_ = command_;
+  return_to_ = target;
+  return_periods_ = static_cast<std::uint32_t>(std::ceil(seconds / dt_));
+  return_done_ = 0;
+  off_path_ = false;
+  mode_ = Mode::returning;
+}
+
+void DriveCore::step_return() {
+  ++return_done_;
+  const double u = static_cast<double>(return_done_) / return_periods_;
+  const double s = u * u * u * (10 + u * (6 * u - 15));
+  for (std::size_t i = 0; i < axes_.size(); ++i)
+    command_[i] = return_from_[i] + s * (return_to_[i] - return_from_[i]);
+  if (return_done_ < return_periods_) return;
+  command_ = return_to_;
+  target_ = return_to_;
+  mode_ = Mode::following;
+  rate_ = phase_ == 0 && rate_ == 1 ? 1 : 0;
+  if (rate_ == 0) rate_step_ = 1 / std::max(2.0, stop_periods(std::min(supply().cycles, lead_)));
+}
+
+void DriveCore::move_axes() {
+  for (std::size_t i = 0; i < axes_.size(); ++i) servos_[i].step(command_[i], dt_);
+  supervise();
+}
+
+void DriveCore::supervise() {
+  for (std::size_t i = 0; i < axes_.size(); ++i) {
+    if (reported_[i]) continue;
+    const auto& l = limits_[i];
+    const double error = command_[i] - servos_[i].encoder();
+    char text[200];
+    if (l.following > 0 && std::abs(error) > l.following) {
+      std::snprintf(text, sizeof text, "Axis %s: following error %.4f, limit %.4f (parameter %s)",
+                    axes_[i].name.c_str(), error, l.following,
+                    machine::number_text(100037 + axes_[i].number * 1000u).c_str());
+      raise("following_error", axes_[i].number, text);
+    } else if (constexpr double margin = 0.5; (command_[i] > l.positive + margin && velocity_[i] > 0) ||
+                                              (command_[i] < l.negative - margin && velocity_[i] < 0)) {
+      std::snprintf(text, sizeof text, "Axis %s at %.4f is beyond its travel %.4f .. %.4f",
+                    axes_[i].name.c_str(), command_[i], l.negative, l.positive);
+      raise("over_travel", axes_[i].number, text);
+    } else {
+      continue;
+    }
+    reported_[i] = true;
+    if (mode_ == Mode::following && any_active()) begin_braking();
+  }
+}
+
+void DriveCore::acknowledge() { std::fill(reported_.begin(), reported_.end(), false); }
+
+void DriveCore::raise(const char* alarm, std::uint32_t part, std::string text) {
+  events_.push_back({alarm, part, std::move(text)});
+}
+
+std::vector<DriveEvent> DriveCore::take_events() { return std::exchange(events_, {}); }
+
+void DriveCore::fill(idl::stream::FeedbackFrame& out) {
+  const std::size_t n = axes_.size();
+  out.first = rows_ > 0 ? first_row_ : next_;
+  out.count = rows_;
+  out.tick = tick_;
+  out.mode = static_cast<std::uint8_t>(mode_);
+  out.revision = revision_;
+  out.axis_count = static_cast<std::uint16_t>(n);
+  std::swap(out.commanded, commanded_rows_);
+  std::swap(out.actual, actual_rows_);
+  commanded_rows_.clear();
+  actual_rows_.clear();
+  rows_ = 0;
+  out.velocity.resize(n);
+  out.torque.resize(n);
+  out.position.resize(n);
+  out.enabled.resize(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    out.velocity[i] = servos_[i].velocity();
+    out.torque[i] = servos_[i].torque();
+    out.position[i] = servos_[i].encoder();
+    out.enabled[i] = mode_ == Mode::off ? 0 : 1;
+  }
+  out.spindle_speed = spindle_speed_;
+  out.starved = starved_;
+  out.channels.resize(channels_.size());
+  std::size_t k = 0;
+  for (const auto& [number, channel] : channels_) {
+    auto& echo = out.channels[k++];
+    echo.channel = number;
+    echo.epoch = channel.epoch;
+    echo.active = channel.active;
+    echo.next = next_;
+    echo.request = channel.request;
+    echo.start = channel.start;
+    echo.states = channel.states;
+  }
+}
+
+}  // namespace trunnion::drive

@@ -1,0 +1,150 @@
+// The end of the stream: executes setpoints cycle by cycle, brakes along the path when one is missing, goes
+// on where it stopped. No clock: the caller says when a period has passed.
+#pragma once
+
+#include <array>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "contracts/types.hpp"
+#include "machine/axes.hpp"
+#include "servo_axis.hpp"
+#include "stream/frame_window.hpp"
+
+namespace trunnion::drive {
+
+enum class Mode : std::uint8_t { following, braking, held, returning, off };
+
+/// What must survive the process: where the axes are and which cycle is next.
+struct Memory {
+  static constexpr std::uint32_t magic_value = 0x54524e31;
+  std::uint32_t magic = 0;
+  std::uint32_t axes = 0;
+  std::uint32_t epoch = 0;  ///< newest of any channel
+  std::uint64_t next = 0, tick = 0;
+  std::array<double, 32> position{};
+};
+
+/// Something the drive wants to tell: the service turns it into an alarm.
+struct DriveEvent {
+  std::string alarm;  ///< name in alarms.yaml
+  std::uint32_t part = 0;
+  std::string text;
+};
+
+class DriveCore {
+ public:
+  void configure(const machine::Parameters& parameters, bool virtual_time);
+  bool configured() const { return !axes_.empty(); }
+  /// Goes on from what an earlier process left. Call after the first configure().
+  void restore(const Memory& memory);
+  Memory memory() const;
+
+  /// A frame of the gantry stage; swapped away. False when a copy differs from what is here.
+  bool put(idl::stream::AxisFrame& frame);
+  void request(const idl::stream::StreamRequest& request);
+  void set_enables(const std::vector<std::uint8_t>& enable, bool emergency_stop);
+  void set_spindle_speed(const std::vector<double>& speed) { spindle_command_ = speed; }
+
+  /// True when a tick would execute, brake, return or settle; false when there is nothing to do but wait.
+  /// `give_up`: the setpoints that are missing have been waited for long enough.
+  bool can_step(bool give_up) const;
+  /// One period. In virtual time call it only when can_step().
+  void step();
+
+  /// Rows executed since the last call and the state now; empty rows when nothing was executed.
+  void fill(idl::stream::FeedbackFrame& out);
+  std::uint32_t pending_rows() const { return rows_; }
+  std::vector<DriveEvent> take_events();
+  /// Alarms about to be reset: supervision may fire again.
+  void acknowledge();
+
+  Mode mode() const { return mode_; }
+  std::uint64_t next() const { return next_; }
+  std::uint64_t tick() const { return tick_; }
+  std::uint64_t starved() const { return starved_; }
+  bool any_active() const;
+  /// A channel owes setpoints that are not here while the axes move or must begin.
+  bool waiting() const;
+  double period() const { return dt_; }
+  std::size_t axes() const { return axes_.size(); }
+  const std::vector<double>& commands() const { return command_; }
+
+ private:
+  struct Limits {
+    double velocity, acceleration, positive, negative, following;
+  };
+  struct Channel {
+    stream::FrameWindow<idl::stream::AxisFrame> window;
+    bool active = false;
+    bool prefilled = false;  // enough has arrived to begin
+    std::uint32_t epoch = 0, request = 0;
+    std::uint64_t start = 0;
+    std::vector<idl::stream::StageState> states;
+    std::vector<std::uint16_t> axes;  // of the frames, and the column of each
+    std::vector<int> columns;
+  };
+  // How far the setpoints at hand reach.
+  struct Supply {
+    std::uint64_t cycles = 0;  // from next_ on, for every channel that owes one
+    bool ends = false;         // nothing is owed after them
+  };
+
+  Supply supply() const;
+  const double* row(const Channel& channel, std::uint64_t cycle) const;
+  void target_of(std::uint64_t cycle, std::vector<double>& out);
+  double stop_periods(std::uint64_t cycles);
+  bool enough(const Supply& supply) const;
+  bool prefilled(const Supply& supply) const;
+  void begin_braking();
+  bool pass_cycle();
+  void advance(double cycles);
+  void follow();
+  void brake();
+  void resume();
+  void step_return();
+  void plan_return(const std::vector<double>& target);
+  void move_axes();
+  void supervise();
+  void stopped();
+  void leave(Channel& channel);
+  void raise(const char* alarm, std::uint32_t part, std::string text);
+
+  double dt_ = 0.001;
+  bool virtual_time_ = false;
+  std::uint64_t lead_ = 32;
+  std::uint64_t revision_ = 0;
+  std::vector<machine::AxisInfo> axes_;
+  std::vector<Limits> limits_;
+  std::vector<ServoAxis> servos_;
+  std::map<std::uint16_t, Channel> channels_;
+
+  Mode mode_ = Mode::off;
+  bool emergency_stop_ = true;
+  bool enabled_ = false;
+  std::uint64_t next_ = 0, tick_ = 0, starved_ = 0;
+  std::vector<double> command_;   // what the servos are told in this period
+  std::vector<double> target_;    // setpoint of cycle next_ - 1: a point of the path
+  std::vector<double> velocity_;  // of the path at target_, per cycle
+  std::vector<double> scratch_;
+
+  // Braking and resuming: `rate_` cycles pass in one period, `phase_` is how far the next cycle has begun.
+  double rate_ = 1, rate_step_ = 0, phase_ = 0;
+  bool off_path_ = false;  // braking went on along the tangent, so the axes are not on the path
+  bool resume_ = false;
+  std::uint64_t reserve_ = 0;  // cycles it takes to stop within the axes' limits
+  std::uint32_t settle_ = 0;   // periods until the servos stand still, in virtual time
+  std::vector<double> return_from_, return_to_;
+  std::uint32_t return_periods_ = 0, return_done_ = 0;
+
+  std::vector<double> spindle_command_, spindle_speed_, spindle_step_;
+
+  std::vector<DriveEvent> events_;
+  std::uint64_t first_row_ = 0;
+  std::uint32_t rows_ = 0;
+  std::vector<double> commanded_rows_, actual_rows_;
+  std::vector<bool> reported_;  // per axis: supervision has fired since the last acknowledge
+};
+
+}  // namespace trunnion::drive

@@ -1,0 +1,68 @@
+#include "servo_axis.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace trunnion::drive {
+
+ServoParameters ServoParameters::from(const machine::Parameters& p, std::uint32_t axis) {
+  ServoParameters s;
+  const double acceleration = p.get("maximum_acceleration", axis);
+  s.position_gain = p.get("position_gain", axis);
+  s.speed_gain = p.get("speed_gain", axis);
+  s.speed_integral_time = p.get("speed_integral_time", axis) / 1000;
+  s.current_time_constant = p.get("current_time_constant", axis) / 1000;
+  s.velocity_feedforward = p.get("velocity_feedforward", axis);
+  s.acceleration_feedforward = p.get("acceleration_feedforward", axis);
+  // The motor is chosen for a load of its own inertia: three times the programmed acceleration at its peak.
+  s.inertia = (1 + p.get("load_inertia_ratio", axis)) / 2;
+  s.rated_torque = 1.5 * acceleration;
+  s.peak_torque = 3 * acceleration;
+  s.coulomb = p.get("coulomb_friction", axis);
+  s.viscous = p.get("viscous_friction", axis);
+  s.rapid = p.get("rapid_feed", axis) / 60;
+  s.resolution = p.get("encoder_resolution", axis) * 1e-6;
+  s.backlash = p.get("mechanical_backlash", axis);
+  return s;
+}
+
+void ServoAxis::place(double position) {
+  command_ = position_ = encoder_ = load_ = position;
+  command_velocity_ = velocity_ = torque_ = integral_ = 0;
+}
+
+void ServoAxis::hold() {
+  command_ = position_;
+  command_velocity_ = velocity_ = torque_ = integral_ = 0;
+}
+
+void ServoAxis::step(double command, double dt) {
+  const double h = dt / substeps;
+  const double command_velocity = (command - command_) / dt;
+  const double command_acceleration = (command_velocity - command_velocity_) / dt;
+  for (int i = 1; i <= substeps; ++i) {
+    const double set = command_ + command_velocity * (i - 0.5) * h;
+    const double speed_set = p_.position_gain * (set - position_) +
+                             p_.velocity_feedforward * (command_velocity_ + command_acceleration * i * h);
+    const double speed_error = speed_set - velocity_;
+    const double wanted =
+        p_.speed_gain * speed_error + integral_ + p_.acceleration_feedforward * command_acceleration;
+    const double limited = std::clamp(wanted, -p_.peak_torque, p_.peak_torque);
+    // The integrator stops while the torque is at its limit, so that it does not wind up.
+    if (p_.speed_integral_time > 0 && wanted == limited)
+      integral_ += p_.speed_gain / p_.speed_integral_time * speed_error * h;
+    torque_ += (limited - torque_) * std::min(1.0, h / p_.current_time_constant);
+    // Coulomb friction is steep rather than a step around standstill, so that the solution does not chatter.
+    constexpr double steep = 0.05;  // mm/s or deg/s
+    const double friction = p_.rated_torque * (p_.coulomb * std::clamp(velocity_ / steep, -1.0, 1.0) +
+                                               p_.viscous * velocity_ / p_.rapid);
+    velocity_ += (torque_ - friction) / p_.inertia * h;
+    position_ += velocity_ * h;
+  }
+  command_ = command;
+  command_velocity_ = command_velocity;
+  load_ = std::clamp(load_, position_ - p_.backlash / 2, position_ + p_.backlash / 2);
+  encoder_ = std::round(position_ / p_.resolution) * p_.resolution;
+}
+
+}  // namespace trunnion::drive

@@ -1,0 +1,198 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "drive_core.hpp"
+
+namespace trunnion::drive {
+namespace {
+
+using idl::stream::AxisFrame;
+
+// Two axes; 1 mm/cycle is the fastest, 4 m/s2 the acceleration: from 0.1 mm/cycle it takes 25 cycles to stop.
+machine::Parameters two_axes() {
+  machine::Parameters p;
+  p.revision = 1;
+  p.values[40001] = {0, ""}, p.values[40002] = {1, ""};
+  for (std::uint32_t a = 0; a < 2; ++a) {
+    p.values[100000 + a * 1000] = {0, a == 0 ? "X" : "Y"};
+    p.values[100034 + a * 1000] = {60000, ""};
+    p.values[100036 + a * 1000] = {4000, ""};
+  }
+  return p;
+}
+
+struct Fixture : testing::Test {
+  DriveCore core;
+  std::vector<double> commanded;  // X of every executed cycle
+  std::uint64_t expected = 0;
+  std::uint32_t epoch = 0, number = 0;
+
+  void SetUp() override {
+    core.configure(two_axes(), true);
+    core.set_enables({1, 1}, false);
+  }
+  void begin(std::uint8_t kind = 1) {
+    core.request({0, ++number, kind, kind == 3 ? ++epoch : std::max(epoch, epoch = std::max(1u, epoch))});
+  }
+  // A ramp from 0 to `speed` mm per cycle within 100 cycles and on.
+  static double path(std::uint64_t n) { return n < 100 ? 0.1 * n * n / 200.0 : 0.1 * (n - 50.0); }
+  void feed(std::uint64_t from, std::uint64_t to, bool end = false) {
+    for (std::uint64_t first = from; first < to; first += 8) {
+      AxisFrame f;
+      f.epoch = epoch, f.first = first, f.count = 8, f.starts = first == 0, f.revision = 1;
+      f.axes = {0, 1};
+      f.ends = end && first + 8 >= to;
+      for (std::uint64_t n = first; n < first + 8; ++n)
+        f.setpoints.insert(f.setpoints.end(), {path(n), 2 * path(n)});
+      f.states = {{2, first + 7, {}}};
+      ASSERT_TRUE(core.put(f));
+    }
+  }
+  void run(bool give_up = false, int most = 100000) {
+    idl::stream::FeedbackFrame f;
+    while (core.can_step(give_up) && most-- > 0) {
+      core.step();
+      core.fill(f);
+      if (f.count == 0) continue;
+      EXPECT_EQ(f.first, expected) << "no cycle lost or reordered";
+      expected = f.first + f.count;
+      for (std::uint32_t i = 0; i < f.count; ++i) commanded.push_back(f.commanded[2 * i]);
+    }
+  }
+};
+
+TEST_F(Fixture, ExecutesEverySetpointBitForBitAndEndsIdle) {
+  begin();
+  feed(0, 400, true);
+  run();
+  ASSERT_EQ(commanded.size(), 400u);
+  for (std::size_t n = 0; n < 400; ++n) EXPECT_EQ(commanded[n], path(n));
+  EXPECT_FALSE(core.any_active());
+  EXPECT_EQ(core.mode(), Mode::following);
+  EXPECT_EQ(core.starved(), 0u);
+}
+
+TEST_F(Fixture, KeepsEnoughSetpointsInHandToStopOnThePath) {
+  begin();
+  feed(0, 400);
+  run();
+  // The faster axis runs at 0.2 mm/cycle = 50 periods to stop = 25 cycles of path, limited to half the
+  // lead, 16.
+  EXPECT_EQ(400 - core.next(), 16u);
+}
+
+TEST_F(Fixture, AMissingSetpointStopsOnThePathAndTheRestIsExecutedUnchangedAfterwards) {
+  begin();
+  feed(0, 160);
+  run();
+  core.set_spindle_speed({});
+  feed(160, 200);
+  run(true);  // waited long enough
+  EXPECT_EQ(core.mode(), Mode::held);
+  ASSERT_FALSE(core.take_events().empty());
+  EXPECT_LE(core.next(), 200u);
+  const double x = core.commands()[0], y = core.commands()[1];
+  EXPECT_NEAR(y, 2 * x, 1e-9) << "along the path, which is a straight line here, also beyond its known end";
+  run();
+  EXPECT_EQ(core.mode(), Mode::held) << "it does not go on by itself";
+  feed(200, 400, true);
+  begin(2);
+  run();
+  ASSERT_EQ(commanded.size(), 400u);
+  for (std::size_t n = 0; n < 400; ++n) EXPECT_EQ(commanded[n], path(n));
+}
+
+TEST_F(Fixture, BrakingAndResumingKeepTheAccelerationLimit) {
+  begin();
+  feed(0, 200);
+  std::vector<double> y;
+  const auto tick = [&](bool give_up) {
+    if (!core.can_step(give_up)) return false;
+    core.step();
+    y.push_back(core.commands()[1]);
+    return true;
+  };
+  while (tick(false)) {
+  }
+  while (tick(true)) {
+  }
+  EXPECT_EQ(core.mode(), Mode::held);
+  feed(200, 600);
+  begin(2);
+  while (tick(false)) {
+  }
+  double most = 0;
+  for (std::size_t i = 2; i < y.size(); ++i)
+    most = std::max(most, std::abs(y[i] - 2 * y[i - 1] + y[i - 2]) / 1e-6);
+  EXPECT_LE(most, 4000 * 1.8) << "limit, and the margin for the bend where rates and path change together";
+  EXPECT_EQ(y.back(), 2 * path(core.next() - 1)) << "back at whole cycles";
+  EXPECT_EQ(core.next(), 600u - 16);
+}
+
+TEST_F(Fixture, EmergencyStopStopsOnThePathAndNothingMovesUntilANewEpoch) {
+  begin();
+  feed(0, 400);
+  run(false, 200);
+  core.set_enables({1, 1}, true);
+  run();
+  EXPECT_EQ(core.mode(), Mode::off);
+  const double x = core.commands()[0];
+  EXPECT_NEAR(core.commands()[1], 2 * x, 1e-4);
+  core.set_enables({1, 1}, false);
+  run();
+  EXPECT_EQ(core.mode(), Mode::held);
+  const auto cycle = core.next();
+  begin(3);
+  EXPECT_EQ(core.mode(), Mode::following);
+  EXPECT_EQ(core.next(), cycle);
+  run();
+  EXPECT_NEAR(core.commands()[0], x, 1e-3) << "frames of the old epoch are dead";
+}
+
+TEST_F(Fixture, ASetpointThatJumpsIsRefused) {
+  begin();
+  feed(0, 96);
+  run();
+  AxisFrame f;
+  f.epoch = epoch, f.first = 96, f.count = 8, f.axes = {0, 1}, f.ends = true;
+  for (int i = 0; i < 8; ++i) f.setpoints.insert(f.setpoints.end(), {500.0, 500.0});
+  core.put(f);
+  run();
+  EXPECT_EQ(core.mode(), Mode::held);
+  EXPECT_LT(core.commands()[0], 10);
+  const auto events = core.take_events();
+  ASSERT_FALSE(events.empty());
+  EXPECT_EQ(events[0].alarm, "setpoint_jump");
+}
+
+TEST_F(Fixture, AStartAwayFromThePathIsApproachedWithinTheLimits) {
+  begin();
+  AxisFrame f;
+  f.epoch = epoch, f.first = 0, f.count = 8, f.axes = {0, 1}, f.starts = true, f.ends = true;
+  for (int i = 0; i < 8; ++i) f.setpoints.insert(f.setpoints.end(), {0.5, 0.0});
+  core.put(f);
+  double last = 0, most = 0;
+  while (core.can_step(false)) {
+    core.step();
+    most = std::max(most, std::abs(core.commands()[0] - last));
+    last = core.commands()[0];
+  }
+  EXPECT_EQ(last, 0.5);
+  EXPECT_LT(most, 0.1) << "a quintic of 0.5 mm takes 27 periods: at most 1.875 * 0.5 / 27 = 0.035 a period";
+}
+
+TEST_F(Fixture, PositionsAndCyclesSurviveTheProcess) {
+  begin();
+  feed(0, 400, true);
+  run();
+  const auto memory = core.memory();
+  DriveCore other;
+  other.configure(two_axes(), true);
+  other.restore(memory);
+  EXPECT_EQ(other.next(), 400u);
+  EXPECT_NEAR(other.commands()[0], path(399), 1e-3);
+}
+
+}  // namespace
+}  // namespace trunnion::drive

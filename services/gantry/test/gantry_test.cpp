@@ -1,0 +1,84 @@
+#include <gtest/gtest.h>
+
+#include "gantry_core.hpp"
+
+namespace trunnion::gantry {
+namespace {
+
+// Axis 1 is the master, axis 2 its slave; lead 8.
+machine::Parameters gantry() {
+  machine::Parameters p;
+  p.values[40001] = {0, ""}, p.values[40002] = {1, ""};
+  p.values[100000] = {0, "X"}, p.values[101000] = {0, "Y1"}, p.values[102000] = {0, "Y2"};
+  p.values[10050] = {1, ""}, p.values[10051] = {2, ""};
+  p.values[102100] = {1, ""}, p.values[102101] = {1, ""};
+  p.values[102129] = {0.5, ""}, p.values[102130] = {0.1, ""}, p.values[102131] = {0.02, ""};
+  p.values[900] = {8, ""};
+  return p;
+}
+
+idl::stream::AxisFrame frame(std::uint64_t first, double x, double y) {
+  idl::stream::AxisFrame f;
+  f.axes = {0, 1};
+  f.first = first, f.count = 1;
+  f.setpoints = {x, y};
+  return f;
+}
+
+TEST(Gantry, TheSlaveFollowsItsMasterWithTheZeroDeviation) {
+  GantryCore core;
+  core.configure(gantry(), 0);
+  idl::stream::AxisFrame out;
+  ASSERT_TRUE(core.process(frame(0, 1, 2), {}, out));
+  EXPECT_EQ(out.axes, (std::vector<std::uint16_t>{0, 1, 2}));
+  EXPECT_EQ(out.setpoints, (std::vector<double>{1, 2, 2.5}));
+}
+
+TEST(Gantry, AMirroredSlaveMovesOpposite) {
+  auto p = gantry();
+  p.values[102127] = {1, ""};
+  GantryCore core;
+  core.configure(p, 0);
+  idl::stream::AxisFrame out;
+  core.process(frame(0, 1, 2), {}, out);
+  EXPECT_EQ(out.setpoints[2], -1.5);
+}
+
+TEST(Gantry, TheErrorOfCycleNIsCorrectedAtNPlusLeadPlusOneAndWaitsForIt) {
+  GantryCore core;
+  core.configure(gantry(), 0);
+  stream::FeedbackWindow feedback;
+  idl::stream::AxisFrame out;
+  ASSERT_TRUE(core.process(frame(8, 0, 0), feedback, out)) << "no feedback exists before cycle 0";
+  EXPECT_FALSE(core.process(frame(9, 0, 0), feedback, out)) << "cycle 9 needs the feedback of cycle 0";
+  idl::stream::FeedbackFrame f;
+  f.first = 0, f.count = 1, f.axis_count = 3;
+  f.actual = {0, 0, 0.6};  // the slave is 0.1 too far
+  feedback.put(f);
+  ASSERT_TRUE(core.process(frame(9, 0, 0), feedback, out));
+  EXPECT_NEAR(out.setpoints[2], 0.5 - 0.01, 1e-15) << "a tenth of the error";
+}
+
+TEST(Gantry, TheCorrectionIsLimited) {
+  GantryCore core;
+  core.configure(gantry(), 0);
+  stream::FeedbackWindow feedback;
+  idl::stream::AxisFrame out;
+  for (std::uint64_t n = 9; n < 40; ++n) {
+    idl::stream::FeedbackFrame f;
+    f.first = n - 9, f.count = 1, f.axis_count = 3;
+    f.actual = {0, 0, 0.6};
+    feedback.put(f);
+    ASSERT_TRUE(core.process(frame(n, 0, 0), feedback, out));
+  }
+  EXPECT_NEAR(out.setpoints[2], 0.48, 1e-15) << "0.02 mm is the largest correction";
+}
+
+TEST(Gantry, AMissingMasterIsNamed) {
+  auto p = gantry();
+  p.values[102101] = {9, ""};
+  EXPECT_THROW(read_pairs(p), std::runtime_error);
+}
+
+}  // namespace
+}  // namespace trunnion::gantry

@@ -1,0 +1,9 @@
+#include "service.hpp"
+
+namespace trunnion::kinematics {
+
+KinematicsService::KinematicsService(node::Node& node)
+    : StageService(node, stream::stage_kinematics, topics::path_frame, topics::kinematics_frame,
+                   [] { return std::make_unique<KinematicsCore>(); }) {}
+
+}  // namespace trunnion::kinematics

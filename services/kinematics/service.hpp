@@ -1,0 +1,13 @@
+#pragma once
+
+#include "src/kinematics_core.hpp"
+#include "stream/stage_service.hpp"
+
+namespace trunnion::kinematics {
+
+class KinematicsService : public stream::StageService<idl::stream::PathFrame> {
+ public:
+  explicit KinematicsService(node::Node& node);
+};
+
+}  // namespace trunnion::kinematics

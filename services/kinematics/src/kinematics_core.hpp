@@ -1,0 +1,26 @@
+// Tool tip in the workpiece to machine axes (RTCP), by the chain of parameters 04c400..04c437.
+#pragma once
+
+#include <optional>
+
+#include "geometry/chain.hpp"
+#include "machine/axes.hpp"
+#include "stream/stage_core.hpp"
+
+namespace trunnion::kinematics {
+
+/// Stateless: the same frame gives the same axes, whatever came before.
+class KinematicsCore : public stream::StageCore<idl::stream::PathFrame> {
+ public:
+  void configure(const machine::Parameters& parameters, std::uint16_t channel) override;
+  bool process(const idl::stream::PathFrame& in, const stream::FeedbackWindow& feedback,
+               idl::stream::AxisFrame& out) override;
+  void load(std::span<const double>) override {}
+  void save(stream::StateValues& state) const override { state.clear(); }
+
+ private:
+  machine::ChannelAxes axes_;
+  std::optional<geometry::Chain> chain_;
+};
+
+}  // namespace trunnion::kinematics

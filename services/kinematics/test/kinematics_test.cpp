@@ -1,0 +1,87 @@
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "kinematics_core.hpp"
+
+namespace trunnion::kinematics {
+namespace {
+
+// An AC trunnion: A turns about -X, C about -Z (section 3 of the HNC-8 specification), with offsets that
+// matter.
+machine::Parameters ac_table() {
+  machine::Parameters p;
+  for (std::uint32_t i = 0; i < 3; ++i) p.values[40001 + i] = {static_cast<double>(i), ""};
+  p.values[40004] = {3, ""};
+  p.values[40006] = {4, ""};
+  p.values[40425] = {35, ""};
+  p.values[40426] = {-1, ""};
+  p.values[40431] = {-1, ""};
+  p.values[40433] = {0.1, ""};
+  p.values[40435] = {-200, ""}, p.values[40436] = {-190, ""}, p.values[40437] = {-516, ""};
+  return p;
+}
+
+idl::stream::PathFrame frame(std::initializer_list<double> row, int transformation, double length) {
+  idl::stream::PathFrame f;
+  f.count = 1;
+  f.transformation = static_cast<std::uint8_t>(transformation);
+  f.tool_length = length;
+  f.setpoints.assign(row);
+  return f;
+}
+
+TEST(Kinematics, WithoutTransformationTheAxesAreWhatTheChannelSays) {
+  KinematicsCore core;
+  core.configure(ac_table(), 0);
+  idl::stream::AxisFrame out;
+  ASSERT_TRUE(core.process(frame({1, 2, 3, 40, 0, 50, 0, 0, 0}, 0, 100), {}, out));
+  EXPECT_EQ(out.axes, (std::vector<std::uint16_t>{0, 1, 2, 3, 4}));
+  EXPECT_EQ(out.setpoints, (std::vector<double>{1, 2, 3, 40, 50}));
+}
+
+TEST(Kinematics, RtcpTurnsTheWorkpiecePointAboutC) {
+  KinematicsCore core;
+  core.configure(ac_table(), 0);
+  idl::stream::AxisFrame out;
+  // C axis at (-200, -190), turning about -Z: C90 takes the point 10 to the right of the axis, (-190, -190),
+  // to
+  // (-200, -200); the spindle face is the tool length above the tip.
+  core.process(frame({-190, -190, -500, 0, 0, 90, 0, 0, 0}, 1, 100), {}, out);
+  EXPECT_NEAR(out.setpoints[0], -200, 1e-9);
+  EXPECT_NEAR(out.setpoints[1], -200, 1e-9);
+  EXPECT_NEAR(out.setpoints[2], -400, 1e-9);
+}
+
+TEST(Kinematics, ForwardOfWhatItCommandsIsTheTipWithin1e9) {
+  KinematicsCore core;
+  const auto parameters = ac_table();
+  core.configure(parameters, 0);
+  const auto chain = machine::make_chain(parameters, 0);
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> place(-500, 500), angle(-360, 360);
+  idl::stream::AxisFrame out;
+  for (int i = 0; i < 20000; ++i) {
+    const geometry::Vec3 tip(place(random), place(random), place(random));
+    const double a = angle(random), c = angle(random), length = std::abs(place(random));
+    core.process(frame({tip.x(), tip.y(), tip.z(), a, 0, c, 0, 0, 0}, 1, length), {}, out);
+    const auto back =
+        chain.tip_from_machine({out.setpoints[0], out.setpoints[1], out.setpoints[2]}, {a, 0, c}, length);
+    ASSERT_LT((back - tip).norm(), 1e-9);
+  }
+}
+
+TEST(Kinematics, AZeroDirectionIsRefusedWithTheParametersNamed) {
+  auto parameters = ac_table();
+  parameters.values[40426] = {0, ""};
+  KinematicsCore core;
+  try {
+    core.configure(parameters, 0);
+    FAIL();
+  } catch (const std::runtime_error& e) {
+    EXPECT_NE(std::string(e.what()).find("040400 .. 040437"), std::string::npos) << e.what();
+  }
+}
+
+}  // namespace
+}  // namespace trunnion::kinematics
