@@ -21,6 +21,8 @@ class JogGuard {
   /// The movements whose time is over, once each: stop them.
   std::vector<std::pair<std::uint16_t, std::uint8_t>> expired(double now);
 
+  bool watching() const { return !held_.empty(); }
+
  private:
   struct Held {
     double speed = 0;

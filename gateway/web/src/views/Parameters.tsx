@@ -5,12 +5,12 @@ import { machine, tell } from "../state/store";
 
 const classes: [string, string][] = [
   ["", "All"],
-  ["0", "NC"],
-  ["1", "Machine"],
-  ["4", "Channel"],
-  ["10", "Axis"],
-  ["30", "Compensation"],
-  ["70", "Tables"],
+  ["nc", "NC"],
+  ["user", "Machine"],
+  ["channel", "Channel"],
+  ["axis", "Axis"],
+  ["compensation", "Compensation"],
+  ["table", "Tables"],
 ];
 
 const sixDigits = (number: number) => String(number).padStart(6, "0");
