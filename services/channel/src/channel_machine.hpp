@@ -1,0 +1,76 @@
+// What the channel knows of the machine: axes, limits, transformation, tools and offsets, of one parameter revision.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <optional>
+
+#include "contracts/types.hpp"
+#include "geometry/chain.hpp"
+#include "language/environment.hpp"
+#include "machine/axes.hpp"
+#include "motion/limits.hpp"
+
+namespace trunnion::channel {
+
+using language::AxisValues;
+
+/// Travel of an axis of the channel.
+struct Travel {
+  double negative = 0, positive = 0;
+};
+
+class ChannelMachine : public language::Environment {
+ public:
+  explicit ChannelMachine(std::uint16_t channel) : channel_(channel) {}
+
+  /// Throws std::runtime_error when the kinematic parameters make no chain.
+  void configure(const machine::Parameters& parameters);
+  void set_tools(const idl::parameters::ToolTable& tools);
+  void set_offsets(const idl::parameters::WorkOffsets& offsets);
+  /// Finds the texts of subprograms; null when there are none.
+  std::function<language::TextSource*(std::string_view)> resolve;
+
+  AxisValues work_offset(std::uint8_t index) const override { return offsets_[index < 6 ? index : 0]; }
+  std::optional<double> tool_length(std::uint16_t h) const override;
+  AxisValues reference_position() const override { return reference_; }
+  AxisValues tip_from_machine(const AxisValues& machine, double tool_length) const override;
+  AxisValues machine_from_tip(const AxisValues& tip, double tool_length) const override;
+  std::uint16_t axes() const override { return mask_; }
+  double radius_deviation() const override { return radius_deviation_; }
+  language::TextSource* subprogram(std::string_view name) override { return resolve ? resolve(name) : nullptr; }
+
+  /// Empty, or one line about the first axis that would leave its travel on the way from `from` to the end of `move`.
+  std::string travel_error(const AxisValues& from, const language::Command& move) const;
+
+  const machine::ChannelAxes& channel_axes() const { return channel_axes_; }
+  const std::vector<int>& columns() const { return columns_; }
+  const motion::Limits& limits() const { return limits_; }
+  const geometry::Chain& chain() const { return *chain_; }
+  bool configured() const { return chain_.has_value(); }
+  const Travel& travel(std::uint8_t axis) const { return travel_[axis]; }
+  double jog_feed(std::uint8_t axis) const { return jog_feed_[axis]; }
+  double reference_feed(std::uint8_t axis) const { return reference_feed_[axis]; }
+  double cycle_seconds() const { return cycle_seconds_; }
+  std::uint64_t lead() const { return lead_; }
+  std::uint32_t frame_cycles(bool virtual_time) const { return virtual_time ? frame_virtual_ : frame_real_; }
+  std::uint64_t revision() const { return revision_; }
+
+ private:
+  std::uint16_t channel_;
+  machine::ChannelAxes channel_axes_;
+  std::vector<int> columns_;
+  motion::Limits limits_;
+  std::optional<geometry::Chain> chain_;
+  std::array<AxisValues, 6> offsets_{};
+  std::map<std::uint32_t, double> tools_;
+  AxisValues reference_{};
+  std::array<Travel, language::axis_count> travel_{};
+  AxisValues jog_feed_{}, reference_feed_{};
+  std::uint16_t mask_ = 0;
+  double radius_deviation_ = 0.1, cycle_seconds_ = 0.001;
+  std::uint64_t lead_ = 32, revision_ = 0;
+  std::uint32_t frame_real_ = 4, frame_virtual_ = 8;
+};
+
+}  // namespace trunnion::channel

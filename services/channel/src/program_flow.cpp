@@ -1,0 +1,91 @@
+#include "program_flow.hpp"
+
+namespace trunnion::channel {
+
+using language::CommandKind;
+
+void ProgramFlow::start(language::TextSource& text, const AxisValues& position, const language::ModalState& initial,
+                        const RestartPoint& restart) {
+  interpreter_.start(text, position, initial);
+  have_command_ = false;
+  block_line_ = 0;
+  restart_ = restart;
+  searching_ = restart.sequence > 0;
+  executing_ = initial;
+  alarm_number_ = 0;
+  alarm_text_.clear();
+}
+
+FlowState ProgramFlow::push_move() {
+  if (command_.kind != CommandKind::dwell) {
+    alarm_text_ = machine_.travel_error(trajectory_->end_position(), command_);
+    if (!alarm_text_.empty()) {
+      alarm_number_ = 140;
+      return FlowState::alarm;
+    }
+  }
+  auto move = command_;
+  if (move.modal.feed_mode == language::FeedMode::per_revolution) {
+    move.modal.feed *= move.modal.spindle_speed;
+    move.modal.feed_mode = language::FeedMode::per_minute;
+  }
+  const bool partly = restart_.sequence == command_.sequence && restart_.sequence > 0;
+  const bool taken = partly ? trajectory_->push_from(move, restart_.fraction) : trajectory_->push(move);
+  if (!taken) {
+    alarm_number_ = 1112;
+    alarm_text_ = "line " + std::to_string(command_.line) + ": feed must be above zero (per revolution: with the spindle turning)";
+    return FlowState::alarm;
+  }
+  executing_ = command_.modal;
+  have_command_ = false;
+  return FlowState::full;
+}
+
+FlowState ProgramFlow::fill(bool single_block) {
+  constexpr int most_commands = 4096;  // a long search for the restart point must not keep the channel deaf
+  for (int i = 0; i < most_commands; ++i) {
+    if (!searching_ && !trajectory_->can_accept()) return FlowState::full;
+    if (!have_command_) {
+      switch (interpreter_.next(command_)) {
+        case language::Step::command: have_command_ = true; break;
+        case language::Step::working: continue;
+        case language::Step::pending: return FlowState::waiting;
+        case language::Step::end: return FlowState::end;
+        case language::Step::alarm: {
+          const auto& alarm = interpreter_.alarm();
+          alarm_number_ = static_cast<std::uint32_t>(alarm.number);
+          alarm_text_ = (alarm.program != 0 ? "O" + std::to_string(alarm.program) + ":" : std::string()) + std::to_string(alarm.line) +
+                        ":" + std::to_string(alarm.column) + ": " + alarm.text.data();
+          trajectory_->finish();
+          return FlowState::alarm;
+        }
+      }
+    }
+    if (searching_) {
+      if (command_.sequence < restart_.sequence) {
+        have_command_ = false;
+        continue;
+      }
+      searching_ = false;
+      trajectory_->start(restart_.position, command_.modal.transformation, command_.modal.tool_length);
+    }
+    const bool move = command_.kind == CommandKind::rapid || command_.kind == CommandKind::line ||
+                      command_.kind == CommandKind::arc || command_.kind == CommandKind::dwell;
+    if (single_block && block_line_ != 0 && command_.line != block_line_) {
+      trajectory_->finish();
+      return FlowState::block_end;
+    }
+    block_line_ = command_.line;
+    if (!move) {
+      trajectory_->finish();
+      return command_.kind == CommandKind::end && command_.number == 0 ? FlowState::end : FlowState::command;
+    }
+    if (const auto state = push_move(); state == FlowState::alarm) {
+      trajectory_->finish();
+      return state;
+    }
+  }
+  return FlowState::waiting;
+}
+
+}  // namespace trunnion::channel

@@ -1,0 +1,66 @@
+// Pulls commands out of the interpreter and feeds them to motion; stops where something else has to happen first.
+#pragma once
+
+#include <optional>
+
+#include "channel_machine.hpp"
+#include "language/interpreter.hpp"
+#include "motion/trajectory.hpp"
+
+namespace trunnion::channel {
+
+enum class FlowState {
+  full,       ///< motion has as much ahead as it can hold: go on stepping
+  waiting,    ///< the text has to arrive first: do not step, or the motion would depend on when it does
+  command,    ///< pending() needs the axes at rest and somebody's attention
+  block_end,  ///< single block: the block's motion is all there is
+  end,        ///< program finished
+  alarm,      ///< alarm_number(), alarm_text()
+};
+
+/// The point of a program at which a restart goes on.
+struct RestartPoint {
+  std::uint32_t sequence = 0;  ///< command being executed; 0 = from the beginning
+  double fraction = 0;         ///< of it that is done
+  AxisValues position{};       ///< where the path was left, in the frame of that command
+};
+
+class ProgramFlow {
+ public:
+  ProgramFlow(ChannelMachine& machine, motion::Trajectory*& trajectory) : machine_(machine), trajectory_(trajectory), interpreter_(machine) {}
+
+  /// `position` in the frame of `initial`. The trajectory must be at rest there.
+  void start(language::TextSource& text, const AxisValues& position, const language::ModalState& initial,
+             const RestartPoint& restart = {});
+  FlowState fill(bool single_block);
+  /// The command fill() stopped at, and done with it.
+  const language::Command& pending() const { return command_; }
+  void finish_pending() { have_command_ = false; }
+  /// Single block: the next block may begin.
+  void next_block() { block_line_ = 0; }
+
+  const language::ModalState& modal() const { return interpreter_.modal(); }
+  /// Of the newest command handed to motion.
+  const language::ModalState& executing() const { return executing_; }
+  std::uint32_t alarm_number() const { return alarm_number_; }
+  const std::string& alarm_text() const { return alarm_text_; }
+  /// Commands up to the restart point are being skipped.
+  bool searching() const { return searching_; }
+
+ private:
+  FlowState push_move();
+  ChannelMachine& machine_;
+  motion::Trajectory*& trajectory_;
+  language::Interpreter interpreter_;
+  language::Command command_;
+  language::ModalState executing_;
+  bool have_command_ = false;
+  std::uint32_t block_line_ = 0;
+  RestartPoint restart_;
+  bool searching_ = false;
+
+  std::uint32_t alarm_number_ = 0;
+  std::string alarm_text_;
+};
+
+}  // namespace trunnion::channel
