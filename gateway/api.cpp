@@ -1,0 +1,293 @@
+#include "api.hpp"
+
+#include <fstream>
+
+#include "src/orders.hpp"
+#include "src/static_files.hpp"
+
+namespace trunnion::machine {
+// gateway/openapi.json, embedded by the same script as the catalogue.
+extern const char* const openapi_text;
+}  // namespace trunnion::machine
+
+namespace trunnion::gateway {
+namespace {
+
+using bus::Json;
+
+Answer silent(const char* who) { return error_answer(504, std::string("no answer from the ") + who + " service"); }
+
+Answer refused(std::uint32_t alarm, const std::string& reason) {
+  return json_answer(409, {{"accepted", false}, {"alarm", alarm}, {"reason", reason}});
+}
+
+Answer published(const Json& answer, const char* who) {
+  return answer.is_null() ? error_answer(504, std::string("the ") + who + " service has not published yet")
+                          : json_answer(200, answer);
+}
+
+template <class T>
+Answer published(const std::shared_ptr<const T>& value, const char* who) {
+  return published(value ? bus::to_json(*value) : Json(nullptr), who);
+}
+
+std::size_t count_in_query(const std::string& query, const char* name, std::uint32_t fallback) {
+  const auto text = query_value(query, name);
+  if (text.empty()) return fallback;
+  const auto number = path_number(text, 100000);
+  if (!number) throw BadRequest(name, std::string(name) + " must be a whole number up to 100000");
+  return *number;
+}
+
+}  // namespace
+
+Answer json_answer(unsigned status, const Json& body) {
+  // Texts of the bus may be cut within a character; such a byte must not take the answer down.
+  return {status, body.dump(-1, ' ', false, Json::error_handler_t::replace)};
+}
+
+Answer error_answer(unsigned status, const std::string& text, const std::string& field) {
+  Json body = {{"error", text}};
+  if (!field.empty()) body["field"] = field;
+  return json_answer(status, body);
+}
+
+Answer unrouted(RouteResult result) {
+  return result == RouteResult::no_method ? error_answer(405, "this path does not know this method")
+                                          : error_answer(404, "no such path");
+}
+
+bool foreign_origin(std::string_view origin, std::string_view host) {
+  if (origin.empty()) return false;
+  const auto scheme = origin.find("://");
+  return scheme == std::string_view::npos || origin.substr(scheme + 3) != host;
+}
+
+void Api::handle(const Match& match, const std::string& query, const std::string& body, const Respond& respond) {
+  try {
+    switch (match.operation) {
+      case Operation::emergency_stop:
+      case Operation::release:
+      case Operation::panel_reset:
+        return order_panel(match.operation, parse_body(body), respond);
+      case Operation::alarms_reset: {
+        const auto reset = alarm_reset_order(parse_body(body));
+        mailbox_.post([reset, respond](Links& links, double) {
+          links.alarm_reset.write(reset);
+          respond(json_answer(200, {{"accepted", true}}));
+        });
+        return;
+      }
+      case Operation::set_parameter:
+      case Operation::set_work_offset:
+        return order_parameters(match, parse_body(body), respond);
+      case Operation::remove_program:
+        return remove_program(match.parts.at(0), respond);
+      case Operation::mode:
+      case Operation::select:
+      case Operation::cycle_start:
+      case Operation::feed_hold:
+      case Operation::reset:
+      case Operation::mdi:
+      case Operation::jog:
+      case Operation::jog_stop:
+      case Operation::reference:
+      case Operation::override_:
+      case Operation::single_block:
+      case Operation::optional_stop:
+        return order_channel(match, parse_body(body), respond);
+      default:
+        return respond(read(match, query));
+    }
+  } catch (const BadRequest& bad) {
+    respond(error_answer(400, bad.what(), bad.field));
+  }
+}
+
+Answer Api::read(const Match& match, const std::string& query) const {
+  if (match.operation == Operation::openapi) return {200, machine::openapi_text};
+  const auto snapshot = mailbox_.newest();
+  if (!snapshot) return error_answer(503, "the gateway is starting");
+  switch (match.operation) {
+    case Operation::status:
+      return json_answer(200, status_answer(*snapshot, contract_));
+    case Operation::alarms:
+      return json_answer(200, alarms_answer(*snapshot));
+    case Operation::channels:
+      return json_answer(200, channels_answer(*snapshot));
+    case Operation::channel: {
+      const auto number = path_number(match.parts.at(0), 65535);
+      const auto answer = number ? channel_answer(*snapshot, static_cast<std::uint16_t>(*number)) : Json(nullptr);
+      return answer.is_null() ? error_answer(404, "no channel " + match.parts[0]) : json_answer(200, answer);
+    }
+    case Operation::parameters: {
+      ParameterQuery wanted;
+      wanted.group = query_value(query, "class");
+      wanted.search = query_value(query, "search");
+      wanted.offset = count_in_query(query, "offset", 0);
+      wanted.limit = count_in_query(query, "limit", 500);
+      return published(parameters_answer(*snapshot, wanted), "parameters");
+    }
+    case Operation::parameter: {
+      const auto number = path_number(match.parts.at(0), 999999);
+      if (!number || machine::Catalogue::instance().find(*number) == nullptr)
+        return error_answer(404, "no parameter " + match.parts[0]);
+      return published(parameter_answer(*snapshot, *number), "parameters");
+    }
+    case Operation::tools:
+      return published(snapshot->tools, "parameters");
+    case Operation::work_offsets:
+      return published(snapshot->offsets, "parameters");
+    case Operation::programs:
+      return published(snapshot->programs, "program");
+    case Operation::plc_image:
+      return published(snapshot->image, "plc");
+    default:
+      return error_answer(404, "no such path");
+  }
+}
+
+void Api::order_channel(const Match& match, const Json& body, const Respond& respond) {
+  const auto number = path_number(match.parts.at(0), 65535);
+  const auto snapshot = mailbox_.newest();
+  const auto known = snapshot && number ? snapshot->channels.find(static_cast<std::uint16_t>(*number))
+                                        : decltype(snapshot->channels.end()){};
+  if (!snapshot || !number || known == snapshot->channels.end())
+    return respond(error_answer(404, "no channel " + match.parts[0]));
+  const auto request = channel_order(match.operation, body, known->second);
+  mailbox_.post([request, respond](Links& links, double now) {
+    using idl::channel::CommandKind;
+    const bool continuous = request.command == CommandKind::JOG_AXIS && request.increment == 0;
+    if (continuous && !links.jog.press(request.channel, request.axis, request.value, now))
+      return respond(json_answer(200, {{"accepted", true}, {"renewed", true}}));
+    if (request.command == CommandKind::JOG_STOP) links.jog.forget(request.channel, request.axis);
+    links.channel.submit(
+        request,
+        [&links, request, continuous, respond](const std::optional<idl::channel::ChannelReply>& reply) {
+          if (continuous && reply && !reply->accepted) links.jog.forget(request.channel, request.axis);
+          if (!reply) return respond(silent("channel"));
+          if (!reply->accepted) return respond(refused(reply->alarm, reply->reason));
+          respond(json_answer(200, {{"accepted", true}, {"cycle", reply->cycle}}));
+        },
+        now);
+  });
+}
+
+void Api::order_panel(Operation operation, const Json& body, const Respond& respond) {
+  mailbox_.post([request = panel_order(operation, body), respond](Links& links, double now) {
+    links.panel.submit(
+        request,
+        [respond](const std::optional<idl::plc::PanelReply>& reply) {
+          if (!reply) return respond(silent("plc"));
+          if (!reply->accepted) return respond(refused(0, reply->reason));
+          respond(json_answer(200, {{"accepted", true}}));
+        },
+        now);
+  });
+}
+
+void Api::order_parameters(const Match& match, const Json& body, const Respond& respond) {
+  idl::parameters::ParameterRequest request;
+  if (match.operation == Operation::set_work_offset) {
+    request = work_offset_order(body);
+  } else {
+    const auto number = path_number(match.parts.at(0), 999999);
+    const auto* definition = number ? machine::Catalogue::instance().find(*number) : nullptr;
+    if (definition == nullptr) return respond(error_answer(404, "no parameter " + match.parts[0]));
+    request = parameter_order(*number, definition->type == machine::ParameterType::text, body);
+  }
+  mailbox_.post([request, respond](Links& links, double now) {
+    links.parameters.submit(
+        request,
+        [respond](const std::optional<idl::parameters::ParameterReply>& reply) {
+          if (!reply) return respond(silent("parameters"));
+          if (!reply->accepted) return respond(refused(reply->alarm, reply->reason));
+          respond(json_answer(
+              200, {{"accepted", true}, {"revision", reply->revision}, {"pending", reply->pending}}));
+        },
+        now);
+  });
+}
+
+void Api::remove_program(const std::string& name, const Respond& respond) {
+  check_program_name(name);
+  idl::program::ProgramRequest request{};
+  request.operation = idl::program::Operation::REMOVE;
+  request.name = name;
+  mailbox_.post([request, respond](Links& links, double now) {
+    links.program.submit(
+        request,
+        [respond](const ProgramReply& reply) {
+          respond(reply && reply->accepted ? json_answer(200, {{"accepted", true}}) : program_refusal(reply));
+        },
+        now);
+  });
+}
+
+Answer Api::page(std::string_view path) const {
+  const auto file = find_static(web_, path);
+  if (!file) return error_answer(404, "no such file");
+  std::ifstream stream(file->path, std::ios::binary);
+  std::string content{std::istreambuf_iterator<char>(stream), {}};
+  if (!stream) return error_answer(500, "the file cannot be read");
+  return {200, std::move(content), std::string(file->type),
+          file->immutable ? "public, max-age=31536000, immutable" : "no-cache"};
+}
+
+Answer program_refusal(const ProgramReply& reply) {
+  return reply ? refused(reply->alarm, reply->reason) : silent("program");
+}
+
+idl::program::ProgramRequest ProgramUpload::request(idl::program::Operation operation) {
+  idl::program::ProgramRequest made{};
+  made.client = client_;
+  made.number = ++number_;
+  made.operation = operation;
+  made.name = name_;
+  return made;
+}
+
+void ProgramUpload::send(idl::program::ProgramRequest sent, ProgramDone done) {
+  mailbox_.post([sent = std::move(sent), done = std::move(done)](Links& links, double now) {
+    links.program.submit(sent, done, now);
+  });
+}
+
+void ProgramUpload::begin(ProgramDone done) {
+  send(request(idl::program::Operation::BEGIN_UPLOAD), std::move(done));
+}
+
+void ProgramUpload::write(std::vector<std::uint8_t> data, ProgramDone done) {
+  auto part = request(idl::program::Operation::WRITE);
+  part.offset = size_;
+  size_ += data.size();
+  crc_.add(data);
+  part.data = std::move(data);
+  send(std::move(part), std::move(done));
+}
+
+void ProgramUpload::commit(ProgramDone done) {
+  auto end = request(idl::program::Operation::COMMIT_UPLOAD);
+  end.crc32 = crc_.value();
+  end.size = size_;
+  send(std::move(end), std::move(done));
+}
+
+void ProgramUpload::abort() {
+  send(request(idl::program::Operation::ABORT_UPLOAD), [](const ProgramReply&) {});
+}
+
+void read_program(Mailbox& mailbox, const std::string& name, std::uint64_t revision, std::uint64_t offset,
+                  ProgramDone done) {
+  idl::program::ProgramRequest request{};
+  request.operation = idl::program::Operation::READ;
+  request.name = name;
+  request.revision = revision;
+  request.offset = offset;
+  request.length = chunk_bytes;
+  mailbox.post([request, done = std::move(done)](Links& links, double now) {
+    links.program.submit(request, done, now);
+  });
+}
+
+}  // namespace trunnion::gateway

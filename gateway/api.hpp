@@ -1,0 +1,90 @@
+// The operations behind the routes, without any HTTP library.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+
+#include "mailbox.hpp"
+#include "src/crc32.hpp"
+#include "src/router.hpp"
+
+namespace trunnion::gateway {
+
+/// Largest body of a program upload and of everything else, in bytes.
+inline constexpr std::uint64_t largest_program = 128u << 20, largest_body = 1u << 20;
+/// Bytes of a program in one request of the bus.
+inline constexpr std::size_t chunk_bytes = 60000;
+
+struct Answer {
+  unsigned status = 200;
+  std::string body;
+  std::string type = "application/json";
+  std::string cache = "no-store";
+};
+
+/// Called once, on either thread.
+using Respond = std::function<void(Answer)>;
+
+Answer json_answer(unsigned status, const bus::Json& body);
+/// {"error": text, "field": field}; the field only when there is one.
+Answer error_answer(unsigned status, const std::string& text, const std::string& field = {});
+/// As error_answer, for a path that does not match: 404, or 405 when another method would.
+Answer unrouted(RouteResult result);
+
+/// Whether a page of another site sent the request: `origin` as in the header of that name, `host` as in Host.
+bool foreign_origin(std::string_view origin, std::string_view host);
+
+class Api {
+ public:
+  Api(Mailbox& mailbox, std::string contract, std::filesystem::path web)
+      : mailbox_(mailbox), contract_(std::move(contract)), web_(std::move(web)) {}
+
+  /// Everything but the stream and the reading and writing of programs.
+  void handle(const Match& match, const std::string& query, const std::string& body, const Respond& respond);
+  /// A file of the page.
+  Answer page(std::string_view path) const;
+  Mailbox& mailbox() { return mailbox_; }
+
+ private:
+  Answer read(const Match& match, const std::string& query) const;
+  void order_channel(const Match& match, const bus::Json& body, const Respond& respond);
+  void order_panel(Operation operation, const bus::Json& body, const Respond& respond);
+  void order_parameters(const Match& match, const bus::Json& body, const Respond& respond);
+  void remove_program(const std::string& name, const Respond& respond);
+
+  Mailbox& mailbox_;
+  std::string contract_;
+  std::filesystem::path web_;
+};
+
+using ProgramReply = std::optional<idl::program::ProgramReply>;
+using ProgramDone = std::function<void(const ProgramReply&)>;
+
+/// The answer when a request to the program service was not accepted.
+Answer program_refusal(const ProgramReply& reply);
+
+/// One upload: begin, write as often as needed, commit; abort when it cannot be finished. One call at a time.
+class ProgramUpload {
+ public:
+  ProgramUpload(Mailbox& mailbox, std::string name) : mailbox_(mailbox), name_(std::move(name)) {}
+  void begin(ProgramDone done);
+  /// At most chunk_bytes.
+  void write(std::vector<std::uint8_t> data, ProgramDone done);
+  void commit(ProgramDone done);
+  void abort();
+
+ private:
+  idl::program::ProgramRequest request(idl::program::Operation operation);
+  void send(idl::program::ProgramRequest request, ProgramDone done);
+  Mailbox& mailbox_;
+  std::string name_;
+  std::uint64_t client_ = node::make_client_id(), number_ = 0, size_ = 0;
+  Crc32 crc_;
+};
+
+/// Reads chunk_bytes of a program at `offset`; `revision` 0 is the newest.
+void read_program(Mailbox& mailbox, const std::string& name, std::uint64_t revision, std::uint64_t offset,
+                  ProgramDone done);
+
+}  // namespace trunnion::gateway

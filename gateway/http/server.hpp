@@ -1,0 +1,27 @@
+// HTTP and WebSocket on one thread of its own.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "api.hpp"
+
+namespace trunnion::gateway {
+
+class HttpServer {
+ public:
+  /// Listens at once. Throws std::runtime_error saying address, port and reason.
+  HttpServer(const std::string& address, std::uint16_t port, Api& api);
+  ~HttpServer();
+  /// Ends the thread; nothing is answered afterwards. Answers may still be handed to sessions until it is destroyed.
+  void stop();
+  /// WebSocket clients now.
+  std::size_t clients() const;
+
+ private:
+  struct Inside;
+  std::unique_ptr<Inside> inside_;
+};
+
+}  // namespace trunnion::gateway

@@ -1,0 +1,250 @@
+#include "http/session.hpp"
+
+#include <boost/asio/post.hpp>
+#include <boost/asio/write.hpp>
+#include <boost/beast/http/read.hpp>
+#include <boost/beast/http/write.hpp>
+
+#include "src/orders.hpp"
+
+namespace trunnion::gateway {
+
+namespace beast = boost::beast;
+namespace http = beast::http;
+namespace net = boost::asio;
+using std::chrono::seconds;
+
+namespace {
+
+constexpr seconds patience{30};
+constexpr unsigned http_version = 11;
+
+std::string_view view(beast::string_view text) { return {text.data(), text.size()}; }
+
+}  // namespace
+
+HttpSession::HttpSession(net::ip::tcp::socket&& socket, Api& api, StreamHub& hub, std::shared_ptr<void> place)
+    : stream_(std::move(socket)), api_(api), hub_(hub), place_(std::move(place)) {}
+
+void HttpSession::read_header() {
+  header_.emplace();
+  header_->header_limit(16 << 10);
+  header_->body_limit(largest_program);
+  stream_.expires_after(patience);
+  http::async_read_header(stream_, buffer_, *header_, [self = shared_from_this()](beast::error_code error, std::size_t) {
+    if (error == http::error::body_limit)
+      return self->answer_and_close(error_answer(413, "the body is larger than 128 MiB"));
+    if (error == http::error::header_limit) return self->answer_and_close(error_answer(431, "the header is too large"));
+    if (error.category() == http::make_error_code(http::error::bad_method).category() &&
+        error != http::error::end_of_stream && error != http::error::partial_message)
+      return self->answer_and_close(error_answer(400, "this is not HTTP: " + error.message()));
+    if (error) return;
+    self->on_header();
+  });
+}
+
+void HttpSession::on_header() {
+  const auto& request = header_->get();
+  keep_alive_ = request.keep_alive();
+  const std::string target(request.target());
+  const auto mark = target.find('?');
+  const auto path = target.substr(0, mark);
+  query_ = mark == std::string::npos ? "" : target.substr(mark + 1);
+  if (foreign_origin(view(request[http::field::origin]), view(request[http::field::host])))
+    return answer_and_close(error_answer(403, "a page of another site must not operate this machine"));
+  if (!path.starts_with("/api/")) {
+    if (request.method() != http::verb::get) return answer_and_close(unrouted(RouteResult::no_method));
+    return answer(api_.page(path));
+  }
+  match_ = match(view(request.method_string()), path);
+  if (match_.result != RouteResult::found) return answer_and_close(unrouted(match_.result));
+  if (match_.operation == Operation::write_program) return continue_then(&HttpSession::begin_upload);
+  const auto length = header_->content_length();
+  if (length && *length > largest_body) return answer_and_close(error_answer(413, "the body is larger than 1 MiB"));
+  continue_then(&HttpSession::read_body);
+}
+
+void HttpSession::continue_then(void (HttpSession::*next)()) {
+  if (!beast::iequals(header_->get()[http::field::expect], "100-continue")) return (this->*next)();
+  static const std::string go_on = "HTTP/1.1 100 Continue\r\n\r\n";
+  net::async_write(stream_, net::buffer(go_on), [self = shared_from_this(), next](beast::error_code error, std::size_t) {
+    if (!error) (self.get()->*next)();
+  });
+}
+
+void HttpSession::read_body() {
+  body_.emplace(std::move(*header_));
+  body_->body_limit(largest_body);
+  http::async_read(stream_, buffer_, *body_, [self = shared_from_this()](beast::error_code error, std::size_t) {
+    if (error == http::error::body_limit)
+      return self->answer_and_close(error_answer(413, "the body is larger than 1 MiB"));
+    if (!error) self->dispatch();
+  });
+}
+
+void HttpSession::dispatch() {
+  if (match_.operation == Operation::stream) {
+    if (!beast::websocket::is_upgrade(body_->get()))
+      return answer(error_answer(426, "this path speaks WebSocket only"));
+    if (hub_.full()) return answer(error_answer(503, "too many clients of the stream"));
+    std::make_shared<StreamSession>(std::move(stream_), hub_)->accept(body_->get());
+    return;
+  }
+  if (match_.operation == Operation::read_program) return begin_download();
+  api_.handle(match_, query_, body_->get().body(), [self = shared_from_this()](Answer made) {
+    net::post(self->stream_.get_executor(), [self, made = std::move(made)]() mutable { self->answer(std::move(made)); });
+  });
+}
+
+void HttpSession::answer(Answer made) {
+  response_ = {static_cast<http::status>(made.status), http_version};
+  response_.set(http::field::content_type, made.type);
+  response_.set(http::field::cache_control, made.cache);
+  response_.set("X-Content-Type-Options", "nosniff");
+  response_.set("Content-Security-Policy", "frame-ancestors 'self'");
+  response_.keep_alive(keep_alive_);
+  response_.body() = std::move(made.body);
+  response_.prepare_payload();
+  stream_.expires_after(patience);
+  http::async_write(stream_, response_, [self = shared_from_this()](beast::error_code error, std::size_t) {
+    if (error) return;
+    if (self->keep_alive_) return self->read_header();
+    beast::error_code ignored;
+    self->stream_.socket().shutdown(net::ip::tcp::socket::shutdown_send, ignored);
+  });
+}
+
+void HttpSession::answer_and_close(Answer made) {
+  keep_alive_ = false;
+  answer(std::move(made));
+}
+
+ProgramDone HttpSession::here(Completion next) {
+  return [self = shared_from_this(), next](const ProgramReply& reply) {
+    net::post(self->stream_.get_executor(), [self, next, reply] { (self.get()->*next)(reply); });
+  };
+}
+
+// --- Upload: one part of the body is read, stored, and only then the next one is read.
+
+void HttpSession::begin_upload() {
+  try {
+    check_program_name(match_.parts.at(0));
+  } catch (const BadRequest& bad) {
+    return answer_and_close(error_answer(400, bad.what(), bad.field));
+  }
+  parts_.emplace(std::move(*header_));
+  parts_->body_limit(largest_program);
+  upload_ = std::make_unique<ProgramUpload>(api_.mailbox(), match_.parts[0]);
+  upload_->begin(here(&HttpSession::upload_begun));
+}
+
+void HttpSession::upload_begun(const ProgramReply& reply) {
+  if (!reply || !reply->accepted) return answer_and_close(program_refusal(reply));
+  read_part();
+}
+
+void HttpSession::read_part() {
+  if (parts_->is_done()) return upload_->commit(here(&HttpSession::upload_stored));
+  part_.resize(chunk_bytes);
+  parts_->get().body().data = part_.data();
+  parts_->get().body().size = part_.size();
+  parts_->get().body().more = true;
+  stream_.expires_after(patience);
+  http::async_read(stream_, buffer_, *parts_, [self = shared_from_this()](beast::error_code error, std::size_t) {
+    if (error == http::error::need_buffer) error = {};
+    if (error) {
+      self->abort_upload();
+      if (error == http::error::body_limit)
+        self->answer_and_close(error_answer(413, "a program must not be larger than 128 MiB"));
+      return;
+    }
+    self->part_.resize(chunk_bytes - self->parts_->get().body().size);
+    if (self->part_.empty()) return self->read_part();
+    self->upload_->write(std::move(self->part_), self->here(&HttpSession::part_stored));
+  });
+}
+
+void HttpSession::part_stored(const ProgramReply& reply) {
+  if (reply && reply->accepted) return read_part();
+  abort_upload();
+  answer_and_close(program_refusal(reply));
+}
+
+void HttpSession::upload_stored(const ProgramReply& reply) {
+  if (reply && reply->accepted)
+    return answer(json_answer(200, {{"accepted", true}, {"program", bus::to_json(reply->entry)}}));
+  abort_upload();
+  answer_and_close(program_refusal(reply));
+}
+
+void HttpSession::abort_upload() {
+  upload_->abort();
+  upload_.reset();
+}
+
+// --- Download: each part is asked for when the one before has left.
+
+void HttpSession::begin_download() {
+  download_ = std::make_unique<Download>();
+  download_->name = match_.parts.at(0);
+  try {
+    check_program_name(download_->name);
+  } catch (const BadRequest&) {
+    return answer(error_answer(404, "no program " + download_->name));
+  }
+  const auto snapshot = api_.mailbox().newest();
+  if (snapshot && snapshot->programs) {
+    const auto& programs = snapshot->programs->programs;
+    if (std::none_of(programs.begin(), programs.end(), [&](const auto& p) { return p.name == download_->name; }))
+      return answer(error_answer(404, "no program " + download_->name));
+  }
+  read_program(api_.mailbox(), download_->name, 0, 0, here(&HttpSession::download_part));
+}
+
+void HttpSession::download_part(const ProgramReply& reply) {
+  auto& download = *download_;
+  const bool good = reply && reply->accepted && reply->offset == download.offset;
+  if (!download.serializer) {
+    if (!good) return answer(program_refusal(reply));
+    download.revision = reply->entry.revision;
+    download.size = reply->entry.size;
+    download.response.version(http_version);
+    download.response.result(http::status::ok);
+    download.response.set(http::field::content_type, "text/plain; charset=utf-8");
+    download.response.set(http::field::cache_control, "no-store");
+    download.response.set("X-Program-Revision", std::to_string(download.revision));
+    download.response.content_length(download.size);
+    download.response.keep_alive(keep_alive_);
+    download.serializer.emplace(download.response);
+  } else if (!good) {
+    // The status has gone out already: only a short body can tell that the program changed or its keeper is gone.
+    return stream_.close();
+  }
+  download.part = reply->data;
+  const auto left = download.size - download.offset;
+  if (download.part.size() > left || (download.part.empty() && left > 0)) return stream_.close();
+  download.offset += download.part.size();
+  send_part();
+}
+
+void HttpSession::send_part() {
+  auto& body = download_->response.body();
+  body.data = download_->part.empty() ? nullptr : download_->part.data();
+  body.size = download_->part.size();
+  body.more = download_->offset < download_->size;
+  stream_.expires_after(patience);
+  http::async_write(stream_, *download_->serializer,
+                    [self = shared_from_this()](beast::error_code error, std::size_t) {
+                      if (error == http::error::need_buffer) error = {};
+                      if (error) return;
+                      auto& download = *self->download_;
+                      if (download.offset < download.size)
+                        return read_program(self->api_.mailbox(), download.name, download.revision, download.offset,
+                                            self->here(&HttpSession::download_part));
+                      self->download_.reset();
+                      if (self->keep_alive_) self->read_header();
+                    });
+}
+
+}  // namespace trunnion::gateway

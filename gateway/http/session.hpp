@@ -1,0 +1,78 @@
+// One HTTP connection: reads a request, has it answered, and so on until either side closes.
+#pragma once
+
+#include <boost/beast/core/flat_buffer.hpp>
+#include <boost/beast/core/tcp_stream.hpp>
+#include <boost/beast/http/buffer_body.hpp>
+#include <boost/beast/http/empty_body.hpp>
+#include <boost/beast/http/parser.hpp>
+#include <boost/beast/http/serializer.hpp>
+#include <boost/beast/http/string_body.hpp>
+#include <boost/optional.hpp>
+#include <memory>
+
+#include "api.hpp"
+#include "http/stream.hpp"
+
+namespace trunnion::gateway {
+
+class HttpSession : public std::enable_shared_from_this<HttpSession> {
+ public:
+  HttpSession(boost::asio::ip::tcp::socket&& socket, Api& api, StreamHub& hub, std::shared_ptr<void> place);
+  void start() { read_header(); }
+
+ private:
+  template <class Body>
+  using Parser = boost::beast::http::request_parser<Body>;
+  using Completion = void (HttpSession::*)(const ProgramReply&);
+
+  void read_header();
+  void on_header();
+  void continue_then(void (HttpSession::*next)());
+  void read_body();
+  void dispatch();
+  void answer(Answer answer);
+  /// Answers a request whose body has not been read; the connection ends with it.
+  void answer_and_close(Answer answer);
+  /// A callback for the bus thread that goes on here, on the thread of the connection.
+  ProgramDone here(Completion next);
+
+  void begin_upload();
+  void upload_begun(const ProgramReply& reply);
+  void read_part();
+  void part_stored(const ProgramReply& reply);
+  void upload_stored(const ProgramReply& reply);
+  void abort_upload();
+
+  void begin_download();
+  void download_part(const ProgramReply& reply);
+  void send_part();
+
+  boost::beast::tcp_stream stream_;
+  boost::beast::flat_buffer buffer_;
+  Api& api_;
+  StreamHub& hub_;
+  std::shared_ptr<void> place_;  ///< counts this connection while it lives
+
+  boost::optional<Parser<boost::beast::http::empty_body>> header_;
+  boost::optional<Parser<boost::beast::http::string_body>> body_;
+  boost::optional<Parser<boost::beast::http::buffer_body>> parts_;
+  boost::beast::http::response<boost::beast::http::string_body> response_;
+  Match match_;
+  std::string query_;
+  bool keep_alive_ = false;
+
+  std::unique_ptr<ProgramUpload> upload_;
+  std::vector<std::uint8_t> part_;
+
+  struct Download {
+    std::string name;
+    std::uint64_t revision = 0, size = 0, offset = 0;
+    boost::beast::http::response<boost::beast::http::buffer_body> response;
+    boost::optional<boost::beast::http::response_serializer<boost::beast::http::buffer_body>> serializer;
+    std::vector<std::uint8_t> part;
+  };
+  std::unique_ptr<Download> download_;
+};
+
+}  // namespace trunnion::gateway

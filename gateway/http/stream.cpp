@@ -1,0 +1,116 @@
+#include "http/stream.hpp"
+
+#include <boost/asio/buffer.hpp>
+
+#include "src/merge_patch.hpp"
+
+namespace trunnion::gateway {
+namespace {
+
+namespace beast = boost::beast;
+namespace websocket = beast::websocket;
+using std::chrono::milliseconds;
+
+constexpr milliseconds period{50}, heartbeat_period{500};
+
+std::shared_ptr<const std::string> text(const bus::Json& json) {
+  return std::make_shared<const std::string>(json.dump(-1, ' ', false, bus::Json::error_handler_t::replace));
+}
+
+}  // namespace
+
+void StreamHub::start() {
+  timer_.expires_after(period);
+  timer_.async_wait([this](const boost::system::error_code& error) {
+    if (error) return;
+    tick();
+    start();
+  });
+}
+
+void StreamHub::tick() {
+  auto snapshot = mailbox_.newest();
+  if (!snapshot || snapshot == newest_) return;
+  newest_ = std::move(snapshot);
+  cache_.clear();
+  const auto all = sessions_;
+  for (const auto& session : all) session->offer();
+}
+
+void StreamHub::join(const std::shared_ptr<StreamSession>& session) {
+  sessions_.insert(session);
+  count_ = sessions_.size();
+}
+
+void StreamHub::leave(const std::shared_ptr<StreamSession>& session) {
+  sessions_.erase(session);
+  count_ = sessions_.size();
+}
+
+std::shared_ptr<const std::string> StreamHub::message(const std::shared_ptr<const Snapshot>& from, bool heartbeat) {
+  const std::uint64_t since = from ? from->sequence : 0;
+  auto& cached = cache_[since];
+  if (!cached) {
+    if (from) {
+      bus::Json json = {{"sequence", newest_->sequence},
+                        {"since", since},
+                        {"changes", merge_patch(from->document, newest_->document)}};
+      // An empty text marks that there is no news, so that it is worked out once for all clients.
+      cached = json["changes"].empty() ? std::make_shared<const std::string>() : text(json);
+    } else {
+      cached = text({{"sequence", newest_->sequence}, {"state", newest_->document}});
+    }
+  }
+  if (cached->empty() && heartbeat)
+    return text({{"sequence", newest_->sequence}, {"since", since}, {"changes", bus::Json::object()}});
+  return cached;
+}
+
+void StreamSession::accept(const beast::http::request<beast::http::string_body>& request) {
+  beast::get_lowest_layer(socket_).expires_never();
+  auto timeout = websocket::stream_base::timeout::suggested(beast::role_type::server);
+  timeout.idle_timeout = std::chrono::seconds(20);
+  timeout.keep_alive_pings = true;
+  socket_.set_option(timeout);
+  socket_.read_message_max(4096);
+  socket_.async_accept(request, [self = shared_from_this()](const beast::error_code& error) {
+    if (error) return;
+    self->hub_.join(self);
+    self->read();
+    self->offer();
+  });
+}
+
+void StreamSession::read() {
+  // Clients have nothing to say; reading answers their pings and notices that they go.
+  socket_.async_read(incoming_, [self = shared_from_this()](const beast::error_code& error, std::size_t) {
+    if (error) return self->close();
+    self->incoming_.clear();
+    self->read();
+  });
+}
+
+void StreamSession::offer() {
+  const auto& newest = hub_.newest();
+  if (writing_ || !newest || newest == sent_) return;
+  const auto now = std::chrono::steady_clock::now();
+  auto message = hub_.message(sent_, now - last_message_ >= heartbeat_period);
+  if (message->empty()) return;
+  writing_ = std::move(message);
+  sent_ = newest;
+  last_message_ = now;
+  socket_.text(true);
+  socket_.async_write(boost::asio::buffer(*writing_),
+                      [self = shared_from_this()](const beast::error_code& error, std::size_t) {
+                        self->writing_.reset();
+                        if (error) return self->close();
+                        self->offer();
+                      });
+}
+
+void StreamSession::close() {
+  beast::get_lowest_layer(socket_).close();
+  hub_.leave(shared_from_this());
+}
+
+}  // namespace trunnion::gateway

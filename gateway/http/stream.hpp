@@ -1,0 +1,63 @@
+// WebSocket clients: each gets the newest state whenever it has taken the message before, so nothing ever queues.
+#pragma once
+
+#include <atomic>
+#include <boost/asio/steady_timer.hpp>
+#include <boost/beast/core/flat_buffer.hpp>
+#include <boost/beast/core/tcp_stream.hpp>
+#include <boost/beast/http/message.hpp>
+#include <boost/beast/http/string_body.hpp>
+#include <boost/beast/websocket/stream.hpp>
+#include <map>
+#include <memory>
+#include <set>
+
+#include "mailbox.hpp"
+
+namespace trunnion::gateway {
+
+class StreamSession;
+
+/// Looks at the mailbox 20 times a second and hands what is new to every client that is ready for it.
+class StreamHub {
+ public:
+  StreamHub(boost::asio::io_context& context, Mailbox& mailbox) : timer_(context), mailbox_(mailbox) {}
+  void start();
+  void join(const std::shared_ptr<StreamSession>& session);
+  void leave(const std::shared_ptr<StreamSession>& session);
+  bool full() const { return sessions_.size() >= 32; }
+  std::size_t size() const { return count_; }
+  const std::shared_ptr<const Snapshot>& newest() const { return newest_; }
+  /// Text of the message that brings a client from `from` (null: from nothing) to the newest state. Empty when there is
+  /// nothing to say and `heartbeat` is false.
+  std::shared_ptr<const std::string> message(const std::shared_ptr<const Snapshot>& from, bool heartbeat);
+
+ private:
+  void tick();
+  boost::asio::steady_timer timer_;
+  Mailbox& mailbox_;
+  std::shared_ptr<const Snapshot> newest_;
+  std::map<std::uint64_t, std::shared_ptr<const std::string>> cache_;  ///< by the sequence it starts from
+  std::set<std::shared_ptr<StreamSession>> sessions_;
+  std::atomic<std::size_t> count_{0};
+};
+
+class StreamSession : public std::enable_shared_from_this<StreamSession> {
+ public:
+  StreamSession(boost::beast::tcp_stream&& stream, StreamHub& hub) : socket_(std::move(stream)), hub_(hub) {}
+  void accept(const boost::beast::http::request<boost::beast::http::string_body>& request);
+  /// Sends what is new, unless the message before is still under way.
+  void offer();
+
+ private:
+  void read();
+  void close();
+  boost::beast::websocket::stream<boost::beast::tcp_stream> socket_;
+  StreamHub& hub_;
+  boost::beast::flat_buffer incoming_;
+  std::shared_ptr<const Snapshot> sent_;
+  std::shared_ptr<const std::string> writing_;
+  std::chrono::steady_clock::time_point last_message_{};
+};
+
+}  // namespace trunnion::gateway

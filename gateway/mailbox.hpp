@@ -1,0 +1,54 @@
+// What the two threads exchange: orders from the HTTP side to the bus, the newest snapshot the other way.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include "bus/bus.hpp"
+#include "contracts/topics.hpp"
+#include "request_lanes.hpp"
+#include "src/jog_guard.hpp"
+#include "src/snapshot.hpp"
+
+namespace trunnion::gateway {
+
+/// The writing side of the bus. Only the bus thread touches it.
+struct Links {
+  explicit Links(bus::Bus& bus);
+  void pump(double now);
+  /// Requests are under way or a jog must be watched, so time matters.
+  bool busy() const;
+
+  RequestLanes<idl::channel::ChannelRequest, idl::channel::ChannelReply> channel;
+  RequestLanes<idl::plc::PanelRequest, idl::plc::PanelReply> panel;
+  RequestLanes<idl::parameters::ParameterRequest, idl::parameters::ParameterReply> parameters;
+  RequestLanes<idl::program::ProgramRequest, idl::program::ProgramReply> program;
+  bus::Writer<idl::service::AlarmReset> alarm_reset;
+  JogGuard jog;
+};
+
+using Job = std::function<void(Links&, double now)>;
+
+class Mailbox {
+ public:
+  explicit Mailbox(std::function<void()> wake) : wake_(std::move(wake)) {}
+
+  /// HTTP side: runs `job` on the bus thread soon.
+  void post(Job job);
+  /// HTTP side: the newest state; null until there is one.
+  std::shared_ptr<const Snapshot> newest() const;
+
+  /// Bus side.
+  std::vector<Job> take();
+  void publish(std::shared_ptr<const Snapshot> snapshot);
+
+ private:
+  std::function<void()> wake_;
+  mutable std::mutex mutex_;
+  std::vector<Job> jobs_;
+  std::shared_ptr<const Snapshot> newest_;
+};
+
+}  // namespace trunnion::gateway

@@ -1,0 +1,120 @@
+#include "src/router.hpp"
+
+#include <algorithm>
+
+namespace trunnion::gateway {
+namespace {
+
+std::vector<std::string_view> split(std::string_view text, char separator) {
+  std::vector<std::string_view> parts;
+  while (true) {
+    const auto at = text.find(separator);
+    parts.push_back(text.substr(0, at));
+    if (at == std::string_view::npos) return parts;
+    text.remove_prefix(at + 1);
+  }
+}
+
+int hex_digit(char c) {
+  if (c >= '0' && c <= '9') return c - '0';
+  if (c >= 'a' && c <= 'f') return c - 'a' + 10;
+  if (c >= 'A' && c <= 'F') return c - 'A' + 10;
+  return -1;
+}
+
+bool fits(std::string_view pattern, std::string_view path, std::vector<std::string>& parts) {
+  parts.clear();
+  const auto wanted = split(pattern, '/'), given = split(path, '/');
+  if (wanted.size() != given.size()) return false;
+  for (std::size_t i = 0; i < wanted.size(); ++i) {
+    if (!wanted[i].starts_with('{')) {
+      if (wanted[i] != given[i]) return false;
+      continue;
+    }
+    std::string decoded;
+    if (given[i].empty() || !percent_decode(given[i], decoded)) return false;
+    parts.push_back(std::move(decoded));
+  }
+  return true;
+}
+
+}  // namespace
+
+const std::vector<Route>& routes() {
+  static const std::vector<Route> table = {
+      {"GET", "/api/status", Operation::status},
+      {"GET", "/api/alarms", Operation::alarms},
+      {"POST", "/api/alarms/reset", Operation::alarms_reset},
+      {"GET", "/api/channels", Operation::channels},
+      {"GET", "/api/channels/{channel}", Operation::channel},
+      {"POST", "/api/channels/{channel}/mode", Operation::mode},
+      {"POST", "/api/channels/{channel}/select", Operation::select},
+      {"POST", "/api/channels/{channel}/cycle-start", Operation::cycle_start},
+      {"POST", "/api/channels/{channel}/feed-hold", Operation::feed_hold},
+      {"POST", "/api/channels/{channel}/reset", Operation::reset},
+      {"POST", "/api/channels/{channel}/mdi", Operation::mdi},
+      {"POST", "/api/channels/{channel}/jog", Operation::jog},
+      {"POST", "/api/channels/{channel}/jog-stop", Operation::jog_stop},
+      {"POST", "/api/channels/{channel}/reference", Operation::reference},
+      {"POST", "/api/channels/{channel}/override", Operation::override_},
+      {"POST", "/api/channels/{channel}/single-block", Operation::single_block},
+      {"POST", "/api/channels/{channel}/optional-stop", Operation::optional_stop},
+      {"POST", "/api/panel/emergency-stop", Operation::emergency_stop},
+      {"POST", "/api/panel/release", Operation::release},
+      {"POST", "/api/panel/reset", Operation::panel_reset},
+      {"GET", "/api/parameters", Operation::parameters},
+      {"GET", "/api/parameters/{number}", Operation::parameter},
+      {"PUT", "/api/parameters/{number}", Operation::set_parameter},
+      {"GET", "/api/tools", Operation::tools},
+      {"GET", "/api/work-offsets", Operation::work_offsets},
+      {"PUT", "/api/work-offsets", Operation::set_work_offset},
+      {"GET", "/api/programs", Operation::programs},
+      {"GET", "/api/programs/{name}", Operation::read_program},
+      {"PUT", "/api/programs/{name}", Operation::write_program},
+      {"DELETE", "/api/programs/{name}", Operation::remove_program},
+      {"GET", "/api/plc/image", Operation::plc_image},
+      {"GET", "/api/openapi.json", Operation::openapi},
+      {"GET", "/api/stream", Operation::stream},
+  };
+  return table;
+}
+
+Match match(std::string_view method, std::string_view path) {
+  Match found;
+  for (const auto& route : routes()) {
+    std::vector<std::string> parts;
+    if (!fits(route.pattern, path, parts)) continue;
+    if (route.method == method) return {RouteResult::found, route.operation, std::move(parts)};
+    found.result = RouteResult::no_method;
+  }
+  return found;
+}
+
+bool percent_decode(std::string_view text, std::string& decoded, bool plus_is_space) {
+  decoded.clear();
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] != '%') {
+      decoded.push_back(plus_is_space && text[i] == '+' ? ' ' : text[i]);
+      continue;
+    }
+    if (i + 2 >= text.size()) return false;
+    const int high = hex_digit(text[i + 1]), low = hex_digit(text[i + 2]);
+    if (high < 0 || low < 0) return false;
+    decoded.push_back(static_cast<char>(high * 16 + low));
+    i += 2;
+  }
+  return true;
+}
+
+std::string query_value(std::string_view query, std::string_view name) {
+  for (const auto pair : split(query, '&')) {
+    const auto equals = pair.find('=');
+    std::string decoded;
+    if (pair.substr(0, equals) == name && equals != std::string_view::npos &&
+        percent_decode(pair.substr(equals + 1), decoded, true))
+      return decoded;
+  }
+  return {};
+}
+
+}  // namespace trunnion::gateway

@@ -1,0 +1,43 @@
+// Which operation a method and a path mean. gateway/openapi.json documents exactly these.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace trunnion::gateway {
+
+enum class Operation {
+  status, alarms, channels, channel, parameters, parameter, set_parameter, tools, work_offsets, set_work_offset,
+  programs, read_program, write_program, remove_program, plc_image, openapi, stream,
+  mode, select, cycle_start, feed_hold, reset, mdi, jog, jog_stop, reference, override_, single_block, optional_stop,
+  emergency_stop, release, panel_reset, alarms_reset
+};
+
+/// One line of the table: `{x}` in the pattern stands for one part of a path.
+struct Route {
+  std::string_view method;
+  std::string_view pattern;
+  Operation operation;
+};
+
+const std::vector<Route>& routes();
+
+enum class RouteResult { found, no_path, no_method };
+
+struct Match {
+  RouteResult result = RouteResult::no_path;
+  Operation operation = Operation::status;
+  std::vector<std::string> parts;  ///< what stood for each `{x}`, percent-decoded
+};
+
+/// `path` without the query. HEAD is not routed. A part that does not decode is no path.
+Match match(std::string_view method, std::string_view path);
+
+/// Percent-decoding of one part of a path or query; false when a % is not followed by two hexadecimal digits.
+bool percent_decode(std::string_view text, std::string& decoded, bool plus_is_space = false);
+
+/// Value of `name` in a query string (a=1&b=2), decoded; empty when it is not there.
+std::string query_value(std::string_view query, std::string_view name);
+
+}  // namespace trunnion::gateway

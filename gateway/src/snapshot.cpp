@@ -1,0 +1,183 @@
+#include "src/snapshot.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+
+namespace trunnion::gateway {
+namespace {
+
+using bus::Json;
+
+std::string lower(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
+  return text;
+}
+
+/// Class of a parameter by its number, as the catalogue's head lays them out.
+const char* group_of(std::uint32_t number) {
+  if (number < 10000) return "nc";
+  if (number < 40000) return "user";
+  if (number < 100000) return "channel";
+  if (number < 300000) return "axis";
+  if (number < 700000) return "compensation";
+  return "table";
+}
+
+std::map<std::uint32_t, machine::ParameterValue> values_of(const Snapshot& snapshot) {
+  std::map<std::uint32_t, machine::ParameterValue> values;
+  if (snapshot.parameters)
+    for (const auto& value : snapshot.parameters->values) values[value.number] = {value.value, value.text};
+  return values;
+}
+
+Json number_json(double value) {
+  // Whole numbers are shown as such: 8, not 8.0.
+  if (std::floor(value) == value && std::abs(value) < 1e15) return static_cast<std::int64_t>(value);
+  return value;
+}
+
+std::uint32_t index_of(const machine::Definition& definition, std::uint32_t number) {
+  const auto distance = number - definition.number();
+  return definition.units > 1 ? distance % 1000 : distance;
+}
+
+Json entry(const Snapshot& snapshot, const machine::Definition& definition, std::uint32_t number,
+           const std::map<std::uint32_t, machine::ParameterValue>& values) {
+  const bool is_text = definition.type == machine::ParameterType::text;
+  const auto known = values.find(number);
+  Json json;
+  json["number"] = number;
+  json["name"] = definition.count > 1
+                     ? definition.name + " " + std::to_string(index_of(definition, number) + 1)
+                     : definition.name;
+  json["unit"] = definition.unit;
+  json["type"] = machine::to_string(definition.type);
+  const double fallback = machine::Catalogue::instance().default_of(number);
+  if (is_text) {
+    json["default"] = "";
+    json["value"] = known != values.end() ? known->second.text : "";
+  } else {
+    json["minimum"] = number_json(definition.minimum);
+    json["maximum"] = number_json(definition.maximum);
+    json["default"] = number_json(fallback);
+    json["value"] = number_json(known != values.end() ? known->second.value : fallback);
+  }
+  json["activation"] = machine::to_string(definition.activation);
+  json["access"] = definition.access;
+  json["pending"] = std::binary_search(snapshot.parameters->pending.begin(), snapshot.parameters->pending.end(), number);
+  json["help"] = definition.help;
+  json["group"] = group_of(number);
+  return json;
+}
+
+}  // namespace
+
+Json status_answer(const Snapshot& snapshot, const std::string& contract) {
+  Json json;
+  const auto& document = snapshot.document;
+  json["contract"] = contract;
+  json["cluster"] = document.contains("cluster") ? document["cluster"] : Json(nullptr);
+  json["services"] = Json::array();
+  if (document.contains("services"))
+    for (const auto& [instance, service] : document["services"].items()) {
+      Json one = {{"instance", std::stoul(instance)}};
+      one.update(service);
+      json["services"].push_back(std::move(one));
+    }
+  json["channels"] = Json::array();
+  for (const auto& [number, state] : snapshot.channels) json["channels"].push_back(number);
+  json["alarms"] = document.contains("alarms") ? document["alarms"].size() : 0;
+  json["drive"] = document.contains("drive") ? document["drive"] : Json(nullptr);
+  json["plc"] = document.contains("plc") ? document["plc"] : Json(nullptr);
+  return json;
+}
+
+Json alarms_answer(const Snapshot& snapshot) {
+  auto list = Json::array();
+  if (snapshot.document.contains("alarms"))
+    for (const auto& [key, alarm] : snapshot.document["alarms"].items()) list.push_back(alarm);
+  return {{"alarms", std::move(list)}};
+}
+
+Json channels_answer(const Snapshot& snapshot) {
+  auto list = Json::array();
+  for (const auto& [number, state] : snapshot.channels) list.push_back(bus::to_json(state));
+  return {{"channels", std::move(list)}};
+}
+
+Json channel_answer(const Snapshot& snapshot, std::uint16_t number) {
+  const auto found = snapshot.channels.find(number);
+  if (found == snapshot.channels.end()) return nullptr;
+  const auto& state = found->second;
+  auto json = bus::to_json(state);
+  auto& positions = json["positions"] = Json::array();
+  const auto column = [](const std::vector<double>& values, std::size_t i) {
+    return i < values.size() ? Json(values[i]) : Json(nullptr);
+  };
+  for (std::size_t i = 0; i < state.axes.size(); ++i) {
+    Json row;
+    row["letter"] = i < state.letters.size() ? std::string(1, state.letters[i]) : "";
+    row["axis"] = state.axes[i];
+    row["machine"] = column(state.machine, i);
+    row["workpiece"] = column(state.workpiece, i);
+    row["distance_to_go"] = column(state.distance_to_go, i);
+    const auto key = std::to_string(state.axes[i]);
+    if (snapshot.document.contains("axes") && snapshot.document["axes"].contains(key))
+      row.update(snapshot.document["axes"][key]);
+    positions.push_back(std::move(row));
+  }
+  return json;
+}
+
+Json parameters_answer(const Snapshot& snapshot, const ParameterQuery& query) {
+  if (!snapshot.parameters) return nullptr;
+  const auto values = values_of(snapshot);
+  const auto name_number = machine::Catalogue::instance().by_name("axis_name").number();
+  std::set<std::uint32_t> axes, channels;
+  for (const auto& [number, value] : values)
+    if (number >= name_number && number < name_number + 100000 && (number - name_number) % 1000 == 0 &&
+        !value.text.empty())
+      axes.insert((number - name_number) / 1000);
+  for (const auto& [number, state] : snapshot.channels) channels.insert(number);
+  const auto wanted = lower(query.search);
+
+  std::map<std::uint32_t, const machine::Definition*> found;
+  for (const auto& definition : machine::Catalogue::instance().definitions()) {
+    const std::string group = group_of(definition.number());
+    if (!query.group.empty() && group != query.group) continue;
+    for (std::uint32_t unit = 0; unit < definition.units; ++unit) {
+      const bool here = group == "channel"                              ? channels.contains(unit)
+                        : group == "axis" || group == "compensation" ? axes.contains(unit)
+                                                                        : true;
+      for (std::uint32_t i = 0; i < definition.count; ++i) {
+        const auto number = definition.number(unit, i);
+        if (!here && !values.contains(number)) continue;
+        if (!wanted.empty() && machine::number_text(number).find(wanted) == std::string::npos &&
+            lower(definition.name).find(wanted) == std::string::npos &&
+            lower(definition.help).find(wanted) == std::string::npos)
+          continue;
+        found.emplace(number, &definition);
+      }
+    }
+  }
+  auto list = Json::array();
+  std::size_t index = 0;
+  for (const auto& [number, definition] : found) {
+    if (index++ < query.offset) continue;
+    if (list.size() == query.limit) break;
+    list.push_back(entry(snapshot, *definition, number, values));
+  }
+  return {{"revision", snapshot.parameters->revision},
+          {"pending", snapshot.parameters->pending.size()},
+          {"total", found.size()},
+          {"parameters", std::move(list)}};
+}
+
+Json parameter_answer(const Snapshot& snapshot, std::uint32_t number) {
+  const auto* definition = machine::Catalogue::instance().find(number);
+  if (definition == nullptr || !snapshot.parameters) return nullptr;
+  return entry(snapshot, *definition, number, values_of(snapshot));
+}
+
+}  // namespace trunnion::gateway

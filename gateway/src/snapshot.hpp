@@ -1,0 +1,42 @@
+// What the HTTP side knows of the cluster: made by the thread of the bus, never changed afterwards.
+#pragma once
+
+#include <memory>
+#include <set>
+
+#include "bus/json.hpp"
+#include "contracts/types.hpp"
+#include "machine/parameters.hpp"
+
+namespace trunnion::gateway {
+
+struct Snapshot {
+  std::uint64_t sequence = 0;
+  bus::Json document = bus::Json::object();  ///< of StateDocument
+  std::map<std::uint16_t, idl::channel::ChannelState> channels;
+  std::shared_ptr<const idl::parameters::ParameterSet> parameters;
+  std::shared_ptr<const idl::parameters::ToolTable> tools;
+  std::shared_ptr<const idl::parameters::WorkOffsets> offsets;
+  std::shared_ptr<const idl::program::ProgramList> programs;
+  std::shared_ptr<const idl::plc::Image> image;
+};
+
+/// Answers of the GET operations, as the OpenAPI document describes them. Null when the service has not published yet.
+bus::Json status_answer(const Snapshot& snapshot, const std::string& contract);
+bus::Json alarms_answer(const Snapshot& snapshot);
+bus::Json channels_answer(const Snapshot& snapshot);
+bus::Json channel_answer(const Snapshot& snapshot, std::uint16_t channel);
+
+/// Which parameters are wanted.
+struct ParameterQuery {
+  std::string group;   ///< nc, user, channel, axis, compensation, table; empty = all
+  std::string search;  ///< part of the number, name or help, whatever the case; empty = all
+  std::size_t offset = 0, limit = 500;
+};
+
+/// Parameters of the channels and axes the machine has, ascending by number.
+bus::Json parameters_answer(const Snapshot& snapshot, const ParameterQuery& query);
+/// Null when the catalogue has no such number.
+bus::Json parameter_answer(const Snapshot& snapshot, std::uint32_t number);
+
+}  // namespace trunnion::gateway

@@ -1,0 +1,192 @@
+#include "src/state_document.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace trunnion::gateway {
+namespace {
+
+using bus::Json;
+
+/// Display needs no more than a nanometre, and short numbers make short messages.
+double rounded(double value) { return std::isfinite(value) ? std::round(value * 1e6) / 1e6 + 0.0 : 0.0; }
+
+Json rounded_row(const std::vector<double>& row) {
+  auto json = Json::array();
+  for (const double value : row) json.push_back(rounded(value));
+  return json;
+}
+
+}  // namespace
+
+void StateDocument::apply(const idl::service::Announcement& announcement) {
+  auto& known = services_[announcement.instance];
+  known.announcement = announcement;
+  known.announced = true;
+}
+
+void StateDocument::apply(const idl::service::ServiceState& state, double now) {
+  auto& known = services_[state.instance];
+  if (known.beating && known.state.pid != state.pid)
+    // Another process took the place: nobody is left to clear what its predecessor had raised. What arrived after
+    // the predecessor's last heartbeat may be the successor's and stays.
+    std::erase_if(alarms_, [&](const auto& entry) {
+      return std::get<0>(entry.first) == state.instance && entry.second.heard <= known.heard;
+    });
+  known.state = state;
+  known.heard = now;
+  known.beating = true;
+}
+
+void StateDocument::apply(const idl::service::Alarm& alarm, double now, const std::string& time) {
+  const std::tuple key{alarm.instance, alarm.number, alarm.part};
+  if (!alarm.active) {
+    alarms_.erase(key);
+    return;
+  }
+  auto& raised = alarms_[key];
+  if (raised.since.empty()) raised.since = time;
+  raised.alarm = alarm;
+  raised.heard = now;
+}
+
+void StateDocument::apply(const idl::service::Cluster& cluster) {
+  cluster_ = cluster;
+  has_cluster_ = true;
+}
+
+void StateDocument::apply(const idl::channel::ChannelState& state) { channels_[state.channel] = state; }
+
+void StateDocument::apply(const idl::plc::Outputs& outputs) {
+  plc_ = {{"emergency_stop", outputs.emergency_stop},
+          {"feed_hold", outputs.feed_hold},
+          {"coolant", outputs.coolant},
+          {"spindle_speed", outputs.spindle_speed}};
+}
+
+void StateDocument::apply(const idl::stream::FeedbackFrame& frame) {
+  const std::size_t columns = frame.axis_count;
+  const std::size_t rows = columns == 0 ? 0 : std::min(frame.actual.size(), frame.commanded.size()) / columns;
+  for (std::size_t row = 0; row < std::min<std::size_t>(frame.count, rows); ++row) {
+    commanded_.assign(&frame.commanded[row * columns], &frame.commanded[row * columns] + columns);
+    actual_.assign(&frame.actual[row * columns], &frame.actual[row * columns] + columns);
+    peak_.resize(columns, 0.0);
+    for (std::size_t i = 0; i < columns; ++i) {
+      const double error = commanded_[i] - actual_[i];
+      if (std::abs(error) > std::abs(peak_[i])) peak_[i] = error;
+    }
+    trace_.add(frame.first + row, actual_);
+  }
+  feedback_ = frame;
+  has_feedback_ = true;
+}
+
+void StateDocument::set_drive_axes(std::vector<std::uint16_t> axes) { drive_axes_ = std::move(axes); }
+
+void StateDocument::set_revision(const char* what, std::uint64_t revision) { revisions_[what] = revision; }
+
+Json StateDocument::services(double now) const {
+  auto json = Json::object();
+  std::map<std::uint32_t, const idl::service::ClusterService*> expected;
+  for (const auto& service : cluster_.services) expected[service.instance] = &service;
+  static const Known nothing;
+  const auto add = [&](std::uint32_t instance, const Known& known, const idl::service::ClusterService* wanted) {
+    const auto& state = known.state;
+    const auto& announcement = known.announcement;
+    const bool alive = known.beating && now - known.heard < heartbeat_patience;
+    const bool same = !known.announced || announcement.contract == contract_;
+    auto& entry = json[std::to_string(instance)] = Json::object();
+    entry["service"] = known.beating ? state.service : known.announced ? announcement.service : wanted->service;
+    entry["copy"] = known.beating ? state.copy : wanted != nullptr ? wanted->copy : 0;
+    entry["vendor"] = known.beating ? state.vendor : known.announced ? announcement.vendor : wanted->vendor;
+    entry["host"] = announcement.host;
+    entry["pid"] = known.beating ? state.pid : known.announced ? announcement.pid : wanted->pid;
+    entry["lifecycle"] = alive ? bus::to_string(state.lifecycle) : "ABSENT";
+    entry["detail"] = alive ? state.detail : std::string("no heartbeat");
+    entry["frames_per_second"] = alive ? std::round(state.frames_per_second) : 0.0;
+    entry["frames_lost"] = state.frames_lost;
+    entry["uptime"] = std::floor(state.uptime);
+    entry["revision"] = state.revision;
+    entry["in_step"] = state.in_step;
+    entry["alive"] = alive;
+    entry["expected"] = wanted != nullptr;
+    entry["restarts"] = wanted != nullptr ? wanted->restarts : 0;
+    entry["contract"] = announcement.contract;
+    entry["contract_match"] = same;
+  };
+  for (const auto& [instance, known] : services_) {
+    const auto wanted = expected.find(instance);
+    add(instance, known, wanted != expected.end() ? wanted->second : nullptr);
+  }
+  for (const auto& [instance, wanted] : expected)
+    if (!services_.contains(instance)) add(instance, nothing, wanted);
+  return json;
+}
+
+Json StateDocument::alarms() const {
+  auto json = Json::object();
+  for (const auto& [key, raised] : alarms_) {
+    const auto& [instance, number, part] = key;
+    auto alarm = bus::to_json(raised.alarm);
+    alarm.erase("active");
+    alarm["since"] = raised.since;
+    json[std::to_string(instance) + "/" + std::to_string(number) + "/" + std::to_string(part)] = std::move(alarm);
+  }
+  return json;
+}
+
+Json StateDocument::axes() {
+  auto json = Json::object();
+  for (std::size_t i = 0; i < std::min(actual_.size(), drive_axes_.size()); ++i) {
+    const double error = commanded_[i] - actual_[i];
+    auto& axis = json[std::to_string(drive_axes_[i])] = Json::object();
+    axis["commanded"] = rounded(commanded_[i]);
+    axis["actual"] = rounded(actual_[i]);
+    axis["following_error"] = rounded(error);
+    axis["following_peak"] = rounded(peak_[i]);
+    axis["position"] = rounded(i < feedback_.position.size() ? feedback_.position[i] : actual_[i]);
+    axis["velocity"] = rounded(i < feedback_.velocity.size() ? feedback_.velocity[i] : 0);
+    axis["torque"] = rounded(i < feedback_.torque.size() ? feedback_.torque[i] : 0);
+    axis["enabled"] = i < feedback_.enabled.size() && feedback_.enabled[i] != 0;
+    peak_[i] = error;
+  }
+  return json;
+}
+
+Json StateDocument::document(double now) {
+  auto json = Json::object();
+  if (has_cluster_)
+    json["cluster"] = {{"domain", cluster_.domain},
+                       {"machine", cluster_.machine},
+                       {"ready", cluster_.ready},
+                       {"virtual_time", cluster_.virtual_time},
+                       {"lead", cluster_.lead}};
+  json["services"] = services(now);
+  json["alarms"] = alarms();
+  auto& channels = json["channels"] = Json::object();
+  for (const auto& [number, state] : channels_) channels[std::to_string(number)] = bus::to_json(state);
+  json["axes"] = axes();
+  if (has_feedback_)
+    json["drive"] = {{"executed", feedback_.first + feedback_.count},
+                     {"tick", feedback_.tick},
+                     {"mode", feedback_.mode},
+                     {"starved", feedback_.starved},
+                     {"spindle_speed", rounded_row(feedback_.spindle_speed)}};
+  if (!plc_.is_null()) json["plc"] = plc_;
+  if (!trace_.empty() && !drive_axes_.empty()) {
+    auto rows = Json::array();
+    for (const auto& row : trace_.rows()) rows.push_back(rounded_row(row));
+    trace_document_ = {{"first", trace_.first()}, {"axes", drive_axes_}, {"rows", std::move(rows)}};
+  }
+  trace_.clear();
+  if (!trace_document_.is_null()) json["trace"] = trace_document_;
+  json["revisions"] = revisions_;
+  return json;
+}
+
+const idl::channel::ChannelState* StateDocument::channel(std::uint16_t number) const {
+  const auto found = channels_.find(number);
+  return found == channels_.end() ? nullptr : &found->second;
+}
+
+}  // namespace trunnion::gateway

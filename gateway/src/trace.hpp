@@ -1,0 +1,40 @@
+// Actual positions between two messages, thinned so that their number stays small however fast virtual time runs.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace trunnion::gateway {
+
+class Trace {
+ public:
+  static constexpr std::size_t most_rows = 64;
+
+  /// Keeps every n-th row; n doubles whenever the rows become too many.
+  void add(std::uint64_t cycle, std::span<const double> row) {
+    if (seen_++ % stride_ != 0) return;
+    if (rows_.size() == most_rows) {
+      for (std::size_t i = 0; i < most_rows / 2; ++i) rows_[i] = std::move(rows_[2 * i]);
+      rows_.resize(most_rows / 2);
+      stride_ *= 2;
+    }
+    if (rows_.empty()) first_ = cycle;
+    rows_.emplace_back(row.begin(), row.end());
+  }
+  bool empty() const { return rows_.empty(); }
+  std::uint64_t first() const { return first_; }
+  const std::vector<std::vector<double>>& rows() const { return rows_; }
+  void clear() {
+    rows_.clear();
+    stride_ = 1;
+    seen_ = 0;
+  }
+
+ private:
+  std::vector<std::vector<double>> rows_;
+  std::uint64_t first_ = 0;
+  std::uint64_t stride_ = 1, seen_ = 0;
+};
+
+}  // namespace trunnion::gateway

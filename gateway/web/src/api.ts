@@ -1,0 +1,97 @@
+// The gateway's HTTP side. An answer is never thrown: a refusal is something the operator must read.
+
+export interface Answer<T = unknown> {
+  ok: boolean;
+  status: number;
+  body: T | undefined;
+  /** Why not, in words for the operator; empty when ok. */
+  reason: string;
+}
+
+interface Refusal {
+  reason?: string;
+  error?: string;
+  field?: string;
+  alarm?: number;
+}
+
+function reasonOf(status: number, body: unknown): string {
+  const refusal = (body ?? {}) as Refusal;
+  const text = refusal.reason || refusal.error || `the gateway answered ${status}`;
+  return refusal.alarm ? `${text} (alarm ${refusal.alarm})` : text;
+}
+
+async function call<T>(method: string, path: string, body?: BodyInit, type?: string): Promise<Answer<T>> {
+  try {
+    const response = await fetch(path, { method, body, headers: type ? { "Content-Type": type } : {} });
+    const parsed: unknown = await response.json().catch(() => undefined);
+    const ok = response.ok;
+    return { ok, status: response.status, body: parsed as T, reason: ok ? "" : reasonOf(response.status, parsed) };
+  } catch {
+    return { ok: false, status: 0, body: undefined, reason: "no connection to the gateway" };
+  }
+}
+
+export const get = <T>(path: string) => call<T>("GET", path);
+export const remove = (path: string) => call("DELETE", path);
+export const post = (path: string, body: object = {}) =>
+  call("POST", path, JSON.stringify(body), "application/json");
+export const put = (path: string, body: object) => call("PUT", path, JSON.stringify(body), "application/json");
+export const upload = (name: string, file: Blob) =>
+  call("PUT", `/api/programs/${encodeURIComponent(name)}`, file, "text/plain");
+
+export async function programBytes(name: string): Promise<Uint8Array | null> {
+  try {
+    const response = await fetch(`/api/programs/${encodeURIComponent(name)}`);
+    return response.ok ? new Uint8Array(await response.arrayBuffer()) : null;
+  } catch {
+    return null;
+  }
+}
+
+export interface ProgramEntry {
+  name: string;
+  revision: number;
+  size: number;
+  lines: number;
+}
+
+export interface Parameter {
+  number: number;
+  name: string;
+  unit: string;
+  type: string;
+  minimum?: number;
+  maximum?: number;
+  default?: number | string;
+  value: number | string;
+  activation: string;
+  access: string;
+  pending: boolean;
+  help: string;
+}
+
+export interface Tool {
+  number: number;
+  length: number;
+  length_wear: number;
+  radius: number;
+  radius_wear: number;
+  name: string;
+}
+
+export interface WorkOffset {
+  channel: number;
+  index: number;
+  values: number[];
+}
+
+export interface PlcImage {
+  scan: number;
+  x: number[];
+  y: number[];
+  f: number[];
+  g: number[];
+  r: number[];
+  b: number[];
+}

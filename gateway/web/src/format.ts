@@ -1,0 +1,35 @@
+/** Three decimals with an explicit minus; never "-0.000". */
+export function millimetres(value: number, decimals = 3): string {
+  const text = value.toFixed(decimals);
+  return Number(text) === 0 ? text.replace("-", "") : text.replace("-", "\u2212");
+}
+
+export function whole(value: number): string {
+  return Math.round(value).toString();
+}
+
+/** 1234567 -> "1.23 M"; for rates and counts that are looked at, not read off. */
+export function compact(value: number): string {
+  if (value >= 1e6) return `${(value / 1e6).toFixed(2)} M`;
+  if (value >= 1e4) return `${(value / 1e3).toFixed(1)} k`;
+  return value.toFixed(value < 10 && value !== 0 ? 1 : 0);
+}
+
+export function bytes(value: number): string {
+  if (value >= 1e6) return `${(value / 1e6).toFixed(1)} MB`;
+  if (value >= 1e3) return `${(value / 1e3).toFixed(1)} kB`;
+  return `${value} B`;
+}
+
+/** Seconds as h:mm:ss. */
+export function duration(seconds: number): string {
+  const s = Math.floor(seconds);
+  const two = (n: number) => String(n).padStart(2, "0");
+  return `${Math.floor(s / 3600)}:${two(Math.floor(s / 60) % 60)}:${two(s % 60)}`;
+}
+
+/** The time of day of an ISO 8601 instant, in the browser's zone. */
+export function timeOfDay(iso: string): string {
+  const date = new Date(iso);
+  return Number.isNaN(date.getTime()) ? "" : date.toLocaleTimeString("en-GB");
+}

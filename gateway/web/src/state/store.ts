@@ -1,0 +1,105 @@
+// The one place with live state: the stream, the chosen channel and view, and the last thing that was refused.
+import { computed, signal } from "@preact/signals";
+import { post } from "../api";
+import { History } from "./history";
+import { channelNumbers, emptyStream, type Message, receive, type Stream } from "./model";
+
+const stream = signal<Stream>(emptyStream);
+export const machine = computed(() => stream.value.state);
+
+/** connecting: never heard of the gateway; lost: what is shown is old. */
+export const connection = signal<"connecting" | "live" | "lost">("connecting");
+
+export type ViewName = "operate" | "parameters" | "offsets" | "diagnosis";
+export const view = signal<ViewName>("operate");
+
+const chosenChannel = signal<number | null>(null);
+export const channels = computed(() => machine.value.channels);
+export const channelList = computed(() => channelNumbers(machine.value));
+export const channelNumber = computed(() => {
+  const chosen = chosenChannel.value;
+  return chosen !== null && channelList.value.includes(chosen) ? chosen : (channelList.value[0] ?? null);
+});
+export const channel = computed(() => {
+  const number = channelNumber.value;
+  return number === null ? undefined : channels.value[String(number)];
+});
+
+const histories = new Map<number, History>();
+export function history(number: number): History {
+  const known = histories.get(number);
+  if (known) return known;
+  const fresh = new History();
+  histories.set(number, fresh);
+  return fresh;
+}
+
+export function chooseChannel(number: number): void {
+  chosenChannel.value = number;
+}
+
+export interface Notice {
+  text: string;
+  refused: boolean;
+}
+export const notice = signal<Notice | null>(null);
+let noticeTimer: ReturnType<typeof setTimeout> | undefined;
+
+export function tell(text: string, refused: boolean): void {
+  notice.value = { text, refused };
+  clearTimeout(noticeTimer);
+  noticeTimer = setTimeout(() => (notice.value = null), refused ? 12000 : 4000);
+}
+
+/** Sends an order and shows the refusal, if there is one; true when accepted. */
+export async function order(what: string, path: string, body: object = {}): Promise<boolean> {
+  const answer = await post(path, body);
+  if (answer.ok) {
+    if (notice.value?.refused) notice.value = null;
+  } else {
+    tell(`${what}: ${answer.reason}`, true);
+  }
+  return answer.ok;
+}
+
+/** An order to the chosen channel. */
+export function command(what: string, verb: string, body: object = {}): Promise<boolean> {
+  const number = channelNumber.value;
+  if (number === null) return Promise.resolve(false);
+  return order(what, `/api/channels/${number}/${verb}`, body);
+}
+
+// The gateway sends something at least twice a second, so silence of this length means that it is gone.
+const silenceMilliseconds = 1800;
+const reconnectMilliseconds = 700;
+
+/** Connects and keeps connecting for as long as the page lives. */
+export function connect(): void {
+  let silence: ReturnType<typeof setTimeout> | undefined;
+  const socket = new WebSocket(`${location.protocol === "https:" ? "wss" : "ws"}://${location.host}/api/stream`);
+  let ended = false;
+  const end = () => {
+    if (ended) return;
+    ended = true;
+    clearTimeout(silence);
+    socket.close();
+    if (connection.value === "live") connection.value = "lost";
+    setTimeout(connect, reconnectMilliseconds);
+  };
+  const heard = () => {
+    clearTimeout(silence);
+    silence = setTimeout(end, silenceMilliseconds);
+  };
+  heard();
+  socket.onmessage = (event: MessageEvent<string>) => {
+    const next = receive(stream.value, JSON.parse(event.data) as Message);
+    if (!next) return end();
+    heard();
+    stream.value = next;
+    connection.value = "live";
+    const now = performance.now() / 1000;
+    for (const one of Object.values(next.state.channels)) history(one.channel).record(now, next.state, one);
+  };
+  socket.onclose = end;
+  socket.onerror = end;
+}

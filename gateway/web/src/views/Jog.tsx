@@ -1,0 +1,124 @@
+import { signal } from "@preact/signals";
+import { useEffect, useMemo } from "preact/hooks";
+import { JogHold } from "../state/jog";
+import { axisRows } from "../state/model";
+import { channel, channelNumber, machine, order } from "../state/store";
+
+const increments = [0, 0.001, 0.01, 0.1, 1, 10];
+const speeds = [60, 200, 600, 2000, 6000];
+
+const increment = signal(0);
+const speed = signal(600);
+
+export function Jog() {
+  const number = channelNumber.value;
+  const hold = useMemo(() => {
+    const path = `/api/channels/${number}`;
+    return new JogHold({
+      start: (jog) => order("Jog", `${path}/jog`, jog),
+      stop: (axis) => order("Jog stop", `${path}/jog-stop`, { axis }),
+    });
+  }, [number]);
+  useEffect(() => {
+    // Whatever takes the operator's finger, window or page away ends the movement.
+    const release = () => hold.release();
+    const hidden = () => document.hidden && hold.release();
+    window.addEventListener("blur", release);
+    window.addEventListener("pagehide", release);
+    document.addEventListener("visibilitychange", hidden);
+    return () => {
+      hold.release();
+      window.removeEventListener("blur", release);
+      window.removeEventListener("pagehide", release);
+      document.removeEventListener("visibilitychange", hidden);
+    };
+  }, [hold]);
+  const one = channel.value;
+  if (!one) return null;
+  const reference = one.mode === "REF";
+  const usable = one.mode === "JOG" || reference;
+
+  const direction = (axis: number, letter: string, sign: 1 | -1) => {
+    const press = () => hold.press({ axis, speed: sign * speed.value, increment: increment.value });
+    return (
+      <button
+        class="direction"
+        disabled={!usable}
+        aria-label={`jog ${letter} ${sign > 0 ? "plus" : "minus"}`}
+        data-test={`jog-${letter}${sign > 0 ? "+" : "-"}`}
+        onPointerDown={(event) => {
+          if (event.button !== 0) return;
+          event.currentTarget.setPointerCapture(event.pointerId);
+          press();
+        }}
+        onPointerUp={() => hold.release()}
+        onPointerCancel={() => hold.release()}
+        onLostPointerCapture={() => hold.release()}
+        onBlur={() => hold.release()}
+        onContextMenu={(event) => event.preventDefault()}
+        onKeyDown={(event) => {
+          if (event.key !== " " && event.key !== "Enter") return;
+          event.preventDefault();
+          if (!event.repeat && !event.ctrlKey) press();
+        }}
+        onKeyUp={() => hold.release()}
+      >
+        {sign > 0 ? "+" : "−"}
+      </button>
+    );
+  };
+
+  return (
+    <section class={`jog ${usable ? "" : "idle"}`} aria-label="jog">
+      <div class="title">
+        <h2>{reference ? "Reference" : "Jog"}</h2>
+        {!usable && <span class="dim">choose Jog or Reference</span>}
+      </div>
+      <div class="pad">
+        {axisRows(machine.value, one).map((row) => (
+          <div class="jog-axis" key={row.index}>
+            {direction(row.index, row.letter, 1)}
+            {reference ? (
+              <button
+                class="home"
+                data-test={`reference-${row.letter}`}
+                title={`reference ${row.letter}`}
+                onClick={() => void order("Reference", `/api/channels/${one.channel}/reference`, { axis: row.index })}
+              >
+                ⌂ {row.letter}
+              </button>
+            ) : (
+              <b>{row.letter}</b>
+            )}
+            {direction(row.index, row.letter, -1)}
+          </div>
+        ))}
+      </div>
+      <div class="jog-choice">
+        <label>
+          <span>Step mm, °</span>
+          <select
+            value={String(increment.value)}
+            onChange={(event) => (increment.value = Number(event.currentTarget.value))}
+          >
+            {increments.map((value) => (
+              <option key={value} value={String(value)}>
+                {value === 0 ? "while held" : value}
+              </option>
+            ))}
+          </select>
+        </label>
+        <label>
+          <span>Speed /min</span>
+          <select value={String(speed.value)} onChange={(event) => (speed.value = Number(event.currentTarget.value))}>
+            {speeds.map((value) => (
+              <option key={value} value={String(value)}>
+                {value}
+              </option>
+            ))}
+          </select>
+        </label>
+      </div>
+    </section>
+  );
+}

@@ -1,0 +1,163 @@
+import { useSignal } from "@preact/signals";
+import { useEffect } from "preact/hooks";
+import { get, type Parameter, put } from "../api";
+import { machine, tell } from "../state/store";
+
+const classes: [string, string][] = [
+  ["", "All"],
+  ["nc", "NC"],
+  ["user", "Machine"],
+  ["channel", "Channel"],
+  ["axis", "Axis"],
+  ["compensation", "Compensation"],
+  ["table", "Tables"],
+];
+
+const sixDigits = (number: number) => String(number).padStart(6, "0");
+
+function Editor({ parameter, done }: { parameter: Parameter; done: () => void }) {
+  const entered = useSignal(String(parameter.value));
+  const refused = useSignal("");
+  useEffect(() => {
+    entered.value = String(parameter.value);
+    refused.value = "";
+  }, [parameter.number, parameter.value]);
+  const isText = typeof parameter.value === "string";
+  const save = async () => {
+    const number = Number(entered.value.replace(",", "."));
+    if (!isText && (entered.value.trim() === "" || !Number.isFinite(number))) {
+      refused.value = "This is not a number.";
+      return;
+    }
+    const answer = await put(`/api/parameters/${sixDigits(parameter.number)}`, isText ? { text: entered.value } : { value: number });
+    refused.value = answer.reason;
+    if (!answer.ok) return;
+    tell(`${sixDigits(parameter.number)} ${parameter.name} is stored`, false);
+    done();
+  };
+  return (
+    <section class="editor" aria-label="parameter">
+      <h2>{sixDigits(parameter.number)}</h2>
+      <h3>{parameter.name}</h3>
+      <p>{parameter.help}</p>
+      <form
+        onSubmit={(event) => {
+          event.preventDefault();
+          void save();
+        }}
+      >
+        <label for="parameter-value">Value {parameter.unit && <span class="dim">in {parameter.unit}</span>}</label>
+        <input
+          id="parameter-value"
+          data-test="parameter-value"
+          class="digits"
+          value={entered.value}
+          autocomplete="off"
+          inputMode={isText ? "text" : "decimal"}
+          aria-invalid={refused.value !== ""}
+          onInput={(event) => (entered.value = event.currentTarget.value)}
+        />
+        <button type="submit" class="primary" data-test="parameter-save">Store</button>
+      </form>
+      {refused.value && <p class="refusal" role="alert" data-test="parameter-refusal">{refused.value}</p>}
+      <dl>
+        <dt>Limits</dt>
+        <dd class="digits">{parameter.minimum ?? "–"} … {parameter.maximum ?? "–"}</dd>
+        <dt>Default</dt>
+        <dd class="digits">{parameter.default ?? "–"}</dd>
+        <dt>Takes effect</dt>
+        <dd>{parameter.activation}</dd>
+        <dt>Access</dt>
+        <dd>{parameter.access}</dd>
+      </dl>
+      {parameter.pending && <p class="tag warn">stored, waits for {parameter.activation.toLowerCase()}</p>}
+    </section>
+  );
+}
+
+export function Parameters() {
+  const search = useSignal("");
+  const group = useSignal("");
+  const found = useSignal<Parameter[]>([]);
+  const total = useSignal(0);
+  const problem = useSignal("");
+  const chosen = useSignal<number | null>(null);
+  const { parameters: revision, pending } = machine.value.revisions;
+  const load = async () => {
+    const query = new URLSearchParams({ limit: "400" });
+    if (group.value) query.set("class", group.value);
+    if (search.value.trim()) query.set("search", search.value.trim());
+    const answer = await get<{ parameters: Parameter[]; total: number }>(`/api/parameters?${query.toString()}`);
+    problem.value = answer.reason;
+    if (!answer.ok || !answer.body) return;
+    found.value = answer.body.parameters;
+    total.value = answer.body.total;
+  };
+  useEffect(() => {
+    const timer = setTimeout(() => void load(), 120);
+    return () => clearTimeout(timer);
+  }, [search.value, group.value, revision, pending]);
+  const current = found.value.find((parameter) => parameter.number === chosen.value);
+  return (
+    <main class="parameters">
+      <section class="list" aria-label="parameters">
+        <div class="title">
+          <h2>Parameters</h2>
+          <input
+            type="search"
+            autofocus
+            data-test="parameter-search"
+            placeholder="Number or name"
+            aria-label="number or name"
+            value={search.value}
+            onInput={(event) => (search.value = event.currentTarget.value)}
+          />
+          <div class="segments small">
+            {classes.map(([value, title]) => (
+              <button key={value} aria-pressed={group.value === value} onClick={() => (group.value = value)}>
+                {title}
+              </button>
+            ))}
+          </div>
+          <span class="dim end">
+            {found.value.length < total.value ? `${found.value.length} of ${total.value}` : total.value}
+            {pending ? ` · ${pending} pending` : ""}
+          </span>
+        </div>
+        <div class="scroll">
+          <table>
+            <thead>
+              <tr><th>Number</th><th>Name</th><th class="right">Value</th><th>Unit</th><th>Limits</th><th>Effect</th></tr>
+            </thead>
+            <tbody>
+              {found.value.map((parameter) => (
+                <tr
+                  key={parameter.number}
+                  tabIndex={0}
+                  aria-selected={parameter.number === chosen.value}
+                  data-parameter={sixDigits(parameter.number)}
+                  onClick={() => (chosen.value = parameter.number)}
+                  onFocus={() => (chosen.value = parameter.number)}
+                >
+                  <td class="digits">{sixDigits(parameter.number)}</td>
+                  <td>{parameter.name}</td>
+                  <td class={`right digits ${parameter.value === parameter.default ? "" : "changed"}`}>{parameter.value}</td>
+                  <td class="dim">{parameter.unit}</td>
+                  <td class="dim digits">{parameter.minimum ?? "–"} … {parameter.maximum ?? "–"}</td>
+                  <td>{parameter.activation}{parameter.pending && <span class="tag warn">pending</span>}</td>
+                </tr>
+              ))}
+            </tbody>
+          </table>
+          {problem.value && <p class="refusal">{problem.value}</p>}
+          {!problem.value && found.value.length === 0 && <p class="dim">Nothing found.</p>}
+        </div>
+      </section>
+      {current ? (
+        <Editor parameter={current} done={() => void load()} />
+      ) : (
+        <section class="editor dim">Choose a parameter to read what it does and to change it.</section>
+      )}
+    </main>
+  );
+}

@@ -1,0 +1,91 @@
+import { useEffect, useRef } from "preact/hooks";
+import uPlot from "uplot";
+import { historySeconds } from "../state/history";
+import { channel, channelNumber, history, machine } from "../state/store";
+
+const colours = ["#5cc8ff", "#7ee08a", "#ffc857", "#ff8fab", "#c9a7ff", "#7fe3d4", "#ffa36c", "#b5d95b", "#9aa9ff"];
+
+function axis(size: number): uPlot.Axis {
+  return {
+    stroke: "#8593a1",
+    font: "11px sans-serif",
+    grid: { stroke: "#232c35", width: 1 },
+    ticks: { show: false },
+    size,
+    gap: 4,
+  };
+}
+
+function makePlot(place: HTMLElement, title: string, series: uPlot.Series[]): uPlot {
+  const options: uPlot.Options = {
+    title,
+    width: Math.max(100, place.clientWidth),
+    height: Math.max(60, place.clientHeight),
+    cursor: { show: false },
+    legend: { show: false },
+    scales: {
+      x: { time: false, range: () => [-historySeconds, 0] },
+      // A flat line in the middle of an axis of noise says nothing, so the range includes zero.
+      y: { range: (_, low, high) => [Math.min(0, low ?? 0), Math.max(high ?? 0, 1e-4) * 1.1] },
+    },
+    axes: [{ ...axis(22), values: (_, ticks) => ticks.map((t) => `${t} s`) }, axis(52)],
+    series: [{}, ...series],
+  };
+  return new uPlot(options, [[]], place);
+}
+
+export function Plots() {
+  const feedPlace = useRef<HTMLDivElement>(null);
+  const lagPlace = useRef<HTMLDivElement>(null);
+  const number = channelNumber.value;
+  const letters = channel.value?.letters ?? "";
+  useEffect(() => {
+    if (number === null) return;
+    const feed = makePlot(feedPlace.current!, "Feed, mm/min", [{ stroke: colours[0], width: 1.5 }]);
+    const lag = makePlot(
+      lagPlace.current!,
+      "Following error, mm or °",
+      [...letters].map((_, index) => ({ stroke: colours[index], width: 1.2 })),
+    );
+    const resize = new ResizeObserver(() => {
+      for (const [plot, place] of [[feed, feedPlace.current], [lag, lagPlace.current]] as const)
+        if (place) plot.setSize({ width: Math.max(100, place.clientWidth), height: Math.max(60, place.clientHeight - 22) });
+    });
+    resize.observe(feedPlace.current!);
+    let asked = 0;
+    let drawnAt = 0;
+    const draw = () => {
+      asked = 0;
+      // Ten pictures a second are as good as twenty to the eye and half the work.
+      if (performance.now() - drawnAt < 95) return;
+      drawnAt = performance.now();
+      const samples = history(number).samples;
+      const time = samples.column(0);
+      const now = time[time.length - 1] ?? 0;
+      const ago = time.map((t) => t - now);
+      feed.setData([ago, samples.column(1)]);
+      lag.setData([ago, ...[...letters].map((_, index) => samples.column(2 + index))]);
+    };
+    const stop = machine.subscribe(() => (asked ||= requestAnimationFrame(draw)));
+    return () => {
+      stop();
+      cancelAnimationFrame(asked);
+      resize.disconnect();
+      feed.destroy();
+      lag.destroy();
+    };
+  }, [number, letters]);
+  return (
+    <div class="plots">
+      <div class="plot" ref={feedPlace} />
+      <div class="plot" ref={lagPlace} />
+      <div class="legend">
+        {[...letters].map((letter, index) => (
+          <span key={letter} style={{ color: colours[index] }}>
+            {letter}
+          </span>
+        ))}
+      </div>
+    </div>
+  );
+}

@@ -1,0 +1,16 @@
+import { expect, test } from "vitest";
+import { bytes, compact, duration, millimetres } from "../src/format";
+
+test("a position never reads minus zero and a negative one has a minus sign", () => {
+  expect(millimetres(-0.0001)).toBe("0.000");
+  expect(millimetres(-1.5)).toBe("\u22121.500");
+  expect(millimetres(12.3456, 4)).toBe("12.3456");
+});
+
+test("numbers to look at", () => {
+  expect(compact(0)).toBe("0");
+  expect(compact(2.5)).toBe("2.5");
+  expect(compact(123456)).toBe("123.5 k");
+  expect(bytes(1500)).toBe("1.5 kB");
+  expect(duration(3725)).toBe("1:02:05");
+});

@@ -1,0 +1,60 @@
+import { expect, test } from "vitest";
+import {
+  type Alarm, axisRows, canStart, type Channel, channelNumbers, emptyState, emptyStream, receive, sortedAlarms,
+} from "../src/state/model";
+
+const channel = {
+  channel: 0, mode: "AUTO", state: "IDLE", program: "A.NC", axes: [0, 1, 5], letters: "XYC",
+  machine: [1, 2, 3], workpiece: [11, 12, 13], distance_to_go: [0, 0, 0.5],
+} as unknown as Channel;
+
+test("the first message is the whole state, the next ones change parts of it", () => {
+  const first = receive(emptyStream, { sequence: 4, state: { channels: { "0": { feed: 10, line: 1 } } } })!;
+  expect(first.state.alarms).toEqual({});
+  const second = receive(first, { sequence: 5, since: 4, changes: { channels: { "0": { feed: 20 } } } })!;
+  expect(second.state.channels["0"]).toEqual({ feed: 20, line: 1 });
+  expect(second.sequence).toBe(5);
+});
+
+test("a change of another state than ours asks for a new connection", () => {
+  const first = receive(emptyStream, { sequence: 4, state: {} })!;
+  expect(receive(first, { sequence: 9, since: 8, changes: {} })).toBeNull();
+});
+
+test("an alarm that is over disappears by a null", () => {
+  const first = receive(emptyStream, { sequence: 1, state: { alarms: { "1/2/3": { number: 2 } } } })!;
+  const second = receive(first, { sequence: 2, since: 1, changes: { alarms: { "1/2/3": null } } })!;
+  expect(second.state.alarms).toEqual({});
+});
+
+test("channels are in the order of their numbers, not of their names", () => {
+  expect(channelNumbers({ ...emptyState, channels: { "10": channel, "2": channel } })).toEqual([2, 10]);
+});
+
+test("alarms: the worst first, then the oldest", () => {
+  const alarm = (number: number, severity: string, since: string) => ({ number, severity, since, instance: 1, part: 0 }) as Alarm;
+  const alarms = {
+    a: alarm(1, "WARNING", "2026-01-01T00:00:00Z"),
+    b: alarm(2, "ERROR", "2026-01-01T00:00:09Z"),
+    c: alarm(3, "ERROR", "2026-01-01T00:00:01Z"),
+  };
+  expect(sortedAlarms({ ...emptyState, alarms }).map((a) => a.number)).toEqual([3, 2, 1]);
+});
+
+test("a row takes its following error from the drive's axis of that logical number and its unit from the letter", () => {
+  const axes = { "5": { commanded: 3, actual: 2.9, following_error: 0.1, following_peak: 0.2, enabled: true } };
+  const rows = axisRows({ ...emptyState, axes }, channel);
+  expect(rows.map((row) => row.unit)).toEqual(["mm", "mm", "deg"]);
+  expect(rows[2]).toMatchObject({ letter: "C", machine: 3, workpiece: 13, distanceToGo: 0.5, followingError: 0.1 });
+  expect(rows[0]!.followingError).toBeUndefined();
+});
+
+test("cycle start: not without a program, not while running, not under an emergency stop, but always to go on", () => {
+  const plc = (emergency_stop: boolean) => ({ ...emptyState, plc: { emergency_stop, feed_hold: false, coolant: [] } });
+  expect(canStart(plc(false), channel)).toBe(true);
+  expect(canStart(plc(true), channel)).toBe(false);
+  expect(canStart(emptyState, { ...channel, program: "" })).toBe(false);
+  expect(canStart(emptyState, { ...channel, state: "RUNNING" })).toBe(false);
+  expect(canStart(emptyState, { ...channel, mode: "JOG" })).toBe(false);
+  expect(canStart(emptyState, { ...channel, mode: "JOG", state: "HELD" })).toBe(true);
+});
