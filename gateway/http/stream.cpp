@@ -67,7 +67,11 @@ std::shared_ptr<const std::string> StreamHub::message(const std::shared_ptr<cons
 }
 
 void StreamSession::accept(const beast::http::request<beast::http::string_body>& request) {
-  beast::get_lowest_layer(socket_).expires_never();
+  auto& lowest = beast::get_lowest_layer(socket_);
+  lowest.expires_never();
+  // The kernel must not queue what we do not: by default it would hold megabytes of old states.
+  beast::error_code ignored;
+  lowest.socket().set_option(boost::asio::socket_base::send_buffer_size(32 << 10), ignored);
   auto timeout = websocket::stream_base::timeout::suggested(beast::role_type::server);
   timeout.idle_timeout = std::chrono::seconds(20);
   timeout.keep_alive_pings = true;

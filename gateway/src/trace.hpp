@@ -15,7 +15,7 @@ class Trace {
   void add(std::uint64_t cycle, std::span<const double> row) {
     if (seen_++ % stride_ != 0) return;
     if (rows_.size() == most_rows) {
-      for (std::size_t i = 0; i < most_rows / 2; ++i) rows_[i] = std::move(rows_[2 * i]);
+      for (std::size_t i = 1; i < most_rows / 2; ++i) rows_[i] = std::move(rows_[2 * i]);
       rows_.resize(most_rows / 2);
       stride_ *= 2;
     }
