@@ -38,6 +38,7 @@ void StreamHub::tick() {
 }
 
 void StreamHub::join(const std::shared_ptr<StreamSession>& session) {
+  tick();  // a new client begins with what is known now
   sessions_.insert(session);
   count_ = sessions_.size();
 }

@@ -96,6 +96,15 @@ TEST(Trace, KeepsFewRowsEvenlySpreadHoweverManyCome) {
   for (std::size_t i = 2; i < rows.size(); ++i) EXPECT_EQ(rows[i][0] - rows[i - 1][0], rows[1][0] - rows[0][0]);
 }
 
+TEST(Trace, AMachineThatStandsIsOneRow) {
+  Trace trace;
+  const double here = 4.5, there = 5;
+  for (std::uint64_t cycle = 0; cycle < 1000; ++cycle) trace.add(cycle, {&here, 1});
+  EXPECT_EQ(trace.rows().size(), 1u);
+  trace.add(1000, {&there, 1});
+  EXPECT_EQ(trace.rows().size(), 2u);
+}
+
 idl::service::Alarm alarm(std::uint32_t instance, std::uint32_t number, bool active = true) {
   idl::service::Alarm a{};
   a.instance = instance;
