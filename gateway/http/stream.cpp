@@ -48,7 +48,8 @@ void StreamHub::leave(const std::shared_ptr<StreamSession>& session) {
   count_ = sessions_.size();
 }
 
-std::shared_ptr<const std::string> StreamHub::message(const std::shared_ptr<const Snapshot>& from, bool heartbeat) {
+std::shared_ptr<const std::string> StreamHub::message(const std::shared_ptr<const Snapshot>& from,
+                                                      bool heartbeat) {
   const std::uint64_t since = from ? from->sequence : 0;
   auto& cached = cache_[since];
   if (!cached) {

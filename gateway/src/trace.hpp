@@ -1,4 +1,5 @@
-// Actual positions between two messages, thinned so that their number stays small however fast virtual time runs.
+// Actual positions between two messages, thinned so that their number stays small however fast virtual time
+// runs.
 #pragma once
 
 #include <algorithm>
@@ -12,10 +13,12 @@ class Trace {
  public:
   static constexpr std::size_t most_rows = 64;
 
-  /// Keeps every n-th row that is not the same as the one before; n doubles whenever the rows become too many.
+  /// Keeps every n-th row that is not the same as the one before; n doubles whenever the rows become too
+  /// many.
   void add(std::uint64_t cycle, std::span<const double> row) {
     if (seen_++ % stride_ != 0) return;
-    if (!rows_.empty() && std::equal(row.begin(), row.end(), rows_.back().begin(), rows_.back().end())) return;
+    if (!rows_.empty() && std::equal(row.begin(), row.end(), rows_.back().begin(), rows_.back().end()))
+      return;
     if (rows_.size() == most_rows) {
       for (std::size_t i = 1; i < most_rows / 2; ++i) rows_[i] = std::move(rows_[2 * i]);
       rows_.resize(most_rows / 2);

@@ -48,17 +48,20 @@ std::string raw_exchange(std::uint16_t port, const std::string& text) {
   send_all(fd, text);
   std::string answer;
   char part[65536];
-  for (ssize_t n; (n = ::recv(fd, part, sizeof part, 0)) > 0;) answer.append(part, static_cast<std::size_t>(n));
+  for (ssize_t n; (n = ::recv(fd, part, sizeof part, 0)) > 0;)
+    answer.append(part, static_cast<std::size_t>(n));
   ::close(fd);
   return answer;
 }
 
-Response http(std::uint16_t port, const std::string& method, const std::string& target, const std::string& body,
-              const std::string& headers) {
+Response http(std::uint16_t port, const std::string& method, const std::string& target,
+              const std::string& body, const std::string& headers) {
   const bool has_length = headers.find("Content-Length") != std::string::npos;
-  const auto answer = raw_exchange(
-      port, method + " " + target + " HTTP/1.1\r\nHost: 127.0.0.1:" + std::to_string(port) + "\r\nConnection: close\r\n" +
-                (has_length ? "" : "Content-Length: " + std::to_string(body.size()) + "\r\n") + headers + "\r\n" + body);
+  const auto answer =
+      raw_exchange(port, method + " " + target + " HTTP/1.1\r\nHost: 127.0.0.1:" + std::to_string(port) +
+                             "\r\nConnection: close\r\n" +
+                             (has_length ? "" : "Content-Length: " + std::to_string(body.size()) + "\r\n") +
+                             headers + "\r\n" + body);
   Response response;
   const auto end = answer.find("\r\n\r\n");
   if (end == std::string::npos || answer.size() < 12) return response;
@@ -84,7 +87,8 @@ WebSocketClient::WebSocketClient(std::uint16_t port, const std::string& path, in
   while (buffer_.find("\r\n\r\n") == std::string::npos)
     if (!fill(buffer_.size() + 1)) return;
   // RFC 6455, section 1.3 gives the answer to this key.
-  open_ = buffer_.starts_with("HTTP/1.1 101") && buffer_.find("s3pPLMBiTxaQ9kYGzzhZRbK+xOo=") != std::string::npos;
+  open_ = buffer_.starts_with("HTTP/1.1 101") &&
+          buffer_.find("s3pPLMBiTxaQ9kYGzzhZRbK+xOo=") != std::string::npos;
   buffer_.erase(0, buffer_.find("\r\n\r\n") + 4);
 }
 

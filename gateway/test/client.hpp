@@ -1,4 +1,5 @@
-// A small HTTP and WebSocket client over plain sockets, so that the gateway is tested with other code than its own.
+// A small HTTP and WebSocket client over plain sockets, so that the gateway is tested with other code than
+// its own.
 #pragma once
 
 #include <cstdint>
@@ -9,14 +10,14 @@
 namespace trunnion::gateway {
 
 struct Response {
-  int status = 0;  ///< 0 = no answer
+  int status = 0;                              ///< 0 = no answer
   std::map<std::string, std::string> headers;  ///< names in lower case
   std::string body;
 };
 
 /// One connection per request. `headers` are whole lines, each ending in CR LF.
-Response http(std::uint16_t port, const std::string& method, const std::string& target, const std::string& body = {},
-              const std::string& headers = {});
+Response http(std::uint16_t port, const std::string& method, const std::string& target,
+              const std::string& body = {}, const std::string& headers = {});
 
 /// Sends exactly `text` and returns what comes until the other side closes, within 5 s.
 std::string raw_exchange(std::uint16_t port, const std::string& text);

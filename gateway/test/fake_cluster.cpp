@@ -25,7 +25,8 @@ idl::program::ProgramEntry entry_of(const std::string& name, const std::vector<s
 }
 
 std::vector<std::uint8_t> circle_program() {
-  std::string text = "%1\n(Circle with a tilting table)\nG54 G90 G17\nT3 M6\nS8000 M3\nG43.4 H3\nG0 X50 Y0 Z20\n";
+  std::string text =
+      "%1\n(Circle with a tilting table)\nG54 G90 G17\nT3 M6\nS8000 M3\nG43.4 H3\nG0 X50 Y0 Z20\n";
   for (int i = 0; i <= 360; i += 2) {
     char line[96];
     std::snprintf(line, sizeof line, "G1 X%.3f Y%.3f Z%.3f A%.3f C%d F1800\n", 50 * std::cos(i * M_PI / 180),
@@ -64,7 +65,8 @@ FakeCluster::FakeCluster(const bus::NetworkSettings& network)
 }
 
 void FakeCluster::publish_once() {
-  announcement_.write({channel_instance, "channel", "cyclonedds", "localhost", getpid(), topics::contract_hash, "0"});
+  announcement_.write(
+      {channel_instance, "channel", "cyclonedds", "localhost", getpid(), topics::contract_hash, "0"});
   beat_.instance = channel_instance;
   beat_.service = "channel";
   beat_.vendor = "cyclonedds";
@@ -208,7 +210,8 @@ void FakeCluster::answer_program() {
         if (request.offset < stored->second.size()) {
           const auto from = stored->second.begin() + static_cast<std::ptrdiff_t>(request.offset);
           const auto left = stored->second.size() - request.offset;
-          reply.data.assign(from, from + static_cast<std::ptrdiff_t>(std::min<std::size_t>(left, request.length)));
+          reply.data.assign(from,
+                            from + static_cast<std::ptrdiff_t>(std::min<std::size_t>(left, request.length)));
         }
         break;
       case Operation::BEGIN_UPLOAD:
@@ -300,12 +303,14 @@ void FakeCluster::publish_motion(double now) {
   frame.count = std::min(64u, static_cast<std::uint32_t>(elapsed * 1000) + 1);
   frame.axis_count = axes;
   for (std::uint32_t i = 0; i < frame.count; ++i) {
-    if (running) path_ += channel.feed_override * 0.001 * 30 / 50;  // 30 mm/s on a radius of 50 mm, in radians
+    if (running)
+      path_ += channel.feed_override * 0.001 * 30 / 50;  // 30 mm/s on a radius of 50 mm, in radians
     const double position[axes] = {50 * std::cos(path_), 50 * std::sin(path_), 5 * std::sin(3 * path_), -20,
                                    path_ * 180 / M_PI};
     for (std::size_t a = 0; a < axes; ++a) {
       frame.commanded.push_back(position[a]);
-      frame.actual.push_back(position[a] - (running ? 0.012 * std::sin(path_ * static_cast<double>(a + 1)) : 0));
+      frame.actual.push_back(position[a] -
+                             (running ? 0.012 * std::sin(path_ * static_cast<double>(a + 1)) : 0));
     }
     ++cycle_;
   }

@@ -1,4 +1,5 @@
-// The rest of a cluster as the gateway sees it: one five-axis channel that runs on a circle, and services that answer.
+// The rest of a cluster as the gateway sees it: one five-axis channel that runs on a circle, and services
+// that answer.
 #pragma once
 
 #include <map>

@@ -1,4 +1,5 @@
-// The fake cluster as a program, for the browser test and for work on the page: gateway_fake_cluster [domain].
+// The fake cluster as a program, for the browser test and for work on the page: gateway_fake_cluster
+// [domain].
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>

@@ -1,4 +1,5 @@
-// The real executable with real DDS on one side and real sockets on the other; the rest of the cluster is a fake.
+// The real executable with real DDS on one side and real sockets on the other; the rest of the cluster is a
+// fake.
 #include <fcntl.h>
 #include <gmock/gmock.h>
 #include <signal.h>
@@ -52,8 +53,19 @@ class Process {
 };
 
 std::vector<std::string> command_line(std::uint16_t port, const std::string& web) {
-  return {GATEWAY,  "--machine", MACHINE, "--state", testing::TempDir(), "--domain",  std::to_string(domain),
-          "--port", std::to_string(port), "--web",   web,                "--instance", "20"};
+  return {GATEWAY,
+          "--machine",
+          MACHINE,
+          "--state",
+          testing::TempDir(),
+          "--domain",
+          std::to_string(domain),
+          "--port",
+          std::to_string(port),
+          "--web",
+          web,
+          "--instance",
+          "20"};
 }
 
 class Gateway : public testing::Test {
@@ -122,7 +134,8 @@ TEST_F(Gateway, ShowsTheCluster) {
     const auto now = json::parse(get("/api/status").body);
     int alive = 0, absent = 0;
     for (const auto& service : now["services"]) {
-      if (service["service"] == "channel" && service["alive"] == true && service["contract_match"] == true) ++alive;
+      if (service["service"] == "channel" && service["alive"] == true && service["contract_match"] == true)
+        ++alive;
       if (service["service"] == "gateway" && service["alive"] == true) ++alive;
       if (service["service"] == "compensation" && service["lifecycle"] == "ABSENT") ++absent;
     }
@@ -133,7 +146,8 @@ TEST_F(Gateway, ShowsTheCluster) {
   ASSERT_EQ(channel["positions"].size(), 5u);
   EXPECT_EQ(channel["positions"][4]["letter"], "C");
   EXPECT_EQ(channel["positions"][4]["axis"], 6);
-  EXPECT_TRUE(channel["positions"][4].contains("following_error")) << "column 4 of the feedback is logical axis 6";
+  EXPECT_TRUE(channel["positions"][4].contains("following_error"))
+      << "column 4 of the feedback is logical axis 6";
   EXPECT_EQ(json::parse(get("/api/plc/image").body)["x"][3], 0x81);
   EXPECT_EQ(json::parse(get("/api/tools").body)["tools"][0]["length"], 112.25);
   EXPECT_EQ(json::parse(get("/api/openapi.json").body)["openapi"], "3.1.0");
@@ -184,7 +198,9 @@ TEST_F(Gateway, BadInputNeverReachesTheBus) {
 }
 
 TEST_F(Gateway, APageOfAnotherSiteMustNotOperateTheMachine) {
-  EXPECT_EQ(http(port_, "POST", "/api/channels/0/cycle-start", "{}", "Origin: http://elsewhere.example\r\n").status, 403);
+  EXPECT_EQ(
+      http(port_, "POST", "/api/channels/0/cycle-start", "{}", "Origin: http://elsewhere.example\r\n").status,
+      403);
   const auto own = "Origin: http://127.0.0.1:" + std::to_string(port_) + "\r\n";
   EXPECT_EQ(http(port_, "POST", "/api/channels/0/cycle-start", "{}", own).status, 200);
   cluster([](auto& c) { EXPECT_EQ(c.channel_requests.size(), 1u); });
@@ -203,7 +219,8 @@ TEST_F(Gateway, ASilentServiceIsAGatewayTimeoutAndOthersGoOnMeanwhile) {
     ASSERT_EQ(c.panel_requests.size(), 1u);
     EXPECT_EQ(c.panel_requests[0].kind, 1);
   });
-  EXPECT_TRUE(eventually([&] { return json::parse(get("/api/status").body)["plc"]["emergency_stop"] == true; }));
+  EXPECT_TRUE(
+      eventually([&] { return json::parse(get("/api/status").body)["plc"]["emergency_stop"] == true; }));
 }
 
 TEST_F(Gateway, AContinuousJogEndsWithoutRenewal) {
@@ -220,7 +237,8 @@ TEST_F(Gateway, AContinuousJogEndsWithoutRenewal) {
 
 TEST_F(Gateway, ProgramsTravelInChunksAndComeBackAsTheyWere) {
   std::string text;
-  while (text.size() < 400000) text += "G1 X" + std::to_string(text.size() * 7919 % 100000) + " Y1.5 \xC3\xA4\n";
+  while (text.size() < 400000)
+    text += "G1 X" + std::to_string(text.size() * 7919 % 100000) + " Y1.5 \xC3\xA4\n";
   const auto stored = http(port_, "PUT", "/api/programs/LARGE%201.NC", text);
   EXPECT_EQ(stored.status, 200) << stored.body;
   EXPECT_EQ(json::parse(stored.body)["program"]["size"], text.size());
@@ -244,16 +262,19 @@ TEST_F(Gateway, ProgramsTravelInChunksAndComeBackAsTheyWere) {
 TEST_F(Gateway, ParametersAreReadChangedAndRefusedWithTheReason) {
   EXPECT_EQ(json::parse(get("/api/parameters/100034").body)["value"], 24000);
   EXPECT_EQ(http(port_, "PUT", "/api/parameters/100034", "{\"value\":12000.5,\"who\":\"test\"}").status, 200);
-  EXPECT_TRUE(eventually([&] { return json::parse(get("/api/parameters/100034").body)["value"] == 12000.5; }));
+  EXPECT_TRUE(
+      eventually([&] { return json::parse(get("/api/parameters/100034").body)["value"] == 12000.5; }));
   cluster([](auto& c) { EXPECT_EQ(c.parameter_requests.at(0).who, "test"); });
   const auto refused = http(port_, "PUT", "/api/parameters/100034", "{\"value\":5e9}");
   EXPECT_EQ(refused.status, 409);
   EXPECT_THAT(refused.body, HasSubstr("must be from 1 to 1000000"));
   const auto found = json::parse(get("/api/parameters?class=axis&search=rapid_feed").body);
   EXPECT_EQ(found["total"], 5) << "one for each of X Y Z A C";
-  const auto offset = http(port_, "PUT", "/api/work-offsets", "{\"channel\":0,\"index\":1,\"values\":[1,2,3,4,5,6,7,8,9]}");
+  const auto offset =
+      http(port_, "PUT", "/api/work-offsets", "{\"channel\":0,\"index\":1,\"values\":[1,2,3,4,5,6,7,8,9]}");
   EXPECT_EQ(offset.status, 200);
-  EXPECT_TRUE(eventually([&] { return json::parse(get("/api/work-offsets").body)["offsets"][0]["index"] == 1; }));
+  EXPECT_TRUE(
+      eventually([&] { return json::parse(get("/api/work-offsets").body)["offsets"][0]["index"] == 1; }));
 }
 
 TEST_F(Gateway, AnAlarmResetIsPublished) {
@@ -304,7 +325,8 @@ TEST_F(Gateway, AClientThatDoesNotReadGetsNewerStatesAndNotAQueue) {
   }
   EXPECT_GE(widest, 20u) << "one message brings the client over all it missed";
   const auto now = cluster([](auto& c) { return c.channel.cycle; });
-  EXPECT_NEAR(state["channels"]["0"]["cycle"].get<double>(), static_cast<double>(now), 2000) << "and it is new";
+  EXPECT_NEAR(state["channels"]["0"]["cycle"].get<double>(), static_cast<double>(now), 2000)
+      << "and it is new";
 }
 
 TEST_F(Gateway, ServesThePageAndNothingElse) {

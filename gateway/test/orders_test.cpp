@@ -55,8 +55,10 @@ TEST(Orders, AJogThatCannotBeMeantIsRefusedWithItsField) {
 }
 
 TEST(Orders, OverridesHaveTheLimitsOfTheirKind) {
-  EXPECT_EQ(order(Operation::override_, {{"kind", "feed"}, {"value", 1.5}}).command, CommandKind::FEED_OVERRIDE);
-  EXPECT_EQ(order(Operation::override_, {{"kind", "rapid"}, {"value", 0}}).command, CommandKind::RAPID_OVERRIDE);
+  EXPECT_EQ(order(Operation::override_, {{"kind", "feed"}, {"value", 1.5}}).command,
+            CommandKind::FEED_OVERRIDE);
+  EXPECT_EQ(order(Operation::override_, {{"kind", "rapid"}, {"value", 0}}).command,
+            CommandKind::RAPID_OVERRIDE);
   EXPECT_EQ(order(Operation::override_, {{"kind", "spindle"}, {"value", 0.5}}).value, 0.5);
   EXPECT_EQ(complaint(Operation::override_, {{"kind", "feed"}, {"value", 1.51}}), "value");
   EXPECT_EQ(complaint(Operation::override_, {{"kind", "rapid"}, {"value", 1.1}}), "value");
@@ -109,7 +111,8 @@ TEST(Orders, AParameterIsSetByWhatItsTypeTakes) {
   EXPECT_EQ(set.values[0].number, 100034u);
   EXPECT_EQ(set.values[0].value, 12.5);
   EXPECT_EQ(parameter_order(100000, true, {{"text", "X"}}).values[0].text, "X");
-  EXPECT_EQ(parameter_order(100034, false, {{"reset", true}}).operation, idl::parameters::Operation::RESET_TO_DEFAULT);
+  EXPECT_EQ(parameter_order(100034, false, {{"reset", true}}).operation,
+            idl::parameters::Operation::RESET_TO_DEFAULT);
   EXPECT_THROW(parameter_order(100034, false, {{"text", "1"}}), BadRequest);
   EXPECT_THROW(parameter_order(100000, true, {{"value", 1}}), BadRequest);
   EXPECT_THROW(parameter_order(100034, false, Json::object()), BadRequest);

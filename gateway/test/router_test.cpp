@@ -56,7 +56,8 @@ TEST(Router, EveryDocumentedOperationIsRoutedAndEveryRouteDocumented) {
         named.insert(path.substr(at + 1, path.find('}', at) - at - 1));
       EXPECT_EQ(described, named) << path;
     }
-  for (const auto& route : routes()) routed.insert(std::string(route.method) + " " + std::string(route.pattern));
+  for (const auto& route : routes())
+    routed.insert(std::string(route.method) + " " + std::string(route.pattern));
   EXPECT_EQ(documented, routed);
 }
 

@@ -93,7 +93,8 @@ TEST(Trace, KeepsFewRowsEvenlySpreadHoweverManyCome) {
   ASSERT_LE(rows.size(), Trace::most_rows);
   EXPECT_EQ(trace.first(), 100u);
   EXPECT_EQ(rows.front()[0], 100);
-  for (std::size_t i = 2; i < rows.size(); ++i) EXPECT_EQ(rows[i][0] - rows[i - 1][0], rows[1][0] - rows[0][0]);
+  for (std::size_t i = 2; i < rows.size(); ++i)
+    EXPECT_EQ(rows[i][0] - rows[i - 1][0], rows[1][0] - rows[0][0]);
 }
 
 TEST(Trace, AMachineThatStandsIsOneRow) {
@@ -256,6 +257,7 @@ TEST(ParameterAnswer, SearchesByNumberAndGoesByPages) {
   const auto by_number = parameters_answer(snapshot, {"", "104034", 0, 100});
   ASSERT_EQ(by_number["parameters"].size(), 1u);
   EXPECT_EQ(by_number["parameters"][0]["name"], "rapid_feed");
+  EXPECT_EQ(parameters_answer(snapshot, {"axis", "Rapid Feed", 0, 100})["total"], 2);
   const auto all = parameters_answer(snapshot, {"axis", "", 0, 1000});
   const auto page = parameters_answer(snapshot, {"axis", "", 3, 2});
   ASSERT_EQ(page["parameters"].size(), 2u);

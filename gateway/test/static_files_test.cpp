@@ -16,7 +16,8 @@ class StaticFiles : public testing::Test {
     top_ = fs::temp_directory_path() / ("trunnion_static_" + std::to_string(getpid()));
     fs::remove_all(top_);
     fs::create_directories(top_ / "page" / "assets");
-    for (const auto* name : {"page/index.html", "page/assets/a.js", "page/.secret", "outside.txt", "page/a b.css"})
+    for (const auto* name :
+         {"page/index.html", "page/assets/a.js", "page/.secret", "outside.txt", "page/a b.css"})
       std::ofstream(top_ / name) << name;
     fs::create_symlink(top_ / "outside.txt", top_ / "page" / "link.txt");
     fs::create_symlink(top_, top_ / "page" / "up");
@@ -37,9 +38,10 @@ TEST_F(StaticFiles, RootIsTheIndexAndTypesFollowTheExtension) {
 }
 
 TEST_F(StaticFiles, NothingOutsideTheDirectoryIsReached) {
-  for (const auto* target : {"/../outside.txt", "/%2e%2e/outside.txt", "/assets/../../outside.txt", "/..%2foutside.txt",
-                             "/link.txt", "/up/outside.txt", "/.secret", "/%2Esecret", "//etc/passwd", "/%2fetc/passwd",
-                             "/index.html%00.js", "/assets", "/assets/", "/missing", "", "index.html", "/%", "/%g0"})
+  for (const auto* target :
+       {"/../outside.txt", "/%2e%2e/outside.txt", "/assets/../../outside.txt", "/..%2foutside.txt",
+        "/link.txt", "/up/outside.txt", "/.secret", "/%2Esecret", "//etc/passwd", "/%2fetc/passwd",
+        "/index.html%00.js", "/assets", "/assets/", "/missing", "", "index.html", "/%", "/%g0"})
     EXPECT_FALSE(find(target)) << target;
 }
 
