@@ -93,8 +93,8 @@ Answer ChannelCore::cycle_start() {
       return {};
     case RunState::INTERRUPTED:
       if (restart_) {  // the stream was lost: begin anew at the newest point that was executed
-        if (link_.echo_active()) link_.leave();
-        return start_program(*restart_);
+        const auto point = *restart_;
+        return start_program(point);
       }
       link_.request_resume();
       run_ = hold_ ? RunState::HOLDING : RunState::RUNNING;

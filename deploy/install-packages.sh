@@ -1,0 +1,40 @@
+#!/usr/bin/env bash
+# Installs what building, running and testing Trunnion needs on Debian 12. Does nothing when all of it is there.
+set -euo pipefail
+
+packages=(
+  build-essential cmake ninja-build ccache mold git python3 python3-yaml pkg-config
+  libfastrtps-dev libfastcdr-dev libasio-dev libtinyxml2-dev libssl-dev cyclonedds-dev cyclonedds-tools
+  libeigen3-dev libyaml-cpp-dev nlohmann-json3-dev libcli11-dev libboost-dev libzstd-dev
+  libgtest-dev libgmock-dev libbenchmark-dev librapidcheck-dev
+  clang-14 clang-tidy-14 clang-format-14 clang-tools-14 libclang-rt-14-dev
+  chromium procps iproute2
+)
+
+# Another Node.js than Debian's (18) will do from version 18 on.
+node_version=$(node --version 2>/dev/null | sed 's/^v\([0-9]*\).*/\1/' || true)
+if [ "${node_version:-0}" -lt 18 ] || ! command -v npm >/dev/null; then
+  packages+=(nodejs npm)
+fi
+
+if ! grep -q '^ID=debian' /etc/os-release 2>/dev/null || ! grep -q '^VERSION_ID="12"' /etc/os-release; then
+  if [ "${TRUNNION_PACKAGES:-}" = ready ]; then exit 0; fi
+  echo "This is not Debian 12. Install what these Debian packages contain, then set TRUNNION_PACKAGES=ready:" >&2
+  printf '  %s\n' "${packages[@]}" >&2
+  exit 1
+fi
+
+missing=()
+for package in "${packages[@]}"; do
+  dpkg-query -W -f='${Status}' "$package" 2>/dev/null | grep -q 'install ok installed' || missing+=("$package")
+done
+[ ${#missing[@]} -eq 0 ] && exit 0
+
+sudo=()
+if [ "$(id -u)" -ne 0 ]; then
+  command -v sudo >/dev/null || { echo "Run as root, or install sudo, to install: ${missing[*]}" >&2; exit 1; }
+  sudo=(sudo)
+fi
+echo "Installing ${#missing[@]} packages: ${missing[*]}"
+"${sudo[@]}" apt-get update -qq
+"${sudo[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null

@@ -1,0 +1,31 @@
+#include <CLI/CLI.hpp>
+#include <iostream>
+
+#include "bus/json.hpp"
+#include "src/commands.hpp"
+
+int main(int argc, char** argv) {
+  using namespace trunnion::deploy;
+  CLI::App app("trunnion: starts, runs and watches a distributed CNC controller");
+  app.set_version_flag("--version", "trunnion 0.1.0");
+  app.require_subcommand(1);
+  Common common;
+  add_cluster_commands(app, common);
+  add_run_command(app, common);
+  add_operator_commands(app, common);
+  add_parameter_commands(app, common);
+  add_topic_commands(app, common);
+  add_completion_command(app, common);
+  try {
+    app.parse(argc, argv);
+    return common.action();
+  } catch (const CLI::ParseError& e) {
+    return app.exit(e);
+  } catch (const std::exception& e) {
+    if (common.json)
+      std::cout << trunnion::bus::Json{{"error", e.what()}}.dump() << "\n";
+    else
+      std::cerr << "trunnion: " << e.what() << "\n";
+    return 1;
+  }
+}

@@ -1,0 +1,335 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "fake_drive.hpp"
+#include "stream/stage_core.hpp"
+
+namespace trunnion::channel {
+namespace {
+
+using idl::channel::ChannelRequest;
+using idl::channel::CommandKind;
+using testing::FakeDrive;
+
+std::shared_ptr<machine::Parameters> three_axes(std::uint64_t revision = 1) {
+  auto p = std::make_shared<machine::Parameters>();
+  p->revision = revision;
+  for (std::uint32_t a = 0; a < 3; ++a) {
+    p->values[40001 + a] = {static_cast<double>(a), ""};
+    p->values[100000 + a * 1000] = {0, std::string(1, "XYZ"[a])};
+    p->values[100006 + a * 1000] = {400, ""};
+    p->values[100007 + a * 1000] = {-400, ""};
+  }
+  return p;
+}
+
+struct Channel : ::testing::Test {
+  FakeDrive drive{3};
+  std::unique_ptr<ChannelCore> core;
+  std::string text;
+  std::vector<ChannelEvent> events;
+  std::vector<idl::channel::AuxiliaryRequest> auxiliaries;
+  bool answer_plc = true;
+  std::uint64_t cycles_per_round = ~0ull;
+
+  void SetUp() override { begin(); }
+  void begin() {
+    core = std::make_unique<ChannelCore>(0, true);
+    core->set_parameters(three_axes());
+    idl::parameters::ToolTable tools;
+    tools.tools.resize(1);
+    tools.tools[0].number = 1, tools.tools[0].length = 50;
+    core->set_tools(tools);
+    core->set_offsets({});
+    core->set_ready(true);
+    store();
+    core->on_feedback(drive.run(0));
+  }
+  void store() {
+    idl::program::ProgramList list;
+    list.programs.push_back({"part.nc", 3, text.size(), 77, static_cast<std::uint32_t>(std::count(text.begin(), text.end(), '\n'))});
+    core->set_programs(list);
+  }
+  Answer ask(CommandKind command, const std::string& argument = "", double value = 0, double increment = 0, Mode mode = Mode::AUTO) {
+    ChannelRequest request;
+    request.command = command, request.text = argument, request.value = value, request.increment = increment, request.mode = mode;
+    return core->handle(request);
+  }
+  void load(const std::string& program) {
+    text = program;
+    store();
+    ASSERT_TRUE(ask(CommandKind::SET_MODE).accepted);
+    ASSERT_TRUE(ask(CommandKind::SELECT_PROGRAM, "part.nc").accepted);
+  }
+  void round() {
+    core->advance();
+    if (const auto chunk = core->wanted()) core->deliver(chunk->name, chunk->offset, {text.begin() + static_cast<long>(chunk->offset), text.begin() + static_cast<long>(std::min(text.size(), chunk->offset + ProgramText::chunk_size))});
+    core->advance();
+    if (const auto request = core->take_stream_request()) drive.request(*request);
+    idl::stream::PathFrame frame;
+    while (core->produce(frame)) drive.put(frame);
+    if (const auto auxiliary = core->take_auxiliary(); auxiliary && auxiliary->kind != 0) {
+      auxiliaries.push_back(*auxiliary);
+      if (answer_plc) core->on_auxiliary_done({0, auxiliary->number, false});
+    }
+    for (auto& event : core->take_events()) events.push_back(event);
+    core->on_feedback(drive.run(cycles_per_round));
+  }
+  void run(int rounds = 100000) {
+    for (int i = 0; i < rounds; ++i) {
+      round();
+      if (core->run_state() == RunState::IDLE || core->run_state() == RunState::HELD || core->run_state() == RunState::INTERRUPTED) break;
+    }
+  }
+};
+
+TEST_F(Channel, RunsAProgramToItsEndAndLandsOnTheLastPointBitForBit) {
+  load("G90 G21 G54\nG0 X10.1 Y5\nG1 X-3.7 F2000\nG2 X-3.7 Y5 I10 J0\nM30\n");
+  ASSERT_TRUE(ask(CommandKind::CYCLE_START).accepted);
+  run();
+  EXPECT_EQ(core->run_state(), RunState::IDLE);
+  ASSERT_FALSE(drive.rows.empty());
+  EXPECT_EQ(drive.rows.back()[0], -3.7);
+  EXPECT_EQ(drive.rows.back()[1], 5);
+  EXPECT_TRUE(events.empty()) << events[0].text;
+}
+
+TEST_F(Channel, TheTrajectoryDoesNotDependOnWhenFramesAreExecuted) {
+  const std::string program = "G90\nG1 X20 Y3 F3000\nX40 Y-3\nG3 X60 Y-3 R15\nG4 X0.05\nG0 Z10\nM30\n";
+  load(program);
+  ask(CommandKind::CYCLE_START);
+  run();
+  const auto whole = drive.rows;
+  drive = FakeDrive(3);
+  begin();
+  load(program);
+  cycles_per_round = 1;
+  ask(CommandKind::CYCLE_START);
+  run();
+  EXPECT_EQ(drive.rows, whole);
+}
+
+TEST_F(Channel, HoldStopsOnThePathAndCycleStartGoesOn) {
+  load("G90\nG1 X100 Y50 F6000\nM30\n");
+  cycles_per_round = 8;
+  ask(CommandKind::CYCLE_START);
+  for (int i = 0; i < 20; ++i) round();
+  ASSERT_TRUE(ask(CommandKind::FEED_HOLD).accepted);
+  run();
+  EXPECT_EQ(core->run_state(), RunState::HELD);
+  EXPECT_GT(drive.rows.back()[0], 0);
+  EXPECT_LT(drive.rows.back()[0], 100);
+  EXPECT_NEAR(drive.rows.back()[1], drive.rows.back()[0] / 2, 1e-9);
+  ASSERT_TRUE(ask(CommandKind::CYCLE_START).accepted);
+  run();
+  EXPECT_EQ(core->run_state(), RunState::IDLE);
+  EXPECT_EQ(drive.rows.back()[0], 100);
+}
+
+TEST_F(Channel, ResetWhileMovingBrakesOnThePathAndForgetsTheRest) {
+  load("G90\nG1 X100 Y50 F6000\nM30\n");
+  cycles_per_round = 8;
+  ask(CommandKind::CYCLE_START);
+  for (int i = 0; i < 20; ++i) round();
+  ask(CommandKind::RESET);
+  run();
+  EXPECT_EQ(core->run_state(), RunState::IDLE);
+  EXPECT_LT(drive.rows.back()[0], 100);
+  double fastest = 0;
+  for (std::size_t i = 1; i < drive.rows.size(); ++i) fastest = std::max(fastest, std::abs(drive.rows[i][0] - drive.rows[i - 1][0]));
+  EXPECT_LT(std::abs(drive.rows.back()[0] - drive.rows[drive.rows.size() - 2][0]), fastest / 20);
+}
+
+TEST_F(Channel, SingleBlockStopsAfterEveryBlock) {
+  load("G90\nG1 X10 F3000\nX20\nX30\nM30\n");
+  ask(CommandKind::SINGLE_BLOCK, "", 1);
+  std::vector<double> stops;
+  for (int i = 0; i < 10; ++i) {
+    ASSERT_TRUE(ask(CommandKind::CYCLE_START).accepted);
+    run();
+    if (core->run_state() == RunState::IDLE) break;
+    stops.push_back(drive.rows.back()[0]);
+  }
+  EXPECT_EQ(stops, (std::vector<double>{10, 20, 30}));
+}
+
+TEST_F(Channel, MCodesGoToThePlcInOrderAndMotionWaitsForThem) {
+  load("G90\nT1\nM6\nS1000 M3\nG1 X5 F1000\nM8\nM30\n");
+  answer_plc = false;
+  ask(CommandKind::CYCLE_START);
+  for (int i = 0; i < 50; ++i) round();
+  EXPECT_EQ(core->run_state(), RunState::WAITING);
+  EXPECT_EQ(drive.rows.size(), 0u) << "nothing moves while the PLC has not answered";
+  for (int i = 0; i < 10 && core->run_state() == RunState::WAITING; ++i) {
+    core->on_auxiliary_done({0, auxiliaries.back().number + 1, false});
+    EXPECT_EQ(core->run_state(), RunState::WAITING) << "only the number asked for counts";
+    core->on_auxiliary_done({0, auxiliaries.back().number, false});
+    for (int k = 0; k < 2000 && core->run_state() == RunState::RUNNING; ++k) round();
+  }
+  std::vector<std::pair<int, int>> kinds;
+  for (const auto& a : auxiliaries) kinds.emplace_back(a.kind, a.code);
+  EXPECT_EQ(kinds, (std::vector<std::pair<int, int>>{{3, 1}, {1, 6}, {2, 0}, {1, 3}, {1, 8}, {1, 30}}));
+  EXPECT_EQ(core->run_state(), RunState::IDLE);
+  EXPECT_EQ(core->state().tool, 1u);
+}
+
+TEST_F(Channel, AMoveBeyondTheTravelIsAnAlarmBeforeItMoves) {
+  load("G90\nG1 X10 F3000\nX401\nM30\n");
+  ask(CommandKind::CYCLE_START);
+  run();
+  EXPECT_EQ(core->run_state(), RunState::IDLE);
+  ASSERT_EQ(events.size(), 1u);
+  EXPECT_EQ(events[0].text, "part.nc:line 3: X would go to 401.0000, its travel is -400.0000 .. 400.0000");
+  EXPECT_EQ(drive.rows.back()[0], 10);
+}
+
+TEST_F(Channel, ASyntaxErrorIsReportedWithItsPlaceAndWhatIsBeforeItRuns) {
+  load("G90\nG1 X10 F3000\nG77 X3\nM30\n");
+  ask(CommandKind::CYCLE_START);
+  run();
+  ASSERT_EQ(events.size(), 1u);
+  EXPECT_EQ(events[0].number, 1101u);
+  EXPECT_EQ(events[0].text.substr(0, 12), "part.nc:3:1:");
+  EXPECT_EQ(drive.rows.back()[0], 10);
+}
+
+TEST_F(Channel, AHoldOfTheDriveInterruptsAndCycleStartResumesTheSameStream) {
+  load("G90\nG1 X100 F6000\nM30\n");
+  cycles_per_round = 8;
+  ask(CommandKind::CYCLE_START);
+  for (int i = 0; i < 20; ++i) round();
+  drive.mode = 2;
+  round();
+  EXPECT_EQ(core->run_state(), RunState::INTERRUPTED);
+  ASSERT_TRUE(ask(CommandKind::CYCLE_START).accepted);
+  run();
+  EXPECT_EQ(core->run_state(), RunState::IDLE);
+  EXPECT_EQ(drive.resumes, 1);
+  EXPECT_EQ(drive.starts, 1) << "it is the same stream";
+}
+
+TEST_F(Channel, AFreshProcessGoesOnWhereTheKilledOneWas) {
+  load("G90\nG1 X30 Y10 F6000\nG2 X30 Y10 I20 J0\nX60 Y0\nM30\n");
+  ask(CommandKind::CYCLE_START);
+  run();
+  const auto undisturbed = drive.rows;
+  // The points of the path the undisturbed run went through; the interrupted one must stay on them.
+  const auto distance_to_path = [&](const std::vector<double>& p) {
+    double best = 1e9;
+    for (std::size_t i = 1; i < undisturbed.size(); ++i) {
+      const auto &a = undisturbed[i - 1], &b = undisturbed[i];
+      const double dx = b[0] - a[0], dy = b[1] - a[1], l = dx * dx + dy * dy;
+      const double t = l > 0 ? std::clamp(((p[0] - a[0]) * dx + (p[1] - a[1]) * dy) / l, 0.0, 1.0) : 0;
+      best = std::min(best, std::hypot(p[0] - a[0] - t * dx, p[1] - a[1] - t * dy));
+    }
+    return best;
+  };
+  for (const int kill_after : {30, 80, 130}) {
+    drive = FakeDrive(3);
+    cycles_per_round = 8;
+    begin();
+    load(text);
+    ask(CommandKind::CYCLE_START);
+    for (int i = 0; i < kill_after; ++i) round();
+    const double x = drive.rows.back()[0];
+    drive.lose_queue();
+    drive.mode = 2;
+    begin();  // the process is killed and started again
+    EXPECT_EQ(core->run_state(), RunState::INTERRUPTED) << "after " << kill_after;
+    EXPECT_EQ(core->state().program, "part.nc");
+    ASSERT_TRUE(ask(CommandKind::CYCLE_START).accepted);
+    const auto before = drive.rows.size();
+    run();
+    EXPECT_EQ(core->run_state(), RunState::IDLE);
+    ASSERT_GT(drive.rows.size(), before);
+    EXPECT_NEAR(drive.rows[before][0], x, 0.5);
+    EXPECT_EQ(drive.rows.back()[0], 60);
+    for (const auto& row : drive.rows) ASSERT_LT(distance_to_path(row), 0.02) << "contour tolerance 0.01 twice";
+  }
+}
+
+TEST_F(Channel, ARestartedDriveIsNoticedAndTheProgramGoesOnFromTheCut) {
+  load("G90\nG1 X100 F6000\nM30\n");
+  cycles_per_round = 8;
+  ask(CommandKind::CYCLE_START);
+  for (int i = 0; i < 20; ++i) round();
+  drive.forget();
+  round();
+  EXPECT_EQ(core->run_state(), RunState::INTERRUPTED);
+  ASSERT_TRUE(ask(CommandKind::CYCLE_START).accepted);
+  run();
+  EXPECT_EQ(core->run_state(), RunState::IDLE);
+  EXPECT_EQ(drive.rows.back()[0], 100);
+}
+
+TEST_F(Channel, AnMdiLineRunsAndKeepsItsModalStateForTheNext) {
+  ask(CommandKind::SET_MODE, "", 0, 0, Mode::MDI);
+  ASSERT_TRUE(ask(CommandKind::MDI_LINE, "G91 G1 X5 F2000").accepted);
+  run();
+  ASSERT_TRUE(ask(CommandKind::MDI_LINE, "X5").accepted);
+  run();
+  EXPECT_NEAR(drive.rows.back()[0], 10, 1e-12);
+  const auto answer = ask(CommandKind::MDI_LINE, "G1 Q5");
+  EXPECT_FALSE(answer.accepted);
+  EXPECT_EQ(answer.reason.substr(0, 8), "MDI:1:4:") << answer.reason;
+}
+
+TEST_F(Channel, JogStopsWhenTheButtonIsLetGoAndAtTheTravelLimit) {
+  ask(CommandKind::SET_MODE, "", 0, 0, Mode::JOG);
+  cycles_per_round = 8;
+  ASSERT_TRUE(ask(CommandKind::JOG_AXIS, "", 3000).accepted);
+  for (int i = 0; i < 30; ++i) round();
+  ask(CommandKind::JOG_STOP);
+  run();
+  EXPECT_EQ(core->run_state(), RunState::IDLE);
+  EXPECT_GT(drive.rows.back()[0], 1);
+  EXPECT_LT(drive.rows.back()[0], 100);
+  ASSERT_TRUE(ask(CommandKind::JOG_AXIS, "", 3000).accepted);
+  run();
+  EXPECT_EQ(drive.rows.back()[0], 400);
+  EXPECT_FALSE(ask(CommandKind::JOG_AXIS, "", 3000).accepted) << "at the limit";
+  ASSERT_TRUE(ask(CommandKind::JOG_AXIS, "", -3000, 0.1).accepted);
+  run();
+  EXPECT_NEAR(drive.rows.back()[0], 399.9, 1e-12);
+}
+
+TEST_F(Channel, RequestsThatMakeNoSenseAreRefusedWithAReason) {
+  EXPECT_NE(ask(CommandKind::SELECT_PROGRAM, "none.nc").reason.find("none.nc"), std::string::npos);
+  EXPECT_FALSE(ask(CommandKind::CYCLE_START).accepted) << "mode JOG";
+  EXPECT_FALSE(ask(CommandKind::MDI_LINE, "G0 X1").accepted);
+  EXPECT_EQ(ask(CommandKind::FEED_OVERRIDE, "", 1.6).reason, "override 160.000000 % is outside 0.000000 .. 150.000000 %");
+  EXPECT_FALSE(ask(CommandKind::FEED_OVERRIDE, "", std::nan("")).accepted);
+  core->set_ready(false);
+  ask(CommandKind::SET_MODE);
+  EXPECT_EQ(ask(CommandKind::CYCLE_START).reason, "The cluster is not ready: see the services");
+}
+
+TEST_F(Channel, AParameterRevisionIsUsedFromTheNextMotionOnNeverWithinOne) {
+  load("G90\nG1 X100 F6000\nM30\n");
+  cycles_per_round = 8;
+  ask(CommandKind::CYCLE_START);
+  for (int i = 0; i < 10; ++i) round();
+  core->set_parameters(three_axes(2));
+  EXPECT_EQ(core->machine().revision(), 1u);
+  run();
+  EXPECT_EQ(core->machine().revision(), 2u);
+}
+
+TEST_F(Channel, AnAlarmThatHoldsStopsTheMotionAndCycleStartIsRefusedUntilItIsGone) {
+  load("G90\nG1 X100 F6000\nM30\n");
+  cycles_per_round = 8;
+  ask(CommandKind::CYCLE_START);
+  for (int i = 0; i < 20; ++i) round();
+  core->set_hold("Alarm 100: Service plc was ended by signal 9");
+  run();
+  EXPECT_EQ(core->run_state(), RunState::HELD);
+  EXPECT_FALSE(ask(CommandKind::CYCLE_START).accepted);
+  core->set_hold("");
+  ASSERT_TRUE(ask(CommandKind::CYCLE_START).accepted);
+  run();
+  EXPECT_EQ(drive.rows.back()[0], 100);
+}
+
+}  // namespace
+}  // namespace trunnion::channel

@@ -1,0 +1,81 @@
+// A drive and PLC that do what they are told at once: the channel's counterpart in its unit tests.
+#pragma once
+
+#include <deque>
+#include <string>
+#include <vector>
+
+#include "channel_core.hpp"
+
+namespace trunnion::channel::testing {
+
+class FakeDrive {
+ public:
+  explicit FakeDrive(std::size_t axes) : position_(axes, 0.0) {}
+
+  void request(const idl::stream::StreamRequest& request) {
+    echo_.request = request.request;
+    if (request.kind == 1 || request.kind == 3) {
+      echo_.epoch = request.epoch;
+      if (request.kind == 3 && mode == 2) mode = 0;  // a new epoch ends the hold of the old one
+      echo_.active = mode == 0;
+      echo_.start = next;
+      ++starts;
+    } else if (request.kind == 2) {
+      mode = 0;
+      ++resumes;
+    } else {
+      echo_.active = false;
+      queue_.clear();
+      mode = 0;
+    }
+  }
+  void put(const idl::stream::PathFrame& frame) { queue_.push_back(frame); }
+  /// Executes frames, at most `cycles` setpoints' worth, and reports.
+  idl::stream::FeedbackFrame run(std::uint64_t cycles = ~0ull) {
+    std::uint64_t done = 0;
+    while (mode == 0 && !queue_.empty() && done < cycles) {
+      const auto& f = queue_.front();
+      if (f.epoch == echo_.epoch) {
+        for (std::uint32_t i = 0; i < f.count; ++i) {
+          rows.push_back({f.setpoints.begin() + 9 * i, f.setpoints.begin() + 9 * (i + 1)});
+          lines.push_back(f.lines[i]);
+        }
+        for (std::size_t a = 0; a < position_.size(); ++a) position_[a] = rows.back()[a];
+        next = f.first + f.count;
+        done += f.count;
+        echo_.states = f.states;
+        if (f.ends) echo_.active = false;
+      }
+      queue_.pop_front();
+    }
+    idl::stream::FeedbackFrame feedback;
+    feedback.first = next;
+    feedback.mode = static_cast<std::uint8_t>(mode);
+    feedback.axis_count = static_cast<std::uint16_t>(position_.size());
+    feedback.position = position_;
+    echo_.next = next;
+    feedback.channels = {echo_};
+    return feedback;
+  }
+  /// As if its process had been killed and started again.
+  void forget() {
+    queue_.clear();
+    echo_.active = false;
+    echo_.request = 0;
+  }
+  /// Frames that are not executed are lost with their stage; the consistent cut stays.
+  void lose_queue() { queue_.clear(); }
+
+  int mode = 0, starts = 0, resumes = 0;
+  std::uint64_t next = 0;
+  std::vector<std::vector<double>> rows;
+  std::vector<std::uint32_t> lines;
+
+ private:
+  std::vector<double> position_;
+  std::deque<idl::stream::PathFrame> queue_;
+  idl::stream::ChannelEcho echo_;
+};
+
+}  // namespace trunnion::channel::testing

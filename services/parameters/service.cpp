@@ -1,0 +1,88 @@
+#include "service.hpp"
+
+#include <ctime>
+#include <filesystem>
+
+#include "machine/alarms.hpp"
+
+namespace trunnion::parameters {
+namespace {
+
+MachineDefaults defaults_of(const machine::MachineConfig& machine) {
+  MachineDefaults defaults;
+  defaults.values = machine::read_parameter_file(machine.parameters_file());
+  FileStorage files(machine.directory);
+  std::uint64_t revision = 0;
+  if (const auto text = files.read(tools_file))
+    defaults.tools = read_tools(*text, machine.directory + "/" + tools_file, revision);
+  if (const auto text = files.read(offsets_file))
+    defaults.offsets = read_offsets(*text, machine.directory + "/" + offsets_file, revision);
+  return defaults;
+}
+
+std::string make_directory(const std::string& path) {
+  std::filesystem::create_directories(path);
+  return path;
+}
+
+/// ISO 8601 in UTC, to the second.
+std::string wall_time() {
+  const std::time_t now = std::time(nullptr);
+  std::tm parts{};
+  gmtime_r(&now, &parts);
+  char text[32];
+  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &parts);
+  return text;
+}
+
+}  // namespace
+
+ParameterService::ParameterService(node::Node& node)
+    : node_(node),
+      storage_(make_directory(node.options().state_directory)),
+      store_(storage_, defaults_of(node.options().machine), storage_.read("cluster.boot").value_or("")),
+      set_(node.bus().writer(topics::parameter_set)),
+      tools_(node.bus().writer(topics::tool_table)),
+      offsets_(node.bus().writer(topics::work_offsets)),
+      channels_(node.bus().reader(topics::channel_state)),
+      requests_(node.bus(), topics::parameter_request, topics::parameter_reply) {
+  publish();
+}
+
+void ParameterService::publish() {
+  const auto changes = store_.take_changes();
+  if (changes.set) set_.write(store_.set());
+  if (changes.tools) tools_.write(store_.tool_table());
+  if (changes.offsets) offsets_.write(store_.work_offsets());
+}
+
+void ParameterService::pump() {
+  idl::channel::ChannelState state;
+  while (channels_.take(state)) {
+    try {
+      store_.channel_reset_count(state.channel, state.reset_count);
+    } catch (const StorageError& e) {
+      node_.alarms().raise("storage_failed", 0, e.what(), state.cycle);
+    }
+    publish();
+  }
+  idl::parameters::ParameterRequest request;
+  while (requests_.take(request)) {
+    const auto reply = store_.apply(request, wall_time());
+    if (reply.accepted)
+      node_.alarms().release("storage_failed", 0);
+    else if (reply.alarm == machine::alarm_definition("storage_failed").number)
+      node_.alarms().raise("storage_failed", 0, reply.reason);
+    publish();
+    requests_.reply(request, reply);
+  }
+}
+
+node::Health ParameterService::health() const {
+  node::Health health;
+  health.lifecycle = idl::service::Lifecycle::ACTIVE;
+  health.revision = store_.revision();
+  return health;
+}
+
+}  // namespace trunnion::parameters

@@ -1,0 +1,34 @@
+// Tool table and work offsets: limits and their YAML.
+#pragma once
+
+#include <map>
+#include <string>
+#include <utility>
+
+#include "contracts/types.hpp"
+
+namespace trunnion::parameters {
+
+using Tools = std::map<std::uint32_t, idl::parameters::Tool>;
+/// By channel and index (0 = G54 .. 5 = G59).
+using Offsets = std::map<std::pair<std::uint16_t, std::uint8_t>, idl::parameters::WorkOffset>;
+
+/// As a quoted YAML scalar.
+std::string quoted(const std::string& text);
+
+/// Empty, or one line that names the tool, the field and its limits.
+std::string check_tool(const idl::parameters::Tool& tool);
+/// Empty, or one line that names channel, offset, axis and limits.
+std::string check_offset(const idl::parameters::WorkOffset& offset);
+
+/// `tools:` with a list of {number, length, radius, name, length_wear, radius_wear}, or that list alone.
+/// Throws std::runtime_error with file:line:column.
+Tools read_tools(const std::string& text, const std::string& file, std::uint64_t& revision);
+std::string write_tools(const Tools& tools, std::uint64_t revision);
+
+/// `offsets:` with a list of {channel, offset: G54, X: .., Y: ..}, or that list alone.
+/// Throws std::runtime_error with file:line:column.
+Offsets read_offsets(const std::string& text, const std::string& file, std::uint64_t& revision);
+std::string write_offsets(const Offsets& offsets, std::uint64_t revision);
+
+}  // namespace trunnion::parameters

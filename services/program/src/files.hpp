@@ -1,0 +1,37 @@
+// What the program store needs of a directory. An interface, so that every way to fail can be tested.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace trunnion::program {
+
+/// The disk refused; what() names the file and the reason.
+class FileError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+class Files {
+ public:
+  virtual ~Files() = default;
+  /// Regular files, ascending.
+  virtual std::vector<std::string> list() = 0;
+  /// Bytes from `offset`, fewer at the end of the file; returns how many. Throws FileError.
+  virtual std::size_t read(const std::string& name, std::uint64_t offset, std::span<std::uint8_t> bytes) = 0;
+  /// Starts an empty file. Throws FileError.
+  virtual void create(const std::string& name) = 0;
+  /// Writes at the end, `offset`; after FileError the file ends at `offset` again.
+  virtual void append(const std::string& name, std::uint64_t offset, std::span<const std::uint8_t> bytes) = 0;
+  /// Makes `from` durable and puts it in the place of `to`: after a crash `to` is old or new. Throws
+  /// FileError.
+  virtual void publish(const std::string& from, const std::string& to) = 0;
+  /// Throws FileError; a file that is not there is no error.
+  virtual void remove(const std::string& name) = 0;
+};
+
+}  // namespace trunnion::program

@@ -1,0 +1,89 @@
+#include "program_index.hpp"
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include "crc32.hpp"
+
+namespace trunnion::program {
+namespace {
+
+constexpr std::size_t piece = 65536;
+constexpr std::size_t head_length = 16;
+
+/// Digits from `at`, up to nine; nothing when there are none or more.
+std::optional<std::uint32_t> digits(const std::string& text, std::size_t at, std::size_t& end) {
+  end = at;
+  std::uint32_t number = 0;
+  while (end < text.size() && text[end] >= '0' && text[end] <= '9' && end - at < 10)
+    number = number * 10 + static_cast<std::uint32_t>(text[end++] - '0');
+  if (end == at || end - at > 9) return std::nullopt;
+  return number;
+}
+
+}  // namespace
+
+void TextScan::add(std::span<const std::uint8_t> bytes) {
+  if (bytes.empty()) return;
+  size_ += bytes.size();
+  crc_ = program::crc32(crc_, bytes);
+  newlines_ += static_cast<std::uint32_t>(std::count(bytes.begin(), bytes.end(), std::uint8_t{'\n'}));
+  last_ = bytes.back();
+  for (std::size_t i = 0; i < bytes.size() && head_.size() < head_length; ++i) {
+    const char c = static_cast<char>(bytes[i]);
+    const bool blank = c == ' ' || c == '\t' || c == '\r' || c == '\n';
+    // A line with nothing but % only opens the tape: the number stands in the next one.
+    if (blank && (head_.empty() || head_ == "%")) {
+      if (c == '\n') head_.clear();
+      continue;
+    }
+    head_ += c;
+  }
+}
+
+std::optional<std::uint32_t> TextScan::number() const {
+  if (head_.empty() || (head_[0] != '%' && head_[0] != 'O' && head_[0] != 'o')) return std::nullopt;
+  std::size_t end = 0;
+  return digits(head_, 1, end);
+}
+
+bool valid_name(const std::string& name) {
+  if (name.empty() || name.size() > 64 || name[0] == '.') return false;
+  return std::all_of(name.begin(), name.end(), [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '.' ||
+           c == '_' || c == '-';
+  });
+}
+
+std::optional<std::uint32_t> number_in_name(const std::string& name) {
+  const bool letter = !name.empty() && (name[0] == 'O' || name[0] == 'o' || name[0] == '%');
+  std::size_t end = 0;
+  const auto number = digits(name, letter ? 1 : 0, end);
+  if (end != name.size() && (end >= name.size() || name[end] != '.')) return std::nullopt;
+  return number;
+}
+
+TextScan scan(Files& files, const std::string& name) {
+  TextScan text;
+  std::vector<std::uint8_t> buffer(piece);
+  for (std::size_t n = piece; n == piece;) {
+    n = files.read(name, text.size(), buffer);
+    text.add(std::span(buffer).first(n));
+  }
+  return text;
+}
+
+const IndexedProgram* resolve(const Index& index, const std::string& call) {
+  for (const auto* extension : {"", ".nc", ".NC", ".ngc", ".txt"})
+    if (const auto found = index.find(call + extension); found != index.end()) return &found->second;
+  const auto number = number_in_name(call);
+  if (!number) return nullptr;
+  for (const auto& [name, program] : index)
+    if (number_in_name(name) == number) return &program;
+  for (const auto& [name, program] : index)
+    if (program.number == number) return &program;
+  return nullptr;
+}
+
+}  // namespace trunnion::program

@@ -1,0 +1,54 @@
+// What is known of each program without reading it: size, checksum, lines, program number, revision.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+
+#include "contracts/types.hpp"
+#include "files.hpp"
+
+namespace trunnion::program {
+
+/// Runs over a text a piece at a time.
+class TextScan {
+ public:
+  void add(std::span<const std::uint8_t> bytes);
+  std::uint64_t size() const { return size_; }
+  std::uint32_t crc32() const { return crc_; }
+  /// Lines, a last one without an end included.
+  std::uint32_t lines() const { return newlines_ + (size_ > 0 && last_ != '\n' ? 1 : 0); }
+  /// The number after % or O at the head of the first line that is not empty.
+  std::optional<std::uint32_t> number() const;
+
+ private:
+  std::uint64_t size_ = 0;
+  std::uint32_t crc_ = 0, newlines_ = 0;
+  std::uint8_t last_ = '\n';
+  std::string head_;  ///< first bytes without leading blanks
+};
+
+struct IndexedProgram {
+  idl::program::ProgramEntry entry;
+  std::optional<std::uint32_t> number;
+};
+
+/// Letters, digits, dot, underscore and minus, 1 to 64, not beginning with a dot: no path leads out of the
+/// store.
+bool valid_name(const std::string& name);
+
+/// The number that a name or a program call asks for: O1234, %1234, 1234, each with or without an extension.
+std::optional<std::uint32_t> number_in_name(const std::string& name);
+
+/// Reads the whole file in pieces of 64 KiB. Throws FileError.
+TextScan scan(Files& files, const std::string& name);
+
+using Index = std::map<std::string, IndexedProgram>;
+
+/// The program meant by `call`, or null. In this order: the name itself; the name with .nc, .NC, .ngc, .txt
+/// behind it; when it is a program number, the first program in the order of names whose name is that number
+/// (O1234, %1234, 1234, with an extension or leading zeros); then the first whose text begins with that
+/// number.
+const IndexedProgram* resolve(const Index& index, const std::string& call);
+
+}  // namespace trunnion::program

@@ -1,0 +1,73 @@
+// The store of programs: chunks out, uploads in, names, revisions. Never a whole program in memory.
+#pragma once
+
+#include <set>
+#include <utility>
+
+#include "program_index.hpp"
+
+namespace trunnion::program {
+
+inline constexpr std::size_t longest_chunk = 60000;  ///< bytes of one READ or WRITE
+inline constexpr std::size_t most_programs = 4096;   ///< in the store
+inline constexpr std::size_t most_uploads = 64;      ///< at the same time
+inline constexpr double upload_patience = 60;        ///< s without a WRITE after which an upload is dropped
+
+class ProgramStore {
+ public:
+  /// `programs` holds the programs, `state` the file programs.yaml with the revisions. Scans every program,
+  /// so a change made behind our back gets a new revision. Throws FileError, std::runtime_error with
+  /// file:line:column.
+  ProgramStore(Files& programs, Files& state);
+
+  /// Programs that come with the machine: copied unless they are there or were once removed on purpose.
+  /// Returns the names that cannot be stored.
+  std::vector<std::string> install(Files& delivered);
+  /// Programs that can be resolved and read but are not part of the store: canned cycles, searched last.
+  void set_cycles(Files& cycles);
+
+  /// `now` in s, of any monotonic clock.
+  idl::program::ProgramReply apply(const idl::program::ProgramRequest& request, double now);
+  void drop_stale_uploads(double now);
+
+  idl::program::ProgramList list() const;
+  /// True once after each change of the list.
+  bool take_change() { return std::exchange(changed_, false); }
+  std::size_t uploads() const { return uploads_.size(); }
+
+ private:
+  struct Upload {
+    std::string file;
+    TextScan text;
+    double touched = 0;
+  };
+  using UploadKey = std::pair<std::uint64_t, std::string>;
+  using Request = idl::program::ProgramRequest;
+  using Reply = idl::program::ProgramReply;
+
+  std::string read(const Request& request, Reply& reply);
+  std::string begin(const Request& request, double now);
+  std::string write(const Request& request, Reply& reply, double now);
+  std::string commit(const Request& request, Reply& reply);
+  std::string abort(const Request& request);
+  std::string remove(const Request& request);
+  std::string rename(const Request& request, Reply& reply);
+  std::string find(const Request& request, Reply& reply);
+  void put(const std::string& name, const TextScan& text);
+  void load_index();
+  void save_index();
+  void drop(std::map<UploadKey, Upload>::iterator upload);
+
+  Files& programs_;
+  Files& state_;
+  Files* cycles_files_ = nullptr;
+  Index index_, cycles_;
+  std::map<std::string, std::uint64_t> revisions_;  ///< of every name ever used, removed ones included
+  std::set<std::string> removed_;                   ///< removed on request, so not installed again
+  std::uint64_t revision_ = 0;                      ///< of the list
+  std::map<UploadKey, Upload> uploads_;
+  std::uint64_t upload_count_ = 0;
+  bool changed_ = true;
+};
+
+}  // namespace trunnion::program
