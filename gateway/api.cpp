@@ -15,7 +15,9 @@ namespace {
 
 using bus::Json;
 
-Answer silent(const char* who) { return error_answer(504, std::string("no answer from the ") + who + " service"); }
+Answer silent(const char* who) {
+  return error_answer(504, std::string("no answer from the ") + who + " service");
+}
 
 Answer refused(std::uint32_t alarm, const std::string& reason) {
   return json_answer(409, {{"accepted", false}, {"alarm", alarm}, {"reason", reason}});
@@ -63,7 +65,8 @@ bool foreign_origin(std::string_view origin, std::string_view host) {
   return scheme == std::string_view::npos || origin.substr(scheme + 3) != host;
 }
 
-void Api::handle(const Match& match, const std::string& query, const std::string& body, const Respond& respond) {
+void Api::handle(const Match& match, const std::string& query, const std::string& body,
+                 const Respond& respond) {
   try {
     switch (match.operation) {
       case Operation::emergency_stop:
@@ -117,7 +120,8 @@ Answer Api::read(const Match& match, const std::string& query) const {
       return json_answer(200, channels_answer(*snapshot));
     case Operation::channel: {
       const auto number = path_number(match.parts.at(0), 65535);
-      const auto answer = number ? channel_answer(*snapshot, static_cast<std::uint16_t>(*number)) : Json(nullptr);
+      const auto answer =
+          number ? channel_answer(*snapshot, static_cast<std::uint16_t>(*number)) : Json(nullptr);
       return answer.is_null() ? error_answer(404, "no channel " + match.parts[0]) : json_answer(200, answer);
     }
     case Operation::parameters: {

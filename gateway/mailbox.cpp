@@ -15,7 +15,8 @@ void Links::pump(double now) {
     stop.channel = number;
     stop.axis = axis;
     stop.command = idl::channel::CommandKind::JOG_STOP;
-    channel.submit(stop, [](const auto&) {}, now);
+    channel.submit(
+        stop, [](const auto&) {}, now);
   }
   channel.pump(now);
   panel.pump(now);

@@ -10,7 +10,8 @@ int main(int argc, char** argv) {
   gateway::GatewayOptions own;
   CLI::App app("trunnion-gateway: the cluster's HTTP and WebSocket side");
   node::add_options(app, options);
-  app.add_option("--address", own.address, "Address to listen on; anything but 127.0.0.1 opens the machine to a network");
+  app.add_option("--address", own.address,
+                 "Address to listen on; anything but 127.0.0.1 opens the machine to a network");
   app.add_option("--port", own.port, "Port to listen on (default: the one of machine.yaml)");
   app.add_option("--web", own.web, "Directory of the built page");
   if (const int status = node::parse_options(app, argc, argv, options); status >= 0) return status;

@@ -1,5 +1,5 @@
-// Many requests at a time over one pair of topics. A server answers a client's requests in the order of their numbers,
-// so each request that is under way has a client id of its own: none waits for another's silence.
+// Many requests at a time over one pair of topics. A server answers a client's requests in the order of their
+// numbers, so each request that is under way has a client id of its own: none waits for another's silence.
 #pragma once
 
 #include <functional>
@@ -23,8 +23,8 @@ class RequestLanes {
   RequestLanes(bus::Bus& bus, const bus::Topic<Request>& request, const bus::Topic<Reply>& reply)
       : writer_(bus.writer(request)), reader_(bus.reader(reply)) {}
 
-  /// `done` is called once, by pump(): with the reply or, when nobody answers, with nothing. A request that comes with
-  /// a client of its own keeps it and its number.
+  /// `done` is called once, by pump(): with the reply or, when nobody answers, with nothing. A request that
+  /// comes with a client of its own keeps it and its number.
   void submit(Request request, Done done, double now) {
     std::optional<Lane> lane;
     if (request.client == 0) {

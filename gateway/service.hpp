@@ -31,7 +31,8 @@ class GatewayService : public node::Service {
   void drain(double now);
   void publish(double now);
 
-  // Answers that are under way hold HTTP sessions, so the server is destroyed after everything that may hold one.
+  // Answers that are under way hold HTTP sessions, so the server is destroyed after everything that may hold
+  // one.
   std::unique_ptr<HttpServer> server_;
   std::unique_ptr<Api> api_;
   Mailbox mailbox_;

@@ -14,7 +14,8 @@ class HttpServer {
   /// Listens at once. Throws std::runtime_error saying address, port and reason.
   HttpServer(const std::string& address, std::uint16_t port, Api& api);
   ~HttpServer();
-  /// Ends the thread; nothing is answered afterwards. Answers may still be handed to sessions until it is destroyed.
+  /// Ends the thread; nothing is answered afterwards. Answers may still be handed to sessions until it is
+  /// destroyed.
   void stop();
   /// WebSocket clients now.
   std::size_t clients() const;

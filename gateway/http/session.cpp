@@ -31,16 +31,18 @@ void HttpSession::read_header() {
   header_->header_limit(16 << 10);
   header_->body_limit(largest_program);
   stream_.expires_after(patience);
-  http::async_read_header(stream_, buffer_, *header_, [self = shared_from_this()](beast::error_code error, std::size_t) {
-    if (error == http::error::body_limit)
-      return self->answer_and_close(error_answer(413, "the body is larger than 128 MiB"));
-    if (error == http::error::header_limit) return self->answer_and_close(error_answer(431, "the header is too large"));
-    if (error.category() == http::make_error_code(http::error::bad_method).category() &&
-        error != http::error::end_of_stream && error != http::error::partial_message)
-      return self->answer_and_close(error_answer(400, "this is not HTTP: " + error.message()));
-    if (error) return;
-    self->on_header();
-  });
+  http::async_read_header(
+      stream_, buffer_, *header_, [self = shared_from_this()](beast::error_code error, std::size_t) {
+        if (error == http::error::body_limit)
+          return self->answer_and_close(error_answer(413, "the body is larger than 128 MiB"));
+        if (error == http::error::header_limit)
+          return self->answer_and_close(error_answer(431, "the header is too large"));
+        if (error.category() == http::make_error_code(http::error::bad_method).category() &&
+            error != http::error::end_of_stream && error != http::error::partial_message)
+          return self->answer_and_close(error_answer(400, "this is not HTTP: " + error.message()));
+        if (error) return;
+        self->on_header();
+      });
 }
 
 void HttpSession::on_header() {
@@ -60,26 +62,29 @@ void HttpSession::on_header() {
   if (match_.result != RouteResult::found) return answer_and_close(unrouted(match_.result));
   if (match_.operation == Operation::write_program) return continue_then(&HttpSession::begin_upload);
   const auto length = header_->content_length();
-  if (length && *length > largest_body) return answer_and_close(error_answer(413, "the body is larger than 1 MiB"));
+  if (length && *length > largest_body)
+    return answer_and_close(error_answer(413, "the body is larger than 1 MiB"));
   continue_then(&HttpSession::read_body);
 }
 
 void HttpSession::continue_then(void (HttpSession::*next)()) {
   if (!beast::iequals(header_->get()[http::field::expect], "100-continue")) return (this->*next)();
   static const std::string go_on = "HTTP/1.1 100 Continue\r\n\r\n";
-  net::async_write(stream_, net::buffer(go_on), [self = shared_from_this(), next](beast::error_code error, std::size_t) {
-    if (!error) (self.get()->*next)();
-  });
+  net::async_write(stream_, net::buffer(go_on),
+                   [self = shared_from_this(), next](beast::error_code error, std::size_t) {
+                     if (!error) (self.get()->*next)();
+                   });
 }
 
 void HttpSession::read_body() {
   body_.emplace(std::move(*header_));
   body_->body_limit(largest_body);
-  http::async_read(stream_, buffer_, *body_, [self = shared_from_this()](beast::error_code error, std::size_t) {
-    if (error == http::error::body_limit)
-      return self->answer_and_close(error_answer(413, "the body is larger than 1 MiB"));
-    if (!error) self->dispatch();
-  });
+  http::async_read(stream_, buffer_, *body_,
+                   [self = shared_from_this()](beast::error_code error, std::size_t) {
+                     if (error == http::error::body_limit)
+                       return self->answer_and_close(error_answer(413, "the body is larger than 1 MiB"));
+                     if (!error) self->dispatch();
+                   });
 }
 
 void HttpSession::dispatch() {
@@ -92,7 +97,8 @@ void HttpSession::dispatch() {
   }
   if (match_.operation == Operation::read_program) return begin_download();
   api_.handle(match_, query_, body_->get().body(), [self = shared_from_this()](Answer made) {
-    net::post(self->stream_.get_executor(), [self, made = std::move(made)]() mutable { self->answer(std::move(made)); });
+    net::post(self->stream_.get_executor(),
+              [self, made = std::move(made)]() mutable { self->answer(std::move(made)); });
   });
 }
 
@@ -151,18 +157,19 @@ void HttpSession::read_part() {
   parts_->get().body().size = part_.size();
   parts_->get().body().more = true;
   stream_.expires_after(patience);
-  http::async_read(stream_, buffer_, *parts_, [self = shared_from_this()](beast::error_code error, std::size_t) {
-    if (error == http::error::need_buffer) error = {};
-    if (error) {
-      self->abort_upload();
-      if (error == http::error::body_limit)
-        self->answer_and_close(error_answer(413, "a program must not be larger than 128 MiB"));
-      return;
-    }
-    self->part_.resize(chunk_bytes - self->parts_->get().body().size);
-    if (self->part_.empty()) return self->read_part();
-    self->upload_->write(std::move(self->part_), self->here(&HttpSession::part_stored));
-  });
+  http::async_read(
+      stream_, buffer_, *parts_, [self = shared_from_this()](beast::error_code error, std::size_t) {
+        if (error == http::error::need_buffer) error = {};
+        if (error) {
+          self->abort_upload();
+          if (error == http::error::body_limit)
+            self->answer_and_close(error_answer(413, "a program must not be larger than 128 MiB"));
+          return;
+        }
+        self->part_.resize(chunk_bytes - self->parts_->get().body().size);
+        if (self->part_.empty()) return self->read_part();
+        self->upload_->write(std::move(self->part_), self->here(&HttpSession::part_stored));
+      });
 }
 
 void HttpSession::part_stored(const ProgramReply& reply) {
@@ -196,7 +203,8 @@ void HttpSession::begin_download() {
   const auto snapshot = api_.mailbox().newest();
   if (snapshot && snapshot->programs) {
     const auto& programs = snapshot->programs->programs;
-    if (std::none_of(programs.begin(), programs.end(), [&](const auto& p) { return p.name == download_->name; }))
+    if (std::none_of(programs.begin(), programs.end(),
+                     [&](const auto& p) { return p.name == download_->name; }))
       return answer(error_answer(404, "no program " + download_->name));
   }
   read_program(api_.mailbox(), download_->name, 0, 0, here(&HttpSession::download_part));
@@ -218,7 +226,8 @@ void HttpSession::download_part(const ProgramReply& reply) {
     download.response.keep_alive(keep_alive_);
     download.serializer.emplace(download.response);
   } else if (!good) {
-    // The status has gone out already: only a short body can tell that the program changed or its keeper is gone.
+    // The status has gone out already: only a short body can tell that the program changed or its keeper is
+    // gone.
     return stream_.close();
   }
   download.part = reply->data;
@@ -240,8 +249,8 @@ void HttpSession::send_part() {
                       if (error) return;
                       auto& download = *self->download_;
                       if (download.offset < download.size)
-                        return read_program(self->api_.mailbox(), download.name, download.revision, download.offset,
-                                            self->here(&HttpSession::download_part));
+                        return read_program(self->api_.mailbox(), download.name, download.revision,
+                                            download.offset, self->here(&HttpSession::download_part));
                       self->download_.reset();
                       if (self->keep_alive_) self->read_header();
                     });

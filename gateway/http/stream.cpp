@@ -38,6 +38,7 @@ void StreamHub::tick() {
 }
 
 void StreamHub::join(const std::shared_ptr<StreamSession>& session) {
+  tick();  // a new client begins with what is known now
   sessions_.insert(session);
   count_ = sessions_.size();
 }
@@ -47,7 +48,8 @@ void StreamHub::leave(const std::shared_ptr<StreamSession>& session) {
   count_ = sessions_.size();
 }
 
-std::shared_ptr<const std::string> StreamHub::message(const std::shared_ptr<const Snapshot>& from, bool heartbeat) {
+std::shared_ptr<const std::string> StreamHub::message(const std::shared_ptr<const Snapshot>& from,
+                                                      bool heartbeat) {
   const std::uint64_t since = from ? from->sequence : 0;
   auto& cached = cache_[since];
   if (!cached) {
@@ -67,7 +69,11 @@ std::shared_ptr<const std::string> StreamHub::message(const std::shared_ptr<cons
 }
 
 void StreamSession::accept(const beast::http::request<beast::http::string_body>& request) {
-  beast::get_lowest_layer(socket_).expires_never();
+  auto& lowest = beast::get_lowest_layer(socket_);
+  lowest.expires_never();
+  // The kernel must not queue what we do not: by default it would hold megabytes of old states.
+  beast::error_code ignored;
+  lowest.socket().set_option(boost::asio::socket_base::send_buffer_size(32 << 10), ignored);
   auto timeout = websocket::stream_base::timeout::suggested(beast::role_type::server);
   timeout.idle_timeout = std::chrono::seconds(20);
   timeout.keep_alive_pings = true;

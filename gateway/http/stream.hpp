@@ -1,4 +1,5 @@
-// WebSocket clients: each gets the newest state whenever it has taken the message before, so nothing ever queues.
+// WebSocket clients: each gets the newest state whenever it has taken the message before, so nothing ever
+// queues.
 #pragma once
 
 #include <atomic>
@@ -28,8 +29,8 @@ class StreamHub {
   bool full() const { return sessions_.size() >= 32; }
   std::size_t size() const { return count_; }
   const std::shared_ptr<const Snapshot>& newest() const { return newest_; }
-  /// Text of the message that brings a client from `from` (null: from nothing) to the newest state. Empty when there is
-  /// nothing to say and `heartbeat` is false.
+  /// Text of the message that brings a client from `from` (null: from nothing) to the newest state. Empty
+  /// when there is nothing to say and `heartbeat` is false.
   std::shared_ptr<const std::string> message(const std::shared_ptr<const Snapshot>& from, bool heartbeat);
 
  private:

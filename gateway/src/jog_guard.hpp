@@ -13,8 +13,8 @@ inline constexpr double jog_patience = 0.5;
 
 class JogGuard {
  public:
-  /// An order to jog `axis` of `channel` continuously at `speed`. True when the channel must be told; false when it only
-  /// renews a movement that is under way.
+  /// An order to jog `axis` of `channel` continuously at `speed`. True when the channel must be told; false
+  /// when it only renews a movement that is under way.
   bool press(std::uint16_t channel, std::uint8_t axis, double speed, double now);
   /// The movement ended: stopped, or refused.
   void forget(std::uint16_t channel, std::uint8_t axis);

@@ -19,7 +19,8 @@ constexpr double longest_step = 1e4;  // mm or deg
 /// A misspelt field would be silently without effect, so it is refused.
 void only(const Json& body, std::initializer_list<const char*> known) {
   for (const auto& [name, value] : body.items())
-    if (std::find(known.begin(), known.end(), name) == known.end()) throw BadRequest(name, "no such field: " + name);
+    if (std::find(known.begin(), known.end(), name) == known.end())
+      throw BadRequest(name, "no such field: " + name);
 }
 
 const Json& required(const Json& body, const char* name) {
@@ -32,7 +33,8 @@ double number(const Json& value, const char* name, double minimum, double maximu
   if (!value.is_number()) throw BadRequest(name, std::string(name) + " must be a number");
   const double result = value.get<double>();
   if (!(result >= minimum && result <= maximum))
-    throw BadRequest(name, std::string(name) + " must be from " + Json(minimum).dump() + " to " + Json(maximum).dump());
+    throw BadRequest(
+        name, std::string(name) + " must be from " + Json(minimum).dump() + " to " + Json(maximum).dump());
   return result;
 }
 
@@ -47,7 +49,8 @@ std::string text(const Json& value, const char* name, std::size_t longest) {
   auto result = value.get<std::string>();
   if (result.size() > longest)
     throw BadRequest(name, std::string(name) + " is longer than " + std::to_string(longest) + " bytes");
-  if (std::any_of(result.begin(), result.end(), [](unsigned char c) { return (c < 32 && c != '\t') || c == 127; }))
+  if (std::any_of(result.begin(), result.end(),
+                  [](unsigned char c) { return (c < 32 && c != '\t') || c == 127; }))
     throw BadRequest(name, std::string(name) + " must be one line without control characters");
   return result;
 }
@@ -67,7 +70,8 @@ std::uint8_t axis(const Json& body, const idl::channel::ChannelState& state) {
     const auto letter = value.get<std::string>();
     const auto at = letter.size() == 1 ? state.letters.find(letter[0]) : std::string::npos;
     if (at >= count)
-      throw BadRequest("axis", "the channel has no axis " + letter + ", it has " + std::string(state.letters));
+      throw BadRequest("axis",
+                       "the channel has no axis " + letter + ", it has " + std::string(state.letters));
     return static_cast<std::uint8_t>(at);
   }
   if (!value.is_number_integer()) throw BadRequest("axis", "axis must be a letter or an index");
@@ -151,7 +155,8 @@ ChannelRequest channel_order(Operation operation, const Json& body, const idl::c
       request.axis = axis(body, state);
       request.value = number(required(body, "speed"), "speed", -fastest, fastest);
       if (request.value == 0) throw BadRequest("speed", "speed must not be 0: its sign is the direction");
-      if (body.contains("increment")) request.increment = number(body["increment"], "increment", 0, longest_step);
+      if (body.contains("increment"))
+        request.increment = number(body["increment"], "increment", 0, longest_step);
       return request;
     case Operation::jog_stop:
       only(body, {"axis"});
@@ -168,7 +173,8 @@ ChannelRequest channel_order(Operation operation, const Json& body, const idl::c
       return request;
     case Operation::single_block:
     case Operation::optional_stop:
-      request.command = operation == Operation::single_block ? CommandKind::SINGLE_BLOCK : CommandKind::OPTIONAL_STOP;
+      request.command =
+          operation == Operation::single_block ? CommandKind::SINGLE_BLOCK : CommandKind::OPTIONAL_STOP;
       request.value = on(body) ? 1 : 0;
       return request;
     case Operation::cycle_start:

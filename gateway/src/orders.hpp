@@ -13,7 +13,8 @@ namespace trunnion::gateway {
 
 /// What is wrong with a body, and where.
 struct BadRequest : std::runtime_error {
-  BadRequest(std::string where, const std::string& what) : std::runtime_error(what), field(std::move(where)) {}
+  BadRequest(std::string where, const std::string& what)
+      : std::runtime_error(what), field(std::move(where)) {}
   std::string field;
 };
 
@@ -39,8 +40,8 @@ idl::parameters::ParameterRequest parameter_order(std::uint32_t number, bool is_
 /// {"channel": n, "index": 0..5, "values": [up to 9 numbers]}.
 idl::parameters::ParameterRequest work_offset_order(const bus::Json& body);
 
-/// Throws BadRequest when `name` cannot be the name of a program: empty, above 64 bytes, with a control character or
-/// a directory in it.
+/// Throws BadRequest when `name` cannot be the name of a program: empty, above 64 bytes, with a control
+/// character or a directory in it.
 void check_program_name(const std::string& name);
 
 }  // namespace trunnion::gateway

@@ -8,10 +8,39 @@
 namespace trunnion::gateway {
 
 enum class Operation {
-  status, alarms, channels, channel, parameters, parameter, set_parameter, tools, work_offsets, set_work_offset,
-  programs, read_program, write_program, remove_program, plc_image, openapi, stream,
-  mode, select, cycle_start, feed_hold, reset, mdi, jog, jog_stop, reference, override_, single_block, optional_stop,
-  emergency_stop, release, panel_reset, alarms_reset
+  status,
+  alarms,
+  channels,
+  channel,
+  parameters,
+  parameter,
+  set_parameter,
+  tools,
+  work_offsets,
+  set_work_offset,
+  programs,
+  read_program,
+  write_program,
+  remove_program,
+  plc_image,
+  openapi,
+  stream,
+  mode,
+  select,
+  cycle_start,
+  feed_hold,
+  reset,
+  mdi,
+  jog,
+  jog_stop,
+  reference,
+  override_,
+  single_block,
+  optional_stop,
+  emergency_stop,
+  release,
+  panel_reset,
+  alarms_reset
 };
 
 /// One line of the table: `{x}` in the pattern stands for one part of a path.

@@ -65,7 +65,8 @@ Json entry(const Snapshot& snapshot, const machine::Definition& definition, std:
   }
   json["activation"] = machine::to_string(definition.activation);
   json["access"] = definition.access;
-  json["pending"] = std::binary_search(snapshot.parameters->pending.begin(), snapshot.parameters->pending.end(), number);
+  json["pending"] =
+      std::binary_search(snapshot.parameters->pending.begin(), snapshot.parameters->pending.end(), number);
   json["help"] = definition.help;
   json["group"] = group_of(number);
   return json;
@@ -141,20 +142,22 @@ Json parameters_answer(const Snapshot& snapshot, const ParameterQuery& query) {
       axes.insert((number - name_number) / 1000);
   for (const auto& [number, state] : snapshot.channels) channels.insert(number);
   const auto wanted = lower(query.search);
+  auto wanted_name = wanted;
+  std::replace(wanted_name.begin(), wanted_name.end(), ' ', '_');  // names are shown with spaces
 
   std::map<std::uint32_t, const machine::Definition*> found;
   for (const auto& definition : machine::Catalogue::instance().definitions()) {
     const std::string group = group_of(definition.number());
     if (!query.group.empty() && group != query.group) continue;
     for (std::uint32_t unit = 0; unit < definition.units; ++unit) {
-      const bool here = group == "channel"                              ? channels.contains(unit)
+      const bool here = group == "channel"                           ? channels.contains(unit)
                         : group == "axis" || group == "compensation" ? axes.contains(unit)
-                                                                        : true;
+                                                                     : true;
       for (std::uint32_t i = 0; i < definition.count; ++i) {
         const auto number = definition.number(unit, i);
         if (!here && !values.contains(number)) continue;
         if (!wanted.empty() && machine::number_text(number).find(wanted) == std::string::npos &&
-            lower(definition.name).find(wanted) == std::string::npos &&
+            lower(definition.name).find(wanted_name) == std::string::npos &&
             lower(definition.help).find(wanted) == std::string::npos)
           continue;
         found.emplace(number, &definition);

@@ -21,7 +21,8 @@ struct Snapshot {
   std::shared_ptr<const idl::plc::Image> image;
 };
 
-/// Answers of the GET operations, as the OpenAPI document describes them. Null when the service has not published yet.
+/// Answers of the GET operations, as the OpenAPI document describes them. Null when the service has not
+/// published yet.
 bus::Json status_answer(const Snapshot& snapshot, const std::string& contract);
 bus::Json alarms_answer(const Snapshot& snapshot);
 bus::Json channels_answer(const Snapshot& snapshot);

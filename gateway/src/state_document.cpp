@@ -28,8 +28,8 @@ void StateDocument::apply(const idl::service::Announcement& announcement) {
 void StateDocument::apply(const idl::service::ServiceState& state, double now) {
   auto& known = services_[state.instance];
   if (known.beating && known.state.pid != state.pid)
-    // Another process took the place: nobody is left to clear what its predecessor had raised. What arrived after
-    // the predecessor's last heartbeat may be the successor's and stays.
+    // Another process took the place: nobody is left to clear what its predecessor had raised. What arrived
+    // after the predecessor's last heartbeat may be the successor's and stays.
     std::erase_if(alarms_, [&](const auto& entry) {
       return std::get<0>(entry.first) == state.instance && entry.second.heard <= known.heard;
     });
@@ -90,13 +90,16 @@ Json StateDocument::services(double now) const {
   std::map<std::uint32_t, const idl::service::ClusterService*> expected;
   for (const auto& service : cluster_.services) expected[service.instance] = &service;
   static const Known nothing;
-  const auto add = [&](std::uint32_t instance, const Known& known, const idl::service::ClusterService* wanted) {
+  const auto add = [&](std::uint32_t instance, const Known& known,
+                       const idl::service::ClusterService* wanted) {
     const auto& state = known.state;
     const auto& announcement = known.announcement;
     const bool alive = known.beating && now - known.heard < heartbeat_patience;
     const bool same = !known.announced || announcement.contract == contract_;
     auto& entry = json[std::to_string(instance)] = Json::object();
-    entry["service"] = known.beating ? state.service : known.announced ? announcement.service : wanted->service;
+    entry["service"] = known.beating     ? state.service
+                       : known.announced ? announcement.service
+                                         : wanted->service;
     entry["copy"] = known.beating ? state.copy : wanted != nullptr ? wanted->copy : 0;
     entry["vendor"] = known.beating ? state.vendor : known.announced ? announcement.vendor : wanted->vendor;
     entry["host"] = announcement.host;
@@ -130,7 +133,8 @@ Json StateDocument::alarms() const {
     auto alarm = bus::to_json(raised.alarm);
     alarm.erase("active");
     alarm["since"] = raised.since;
-    json[std::to_string(instance) + "/" + std::to_string(number) + "/" + std::to_string(part)] = std::move(alarm);
+    json[std::to_string(instance) + "/" + std::to_string(number) + "/" + std::to_string(part)] =
+        std::move(alarm);
   }
   return json;
 }

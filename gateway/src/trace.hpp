@@ -1,6 +1,8 @@
-// Actual positions between two messages, thinned so that their number stays small however fast virtual time runs.
+// Actual positions between two messages, thinned so that their number stays small however fast virtual time
+// runs.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -11,11 +13,14 @@ class Trace {
  public:
   static constexpr std::size_t most_rows = 64;
 
-  /// Keeps every n-th row; n doubles whenever the rows become too many.
+  /// Keeps every n-th row that is not the same as the one before; n doubles whenever the rows become too
+  /// many.
   void add(std::uint64_t cycle, std::span<const double> row) {
     if (seen_++ % stride_ != 0) return;
+    if (!rows_.empty() && std::equal(row.begin(), row.end(), rows_.back().begin(), rows_.back().end()))
+      return;
     if (rows_.size() == most_rows) {
-      for (std::size_t i = 0; i < most_rows / 2; ++i) rows_[i] = std::move(rows_[2 * i]);
+      for (std::size_t i = 1; i < most_rows / 2; ++i) rows_[i] = std::move(rows_[2 * i]);
       rows_.resize(most_rows / 2);
       stride_ *= 2;
     }

@@ -33,3 +33,19 @@ export function timeOfDay(iso: string): string {
   const date = new Date(iso);
   return Number.isNaN(date.getTime()) ? "" : date.toLocaleTimeString("en-GB");
 }
+
+/** "rapid_feed" -> "Rapid feed". */
+export function title(name: string): string {
+  const words = name.replace(/_/g, " ");
+  return words.charAt(0).toUpperCase() + words.slice(1);
+}
+
+/** Limits of a number; empty for what has none. */
+export function limits(minimum: number | undefined, maximum: number | undefined): string {
+  return minimum === undefined && maximum === undefined ? "" : `${minimum ?? ""} … ${maximum ?? ""}`;
+}
+
+/** "mm/min|deg/min" of the catalogue -> "mm/min or °/min". */
+export function unit(text: string): string {
+  return text.replace(/deg/g, "°").replace(/\|/g, " or ").replace(/2$|2(?= )/g, "²");
+}

@@ -1,5 +1,5 @@
 import { expect, test } from "vitest";
-import { bytes, compact, duration, millimetres } from "../src/format";
+import { bytes, compact, duration, limits, millimetres, title, unit } from "../src/format";
 
 test("a position never reads minus zero and a negative one has a minus sign", () => {
   expect(millimetres(-0.0001)).toBe("0.000");
@@ -13,4 +13,12 @@ test("numbers to look at", () => {
   expect(compact(123456)).toBe("123.5 k");
   expect(bytes(1500)).toBe("1.5 kB");
   expect(duration(3725)).toBe("1:02:05");
+});
+
+test("what the catalogue writes for programs is shown for people", () => {
+  expect(title("rapid_feed")).toBe("Rapid feed");
+  expect(limits(0, 5)).toBe("0 … 5");
+  expect(limits(undefined, undefined)).toBe("");
+  expect(unit("mm/s2|deg/s2")).toBe("mm/s² or °/s²");
+  expect(unit("cycles")).toBe("cycles");
 });

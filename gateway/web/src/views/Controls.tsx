@@ -26,7 +26,7 @@ function Override({ kind, title, minimum, maximum, value }: OverrideProps) {
   return (
     <div class="override">
       <label for={`override-${kind}`}>{title}</label>
-      <button aria-label={`${title} override down`} onClick={() => send((percent - 10) / 100)}>
+      <button class="step" aria-label={`${title} override down`} onClick={() => send((percent - 10) / 100)}>
         −
       </button>
       <input
@@ -38,7 +38,7 @@ function Override({ kind, title, minimum, maximum, value }: OverrideProps) {
         value={percent}
         onInput={(event) => send(Number(event.currentTarget.value) / 100)}
       />
-      <button aria-label={`${title} override up`} onClick={() => send((percent + 10) / 100)}>
+      <button class="step" aria-label={`${title} override up`} onClick={() => send((percent + 10) / 100)}>
         +
       </button>
       <button

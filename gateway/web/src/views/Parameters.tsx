@@ -1,6 +1,7 @@
 import { useSignal } from "@preact/signals";
 import { useEffect } from "preact/hooks";
 import { get, type Parameter, put } from "../api";
+import { limits, title, unit } from "../format";
 import { machine, tell } from "../state/store";
 
 const classes: [string, string][] = [
@@ -32,13 +33,13 @@ function Editor({ parameter, done }: { parameter: Parameter; done: () => void })
     const answer = await put(`/api/parameters/${sixDigits(parameter.number)}`, isText ? { text: entered.value } : { value: number });
     refused.value = answer.reason;
     if (!answer.ok) return;
-    tell(`${sixDigits(parameter.number)} ${parameter.name} is stored`, false);
+    tell(`${sixDigits(parameter.number)} ${title(parameter.name)} is stored`, false);
     done();
   };
   return (
     <section class="editor" aria-label="parameter">
       <h2>{sixDigits(parameter.number)}</h2>
-      <h3>{parameter.name}</h3>
+      <h3>{title(parameter.name)}</h3>
       <p>{parameter.help}</p>
       <form
         onSubmit={(event) => {
@@ -46,7 +47,7 @@ function Editor({ parameter, done }: { parameter: Parameter; done: () => void })
           void save();
         }}
       >
-        <label for="parameter-value">Value {parameter.unit && <span class="dim">in {parameter.unit}</span>}</label>
+        <label for="parameter-value">Value {parameter.unit && <span class="dim">in {unit(parameter.unit)}</span>}</label>
         <input
           id="parameter-value"
           data-test="parameter-value"
@@ -62,7 +63,7 @@ function Editor({ parameter, done }: { parameter: Parameter; done: () => void })
       {refused.value && <p class="refusal" role="alert" data-test="parameter-refusal">{refused.value}</p>}
       <dl>
         <dt>Limits</dt>
-        <dd class="digits">{parameter.minimum ?? "–"} … {parameter.maximum ?? "–"}</dd>
+        <dd class="digits">{limits(parameter.minimum, parameter.maximum) || "–"}</dd>
         <dt>Default</dt>
         <dd class="digits">{parameter.default ?? "–"}</dd>
         <dt>Takes effect</dt>
@@ -140,10 +141,10 @@ export function Parameters() {
                   onFocus={() => (chosen.value = parameter.number)}
                 >
                   <td class="digits">{sixDigits(parameter.number)}</td>
-                  <td>{parameter.name}</td>
+                  <td>{title(parameter.name)}</td>
                   <td class={`right digits ${parameter.value === parameter.default ? "" : "changed"}`}>{parameter.value}</td>
-                  <td class="dim">{parameter.unit}</td>
-                  <td class="dim digits">{parameter.minimum ?? "–"} … {parameter.maximum ?? "–"}</td>
+                  <td class="dim">{unit(parameter.unit)}</td>
+                  <td class="dim digits">{limits(parameter.minimum, parameter.maximum)}</td>
                   <td>{parameter.activation}{parameter.pending && <span class="tag warn">pending</span>}</td>
                 </tr>
               ))}

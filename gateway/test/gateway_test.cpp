@@ -1,0 +1,353 @@
+// The real executable with real DDS on one side and real sockets on the other; the rest of the cluster is a
+// fake.
+#include <fcntl.h>
+#include <gmock/gmock.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "test/client.hpp"
+#include "test/fake_cluster.hpp"
+
+namespace trunnion::gateway {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+
+constexpr std::uint32_t domain = 51;
+
+/// A child process; its standard error goes to a file.
+class Process {
+ public:
+  Process(const std::vector<std::string>& arguments, const std::string& error_file) {
+    pid_ = fork();
+    if (pid_ != 0) return;
+    const int fd = ::open(error_file.c_str(), O_CREAT | O_TRUNC | O_WRONLY, 0644);
+    dup2(fd, 2);
+    std::vector<char*> argv;
+    for (const auto& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
+    argv.push_back(nullptr);
+    execv(argv[0], argv.data());
+    _exit(127);
+  }
+  ~Process() {
+    if (pid_ > 0) {
+      kill(pid_, SIGTERM);
+      wait();
+    }
+  }
+  int wait() {
+    int status = 0;
+    if (pid_ > 0) waitpid(pid_, &status, 0);
+    pid_ = -1;
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  }
+
+ private:
+  pid_t pid_ = -1;
+};
+
+std::vector<std::string> command_line(std::uint16_t port, const std::string& web) {
+  return {GATEWAY,
+          "--machine",
+          MACHINE,
+          "--state",
+          testing::TempDir(),
+          "--domain",
+          std::to_string(domain),
+          "--port",
+          std::to_string(port),
+          "--web",
+          web,
+          "--instance",
+          "20"};
+}
+
+class Gateway : public testing::Test {
+ protected:
+  void SetUp() override {
+    web_ = testing::TempDir() + "/gateway_web_" + std::to_string(getpid());
+    std::filesystem::create_directories(web_);
+    std::ofstream(web_ + "/index.html") << "<p>the page</p>";
+    process_ = std::make_unique<Process>(command_line(port_, web_), web_ + "/stderr.txt");
+    stepper_ = std::thread([this] {
+      while (!stop_) {
+        {
+          const std::lock_guard lock(mutex_);
+          cluster_.step();
+        }
+        std::this_thread::sleep_for(std::chrono::milliseconds(2));
+      }
+    });
+    ASSERT_TRUE(eventually([&] {
+      return get("/api/channels/0").status == 200 && get("/api/programs").status == 200 &&
+             get("/api/parameters/100034").status == 200 && get("/api/work-offsets").status == 200 &&
+             get("/api/tools").status == 200 && get("/api/plc/image").status == 200;
+    }));
+  }
+  void TearDown() override {
+    stop_ = true;
+    stepper_.join();
+    process_.reset();
+    std::filesystem::remove_all(web_);
+  }
+
+  template <class Condition>
+  static bool eventually(Condition condition) {
+    for (int i = 0; i < 1000; ++i) {
+      if (condition()) return true;
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    return false;
+  }
+  Response get(const std::string& target) const { return http(port_, "GET", target); }
+  Response post(const std::string& target, const json& body = json::object()) const {
+    return http(port_, "POST", target, body.dump());
+  }
+  /// `look(cluster)` while the cluster stands still.
+  template <class Look>
+  auto cluster(Look look) {
+    const std::lock_guard lock(mutex_);
+    return look(cluster_);
+  }
+
+  const std::uint16_t port_ = free_port();
+  std::string web_;
+  std::mutex mutex_;
+  FakeCluster cluster_{{domain}};
+  std::atomic<bool> stop_ = false;
+  std::thread stepper_;
+  std::unique_ptr<Process> process_;
+};
+
+TEST_F(Gateway, ShowsTheCluster) {
+  const auto status = json::parse(get("/api/status").body);
+  EXPECT_EQ(status["cluster"]["machine"], "Test mill 5X");
+  EXPECT_EQ(status["contract"], topics::contract_hash);
+  EXPECT_EQ(status["channels"], json::parse("[0]"));
+  ASSERT_TRUE(eventually([&] {
+    const auto now = json::parse(get("/api/status").body);
+    int alive = 0, absent = 0;
+    for (const auto& service : now["services"]) {
+      if (service["service"] == "channel" && service["alive"] == true && service["contract_match"] == true)
+        ++alive;
+      if (service["service"] == "gateway" && service["alive"] == true) ++alive;
+      if (service["service"] == "compensation" && service["lifecycle"] == "ABSENT") ++absent;
+    }
+    return alive == 2 && absent == 1;
+  })) << get("/api/status").body;
+  EXPECT_EQ(json::parse(get("/api/alarms").body)["alarms"][0]["number"], 102);
+  const auto channel = json::parse(get("/api/channels/0").body);
+  ASSERT_EQ(channel["positions"].size(), 5u);
+  EXPECT_EQ(channel["positions"][4]["letter"], "C");
+  EXPECT_EQ(channel["positions"][4]["axis"], 6);
+  EXPECT_TRUE(channel["positions"][4].contains("following_error"))
+      << "column 4 of the feedback is logical axis 6";
+  EXPECT_EQ(json::parse(get("/api/plc/image").body)["x"][3], 0x81);
+  EXPECT_EQ(json::parse(get("/api/tools").body)["tools"][0]["length"], 112.25);
+  EXPECT_EQ(json::parse(get("/api/openapi.json").body)["openapi"], "3.1.0");
+}
+
+TEST_F(Gateway, AnOrderReachesTheChannelOnceAndIsAnswered) {
+  const auto answer = post("/api/channels/0/cycle-start");
+  EXPECT_EQ(answer.status, 200);
+  EXPECT_EQ(json::parse(answer.body)["accepted"], true);
+  cluster([](auto& c) {
+    ASSERT_EQ(c.channel_requests.size(), 1u);
+    EXPECT_EQ(c.channel_requests[0].command, idl::channel::CommandKind::CYCLE_START);
+    EXPECT_NE(c.channel_requests[0].client, 0u);
+  });
+  EXPECT_TRUE(eventually([&] { return json::parse(get("/api/channels/0").body)["state"] == "RUNNING"; }));
+  EXPECT_EQ(post("/api/channels/0/override", {{"kind", "feed"}, {"value", 0.5}}).status, 200);
+  cluster([](auto& c) { EXPECT_EQ(c.channel.feed_override, 0.5); });
+}
+
+TEST_F(Gateway, ARefusalIsAnsweredWithAlarmAndReason) {
+  const auto answer = post("/api/channels/0/mdi", {{"line", "?? X1"}});
+  EXPECT_EQ(answer.status, 409);
+  const auto body = json::parse(answer.body);
+  EXPECT_EQ(body["accepted"], false);
+  EXPECT_EQ(body["alarm"], 1001);
+  EXPECT_EQ(body["reason"], "unknown word in '?? X1'");
+}
+
+TEST_F(Gateway, BadInputNeverReachesTheBus) {
+  auto bad = http(port_, "POST", "/api/channels/0/jog", "{\"axis\":\"Q\",\"speed\":100}");
+  EXPECT_EQ(bad.status, 400);
+  EXPECT_EQ(json::parse(bad.body)["field"], "axis");
+  bad = http(port_, "POST", "/api/channels/0/mdi", "{not json");
+  EXPECT_EQ(bad.status, 400);
+  EXPECT_THAT(bad.body, HasSubstr("not JSON"));
+  EXPECT_EQ(post("/api/channels/9/reset").status, 404);
+  EXPECT_EQ(post("/api/channels/zero/reset").status, 404);
+  EXPECT_EQ(post("/api/nothing").status, 404);
+  EXPECT_EQ(get("/api/channels/0/reset").status, 405);
+  EXPECT_EQ(get("/api/parameters/000002").status, 404);
+  EXPECT_EQ(get("/api/parameters?limit=many").status, 400);
+  EXPECT_EQ(get("/api/stream").status, 426);
+  EXPECT_EQ(http(port_, "POST", "/api/channels/0/mdi", std::string((1 << 20) + 1, ' ')).status, 413);
+  EXPECT_EQ(http(port_, "PUT", "/api/programs/BIG", "", "Content-Length: 200000000\r\n").status, 413);
+  EXPECT_EQ(http(port_, "PUT", "/api/programs/..%2fX", "G0").status, 400);
+  EXPECT_THAT(raw_exchange(port_, "nonsense\r\n\r\n"), HasSubstr("400"));
+  cluster([](auto& c) { EXPECT_TRUE(c.channel_requests.empty()); });
+}
+
+TEST_F(Gateway, APageOfAnotherSiteMustNotOperateTheMachine) {
+  EXPECT_EQ(
+      http(port_, "POST", "/api/channels/0/cycle-start", "{}", "Origin: http://elsewhere.example\r\n").status,
+      403);
+  const auto own = "Origin: http://127.0.0.1:" + std::to_string(port_) + "\r\n";
+  EXPECT_EQ(http(port_, "POST", "/api/channels/0/cycle-start", "{}", own).status, 200);
+  cluster([](auto& c) { EXPECT_EQ(c.channel_requests.size(), 1u); });
+}
+
+TEST_F(Gateway, ASilentServiceIsAGatewayTimeoutAndOthersGoOnMeanwhile) {
+  cluster([](auto& c) { c.channel_is_silent = true; });
+  Response slow;
+  std::thread waiting([&] { slow = post("/api/channels/0/reset"); });
+  EXPECT_TRUE(eventually([&] { return cluster([](auto& c) { return c.channel_requests.size() == 1; }); }));
+  EXPECT_EQ(post("/api/panel/emergency-stop").status, 200);
+  waiting.join();
+  EXPECT_EQ(slow.status, 504);
+  cluster([](auto& c) {
+    EXPECT_EQ(c.channel_requests.size(), 1u) << "repetitions are the same request";
+    ASSERT_EQ(c.panel_requests.size(), 1u);
+    EXPECT_EQ(c.panel_requests[0].kind, 1);
+  });
+  EXPECT_TRUE(
+      eventually([&] { return json::parse(get("/api/status").body)["plc"]["emergency_stop"] == true; }));
+}
+
+TEST_F(Gateway, AContinuousJogEndsWithoutRenewal) {
+  EXPECT_EQ(post("/api/channels/0/jog", {{"axis", "Y"}, {"speed", -300}}).status, 200);
+  EXPECT_EQ(json::parse(post("/api/channels/0/jog", {{"axis", "Y"}, {"speed", -300}}).body)["renewed"], true);
+  EXPECT_TRUE(eventually([&] { return cluster([](auto& c) { return c.channel_requests.size() == 2; }); }));
+  cluster([](auto& c) {
+    EXPECT_EQ(c.channel_requests[0].command, idl::channel::CommandKind::JOG_AXIS);
+    EXPECT_EQ(c.channel_requests[0].value, -300);
+    EXPECT_EQ(c.channel_requests[1].command, idl::channel::CommandKind::JOG_STOP);
+    EXPECT_EQ(c.channel_requests[1].axis, 1);
+  });
+}
+
+TEST_F(Gateway, ProgramsTravelInChunksAndComeBackAsTheyWere) {
+  std::string text;
+  while (text.size() < 400000)
+    text += "G1 X" + std::to_string(text.size() * 7919 % 100000) + " Y1.5 \xC3\xA4\n";
+  const auto stored = http(port_, "PUT", "/api/programs/LARGE%201.NC", text);
+  EXPECT_EQ(stored.status, 200) << stored.body;
+  EXPECT_EQ(json::parse(stored.body)["program"]["size"], text.size());
+  cluster([&](auto& c) {
+    EXPECT_EQ(std::string(c.programs["LARGE 1.NC"].begin(), c.programs["LARGE 1.NC"].end()), text);
+    EXPECT_EQ(c.largest_write, 60000u);
+  });
+  EXPECT_TRUE(eventually([&] { return get("/api/programs").body.find("LARGE 1.NC") != std::string::npos; }));
+  const auto read = get("/api/programs/LARGE%201.NC");
+  EXPECT_EQ(read.status, 200);
+  EXPECT_EQ(read.headers.at("content-length"), std::to_string(text.size()));
+  EXPECT_EQ(read.body, text);
+  EXPECT_EQ(http(port_, "PUT", "/api/programs/EMPTY", "").status, 200);
+  EXPECT_TRUE(eventually([&] { return get("/api/programs/EMPTY").status == 200; }));
+  EXPECT_EQ(get("/api/programs/EMPTY").body, "");
+  EXPECT_EQ(http(port_, "DELETE", "/api/programs/LARGE%201.NC").status, 200);
+  EXPECT_EQ(http(port_, "DELETE", "/api/programs/LARGE%201.NC").status, 409);
+  EXPECT_TRUE(eventually([&] { return get("/api/programs/LARGE%201.NC").status == 404; }));
+}
+
+TEST_F(Gateway, ParametersAreReadChangedAndRefusedWithTheReason) {
+  EXPECT_EQ(json::parse(get("/api/parameters/100034").body)["value"], 24000);
+  EXPECT_EQ(http(port_, "PUT", "/api/parameters/100034", "{\"value\":12000.5,\"who\":\"test\"}").status, 200);
+  EXPECT_TRUE(
+      eventually([&] { return json::parse(get("/api/parameters/100034").body)["value"] == 12000.5; }));
+  cluster([](auto& c) { EXPECT_EQ(c.parameter_requests.at(0).who, "test"); });
+  const auto refused = http(port_, "PUT", "/api/parameters/100034", "{\"value\":5e9}");
+  EXPECT_EQ(refused.status, 409);
+  EXPECT_THAT(refused.body, HasSubstr("must be from 1 to 1000000"));
+  const auto found = json::parse(get("/api/parameters?class=axis&search=rapid_feed").body);
+  EXPECT_EQ(found["total"], 5) << "one for each of X Y Z A C";
+  const auto offset =
+      http(port_, "PUT", "/api/work-offsets", "{\"channel\":0,\"index\":1,\"values\":[1,2,3,4,5,6,7,8,9]}");
+  EXPECT_EQ(offset.status, 200);
+  EXPECT_TRUE(
+      eventually([&] { return json::parse(get("/api/work-offsets").body)["offsets"][0]["index"] == 1; }));
+}
+
+TEST_F(Gateway, AnAlarmResetIsPublished) {
+  EXPECT_EQ(post("/api/alarms/reset").status, 200);
+  EXPECT_TRUE(eventually([&] { return json::parse(get("/api/alarms").body)["alarms"].empty(); }));
+  cluster([](auto& c) { EXPECT_EQ(c.alarm_resets.at(0).channel, 65535); });
+}
+
+TEST_F(Gateway, TheStreamIsTheStateAndThenItsChanges) {
+  WebSocketClient client(port_, "/api/stream");
+  ASSERT_TRUE(client.open());
+  auto first = json::parse(client.next().value());
+  ASSERT_TRUE(first.contains("state"));
+  auto state = first["state"];
+  EXPECT_EQ(state["channels"]["0"]["program"], "CIRCLE.NC");
+  std::uint64_t sequence = first["sequence"];
+  EXPECT_EQ(post("/api/channels/0/cycle-start").status, 200);
+  bool running = false;
+  for (int i = 0; i < 60 && !running; ++i) {
+    const auto message = json::parse(client.next().value());
+    ASSERT_EQ(message["since"], sequence);
+    sequence = message["sequence"];
+    EXPECT_FALSE(message["changes"].contains("cluster")) << "only what changed is sent";
+    state.merge_patch(message["changes"]);
+    running = state["channels"]["0"]["state"] == "RUNNING";
+  }
+  EXPECT_TRUE(running);
+}
+
+TEST_F(Gateway, AClientThatDoesNotReadGetsNewerStatesAndNotAQueue) {
+  EXPECT_EQ(post("/api/channels/0/cycle-start").status, 200);
+  WebSocketClient client(port_, "/api/stream", 4096);
+  ASSERT_TRUE(client.open());
+  auto first = json::parse(client.next().value());
+  auto state = first["state"];
+  std::uint64_t sequence = first["sequence"], widest = 0;
+  // While it does not read, the gateway goes on answering others.
+  for (int i = 0; i < 80; ++i) {
+    EXPECT_EQ(get("/api/status").status, 200);
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  }
+  for (int i = 0; i < 400 && widest < 20; ++i) {
+    const auto message = json::parse(client.next().value());
+    ASSERT_EQ(message["since"], sequence) << "the chain of changes stays whole";
+    widest = std::max(widest, message["sequence"].get<std::uint64_t>() - sequence);
+    sequence = message["sequence"];
+    state.merge_patch(message["changes"]);
+  }
+  EXPECT_GE(widest, 20u) << "one message brings the client over all it missed";
+  const auto now = cluster([](auto& c) { return c.channel.cycle; });
+  EXPECT_NEAR(state["channels"]["0"]["cycle"].get<double>(), static_cast<double>(now), 2000)
+      << "and it is new";
+}
+
+TEST_F(Gateway, ServesThePageAndNothingElse) {
+  const auto page = get("/");
+  EXPECT_EQ(page.status, 200);
+  EXPECT_EQ(page.body, "<p>the page</p>");
+  EXPECT_EQ(page.headers.at("content-type"), "text/html; charset=utf-8");
+  EXPECT_EQ(get("/../stderr.txt").status, 404);
+  EXPECT_EQ(get("/%2e%2e/" + web_.substr(web_.rfind('/') + 1) + "/index.html").status, 404);
+  EXPECT_EQ(post("/index.html").status, 405);
+}
+
+TEST_F(Gateway, APortInUseIsOneClearLine) {
+  const auto errors = web_ + "/second.txt";
+  Process second(command_line(port_, web_), errors);
+  EXPECT_EQ(second.wait(), 1);
+  std::ifstream file(errors);
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  EXPECT_EQ(text, "trunnion-gateway: error: cannot listen on 127.0.0.1:" + std::to_string(port_) +
+                      ": Address already in use\n");
+}
+
+}  // namespace
+}  // namespace trunnion::gateway

@@ -1,0 +1,271 @@
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "src/crc32.hpp"
+#include "src/jog_guard.hpp"
+#include "src/merge_patch.hpp"
+#include "src/snapshot.hpp"
+#include "src/state_document.hpp"
+
+namespace trunnion::gateway {
+namespace {
+
+using bus::Json;
+
+/// A random object of numbers, arrays and objects, without nulls.
+Json random_object(std::mt19937& random, int depth) {
+  auto json = Json::object();
+  const auto members = random() % 5;
+  for (unsigned i = 0; i < members; ++i) {
+    const std::string name(1, static_cast<char>('a' + random() % 6));
+    switch (random() % (depth > 0 ? 3 : 2)) {
+      case 0:
+        json[name] = random() % 3;
+        break;
+      case 1:
+        json[name] = Json::array({random() % 2, "x"});
+        break;
+      default:
+        json[name] = random_object(random, depth - 1);
+    }
+  }
+  return json;
+}
+
+TEST(MergePatch, AppliedToTheOldStateItGivesTheNewOne) {
+  std::mt19937 random(7);
+  for (int i = 0; i < 20000; ++i) {
+    const auto from = random_object(random, 3), to = random_object(random, 3);
+    const auto patch = merge_patch(from, to);
+    // The order of members is no part of a JSON value, so both sides are compared without one.
+    auto patched = nlohmann::json(from);
+    patched.merge_patch(nlohmann::json(patch));
+    ASSERT_EQ(patched, nlohmann::json(to)) << from << " -> " << to << " by " << patch;
+    ASSERT_EQ(merge_patch(to, to), Json::object());
+  }
+}
+
+TEST(Crc32, IsTheOneOfZlib) {
+  // The check value that catalogues of CRCs give for "123456789".
+  const std::string text = "123456789";
+  Crc32 whole, parts;
+  whole.add({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+  EXPECT_EQ(whole.value(), 0xCBF43926u);
+  for (const char c : text) {
+    const auto byte = static_cast<std::uint8_t>(c);
+    parts.add({&byte, 1});
+  }
+  EXPECT_EQ(parts.value(), whole.value());
+  EXPECT_EQ(Crc32{}.value(), 0u);
+}
+
+TEST(JogGuard, OnlyTheFirstPressAndAChangeOfSpeedReachTheChannel) {
+  JogGuard guard;
+  EXPECT_TRUE(guard.press(0, 1, 500, 10.0));
+  EXPECT_FALSE(guard.press(0, 1, 500, 10.2));
+  EXPECT_TRUE(guard.press(0, 1, -500, 10.3));
+  EXPECT_TRUE(guard.press(0, 2, 500, 10.3));
+  EXPECT_TRUE(guard.press(1, 1, 500, 10.3));
+}
+
+TEST(JogGuard, WhatIsNotRenewedIsStoppedOnce) {
+  JogGuard guard;
+  guard.press(0, 1, 500, 10.0);
+  guard.press(3, 2, 500, 10.3);
+  EXPECT_TRUE(guard.expired(10.0 + jog_patience).empty());
+  EXPECT_EQ(guard.expired(10.6), (std::vector<std::pair<std::uint16_t, std::uint8_t>>{{0, 1}}));
+  EXPECT_TRUE(guard.expired(10.6).empty());
+  EXPECT_TRUE(guard.watching());
+  guard.forget(3, 2);
+  EXPECT_FALSE(guard.watching());
+  EXPECT_TRUE(guard.expired(99).empty());
+}
+
+TEST(Trace, KeepsFewRowsEvenlySpreadHoweverManyCome) {
+  Trace trace;
+  for (std::uint64_t cycle = 100; cycle < 100 + 5000; ++cycle) {
+    const double row = static_cast<double>(cycle);
+    trace.add(cycle, {&row, 1});
+  }
+  const auto& rows = trace.rows();
+  ASSERT_GE(rows.size(), Trace::most_rows / 2);
+  ASSERT_LE(rows.size(), Trace::most_rows);
+  EXPECT_EQ(trace.first(), 100u);
+  EXPECT_EQ(rows.front()[0], 100);
+  for (std::size_t i = 2; i < rows.size(); ++i)
+    EXPECT_EQ(rows[i][0] - rows[i - 1][0], rows[1][0] - rows[0][0]);
+}
+
+TEST(Trace, AMachineThatStandsIsOneRow) {
+  Trace trace;
+  const double here = 4.5, there = 5;
+  for (std::uint64_t cycle = 0; cycle < 1000; ++cycle) trace.add(cycle, {&here, 1});
+  EXPECT_EQ(trace.rows().size(), 1u);
+  trace.add(1000, {&there, 1});
+  EXPECT_EQ(trace.rows().size(), 2u);
+}
+
+idl::service::Alarm alarm(std::uint32_t instance, std::uint32_t number, bool active = true) {
+  idl::service::Alarm a{};
+  a.instance = instance;
+  a.number = number;
+  a.active = active;
+  a.text = "Something";
+  return a;
+}
+
+idl::service::ServiceState beat(std::uint32_t instance, std::int32_t pid) {
+  idl::service::ServiceState state{};
+  state.instance = instance;
+  state.service = "gantry";
+  state.pid = pid;
+  state.lifecycle = idl::service::Lifecycle::ACTIVE;
+  return state;
+}
+
+TEST(StateDocument, AnAlarmKeepsTheTimeItWasFirstSeenAndGoesWhenItIsOver) {
+  StateDocument document("hash");
+  document.apply(alarm(3, 110), 0, "2026-01-01T00:00:00Z");
+  document.apply(alarm(3, 110), 1, "2026-01-01T00:00:01Z");
+  auto json = document.document(1);
+  ASSERT_TRUE(json["alarms"].contains("3/110/0"));
+  EXPECT_EQ(json["alarms"]["3/110/0"]["since"], "2026-01-01T00:00:00Z");
+  document.apply(alarm(3, 110, false), 2, "");
+  EXPECT_TRUE(document.document(2)["alarms"].empty());
+}
+
+TEST(StateDocument, AServiceIsSilentWithoutHeartbeatAndAbsentWhenExpectedButNeverHeard) {
+  StateDocument document("hash");
+  document.apply(beat(4, 100), 10.0);
+  idl::service::Cluster cluster{};
+  idl::service::ClusterService expected{};
+  expected.instance = 9;
+  expected.service = "plc";
+  expected.restarts = 2;
+  cluster.services.push_back(expected);
+  document.apply(cluster);
+  auto json = document.document(10.0 + heartbeat_patience / 2)["services"];
+  EXPECT_EQ(json["4"]["alive"], true);
+  EXPECT_EQ(json["4"]["lifecycle"], "ACTIVE");
+  EXPECT_EQ(json["9"]["alive"], false);
+  EXPECT_EQ(json["9"]["lifecycle"], "ABSENT");
+  EXPECT_EQ(json["9"]["service"], "plc");
+  EXPECT_EQ(json["9"]["restarts"], 2);
+  json = document.document(10.0 + 2 * heartbeat_patience)["services"];
+  EXPECT_EQ(json["4"]["alive"], false);
+}
+
+TEST(StateDocument, TheAlarmsOfADeadProcessGoWhenItsSuccessorBeats) {
+  StateDocument document("hash");
+  document.apply(beat(4, 100), 10.0);
+  document.apply(alarm(4, 1), 9.0, "t");
+  document.apply(alarm(5, 1), 9.0, "t");
+  document.apply(alarm(4, 2), 11.0, "t");  // after the last heartbeat of 100: may be the successor's
+  document.apply(beat(4, 101), 11.5);
+  const auto alarms = document.document(11.5)["alarms"];
+  EXPECT_FALSE(alarms.contains("4/1/0"));
+  EXPECT_TRUE(alarms.contains("5/1/0"));
+  EXPECT_TRUE(alarms.contains("4/2/0"));
+}
+
+TEST(StateDocument, AnotherContractIsShown) {
+  StateDocument document("ours");
+  idl::service::Announcement announcement{};
+  announcement.instance = 1;
+  announcement.service = "drive";
+  announcement.contract = "theirs";
+  document.apply(announcement);
+  EXPECT_EQ(document.document(0)["services"]["1"]["contract_match"], false);
+  announcement.contract = "ours";
+  document.apply(announcement);
+  EXPECT_EQ(document.document(0)["services"]["1"]["contract_match"], true);
+}
+
+idl::stream::FeedbackFrame feedback() {
+  idl::stream::FeedbackFrame frame{};
+  frame.first = 50;
+  frame.count = 2;
+  frame.axis_count = 2;
+  frame.commanded = {1, 10, 2, 20};
+  frame.actual = {0.5, 10, 1.9, 20.25};
+  return frame;
+}
+
+TEST(StateDocument, ColumnsOfTheFeedbackGoToTheLogicalAxesOfTheDrive) {
+  StateDocument document("hash");
+  document.set_drive_axes({0, 5});
+  document.apply(feedback());
+  auto json = document.document(0);
+  EXPECT_EQ(json["axes"]["0"]["actual"], 1.9);
+  EXPECT_EQ(json["axes"]["5"]["following_error"], -0.25);
+  EXPECT_EQ(json["axes"]["0"]["following_error"], 0.1);
+  EXPECT_EQ(json["axes"]["0"]["following_peak"], 0.5) << "of the first row, larger than that of the last";
+  EXPECT_EQ(json["drive"]["executed"], 52);
+  EXPECT_EQ(json["trace"]["rows"], Json::parse("[[0.5,10.0],[1.9,20.25]]"));
+  json = document.document(0);
+  EXPECT_EQ(json["axes"]["0"]["following_peak"], 0.1) << "peaks start afresh with each document";
+  EXPECT_EQ(json["trace"]["first"], 50) << "and the last trace stays until there is a new one";
+}
+
+TEST(StateDocument, AFrameWithFewerNumbersThanItSaysIsReadAsFarAsItGoes) {
+  StateDocument document("hash");
+  document.set_drive_axes({0, 1, 2});
+  auto frame = feedback();
+  frame.count = 60;
+  frame.actual.pop_back();
+  document.apply(frame);
+  const auto json = document.document(0);
+  EXPECT_EQ(json["axes"].size(), 2u);
+  EXPECT_EQ(json["axes"]["0"]["actual"], 0.5);
+}
+
+Snapshot with_two_axes() {
+  auto set = std::make_shared<idl::parameters::ParameterSet>();
+  set->revision = 7;
+  idl::parameters::Parameter name{};
+  for (const std::uint32_t axis : {0u, 4u}) {
+    name.number = 100000 + axis * 1000;
+    name.text = axis == 0 ? "X" : "C";
+    set->values.push_back(name);
+  }
+  idl::parameters::Parameter rapid{};
+  rapid.number = 104034;
+  rapid.value = 3600;
+  set->values.push_back(rapid);
+  set->pending = {104034};
+  Snapshot snapshot;
+  snapshot.parameters = set;
+  snapshot.channels[0] = {};
+  return snapshot;
+}
+
+TEST(ParameterAnswer, ListsTheAxesTheMachineHasAndNoOthers) {
+  const auto answer = parameters_answer(with_two_axes(), {"axis", "rapid_feed", 0, 100});
+  ASSERT_EQ(answer["parameters"].size(), 2u) << answer.dump(1);
+  EXPECT_EQ(answer["parameters"][0]["number"], 100034);
+  EXPECT_EQ(answer["parameters"][0]["value"], 24000) << "the catalogue's default";
+  EXPECT_EQ(answer["parameters"][0]["pending"], false);
+  EXPECT_EQ(answer["parameters"][1]["number"], 104034);
+  EXPECT_EQ(answer["parameters"][1]["value"], 3600);
+  EXPECT_EQ(answer["parameters"][1]["pending"], true);
+  EXPECT_EQ(answer["total"], 2);
+}
+
+TEST(ParameterAnswer, SearchesByNumberAndGoesByPages) {
+  const auto snapshot = with_two_axes();
+  const auto by_number = parameters_answer(snapshot, {"", "104034", 0, 100});
+  ASSERT_EQ(by_number["parameters"].size(), 1u);
+  EXPECT_EQ(by_number["parameters"][0]["name"], "rapid_feed");
+  EXPECT_EQ(parameters_answer(snapshot, {"axis", "Rapid Feed", 0, 100})["total"], 2);
+  const auto all = parameters_answer(snapshot, {"axis", "", 0, 1000});
+  const auto page = parameters_answer(snapshot, {"axis", "", 3, 2});
+  ASSERT_EQ(page["parameters"].size(), 2u);
+  EXPECT_EQ(page["parameters"][0], all["parameters"][3]);
+  EXPECT_EQ(page["total"], all["total"]);
+  EXPECT_TRUE(parameters_answer(snapshot, {"nonsense", "", 0, 10})["parameters"].empty());
+  EXPECT_TRUE(parameters_answer(Snapshot{}, {}).is_null());
+}
+
+}  // namespace
+}  // namespace trunnion::gateway

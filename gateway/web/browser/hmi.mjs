@@ -1,0 +1,201 @@
+// The page in a real browser against a real gateway. By default it starts a gateway and a fake cluster of its own;
+// with TRUNNION_URL it uses the cluster that runs there and leaves out what only the fake one can be asked.
+import { spawn } from "node:child_process";
+import { mkdtempSync, mkdirSync, rmSync } from "node:fs";
+import { createServer } from "node:net";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { chromium } from "playwright-core";
+
+const { TRUNNION_URL, GATEWAY, FAKE_CLUSTER, MACHINE, WEB } = process.env;
+const screenshots = process.env.SCREENSHOTS ?? join(tmpdir(), "trunnion-screenshots");
+mkdirSync(screenshots, { recursive: true });
+const scratch = mkdtempSync(join(tmpdir(), "trunnion-browser-"));
+const children = [];
+let cluster = "";
+
+function start(program, args) {
+  const child = spawn(program, args, { stdio: ["ignore", "pipe", "inherit"] });
+  children.push(child);
+  return child;
+}
+
+function freePort() {
+  return new Promise((resolve) => {
+    const server = createServer().listen(0, "127.0.0.1", () => {
+      const { port } = server.address();
+      server.close(() => resolve(port));
+    });
+  });
+}
+
+async function eventually(what, condition, seconds = 10) {
+  const until = Date.now() + seconds * 1000;
+  for (;;) {
+    const result = await condition();
+    if (result) return result;
+    if (Date.now() > until) throw new Error(`not within ${seconds} s: ${what}`);
+    await new Promise((resolve) => setTimeout(resolve, 50));
+  }
+}
+
+function check(what, condition) {
+  if (!condition) throw new Error(`does not hold: ${what}`);
+  console.log(`ok   ${what}`);
+}
+
+async function startCluster() {
+  const port = await freePort();
+  start(FAKE_CLUSTER, ["51"]).stdout.on("data", (text) => (cluster += text));
+  const gateway = ["--machine", MACHINE, "--state", scratch, "--domain", "51", "--web", WEB, "--port", String(port)];
+  start(GATEWAY, [...gateway, "--instance", "20"]);
+  const url = `http://127.0.0.1:${port}/`;
+  await eventually("the gateway answers", () => fetch(`${url}api/channels/0`).then((r) => r.ok, () => false));
+  return url;
+}
+
+async function run(page, url) {
+  const complaints = [];
+  page.on("pageerror", (error) => complaints.push(String(error)));
+  page.on("console", (message) => message.type() === "error" && complaints.push(message.text()));
+  const text = (selector) => page.locator(selector).first().innerText();
+  const at = (name) => page.locator(`[data-test="${name}"]`);
+  const shot = (name) => page.screenshot({ path: join(screenshots, `${name}.png`) });
+
+  await page.goto(url);
+  await page.waitForSelector(".positions");
+  check("the machine has a name", (await text('[data-test="machine"]')).length > 0);
+  check("nothing covers the page when the connection is there", (await page.locator(".lost").count()) === 0);
+  const overflow = () =>
+    page.evaluate(() => {
+      const root = document.documentElement;
+      return [...document.querySelectorAll("section, header")]
+        .filter((element) => !element.classList.contains("services"))
+        .filter((element) => element.scrollWidth > element.clientWidth + 1 || element.scrollHeight > element.clientHeight + 1)
+        .map((element) => `${element.tagName}.${element.className} ${element.scrollWidth}x${element.scrollHeight} in ${element.clientWidth}x${element.clientHeight}`)
+        .concat(root.scrollHeight > innerHeight || root.scrollWidth > innerWidth ? ["page"] : []);
+    });
+
+  const refuse = page.waitForResponse((response) => response.url().endsWith("/mdi"));
+  await at("mdi").fill("?? X1");
+  await at("mdi-send").click();
+  check("bad MDI is answered with 409 or 400", [400, 409].includes((await refuse).status()));
+  await page.waitForSelector(".notice.refused");
+  check("and the reason is on the page", (await text(".notice.refused")).startsWith("MDI: "));
+  check("and the line stays to be corrected", (await at("mdi").inputValue()) === "?? X1");
+  await at("mdi").fill("");
+
+  if (!TRUNNION_URL) {
+    await at("mode-AUTO").click();
+    await eventually("automatic mode", async () => (await text('[data-test="mode"]')) === "AUTO");
+    await at("cycle-start").click();
+    await eventually("the request arrives", () => cluster.includes("CYCLE_START"));
+    check("cycle start arrives at the channel", true);
+    await eventually("running", async () => (await text('[data-test="state"]')) === "RUNNING");
+    const seen = new Set();
+    await eventually("positions change", async () => seen.add(await text('[data-test="position-X"]')).size >= 5);
+    check("positions change", true);
+    const marked = await text('[data-test="current-line"]');
+    await eventually("the current line moves", async () => (await text('[data-test="current-line"]')) !== marked);
+    check("the current line is shown and moves", /^G1 X/.test(marked));
+    await page.waitForTimeout(6000);
+    const covered = await overflow();
+    check(`everything fits at 1440x900 ${covered}`, covered.length === 0);
+    await shot("operate");
+    await at("plots").click();
+    await page.waitForTimeout(700);
+    await shot("plots");
+    await page.getByRole("tab", { name: "Tool path" }).click();
+
+    await at("feed-hold").click();
+    await eventually("held", async () => (await text('[data-test="state"]')) === "HELD");
+    check("feed hold holds", true);
+    await at("reset").click();
+    await eventually("reset", async () => (await text('[data-test="state"]')) === "IDLE");
+
+    await at("mode-JOG").click();
+    await eventually("jog mode", async () => (await text('[data-test="mode"]')) === "JOG");
+    const box = await at("jog-X+").boundingBox();
+    await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
+    await page.mouse.down();
+    await eventually("the jog arrives", () => cluster.includes("JOG_AXIS"));
+    await page.waitForTimeout(1000);
+    check("a held key is one movement that goes on", !cluster.includes("JOG_STOP") && cluster.split("JOG_AXIS").length === 2);
+    await page.mouse.up();
+    await eventually("the stop arrives", () => cluster.includes("JOG_STOP"));
+    check("releasing the key stops it", true);
+
+    await at("estop").click();
+    await page.waitForSelector('[data-test="release"]');
+    check("an emergency stop changes the header", (await text(".estop")) === "STOPPED");
+    await shot("emergency-stop");
+    await at("release").click();
+    await page.waitForSelector('[data-test="estop"]');
+  }
+
+  await at("view-parameters").click();
+  await at("parameter-search").fill("rapid_feed");
+  await page.waitForSelector('[data-parameter="100034"]');
+  await page.locator('[data-parameter="100034"]').click();
+  await at("parameter-value").fill("-5000000");
+  await at("parameter-save").click();
+  await page.waitForSelector('[data-test="parameter-refusal"]');
+  check("a refused parameter shows the reason", (await text('[data-test="parameter-refusal"]')).length > 10);
+  await at("parameter-search").fill("");
+  await page.waitForTimeout(400);
+  await shot("parameters");
+  await at("view-offsets").click();
+  await page.waitForTimeout(300);
+  await shot("offsets");
+  await at("view-diagnosis").click();
+  await page.waitForSelector(".registers, .plc p");
+  await page.waitForTimeout(700);
+  await shot("diagnosis");
+  await page.keyboard.press("Alt+1");
+  await page.waitForSelector(".positions");
+  check("Alt+1 goes back to the operating view", true);
+  await page.setViewportSize({ width: 1024, height: 768 });
+  await page.waitForTimeout(700);
+  await shot("small");
+  const small = await overflow();
+  check(`everything fits at 1024x768 ${small}`, small.length === 0);
+  // The two refusals above are logged by the browser itself; nothing else may be.
+  const unexpected = complaints.filter((line) => !/status of 4(00|09)/.test(line));
+  check(`the page has no errors ${unexpected}`, unexpected.length === 0);
+
+  if (!TRUNNION_URL) {
+    children[1].kill("SIGKILL");
+    await page.waitForSelector(".lost h1");
+    check("a lost connection is unmistakable", (await text(".lost h1")) === "Connection lost");
+    await shot("lost");
+  }
+}
+
+let browser;
+let status = 1;
+try {
+  const url = TRUNNION_URL ?? (await startCluster());
+  browser = await chromium.launchPersistentContext(join(scratch, "profile"), {
+    executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium",
+    viewport: { width: 1440, height: 900 },
+    args: [
+      "--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
+      "--disable-background-networking", "--disable-component-update", "--disable-sync", "--no-first-run",
+      "--disable-quic",
+    ],
+  });
+  const page = await browser.newPage();
+  await run(page, url).catch(async (error) => {
+    await page.screenshot({ path: join(screenshots, "failure.png") });
+    throw error;
+  });
+  console.log(`screenshots in ${screenshots}`);
+  status = 0;
+} catch (error) {
+  console.error(error);
+} finally {
+  await browser?.close();
+  for (const child of children) child.kill("SIGTERM");
+  rmSync(scratch, { recursive: true, force: true });
+}
+process.exit(status);
