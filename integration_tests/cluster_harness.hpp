@@ -18,23 +18,18 @@ using idl::channel::CommandKind;
 using idl::channel::Mode;
 using idl::channel::RunState;
 
-struct Setup {
-  std::string machine = "ac-table";
-  std::string vendor;
-  bool virtual_time = true;
-  bool gateway = false;
-};
+enum class Time { real, virtual_ };
 
 class Cluster {
  public:
-  explicit Cluster(const Setup& setup) {
+  explicit Cluster(const std::string& machine, Time time = Time::virtual_, const std::string& vendor = "", bool gateway = false) {
     deploy::UpOptions up;
-    up.machine = setup.machine;
-    up.vendor = setup.vendor;
+    up.machine = machine;
+    up.vendor = vendor;
     up.state_directory = "temporary";
     up.own_domain = true;
-    up.virtual_time = setup.virtual_time;
-    up.with_gateway = setup.gateway;
+    up.virtual_time = time == Time::virtual_;
+    up.with_gateway = gateway;
     cluster_ = deploy::start_cluster(up);
     client_ = std::make_unique<deploy::Client>(cluster_.run.domain);
     states_.emplace(client_->bus().reader(topics::channel_state));

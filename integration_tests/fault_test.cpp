@@ -12,7 +12,7 @@ class KillInMotion : public testing::TestWithParam<const char*> {};
 
 TEST_P(KillInMotion, StopsNamesTheServiceBecomesReadyAndTheProgramGoesOn) {
   const std::string victim = GetParam();
-  Cluster cluster({.machine = "ac-table", .virtual_time = false});
+  Cluster cluster("ac-table", Time::real);
   cluster.start_text(long_program);
   ASSERT_TRUE(cluster.until([&] { return cluster.channels[0].line >= 5 && cluster.channels[0].progress > 0; }));
   std::map<std::string, int> pids;
@@ -58,7 +58,7 @@ INSTANTIATE_TEST_SUITE_P(Services, KillInMotion,
                          [](const auto& service) { return std::string(service.param); });
 
 TEST(Faults, AHungServiceIsReplaced) {
-  Cluster cluster({.machine = "ac-table", .virtual_time = false});
+  Cluster cluster("ac-table", Time::real);
   cluster.until([] { return false; }, 8);  // a process gets its time to start before its silence counts
   const int pid = cluster.service("compensation")->pid;
   ASSERT_EQ(kill(pid, SIGSTOP), 0);
@@ -67,7 +67,7 @@ TEST(Faults, AHungServiceIsReplaced) {
 }
 
 TEST(Faults, EmergencyStopStopsSwitchesOffAndNeedsAReset) {
-  Cluster cluster({.machine = "ac-table", .virtual_time = false});
+  Cluster cluster("ac-table", Time::real);
   cluster.start_text(long_program);
   ASSERT_TRUE(cluster.until([&] { return cluster.channels[0].line >= 5; }));
   cluster.client().panel(1);

@@ -5,7 +5,7 @@ namespace trunnion::integration {
 namespace {
 
 TEST(Machines, TheGantryMachineRunsItsProgramAndTheSlaveFollows) {
-  Cluster cluster({.machine = "gantry-cb-head"});
+  Cluster cluster("gantry-cb-head");
   cluster.keep_rows = true;
   cluster.start("swing.nc");
   ASSERT_TRUE(cluster.finish()) << cluster.active_alarms();
@@ -19,7 +19,7 @@ TEST(Machines, TheGantryMachineRunsItsProgramAndTheSlaveFollows) {
 }
 
 TEST(Machines, TwoChannelsRunTwoProgramsAtOnce) {
-  Cluster cluster({.machine = "two-channel"});
+  Cluster cluster("two-channel");
   cluster.keep_rows = true;
   cluster.client().channel(0, CommandKind::SET_MODE, "", 0, Mode::AUTO);
   cluster.client().channel(1, CommandKind::SET_MODE, "", 0, Mode::AUTO);
@@ -40,7 +40,7 @@ TEST(Machines, TwoChannelsRunTwoProgramsAtOnce) {
 }
 
 TEST(Machines, ParametersTakeEffectAtResetAndWrongOnesAreRefusedWithTheirLimits) {
-  Cluster cluster({.machine = "ac-table"});
+  Cluster cluster("ac-table");
   idl::parameters::ParameterRequest request;
   request.operation = idl::parameters::Operation::SET;
   request.who = "test";
@@ -99,13 +99,13 @@ TEST(BadInput, AWrongParameterFileIsOneLineWithItsPlace) {
 }
 
 TEST(BadInput, AWrongMachineFileIsOneLineWithItsPlace) {
-  EXPECT_EQ(broken_machine([](const auto& d) { std::ofstream(d / "machine.yaml", std::ios::app) << "oops: 1\n"; }), "machine.yaml:20:1: error: unknown key 'oops'");
+  EXPECT_EQ(broken_machine([](const auto& d) { std::ofstream(d / "machine.yaml", std::ios::app) << "oops: 1\n"; }), "machine.yaml:18:1: error: unknown key 'oops'");
 }
 
 TEST(BadInput, AnUnknownMachineIsNamed) { EXPECT_THROW(deploy::find_machine("no-such-machine"), std::runtime_error); }
 
 TEST(BadInput, AServiceOfAnotherContractIsReported) {
-  Cluster cluster({.machine = "ac-table"});
+  Cluster cluster("ac-table");
   bus::Bus stranger(bus::Vendor::fastdds, {cluster.running().run.domain});
   auto writer = stranger.writer(topics::announcement);
   writer.write({77, "kinematics", "fastdds", "host", 1, "0123456789abcdef", "0.0.9"});
