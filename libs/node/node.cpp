@@ -1,5 +1,7 @@
 #include "node/node.hpp"
 
+#include <sched.h>
+#include <sys/mman.h>
 #include <sys/prctl.h>
 #include <unistd.h>
 
@@ -23,6 +25,12 @@ std::string host_name() {
 
 double monotonic_seconds() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+bool use_real_time_scheduling() {
+  sched_param priority{};
+  priority.sched_priority = 20;
+  return sched_setscheduler(0, SCHED_FIFO, &priority) == 0 && mlockall(MCL_CURRENT | MCL_FUTURE) == 0;
 }
 
 Node::Node(Options options)

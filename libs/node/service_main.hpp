@@ -2,7 +2,9 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <iostream>
+#include <iterator>
 
 namespace trunnion::node {
 
@@ -13,6 +15,10 @@ int service_main(int argc, char** argv, const char* name) {
   CLI::App app(std::string("trunnion-") + name + ": a service of the Trunnion controller");
   add_options(app, options);
   if (const int status = parse_options(app, argc, argv, options); status >= 0) return status;
+  // The services of the stream share the cycle; what waits for files or browsers does not.
+  constexpr const char* cyclic[] = {"channel", "kinematics", "compensation", "gantry", "drive", "plc"};
+  const bool is_cyclic = std::any_of(std::begin(cyclic), std::end(cyclic), [&](const char* c) { return options.service == c; });
+  if (is_cyclic && !options.virtual_time) use_real_time_scheduling();
   try {
     Node node(options);
     S service(node);

@@ -97,7 +97,8 @@ Answer ChannelCore::cycle_start() {
         return start_program(point);
       }
       link_.request_resume();
-      run_ = hold_ ? RunState::HOLDING : RunState::RUNNING;
+      hold_ = false;
+      run_ = aborting_ ? RunState::HOLDING : RunState::RUNNING;
       return {};
     default: return refuse("request_invalid", "The channel is busy");
   }
