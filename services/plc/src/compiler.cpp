@@ -1,5 +1,6 @@
 #include "compiler.hpp"
 
+#include <algorithm>
 #include <limits>
 #include <optional>
 
@@ -114,8 +115,13 @@ class Parser {
   [[noreturn]] void fail(const Token& token, const std::string& text) const {
     throw CompileError(file_, token.line, token.column, text);
   }
-  const Token& peek() const { return tokens_[at_]; }
-  const Token& next() { return tokens_[at_ + 1 < tokens_.size() ? at_++ : at_]; }
+  /// At the end the last end of line, again and again.
+  const Token& peek() const { return tokens_[std::min(at_, tokens_.size() - 1)]; }
+  const Token& next() {
+    const Token& token = peek();
+    ++at_;
+    return token;
+  }
   bool is_word(std::string_view text) const { return peek().kind == TokenKind::word && peek().text == text; }
   bool is_symbol(std::string_view text) const {
     return peek().kind == TokenKind::symbol && peek().text == text;
