@@ -188,7 +188,7 @@ class Parser {
 
   std::int32_t number(const Token& token, std::int64_t lowest, std::int64_t highest) const {
     std::int64_t value = 0;
-    const bool negative = token.text[0] == '-';
+    const bool negative = token.text.substr(0, 1) == "-";
     if (token.kind != TokenKind::number || token.text.size() > 11)
       fail(token, "expected a number " + std::to_string(lowest) + " .. " + std::to_string(highest));
     for (const char c : token.text.substr(negative ? 1 : 0)) value = value * 10 + (c - '0');

@@ -216,6 +216,7 @@ TEST(Compiler, ErrorsSayFileLineColumnAndWhat) {
   EXPECT_THAT(error_of("VAR//"), StartsWith("t.il:1:1: error: VAR without END_VAR"));
   EXPECT_THAT(error_of("VAR\na AT"), StartsWith("t.il:2:5: error:"));
   EXPECT_THAT(error_of("LD"), StartsWith("t.il:1:3: error: expected an operand"));
+  EXPECT_THAT(error_of("LD X0.0\nTON"), StartsWith("t.il:2:4: error: expected a number"));
   EXPECT_THAT(error_of("LD 99999999999\n"), StartsWith("t.il:1:4: error: the number is outside"));
   EXPECT_THAT(error_of("VAR\n  a AT X0.0 : INT;\nEND_VAR\n"), StartsWith("t.il:2:15: error: a bit is BOOL"));
 }
