@@ -1,5 +1,6 @@
 #include "compiler.hpp"
 
+#include <algorithm>
 #include <limits>
 #include <optional>
 
@@ -114,8 +115,13 @@ class Parser {
   [[noreturn]] void fail(const Token& token, const std::string& text) const {
     throw CompileError(file_, token.line, token.column, text);
   }
-  const Token& peek() const { return tokens_[at_]; }
-  const Token& next() { return tokens_[at_ + 1 < tokens_.size() ? at_++ : at_]; }
+  /// At the end the last end of line, again and again.
+  const Token& peek() const { return tokens_[std::min(at_, tokens_.size() - 1)]; }
+  const Token& next() {
+    const Token& token = peek();
+    ++at_;
+    return token;
+  }
   bool is_word(std::string_view text) const { return peek().kind == TokenKind::word && peek().text == text; }
   bool is_symbol(std::string_view text) const {
     return peek().kind == TokenKind::symbol && peek().text == text;
@@ -182,7 +188,7 @@ class Parser {
 
   std::int32_t number(const Token& token, std::int64_t lowest, std::int64_t highest) const {
     std::int64_t value = 0;
-    const bool negative = token.text[0] == '-';
+    const bool negative = token.text.substr(0, 1) == "-";
     if (token.kind != TokenKind::number || token.text.size() > 11)
       fail(token, "expected a number " + std::to_string(lowest) + " .. " + std::to_string(highest));
     for (const char c : token.text.substr(negative ? 1 : 0)) value = value * 10 + (c - '0');

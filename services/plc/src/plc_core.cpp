@@ -117,6 +117,7 @@ void PlcCore::set_request(const idl::channel::AuxiliaryRequest& request) {
 
 void PlcCore::set_feedback(const idl::stream::FeedbackFrame& frame) {
   drive_seen_ = true;
+  changed_ = changed_ || waits_for_standstill();
   executed_ = std::max(executed_, frame.first + frame.count);
   for (auto& channel : channels_) channel.active = false;
   for (const auto& echo : frame.channels)
@@ -172,13 +173,14 @@ void PlcCore::give_up_waiting() {
   changed_ = true;
 }
 
-void PlcCore::raise_strobes() {
+void PlcCore::set_strobes(bool present) {
   auto& r = memory_.registers;
   for (std::size_t c = 0; c < channel_count; ++c) {
     auto& h = memory_.handshakes[c];
     const auto& s = channel_symbols_[c];
-    // A strobe rises only when the answer to the one before has fallen.
-    if (h.state == HandshakeState::waiting && plc::load(r, s.fin) == 0 && standing(c)) {
+    // A strobe rises when the answer to the one before has fallen, and never in scans that make up for past
+    // ticks: what follows would count from then.
+    if (present && h.state == HandshakeState::waiting && plc::load(r, s.fin) == 0 && standing(c)) {
       h.state = HandshakeState::strobe;
       if (h.kind == 1) store(r, s.m_code, h.code);
       if (h.kind == 2) store(r, s.s_value, std::llround(std::clamp(h.value, 0.0, 65535.0)));
@@ -192,7 +194,8 @@ void PlcCore::raise_strobes() {
 }
 
 bool PlcCore::at_speed(std::size_t s) const {
-  if (s >= spindles_ || s >= spindle_actual_.size()) return true;
+  if (s >= spindles_) return true;
+  if (s >= spindle_actual_.size()) return drive_seen_;
   const double order = memory_.spindle_order[s];
   return std::abs(spindle_actual_[s] - order) <=
          std::max(speed_tolerance * std::abs(order), slowest_tolerance);
@@ -224,9 +227,9 @@ void PlcCore::finish() {
   }
 }
 
-void PlcCore::scan(bool main) {
+void PlcCore::scan(bool main, bool present) {
   auto& r = memory_.registers;
-  raise_strobes();
+  set_strobes(present);
   execute(fast_, r, memory_.blocks, memory_.scans);
   if (main) execute(main_, r, memory_.blocks, memory_.scans);
   check_spindles();
@@ -240,7 +243,7 @@ void PlcCore::scan(bool main) {
 void PlcCore::settle() {
   for (int i = 0; i < most_settling; ++i) {
     const auto before = memory_.registers;
-    scan(true);
+    scan(true, true);
     if (memory_.registers == before) break;
   }
 }
@@ -254,7 +257,7 @@ void PlcCore::advance(std::uint64_t tick) {
   if (now - memory_.scans > most_catch_up) memory_.scans = now - most_catch_up;
   while (memory_.scans < now) {
     ++memory_.scans;
-    scan(memory_.scans % main_period == 0);
+    scan(memory_.scans % main_period == 0, false);
   }
   if (changed_ || timer_due(memory_.blocks, now)) settle();
   changed_ = false;

@@ -71,9 +71,9 @@ class PlcCore {
   };
 
   void input(Address address, std::int64_t value);
-  void scan(bool main);
+  void scan(bool main, bool present);
   void settle();
-  void raise_strobes();
+  void set_strobes(bool present);
   void check_spindles();
   void finish();
   bool at_speed(std::size_t spindle) const;

@@ -74,7 +74,9 @@ void RetainedMemory::save(const std::string& boot, const Memory& memory) {
   auto& a = layout_->slots[0];
   auto& b = layout_->slots[1];
   const auto sequence = std::max(a.sequence, b.sequence) + 1;
-  auto& slot = a.sequence < b.sequence ? a : b;
+  // A slot whose writer was killed is not whole, whatever its number: the other one must stay.
+  const auto whole = [](const Slot& s) { return s.version == version ? s.sequence : 0; };
+  auto& slot = whole(a) < whole(b) ? a : b;
   slot.version = 0;
   std::atomic_signal_fence(std::memory_order_seq_cst);
   std::memcpy(&slot.memory, &memory, sizeof(Memory));

@@ -15,7 +15,6 @@ constexpr const char* index_file = "programs.yaml";
 constexpr const char* index_temporary = "programs.yaml.new";
 constexpr const char* copy_temporary = ".copy";
 constexpr const char* upload_prefix = ".upload-";
-constexpr std::uint64_t longest_index = 16 << 20;
 
 std::string unknown(const std::string& name) { return "program '" + name + "' is not in the store"; }
 
@@ -98,12 +97,14 @@ void ProgramStore::set_cycles(Files& cycles) {
 }
 
 void ProgramStore::load_index() {
-  std::string text(longest_index, '\0');
   const auto names = state_.list();
   if (std::find(names.begin(), names.end(), index_file) == names.end()) return;
-  text.resize(
-      state_.read(index_file, 0,
-                  {reinterpret_cast<std::uint8_t*>(text.data()), static_cast<std::size_t>(longest_index)}));
+  std::string text;
+  std::vector<std::uint8_t> buffer(65536);
+  for (std::size_t n = buffer.size(); n == buffer.size();) {
+    n = state_.read(index_file, text.size(), buffer);
+    text.append(buffer.begin(), buffer.begin() + static_cast<std::ptrdiff_t>(n));
+  }
   const auto document = machine::parse_yaml(text, index_file);
   try {
     revision_ = document["revision"].as<std::uint64_t>();

@@ -1,0 +1,95 @@
+// Files on a real disk: refused, torn and killed writers.
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <random>
+
+#include "file_storage.hpp"
+
+namespace trunnion::parameters {
+namespace {
+
+class FileStorageTest : public testing::Test {
+ protected:
+  FileStorageTest() {
+    directory_ = testing::TempDir() + "parameters_" + std::to_string(getpid());
+    std::filesystem::remove_all(directory_);
+    std::filesystem::create_directories(directory_);
+  }
+  ~FileStorageTest() override { std::filesystem::remove_all(directory_); }
+  std::string directory_;
+};
+
+TEST_F(FileStorageTest, ReplacesAppendsAndTakesBack) {
+  FileStorage storage(directory_);
+  EXPECT_FALSE(storage.read("a").has_value());
+  storage.replace({{"a", "1"}, {"b", "2"}});
+  storage.replace({{"a", "3"}});
+  EXPECT_EQ(storage.read("a"), "3");
+  EXPECT_EQ(storage.read("b"), "2");
+  EXPECT_EQ(storage.append("j", "one\n"), 0u);
+  EXPECT_EQ(storage.append("j", "two\n"), 4u);
+  storage.truncate("j", 4);
+  EXPECT_EQ(storage.read("j"), "one\n");
+}
+
+TEST_F(FileStorageTest, AnUnwritableDirectoryLeavesEverythingAsItWas) {
+  FileStorage storage(directory_);
+  storage.replace({{"a", "old"}});
+  std::filesystem::create_directories(directory_ + "/b.new");  // the second temporary file cannot be made
+  EXPECT_THROW(storage.replace({{"a", "new"}, {"b", "new"}}), StorageError);
+  EXPECT_EQ(storage.read("a"), "old");
+  EXPECT_FALSE(std::filesystem::exists(directory_ + "/a.new"));
+}
+
+TEST_F(FileStorageTest, AFileThatMayNotGrowIsNotHalfAppended) {
+  FileStorage storage(directory_);
+  storage.append("j", "one\n");
+  const pid_t child = fork();  // the limit must not touch the test program's own output
+  if (child == 0) {
+    signal(SIGXFSZ, SIG_IGN);
+    const rlimit limit{6, 6};
+    setrlimit(RLIMIT_FSIZE, &limit);
+    try {
+      FileStorage(directory_).append("j", "second\n");
+    } catch (const StorageError&) {
+      _exit(0);
+    }
+    _exit(1);
+  }
+  int status = 0;
+  waitpid(child, &status, 0);
+  EXPECT_EQ(status, 0);
+  EXPECT_EQ(storage.read("j"), "one\n");
+}
+
+TEST_F(FileStorageTest, AfterAKillAtAnyMomentAFileIsOldOrNew) {
+  // Texts of different length, so that a mixture cannot look like one of them.
+  const std::string texts[] = {std::string(20000, 'a'), std::string(70000, 'b')};
+  FileStorage storage(directory_);
+  storage.replace({{"f", texts[0]}});
+  std::mt19937 random(20);
+  int seen[2] = {0, 0};
+  for (int round = 0; round < 60; ++round) {
+    const pid_t writer = fork();
+    if (writer == 0) {
+      FileStorage mine(directory_);
+      for (int i = round;; ++i) mine.replace({{"f", texts[i % 2]}});
+    }
+    usleep(random() % 5000);
+    kill(writer, SIGKILL);
+    waitpid(writer, nullptr, 0);
+    const auto text = storage.read("f");
+    ASSERT_TRUE(text == texts[0] || text == texts[1]) << "round " << round;
+    ++seen[text == texts[1] ? 1 : 0];
+  }
+  EXPECT_GT(seen[0], 0);
+  EXPECT_GT(seen[1], 0);
+}
+
+}  // namespace
+}  // namespace trunnion::parameters

@@ -1,0 +1,382 @@
+// The machine's own programs on the core: handshakes, emergency stop, restart, all by the drive's ticks.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <sstream>
+
+#include "compiler.hpp"
+#include "plc_core.hpp"
+
+namespace trunnion::plc {
+namespace {
+
+std::string file(const std::string& machine, const std::string& name) {
+  std::ifstream in(std::string(TRUNNION_MACHINES) + "/" + machine + "/plc/" + name);
+  EXPECT_TRUE(in) << name;
+  std::ostringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+// Axes 0 and 2, spindles 10 and 11.
+machine::Parameters parameters() {
+  machine::Parameters p;
+  p.values[100000] = {0, "X"}, p.values[102000] = {0, "Z"};
+  for (const std::uint32_t spindle : {110000u, 111000u})
+    p.values[spindle] = {0, "S"}, p.values[spindle + 1] = {10, ""};
+  return p;
+}
+
+/// The PLC with a drive in virtual time beside it: while nothing moves, time goes on to run_until_tick.
+struct Bench {
+  explicit Bench(const std::string& machine = "ac-table", bool drive_answers = true) {
+    core.configure(parameters(), true);
+    Compiler compiler(interface_symbols());
+    auto fast = compiler.compile(file(machine, "fast.il"), "fast.il");
+    core.load(std::move(fast), compiler.compile(file(machine, "main.il"), "main.il"));
+    if (drive_answers) feedback();
+  }
+
+  void feedback() {
+    idl::stream::FeedbackFrame frame;
+    frame.first = executed;
+    frame.tick = tick;
+    frame.channels.resize(2);
+    frame.channels[1].channel = 1;
+    frame.channels[0].active = active;
+    frame.spindle_speed.assign(speed.begin(), speed.end());
+    frame.enabled = {1, 1};
+    core.set_feedback(frame);
+    step();
+  }
+  void step() {
+    core.advance(tick);
+    for (const auto& done : core.take_done()) finished.push_back(done);
+  }
+  /// Time goes on for as long as the PLC asks for it; returns the ticks that passed.
+  std::uint64_t run() {
+    const auto start = tick;
+    for (int i = 0; i < 10000; ++i) {
+      const auto outputs = core.outputs();
+      if (outputs.run_until_tick <= tick) break;
+      for (; tick < outputs.run_until_tick; ++tick)
+        for (std::size_t s = 0; s < 2; ++s) {
+          const double error = outputs.spindle_speed[s] - speed[s];
+          speed[s] += std::clamp(error, -ramp, ramp);
+        }
+      feedback();
+    }
+    return tick - start;
+  }
+  void request(std::uint8_t kind, std::uint32_t code, double value = 0, std::uint16_t channel = 0) {
+    ++number;
+    core.set_request({channel, number, kind, code, value, executed});
+    step();
+  }
+  bool done() const { return !finished.empty() && finished.back().number == number; }
+
+  PlcCore core;
+  std::uint64_t tick = 1000, executed = 500;
+  bool active = false;
+  std::uint32_t number = 0;
+  std::array<double, 2> speed{};
+  double ramp = 2;  // 1/min in each tick of 1 ms
+  std::vector<idl::plc::AuxiliaryDone> finished;
+};
+
+constexpr std::uint8_t M = 1, S = 2, T = 3;
+
+TEST(Handshake, AnUnknownMAndATAreFinishedWithoutTime) {
+  Bench bench;
+  bench.request(M, 99);
+  EXPECT_TRUE(bench.done());
+  bench.request(T, 5);
+  EXPECT_TRUE(bench.done());
+  EXPECT_EQ(bench.run(), 0u);
+  EXPECT_EQ(bench.finished.size(), 2u);
+}
+
+TEST(Handshake, M3WaitsUntilTheSpindleIsWithinFivePercent) {
+  Bench bench;
+  bench.request(S, 0, 1000);
+  ASSERT_TRUE(bench.done());  // the spindle stands and is ordered to: S alone moves nothing
+  bench.request(M, 3);
+  EXPECT_FALSE(bench.done());
+  // 2 1/min in each ms reach 950 after 475 ms; the PLC looks every 10 ms.
+  std::uint64_t waited = 0;
+  while (!bench.done() && waited < 2000) {
+    const auto until = bench.core.outputs().run_until_tick;
+    ASSERT_EQ(until, bench.tick + 10);
+    for (; bench.tick < until; ++bench.tick, ++waited) bench.speed[0] += bench.ramp;
+    bench.feedback();
+  }
+  EXPECT_EQ(waited, 480u);
+  EXPECT_EQ(bench.core.outputs().spindle_speed[0], 1000);
+}
+
+TEST(Handshake, M4TurnsTheOtherWayAndM5WaitsForStandstill) {
+  Bench bench;
+  bench.request(S, 0, 200);
+  bench.request(M, 4);
+  bench.run();
+  EXPECT_TRUE(bench.done());
+  EXPECT_EQ(bench.core.outputs().spindle_speed[0], -200);
+  const double before = bench.speed[0];
+  EXPECT_LE(before, -190);
+  bench.request(M, 5);
+  EXPECT_FALSE(bench.done());
+  bench.run();
+  EXPECT_TRUE(bench.done());
+  EXPECT_GE(bench.speed[0], -5);
+  EXPECT_EQ(bench.core.outputs().spindle_speed[0], 0);
+}
+
+TEST(Handshake, AnotherSWithTurningSpindleWaitsForTheNewSpeed) {
+  Bench bench;
+  bench.request(S, 0, 200);
+  bench.request(M, 3);
+  bench.run();
+  bench.request(S, 0, 400);
+  EXPECT_FALSE(bench.done());
+  bench.run();
+  EXPECT_TRUE(bench.done());
+  EXPECT_GE(bench.speed[0], 380);
+}
+
+TEST(Handshake, M6TakesExactlyTheChangersTimeOnAStandingSpindle) {
+  Bench bench;
+  bench.request(M, 6);
+  EXPECT_FALSE(bench.done());
+  EXPECT_EQ(bench.core.outputs().run_until_tick, bench.tick + 300);
+  EXPECT_EQ(bench.run(), 300u);
+  EXPECT_TRUE(bench.done());
+  bench.tick += 7;  // another phase of the main task takes the same time
+  bench.feedback();
+  bench.request(M, 6);
+  EXPECT_EQ(bench.run(), 300u);
+  EXPECT_TRUE(bench.done());
+}
+
+TEST(Handshake, TicksAreTheSameEveryTime) {
+  const auto ticks = [] {
+    Bench bench;
+    std::vector<std::uint64_t> result;
+    const std::vector<std::pair<std::uint8_t, std::uint32_t>> sequence = {{S, 3000}, {M, 3}, {M, 8}, {S, 500},
+                                                                          {M, 6},    {M, 4}, {M, 30}};
+    for (const auto& [kind, code] : sequence) {
+      bench.request(kind, code, code);
+      result.push_back(bench.run());
+      EXPECT_TRUE(bench.done()) << static_cast<int>(kind) << " " << code;
+    }
+    return result;
+  };
+  const auto first = ticks();
+  EXPECT_EQ(first, ticks());
+}
+
+TEST(Handshake, ARequestWaitsForTheDriveToConfirmTheStandstill) {
+  Bench bench;
+  bench.active = true;
+  bench.feedback();
+  bench.executed = 600;
+  bench.request(M, 6);  // the drive's frame of cycle 600 has not arrived
+  EXPECT_TRUE(bench.core.waits_for_standstill());
+  EXPECT_EQ(bench.core.outputs().run_until_tick, bench.tick);
+  bench.tick += 100, bench.active = false;
+  bench.feedback();
+  EXPECT_FALSE(bench.core.waits_for_standstill());
+  EXPECT_EQ(bench.run(), 300u);
+  EXPECT_TRUE(bench.done());
+}
+
+TEST(Handshake, ARepeatedRequestIsConfirmedAgainButNotCarriedOutAgain) {
+  Bench bench;
+  bench.request(M, 6);
+  bench.run();
+  ASSERT_EQ(bench.finished.size(), 1u);
+  bench.core.set_request({0, bench.number, M, 6, 0, bench.executed});
+  bench.step();
+  EXPECT_EQ(bench.finished.size(), 2u);
+  EXPECT_EQ(bench.run(), 0u);
+}
+
+TEST(Handshake, AWithdrawnRequestIsNotFinished) {
+  Bench bench;
+  bench.request(M, 6);
+  bench.core.set_request({0, bench.number, 0, 0, 0, bench.executed});
+  bench.run();
+  EXPECT_TRUE(bench.finished.empty());
+}
+
+TEST(Handshake, CoolantIsSwitchedByM7M8M9AndTheEndOfTheProgram) {
+  Bench bench;
+  const auto coolant = [&] { return bench.core.outputs().coolant[0] + 2 * bench.core.outputs().coolant[1]; };
+  bench.request(M, 8);
+  EXPECT_EQ(coolant(), 1);
+  bench.request(M, 7);
+  EXPECT_EQ(coolant(), 3);
+  bench.request(M, 9);
+  EXPECT_EQ(coolant(), 0);
+  bench.request(M, 8);
+  bench.request(M, 0);
+  EXPECT_EQ(coolant(), 1);  // a program stop leaves it on
+  bench.request(M, 30);
+  EXPECT_EQ(coolant(), 0);
+  EXPECT_TRUE(bench.done());
+}
+
+TEST(Handshake, TheSpindleOverrideActsOnTheTurningSpindle) {
+  Bench bench;
+  bench.request(S, 0, 1000);
+  bench.request(M, 3);
+  bench.run();
+  idl::channel::ChannelState state;
+  state.spindle_override = 1.2, state.feed_override = 1, state.rapid_override = 1;
+  bench.core.set_channel(state);
+  bench.step();
+  EXPECT_EQ(bench.core.outputs().spindle_speed[0], 1200);
+}
+
+TEST(Handshake, AResetOfTheChannelStopsSpindleAndCoolant) {
+  Bench bench;
+  bench.request(S, 0, 100);
+  bench.request(M, 3);
+  bench.run();
+  bench.request(M, 8);
+  idl::channel::ChannelState state;
+  state.spindle_override = 1, state.reset_count = 4;
+  bench.core.set_channel(state);
+  bench.step();
+  EXPECT_EQ(bench.core.outputs().spindle_speed[0], 100);  // the first count says nothing
+  state.reset_count = 5;
+  bench.core.set_channel(state);
+  bench.step();
+  EXPECT_EQ(bench.core.outputs().spindle_speed[0], 0);
+  EXPECT_EQ(bench.core.outputs().coolant[0], 0);
+}
+
+TEST(Handshake, TwoChannelsHaveTheirOwnSpindles) {
+  Bench bench("two-channel");
+  bench.request(S, 0, 300, 0);
+  bench.request(S, 0, 700, 1);
+  bench.request(M, 3, 0, 0);
+  bench.request(M, 4, 0, 1);
+  bench.run();
+  EXPECT_EQ(bench.core.outputs().spindle_speed, (std::vector<double>{300, -700}));
+  EXPECT_EQ(bench.finished.size(), 4u);
+  bench.request(M, 8, 0, 1);
+  EXPECT_EQ(bench.core.outputs().coolant, (std::vector<std::uint8_t>{0, 0, 1, 0, 0, 0, 0, 0}));
+}
+
+TEST(EmergencyStop, LatchesUntilReleasedAndReset) {
+  Bench bench;
+  bench.request(S, 0, 500);
+  bench.request(M, 3);
+  bench.run();
+  bench.request(M, 8);
+  EXPECT_EQ(bench.core.outputs().axis_enable[0], 1);
+  EXPECT_EQ(bench.core.outputs().axis_enable[1], 0);  // does not exist
+  EXPECT_EQ(bench.core.outputs().axis_enable[2], 1);
+
+  bench.core.panel(panel_press, 0, 0);
+  bench.step();
+  auto outputs = bench.core.outputs();
+  EXPECT_TRUE(outputs.emergency_stop);
+  EXPECT_EQ(outputs.axis_enable, std::vector<std::uint8_t>(32, 0));
+  EXPECT_EQ(outputs.spindle_speed[0], 0);
+  EXPECT_EQ(outputs.coolant[0], 0);
+
+  bench.core.panel(panel_reset, 0, 0);
+  bench.step();
+  EXPECT_TRUE(bench.core.emergency_stop()) << "reset while the button is pressed";
+  bench.core.panel(panel_release, 0, 0);
+  bench.step();
+  EXPECT_TRUE(bench.core.emergency_stop()) << "released but not reset";
+  bench.core.panel(panel_reset, 0, 0);
+  bench.step();
+  outputs = bench.core.outputs();
+  EXPECT_FALSE(outputs.emergency_stop);
+  EXPECT_EQ(outputs.axis_enable[0], 1);
+  EXPECT_EQ(outputs.spindle_speed[0], 0) << "the spindle waits for a new order";
+}
+
+TEST(EmergencyStop, AFunctionUnderWayFails) {
+  Bench bench;
+  bench.request(M, 6);
+  bench.core.panel(panel_press, 0, 0);
+  bench.step();
+  ASSERT_EQ(bench.finished.size(), 1u);
+  EXPECT_TRUE(bench.finished[0].failed);
+}
+
+TEST(EmergencyStop, WithoutAProgramTheOutputsAreSafe) {
+  PlcCore core;
+  core.configure(parameters(), true);
+  core.advance(100);
+  EXPECT_TRUE(core.outputs().emergency_stop);
+  EXPECT_EQ(core.outputs().axis_enable, std::vector<std::uint8_t>(32, 0));
+}
+
+TEST(Panel, ForcesInputBytesWithinTheirBounds) {
+  Bench bench;
+  EXPECT_EQ(bench.core.panel(panel_force, 0, 4), "");  // X0.2 is the feed hold button
+  bench.step();
+  EXPECT_TRUE(bench.core.outputs().feed_hold);
+  EXPECT_EQ(bench.core.panel(panel_force, 512, 0), "input byte 512 is outside 0 .. 511");
+  EXPECT_EQ(bench.core.panel(panel_force, 0, 256), "value 256 is outside 0 .. 255");
+  EXPECT_EQ(bench.core.panel(9, 0, 0), "kind 9 is outside 1 .. 4");
+}
+
+TEST(Restart, AProcessThatComesBackGoesOnWhereItWas) {
+  Bench bench;
+  bench.request(S, 0, 500);
+  bench.request(M, 3);
+  bench.run();
+  bench.request(M, 6);  // 500 1/min first come down, then the changer's time: interrupt it within
+  const auto target = bench.core.outputs();
+  Bench fresh("ac-table", false);
+  fresh.core.restore(bench.core.memory());
+  EXPECT_EQ(fresh.core.outputs(), target);
+  fresh.tick = bench.tick, fresh.speed = bench.speed, fresh.number = bench.number,
+  fresh.executed = bench.executed;
+  fresh.core.set_request({0, bench.number, M, 6, 0, bench.executed});
+  fresh.feedback();
+  const auto rest = fresh.run();
+  EXPECT_TRUE(fresh.done());
+  EXPECT_EQ(fresh.finished.size(), 1u);
+  EXPECT_EQ(rest, bench.run());  // the same ticks as without the restart
+  // Again after it is done: confirmed, not repeated.
+  Bench third;
+  third.core.restore(fresh.core.memory());
+  ASSERT_EQ(third.core.all_done().size(), 1u);
+  EXPECT_EQ(third.core.all_done()[0].number, bench.number);
+}
+
+TEST(Restart, APowerUpKeepsOnlyTheKeptRegisters) {
+  Bench bench;
+  bench.request(S, 0, 500);
+  bench.request(M, 3);
+  bench.run();
+  auto memory = bench.core.memory();
+  memory.registers.b[7] = 42;
+  Bench fresh;
+  fresh.core.power_up(memory);
+  fresh.feedback();
+  EXPECT_EQ(fresh.core.outputs().spindle_speed[0], 0);
+  EXPECT_EQ(fresh.core.image().b[7], 42);
+}
+
+TEST(Scans, FollowTheTicksAndSkipWhatIsTooOld) {
+  Bench bench;
+  const auto before = bench.core.image().scan;
+  bench.tick += 150;
+  bench.feedback();
+  EXPECT_EQ(bench.core.image().scan, before + 150);
+  bench.tick += 100000;
+  bench.feedback();
+  EXPECT_EQ(bench.core.image().scan, before + 100150);
+}
+
+}  // namespace
+}  // namespace trunnion::plc

@@ -1,0 +1,146 @@
+// The executable over DDS, with the test as drive, channel and keeper of parameters in virtual time.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "contracts/topics.hpp"
+#include "node/request.hpp"
+#include "running_service.hpp"
+
+namespace trunnion::plc {
+namespace {
+
+using testing_support::eventually;
+using testing_support::RunningService;
+constexpr int domain = 63;
+
+class Machine {
+ public:
+  Machine()
+      : bus_(bus::Vendor::cyclonedds, {domain}),
+        parameters_(bus_.writer(topics::parameter_set)),
+        feedback_(bus_.writer(topics::feedback_frame)),
+        request_(bus_.writer(topics::auxiliary_request)),
+        outputs_(bus_.reader(topics::plc_outputs)),
+        done_(bus_.reader(topics::auxiliary_done)),
+        states_(bus_.reader(topics::service_state)),
+        panel_(bus_, topics::panel_request, topics::panel_reply) {
+    idl::parameters::ParameterSet set;
+    set.revision = 1;
+    set.values = {{100000, 0, "X"}, {110000, 0, "S"}, {110001, 10, ""}};
+    parameters_.write(set);
+    send();
+  }
+  void send() {
+    idl::stream::FeedbackFrame frame;
+    frame.first = 10, frame.tick = tick, frame.spindle_speed = {speed};
+    frame.channels.resize(1);
+    frame.enabled = {1};
+    feedback_.write(frame);
+  }
+  void ask(std::uint32_t number, std::uint8_t kind, std::uint32_t code, double value) {
+    request_.write({0, number, kind, code, value, 10});
+  }
+  /// The drive's side of virtual time, until request `number` is done; 1/min per tick: 2.
+  bool run_until_done(std::uint32_t number) {
+    return eventually([&] {
+      poll();
+      if (have_outputs && outputs.run_until_tick > tick) {
+        for (; tick < outputs.run_until_tick; ++tick)
+          speed += std::clamp(outputs.spindle_speed.at(0) - speed, -2.0, 2.0);
+        send();
+      }
+      return done.number == number;
+    });
+  }
+  void poll() {
+    while (outputs_.take(outputs)) have_outputs = true;
+    while (done_.take(done)) ++done_count;
+    while (states_.take(state)) {
+    }
+  }
+  bool press(std::uint8_t kind) {
+    idl::plc::PanelRequest request;
+    request.kind = kind;
+    const auto reply = panel_.call(request, 10);
+    return reply && reply->accepted;
+  }
+  template <class Condition>
+  bool wait_for(Condition condition) {
+    return eventually([&] { return poll(), have_outputs && condition(); });
+  }
+
+  std::uint64_t tick = 100;
+  double speed = 0;
+  idl::plc::Outputs outputs;
+  idl::plc::AuxiliaryDone done;
+  idl::service::ServiceState state;
+  bool have_outputs = false;
+  int done_count = 0;
+
+ private:
+  bus::Bus bus_;
+  bus::Writer<idl::parameters::ParameterSet> parameters_;
+  bus::Writer<idl::stream::FeedbackFrame> feedback_;
+  bus::Writer<idl::channel::AuxiliaryRequest> request_;
+  bus::Reader<idl::plc::Outputs> outputs_;
+  bus::Reader<idl::plc::AuxiliaryDone> done_;
+  bus::Reader<idl::service::ServiceState> states_;
+  node::RequestClient<idl::plc::PanelRequest, idl::plc::PanelReply> panel_;
+};
+
+void install(const RunningService& service) {
+  service.write("state/cluster.boot", "boot\n");
+  std::filesystem::copy(TRUNNION_MACHINES "/ac-table/plc", service.machine() + "/plc");
+}
+
+TEST(PlcServiceOverDds, HandshakesTakeTheSameTicksAndAKillChangesNoOutput) {
+  RunningService service(TRUNNION_PLC, "plc", domain);
+  install(service);
+  service.start({"--virtual-time"});
+  Machine machine;
+  ASSERT_TRUE(machine.wait_for([&] { return machine.outputs.axis_enable.at(0) == 1; }));
+  machine.ask(1, 2, 0, 1000);
+  ASSERT_TRUE(machine.run_until_done(1));
+  EXPECT_EQ(machine.tick, 100u);
+  machine.ask(2, 1, 3, 0);
+  ASSERT_TRUE(machine.run_until_done(2));
+  // 2 1/min per tick reach 950 of 1000 after 475 ticks, looked at every 10.
+  EXPECT_EQ(machine.tick, 100u + 480u);
+  ASSERT_TRUE(machine.wait_for([&] { return machine.outputs.run_until_tick <= machine.tick; }));
+  const auto before = machine.outputs;
+  EXPECT_EQ(before.spindle_speed.at(0), 1000);
+
+  service.kill_hard();
+  machine.have_outputs = false;
+  machine.done_count = 0;
+  service.start({"--virtual-time"});
+  ASSERT_TRUE(machine.wait_for([&] { return machine.done_count > 0; }));
+  EXPECT_EQ(machine.outputs.spindle_speed, before.spindle_speed);
+  EXPECT_EQ(machine.outputs.axis_enable, before.axis_enable);
+  EXPECT_FALSE(machine.outputs.emergency_stop);
+  EXPECT_EQ(machine.done.number, 2u);  // what was done is said again, not done again
+
+  ASSERT_TRUE(machine.press(1));
+  ASSERT_TRUE(machine.wait_for([&] { return machine.outputs.emergency_stop; }));
+  EXPECT_EQ(machine.outputs.spindle_speed.at(0), 0);
+  ASSERT_TRUE(machine.press(2));
+  ASSERT_TRUE(machine.press(3));
+  ASSERT_TRUE(machine.wait_for([&] { return !machine.outputs.emergency_stop; }));
+  EXPECT_EQ(machine.outputs.axis_enable.at(0), 1);
+}
+
+TEST(PlcServiceOverDds, AFaultyProgramIsAFaultWithItsPlaceAndSafeOutputs) {
+  RunningService service(TRUNNION_PLC, "plc_faulty", domain);
+  install(service);
+  service.write("machine/plc/main.il", "LD X0.0\nSTX Y0.0\n");
+  service.start({"--virtual-time"});
+  Machine machine;
+  ASSERT_TRUE(machine.wait_for([&] { return machine.state.lifecycle == idl::service::Lifecycle::FAULT; }));
+  EXPECT_NE(machine.state.detail.find("main.il:2:1: error"), std::string::npos) << machine.state.detail;
+  EXPECT_TRUE(machine.outputs.emergency_stop);
+  EXPECT_EQ(machine.outputs.axis_enable.at(0), 0);
+}
+
+}  // namespace
+}  // namespace trunnion::plc

@@ -1,0 +1,304 @@
+// The program store on files in memory that can fail in every way a disk does.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "crc32.hpp"
+#include "machine/alarms.hpp"
+#include "program_store.hpp"
+
+namespace trunnion::program {
+namespace {
+
+using idl::program::Operation;
+using idl::program::ProgramReply;
+using idl::program::ProgramRequest;
+using testing::HasSubstr;
+
+/// A disk that works.
+class MemoryFiles : public Files {
+ public:
+  std::vector<std::string> list() override {
+    std::vector<std::string> names;
+    for (const auto& [name, text] : texts) names.push_back(name);
+    return names;
+  }
+  std::size_t read(const std::string& name, std::uint64_t offset, std::span<std::uint8_t> bytes) override {
+    largest_read = std::max(largest_read, bytes.size());
+    const auto& text = texts.at(name);
+    const auto n = offset < text.size() ? std::min<std::size_t>(bytes.size(), text.size() - offset) : 0;
+    std::copy_n(text.begin() + static_cast<std::ptrdiff_t>(std::min<std::size_t>(offset, text.size())), n,
+                bytes.begin());
+    return n;
+  }
+  void create(const std::string& name) override { texts[name].clear(); }
+  void append(const std::string& name, std::uint64_t offset, std::span<const std::uint8_t> bytes) override {
+    texts.at(name).resize(offset);
+    texts.at(name).append(bytes.begin(), bytes.end());
+  }
+  void publish(const std::string& from, const std::string& to) override {
+    texts[to] = texts.at(from);
+    texts.erase(from);
+  }
+  void remove(const std::string& name) override { texts.erase(name); }
+  std::map<std::string, std::string> texts;
+  std::size_t largest_read = 0;
+};
+
+/// Nothing more can be written.
+class DiskFullFiles : public MemoryFiles {
+ public:
+  void append(const std::string& name, std::uint64_t offset, std::span<const std::uint8_t> bytes) override {
+    if (full) throw FileError("disk: no space");
+    MemoryFiles::append(name, offset, bytes);
+  }
+  bool full = false;
+};
+
+/// A finished file cannot be put in place.
+class RenameFailsFiles : public MemoryFiles {
+ public:
+  void publish(const std::string&, const std::string&) override { throw FileError("disk: read-only"); }
+};
+
+ProgramRequest request(Operation operation, const std::string& name, std::uint64_t client = 1) {
+  ProgramRequest r;
+  r.client = client;
+  r.operation = operation;
+  r.name = name;
+  return r;
+}
+
+std::uint32_t crc_of(const std::string& text) {
+  return crc32(0, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+}
+
+ProgramReply upload(ProgramStore& store, const std::string& name, const std::string& text) {
+  if (auto reply = store.apply(request(Operation::BEGIN_UPLOAD, name), 0); !reply.accepted) return reply;
+  for (std::size_t at = 0; at < text.size(); at += 7) {
+    auto write = request(Operation::WRITE, name);
+    write.offset = at;
+    const auto piece = text.substr(at, 7);
+    write.data.assign(piece.begin(), piece.end());
+    if (auto reply = store.apply(write, 0); !reply.accepted) return reply;
+  }
+  auto commit = request(Operation::COMMIT_UPLOAD, name);
+  commit.size = text.size();
+  commit.crc32 = crc_of(text);
+  return store.apply(commit, 0);
+}
+
+TEST(Crc32, IsZlibs) {
+  // The check value of CRC-32/ISO-HDLC, and the same in two pieces.
+  EXPECT_EQ(crc_of("123456789"), 0xCBF43926u);
+  const std::string text = "123456789";
+  const auto* bytes = reinterpret_cast<const std::uint8_t*>(text.data());
+  EXPECT_EQ(crc32(crc32(0, {bytes, 4}), {bytes + 4, 5}), 0xCBF43926u);
+  EXPECT_EQ(crc_of(""), 0u);
+}
+
+TEST(TextScan, CountsLinesWithAndWithoutALastEnd) {
+  const auto lines = [](const std::string& text) {
+    TextScan scan;
+    for (const char c : text) scan.add(std::span(reinterpret_cast<const std::uint8_t*>(&c), 1));
+    return scan.lines();
+  };
+  EXPECT_EQ(lines(""), 0u);
+  EXPECT_EQ(lines("a"), 1u);
+  EXPECT_EQ(lines("a\n"), 1u);
+  EXPECT_EQ(lines("a\n\nb"), 3u);
+}
+
+TEST(ProgramStore, AnUploadBecomesAProgramWithRevisionSizeChecksumAndLines) {
+  MemoryFiles files, state;
+  ProgramStore store(files, state);
+  const std::string text = "G0 X0\nG1 X10 F100\nM30\n";
+  const auto reply = upload(store, "part.nc", text);
+  ASSERT_TRUE(reply.accepted) << reply.reason;
+  EXPECT_EQ(reply.entry, (idl::program::ProgramEntry{"part.nc", 1, text.size(), crc_of(text), 3}));
+  EXPECT_EQ(files.texts, (std::map<std::string, std::string>{{"part.nc", text}}));
+  EXPECT_EQ(store.list().programs.size(), 1u);
+  EXPECT_EQ(upload(store, "part.nc", text).entry.revision, 1u) << "the same text is no change";
+  EXPECT_EQ(upload(store, "part.nc", "M30\n").entry.revision, 2u);
+  EXPECT_EQ(ProgramStore(files, state).list(), store.list()) << "revisions survive a restart";
+}
+
+TEST(ProgramStore, ReadsChunksOfTheExpectedRevisionOnly) {
+  MemoryFiles files, state;
+  ProgramStore store(files, state);
+  upload(store, "a", "0123456789");
+  auto read = request(Operation::READ, "a");
+  read.offset = 4, read.length = 3, read.revision = 1;
+  auto reply = store.apply(read, 0);
+  EXPECT_EQ(std::string(reply.data.begin(), reply.data.end()), "456");
+  read.offset = 8, read.length = 60000;
+  reply = store.apply(read, 0);
+  EXPECT_EQ(std::string(reply.data.begin(), reply.data.end()), "89");
+  read.offset = 10;
+  EXPECT_TRUE(store.apply(read, 0).accepted);
+  read.offset = 11;
+  EXPECT_FALSE(store.apply(read, 0).accepted);
+  read.offset = 0, read.length = 60001;
+  EXPECT_FALSE(store.apply(read, 0).accepted);
+  upload(store, "a", "other");
+  read.length = 5;
+  reply = store.apply(read, 0);
+  EXPECT_FALSE(reply.accepted);
+  EXPECT_EQ(reply.reason, "program 'a' has changed: revision 2, expected 1");
+  read.revision = 0;
+  EXPECT_TRUE(store.apply(read, 0).accepted);
+  EXPECT_EQ(store.apply(request(Operation::READ, "b"), 0).alarm,
+            machine::alarm_definition("program_missing").number);
+}
+
+TEST(ProgramStore, AnUploadWithAGapAWrongSizeOrAWrongChecksumIsRefused) {
+  MemoryFiles files, state;
+  ProgramStore store(files, state);
+  EXPECT_FALSE(store.apply(request(Operation::WRITE, "a"), 0).accepted);
+  store.apply(request(Operation::BEGIN_UPLOAD, "a"), 0);
+  auto write = request(Operation::WRITE, "a");
+  write.data = {'a', 'b'};
+  EXPECT_TRUE(store.apply(write, 0).accepted);
+  EXPECT_FALSE(store.apply(write, 0).accepted) << "offset 0 is not the end";
+  write.offset = 3;
+  EXPECT_THAT(store.apply(write, 0).reason, HasSubstr("offset 3 is not the end of the upload at 2"));
+  auto commit = request(Operation::COMMIT_UPLOAD, "a");
+  commit.size = 3, commit.crc32 = crc_of("ab");
+  EXPECT_FALSE(store.apply(commit, 0).accepted);
+  commit.size = 2, commit.crc32 ^= 1;
+  EXPECT_FALSE(store.apply(commit, 0).accepted);
+  EXPECT_TRUE(store.list().programs.empty());
+  commit.crc32 ^= 1;
+  EXPECT_TRUE(store.apply(commit, 0).accepted);
+}
+
+TEST(ProgramStore, UploadsOfTwoClientsDoNotMeetAndStaleOnesAreDropped) {
+  MemoryFiles files, state;
+  ProgramStore store(files, state);
+  store.apply(request(Operation::BEGIN_UPLOAD, "a", 1), 0);
+  store.apply(request(Operation::BEGIN_UPLOAD, "a", 2), 30);
+  EXPECT_EQ(store.uploads(), 2u);
+  store.drop_stale_uploads(61);
+  EXPECT_EQ(store.uploads(), 1u);
+  EXPECT_EQ(files.texts.size(), 1u);
+  EXPECT_TRUE(store.apply(request(Operation::ABORT_UPLOAD, "a", 2), 61).accepted);
+  EXPECT_TRUE(files.texts.empty());
+}
+
+TEST(ProgramStore, NamesLeadNowhereElse) {
+  MemoryFiles files, state;
+  ProgramStore store(files, state);
+  for (const auto& name : {std::string("../a"), std::string("a/b"), std::string(".hidden"), std::string(""),
+                           std::string(65, 'a'), std::string("a b"), std::string("a\0b", 3)})
+    EXPECT_FALSE(store.apply(request(Operation::BEGIN_UPLOAD, name), 0).accepted) << name;
+  EXPECT_TRUE(valid_name(std::string(64, 'a')));
+}
+
+TEST(ProgramStore, AProgramThatComesBackHasANewRevision) {
+  MemoryFiles files, state;
+  {
+    ProgramStore store(files, state);
+    upload(store, "a", "1");
+    EXPECT_TRUE(store.apply(request(Operation::REMOVE, "a"), 0).accepted);
+    EXPECT_FALSE(store.apply(request(Operation::REMOVE, "a"), 0).accepted);
+  }
+  ProgramStore store(files, state);
+  EXPECT_EQ(upload(store, "a", "1").entry.revision, 2u);
+}
+
+TEST(ProgramStore, RenamesUnlessTheNewNameIsTaken) {
+  MemoryFiles files, state;
+  ProgramStore store(files, state);
+  upload(store, "a", "1"), upload(store, "b", "2");
+  auto rename = request(Operation::RENAME, "a");
+  rename.new_name = "b";
+  EXPECT_FALSE(store.apply(rename, 0).accepted);
+  rename.new_name = "../c";
+  EXPECT_FALSE(store.apply(rename, 0).accepted);
+  rename.new_name = "c";
+  EXPECT_TRUE(store.apply(rename, 0).accepted);
+  EXPECT_EQ(files.texts, (std::map<std::string, std::string>{{"b", "2"}, {"c", "1"}}));
+}
+
+TEST(ProgramStore, WhatWasChangedBehindItsBackGetsANewRevision) {
+  MemoryFiles files, state;
+  {
+    ProgramStore store(files, state);
+    upload(store, "a", "1"), upload(store, "b", "2");
+  }
+  files.texts["a"] = "3";
+  files.texts[".upload-9"] = "left behind";
+  ProgramStore store(files, state);
+  EXPECT_EQ(store.list().programs[0].revision, 2u);
+  EXPECT_EQ(store.list().programs[1].revision, 1u);
+  EXPECT_EQ(files.texts.count(".upload-9"), 0u);
+}
+
+TEST(ProgramStore, DeliveredProgramsAreCopiedOnceAndStayRemoved) {
+  MemoryFiles files, state, delivered;
+  delivered.texts = {{"a.nc", "1"}, {"b.nc", "2"}, {"bad name", "3"}};
+  {
+    ProgramStore store(files, state);
+    EXPECT_EQ(store.install(delivered), std::vector<std::string>{"bad name"});
+    upload(store, "a.nc", "mine");
+    store.apply(request(Operation::REMOVE, "b.nc"), 0);
+  }
+  ProgramStore store(files, state);
+  store.install(delivered);
+  EXPECT_EQ(files.texts, (std::map<std::string, std::string>{{"a.nc", "mine"}}));
+}
+
+TEST(ProgramStore, ResolvesNameThenExtensionThenNumberThenTextThenCycles) {
+  MemoryFiles files, state, cycles;
+  files.texts = {{"O0100.txt", "x"},
+                 {"O1234.nc", "x"},
+                 {"part", "%\n\n  %77 comment\nG0"},
+                 {"part.nc", "%\nO88\n"},
+                 {"wheel.nc", "x"}};
+  cycles.texts = {{"O8100.nc", "x"}, {"wheel.nc", "cycle"}};
+  ProgramStore store(files, state);
+  store.set_cycles(cycles);
+  const auto name = [&](const char* call) {
+    return store.apply(request(Operation::RESOLVE, call), 0).entry.name;
+  };
+  EXPECT_EQ(name("part"), "part");
+  EXPECT_EQ(name("wheel"), "wheel.nc");
+  EXPECT_EQ(name("O1234"), "O1234.nc");
+  EXPECT_EQ(name("1234"), "O1234.nc");
+  EXPECT_EQ(name("%1234"), "O1234.nc");
+  EXPECT_EQ(name("O100"), "O0100.txt");
+  EXPECT_EQ(name("O77"), "part");
+  EXPECT_EQ(name("88"), "part.nc");
+  EXPECT_EQ(name("O8100"), "O8100.nc");
+  EXPECT_EQ(store.list().programs.size(), 5u) << "cycles are not listed";
+  auto read = request(Operation::READ, "O8100.nc");
+  read.length = 10;
+  EXPECT_EQ(store.apply(read, 0).data.size(), 1u);
+  EXPECT_FALSE(store.apply(request(Operation::RESOLVE, "O9"), 0).accepted);
+  EXPECT_FALSE(store.apply(request(Operation::RESOLVE, "../etc"), 0).accepted);
+}
+
+TEST(ProgramStore, AFullDiskRefusesTheChunkAndTheUploadGoesOnLater) {
+  DiskFullFiles files;
+  MemoryFiles state;
+  ProgramStore store(files, state);
+  store.apply(request(Operation::BEGIN_UPLOAD, "a"), 0);
+  auto write = request(Operation::WRITE, "a");
+  write.data = {'1'};
+  files.full = true;
+  EXPECT_EQ(store.apply(write, 0).alarm, machine::alarm_definition("storage_failed").number);
+  files.full = false;
+  EXPECT_TRUE(store.apply(write, 0).accepted);
+}
+
+TEST(ProgramStore, AnUploadThatCannotBePutInPlaceChangesNothing) {
+  RenameFailsFiles files;
+  MemoryFiles state;
+  ProgramStore store(files, state);
+  EXPECT_EQ(upload(store, "a", "1").alarm, machine::alarm_definition("storage_failed").number);
+  EXPECT_TRUE(store.list().programs.empty());
+}
+
+}  // namespace
+}  // namespace trunnion::program
