@@ -10,8 +10,8 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <thread>
+#include <vector>
 
-#include "launcher.hpp"
 #include "machine/parameters.hpp"
 #include "node/node.hpp"
 
@@ -19,86 +19,62 @@ namespace trunnion::deploy {
 namespace fs = std::filesystem;
 namespace {
 
-int report_pipe = -1;
-
-void report_to_parent(const std::string& text) {
-  if (report_pipe < 0) return;
-  const std::string message = text.empty() ? "ready\n" : "error " + text + "\n";
-  if (write(report_pipe, message.data(), message.size()) < 0) return;
-  close(report_pipe);
-  report_pipe = -1;
+std::vector<std::string> launcher_arguments(const UpOptions& up, const RunningCluster& cluster) {
+  std::vector<std::string> args{binary_directory() + "/trunnion-launcher", "--machine", cluster.machine_directory, "--state", cluster.state_directory,
+                                "--domain", std::to_string(cluster.run.domain), "--port", std::to_string(cluster.port)};
+  if (!up.vendor.empty()) args.insert(args.end(), {"--vendor", up.vendor});
+  if (cluster.virtual_time) args.emplace_back("--virtual-time");
+  return args;
 }
 
-void report_in_foreground(const std::string& text) {
-  if (text.empty())
-    std::printf("ready\n");
-  else
-    std::fprintf(stderr, "%s\n", text.c_str());
-  std::fflush(stdout);
-}
-
-// The daemon: no terminal, no open files but the pipe to its parent.
-[[noreturn]] void run_daemon(LaunchOptions options, int pipe) {
-  setsid();
-  report_pipe = pipe;
-  const int null = open("/dev/null", O_RDWR);
-  dup2(null, 0);
-  const int log = open(options.run.log_file("launcher").c_str(), O_WRONLY | O_CREAT | O_APPEND, 0644);
-  dup2(log, 1);
-  dup2(log, 2);
-  for (int fd = 3; fd < 256; ++fd)
-    if (fd != pipe) close(fd);
-  fcntl(pipe, F_SETFD, FD_CLOEXEC);
-  int status = 1;
-  try {
-    Launcher launcher(std::move(options));
-    status = launcher.run(report_to_parent);
-  } catch (const std::exception& e) {
-    report_to_parent(e.what());
-  }
-  _exit(status);
+[[noreturn]] void become(std::vector<std::string> args) {
+  std::vector<char*> argv;
+  for (auto& arg : args) argv.push_back(arg.data());
+  argv.push_back(nullptr);
+  execv(argv[0], argv.data());
+  std::perror(argv[0]);
+  _exit(127);
 }
 
 }  // namespace
 
 RunningCluster start_cluster(const UpOptions& up) {
   const double began = node::monotonic_seconds();
-  LaunchOptions launch;
-  launch.machine = machine::load_machine(find_machine(up.machine), up.vendor);
-  machine::read_parameter_file(launch.machine.parameters_file());
-  if (!up.with_gateway)
-    std::erase_if(launch.machine.services, [](const auto& s) { return s.service == "gateway"; });
-  if (up.own_domain)
-    launch.machine.domain = free_domain();
-  else if (up.domain)
-    launch.machine.domain = *up.domain;
-  launch.run.domain = launch.machine.domain;
-  if (const auto pid = launch.run.launcher())
-    throw std::runtime_error("a cluster is already running in domain " + std::to_string(launch.run.domain) + " (launcher " + std::to_string(*pid) +
+  auto config = machine::load_machine(find_machine(up.machine), up.vendor);
+  machine::read_parameter_file(config.parameters_file());
+  RunningCluster cluster;
+  cluster.run.domain = up.own_domain ? free_domain() : up.domain.value_or(config.domain);
+  if (const auto pid = cluster.run.launcher())
+    throw std::runtime_error("a cluster is already running in domain " + std::to_string(cluster.run.domain) + " (launcher " + std::to_string(*pid) +
                              "): stop it with 'trunnion down' or choose another --domain");
-  fs::create_directories(launch.run.path());
-  launch.virtual_time = up.virtual_time.value_or(launch.machine.virtual_time);
-  launch.port = up.port.value_or(launch.machine.port);
-  launch.state_directory = up.state_directory.empty()          ? default_state_directory(launch.machine.name)
-                           : up.state_directory == "temporary" ? launch.run.path() + "/state"
-                                                               : fs::absolute(up.state_directory).string();
-  RunningCluster cluster{launch.run, launch.machine.name, launch.machine.directory, launch.state_directory, launch.virtual_time,
-                         up.with_gateway ? launch.port : std::uint16_t{0}, 0};
-  std::ofstream(launch.run.info_file()) << nlohmann::json{{"machine", cluster.machine}, {"machine_directory", cluster.machine_directory}, {"state_directory", cluster.state_directory},
-                                                          {"virtual_time", cluster.virtual_time}, {"port", cluster.port}, {"domain", launch.run.domain}}
-                                        << "\n";
-  if (up.foreground) {
-    Launcher launcher(std::move(launch));
-    if (launcher.run(report_in_foreground) != 0) throw std::runtime_error("the cluster did not start");
-    return cluster;
-  }
+  cluster.machine = config.name;
+  cluster.machine_directory = config.directory;
+  cluster.virtual_time = up.virtual_time.value_or(config.virtual_time);
+  cluster.port = up.with_gateway ? up.port.value_or(config.port) : std::uint16_t{0};
+  cluster.state_directory = up.state_directory.empty()          ? default_state_directory(config.name)
+                            : up.state_directory == "temporary" ? cluster.run.path() + "/state"
+                                                                : fs::absolute(up.state_directory).string();
+  fs::create_directories(cluster.run.path());
+  std::ofstream(cluster.run.info_file()) << nlohmann::json{{"machine", cluster.machine}, {"machine_directory", cluster.machine_directory}, {"state_directory", cluster.state_directory},
+                                                           {"virtual_time", cluster.virtual_time}, {"port", cluster.port}, {"domain", cluster.run.domain}}
+                                         << "\n";
+  auto args = launcher_arguments(up, cluster);
+  if (up.foreground) become(std::move(args));
+  // The launcher is a program of its own, not a copy of this process: threads and DDS participants do not survive a fork.
   int pipes[2];
   if (pipe(pipes) != 0) throw std::runtime_error("no pipe");
+  args.insert(args.end(), {"--report", std::to_string(pipes[1])});
+  const auto log_file = cluster.run.log_file("launcher");
   const int pid = fork();
   if (pid == 0) {
-    close(pipes[0]);
-    if (fork() == 0) run_daemon(std::move(launch), pipes[1]);
-    _exit(0);
+    setsid();
+    if (fork() != 0) _exit(0);
+    const int null = open("/dev/null", O_RDWR);
+    const int log = open(log_file.c_str(), O_WRONLY | O_CREAT | O_APPEND, 0644);
+    dup2(null, 0), dup2(log, 1), dup2(log, 2);
+    for (int fd = 3; fd < 256; ++fd)
+      if (fd != pipes[1]) close(fd);
+    become(std::move(args));
   }
   close(pipes[1]);
   waitpid(pid, nullptr, 0);

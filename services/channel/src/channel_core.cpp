@@ -79,7 +79,8 @@ void ChannelCore::on_feedback(const idl::stream::FeedbackFrame& feedback) {
     interrupt("The drive was restarted");
   else if (link_.state() == LinkState::refused)
     interrupt(mode == DriveMode::off ? "The drives are off" : "The drive gave no place in the stream");
-  else if (streaming && (mode == DriveMode::held || mode == DriveMode::off) && run_ != RunState::INTERRUPTED)
+  else if (streaming && (mode == DriveMode::held || mode == DriveMode::off) && !link_.resuming() &&
+           run_ != RunState::INTERRUPTED)
     interrupt(mode == DriveMode::off ? "The drives were switched off" : "The drive stopped on the path");
 }
 

@@ -18,6 +18,7 @@ void StreamLink::on_feedback(const idl::stream::FeedbackFrame& feedback) {
       epoch_ = echo.epoch;
     }
     const bool ours = echo.request == request_ && echo.epoch == epoch_;
+    if (ours) resuming_ = false;
     switch (state_) {
       case LinkState::requested:
         if (!ours) break;
@@ -48,7 +49,10 @@ void StreamLink::request_start() {
   request(new_epoch_ ? 3 : 1);
 }
 
-void StreamLink::request_resume() { request(2); }
+void StreamLink::request_resume() {
+  request(2);
+  resuming_ = true;
+}
 
 void StreamLink::leave() {
   request(4);

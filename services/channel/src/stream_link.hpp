@@ -42,6 +42,8 @@ class StreamLink {
   /// After refused or lost.
   void acknowledge() { state_ = LinkState::idle; new_epoch_ = true; }
 
+  /// A resume was asked for and the drive has not answered: its hold is old news.
+  bool resuming() const { return resuming_; }
   LinkState state() const { return state_; }
   DriveMode drive_mode() const { return mode_; }
   bool has_feedback() const { return mode_ != DriveMode::unknown; }
@@ -64,7 +66,7 @@ class StreamLink {
   DriveMode mode_ = DriveMode::unknown;
   std::uint64_t next_ = 0, executed_ = 0;
   std::uint32_t epoch_ = 0, request_ = 0;
-  bool new_epoch_ = true, starts_ = false, echo_active_ = false;
+  bool new_epoch_ = true, starts_ = false, echo_active_ = false, resuming_ = false;
   std::vector<idl::stream::StageState> states_;
   std::vector<double> positions_;
   std::optional<idl::stream::StreamRequest> outgoing_;

@@ -210,7 +210,7 @@ TEST_F(Channel, AHoldOfTheDriveInterruptsAndCycleStartResumesTheSameStream) {
 }
 
 TEST_F(Channel, AFreshProcessGoesOnWhereTheKilledOneWas) {
-  load("G90\nG1 X30 Y10 F6000\nG2 X30 Y10 I20 J0\nX60 Y0\nM30\n");
+  load("G90\nG1 X30 Y10 F6000\nG2 X30 Y10 I20 J0\nG1 X60 Y0\nM30\n");
   ask(CommandKind::CYCLE_START);
   run();
   const auto undisturbed = drive.rows;
@@ -245,7 +245,7 @@ TEST_F(Channel, AFreshProcessGoesOnWhereTheKilledOneWas) {
     ASSERT_GT(drive.rows.size(), before);
     EXPECT_NEAR(drive.rows[before][0], x, 0.5);
     EXPECT_EQ(drive.rows.back()[0], 60);
-    for (const auto& row : drive.rows) ASSERT_LT(distance_to_path(row), 0.02) << "contour tolerance 0.01 twice";
+    for (const auto& row : drive.rows) ASSERT_LT(distance_to_path(row), 0.025) << "contour tolerance 0.01 of either run, 0.005 of the arc";
   }
 }
 

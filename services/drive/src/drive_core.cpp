@@ -490,7 +490,7 @@ void DriveCore::fill(idl::stream::FeedbackFrame& out) {
   out.first = rows_ > 0 ? first_row_ : next_;
   out.count = rows_;
   out.tick = tick_;
-  out.mode = static_cast<std::uint8_t>(mode_);
+  out.mode = static_cast<std::uint8_t>(mode_ == Mode::held && resume_ ? Mode::returning : mode_);
   out.revision = revision_;
   out.axis_count = static_cast<std::uint16_t>(n);
   std::swap(out.commanded, commanded_rows_);

@@ -1,0 +1,154 @@
+// A real cluster for a test: its own domain, its own state, nothing left behind.
+#pragma once
+
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <map>
+
+#include "client.hpp"
+#include "cluster.hpp"
+
+namespace trunnion::integration {
+
+using idl::channel::CommandKind;
+using idl::channel::Mode;
+using idl::channel::RunState;
+
+enum class Time { real, virtual_ };
+
+class Cluster {
+ public:
+  explicit Cluster(const std::string& machine, Time time = Time::virtual_, const std::string& vendor = "", bool gateway = false) {
+    deploy::UpOptions up;
+    up.machine = machine;
+    up.vendor = vendor;
+    up.state_directory = "temporary";
+    up.own_domain = true;
+    up.virtual_time = time == Time::virtual_;
+    up.with_gateway = gateway;
+    cluster_ = deploy::start_cluster(up);
+    client_ = std::make_unique<deploy::Client>(cluster_.run.domain);
+    states_.emplace(client_->bus().reader(topics::channel_state));
+    alarms_.emplace(client_->bus().reader(topics::alarm));
+    feedback_.emplace(client_->bus().reader(topics::feedback_frame));
+    clusters_.emplace(client_->bus().reader(topics::cluster));
+    resets_.emplace(client_->bus().writer(topics::alarm_reset));
+    EXPECT_TRUE(until([&] { return have_cluster_ && list_.ready && !channels.empty(); }));
+  }
+  ~Cluster() {
+    states_.reset(), alarms_.reset(), feedback_.reset(), clusters_.reset(), resets_.reset(), client_.reset();
+    try {
+      deploy::stop_cluster(cluster_.run);
+    } catch (const std::exception& e) {
+      ADD_FAILURE() << e.what();
+    }
+    EXPECT_FALSE(std::filesystem::exists(cluster_.run.path())) << "files of the cluster are left";
+    for (const auto& service : list_.services) EXPECT_NE(kill(service.pid, 0), 0) << service.service << " is left";
+  }
+
+  deploy::Client& client() { return *client_; }
+  const deploy::RunningCluster& running() const { return cluster_; }
+
+  void drain() {
+    idl::channel::ChannelState state;
+    while (states_->take(state)) {
+      channels[state.channel] = state;
+      ++state_count[state.channel];
+    }
+    idl::service::Alarm alarm;
+    while (alarms_->take(alarm)) {
+      alarms[{alarm.instance, alarm.number, alarm.part}] = alarm;
+      history.push_back(alarm);
+    }
+    idl::stream::FeedbackFrame frame;
+    while (feedback_->take(frame)) {
+      if (frame.count > 0) {
+        if (expected_cycle != 0 && frame.first != expected_cycle) ++lost_frames;
+        expected_cycle = frame.first + frame.count;
+      }
+      feedback = frame;
+      for (std::uint32_t i = 0; i < frame.count && keep_rows; ++i)
+        rows.emplace_back(frame.commanded.begin() + i * frame.axis_count, frame.commanded.begin() + (i + 1) * frame.axis_count);
+    }
+    while (clusters_->take(list_)) have_cluster_ = true;
+  }
+  bool until(const std::function<bool()>& condition, double seconds = 20) {
+    const double end = node::monotonic_seconds() + seconds;
+    while (node::monotonic_seconds() < end) {
+      drain();
+      if (condition()) return true;
+      client_->bus().signal().wait(0.01);
+    }
+    return false;
+  }
+  const idl::service::ClusterService* service(const std::string& name, unsigned copy = 0) const {
+    for (const auto& s : list_.services)
+      if (s.service == name && s.copy == copy) return &s;
+    return nullptr;
+  }
+  const idl::service::Cluster& list() const { return list_; }
+  bool ready() const { return list_.ready; }
+  RunState state(std::uint16_t channel = 0) { return channels[channel].state; }
+  bool has_alarm(std::uint32_t number, const std::string& text = "") const {
+    for (const auto& [key, alarm] : alarms)
+      if (alarm.active && alarm.number == number && alarm.text.find(text) != std::string::npos) return true;
+    return false;
+  }
+  std::string active_alarms() const {
+    std::string all;
+    for (const auto& [key, alarm] : alarms)
+      if (alarm.active) all += std::to_string(alarm.number) + " " + alarm.source + ": " + alarm.text + "; ";
+    return all;
+  }
+
+  void start_text(const std::string& text, std::uint16_t channel = 0) {
+    const std::string name = "test" + std::to_string(channel) + ".nc";
+    client_->upload(name, text);
+    start(name, channel);
+  }
+  void start(const std::string& name, std::uint16_t channel = 0) {
+    client_->channel(channel, CommandKind::SET_MODE, "", 0, Mode::AUTO);
+    // The list with a new program may reach the channel after the store's answer.
+    for (int i = 0;; ++i) try {
+        client_->channel(channel, CommandKind::SELECT_PROGRAM, name);
+        break;
+      } catch (const std::exception&) {
+        if (i == 50) throw;
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+      }
+    const auto before = state_count[channel];
+    client_->channel(channel, CommandKind::CYCLE_START);
+    until([&] { return state_count[channel] > before && state(channel) != RunState::IDLE; }, 1);
+  }
+  bool finish(std::uint16_t channel = 0, double seconds = 60) {
+    return until([&] { return state(channel) == RunState::IDLE || state(channel) == RunState::INTERRUPTED; }, seconds) && state(channel) == RunState::IDLE;
+  }
+  void reset_alarms() { resets_->write({1, ++resets_sent_, 65535}); }
+
+  std::map<std::uint16_t, idl::channel::ChannelState> channels;
+  std::map<std::uint16_t, std::uint64_t> state_count;
+  std::map<std::array<std::uint32_t, 3>, idl::service::Alarm> alarms;
+  std::vector<idl::service::Alarm> history;
+  idl::stream::FeedbackFrame feedback;
+  std::vector<std::vector<double>> rows;
+  bool keep_rows = false;
+  std::uint64_t expected_cycle = 0, lost_frames = 0;
+
+ private:
+  deploy::RunningCluster cluster_;
+  std::unique_ptr<deploy::Client> client_;
+  std::optional<bus::Reader<idl::channel::ChannelState>> states_;
+  std::optional<bus::Reader<idl::service::Alarm>> alarms_;
+  std::optional<bus::Reader<idl::stream::FeedbackFrame>> feedback_;
+  std::optional<bus::Reader<idl::service::Cluster>> clusters_;
+  std::optional<bus::Writer<idl::service::AlarmReset>> resets_;
+  std::uint64_t resets_sent_ = 0;
+  idl::service::Cluster list_;
+  bool have_cluster_ = false;
+};
+
+}  // namespace trunnion::integration

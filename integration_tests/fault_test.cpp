@@ -1,0 +1,88 @@
+// kill -9 of every service in the middle of a motion, in real time: what the machine does and that nothing is lost.
+#include "cluster_harness.hpp"
+
+namespace trunnion::integration {
+namespace {
+
+// 3.0 s of motion at 50 mm/s with both rotary axes, then back.
+const std::string long_program =
+    "G21 G17 G90 G54\nG0 X0 Y0 A0 C0\nG43.4 H1\nG1 X0 Y0 Z80 F6000\nX60 Y30 A20 C40 F3000\nX-60 Y-30 A-10 C-20\nX0 Y0 A0 C0\nG49\nM30\n";
+
+class KillInMotion : public testing::TestWithParam<const char*> {};
+
+TEST_P(KillInMotion, StopsNamesTheServiceBecomesReadyAndTheProgramGoesOn) {
+  const std::string victim = GetParam();
+  Cluster cluster("ac-table", Time::real);
+  cluster.start_text(long_program);
+  ASSERT_TRUE(cluster.until([&] { return cluster.channels[0].line >= 5 && cluster.channels[0].progress > 0; }));
+  std::map<std::string, int> pids;
+  for (const auto& s : cluster.list().services) pids[s.service] = s.pid;
+  ASSERT_EQ(kill(pids[victim], SIGKILL), 0);
+
+  ASSERT_TRUE(cluster.until([&] { return cluster.has_alarm(100, victim); })) << "an alarm names the service";
+  ASSERT_TRUE(cluster.until([&] { return cluster.ready() && cluster.service(victim)->pid != pids[victim]; })) << "ready again";
+  ASSERT_TRUE(cluster.until([&] { return cluster.state() == RunState::INTERRUPTED || cluster.state() == RunState::HELD; }))
+      << "stopped; state " << bus::to_string(cluster.state());
+  for (const auto& s : cluster.list().services)
+    if (s.service != victim) {
+      EXPECT_EQ(s.pid, pids[s.service]) << s.service << " was not restarted";
+    }
+  const auto stopped_at = cluster.channels[0].machine;
+  cluster.until([] { return false; }, 0.3);
+  for (std::size_t i = 0; i < stopped_at.size(); ++i) EXPECT_NEAR(cluster.channels[0].machine[i], stopped_at[i], 0.05) << "stands still";
+
+  ASSERT_TRUE(cluster.until([&] { cluster.reset_alarms(); return !cluster.has_alarm(100) && !cluster.has_alarm(110); }, 10)) << cluster.active_alarms();
+  std::string refusal;
+  ASSERT_TRUE(cluster.until([&] {
+    try {
+      cluster.client().channel(0, CommandKind::CYCLE_START);
+      return true;
+    } catch (const std::exception& e) {
+      refusal = e.what();
+      cluster.reset_alarms();
+      return false;
+    }
+  })) << refusal << " " << cluster.active_alarms();
+  ASSERT_TRUE(cluster.until([&] { return cluster.state() == RunState::RUNNING; })) << cluster.active_alarms();
+  ASSERT_TRUE(cluster.finish()) << cluster.active_alarms();
+  // Tip at X0 Y0 Z80 of G54 (Z -380) with A0 C0: the spindle face is the tool's 100 mm above it.
+  const auto& machine = cluster.channels[0].machine;
+  EXPECT_NEAR(machine[0], 0, 0.02);
+  EXPECT_NEAR(machine[1], 0, 0.02);
+  EXPECT_NEAR(machine[2], -380 + 80 + 100, 0.02);
+  EXPECT_NEAR(machine[3], 0, 0.02);
+}
+
+INSTANTIATE_TEST_SUITE_P(Services, KillInMotion,
+                         testing::Values("kinematics", "compensation", "gantry", "drive", "channel", "plc", "program", "parameters"),
+                         [](const auto& service) { return std::string(service.param); });
+
+TEST(Faults, AHungServiceIsReplaced) {
+  Cluster cluster("ac-table", Time::real);
+  cluster.until([] { return false; }, 8);  // a process gets its time to start before its silence counts
+  const int pid = cluster.service("compensation")->pid;
+  ASSERT_EQ(kill(pid, SIGSTOP), 0);
+  EXPECT_TRUE(cluster.until([&] { return cluster.has_alarm(100, "compensation"); }));
+  EXPECT_TRUE(cluster.until([&] { return cluster.ready() && cluster.service("compensation")->pid != pid; }));
+}
+
+TEST(Faults, EmergencyStopStopsSwitchesOffAndNeedsAReset) {
+  Cluster cluster("ac-table", Time::real);
+  cluster.start_text(long_program);
+  ASSERT_TRUE(cluster.until([&] { return cluster.channels[0].line >= 5; }));
+  cluster.client().panel(1);
+  ASSERT_TRUE(cluster.until([&] { return cluster.feedback.mode == 4 && cluster.has_alarm(130); })) << cluster.active_alarms();
+  ASSERT_TRUE(cluster.until([&] { return cluster.state() == RunState::INTERRUPTED; }));
+  EXPECT_THROW(cluster.client().channel(0, CommandKind::CYCLE_START), std::runtime_error);
+  cluster.client().panel(2);
+  cluster.client().panel(3);
+  cluster.client().channel(0, CommandKind::RESET);
+  ASSERT_TRUE(cluster.until([&] { cluster.reset_alarms(); return cluster.feedback.mode == 0 && !cluster.has_alarm(130); })) << cluster.active_alarms();
+  EXPECT_EQ(cluster.state(), RunState::IDLE);
+  cluster.start_text("G90 G0 X5\nM30\n");
+  ASSERT_TRUE(cluster.finish()) << cluster.active_alarms();
+  EXPECT_NEAR(cluster.channels[0].machine[0], 5, 0.01);
+}
+
+}  // namespace
+}  // namespace trunnion::integration

@@ -1,0 +1,116 @@
+// Every machine starts, runs its short program in virtual time and stops; wrong input stops it with one line.
+#include "cluster_harness.hpp"
+
+namespace trunnion::integration {
+namespace {
+
+TEST(Machines, TheGantryMachineRunsItsProgramAndTheSlaveFollows) {
+  Cluster cluster("gantry-cb-head");
+  cluster.keep_rows = true;
+  cluster.start("swing.nc");
+  ASSERT_TRUE(cluster.finish()) << cluster.active_alarms();
+  EXPECT_EQ(cluster.active_alarms(), "");
+  ASSERT_GT(cluster.rows.size(), 1000u);
+  // The correction of the slave is at most a few hundredths: thresholds 102106 and 102107 are 0.05 and 0.2 mm.
+  double most = 0;
+  for (const auto& row : cluster.rows) most = std::max(most, std::abs(row[2] - row[1]));
+  EXPECT_LT(most, 0.2);
+  EXPECT_EQ(cluster.lost_frames, 0u);
+}
+
+TEST(Machines, TwoChannelsRunTwoProgramsAtOnce) {
+  Cluster cluster("two-channel");
+  cluster.keep_rows = true;
+  cluster.client().channel(0, CommandKind::SET_MODE, "", 0, Mode::AUTO);
+  cluster.client().channel(1, CommandKind::SET_MODE, "", 0, Mode::AUTO);
+  cluster.client().channel(0, CommandKind::SELECT_PROGRAM, "left.nc");
+  cluster.client().channel(1, CommandKind::SELECT_PROGRAM, "right.nc");
+  cluster.client().channel(0, CommandKind::CYCLE_START);
+  cluster.client().channel(1, CommandKind::CYCLE_START);
+  const auto ended = [&](std::uint16_t c) { return cluster.channels[c].state == RunState::IDLE && cluster.channels[c].cycle > 0; };
+  cluster.until([&] { return cluster.channels[0].state != RunState::IDLE || cluster.channels[1].state != RunState::IDLE; }, 1);
+  ASSERT_TRUE(cluster.until([&] { return ended(0) && ended(1) && cluster.rows.size() > 2000; }, 60)) << cluster.active_alarms();
+  EXPECT_EQ(cluster.active_alarms(), "");
+  // G54 of the channels: X10 Y20 and X-10 Y-20; left ends at X50 Y50, right at X60 Y0.
+  EXPECT_NEAR(cluster.rows.back()[0], 60, 1e-9);
+  EXPECT_NEAR(cluster.rows.back()[1], 70, 1e-9);
+  EXPECT_NEAR(cluster.rows.back()[3], 50, 1e-9);
+  EXPECT_NEAR(cluster.rows.back()[4], -20, 1e-9);
+  EXPECT_EQ(cluster.lost_frames, 0u);
+}
+
+TEST(Machines, ParametersTakeEffectAtResetAndWrongOnesAreRefusedWithTheirLimits) {
+  Cluster cluster("ac-table");
+  idl::parameters::ParameterRequest request;
+  request.operation = idl::parameters::Operation::SET;
+  request.who = "test";
+  request.values = {{100007, -350, ""}};
+  const auto reply = cluster.client().parameter(request);
+  EXPECT_EQ(reply.pending, 1u) << "activation: reset";
+  cluster.client().channel(0, CommandKind::SET_MODE, "", 0, Mode::MDI);
+  cluster.client().channel(0, CommandKind::MDI_LINE, "G90 G0 X-380");
+  ASSERT_TRUE(cluster.until([&] { return std::abs(cluster.channels[0].machine[0] + 380) < 0.01; })) << cluster.active_alarms();
+  ASSERT_TRUE(cluster.until([&] { return cluster.state() == RunState::IDLE; }));
+  cluster.client().channel(0, CommandKind::MDI_LINE, "G90 G0 X0");
+  ASSERT_TRUE(cluster.until([&] { return std::abs(cluster.channels[0].machine[0]) < 0.01 && cluster.state() == RunState::IDLE; }));
+  const auto revision = cluster.channels[0].revision;
+  cluster.client().channel(0, CommandKind::RESET);
+  ASSERT_TRUE(cluster.until([&] { return cluster.channels[0].revision > revision; })) << "the reset activates it";
+  try {
+    cluster.client().channel(0, CommandKind::MDI_LINE, "G90 G0 X-380");
+    cluster.until([&] { return cluster.has_alarm(140); }, 2);
+    EXPECT_TRUE(cluster.has_alarm(140)) << cluster.active_alarms();
+  } catch (const std::exception& e) {
+    EXPECT_NE(std::string(e.what()).find("-350"), std::string::npos) << e.what();
+  }
+  request.values = {{100007, -2e6, ""}};
+  try {
+    cluster.client().parameter(request);
+    FAIL();
+  } catch (const std::exception& e) {
+    EXPECT_EQ(std::string(e.what()), "parameter 100007 (negative_limit): -2e+06 is outside -1e+06 .. 1e+06 mm|deg");
+  }
+}
+
+std::string broken_machine(const std::function<void(const std::filesystem::path&)>& spoil) {
+  const auto directory = std::filesystem::temp_directory_path() / ("trunnion-broken-" + std::to_string(getpid()));
+  std::filesystem::remove_all(directory);
+  std::filesystem::copy(deploy::find_machine("ac-table"), directory, std::filesystem::copy_options::recursive);
+  spoil(directory);
+  deploy::UpOptions up;
+  up.machine = directory;
+  up.state_directory = "temporary";
+  up.own_domain = true;
+  up.with_gateway = false;
+  std::string error;
+  try {
+    const auto cluster = deploy::start_cluster(up);
+    deploy::stop_cluster(cluster.run);
+  } catch (const std::exception& e) {
+    error = e.what();
+  }
+  std::filesystem::remove_all(directory);
+  const auto at = error.find(directory.string());
+  return at == std::string::npos ? error : error.substr(at + directory.string().size() + 1);
+}
+
+TEST(BadInput, AWrongParameterFileIsOneLineWithItsPlace) {
+  EXPECT_EQ(broken_machine([](const auto& d) { std::ofstream(d / "parameters.yaml", std::ios::app) << "\"100036\": -5\n"; }).substr(0, 16), "parameters.yaml:");
+}
+
+TEST(BadInput, AWrongMachineFileIsOneLineWithItsPlace) {
+  EXPECT_EQ(broken_machine([](const auto& d) { std::ofstream(d / "machine.yaml", std::ios::app) << "oops: 1\n"; }), "machine.yaml:18:1: error: unknown key 'oops'");
+}
+
+TEST(BadInput, AnUnknownMachineIsNamed) { EXPECT_THROW(deploy::find_machine("no-such-machine"), std::runtime_error); }
+
+TEST(BadInput, AServiceOfAnotherContractIsReported) {
+  Cluster cluster("ac-table");
+  bus::Bus stranger(bus::Vendor::fastdds, {cluster.running().run.domain});
+  auto writer = stranger.writer(topics::announcement);
+  writer.write({77, "kinematics", "fastdds", "host", 1, "0123456789abcdef", "0.0.9"});
+  EXPECT_TRUE(cluster.until([&] { return cluster.has_alarm(101, "0123456789abcdef"); })) << cluster.active_alarms();
+}
+
+}  // namespace
+}  // namespace trunnion::integration

@@ -1,0 +1,35 @@
+// Which cycles of a stream are in a recording, and which are missing.
+#pragma once
+
+#include <cstdint>
+#include <map>
+
+namespace trunnion::recording {
+
+/// The cycles of one channel, epoch and stage, in whatever order and however often they come: copies of a
+/// stage write each frame twice.
+class CycleCoverage {
+ public:
+  /// A frame of `count` cycles from `first` on. `starts` and `ends` as in the frames: between a frame that
+  /// ends and one that starts nothing is missing.
+  void add(std::uint64_t first, std::uint64_t count, bool starts, bool ends);
+
+  /// Cycles that some frame covers.
+  std::uint64_t covered() const;
+  /// Cycles between the first and the last that no frame covers although the channel was not idle.
+  std::uint64_t lost() const;
+  /// Frames that brought nothing new.
+  std::uint64_t repeated() const { return repeated_; }
+  /// Frames that came after a later one, and were still news.
+  std::uint64_t late() const { return late_; }
+
+ private:
+  struct Run {
+    std::uint64_t end = 0;  // first cycle after it
+    bool starts = false, ends = false;
+  };
+  std::map<std::uint64_t, Run> runs_;  // by first cycle, none touching the next
+  std::uint64_t repeated_ = 0, late_ = 0;
+};
+
+}  // namespace trunnion::recording

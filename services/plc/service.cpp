@@ -1,0 +1,188 @@
+#include "service.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <sstream>
+
+namespace trunnion::plc {
+namespace {
+
+constexpr double outputs_period = 0.2;       // s between two signs of life for the drive
+constexpr double image_period = 0.1;         // s, fastest publication of the image
+constexpr double drive_patience = 0.15;      // s that PLC time goes on by the clock without feedback
+constexpr double standstill_patience = 0.5;  // s that a request waits for the drive to confirm the standstill
+
+std::string read_file(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  std::ostringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+std::string in_directory(const std::string& directory, const char* name) {
+  std::filesystem::create_directories(directory);
+  return directory + "/" + name;
+}
+
+}  // namespace
+
+PlcService::PlcService(node::Node& node)
+    : node_(node),
+      retained_(in_directory(node.options().state_directory, "plc.image")),
+      boot_(read_file(node.options().state_directory + "/cluster.boot").substr(0, 63)),
+      parameters_(node.bus()),
+      feedback_(node.bus().reader(topics::feedback_frame)),
+      channels_(node.bus().reader(topics::channel_state)),
+      requests_(node.bus().reader(topics::auxiliary_request)),
+      alarms_(node.bus().reader(topics::alarm)),
+      outputs_(node.bus().writer(topics::plc_outputs)),
+      done_(node.bus().writer(topics::auxiliary_done)),
+      image_(node.bus().writer(topics::plc_image)),
+      panel_(node.bus(), topics::panel_request, topics::panel_reply) {
+  if (const auto kept = retained_.load()) {
+    // Only within one life of the cluster may a spindle turn on without an order of the program.
+    if (!boot_.empty() && kept->boot == boot_)
+      core_.restore(kept->memory);
+    else
+      core_.power_up(kept->memory);
+  }
+  tick_ = core_.memory().tick;
+  load_programs();
+}
+
+void PlcService::load_programs() {
+  const auto directory = node_.options().machine.plc_directory();
+  Compiler compiler(interface_symbols());
+  try {
+    Program programs[2];
+    const char* names[] = {"/fast.il", "/main.il"};
+    for (int i = 0; i < 2; ++i) {
+      const auto path = directory + names[i];
+      if (!std::filesystem::exists(path)) throw std::runtime_error(path + ": error: cannot be opened");
+      programs[i] = compiler.compile(read_file(path), path);
+    }
+    core_.load(std::move(programs[0]), std::move(programs[1]));
+  } catch (const std::runtime_error& e) {
+    fault_ = e.what();
+    std::cerr << fault_ << "\n";
+    node_.alarms().raise("plc_program", 0, fault_);
+  }
+}
+
+void PlcService::take_inputs() {
+  while (feedback_.take(frame_)) {
+    ++frames_in_;
+    core_.set_feedback(frame_);
+    if (!node_.options().virtual_time) core_.advance(std::max(frame_.tick, core_.memory().tick));
+    if (frame_.tick != tick_) {
+      tick_ = frame_.tick;
+      tick_seen_ = node::monotonic_seconds();
+    }
+  }
+  idl::channel::ChannelState state;
+  while (channels_.take(state)) core_.set_channel(state);
+  idl::channel::AuxiliaryRequest request;
+  while (requests_.take(request)) core_.set_request(request);
+  idl::service::Alarm alarm;
+  while (alarms_.take(alarm)) {
+    const auto key = std::make_tuple(alarm.instance, alarm.number, alarm.part);
+    if (alarm.active)
+      active_alarms_[key] = alarm;
+    else
+      active_alarms_.erase(key);
+  }
+  core_.set_alarms(!active_alarms_.empty(),
+                   std::any_of(active_alarms_.begin(), active_alarms_.end(), [](const auto& entry) {
+                     return entry.second.reaction != idl::service::Reaction::SHOW;
+                   }));
+  idl::plc::PanelRequest panel;
+  while (panel_.take(panel)) {
+    idl::plc::PanelReply reply;
+    reply.reason = core_.panel(panel.kind, panel.address, panel.value);
+    reply.accepted = reply.reason.empty();
+    panel_.reply(panel, reply);
+  }
+}
+
+/// In real time the ticks between two frames of the drive follow the clock, for at most drive_patience.
+std::uint64_t PlcService::tick_now(double now) const {
+  if (node_.options().virtual_time || tick_seen_ == 0) return tick_;
+  const double ahead = std::clamp(now - tick_seen_, 0.0, drive_patience) / period_;
+  return std::max(tick_ + static_cast<std::uint64_t>(ahead), core_.memory().tick);
+}
+
+void PlcService::pump() {
+  if (parameters_.poll()) {
+    core_.configure(*parameters_.newest(), node_.options().virtual_time);
+    period_ = parameters_.newest()->integer("interpolation_cycle") * 1e-6;
+  }
+  take_inputs();
+  if (!core_.configured()) return;
+  const double now = node::monotonic_seconds();
+  if (!core_.waits_for_standstill()) {
+    waiting_since_ = 0;
+  } else if (waiting_since_ == 0) {
+    waiting_since_ = now;
+  } else if (now - waiting_since_ > standstill_patience) {
+    core_.give_up_waiting();
+  }
+  core_.advance(tick_now(now));
+  retained_.save(boot_, core_.memory());
+  publish(now);
+}
+
+void PlcService::publish(double now) {
+  const auto outputs = core_.outputs();
+  auto same = last_outputs_;
+  same.tick = outputs.tick;
+  if (!node_.options().virtual_time) same.run_until_tick = outputs.run_until_tick;
+  // A run_until_tick in the past orders nothing.
+  if (same.run_until_tick <= outputs.tick && outputs.run_until_tick <= outputs.tick)
+    same.run_until_tick = outputs.run_until_tick;
+  if (first_ || same != outputs || now - outputs_written_ >= outputs_period) {
+    outputs_.write(outputs);
+    ++frames_out_;
+    last_outputs_ = outputs;
+    outputs_written_ = now;
+  }
+  if (first_)
+    for (const auto& done : core_.all_done()) done_.write(done);
+  for (const auto& done : core_.take_done()) {
+    if (done.failed)
+      node_.alarms().raise("auxiliary_refused", done.channel, "An auxiliary function was not carried out",
+                           core_.memory().handshakes[done.channel].cycle);
+    node_.alarms().release("auxiliary_refused", done.channel);
+    done_.write(done);
+  }
+  first_ = false;
+  if (fault_.empty()) {
+    if (core_.emergency_stop())
+      node_.alarms().raise("emergency_stop", 0, "Emergency stop: release the button and reset", outputs.tick);
+    else
+      node_.alarms().clear("emergency_stop", 0);
+  }
+  if (now - image_written_ >= image_period) {
+    auto image = core_.image();
+    last_image_.scan = image.scan;
+    if (image != last_image_ || image_written_ == 0) image_.write(image);
+    last_image_ = std::move(image);
+    image_written_ = now;
+  }
+}
+
+node::Health PlcService::health() const {
+  using idl::service::Lifecycle;
+  node::Health health;
+  health.lifecycle = !fault_.empty()       ? Lifecycle::FAULT
+                     : !core_.configured() ? Lifecycle::UNCONFIGURED
+                                           : Lifecycle::ACTIVE;
+  health.detail = !fault_.empty() ? fault_ : !core_.configured() ? "waiting for parameters" : "";
+  health.frames_in = frames_in_;
+  health.frames_out = frames_out_;
+  health.revision = parameters_.newest() ? parameters_.newest()->revision : 0;
+  return health;
+}
+
+}  // namespace trunnion::plc

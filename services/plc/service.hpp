@@ -1,0 +1,53 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <tuple>
+
+#include "compiler.hpp"
+#include "node/node.hpp"
+#include "node/parameter_client.hpp"
+#include "node/request.hpp"
+#include "plc_core.hpp"
+#include "retained_memory.hpp"
+
+namespace trunnion::plc {
+
+class PlcService : public node::Service {
+ public:
+  explicit PlcService(node::Node& node);
+  void pump() override;
+  double period() const override { return node_.options().virtual_time ? 0.05 : 0.01; }
+  node::Health health() const override;
+  void alarms_reset() override { core_.press_reset(); }
+
+ private:
+  void load_programs();
+  void take_inputs();
+  std::uint64_t tick_now(double now) const;
+  void publish(double now);
+
+  node::Node& node_;
+  RetainedMemory retained_;
+  std::string boot_, fault_;
+  node::ParameterClient parameters_;
+  PlcCore core_;
+  bus::Reader<idl::stream::FeedbackFrame> feedback_;
+  bus::Reader<idl::channel::ChannelState> channels_;
+  bus::Reader<idl::channel::AuxiliaryRequest> requests_;
+  bus::Reader<idl::service::Alarm> alarms_;
+  bus::Writer<idl::plc::Outputs> outputs_;
+  bus::Writer<idl::plc::AuxiliaryDone> done_;
+  bus::Writer<idl::plc::Image> image_;
+  node::RequestServer<idl::plc::PanelRequest, idl::plc::PanelReply> panel_;
+
+  std::map<std::tuple<std::uint32_t, std::uint32_t, std::uint32_t>, idl::service::Alarm> active_alarms_;
+  idl::stream::FeedbackFrame frame_;
+  idl::plc::Outputs last_outputs_;
+  idl::plc::Image last_image_;
+  std::uint64_t tick_ = 0, frames_in_ = 0, frames_out_ = 0;
+  double tick_seen_ = 0, period_ = 0.001, outputs_written_ = 0, image_written_ = 0, waiting_since_ = 0;
+  bool first_ = true;
+};
+
+}  // namespace trunnion::plc

@@ -1,0 +1,27 @@
+// Compiles instruction lists (IEC 61131-3:2003, 3.2, a subset; services/plc/README.md).
+#pragma once
+
+#include <map>
+#include <string>
+#include <string_view>
+
+#include "lexer.hpp"
+#include "program.hpp"
+#include "symbols.hpp"
+
+namespace trunnion::plc {
+
+/// Compiles the tasks of one PLC: an instance of a timer, counter or edge belongs to one place in all of
+/// them.
+class Compiler {
+ public:
+  explicit Compiler(const Symbols& symbols) : symbols_(symbols) {}
+  /// Throws CompileError with file:line:column.
+  Program compile(std::string_view source, const std::string& file);
+
+ private:
+  const Symbols& symbols_;
+  std::map<std::pair<char, int>, std::string> instances_;  ///< kind and number -> place of the first use
+};
+
+}  // namespace trunnion::plc

@@ -1,0 +1,31 @@
+// Words of an instruction list with their places.
+#pragma once
+
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace trunnion::plc {
+
+/// what() is file:line:column: error: text.
+class CompileError : public std::runtime_error {
+ public:
+  CompileError(const std::string& file, int line, int column, const std::string& text)
+      : std::runtime_error(file + ":" + std::to_string(line) + ":" + std::to_string(column) +
+                           ": error: " + text) {}
+};
+
+enum class TokenKind { word, number, symbol, end_of_line };
+
+struct Token {
+  TokenKind kind = TokenKind::end_of_line;
+  std::string_view text;  ///< into the source
+  int line = 1, column = 1;
+};
+
+/// Comments are (* ... *), over several lines, and // to the end of the line. Every line ends with one
+/// end_of_line. Throws CompileError.
+std::vector<Token> tokenize(std::string_view source, const std::string& file);
+
+}  // namespace trunnion::plc

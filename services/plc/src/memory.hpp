@@ -1,0 +1,65 @@
+// Everything the PLC remembers: plain data, so that it can lie in a mapped file and outlive the process.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <type_traits>
+
+namespace trunnion::plc {
+
+inline constexpr std::size_t register_count = 512;  ///< of each area
+inline constexpr std::size_t channel_count = 8, spindle_count = 8;
+inline constexpr std::size_t timer_count = 256, counter_count = 256, edge_count = 512;
+
+/// The register image; idl/plc.idl says what the areas are for.
+struct Registers {
+  std::array<std::uint8_t, register_count> x{}, y{}, r{};
+  std::array<std::uint16_t, register_count> f{}, g{};
+  std::array<std::int32_t, register_count> b{};
+  bool operator==(const Registers&) const = default;
+};
+
+struct Timer {
+  std::uint64_t end = 0;     ///< PLC time in ms at which it runs out
+  std::uint8_t running = 0;  ///< counts towards `end`
+  std::uint8_t input = 0;    ///< of the last scan
+  std::uint8_t output = 0;
+};
+
+struct Counter {
+  std::int32_t value = 0;
+  std::uint8_t input = 0;
+};
+
+/// State of the function blocks of every task.
+struct Blocks {
+  std::array<Timer, timer_count> timers{};
+  std::array<Counter, counter_count> counters{};
+  std::array<std::uint8_t, edge_count> edges{};
+};
+
+enum class HandshakeState : std::uint32_t { none, waiting, strobe, done };
+
+/// M, S or T of one channel on its way.
+struct Handshake {
+  HandshakeState state = HandshakeState::none;
+  std::uint32_t number = 0, kind = 0, code = 0;
+  double value = 0;
+  std::uint64_t cycle = 0;
+  std::uint32_t failed = 0;
+};
+
+struct Memory {
+  Registers registers;
+  Blocks blocks;
+  std::array<Handshake, channel_count> handshakes{};
+  std::uint64_t now_us = 0;                           ///< PLC time
+  std::uint64_t scans = 0;                            ///< whole milliseconds of it that were scanned
+  std::uint64_t tick = 0;                             ///< drive tick that belongs to now_us
+  std::array<double, spindle_count> spindle_order{};  ///< 1/min, signed
+  std::array<std::uint64_t, spindle_count>
+      spindle_since{};  ///< PLC time in ms of the last change of the order
+};
+static_assert(std::is_trivially_copyable_v<Memory>);
+
+}  // namespace trunnion::plc

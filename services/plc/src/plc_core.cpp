@@ -1,0 +1,319 @@
+#include "plc_core.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "machine/axes.hpp"
+
+namespace trunnion::plc {
+namespace {
+
+constexpr double speed_tolerance = 0.05;           // of the order
+constexpr double slowest_tolerance = 5;            // 1/min, for small orders and standstill
+constexpr std::uint64_t spindle_patience = 30000;  // ms that virtual time goes on for a spindle
+
+std::int64_t percent(double fraction) { return std::llround(fraction * 100); }
+
+}  // namespace
+
+PlcCore::PlcCore() {
+  const auto name = [](const char* text) { return interface_address(text); };
+  emergency_button_ = name("emergency_stop_button"), reset_button_ = name("reset_button");
+  drive_present_ = name("drive_present"), drives_on_ = name("drives_on");
+  alarm_active_ = name("alarm_active"), alarm_stops_ = name("alarm_stops");
+  emergency_stop_ = name("emergency_stop"), feed_hold_ = name("feed_hold"),
+  axes_enable_ = name("axes_enable");
+  for (std::size_t i = 0; i < axis_inhibit_.size(); ++i)
+    axis_inhibit_[i] = interface_address("axis_inhibit", i);
+  for (std::size_t i = 0; i < coolant_.size(); ++i) coolant_[i] = interface_address("coolant", i);
+  for (std::size_t c = 0; c < channel_count; ++c) {
+    const auto of = [c](const char* text) { return interface_address(text, c); };
+    channel_symbols_[c] = {of("channel_running"),  of("channel_held"),  of("channel_idle"),
+                           of("channel_homed"),    of("channel_rtcp"),  of("channel_reset"),
+                           of("mode_auto"),        of("mode_mdi"),      of("mode_jog"),
+                           of("mode_ref"),         of("m_strobe"),      of("s_strobe"),
+                           of("t_strobe"),         of("m_code"),        of("s_value"),
+                           of("t_code"),           of("feed_override"), of("rapid_override"),
+                           of("spindle_override"), of("active_tool"),   of("fin"),
+                           of("fin_failed")};
+    for (const auto address : {channel_symbols_[c].feed_override, channel_symbols_[c].rapid_override,
+                               channel_symbols_[c].spindle_override})
+      store(memory_.registers, address, 100);  // until the channel says otherwise
+  }
+  for (std::size_t s = 0; s < spindle_count; ++s) {
+    const auto of = [s](const char* text) { return interface_address(text, s); };
+    spindle_symbols_[s] = {of("spindle_at_speed"), of("spindle_actual"), of("spindle_speed"),
+                           of("spindle_enable"), of("spindle_counterclockwise")};
+  }
+}
+
+void PlcCore::configure(const machine::Parameters& parameters, bool virtual_time) {
+  virtual_time_ = virtual_time;
+  axis_exists_.assign(32, 0);
+  for (const auto& axis : machine::drive_axes(parameters)) axis_exists_[axis.number] = 1;
+  spindles_ = std::min(machine::spindles(parameters).size(), spindle_count);
+  period_us_ = static_cast<std::uint64_t>(parameters.integer("interpolation_cycle"));
+  changed_ = true;
+}
+
+void PlcCore::load(Program fast, Program main) {
+  fast_ = std::move(fast);
+  main_ = std::move(main);
+  loaded_ = true;
+  changed_ = true;
+}
+
+void PlcCore::input(Address address, std::int64_t value) {
+  const auto before = plc::load(memory_.registers, address);
+  store(memory_.registers, address, value);
+  changed_ = changed_ || plc::load(memory_.registers, address) != before;
+}
+
+void PlcCore::set_channel(const idl::channel::ChannelState& state) {
+  if (state.channel >= channel_count) return;
+  using idl::channel::Mode;
+  using idl::channel::RunState;
+  const auto& s = channel_symbols_[state.channel];
+  input(s.running, state.state == RunState::RUNNING);
+  input(s.held, state.state == RunState::HELD || state.state == RunState::HOLDING);
+  input(s.idle, state.state == RunState::IDLE);
+  input(s.homed, state.homed);
+  input(s.rtcp, state.rtcp);
+  input(s.mode_auto, state.mode == Mode::AUTO);
+  input(s.mode_mdi, state.mode == Mode::MDI);
+  input(s.mode_jog, state.mode == Mode::JOG);
+  input(s.mode_ref, state.mode == Mode::REF);
+  input(s.feed_override, percent(state.feed_override));
+  input(s.rapid_override, percent(state.rapid_override));
+  input(s.spindle_override, percent(state.spindle_override));
+  input(s.tool, state.tool);
+  auto& view = channels_[state.channel];
+  if (view.seen && state.reset_count > view.resets) input(s.reset, 1);
+  view.seen = true;
+  view.resets = state.reset_count;
+}
+
+void PlcCore::set_request(const idl::channel::AuxiliaryRequest& request) {
+  if (request.channel >= channel_count) return;
+  auto& h = memory_.handshakes[request.channel];
+  if (request.kind == 0) {
+    if (h.state == HandshakeState::waiting || h.state == HandshakeState::strobe)
+      h.state = HandshakeState::none;
+    changed_ = true;
+    return;
+  }
+  const bool known = h.state != HandshakeState::none && h.number == request.number &&
+                     h.kind == request.kind && h.code == request.code && h.cycle == request.cycle;
+  if (known) {
+    if (h.state == HandshakeState::done) done_.push_back({request.channel, h.number, h.failed != 0});
+    return;
+  }
+  h = {HandshakeState::waiting, request.number, request.kind, request.code, request.value, request.cycle, 0};
+  gave_up_ = false;
+  changed_ = true;
+}
+
+void PlcCore::set_feedback(const idl::stream::FeedbackFrame& frame) {
+  drive_seen_ = true;
+  executed_ = std::max(executed_, frame.first + frame.count);
+  for (auto& channel : channels_) channel.active = false;
+  for (const auto& echo : frame.channels)
+    if (echo.channel < channel_count) channels_[echo.channel].active = echo.active;
+  spindle_actual_ = frame.spindle_speed;
+  input(drive_present_, 1);
+  input(drives_on_, !frame.enabled.empty() && std::all_of(frame.enabled.begin(), frame.enabled.end(),
+                                                          [](std::uint8_t on) { return on != 0; }));
+  for (std::size_t s = 0; s < std::min(spindles_, spindle_actual_.size()); ++s)
+    input(spindle_symbols_[s].actual, std::llround(std::abs(spindle_actual_[s])));
+  check_spindles();
+}
+
+void PlcCore::set_alarms(bool any, bool stops) {
+  input(alarm_active_, any);
+  input(alarm_stops_, stops);
+}
+
+std::string PlcCore::panel(std::uint8_t kind, std::uint32_t address, std::uint32_t value) {
+  switch (kind) {
+    case panel_press:
+      input(emergency_button_, 1);
+      return "";
+    case panel_release:
+      input(emergency_button_, 0);
+      return "";
+    case panel_reset:
+      press_reset();
+      return "";
+    case panel_force:
+      if (address >= register_count) return "input byte " + std::to_string(address) + " is outside 0 .. 511";
+      if (value > 255) return "value " + std::to_string(value) + " is outside 0 .. 255";
+      input({Area::x, static_cast<std::uint16_t>(address), -1}, value);
+      return "";
+    default:
+      return "kind " + std::to_string(kind) + " is outside 1 .. 4";
+  }
+}
+
+bool PlcCore::standing(std::size_t channel) const {
+  if (!virtual_time_ || gave_up_) return true;
+  return drive_seen_ && !channels_[channel].active && executed_ >= memory_.handshakes[channel].cycle;
+}
+
+bool PlcCore::waits_for_standstill() const {
+  for (std::size_t c = 0; c < channel_count; ++c)
+    if (memory_.handshakes[c].state == HandshakeState::waiting && !standing(c)) return true;
+  return false;
+}
+
+void PlcCore::give_up_waiting() {
+  gave_up_ = true;
+  changed_ = true;
+}
+
+void PlcCore::raise_strobes() {
+  auto& r = memory_.registers;
+  for (std::size_t c = 0; c < channel_count; ++c) {
+    auto& h = memory_.handshakes[c];
+    const auto& s = channel_symbols_[c];
+    // A strobe rises only when the answer to the one before has fallen.
+    if (h.state == HandshakeState::waiting && plc::load(r, s.fin) == 0 && standing(c)) {
+      h.state = HandshakeState::strobe;
+      if (h.kind == 1) store(r, s.m_code, h.code);
+      if (h.kind == 2) store(r, s.s_value, std::llround(std::clamp(h.value, 0.0, 65535.0)));
+      if (h.kind == 3) store(r, s.t_code, h.code);
+    }
+    const bool strobe = h.state == HandshakeState::strobe;
+    store(r, s.m_strobe, strobe && h.kind == 1);
+    store(r, s.s_strobe, strobe && h.kind == 2);
+    store(r, s.t_strobe, strobe && h.kind == 3);
+  }
+}
+
+bool PlcCore::at_speed(std::size_t s) const {
+  if (s >= spindles_ || s >= spindle_actual_.size()) return true;
+  const double order = memory_.spindle_order[s];
+  return std::abs(spindle_actual_[s] - order) <=
+         std::max(speed_tolerance * std::abs(order), slowest_tolerance);
+}
+
+void PlcCore::check_spindles() {
+  auto& r = memory_.registers;
+  for (std::size_t s = 0; s < spindle_count; ++s) {
+    const auto& symbols = spindle_symbols_[s];
+    const bool on = plc::load(r, symbols.enable) != 0 && !emergency_stop();
+    const double speed = on ? plc::load(r, symbols.speed) : 0;
+    const double order = plc::load(r, symbols.counterclockwise) != 0 && speed > 0 ? -speed : speed;
+    if (order != memory_.spindle_order[s]) {
+      memory_.spindle_order[s] = order;
+      memory_.spindle_since[s] = memory_.scans;
+    }
+    input(symbols.at_speed, at_speed(s));
+  }
+}
+
+void PlcCore::finish() {
+  for (std::size_t c = 0; c < channel_count; ++c) {
+    auto& h = memory_.handshakes[c];
+    const auto& s = channel_symbols_[c];
+    if (h.state != HandshakeState::strobe || plc::load(memory_.registers, s.fin) == 0) continue;
+    h.failed = static_cast<std::uint32_t>(plc::load(memory_.registers, s.fin_failed));
+    h.state = HandshakeState::done;
+    done_.push_back({static_cast<std::uint16_t>(c), h.number, h.failed != 0});
+  }
+}
+
+void PlcCore::scan(bool main) {
+  auto& r = memory_.registers;
+  raise_strobes();
+  execute(fast_, r, memory_.blocks, memory_.scans);
+  if (main) execute(main_, r, memory_.blocks, memory_.scans);
+  check_spindles();
+  finish();
+  if (main) {
+    store(r, reset_button_, 0);
+    for (const auto& s : channel_symbols_) store(r, s.reset, 0);
+  }
+}
+
+void PlcCore::settle() {
+  for (int i = 0; i < most_settling; ++i) {
+    const auto before = memory_.registers;
+    scan(true);
+    if (memory_.registers == before) break;
+  }
+}
+
+void PlcCore::advance(std::uint64_t tick) {
+  if (!loaded_ || !configured()) return;
+  if (tick < memory_.tick || (memory_.tick == 0 && memory_.scans == 0)) memory_.tick = tick;
+  memory_.now_us += (tick - memory_.tick) * period_us_;
+  memory_.tick = tick;
+  const auto now = memory_.now_us / 1000;
+  if (now - memory_.scans > most_catch_up) memory_.scans = now - most_catch_up;
+  while (memory_.scans < now) {
+    ++memory_.scans;
+    scan(memory_.scans % main_period == 0);
+  }
+  if (changed_ || timer_due(memory_.blocks, now)) settle();
+  changed_ = false;
+}
+
+bool PlcCore::emergency_stop() const {
+  return !loaded_ || plc::load(memory_.registers, emergency_stop_) != 0;
+}
+
+idl::plc::Outputs PlcCore::outputs() const {
+  const auto& r = memory_.registers;
+  idl::plc::Outputs outputs;
+  outputs.tick = memory_.tick;
+  outputs.emergency_stop = emergency_stop();
+  outputs.feed_hold = plc::load(r, feed_hold_) != 0;
+  outputs.axis_enable = axis_exists_;
+  const bool enable = !outputs.emergency_stop && plc::load(r, axes_enable_) != 0;
+  for (std::size_t a = 0; a < outputs.axis_enable.size(); ++a)
+    if (!enable || (a < axis_inhibit_.size() && plc::load(r, axis_inhibit_[a]) != 0))
+      outputs.axis_enable[a] = 0;
+  for (const auto address : coolant_)
+    outputs.coolant.push_back(!outputs.emergency_stop && plc::load(r, address) != 0 ? 1 : 0);
+  bool spindle_moves = false;
+  for (std::size_t s = 0; s < spindles_; ++s) {
+    outputs.spindle_speed.push_back(outputs.emergency_stop ? 0 : memory_.spindle_order[s]);
+    spindle_moves =
+        spindle_moves || (!at_speed(s) && memory_.scans - memory_.spindle_since[s] < spindle_patience);
+  }
+  outputs.run_until_tick = memory_.tick;
+  if (period_us_ > 0) {
+    auto until = next_timer_end(memory_.blocks, memory_.scans);
+    if (spindle_moves) until = std::min(until.value_or(~std::uint64_t{0}), memory_.scans + main_period);
+    if (until) outputs.run_until_tick += (*until * 1000 - memory_.now_us + period_us_ - 1) / period_us_;
+  }
+  return outputs;
+}
+
+idl::plc::Image PlcCore::image() const {
+  const auto& r = memory_.registers;
+  idl::plc::Image image;
+  image.scan = memory_.scans;
+  image.x.assign(r.x.begin(), r.x.end());
+  image.y.assign(r.y.begin(), r.y.end());
+  image.f.assign(r.f.begin(), r.f.end());
+  image.g.assign(r.g.begin(), r.g.end());
+  image.r.assign(r.r.begin(), r.r.end());
+  image.b.assign(r.b.begin(), r.b.end());
+  return image;
+}
+
+std::vector<idl::plc::AuxiliaryDone> PlcCore::take_done() { return std::exchange(done_, {}); }
+
+std::vector<idl::plc::AuxiliaryDone> PlcCore::all_done() const {
+  std::vector<idl::plc::AuxiliaryDone> result;
+  for (std::size_t c = 0; c < channel_count; ++c)
+    if (memory_.handshakes[c].state == HandshakeState::done)
+      result.push_back(
+          {static_cast<std::uint16_t>(c), memory_.handshakes[c].number, memory_.handshakes[c].failed != 0});
+  return result;
+}
+
+}  // namespace trunnion::plc

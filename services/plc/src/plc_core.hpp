@@ -1,0 +1,102 @@
+// The PLC: inputs into the image, tasks by the drive's ticks, outputs and finished auxiliary functions out of
+// it.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "contracts/types.hpp"
+#include "execution.hpp"
+#include "machine/parameters.hpp"
+#include "symbols.hpp"
+
+namespace trunnion::plc {
+
+inline constexpr std::uint64_t main_period = 10;  ///< ms of the main task; the fast task runs every ms
+inline constexpr std::uint64_t most_catch_up =
+    200;                                  ///< scans at once; what is older is skipped, timers stay right
+inline constexpr int most_settling = 16;  ///< scans at the same time until the image is stable
+
+/// Panel requests, as in idl/plc.idl.
+inline constexpr std::uint8_t panel_press = 1, panel_release = 2, panel_reset = 3, panel_force = 4;
+
+class PlcCore {
+ public:
+  PlcCore();
+
+  /// Axes, spindles and the interpolation period. May be called again with another revision.
+  void configure(const machine::Parameters& parameters, bool virtual_time);
+  bool configured() const { return period_us_ > 0; }
+  /// No programs: the outputs are safe (emergency stop).
+  void load(Program fast, Program main);
+  /// After a restart of the process in a running cluster: everything as it was.
+  void restore(const Memory& memory) { memory_ = memory; }
+  /// After a restart of the cluster: only the kept registers B.
+  void power_up(const Memory& memory) { memory_.registers.b = memory.registers.b; }
+  const Memory& memory() const { return memory_; }
+
+  void set_channel(const idl::channel::ChannelState& state);
+  void set_request(const idl::channel::AuxiliaryRequest& request);
+  void set_feedback(const idl::stream::FeedbackFrame& frame);
+  void set_alarms(bool any, bool stops);
+  /// Returns an empty text or why the request is refused.
+  std::string panel(std::uint8_t kind, std::uint32_t address, std::uint32_t value);
+  void press_reset() { input(reset_button_, 1); }
+  /// The standstill that a request waits for is not confirmed by the drive: go on without.
+  void give_up_waiting();
+  bool waits_for_standstill() const;
+
+  /// Scans up to the drive's tick, then until the image is stable.
+  void advance(std::uint64_t tick);
+  idl::plc::Outputs outputs() const;
+  idl::plc::Image image() const;
+  /// Functions finished since the last call, and those that are asked for again although they are finished.
+  std::vector<idl::plc::AuxiliaryDone> take_done();
+  /// Every finished function: for a process that starts again, whose publications are gone.
+  std::vector<idl::plc::AuxiliaryDone> all_done() const;
+  bool emergency_stop() const;
+
+ private:
+  struct ChannelSymbols {
+    Address running, held, idle, homed, rtcp, reset, mode_auto, mode_mdi, mode_jog, mode_ref;
+    Address m_strobe, s_strobe, t_strobe, m_code, s_value, t_code;
+    Address feed_override, rapid_override, spindle_override, tool, fin, fin_failed;
+  };
+  struct SpindleSymbols {
+    Address at_speed, actual, speed, enable, counterclockwise;
+  };
+  struct ChannelView {
+    bool seen = false, active = false;
+    std::uint32_t resets = 0;
+  };
+
+  void input(Address address, std::int64_t value);
+  void scan(bool main);
+  void settle();
+  void raise_strobes();
+  void check_spindles();
+  void finish();
+  bool at_speed(std::size_t spindle) const;
+  bool standing(std::size_t channel) const;
+
+  Program fast_, main_;
+  bool loaded_ = false, virtual_time_ = false, gave_up_ = false;
+  std::array<ChannelSymbols, channel_count> channel_symbols_;
+  std::array<SpindleSymbols, spindle_count> spindle_symbols_;
+  Address emergency_button_, reset_button_, drive_present_, drives_on_, alarm_active_, alarm_stops_;
+  Address emergency_stop_, feed_hold_, axes_enable_;
+  std::array<Address, 16> axis_inhibit_;
+  std::array<Address, 8> coolant_;
+
+  std::vector<std::uint8_t> axis_exists_;
+  std::size_t spindles_ = 0;
+  std::uint64_t period_us_ = 0;
+  Memory memory_;
+  std::array<ChannelView, channel_count> channels_{};
+  std::vector<double> spindle_actual_;
+  std::uint64_t executed_ = 0;
+  bool drive_seen_ = false, changed_ = true;
+  std::vector<idl::plc::AuxiliaryDone> done_;
+};
+
+}  // namespace trunnion::plc

@@ -1,0 +1,35 @@
+// The PLC's memory in a mapped file: it survives kill -9 at any instant.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "memory.hpp"
+
+namespace trunnion::plc {
+
+/// Two slots, written in turn: whoever dies while writing one leaves the other.
+class RetainedMemory {
+ public:
+  /// Throws std::runtime_error naming the file.
+  explicit RetainedMemory(const std::string& path);
+  ~RetainedMemory();
+  RetainedMemory(const RetainedMemory&) = delete;
+  RetainedMemory& operator=(const RetainedMemory&) = delete;
+
+  struct Kept {
+    std::string boot;
+    Memory memory;
+  };
+  /// The newest whole slot, or nothing when the file is new or of another version.
+  std::optional<Kept> load() const;
+  /// `boot` names the start of the cluster it belongs to; its first 63 bytes count.
+  void save(const std::string& boot, const Memory& memory);
+
+ private:
+  struct Slot;
+  struct Layout;
+  Layout* layout_ = nullptr;
+};
+
+}  // namespace trunnion::plc
