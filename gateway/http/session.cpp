@@ -1,5 +1,6 @@
 #include "http/session.hpp"
 
+#include <algorithm>
 #include <boost/asio/post.hpp>
 #include <boost/asio/write.hpp>
 #include <boost/beast/http/read.hpp>
@@ -192,6 +193,13 @@ void HttpSession::abort_upload() {
 
 // --- Download: each part is asked for when the one before has left.
 
+bool HttpSession::listed(const std::string& name) const {
+  const auto snapshot = api_.mailbox().newest();
+  if (!snapshot || !snapshot->programs) return false;
+  const auto& programs = snapshot->programs->programs;
+  return std::any_of(programs.begin(), programs.end(), [&](const auto& one) { return one.name == name; });
+}
+
 void HttpSession::begin_download() {
   download_ = std::make_unique<Download>();
   download_->name = match_.parts.at(0);
@@ -200,13 +208,6 @@ void HttpSession::begin_download() {
   } catch (const BadRequest&) {
     return answer(error_answer(404, "no program " + download_->name));
   }
-  const auto snapshot = api_.mailbox().newest();
-  if (snapshot && snapshot->programs) {
-    const auto& programs = snapshot->programs->programs;
-    if (std::none_of(programs.begin(), programs.end(),
-                     [&](const auto& p) { return p.name == download_->name; }))
-      return answer(error_answer(404, "no program " + download_->name));
-  }
   read_program(api_.mailbox(), download_->name, 0, 0, here(&HttpSession::download_part));
 }
 
@@ -214,6 +215,8 @@ void HttpSession::download_part(const ProgramReply& reply) {
   auto& download = *download_;
   const bool good = reply && reply->accepted && reply->offset == download.offset;
   if (!download.serializer) {
+    if (reply && !reply->accepted && !listed(download.name))
+      return answer(error_answer(404, "no program " + download.name));
     if (!good) return answer(program_refusal(reply));
     download.revision = reply->entry.revision;
     download.size = reply->entry.size;

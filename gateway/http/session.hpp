@@ -44,6 +44,8 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
   void upload_stored(const ProgramReply& reply);
   void abort_upload();
 
+  /// Whether the store's list, which is a moment behind the store, has the program.
+  bool listed(const std::string& name) const;
   void begin_download();
   void download_part(const ProgramReply& reply);
   void send_part();

@@ -90,20 +90,24 @@ Json StateDocument::services(double now) const {
   std::map<std::uint32_t, const idl::service::ClusterService*> expected;
   for (const auto& service : cluster_.services) expected[service.instance] = &service;
   static const Known nothing;
+  static const idl::service::ClusterService unplanned;
   const auto add = [&](std::uint32_t instance, const Known& known,
                        const idl::service::ClusterService* wanted) {
+    const auto& plan = wanted != nullptr ? *wanted : unplanned;
     const auto& state = known.state;
     const auto& announcement = known.announcement;
     const bool alive = known.beating && now - known.heard < heartbeat_patience;
     const bool same = !known.announced || announcement.contract == contract_;
     auto& entry = json[std::to_string(instance)] = Json::object();
-    entry["service"] = known.beating     ? state.service
-                       : known.announced ? announcement.service
-                                         : wanted->service;
-    entry["copy"] = known.beating ? state.copy : wanted != nullptr ? wanted->copy : 0;
-    entry["vendor"] = known.beating ? state.vendor : known.announced ? announcement.vendor : wanted->vendor;
+    // The newest of what is known: its heartbeat, else its announcement, else what the launcher expects.
+    const auto newest = [&](const auto& beat, const auto& announced, const auto& planned) {
+      return known.beating ? beat : known.announced ? announced : planned;
+    };
+    entry["service"] = newest(state.service, announcement.service, plan.service);
+    entry["copy"] = known.beating ? state.copy : plan.copy;
+    entry["vendor"] = newest(state.vendor, announcement.vendor, plan.vendor);
     entry["host"] = announcement.host;
-    entry["pid"] = known.beating ? state.pid : known.announced ? announcement.pid : wanted->pid;
+    entry["pid"] = newest(state.pid, announcement.pid, plan.pid);
     entry["lifecycle"] = alive ? bus::to_string(state.lifecycle) : "ABSENT";
     entry["detail"] = alive ? state.detail : std::string("no heartbeat");
     entry["frames_per_second"] = alive ? std::round(state.frames_per_second) : 0.0;
@@ -113,7 +117,7 @@ Json StateDocument::services(double now) const {
     entry["in_step"] = state.in_step;
     entry["alive"] = alive;
     entry["expected"] = wanted != nullptr;
-    entry["restarts"] = wanted != nullptr ? wanted->restarts : 0;
+    entry["restarts"] = plan.restarts;
     entry["contract"] = announcement.contract;
     entry["contract_match"] = same;
   };

@@ -1,5 +1,5 @@
 import { useSignal } from "@preact/signals";
-import { useEffect } from "preact/hooks";
+import { useEffect, useRef } from "preact/hooks";
 import { get, type Parameter, put } from "../api";
 import { limits, title, unit } from "../format";
 import { machine, tell } from "../state/store";
@@ -19,10 +19,14 @@ const sixDigits = (number: number) => String(number).padStart(6, "0");
 function Editor({ parameter, done }: { parameter: Parameter; done: () => void }) {
   const entered = useSignal(String(parameter.value));
   const refused = useSignal("");
+  const stored = useRef(parameter.value);
   useEffect(() => {
+    // Only a value that changed meanwhile replaces what is being typed.
+    if (stored.current === parameter.value) return;
+    stored.current = parameter.value;
     entered.value = String(parameter.value);
     refused.value = "";
-  }, [parameter.number, parameter.value]);
+  }, [parameter.value]);
   const isText = typeof parameter.value === "string";
   const save = async () => {
     const number = Number(entered.value.replace(",", "."));
@@ -155,7 +159,7 @@ export function Parameters() {
         </div>
       </section>
       {current ? (
-        <Editor parameter={current} done={() => void load()} />
+        <Editor key={current.number} parameter={current} done={() => void load()} />
       ) : (
         <section class="editor dim">Choose a parameter to read what it does and to change it.</section>
       )}

@@ -11,12 +11,12 @@ export function Technology() {
         <div>
           <b>F</b>
           <span class="value">{whole(one.feed)}</span>
-          <span class="dim">prog {whole(one.programmed_feed)} mm/min</span>
+          <span class="dim">prog {whole(one.programmed_feed)} <span class="wide">mm/min</span></span>
         </div>
         <div>
           <b>S</b>
           <span class="value">{spindle === undefined ? "–" : whole(spindle)}</span>
-          <span class="dim">prog {whole(one.spindle_programmed)} 1/min</span>
+          <span class="dim">prog {whole(one.spindle_programmed)} <span class="wide">1/min</span></span>
         </div>
         <div>
           <b>T</b>
