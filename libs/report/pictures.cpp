@@ -24,7 +24,7 @@ struct Legend {
   void add(const char* style, const std::string& words) {
     svg += line(x, y - 4.5, x + 26, y - 4.5, style);
     svg += text(x + 33, y, words);
-    x += 33 + 7.1 * static_cast<double>(words.size()) + 22;
+    x += 33 + 7.7 * static_cast<double>(words.size()) + 22;
   }
 };
 
@@ -216,10 +216,15 @@ std::string feed_picture(const Report& report) {
   const auto actual_error = envelope(report, [](const Sample& s) {
     return s.rapid || !s.has_actual ? 0.0 : (s.actual - s.actual_foot).norm() * 1e3;
   });
-  const double fastest = std::max(1.0, largest_of(commanded, actual) * 1.08);
+  // Rapids would press the feeds to the bottom; they leave the frame instead.
+  double fastest = 0;
+  for (const auto& s : report.samples)
+    if (!s.rapid) fastest = std::max({fastest, s.commanded_feed, s.actual_feed});
+  if (fastest == 0) fastest = largest_of(commanded, actual);
+  fastest = std::max(1.0, fastest * 1.25);
   const double worst = std::max(1e-6, largest_of(commanded_error, actual_error) * 1.08);
   Plot feed(110, 120, 1080, 250, {0, duration}, {0, fastest});
-  feed.title("Feed of the tool tip over the workpiece");
+  feed.title("Feed of the tool tip over the workpiece (rapids leave the frame)");
   feed.labels("time [s]", "feed [mm/min]");
   feed.curve(actual, actual_style);
   feed.curve(commanded, commanded_style);
