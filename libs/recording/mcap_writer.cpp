@@ -34,7 +34,7 @@ bool Writer::emit() {
   if (!failed_) {
     data_crc_ = crc32(data_crc_, out_);
     failed_ = !sink_.write(out_);
-    offset_ += out_.size();
+    if (!failed_) offset_ += out_.size();
   }
   out_.clear();
   return !failed_;

@@ -1,0 +1,146 @@
+#include "report/programmed_path.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "language/interpreter.hpp"
+#include "motion/path_segment.hpp"
+#include "report/table_environment.hpp"
+
+namespace trunnion::report {
+namespace {
+
+using language::AxisValues;
+
+constexpr double chord_error = 1e-6;  // mm
+constexpr int most_halvings = 16;
+
+// Appends one command as chords.
+class Tracer {
+ public:
+  Tracer(const TableEnvironment& environment, ProgrammedPath& out) : environment_(environment), out_(out) {}
+
+  void trace(const AxisValues& from, const language::Command& command) {
+    const bool arc = command.kind == language::CommandKind::arc;
+    const auto segment = arc ? motion::PathSegment::arc(from, command.target, command.arc)
+                             : motion::PathSegment::line(from, command.target);
+    const bool rtcp = command.modal.transformation == language::Transformation::rtcp;
+    const auto tip_at = [&](double s) {
+      const AxisValues p = segment.position(s);
+      const AxisValues tip = rtcp ? p : environment_.tip_from_machine(p, command.modal.tool_length);
+      return Vec3(tip[0], tip[1], tip[2]);
+    };
+    const bool turns =
+        from[3] != command.target[3] || from[4] != command.target[4] || from[5] != command.target[5];
+    piece_.line = command.line;
+    piece_.rapid = command.kind == language::CommandKind::rapid;
+    const Vec3 end = tip_at(segment.length());
+    if (arc || (!rtcp && turns)) {
+      // Quarters of a turn to begin with, or a symmetric curve would look like its chord.
+      const int parts = 4 + static_cast<int>((arc ? command.arc.sweep : 0) / 22.5);
+      Vec3 last = tip_at(0);
+      for (int k = 1; k <= parts; ++k) {
+        const double s0 = segment.length() * (k - 1) / parts, s1 = segment.length() * k / parts;
+        const Vec3 next = k == parts ? end : tip_at(s1);
+        divide(tip_at, s0, last, s1, next, most_halvings);
+        last = next;
+      }
+    } else {
+      add(end);
+    }
+  }
+
+ private:
+  template <class TipAt>
+  void divide(const TipAt& tip_at, double s0, const Vec3& a, double s1, const Vec3& b, int halvings) {
+    const double middle = (s0 + s1) / 2;
+    const Vec3 m = tip_at(middle);
+    if (halvings == 0 || (m - (a + b) / 2).norm() <= chord_error) {
+      add(b);
+      return;
+    }
+    divide(tip_at, s0, a, middle, m, halvings - 1);
+    divide(tip_at, middle, m, s1, b, halvings - 1);
+  }
+  void add(const Vec3& end) {
+    const auto& pieces = out_.path.pieces();
+    const Vec3 begin = pieces.empty() ? out_.path.start() : pieces.back().end;
+    if (!piece_.rapid) out_.feed_length += (end - begin).norm();
+    piece_.end = end;
+    out_.path.add(piece_);
+  }
+
+  const TableEnvironment& environment_;
+  ProgrammedPath& out_;
+  Piece piece_;
+};
+
+}  // namespace
+
+ProgrammedPath programmed_path(const std::string& text, const MachineTables& tables,
+                               const AxisValues& position) {
+  ProgrammedPath result;
+  TableEnvironment environment(tables);
+  language::StringSource source(text);
+  language::Interpreter interpreter(environment);
+  interpreter.start(source, position, {});
+  const AxisValues start = environment.tip_from_machine(position, 0);
+  result.path.start({start[0], start[1], start[2]});
+  Tracer tracer(environment, result);
+  AxisValues at = position;
+  language::Command command;
+  for (bool more = true; more;) {
+    switch (interpreter.next(command)) {
+      case language::Step::command:
+        ++result.commands;
+        switch (command.kind) {
+          case language::CommandKind::rapid:
+          case language::CommandKind::line:
+          case language::CommandKind::arc:
+            tracer.trace(at, command);
+            at = command.target;
+            if (command.kind == language::CommandKind::rapid) {
+              result.rapid_lines.insert(command.line);
+            } else {
+              result.feed_lines.insert(command.line);
+              const auto offset = environment.work_offset(command.modal.work_offset);
+              result.zero = {offset[0], offset[1], offset[2]};
+            }
+            break;
+          case language::CommandKind::transformation: {
+            at = command.target;
+            // A tool length that begins to count moves the point that is looked at, not the machine.
+            const bool rtcp = command.modal.transformation == language::Transformation::rtcp;
+            const auto tip = rtcp ? at : environment.tip_from_machine(at, command.modal.tool_length);
+            if (result.path.pieces().empty())
+              result.path.start({tip[0], tip[1], tip[2]});
+            else
+              result.path.add({{tip[0], tip[1], tip[2]}, command.line, true});
+            break;
+          }
+          case language::CommandKind::end:
+            more = false;
+            break;
+          default:
+            break;
+        }
+        break;
+      case language::Step::alarm: {
+        const auto& alarm = interpreter.alarm();
+        result.problem = std::to_string(alarm.line) + ":" + std::to_string(alarm.column) + ": " +
+                         std::string(alarm.text.data());
+        more = false;
+        break;
+      }
+      case language::Step::end:
+        more = false;
+        break;
+      default:
+        break;
+    }
+  }
+  result.path.build();
+  return result;
+}
+
+}  // namespace trunnion::report

@@ -1,0 +1,175 @@
+// The recorder as a process: what was on the bus is in the file, on both vendors.
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <thread>
+
+#include "bus/bus.hpp"
+#include "bus/json.hpp"
+#include "contracts/topics.hpp"
+#include "recording/file_stream.hpp"
+#include "recording/mcap_reader.hpp"
+
+namespace trunnion::recorder {
+namespace {
+
+// A child with its standard output and standard error at our end of a pipe.
+class Process {
+ public:
+  explicit Process(std::vector<std::string> arguments) {
+    int ends[2];
+    if (pipe(ends) != 0) throw std::runtime_error("pipe");
+    pid_ = fork();
+    if (pid_ == 0) {
+      dup2(ends[1], 1);
+      dup2(ends[1], 2);
+      close(ends[0]);
+      close(ends[1]);
+      std::vector<char*> argv;
+      for (auto& argument : arguments) argv.push_back(argument.data());
+      argv.push_back(nullptr);
+      execv(argv[0], argv.data());
+      _exit(127);
+    }
+    close(ends[1]);
+    output_ = fdopen(ends[0], "r");
+  }
+  ~Process() {
+    if (pid_ > 0) kill(pid_, SIGKILL), waitpid(pid_, nullptr, 0);
+    fclose(output_);
+  }
+  std::string line() {
+    char text[4096] = "";
+    return fgets(text, sizeof text, output_) != nullptr ? text : "";
+  }
+  void signal(int number) const { kill(pid_, number); }
+  int wait() {
+    int status = 0;
+    waitpid(pid_, &status, 0);
+    pid_ = 0;
+    return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  }
+
+ private:
+  pid_t pid_;
+  FILE* output_;
+};
+
+class RecorderProcess : public testing::TestWithParam<std::pair<bus::Vendor, std::uint32_t>> {
+ protected:
+  std::string file = testing::TempDir() + "/recorder_" + bus::to_string(GetParam().first) +
+                     std::to_string(getpid()) + ".mcap";
+  void TearDown() override { std::filesystem::remove(file); }
+};
+
+TEST_P(RecorderProcess, WritesEveryMessageAndFinishesOnSigterm) {
+  const auto [vendor, domain] = GetParam();
+  bus::Bus bus(vendor, {domain}, {64});
+  auto frames = bus.writer(topics::path_frame);
+  auto alarms = bus.writer(topics::alarm);
+  idl::service::Alarm alarm;
+  alarm.text = "written before the recorder came";
+  alarms.write(alarm);
+  Process recorder({RECORDER, "--output", file, "--domain", std::to_string(domain), "--vendor",
+                    bus::to_string(vendor), "--machine", "bench", "--json"});
+  ASSERT_EQ(recorder.line(), "recording " + file + "\n");
+  for (int i = 0; i < 5000 && (frames.matched() == 0 || alarms.matched() == 0); ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  idl::stream::PathFrame frame;
+  frame.count = 8;
+  constexpr std::uint64_t count = 500;
+  for (std::uint64_t i = 0; i < count; ++i) {
+    frame.first = 8 * i + (i >= 300 ? 16 : 0);  // sixteen cycles that nobody wrote
+    frame.starts = i == 0;
+    frame.setpoints.assign(72, static_cast<double>(i));
+    ASSERT_TRUE(frames.write(frame));
+    std::this_thread::sleep_for(std::chrono::microseconds(200));
+  }
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  recorder.signal(SIGTERM);
+  const auto summary = bus::Json::parse(recorder.line());
+  EXPECT_EQ(recorder.wait(), 0);
+  EXPECT_EQ(summary["topics"]["path_frame"]["messages"], count);
+  EXPECT_EQ(summary["topics"]["path_frame"]["cycles"], 8 * count);
+  EXPECT_EQ(summary["topics"]["path_frame"]["lost_cycles"], 16);
+  EXPECT_EQ(summary["dropped_messages"], 0);
+  EXPECT_EQ(summary["bytes"], std::filesystem::file_size(file));
+
+  recording::FileSource source(file);
+  recording::Reader reader(source);
+  recording::MessageView message;
+  std::uint64_t seen = 0, last_time = 0;
+  bool alarm_seen = false;
+  while (reader.next(message)) {
+    if (message.channel->topic == topics::alarm.name) {
+      idl::service::Alarm read;
+      ASSERT_TRUE(bus::decode(message.data, read));
+      alarm_seen = read.text == alarm.text;
+    }
+    if (message.channel->topic != topics::path_frame.name) continue;
+    idl::stream::PathFrame read;
+    ASSERT_TRUE(bus::decode(message.data, read));
+    EXPECT_EQ(read.setpoints, std::vector<double>(72, static_cast<double>(seen)));
+    EXPECT_EQ(message.sequence, ++seen);
+    EXPECT_GE(message.log_time, last_time) << "one writer's source time stamps ascend";
+    last_time = message.log_time;
+  }
+  EXPECT_EQ(reader.ending(), recording::Ending::complete) << reader.problem();
+  EXPECT_EQ(seen, count);
+  EXPECT_TRUE(alarm_seen) << "state from before is in the recording";
+  ASSERT_EQ(reader.metadata().size(), 1u);
+  EXPECT_EQ(reader.metadata()[0].values.at("machine"), "bench");
+  EXPECT_EQ(reader.metadata()[0].values.at("contract"), topics::contract_hash);
+}
+
+TEST_P(RecorderProcess, TakesOnlyTheTopicsAskedForAndStopsAfterItsDuration) {
+  const auto [vendor, domain] = GetParam();
+  bus::Bus bus(vendor, {domain + 1});
+  auto alarms = bus.writer(topics::alarm);
+  auto clusters = bus.writer(topics::cluster);
+  alarms.write({});
+  clusters.write({});
+  Process recorder({RECORDER, "--output", file, "--domain", std::to_string(domain + 1), "--vendor",
+                    bus::to_string(vendor), "--topics", "alarm,path_frame", "--duration", "1"});
+  ASSERT_EQ(recorder.line(), "recording " + file + "\n");
+  EXPECT_EQ(recorder.wait(), 0);
+  recording::FileSource source(file);
+  recording::Reader reader(source);
+  recording::MessageView message;
+  int count = 0;
+  while (reader.next(message)) {
+    EXPECT_EQ(message.channel->topic, topics::alarm.name);
+    ++count;
+  }
+  EXPECT_EQ(count, 1);
+}
+
+TEST_P(RecorderProcess, AFullDiskIsOneLine) {
+  const auto [vendor, domain] = GetParam();
+  Process recorder({RECORDER, "--output", "/dev/full", "--domain", std::to_string(domain + 2), "--vendor",
+                    bus::to_string(vendor), "--duration", "0.3"});
+  std::string error, line;
+  while (!(line = recorder.line()).empty())
+    if (line.starts_with("trunnion-recorder: error:")) error += line;
+  EXPECT_EQ(error, "trunnion-recorder: error: /dev/full: No space left on device; the file ends at byte 0\n");
+  EXPECT_EQ(recorder.wait(), 1);
+}
+
+INSTANTIATE_TEST_SUITE_P(Vendors, RecorderProcess,
+                         testing::Values(std::pair{bus::Vendor::cyclonedds, 90u},
+                                         std::pair{bus::Vendor::fastdds, 95u}),
+                         [](const auto& it) { return std::string(bus::to_string(it.param.first)); });
+
+TEST(RecorderCommandLine, NamesATopicThatDoesNotExist) {
+  Process recorder({RECORDER, "--output", testing::TempDir() + "/unused.mcap", "--topics", "path_farme"});
+  EXPECT_EQ(recorder.line(), "trunnion-recorder: error: unknown topic 'path_farme'\n");
+  EXPECT_EQ(recorder.wait(), 1);
+}
+
+}  // namespace
+}  // namespace trunnion::recorder
