@@ -16,6 +16,7 @@
 #include "client.hpp"
 #include "cluster.hpp"
 #include "commands.hpp"
+#include "report/report.hpp"
 
 namespace trunnion::deploy {
 namespace fs = std::filesystem;
@@ -208,11 +209,12 @@ int run(const Common& common, RunOptions options) {
   if (!common.json) std::printf("%s is ready in %.2f s (%s time, domain %u)\n", machine.name.c_str(), cluster.get().start_seconds, options.real_time ? "real" : "virtual", cluster.get().run.domain);
   std::fflush(stdout);
   std::string alarm;
+  std::vector<std::string> names, texts;
   {
     Client client(cluster.get().run.domain);
-    std::vector<std::string> names;
     for (std::uint16_t c = 0; c < options.programs.size(); ++c) {
       names.push_back(place_program(client, machine, options.programs[c]));
+      texts.push_back(client.download(names.back()));
       client.channel(c, CommandKind::SET_MODE, "", 0, Mode::AUTO);
       client.channel(c, CommandKind::SELECT_PROGRAM, names.back());
     }
@@ -222,6 +224,21 @@ int run(const Common& common, RunOptions options) {
     recorder.stop();
   }
   cluster.stop();
+  bus::Json all = bus::Json::array();
+  for (std::uint16_t c = 0; c < names.size(); ++c) {
+    report::ReportInputs inputs;
+    inputs.program_name = names[c];
+    inputs.program_text = texts[c];
+    inputs.channel = c;
+    const auto result = report::make_report(recording, inputs);
+    const auto directory = names.size() == 1 ? out : out / ("channel" + std::to_string(c));
+    report::write_report(result, directory.string());
+    if (common.json)
+      all.push_back(bus::Json::parse(report::json_text(result)));
+    else
+      std::printf("\n%s\nReport: %s\n", report::terminal_text(result).c_str(), directory.string().c_str());
+  }
+  if (common.json) std::cout << (all.size() == 1 ? all[0] : all).dump(2) << "\n";
   if (!alarm.empty()) throw std::runtime_error(alarm);
   return 0;
 }
