@@ -29,7 +29,7 @@ void add_completion_command(CLI::App& app, Common& common) {
       collect(app, "", cases);
       std::cout << "_trunnion() {\n  local path='' word words='' i\n  for ((i = 1; i < COMP_CWORD; i++)); do\n    word=${COMP_WORDS[i]}\n"
                    "    [[ $word == -* ]] || case \"$path $word\" in\n"
-                   "      ' up'|' down'|' status'|' run'|' mdi'|' alarms'|' estop'|' param'|' topic'|' record'|' completion'|'param '*|'topic '*) path=\"${path:+$path }$word\" ;;\n"
+                   "      ' up'|' down'|' status'|' run'|' bench'|' mdi'|' alarms'|' estop'|' param'|' topic'|' record'|' completion'|'param '*|'topic '*) path=\"${path:+$path }$word\" ;;\n"
                    "    esac\n  done\n  case \"$path\" in\n"
                 << cases << "  esac\n  COMPREPLY=($(compgen -W \"$words\" -- \"${COMP_WORDS[COMP_CWORD]}\"))\n"
                 << "  [[ ${#COMPREPLY[@]} -gt 0 ]] || COMPREPLY=($(compgen -f -- \"${COMP_WORDS[COMP_CWORD]}\"))\n}\ncomplete -F _trunnion trunnion\n";
