@@ -40,7 +40,8 @@ class Recorder {
   Recorder(const std::string& file, std::uint32_t domain) {
     int out[2];
     if (pipe(out) != 0) throw std::runtime_error("no pipe");
-    std::vector<std::string> args{binary_directory() + "/trunnion-recorder", "--output", file, "--domain", std::to_string(domain)};
+    std::vector<std::string> args{binary_directory() + "/trunnion-recorder", "--output", file, "--domain",
+                                  std::to_string(domain)};
     std::vector<char*> argv;
     for (auto& arg : args) argv.push_back(arg.data());
     argv.push_back(nullptr);
@@ -110,21 +111,25 @@ std::string read_file(const std::string& path) {
 std::string place_program(Client& client, const machine::MachineConfig& machine, const std::string& program) {
   const auto list = client.newest(topics::program_list);
   const auto stored = [&](const std::string& name) {
-    return std::any_of(list.programs.begin(), list.programs.end(), [&](const auto& p) { return p.name == name; });
+    return std::any_of(list.programs.begin(), list.programs.end(),
+                       [&](const auto& p) { return p.name == name; });
   };
   if (fs::is_regular_file(program)) {
     const auto name = fs::path(program).filename().string();
     client.upload(name, read_file(program));
     for (int i = 0; i < 500; ++i) {  // until the store has published it
       const auto now = client.newest(topics::program_list);
-      if (std::any_of(now.programs.begin(), now.programs.end(), [&](const auto& p) { return p.name == name; })) break;
+      if (std::any_of(now.programs.begin(), now.programs.end(),
+                      [&](const auto& p) { return p.name == name; }))
+        break;
       std::this_thread::sleep_for(std::chrono::milliseconds(5));
     }
     return name;
   }
   for (const auto& name : {program, program + ".nc"})
     if (stored(name)) return name;
-  throw std::runtime_error("program '" + program + "': no such file, and machine " + machine.name + " has none of this name");
+  throw std::runtime_error("program '" + program + "': no such file, and machine " + machine.name +
+                           " has none of this name");
 }
 
 void draw_progress(const std::vector<idl::channel::ChannelState>& states, double seconds) {
@@ -136,9 +141,10 @@ void draw_progress(const std::vector<idl::channel::ChannelState>& states, double
   }
   constexpr int width = 40;
   const int filled = static_cast<int>(progress * width);
-  std::fprintf(stderr, "\r[%s%s] %3.0f %%  line %u  cycle %llu  %.1f s ", std::string(static_cast<std::size_t>(filled), '#').c_str(),
-               std::string(static_cast<std::size_t>(width - filled), '.').c_str(), progress * 100, states.empty() ? 0 : states[0].line,
-               static_cast<unsigned long long>(cycle), seconds);
+  std::fprintf(stderr, "\r[%s%s] %3.0f %%  line %u  cycle %llu  %.1f s ",
+               std::string(static_cast<std::size_t>(filled), '#').c_str(),
+               std::string(static_cast<std::size_t>(width - filled), '.').c_str(), progress * 100,
+               states.empty() ? 0 : states[0].line, static_cast<unsigned long long>(cycle), seconds);
   std::fflush(stderr);
 }
 
@@ -160,18 +166,22 @@ std::string execute(Client& client, std::size_t channels, double timeout, bool b
       const auto c = state.channel;
       if (state.state != RunState::IDLE) ran[c] = true;
       // A short program may be over between two states: then its cycles tell that it ran.
-      done[c] = state.state == RunState::IDLE && (ran[c] || state.cycle > newest[c].cycle || node::monotonic_seconds() - began > 1);
+      done[c] = state.state == RunState::IDLE &&
+                (ran[c] || state.cycle > newest[c].cycle || node::monotonic_seconds() - began > 1);
       newest[c] = state;
     }
     idl::service::Alarm a;
     while (alarms.take(a))
-      if (a.active && alarm.empty() && a.severity >= idl::service::Severity::ERROR) alarm = "alarm " + std::to_string(a.number) + " (" + a.source + "): " + a.text;
+      if (a.active && alarm.empty() && a.severity >= idl::service::Severity::ERROR)
+        alarm = "alarm " + std::to_string(a.number) + " (" + a.source + "): " + a.text;
     const double now = node::monotonic_seconds();
     if (bar && now - drawn > 0.1) {
       draw_progress(newest, now - began);
       drawn = now;
     }
-    const bool stuck = std::any_of(newest.begin(), newest.end(), [](const auto& s) { return s.state == RunState::INTERRUPTED || s.state == RunState::HELD; });
+    const bool stuck = std::any_of(newest.begin(), newest.end(), [](const auto& s) {
+      return s.state == RunState::INTERRUPTED || s.state == RunState::HELD;
+    });
     if (stuck && !alarm.empty()) break;
     if (now - began > timeout) {
       alarm = "the program did not end within " + std::to_string(static_cast<int>(timeout)) + " s";
@@ -191,7 +201,9 @@ int run(const Common& common, RunOptions options) {
   const auto directory = find_machine(options.machine);
   const auto machine = machine::load_machine(directory, options.vendor);
   if (options.programs.size() > machine.channels)
-    throw std::runtime_error("machine " + machine.name + " has " + std::to_string(machine.channels) + " channel(s), " + std::to_string(options.programs.size()) + " programs were given");
+    throw std::runtime_error("machine " + machine.name + " has " + std::to_string(machine.channels) +
+                             " channel(s), " + std::to_string(options.programs.size()) +
+                             " programs were given");
   const fs::path out = options.report.empty() ? fs::path("out") : fs::path(options.report);
   fs::create_directories(out);
   const std::string recording = options.record.empty() ? (out / "recording.mcap").string() : options.record;
@@ -206,7 +218,10 @@ int run(const Common& common, RunOptions options) {
   up.virtual_time = !options.real_time;
   up.with_gateway = false;
   ClusterGuard cluster(start_cluster(up));
-  if (!common.json) std::printf("%s is ready in %.2f s (%s time, domain %u)\n", machine.name.c_str(), cluster.get().start_seconds, options.real_time ? "real" : "virtual", cluster.get().run.domain);
+  if (!common.json)
+    std::printf("%s is ready in %.2f s (%s time, domain %u)\n", machine.name.c_str(),
+                cluster.get().start_seconds, options.real_time ? "real" : "virtual",
+                cluster.get().run.domain);
   std::fflush(stdout);
   std::string alarm;
   std::vector<std::string> names, texts;
@@ -220,7 +235,8 @@ int run(const Common& common, RunOptions options) {
     }
     Recorder recorder(recording, cluster.get().run.domain);
     alarm = execute(client, options.programs.size(), options.timeout, bar);
-    std::this_thread::sleep_for(std::chrono::milliseconds(100));  // what the stages wrote last is still on its way
+    std::this_thread::sleep_for(
+        std::chrono::milliseconds(100));  // what the stages wrote last is still on its way
     recorder.stop();
   }
   cluster.stop();
@@ -247,13 +263,24 @@ int run(const Common& common, RunOptions options) {
 
 void add_run_command(CLI::App& app, Common& common) {
   auto options = std::make_shared<RunOptions>();
-  auto* command = add_command(app, common, "run", "Start a cluster of its own, run a program on it, write a report, stop it", [&common, options] { return run(common, *options); });
-  command->add_option("machine", options->machine, "Name under configs/machines, or a directory with machine.yaml")->required();
-  command->add_option("programs", options->programs, "Program file, or name of a stored program; one for each channel")->required();
-  command->add_option("--record", options->record, "Recording to write (default: recording.mcap in the report's directory)");
+  auto* command = add_command(app, common, "run",
+                              "Start a cluster of its own, run a program on it, write a report, stop it",
+                              [&common, options] { return run(common, *options); });
+  command
+      ->add_option("machine", options->machine,
+                   "Name under configs/machines, or a directory with machine.yaml")
+      ->required();
+  command
+      ->add_option("programs", options->programs,
+                   "Program file, or name of a stored program; one for each channel")
+      ->required();
+  command->add_option("--record", options->record,
+                      "Recording to write (default: recording.mcap in the report's directory)");
   command->add_option("--report", options->report, "Directory of the report (default: out)");
-  command->add_flag("--real-time", options->real_time, "One cycle in one cycle time instead of as fast as possible");
-  command->add_option("--vendor", options->vendor, "DDS vendor of every service, instead of machine.yaml's")->check(CLI::IsMember({"fastdds", "cyclonedds", "mixed"}));
+  command->add_flag("--real-time", options->real_time,
+                    "One cycle in one cycle time instead of as fast as possible");
+  command->add_option("--vendor", options->vendor, "DDS vendor of every service, instead of machine.yaml's")
+      ->check(CLI::IsMember({"fastdds", "cyclonedds", "mixed"}));
   command->add_option("--timeout", options->timeout, "Seconds of wall time after which the run has failed");
 }
 
