@@ -11,6 +11,14 @@ if(TRUNNION_SANITIZE)
   add_link_options(-fsanitize=address,undefined)
 endif()
 option(TRUNNION_FUZZ "Build the libFuzzer targets (needs clang)" OFF)
+if(TRUNNION_FUZZ)
+  # Without coverage of the libraries themselves a fuzzer searches blindly.
+  add_compile_options(-fsanitize=fuzzer-no-link)
+endif()
+
+# What the presets sanitize and fuzz build: neither needs the executables, the benchmarks or the page.
+add_custom_target(unit_tests)
+add_custom_target(fuzzers)
 
 # trunnion_library(name SOURCES a.cpp ... [LINK libs...])
 function(trunnion_library name)
@@ -29,6 +37,9 @@ function(trunnion_test name)
   target_link_libraries(${name} PRIVATE trunnion_options ${ARG_LINK} GTest::gmock GTest::gtest_main)
   add_test(NAME ${name} COMMAND ${name})
   set_tests_properties(${name} PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT 120)
+  if("unit" IN_LIST ARG_LABELS)
+    add_dependencies(unit_tests ${name})
+  endif()
 endfunction()
 
 # trunnion_benchmark(name SOURCES a_bench.cpp ... [LINK libs...]): a Google Benchmark program beside the code.
@@ -38,17 +49,20 @@ function(trunnion_benchmark name)
   target_link_libraries(${name} PRIVATE trunnion_options ${ARG_LINK} benchmark::benchmark_main)
 endfunction()
 
-# trunnion_fuzzer(name SOURCES a_fuzz.cpp CORPUS dir [LINK libs...]): a libFuzzer target; only with TRUNNION_FUZZ.
+# trunnion_fuzzer(name SOURCES a_fuzz.cpp CORPUS dir [LINK libs...]): a libFuzzer target; only with TRUNNION_FUZZ. The
+# test is bounded by time as well as by runs; a longer search is the program's own: fuzz/bin/<name> corpus-directory.
 function(trunnion_fuzzer name)
   cmake_parse_arguments(ARG "" "CORPUS" "SOURCES;LINK" ${ARGN})
   if(TRUNNION_FUZZ)
+    set(found ${CMAKE_BINARY_DIR}/corpus-${name})
+    file(MAKE_DIRECTORY ${found})
     add_executable(${name} ${ARG_SOURCES})
-    target_compile_options(${name} PRIVATE -fsanitize=fuzzer)
     target_link_options(${name} PRIVATE -fsanitize=fuzzer)
     target_link_libraries(${name} PRIVATE trunnion_options ${ARG_LINK})
-    add_test(NAME ${name} COMMAND ${name} -runs=20000 -seed=1 -print_final_stats=0 ${CMAKE_BINARY_DIR}/corpus-${name} ${ARG_CORPUS})
-    file(MAKE_DIRECTORY ${CMAKE_BINARY_DIR}/corpus-${name})
-    set_tests_properties(${name} PROPERTIES LABELS fuzz TIMEOUT 300)
+    add_dependencies(fuzzers ${name})
+    add_test(NAME ${name} WORKING_DIRECTORY ${CMAKE_BINARY_DIR}
+      COMMAND ${name} -runs=20000 -max_total_time=15 -seed=1 -timeout=10 -verbosity=0 ${found} ${ARG_CORPUS})
+    set_tests_properties(${name} PROPERTIES LABELS fuzz TIMEOUT 120)
   endif()
 endfunction()
 

@@ -49,7 +49,8 @@ int main(int argc, char** argv) {
     options.machine = machine::load_machine(machine, vendor);
     options.machine.domain = domain;
     options.run.domain = domain;
-    if (options.port == 0) std::erase_if(options.machine.services, [](const auto& s) { return s.service == "gateway"; });
+    if (options.port == 0)
+      std::erase_if(options.machine.services, [](const auto& s) { return s.service == "gateway"; });
     return deploy::Launcher(std::move(options)).run(report);
   } catch (const std::exception& e) {
     report(e.what());

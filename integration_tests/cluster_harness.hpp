@@ -22,7 +22,8 @@ enum class Time { real, virtual_ };
 
 class Cluster {
  public:
-  explicit Cluster(const std::string& machine, Time time = Time::virtual_, const std::string& vendor = "", bool gateway = false) {
+  explicit Cluster(const std::string& machine, Time time = Time::virtual_, const std::string& vendor = "",
+                   bool gateway = false) {
     deploy::UpOptions up;
     up.machine = machine;
     up.vendor = vendor;
@@ -47,7 +48,8 @@ class Cluster {
       ADD_FAILURE() << e.what();
     }
     EXPECT_FALSE(std::filesystem::exists(cluster_.run.path())) << "files of the cluster are left";
-    for (const auto& service : list_.services) EXPECT_NE(kill(service.pid, 0), 0) << service.service << " is left";
+    for (const auto& service : list_.services)
+      EXPECT_NE(kill(service.pid, 0), 0) << service.service << " is left";
   }
 
   deploy::Client& client() { return *client_; }
@@ -72,7 +74,8 @@ class Cluster {
       }
       feedback = frame;
       for (std::uint32_t i = 0; i < frame.count && keep_rows; ++i)
-        rows.emplace_back(frame.commanded.begin() + i * frame.axis_count, frame.commanded.begin() + (i + 1) * frame.axis_count);
+        rows.emplace_back(frame.commanded.begin() + i * frame.axis_count,
+                          frame.commanded.begin() + (i + 1) * frame.axis_count);
     }
     while (clusters_->take(list_)) have_cluster_ = true;
   }
@@ -125,7 +128,9 @@ class Cluster {
     until([&] { return state_count[channel] > before && state(channel) != RunState::IDLE; }, 1);
   }
   bool finish(std::uint16_t channel = 0, double seconds = 60) {
-    return until([&] { return state(channel) == RunState::IDLE || state(channel) == RunState::INTERRUPTED; }, seconds) && state(channel) == RunState::IDLE;
+    return until([&] { return state(channel) == RunState::IDLE || state(channel) == RunState::INTERRUPTED; },
+                 seconds) &&
+           state(channel) == RunState::IDLE;
   }
   void reset_alarms() { resets_->write({1, ++resets_sent_, 65535}); }
 

@@ -1,5 +1,5 @@
-// kill -9 of every service in the middle of a motion: what the machine does and that nothing is lost. In virtual time,
-// so that a busy machine changes nothing.
+// kill -9 of every service in the middle of a motion: what the machine does and that nothing is lost. In
+// virtual time, so that a busy machine changes nothing.
 #include "cluster_harness.hpp"
 
 namespace trunnion::integration {
@@ -24,18 +24,28 @@ TEST_P(KillInMotion, StopsNamesTheServiceBecomesReadyAndTheProgramGoesOn) {
   ASSERT_EQ(kill(pids[victim], SIGKILL), 0);
 
   ASSERT_TRUE(cluster.until([&] { return cluster.has_alarm(100, victim); })) << "an alarm names the service";
-  ASSERT_TRUE(cluster.until([&] { return cluster.ready() && cluster.service(victim)->pid != pids[victim]; })) << "ready again";
-  ASSERT_TRUE(cluster.until([&] { return cluster.state() == RunState::INTERRUPTED || cluster.state() == RunState::HELD; }))
-      << "stopped; state " << bus::to_string(cluster.state());
+  ASSERT_TRUE(cluster.until([&] { return cluster.ready() && cluster.service(victim)->pid != pids[victim]; }))
+      << "ready again";
+  ASSERT_TRUE(cluster.until([&] {
+    return cluster.state() == RunState::INTERRUPTED || cluster.state() == RunState::HELD;
+  })) << "stopped; state "
+      << bus::to_string(cluster.state());
   for (const auto& s : cluster.list().services)
     if (s.service != victim) {
       EXPECT_EQ(s.pid, pids[s.service]) << s.service << " was not restarted";
     }
   const auto stopped_at = cluster.channels[0].machine;
   cluster.until([] { return false; }, 0.3);
-  for (std::size_t i = 0; i < stopped_at.size(); ++i) EXPECT_NEAR(cluster.channels[0].machine[i], stopped_at[i], 0.05) << "stands still";
+  for (std::size_t i = 0; i < stopped_at.size(); ++i)
+    EXPECT_NEAR(cluster.channels[0].machine[i], stopped_at[i], 0.05) << "stands still";
 
-  ASSERT_TRUE(cluster.until([&] { cluster.reset_alarms(); return !cluster.has_alarm(100) && !cluster.has_alarm(110); }, 10)) << cluster.active_alarms();
+  ASSERT_TRUE(cluster.until(
+      [&] {
+        cluster.reset_alarms();
+        return !cluster.has_alarm(100) && !cluster.has_alarm(110);
+      },
+      10))
+      << cluster.active_alarms();
   std::string refusal;
   ASSERT_TRUE(cluster.until([&] {
     try {
@@ -46,7 +56,8 @@ TEST_P(KillInMotion, StopsNamesTheServiceBecomesReadyAndTheProgramGoesOn) {
       cluster.reset_alarms();
       return false;
     }
-  })) << refusal << " " << cluster.active_alarms();
+  })) << refusal
+      << " " << cluster.active_alarms();
   ASSERT_TRUE(cluster.until([&] { return cluster.state() == RunState::RUNNING; })) << cluster.active_alarms();
   ASSERT_TRUE(cluster.finish()) << cluster.active_alarms();
   // Tip at X0 Y0 Z80 of G54 (Z -380) with A0 C0: the spindle face is the tool's 100 mm above it.
@@ -58,7 +69,8 @@ TEST_P(KillInMotion, StopsNamesTheServiceBecomesReadyAndTheProgramGoesOn) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Services, KillInMotion,
-                         testing::Values("kinematics", "compensation", "gantry", "drive", "channel", "plc", "program", "parameters"),
+                         testing::Values("kinematics", "compensation", "gantry", "drive", "channel", "plc",
+                                         "program", "parameters"),
                          [](const auto& service) { return std::string(service.param); });
 
 TEST(Faults, AHungServiceIsReplaced) {
@@ -75,13 +87,17 @@ TEST(Faults, EmergencyStopStopsSwitchesOffAndNeedsAReset) {
   cluster.start_text(long_program());
   ASSERT_TRUE(cluster.until([&] { return cluster.channels[0].line >= 8; }));
   cluster.client().panel(1);
-  ASSERT_TRUE(cluster.until([&] { return cluster.feedback.mode == 4 && cluster.has_alarm(130); })) << cluster.active_alarms();
+  ASSERT_TRUE(cluster.until([&] { return cluster.feedback.mode == 4 && cluster.has_alarm(130); }))
+      << cluster.active_alarms();
   ASSERT_TRUE(cluster.until([&] { return cluster.state() == RunState::INTERRUPTED; }));
   EXPECT_THROW(cluster.client().channel(0, CommandKind::CYCLE_START), std::runtime_error);
   cluster.client().panel(2);
   cluster.client().panel(3);
   cluster.client().channel(0, CommandKind::RESET);
-  ASSERT_TRUE(cluster.until([&] { cluster.reset_alarms(); return cluster.feedback.mode == 0 && !cluster.has_alarm(130); })) << cluster.active_alarms();
+  ASSERT_TRUE(cluster.until([&] {
+    cluster.reset_alarms();
+    return cluster.feedback.mode == 0 && !cluster.has_alarm(130);
+  })) << cluster.active_alarms();
   EXPECT_EQ(cluster.state(), RunState::IDLE);
   cluster.start_text("G90 G0 X5\nM30\n");
   ASSERT_TRUE(cluster.finish()) << cluster.active_alarms();

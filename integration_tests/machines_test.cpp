@@ -11,7 +11,8 @@ TEST(Machines, TheGantryMachineRunsItsProgramAndTheSlaveFollows) {
   ASSERT_TRUE(cluster.finish()) << cluster.active_alarms();
   EXPECT_EQ(cluster.active_alarms(), "");
   ASSERT_GT(cluster.rows.size(), 1000u);
-  // The correction of the slave is at most a few hundredths: thresholds 102106 and 102107 are 0.05 and 0.2 mm.
+  // The correction of the slave is at most a few hundredths: thresholds 102106 and 102107 are 0.05 and 0.2
+  // mm.
   double most = 0;
   for (const auto& row : cluster.rows) most = std::max(most, std::abs(row[2] - row[1]));
   EXPECT_LT(most, 0.2);
@@ -27,9 +28,16 @@ TEST(Machines, TwoChannelsRunTwoProgramsAtOnce) {
   cluster.client().channel(1, CommandKind::SELECT_PROGRAM, "right.nc");
   cluster.client().channel(0, CommandKind::CYCLE_START);
   cluster.client().channel(1, CommandKind::CYCLE_START);
-  const auto ended = [&](std::uint16_t c) { return cluster.channels[c].state == RunState::IDLE && cluster.channels[c].cycle > 0; };
-  cluster.until([&] { return cluster.channels[0].state != RunState::IDLE || cluster.channels[1].state != RunState::IDLE; }, 1);
-  ASSERT_TRUE(cluster.until([&] { return ended(0) && ended(1) && cluster.rows.size() > 2000; }, 60)) << cluster.active_alarms();
+  const auto ended = [&](std::uint16_t c) {
+    return cluster.channels[c].state == RunState::IDLE && cluster.channels[c].cycle > 0;
+  };
+  cluster.until(
+      [&] {
+        return cluster.channels[0].state != RunState::IDLE || cluster.channels[1].state != RunState::IDLE;
+      },
+      1);
+  ASSERT_TRUE(cluster.until([&] { return ended(0) && ended(1) && cluster.rows.size() > 2000; }, 60))
+      << cluster.active_alarms();
   EXPECT_EQ(cluster.active_alarms(), "");
   // G54 of the channels: X10 Y20 and X-10 Y-20; left ends at X50 Y50, right at X60 Y0.
   EXPECT_NEAR(cluster.rows.back()[0], 60, 1e-9);
@@ -49,13 +57,16 @@ TEST(Machines, ParametersTakeEffectAtResetAndWrongOnesAreRefusedWithTheirLimits)
   EXPECT_EQ(reply.pending, 1u) << "activation: reset";
   cluster.client().channel(0, CommandKind::SET_MODE, "", 0, Mode::MDI);
   cluster.client().channel(0, CommandKind::MDI_LINE, "G90 G0 X-380");
-  ASSERT_TRUE(cluster.until([&] { return std::abs(cluster.channels[0].machine[0] + 380) < 0.01; })) << cluster.active_alarms();
+  ASSERT_TRUE(cluster.until([&] { return std::abs(cluster.channels[0].machine[0] + 380) < 0.01; }))
+      << cluster.active_alarms();
   ASSERT_TRUE(cluster.until([&] { return cluster.state() == RunState::IDLE; }));
   cluster.client().channel(0, CommandKind::MDI_LINE, "G90 G0 X0");
-  ASSERT_TRUE(cluster.until([&] { return std::abs(cluster.channels[0].machine[0]) < 0.01 && cluster.state() == RunState::IDLE; }));
+  ASSERT_TRUE(cluster.until(
+      [&] { return std::abs(cluster.channels[0].machine[0]) < 0.01 && cluster.state() == RunState::IDLE; }));
   const auto revision = cluster.channels[0].revision;
   cluster.client().channel(0, CommandKind::RESET);
-  ASSERT_TRUE(cluster.until([&] { return cluster.channels[0].revision > revision; })) << "the reset activates it";
+  ASSERT_TRUE(cluster.until([&] { return cluster.channels[0].revision > revision; }))
+      << "the reset activates it";
   try {
     cluster.client().channel(0, CommandKind::MDI_LINE, "G90 G0 X-380");
     cluster.until([&] { return cluster.has_alarm(140); }, 2);
@@ -68,14 +79,17 @@ TEST(Machines, ParametersTakeEffectAtResetAndWrongOnesAreRefusedWithTheirLimits)
     cluster.client().parameter(request);
     FAIL();
   } catch (const std::exception& e) {
-    EXPECT_EQ(std::string(e.what()), "parameter 100007 (negative_limit): -2e+06 is outside -1e+06 .. 1e+06 mm|deg");
+    EXPECT_EQ(std::string(e.what()),
+              "parameter 100007 (negative_limit): -2e+06 is outside -1e+06 .. 1e+06 mm|deg");
   }
 }
 
 std::string broken_machine(const std::function<void(const std::filesystem::path&)>& spoil) {
-  const auto directory = std::filesystem::temp_directory_path() / ("trunnion-broken-" + std::to_string(getpid()));
+  const auto directory =
+      std::filesystem::temp_directory_path() / ("trunnion-broken-" + std::to_string(getpid()));
   std::filesystem::remove_all(directory);
-  std::filesystem::copy(deploy::find_machine("ac-table"), directory, std::filesystem::copy_options::recursive);
+  std::filesystem::copy(deploy::find_machine("ac-table"), directory,
+                        std::filesystem::copy_options::recursive);
   spoil(directory);
   deploy::UpOptions up;
   up.machine = directory;
@@ -95,21 +109,29 @@ std::string broken_machine(const std::function<void(const std::filesystem::path&
 }
 
 TEST(BadInput, AWrongParameterFileIsOneLineWithItsPlace) {
-  EXPECT_EQ(broken_machine([](const auto& d) { std::ofstream(d / "parameters.yaml", std::ios::app) << "\"100036\": -5\n"; }).substr(0, 16), "parameters.yaml:");
+  EXPECT_EQ(broken_machine([](const auto& d) {
+              std::ofstream(d / "parameters.yaml", std::ios::app) << "\"100036\": -5\n";
+            }).substr(0, 16),
+            "parameters.yaml:");
 }
 
 TEST(BadInput, AWrongMachineFileIsOneLineWithItsPlace) {
-  EXPECT_EQ(broken_machine([](const auto& d) { std::ofstream(d / "machine.yaml", std::ios::app) << "oops: 1\n"; }), "machine.yaml:18:1: error: unknown key 'oops'");
+  EXPECT_EQ(
+      broken_machine([](const auto& d) { std::ofstream(d / "machine.yaml", std::ios::app) << "oops: 1\n"; }),
+      "machine.yaml:18:1: error: unknown key 'oops'");
 }
 
-TEST(BadInput, AnUnknownMachineIsNamed) { EXPECT_THROW(deploy::find_machine("no-such-machine"), std::runtime_error); }
+TEST(BadInput, AnUnknownMachineIsNamed) {
+  EXPECT_THROW(deploy::find_machine("no-such-machine"), std::runtime_error);
+}
 
 TEST(BadInput, AServiceOfAnotherContractIsReported) {
   Cluster cluster("ac-table");
   bus::Bus stranger(bus::Vendor::fastdds, {cluster.running().run.domain});
   auto writer = stranger.writer(topics::announcement);
   writer.write({77, "kinematics", "fastdds", "host", 1, "0123456789abcdef", "0.0.9"});
-  EXPECT_TRUE(cluster.until([&] { return cluster.has_alarm(101, "0123456789abcdef"); })) << cluster.active_alarms();
+  EXPECT_TRUE(cluster.until([&] { return cluster.has_alarm(101, "0123456789abcdef"); }))
+      << cluster.active_alarms();
 }
 
 }  // namespace

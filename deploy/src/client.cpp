@@ -29,12 +29,16 @@ Client::Client(std::uint32_t domain)
       parameter_(bus_, topics::parameter_request, topics::parameter_reply),
       panel_(bus_, topics::panel_request, topics::panel_reply) {}
 
-void Client::channel(std::uint16_t channel, idl::channel::CommandKind command, const std::string& text, double value, idl::channel::Mode mode) {
+void Client::channel(std::uint16_t channel, idl::channel::CommandKind command, const std::string& text,
+                     double value, idl::channel::Mode mode) {
   ChannelRequest request;
-  request.channel = channel, request.command = command, request.text = text, request.value = value, request.mode = mode;
+  request.channel = channel, request.command = command, request.text = text, request.value = value,
+  request.mode = mode;
   const auto reply = channel_.call(request, patience);
   if (!reply) throw std::runtime_error("channel " + std::to_string(channel) + " does not answer");
-  if (!reply->accepted) throw std::runtime_error(reply->reason + (reply->alarm != 0 ? " (alarm " + std::to_string(reply->alarm) + ")" : ""));
+  if (!reply->accepted)
+    throw std::runtime_error(reply->reason +
+                             (reply->alarm != 0 ? " (alarm " + std::to_string(reply->alarm) + ")" : ""));
 }
 
 idl::program::ProgramReply Client::program(idl::program::ProgramRequest request) {

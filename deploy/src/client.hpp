@@ -17,8 +17,8 @@ class Client {
 
   bus::Bus& bus() { return bus_; }
   /// Throws std::runtime_error with the reason when it is refused or nobody answers.
-  void channel(std::uint16_t channel, idl::channel::CommandKind command, const std::string& text = "", double value = 0,
-               idl::channel::Mode mode = idl::channel::Mode::AUTO);
+  void channel(std::uint16_t channel, idl::channel::CommandKind command, const std::string& text = "",
+               double value = 0, idl::channel::Mode mode = idl::channel::Mode::AUTO);
   idl::program::ProgramReply program(idl::program::ProgramRequest request);
   idl::parameters::ParameterReply parameter(idl::parameters::ParameterRequest request);
   idl::plc::PanelReply panel(std::uint8_t kind);

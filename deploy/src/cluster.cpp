@@ -20,8 +20,15 @@ namespace fs = std::filesystem;
 namespace {
 
 std::vector<std::string> launcher_arguments(const UpOptions& up, const RunningCluster& cluster) {
-  std::vector<std::string> args{binary_directory() + "/trunnion-launcher", "--machine", cluster.machine_directory, "--state", cluster.state_directory,
-                                "--domain", std::to_string(cluster.run.domain), "--port", std::to_string(cluster.port)};
+  std::vector<std::string> args{binary_directory() + "/trunnion-launcher",
+                                "--machine",
+                                cluster.machine_directory,
+                                "--state",
+                                cluster.state_directory,
+                                "--domain",
+                                std::to_string(cluster.run.domain),
+                                "--port",
+                                std::to_string(cluster.port)};
   if (!up.vendor.empty()) args.insert(args.end(), {"--vendor", up.vendor});
   if (cluster.virtual_time) args.emplace_back("--virtual-time");
   return args;
@@ -45,7 +52,8 @@ RunningCluster start_cluster(const UpOptions& up) {
   RunningCluster cluster;
   cluster.run.domain = up.own_domain ? free_domain() : up.domain.value_or(config.domain);
   if (const auto pid = cluster.run.launcher())
-    throw std::runtime_error("a cluster is already running in domain " + std::to_string(cluster.run.domain) + " (launcher " + std::to_string(*pid) +
+    throw std::runtime_error("a cluster is already running in domain " + std::to_string(cluster.run.domain) +
+                             " (launcher " + std::to_string(*pid) +
                              "): stop it with 'trunnion down' or choose another --domain");
   cluster.machine = config.name;
   cluster.machine_directory = config.directory;
@@ -55,12 +63,17 @@ RunningCluster start_cluster(const UpOptions& up) {
                             : up.state_directory == "temporary" ? cluster.run.path() + "/state"
                                                                 : fs::absolute(up.state_directory).string();
   fs::create_directories(cluster.run.path());
-  std::ofstream(cluster.run.info_file()) << nlohmann::json{{"machine", cluster.machine}, {"machine_directory", cluster.machine_directory}, {"state_directory", cluster.state_directory},
-                                                           {"virtual_time", cluster.virtual_time}, {"port", cluster.port}, {"domain", cluster.run.domain}}
+  std::ofstream(cluster.run.info_file()) << nlohmann::json{{"machine", cluster.machine},
+                                                           {"machine_directory", cluster.machine_directory},
+                                                           {"state_directory", cluster.state_directory},
+                                                           {"virtual_time", cluster.virtual_time},
+                                                           {"port", cluster.port},
+                                                           {"domain", cluster.run.domain}}
                                          << "\n";
   auto args = launcher_arguments(up, cluster);
   if (up.foreground) become(std::move(args));
-  // The launcher is a program of its own, not a copy of this process: threads and DDS participants do not survive a fork.
+  // The launcher is a program of its own, not a copy of this process: threads and DDS participants do not
+  // survive a fork.
   int pipes[2];
   if (pipe(pipes) != 0) throw std::runtime_error("no pipe");
   args.insert(args.end(), {"--report", std::to_string(pipes[1])});
@@ -80,13 +93,16 @@ RunningCluster start_cluster(const UpOptions& up) {
   waitpid(pid, nullptr, 0);
   std::string answer;
   char buffer[512];
-  for (ssize_t n; (n = read(pipes[0], buffer, sizeof buffer)) > 0;) answer.append(buffer, static_cast<std::size_t>(n));
+  for (ssize_t n; (n = read(pipes[0], buffer, sizeof buffer)) > 0;)
+    answer.append(buffer, static_cast<std::size_t>(n));
   close(pipes[0]);
   while (!answer.empty() && answer.back() == '\n') answer.pop_back();
   if (answer != "ready") {
-    for (int i = 0; i < 300 && cluster.run.launcher(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    for (int i = 0; i < 300 && cluster.run.launcher(); ++i)
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
     cluster.run.remove();
-    throw std::runtime_error(answer.rfind("error ", 0) == 0 ? answer.substr(6) : "the launcher ended without a word");
+    throw std::runtime_error(answer.rfind("error ", 0) == 0 ? answer.substr(6)
+                                                            : "the launcher ended without a word");
   }
   cluster.start_seconds = node::monotonic_seconds() - began;
   return cluster;
@@ -96,7 +112,8 @@ void stop_cluster(const RunDirectory& run) {
   const auto pid = run.launcher();
   if (!pid) throw std::runtime_error("no cluster is running in domain " + std::to_string(run.domain));
   kill(*pid, SIGTERM);
-  for (int i = 0; i < 800 && kill(*pid, 0) == 0; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  for (int i = 0; i < 800 && kill(*pid, 0) == 0; ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
   if (kill(*pid, 0) == 0) throw std::runtime_error("launcher " + std::to_string(*pid) + " does not stop");
   run.remove();
 }
@@ -106,7 +123,8 @@ RunningCluster find_cluster(std::optional<std::uint32_t> domain) {
   if (!domain) throw std::runtime_error("no cluster is running: start one with 'trunnion up MACHINE'");
   RunningCluster cluster;
   cluster.run.domain = *domain;
-  if (!cluster.run.launcher()) throw std::runtime_error("no cluster is running in domain " + std::to_string(*domain));
+  if (!cluster.run.launcher())
+    throw std::runtime_error("no cluster is running in domain " + std::to_string(*domain));
   std::ifstream in(cluster.run.info_file());
   const auto info = nlohmann::json::parse(in, nullptr, false);
   if (info.is_discarded()) throw std::runtime_error(cluster.run.info_file() + ": cannot be read");

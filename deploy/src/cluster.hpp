@@ -11,11 +11,11 @@
 namespace trunnion::deploy {
 
 struct UpOptions {
-  std::string machine;              ///< name or directory
-  std::string vendor;               ///< empty, fastdds, cyclonedds or mixed
-  std::string state_directory;      ///< empty: the default one; "temporary": inside the run directory
+  std::string machine;          ///< name or directory
+  std::string vendor;           ///< empty, fastdds, cyclonedds or mixed
+  std::string state_directory;  ///< empty: the default one; "temporary": inside the run directory
   std::optional<std::uint32_t> domain;
-  bool own_domain = false;          ///< take a free one
+  bool own_domain = false;  ///< take a free one
   std::optional<std::uint16_t> port;
   std::optional<bool> virtual_time;
   bool with_gateway = true;
@@ -31,7 +31,8 @@ struct RunningCluster {
   double start_seconds = 0;
 };
 
-/// Starts every process and waits until all are ready. Throws std::runtime_error with one line; then nothing is left.
+/// Starts every process and waits until all are ready. Throws std::runtime_error with one line; then nothing
+/// is left.
 RunningCluster start_cluster(const UpOptions& options);
 /// Stops every process and removes the cluster's files; false when some process had to be killed.
 void stop_cluster(const RunDirectory& run);

@@ -12,10 +12,12 @@
 namespace trunnion::deploy {
 using bus::Json;
 
-CLI::App* add_command(CLI::App& app, Common& common, const std::string& name, const std::string& about, std::function<int()> action) {
+CLI::App* add_command(CLI::App& app, Common& common, const std::string& name, const std::string& about,
+                      std::function<int()> action) {
   auto* command = app.add_subcommand(name, about);
   command->add_flag("--json", common.json, "Print JSON");
-  command->add_option("--domain", common.domain, "DDS domain of the cluster (default: the one that runs)")->check(CLI::Range(0, 100));
+  command->add_option("--domain", common.domain, "DDS domain of the cluster (default: the one that runs)")
+      ->check(CLI::Range(0, 100));
   command->callback([&common, action] { common.action = action; });
   return command;
 }
@@ -28,12 +30,16 @@ int up(const Common& common, UpOptions options, const std::string& time) {
   const auto cluster = start_cluster(options);
   if (options.foreground) return 0;
   if (common.json) {
-    std::cout << Json{{"machine", cluster.machine}, {"domain", cluster.run.domain}, {"ready_seconds", cluster.start_seconds},
-                      {"state", cluster.state_directory}, {"port", cluster.port}}
+    std::cout << Json{{"machine", cluster.machine},
+                      {"domain", cluster.run.domain},
+                      {"ready_seconds", cluster.start_seconds},
+                      {"state", cluster.state_directory},
+                      {"port", cluster.port}}
                      .dump()
               << "\n";
   } else {
-    std::printf("%s is ready in %.2f s, domain %u, state in %s\n", cluster.machine.c_str(), cluster.start_seconds, cluster.run.domain, cluster.state_directory.c_str());
+    std::printf("%s is ready in %.2f s, domain %u, state in %s\n", cluster.machine.c_str(),
+                cluster.start_seconds, cluster.run.domain, cluster.state_directory.c_str());
     if (cluster.port != 0) std::printf("Operate it at http://localhost:%u\n", cluster.port);
   }
   return 0;
@@ -77,7 +83,9 @@ int status(const Common& common) {
     Json row = bus::to_json(service);
     const auto s = state.find(service.instance);
     const auto a = announced.find(service.instance);
-    row["state"] = s != state.end() && s->second.pid == service.pid ? bus::to_string(s->second.lifecycle) : service.pid == 0 ? "NOT RUNNING" : "NO HEARTBEAT";
+    row["state"] = s != state.end() && s->second.pid == service.pid ? bus::to_string(s->second.lifecycle)
+                   : service.pid == 0                               ? "NOT RUNNING"
+                                                                    : "NO HEARTBEAT";
     row["detail"] = s != state.end() ? s->second.detail : "";
     row["uptime_seconds"] = s != state.end() ? s->second.uptime : 0;
     row["frames_per_second"] = s != state.end() ? s->second.frames_per_second : 0;
@@ -92,17 +100,27 @@ int status(const Common& common) {
   for (const auto& [key, a] : alarm)
     if (a.active) active.push_back(bus::to_json(a));
   if (common.json) {
-    std::cout << Json{{"machine", list.machine}, {"domain", cluster.run.domain}, {"ready", list.ready}, {"virtual_time", list.virtual_time}, {"services", services}, {"alarms", active}}.dump(2) << "\n";
+    std::cout << Json{{"machine", list.machine}, {"domain", cluster.run.domain},
+                      {"ready", list.ready},     {"virtual_time", list.virtual_time},
+                      {"services", services},    {"alarms", active}}
+                     .dump(2)
+              << "\n";
   } else {
-    std::printf("%s, domain %u, %s time, %s\n\n", list.machine.c_str(), cluster.run.domain, list.virtual_time ? "virtual" : "real", list.ready ? "ready" : "NOT READY");
-    std::printf("%-14s %-4s %-11s %8s %-14s %10s %10s %8s  %s\n", "service", "copy", "vendor", "pid", "state", "uptime s", "frames/s", "restarts", "");
+    std::printf("%s, domain %u, %s time, %s\n\n", list.machine.c_str(), cluster.run.domain,
+                list.virtual_time ? "virtual" : "real", list.ready ? "ready" : "NOT READY");
+    std::printf("%-14s %-4s %-11s %8s %-14s %10s %10s %8s  %s\n", "service", "copy", "vendor", "pid", "state",
+                "uptime s", "frames/s", "restarts", "");
     for (const auto& row : services)
-      std::printf("%-14s %-4d %-11s %8d %-14s %10.1f %10.1f %8d  %s\n", row["service"].get<std::string>().c_str(), row["copy"].get<int>(), row["vendor"].get<std::string>().c_str(),
-                  row["pid"].get<int>(), row["state"].get<std::string>().c_str(), row["uptime_seconds"].get<double>(), row["frames_per_second"].get<double>(),
-                  row["restarts"].get<int>(), row["detail"].get<std::string>().c_str());
+      std::printf("%-14s %-4d %-11s %8d %-14s %10.1f %10.1f %8d  %s\n",
+                  row["service"].get<std::string>().c_str(), row["copy"].get<int>(),
+                  row["vendor"].get<std::string>().c_str(), row["pid"].get<int>(),
+                  row["state"].get<std::string>().c_str(), row["uptime_seconds"].get<double>(),
+                  row["frames_per_second"].get<double>(), row["restarts"].get<int>(),
+                  row["detail"].get<std::string>().c_str());
     if (!active.empty()) std::printf("\nalarms\n");
     for (const auto& a : active)
-      std::printf("  %u %s (%s): %s\n", a["number"].get<unsigned>(), a["severity"].get<std::string>().c_str(), a["source"].get<std::string>().c_str(), a["text"].get<std::string>().c_str());
+      std::printf("  %u %s (%s): %s\n", a["number"].get<unsigned>(), a["severity"].get<std::string>().c_str(),
+                  a["source"].get<std::string>().c_str(), a["text"].get<std::string>().c_str());
   }
   return list.ready ? 0 : 1;
 }
@@ -113,18 +131,29 @@ void add_cluster_commands(CLI::App& app, Common& common) {
   auto options = std::make_shared<UpOptions>();
   auto time = std::make_shared<std::string>();
   auto port = std::make_shared<int>(0);
-  auto* command = add_command(app, common, "up", "Start the cluster of a machine and wait until it is ready", [&common, options, time, port] {
-    if (*port != 0) options->port = static_cast<std::uint16_t>(*port);
-    return up(common, *options, *time);
-  });
-  command->add_option("machine", options->machine, "Name under configs/machines, or a directory with machine.yaml")->required();
-  command->add_option("--vendor", options->vendor, "DDS vendor of every service, instead of machine.yaml's")->check(CLI::IsMember({"fastdds", "cyclonedds", "mixed"}));
-  command->add_option("--time", *time, "real or virtual, instead of machine.yaml's")->check(CLI::IsMember({"real", "virtual"}));
+  auto* command = add_command(app, common, "up", "Start the cluster of a machine and wait until it is ready",
+                              [&common, options, time, port] {
+                                if (*port != 0) options->port = static_cast<std::uint16_t>(*port);
+                                return up(common, *options, *time);
+                              });
+  command
+      ->add_option("machine", options->machine,
+                   "Name under configs/machines, or a directory with machine.yaml")
+      ->required();
+  command->add_option("--vendor", options->vendor, "DDS vendor of every service, instead of machine.yaml's")
+      ->check(CLI::IsMember({"fastdds", "cyclonedds", "mixed"}));
+  command->add_option("--time", *time, "real or virtual, instead of machine.yaml's")
+      ->check(CLI::IsMember({"real", "virtual"}));
   command->add_option("--port", *port, "Port of the gateway")->check(CLI::Range(1, 65535));
-  command->add_option("--state", options->state_directory, "Directory for what must survive (default: under ~/.local/state/trunnion)");
+  command->add_option("--state", options->state_directory,
+                      "Directory for what must survive (default: under ~/.local/state/trunnion)");
   command->add_flag("--foreground", options->foreground, "Stay in the foreground until Ctrl-C");
-  add_command(app, common, "down", "Stop a cluster; nothing of it is left but its state", [&common] { return down(common); });
-  add_command(app, common, "status", "Table of the services: vendor, pid, state, uptime, rates; and the alarms. Exit status 0 when ready", [&common] { return status(common); });
+  add_command(app, common, "down", "Stop a cluster; nothing of it is left but its state",
+              [&common] { return down(common); });
+  add_command(
+      app, common, "status",
+      "Table of the services: vendor, pid, state, uptime, rates; and the alarms. Exit status 0 when ready",
+      [&common] { return status(common); });
 }
 
 }  // namespace trunnion::deploy

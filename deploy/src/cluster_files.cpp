@@ -1,7 +1,7 @@
 #include "cluster_files.hpp"
 
-#include <sys/file.h>
 #include <fcntl.h>
+#include <sys/file.h>
 #include <unistd.h>
 
 #include <csignal>
@@ -31,7 +31,8 @@ std::string find_machine(const std::string& name) {
   roots.push_back(fs::current_path() / "configs" / "machines");
   for (const auto& root : roots)
     if (fs::exists(root / name / "machine.yaml")) return fs::canonical(root / name).string();
-  throw std::runtime_error("machine '" + name + "': no such directory, and configs/machines has none of this name");
+  throw std::runtime_error("machine '" + name +
+                           "': no such directory, and configs/machines has none of this name");
 }
 
 std::string web_directory() {
@@ -42,7 +43,9 @@ std::string web_directory() {
 std::string default_state_directory(const std::string& machine) {
   const char* state = std::getenv("XDG_STATE_HOME");
   const char* home = std::getenv("HOME");
-  const fs::path root = state != nullptr && *state != 0 ? fs::path(state) : fs::path(home != nullptr ? home : "/tmp") / ".local" / "state";
+  const fs::path root = state != nullptr && *state != 0
+                            ? fs::path(state)
+                            : fs::path(home != nullptr ? home : "/tmp") / ".local" / "state";
   return (root / "trunnion" / machine).string();
 }
 
@@ -68,7 +71,9 @@ std::uint32_t free_domain() {
   const auto first = static_cast<std::uint32_t>(getpid()) % 40;
   for (std::uint32_t i = 0; i < 40; ++i) {
     const RunDirectory run{60 + (first + i) % 40};
-    if (fs::exists(run.path()) && !run.launcher() && fs::last_write_time(run.path()) < fs::file_time_type::clock::now() - std::chrono::minutes(1)) run.remove();
+    if (fs::exists(run.path()) && !run.launcher() &&
+        fs::last_write_time(run.path()) < fs::file_time_type::clock::now() - std::chrono::minutes(1))
+      run.remove();
     fs::create_directories(base(), ignored);
     if (fs::create_directory(run.path(), ignored)) return run.domain;
   }

@@ -27,6 +27,7 @@ void add_topic_commands(CLI::App& app, Common& common);      // topic, record
 void add_completion_command(CLI::App& app, Common& common);  // completion
 
 /// --json and --domain.
-CLI::App* add_command(CLI::App& app, Common& common, const std::string& name, const std::string& about, std::function<int()> action);
+CLI::App* add_command(CLI::App& app, Common& common, const std::string& name, const std::string& about,
+                      std::function<int()> action);
 
 }  // namespace trunnion::deploy

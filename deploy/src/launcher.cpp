@@ -54,7 +54,8 @@ Launcher::Launcher(LaunchOptions options)
   for (const auto& entry : options_.machine.services) {
     Process process;
     process.entry = entry;
-    process.log = options_.run.log_file(entry.service + "-" + std::to_string(entry.service == "channel" ? entry.channel : entry.copy));
+    process.log = options_.run.log_file(
+        entry.service + "-" + std::to_string(entry.service == "channel" ? entry.channel : entry.copy));
     processes_.push_back(std::move(process));
   }
 }
@@ -63,9 +64,21 @@ Launcher::~Launcher() { stop_all(); }
 
 void Launcher::start(Process& process) {
   const auto& e = process.entry;
-  std::vector<std::string> args{binary_directory() + "/trunnion-" + e.service, "--machine", options_.machine.directory, "--state",
-                                options_.state_directory, "--instance", std::to_string(e.instance), "--copy", std::to_string(e.copy),
-                                "--channel", std::to_string(e.channel), "--domain", std::to_string(options_.machine.domain), "--vendor", e.vendor,
+  std::vector<std::string> args{binary_directory() + "/trunnion-" + e.service,
+                                "--machine",
+                                options_.machine.directory,
+                                "--state",
+                                options_.state_directory,
+                                "--instance",
+                                std::to_string(e.instance),
+                                "--copy",
+                                std::to_string(e.copy),
+                                "--channel",
+                                std::to_string(e.channel),
+                                "--domain",
+                                std::to_string(options_.machine.domain),
+                                "--vendor",
+                                e.vendor,
                                 "--parent-bound"};
   if (options_.virtual_time) args.emplace_back("--virtual-time");
   if (e.service == "gateway") {
@@ -96,7 +109,8 @@ void Launcher::start(Process& process) {
 
 bool Launcher::has_live_twin(const Process& process) const {
   return std::any_of(processes_.begin(), processes_.end(), [&](const Process& other) {
-    return &other != &process && other.entry.service == process.entry.service && other.entry.service != "channel" && other.pid != 0 &&
+    return &other != &process && other.entry.service == process.entry.service &&
+           other.entry.service != "channel" && other.pid != 0 &&
            other.lifecycle == idl::service::Lifecycle::ACTIVE;
   });
 }
@@ -110,18 +124,25 @@ bool Launcher::reap(std::string& failure) {
       process.pid = 0;
       process.lifecycle = idl::service::Lifecycle::UNCONFIGURED;
       const auto& e = process.entry;
-      const std::string how = WIFSIGNALED(status) ? "was ended by signal " + std::to_string(WTERMSIG(status))
-                                                  : "ended with status " + std::to_string(WEXITSTATUS(status));
+      const std::string how = WIFSIGNALED(status)
+                                  ? "was ended by signal " + std::to_string(WTERMSIG(status))
+                                  : "ended with status " + std::to_string(WEXITSTATUS(status));
       if (!was_ready_) {
         const auto line = last_line(process.log);
         failure = line.empty() ? e.service + " " + how : line;
         return false;
       }
-      const auto what = e.service + (e.service == "channel" ? " " + std::to_string(e.channel) : e.copy > 0 ? " (copy " + std::to_string(e.copy) + ")" : "") + " " + how;
+      const auto what = e.service +
+                        (e.service == "channel" ? " " + std::to_string(e.channel)
+                         : e.copy > 0           ? " (copy " + std::to_string(e.copy) + ")"
+                                                : "") +
+                        " " + how;
       process.lost = true;
-      alarms_.raise(has_live_twin(process) ? "redundancy_lost" : "service_lost", e.instance, "Service " + what);
+      alarms_.raise(has_live_twin(process) ? "redundancy_lost" : "service_lost", e.instance,
+                    "Service " + what);
       const double lived = node::monotonic_seconds() - process.started;
-      process.start_again_at = node::monotonic_seconds() + (lived > 5 ? 0 : std::min(2.0, 0.1 * (1u << std::min(process.restarts, 5u))));
+      process.start_again_at = node::monotonic_seconds() +
+                               (lived > 5 ? 0 : std::min(2.0, 0.1 * (1u << std::min(process.restarts, 5u))));
       ++process.restarts;
     }
   }
@@ -142,8 +163,9 @@ void Launcher::listen() {
   while (announcements_.take(announcement)) {
     if (announcement.contract != topics::contract_hash)
       alarms_.raise("contract_mismatch", announcement.instance,
-                    "Service " + announcement.service + " (" + announcement.version + ") was built with contract " + announcement.contract +
-                        ", this cluster with " + topics::contract_hash);
+                    "Service " + announcement.service + " (" + announcement.version +
+                        ") was built with contract " + announcement.contract + ", this cluster with " +
+                        topics::contract_hash);
     else
       alarms_.clear("contract_mismatch", announcement.instance);
   }
@@ -170,8 +192,9 @@ void Launcher::watch() {
 }
 
 bool Launcher::all_ready() const {
-  return std::all_of(processes_.begin(), processes_.end(),
-                     [](const Process& p) { return p.pid != 0 && p.lifecycle == idl::service::Lifecycle::ACTIVE; });
+  return std::all_of(processes_.begin(), processes_.end(), [](const Process& p) {
+    return p.pid != 0 && p.lifecycle == idl::service::Lifecycle::ACTIVE;
+  });
 }
 
 void Launcher::publish() {
@@ -186,7 +209,8 @@ void Launcher::publish() {
   cluster.ready = ready;
   cluster.virtual_time = options_.virtual_time;
   for (const auto& p : processes_)
-    cluster.services.push_back({p.entry.instance, p.entry.service, static_cast<std::uint8_t>(p.entry.copy), p.entry.vendor, p.pid, p.restarts,
+    cluster.services.push_back({p.entry.instance, p.entry.service, static_cast<std::uint8_t>(p.entry.copy),
+                                p.entry.vendor, p.pid, p.restarts,
                                 p.pid != 0 && p.lifecycle == idl::service::Lifecycle::ACTIVE});
   cluster_writer_.write(cluster);
 }
@@ -208,7 +232,9 @@ int Launcher::run(void (*report)(const std::string&)) {
     }
     if (!was_ready_ && node::monotonic_seconds() - began > start_patience) {
       for (const auto& p : processes_)
-        if (p.lifecycle != idl::service::Lifecycle::ACTIVE) failure += (failure.empty() ? "not ready: " : "; ") + p.entry.service + (p.detail.empty() ? "" : " (" + p.detail + ")");
+        if (p.lifecycle != idl::service::Lifecycle::ACTIVE)
+          failure += (failure.empty() ? "not ready: " : "; ") + p.entry.service +
+                     (p.detail.empty() ? "" : " (" + p.detail + ")");
       break;
     }
   }
@@ -229,7 +255,8 @@ void Launcher::stop_all() {
         if (p.pid == pid) p.pid = 0;
     return std::any_of(processes_.begin(), processes_.end(), [](const Process& p) { return p.pid > 0; });
   };
-  while (alive() && node::monotonic_seconds() < until) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  while (alive() && node::monotonic_seconds() < until)
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
   for (auto& p : processes_)
     if (p.pid > 0) {
       kill(p.pid, SIGKILL);

@@ -22,8 +22,8 @@ struct LaunchOptions {
   RunDirectory run;
 };
 
-/// Runs in a process of its own. `report` is called once: with "" when the cluster is ready, with one line when it
-/// could not be started. Returns the exit status.
+/// Runs in a process of its own. `report` is called once: with "" when the cluster is ready, with one line
+/// when it could not be started. Returns the exit status.
 class Launcher {
  public:
   explicit Launcher(LaunchOptions options);

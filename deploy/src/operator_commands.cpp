@@ -26,7 +26,8 @@ void wait_until_idle(Client& client, std::uint16_t channel, double timeout) {
   while (node::monotonic_seconds() < until) {
     idl::service::Alarm a;
     while (alarms.take(a))
-      if (a.active && a.source == "channel" && a.part == channel) alarm = std::to_string(a.number) + ": " + a.text;
+      if (a.active && a.source == "channel" && a.part == channel)
+        alarm = std::to_string(a.number) + ": " + a.text;
     idl::channel::ChannelState state;
     while (reader.take(state))
       if (state.channel == channel) idle = state.state == RunState::IDLE ? idle + 1 : 0;
@@ -36,7 +37,8 @@ void wait_until_idle(Client& client, std::uint16_t channel, double timeout) {
     }
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   }
-  throw std::runtime_error("the line did not finish within " + std::to_string(static_cast<int>(timeout)) + " s");
+  throw std::runtime_error("the line did not finish within " + std::to_string(static_cast<int>(timeout)) +
+                           " s");
 }
 
 int mdi(const Common& common, const std::string& line, std::uint16_t channel, double timeout) {
@@ -51,8 +53,8 @@ int mdi(const Common& common, const std::string& line, std::uint16_t channel, do
     return 0;
   }
   for (std::size_t i = 0; i < state.letters.size() && i < state.machine.size(); ++i)
-    std::printf("%c machine %12.4f  workpiece %12.4f %s\n", state.letters[i], state.machine[i], state.workpiece[i],
-                state.letters[i] >= 'A' && state.letters[i] <= 'C' ? "deg" : "mm");
+    std::printf("%c machine %12.4f  workpiece %12.4f %s\n", state.letters[i], state.machine[i],
+                state.workpiece[i], state.letters[i] >= 'A' && state.letters[i] <= 'C' ? "deg" : "mm");
   return 0;
 }
 
@@ -61,7 +63,8 @@ int alarms(const Common& common, bool reset) {
   Client client(cluster.run.domain);
   if (reset) {
     auto writer = client.bus().writer(topics::alarm_reset);
-    for (int i = 0; i < 500 && writer.matched() < 2; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    for (int i = 0; i < 500 && writer.matched() < 2; ++i)
+      std::this_thread::sleep_for(std::chrono::milliseconds(2));
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
     writer.write({node::make_client_id(), 1, 65535});
     std::this_thread::sleep_for(std::chrono::milliseconds(200));
@@ -79,8 +82,8 @@ int alarms(const Common& common, bool reset) {
     if (!entry.active) continue;
     json.push_back(bus::to_json(entry));
     if (!common.json)
-      std::printf("%4u %-10s %-12s cycle %-10llu %s\n", entry.number, bus::to_string(entry.severity), entry.source.c_str(),
-                  static_cast<unsigned long long>(entry.cycle), entry.text.c_str());
+      std::printf("%4u %-10s %-12s cycle %-10llu %s\n", entry.number, bus::to_string(entry.severity),
+                  entry.source.c_str(), static_cast<unsigned long long>(entry.cycle), entry.text.c_str());
   }
   if (common.json) std::cout << json.dump(2) << "\n";
   if (!common.json && json.empty()) std::printf("no alarms\n");
@@ -100,20 +103,28 @@ void add_operator_commands(CLI::App& app, Common& common) {
   auto line = std::make_shared<std::string>();
   auto channel = std::make_shared<std::uint16_t>(std::uint16_t{0});
   auto timeout = std::make_shared<double>(60);
-  auto* command = add_command(app, common, "mdi", "Run one line, e.g. trunnion mdi \"G0 X10\", and print where the axes are",
-                              [&common, line, channel, timeout] { return mdi(common, *line, *channel, *timeout); });
+  auto* command = add_command(
+      app, common, "mdi", "Run one line, e.g. trunnion mdi \"G0 X10\", and print where the axes are",
+      [&common, line, channel, timeout] { return mdi(common, *line, *channel, *timeout); });
   command->add_option("line", *line, "The line")->required();
   command->add_option("--channel", *channel, "Channel number");
   command->add_option("--timeout", *timeout, "Seconds to wait for its end");
 
   auto reset = std::make_shared<bool>(false);
-  command = add_command(app, common, "alarms", "List the active alarms", [&common, reset] { return alarms(common, *reset); });
+  command = add_command(app, common, "alarms", "List the active alarms",
+                        [&common, reset] { return alarms(common, *reset); });
   command->add_flag("--reset", *reset, "Clear those whose cause is gone first");
 
   auto what = std::make_shared<std::string>();
-  command = add_command(app, common, "estop", "Press or release the emergency stop of the operator panel (no substitute for a hard-wired one)",
-                        [&common, what] { return panel(common, *what == "press" ? 1 : *what == "release" ? 2 : 3); });
-  command->add_option("what", *what, "press, release or reset")->required()->check(CLI::IsMember({"press", "release", "reset"}));
+  command = add_command(
+      app, common, "estop",
+      "Press or release the emergency stop of the operator panel (no substitute for a hard-wired one)",
+      [&common, what] {
+        return panel(common, *what == "press" ? 1 : *what == "release" ? 2 : 3);
+      });
+  command->add_option("what", *what, "press, release or reset")
+      ->required()
+      ->check(CLI::IsMember({"press", "release", "reset"}));
 }
 
 }  // namespace trunnion::deploy

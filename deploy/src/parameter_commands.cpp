@@ -20,7 +20,8 @@ using machine::Catalogue;
 using machine::number_text;
 
 std::uint32_t parse_number(const std::string& text) {
-  if (text.size() != 6 || text.find_first_not_of("0123456789") != std::string::npos) throw std::runtime_error("'" + text + "' is not a parameter number of six digits");
+  if (text.size() != 6 || text.find_first_not_of("0123456789") != std::string::npos)
+    throw std::runtime_error("'" + text + "' is not a parameter number of six digits");
   return static_cast<std::uint32_t>(std::stoul(text));
 }
 
@@ -66,7 +67,8 @@ int get(const Common& common, const std::vector<std::string>& numbers) {
     const auto json = row(parse_number(text), parameters);
     all.push_back(json);
     if (!common.json)
-      std::printf("%s %s = %s %s\n", text.c_str(), json["name"].get<std::string>().c_str(), json["value"].dump().c_str(), json["unit"].get<std::string>().c_str());
+      std::printf("%s %s = %s %s\n", text.c_str(), json["name"].get<std::string>().c_str(),
+                  json["value"].dump().c_str(), json["unit"].get<std::string>().c_str());
   }
   if (common.json) std::cout << all.dump(2) << "\n";
   return 0;
@@ -76,10 +78,14 @@ int send(const Common& common, Client& client, idl::parameters::ParameterRequest
   request.who = user();
   const auto reply = client.parameter(std::move(request));
   if (common.json)
-    std::cout << bus::Json{{"accepted", true}, {"revision", reply.revision}, {"pending", reply.pending}}.dump() << "\n";
+    std::cout
+        << bus::Json{{"accepted", true}, {"revision", reply.revision}, {"pending", reply.pending}}.dump()
+        << "\n";
   else
     std::printf("accepted, active revision %llu%s\n", static_cast<unsigned long long>(reply.revision),
-                reply.pending > 0 ? (", " + std::to_string(reply.pending) + " waiting for reset or restart").c_str() : "");
+                reply.pending > 0
+                    ? (", " + std::to_string(reply.pending) + " waiting for reset or restart").c_str()
+                    : "");
   return 0;
 }
 
@@ -97,7 +103,8 @@ int set(const Common& common, const std::string& number, const std::string& valu
       parameter.value = std::stod(value, &used);
     } catch (const std::exception&) {
     }
-    if (used != value.size()) throw std::runtime_error("parameter " + number + " (" + d->name + "): '" + value + "' is not a number");
+    if (used != value.size())
+      throw std::runtime_error("parameter " + number + " (" + d->name + "): '" + value + "' is not a number");
   }
   idl::parameters::ParameterRequest request;
   request.operation = idl::parameters::Operation::SET;
@@ -112,15 +119,20 @@ int list(const Common& common, const std::string& filter) {
   bus::Json all = bus::Json::array();
   for (const auto& [number, value] : parameters.values) {
     const auto json = row(number, parameters);
-    if (!filter.empty() && number_text(number).rfind(filter, 0) != 0 && json["name"].get<std::string>().find(filter) == std::string::npos) continue;
+    if (!filter.empty() && number_text(number).rfind(filter, 0) != 0 &&
+        json["name"].get<std::string>().find(filter) == std::string::npos)
+      continue;
     const bool waits = std::find(pending.begin(), pending.end(), number) != pending.end();
     all.push_back(json);
     all.back()["pending"] = waits;
     if (!common.json)
-      std::printf("%s %-32s %14s %-14s %s%s\n", number_text(number).c_str(), json["name"].get<std::string>().c_str(), json["value"].dump().c_str(),
-                  json["unit"].get<std::string>().c_str(), json["activation"].get<std::string>().c_str(), waits ? " (a new value waits)" : "");
+      std::printf("%s %-32s %14s %-14s %s%s\n", number_text(number).c_str(),
+                  json["name"].get<std::string>().c_str(), json["value"].dump().c_str(),
+                  json["unit"].get<std::string>().c_str(), json["activation"].get<std::string>().c_str(),
+                  waits ? " (a new value waits)" : "");
   }
-  if (common.json) std::cout << bus::Json{{"revision", parameters.revision}, {"parameters", all}}.dump(2) << "\n";
+  if (common.json)
+    std::cout << bus::Json{{"revision", parameters.revision}, {"parameters", all}}.dump(2) << "\n";
   return 0;
 }
 
@@ -142,7 +154,8 @@ int load(const Common& common, const std::string& file) {
   Client client(find_cluster(common.domain).run.domain);
   idl::parameters::ParameterRequest request;
   request.operation = idl::parameters::Operation::IMPORT;
-  for (const auto& [number, value] : machine::read_parameter_file(file)) request.values.push_back({number, value.value, value.text});
+  for (const auto& [number, value] : machine::read_parameter_file(file))
+    request.values.push_back({number, value.value, value.text});
   return send(common, client, request);
 }
 
@@ -153,13 +166,25 @@ void add_parameter_commands(CLI::App& app, Common& common) {
   param->require_subcommand(1);
   auto numbers = std::make_shared<std::vector<std::string>>();
   auto text = std::make_shared<std::pair<std::string, std::string>>();
-  add_command(*param, common, "get", "Print active values", [&common, numbers] { return get(common, *numbers); })->add_option("number", *numbers, "Six digits")->required();
-  auto* command = add_command(*param, common, "set", "Change a value", [&common, text] { return set(common, text->first, text->second); });
+  add_command(*param, common, "get", "Print active values",
+              [&common, numbers] { return get(common, *numbers); })
+      ->add_option("number", *numbers, "Six digits")
+      ->required();
+  auto* command = add_command(*param, common, "set", "Change a value",
+                              [&common, text] { return set(common, text->first, text->second); });
   command->add_option("number", text->first, "Six digits")->required();
   command->add_option("value", text->second, "New value")->required();
-  add_command(*param, common, "list", "Values that differ from the defaults", [&common, text] { return list(common, text->first); })->add_option("filter", text->first, "Start of the number or part of the name");
-  add_command(*param, common, "export", "Write the active values as YAML", [&common, text] { return save(common, text->first); })->add_option("file", text->first, "File, - for standard output")->required();
-  add_command(*param, common, "import", "Set every value of a YAML file, all or none", [&common, text] { return load(common, text->first); })->add_option("file", text->first, "File")->required();
+  add_command(*param, common, "list", "Values that differ from the defaults", [&common, text] {
+    return list(common, text->first);
+  })->add_option("filter", text->first, "Start of the number or part of the name");
+  add_command(*param, common, "export", "Write the active values as YAML",
+              [&common, text] { return save(common, text->first); })
+      ->add_option("file", text->first, "File, - for standard output")
+      ->required();
+  add_command(*param, common, "import", "Set every value of a YAML file, all or none",
+              [&common, text] { return load(common, text->first); })
+      ->add_option("file", text->first, "File")
+      ->required();
 }
 
 }  // namespace trunnion::deploy

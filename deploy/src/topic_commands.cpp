@@ -17,7 +17,8 @@ namespace {
 
 const bus::TopicEntry& find(const std::string& name) {
   const auto* entry = bus::find_topic(name);
-  if (entry == nullptr) throw std::runtime_error("no topic is called '" + name + "': see 'trunnion topic list'");
+  if (entry == nullptr)
+    throw std::runtime_error("no topic is called '" + name + "': see 'trunnion topic list'");
   return *entry;
 }
 
@@ -25,7 +26,9 @@ int list(const Common& common) {
   bus::Json all = bus::Json::array();
   for (const auto& t : bus::all_topics()) {
     all.push_back({{"handle", t.handle}, {"name", t.description.name}, {"type", t.type}, {"about", t.about}});
-    if (!common.json) std::printf("%-20s %-40s %-36s %s\n", t.handle.c_str(), t.description.name.c_str(), t.type.c_str(), t.about.c_str());
+    if (!common.json)
+      std::printf("%-20s %-40s %-36s %s\n", t.handle.c_str(), t.description.name.c_str(), t.type.c_str(),
+                  t.about.c_str());
   }
   if (common.json) std::cout << all.dump(2) << "\n";
   return 0;
@@ -46,7 +49,9 @@ int echo(const Common& common, const std::string& name, int count, double timeou
       heard = node::monotonic_seconds();
       ++printed;
     }
-    if (timeout > 0 && node::monotonic_seconds() - heard > timeout) throw std::runtime_error("nothing on " + topic.description.name + " for " + std::to_string(timeout) + " s");
+    if (timeout > 0 && node::monotonic_seconds() - heard > timeout)
+      throw std::runtime_error("nothing on " + topic.description.name + " for " + std::to_string(timeout) +
+                               " s");
   }
   return 0;
 }
@@ -55,7 +60,8 @@ int rate(const Common& common, const std::string& name, double seconds) {
   const auto& topic = find(name);
   bus::Bus bus(bus::Vendor::cyclonedds, {find_cluster(common.domain).run.domain});
   auto reader = bus.backend().reader(topic.description, bus::reader_qos(topic.qos), &bus.signal());
-  for (int i = 0; i < 100 && reader->matched() == 0; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  for (int i = 0; i < 100 && reader->matched() == 0; ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
   bus::Bytes bytes;
   bus::SampleInfo info;
   while (reader->take(bytes, info)) {
@@ -68,15 +74,22 @@ int rate(const Common& common, const std::string& name, double seconds) {
   }
   const double elapsed = node::monotonic_seconds() - began;
   if (common.json)
-    std::cout << bus::Json{{"topic", topic.description.name}, {"messages_per_second", messages / elapsed}, {"bytes_per_second", size / elapsed}, {"writers", reader->matched()}}.dump() << "\n";
+    std::cout << bus::Json{{"topic", topic.description.name},
+                           {"messages_per_second", messages / elapsed},
+                           {"bytes_per_second", size / elapsed},
+                           {"writers", reader->matched()}}
+                     .dump()
+              << "\n";
   else
-    std::printf("%s: %.1f messages/s, %.1f kB/s, %d writers\n", topic.description.name.c_str(), messages / elapsed, size / elapsed / 1000, reader->matched());
+    std::printf("%s: %.1f messages/s, %.1f kB/s, %d writers\n", topic.description.name.c_str(),
+                messages / elapsed, size / elapsed / 1000, reader->matched());
   return 0;
 }
 
 int record(const Common& common, const std::string& file, const std::string& topics, double duration) {
   const auto cluster = find_cluster(common.domain);
-  std::vector<std::string> args{binary_directory() + "/trunnion-recorder", "--output", file, "--domain", std::to_string(cluster.run.domain)};
+  std::vector<std::string> args{binary_directory() + "/trunnion-recorder", "--output", file, "--domain",
+                                std::to_string(cluster.run.domain)};
   if (!topics.empty()) args.insert(args.end(), {"--topics", topics});
   if (duration > 0) args.insert(args.end(), {"--duration", std::to_string(duration)});
   if (common.json) args.emplace_back("--json");
@@ -96,16 +109,21 @@ void add_topic_commands(CLI::App& app, Common& common) {
   auto count = std::make_shared<int>(0);
   auto seconds = std::make_shared<double>(0);
   add_command(*topic, common, "list", "Every topic of the contract", [&common] { return list(common); });
-  auto* command = add_command(*topic, common, "echo", "Print what is published, as JSON", [&common, name, count, seconds] { return echo(common, *name, *count, *seconds); });
+  auto* command =
+      add_command(*topic, common, "echo", "Print what is published, as JSON",
+                  [&common, name, count, seconds] { return echo(common, *name, *count, *seconds); });
   command->add_option("topic", *name, "Name or handle")->required();
   command->add_option("-n,--count", *count, "Messages to print, 0 = until Ctrl-C");
   command->add_option("--timeout", *seconds, "Fail after so many seconds without a message, 0 = never");
   auto window = std::make_shared<double>(2);
-  command = add_command(*topic, common, "hz", "Rate and volume of a topic", [&common, name, window] { return rate(common, *name, *window); });
+  command = add_command(*topic, common, "hz", "Rate and volume of a topic",
+                        [&common, name, window] { return rate(common, *name, *window); });
   command->add_option("topic", *name, "Name or handle")->required();
   command->add_option("--seconds", *window, "How long to count");
   auto topics = std::make_shared<std::string>();
-  command = add_command(app, common, "record", "Record the cluster into an MCAP file until Ctrl-C", [&common, name, topics, seconds] { return record(common, *name, *topics, *seconds); });
+  command =
+      add_command(app, common, "record", "Record the cluster into an MCAP file until Ctrl-C",
+                  [&common, name, topics, seconds] { return record(common, *name, *topics, *seconds); });
   command->add_option("file", *name, "File to write")->required();
   command->add_option("--topics", *topics, "Handles, separated by commas (default: all)");
   command->add_option("--duration", *seconds, "Seconds, 0 = until Ctrl-C");

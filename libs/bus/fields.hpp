@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <iterator>
 
 namespace trunnion::bus {
 
@@ -27,7 +28,7 @@ concept Enumeration = requires {
 
 template <Enumeration E>
 constexpr std::size_t enum_size() {
-  return sizeof(EnumNames<E>::names) / sizeof(EnumNames<E>::names[0]);
+  return std::size(EnumNames<E>::names);
 }
 
 template <Enumeration E>

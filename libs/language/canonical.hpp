@@ -15,32 +15,33 @@ inline constexpr const char* axis_letters = "XYZABCUVW";
 /// One value per axis: mm for X Y Z U V W, degrees for A B C. Axes a channel does not have stay 0.
 using AxisValues = std::array<double, axis_count>;
 
-enum class Plane : std::uint8_t { xy, zx, yz };  // G17, G18, G19
+enum class Plane : std::uint8_t { xy, zx, yz };                                   // G17, G18, G19
 enum class FeedMode : std::uint8_t { per_minute, inverse_time, per_revolution };  // G94, G93, G95
 enum class PathControl : std::uint8_t { continuous, exact_stop };                 // G64, G61
 
 /// How the linear axes of a command are to be read.
 enum class Transformation : std::uint8_t {
   none,  ///< machine coordinates of the control point, tool length included
-  rtcp,  ///< tool tip in the workpiece frame with all rotary axes at zero: machine coordinates minus the tool length (G43.4)
+  rtcp,  ///< tool tip in the workpiece frame with all rotary axes at zero: machine coordinates minus the tool
+         ///< length (G43.4)
 };
 
 /// The modal state a command was made in: what the HMI shows, and what a restart at this command restores.
 struct ModalState {
-  std::uint8_t motion = 0;          ///< 0, 1, 2, 3 (G0..G3) or 80
+  std::uint8_t motion = 0;  ///< 0, 1, 2, 3 (G0..G3) or 80
   Plane plane = Plane::xy;
-  bool absolute = true;             ///< G90, else G91
-  bool metric = true;               ///< G21, else G20
+  bool absolute = true;  ///< G90, else G91
+  bool metric = true;    ///< G21, else G20
   FeedMode feed_mode = FeedMode::per_minute;
   PathControl path_control = PathControl::continuous;
-  std::uint8_t work_offset = 0;     ///< 0 = G54 .. 5 = G59
+  std::uint8_t work_offset = 0;  ///< 0 = G54 .. 5 = G59
   Transformation transformation = Transformation::none;
   std::uint16_t tool = 0;           ///< T in the spindle (after M6)
   std::uint16_t selected_tool = 0;  ///< T made ready, which the next M6 brings into the spindle
   std::uint16_t length_offset = 0;  ///< H of the active G43 / G43.4, 0 when G49
   double tool_length = 0;           ///< mm, of length_offset
-  double feed = 0;                  ///< F as it applies: mm/min (deg/min for purely rotary moves), 1/min, mm/rev
-  double spindle_speed = 0;         ///< S, 1/min
+  double feed = 0;           ///< F as it applies: mm/min (deg/min for purely rotary moves), 1/min, mm/rev
+  double spindle_speed = 0;  ///< S, 1/min
 };
 
 enum class CommandKind : std::uint8_t {
@@ -51,28 +52,31 @@ enum class CommandKind : std::uint8_t {
   tool,            ///< T word: number = tool selected
   spindle_speed,   ///< S word: value = 1/min
   auxiliary,       ///< M code: number
-  transformation,  ///< modal.transformation or modal.tool_length changed without motion; target is the position in the new frame
+  transformation,  ///< modal.transformation or modal.tool_length changed without motion; target is the
+                   ///< position in the new frame
   end,             ///< M2, M30, or the end of the text
 };
 
 struct Arc {
   Plane plane = Plane::xy;
-  bool clockwise = false;               ///< seen from the positive third axis of the plane (ISO 6983)
-  std::array<double, 3> centre{};       ///< X Y Z mm, in the frame of target; the component off the plane is the start's
-  double sweep = 0;                     ///< degrees, always > 0; above 360 for several turns
+  bool clockwise = false;  ///< seen from the positive third axis of the plane (ISO 6983)
+  std::array<double, 3>
+      centre{};      ///< X Y Z mm, in the frame of target; the component off the plane is the start's
+  double sweep = 0;  ///< degrees, always > 0; above 360 for several turns
 };
 
-/// One canonical command. Trivially copyable, no strings: text is looked up by line when somebody wants to read it.
+/// One canonical command. Trivially copyable, no strings: text is looked up by line when somebody wants to
+/// read it.
 struct Command {
   CommandKind kind = CommandKind::end;
-  std::uint32_t program = 0;     ///< text the line is in: 0 the started one, n a text resolved as subprogram n
-  std::uint32_t line = 0;        ///< source line, from 1
-  std::uint32_t sequence = 0;    ///< counts the commands of a program from 1: names the point of a restart
-  AxisValues target{};           ///< end of a move, in the frame modal.transformation says
+  std::uint32_t program = 0;   ///< text the line is in: 0 the started one, n a text resolved as subprogram n
+  std::uint32_t line = 0;      ///< source line, from 1
+  std::uint32_t sequence = 0;  ///< counts the commands of a program from 1: names the point of a restart
+  AxisValues target{};         ///< end of a move, in the frame modal.transformation says
   Arc arc{};
   double dwell_seconds = 0;
-  std::uint32_t number = 0;      ///< M or T number; of end: 2, 30, or 0 for the end of the text
-  double value = 0;              ///< S
+  std::uint32_t number = 0;  ///< M or T number; of end: 2, 30, or 0 for the end of the text
+  double value = 0;          ///< S
   ModalState modal{};
 };
 

@@ -17,7 +17,8 @@ int service_main(int argc, char** argv, const char* name) {
   if (const int status = parse_options(app, argc, argv, options); status >= 0) return status;
   // The services of the stream share the cycle; what waits for files or browsers does not.
   constexpr const char* cyclic[] = {"channel", "kinematics", "compensation", "gantry", "drive", "plc"};
-  const bool is_cyclic = std::any_of(std::begin(cyclic), std::end(cyclic), [&](const char* c) { return options.service == c; });
+  const bool is_cyclic =
+      std::any_of(std::begin(cyclic), std::end(cyclic), [&](const char* c) { return options.service == c; });
   if (is_cyclic && !options.virtual_time) use_real_time_scheduling();
   try {
     Node node(options);

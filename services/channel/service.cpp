@@ -47,7 +47,9 @@ void ChannelService::watch_alarms() {
     news = true;
   }
   if (!news) return;
-  core_.set_hold(!holding_alarms_.empty() ? holding_alarms_.begin()->second : plc_hold_ ? "Feed hold of the PLC" : "");
+  core_.set_hold(!holding_alarms_.empty() ? holding_alarms_.begin()->second
+                 : plc_hold_              ? "Feed hold of the PLC"
+                                          : "");
 }
 
 void ChannelService::answer_requests() {
@@ -55,7 +57,8 @@ void ChannelService::answer_requests() {
   while (requests_.take(request)) {
     if (request.channel != node_.options().channel) continue;
     const auto answer = core_.handle(request);
-    requests_.reply(request, {0, 0, answer.accepted, answer.alarm, answer.reason.substr(0, 256), core_.link().next()});
+    requests_.reply(request,
+                    {0, 0, answer.accepted, answer.alarm, answer.reason.substr(0, 256), core_.link().next()});
     changed_ = true;
   }
 }
@@ -138,9 +141,12 @@ node::Health ChannelService::health() const {
   node::Health health;
   const bool tables = have_tools_ && have_offsets_ && have_programs_;
   health.lifecycle = !core_.configured() || !tables ? Lifecycle::UNCONFIGURED
-                     : core_.link().has_feedback() ? Lifecycle::ACTIVE
-                                                   : Lifecycle::INACTIVE;
-  health.detail = !core_.configured() ? "waiting for parameters" : !tables ? "waiting for tools, offsets and programs" : !core_.link().has_feedback() ? "waiting for the drive" : "";
+                     : core_.link().has_feedback()  ? Lifecycle::ACTIVE
+                                                    : Lifecycle::INACTIVE;
+  health.detail = !core_.configured()            ? "waiting for parameters"
+                  : !tables                      ? "waiting for tools, offsets and programs"
+                  : !core_.link().has_feedback() ? "waiting for the drive"
+                                                 : "";
   health.frames_in = frames_in_;
   health.frames_out = frames_out_;
   health.revision = core_.machine().revision();

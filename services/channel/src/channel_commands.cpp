@@ -29,24 +29,33 @@ Answer ChannelCore::handle(const ChannelRequest& request) {
   if (!finite) return refuse("request_invalid", "A value is not a finite number");
   const auto limited = [&](double& out, double low, double high) -> Answer {
     if (request.value < low || request.value > high)
-      return refuse("request_invalid", "override " + std::to_string(request.value * 100) + " % is outside " + std::to_string(low * 100) +
-                                           " .. " + std::to_string(high * 100) + " %");
+      return refuse("request_invalid", "override " + std::to_string(request.value * 100) + " % is outside " +
+                                           std::to_string(low * 100) + " .. " + std::to_string(high * 100) +
+                                           " %");
     out = request.value;
     return {};
   };
   switch (request.command) {
     case CommandKind::SET_MODE:
-      if (!idle) return refuse("request_invalid", "The mode cannot change while the channel is busy: stop or reset it first");
+      if (!idle)
+        return refuse("request_invalid",
+                      "The mode cannot change while the channel is busy: stop or reset it first");
       mode_ = request.mode;
       return {};
-    case CommandKind::SELECT_PROGRAM: return select(request.text);
-    case CommandKind::CYCLE_START: return cycle_start();
+    case CommandKind::SELECT_PROGRAM:
+      return select(request.text);
+    case CommandKind::CYCLE_START:
+      return cycle_start();
     case CommandKind::FEED_HOLD:
       if (run_ == RunState::RUNNING) hold();
       return {};
-    case CommandKind::RESET: reset(); return {};
-    case CommandKind::MDI_LINE: return start_mdi(request.text);
-    case CommandKind::JOG_AXIS: return jog(request);
+    case CommandKind::RESET:
+      reset();
+      return {};
+    case CommandKind::MDI_LINE:
+      return start_mdi(request.text);
+    case CommandKind::JOG_AXIS:
+      return jog(request);
     case CommandKind::JOG_STOP:
       if (activity_ == Activity::jog && !aborting_) {
         aborting_ = true;
@@ -56,21 +65,30 @@ Answer ChannelCore::handle(const ChannelRequest& request) {
     case CommandKind::REFERENCE_AXIS: {
       if (mode_ != Mode::REF) return refuse("request_invalid", "Reference return needs mode REF");
       const auto& axes = machine_.channel_axes().index;
-      if (request.axis >= axes.size()) return refuse("request_invalid", "The channel has no axis number " + std::to_string(request.axis));
+      if (request.axis >= axes.size())
+        return refuse("request_invalid", "The channel has no axis number " + std::to_string(request.axis));
       const auto axis = axes[request.axis];
       return start_move(axis, machine_.reference_position()[axis], machine_.reference_feed(axis));
     }
-    case CommandKind::FEED_OVERRIDE: return limited(feed_override_, 0, 1.5);
-    case CommandKind::RAPID_OVERRIDE: return limited(rapid_override_, 0, 1);
-    case CommandKind::SPINDLE_OVERRIDE: return limited(spindle_override_, 0.5, 1.5);
-    case CommandKind::SINGLE_BLOCK: single_block_ = request.value != 0; return {};
-    case CommandKind::OPTIONAL_STOP: optional_stop_ = request.value != 0; return {};
+    case CommandKind::FEED_OVERRIDE:
+      return limited(feed_override_, 0, 1.5);
+    case CommandKind::RAPID_OVERRIDE:
+      return limited(rapid_override_, 0, 1);
+    case CommandKind::SPINDLE_OVERRIDE:
+      return limited(spindle_override_, 0.5, 1.5);
+    case CommandKind::SINGLE_BLOCK:
+      single_block_ = request.value != 0;
+      return {};
+    case CommandKind::OPTIONAL_STOP:
+      optional_stop_ = request.value != 0;
+      return {};
   }
   return refuse("request_invalid", "Unknown command");
 }
 
 Answer ChannelCore::select(const std::string& name) {
-  if (activity_ != Activity::none) return refuse("request_invalid", "A program cannot be selected while the channel is busy");
+  if (activity_ != Activity::none)
+    return refuse("request_invalid", "A program cannot be selected while the channel is busy");
   for (const auto& entry : programs_.programs)
     if (entry.name == name) {
       selected_ = entry;
@@ -84,7 +102,8 @@ Answer ChannelCore::cycle_start() {
   if (auto answer = startable(); !answer.accepted) return answer;
   switch (run_) {
     case RunState::IDLE:
-      if (mode_ != Mode::AUTO) return refuse("request_invalid", "Cycle start needs mode AUTO (or an MDI line)");
+      if (mode_ != Mode::AUTO)
+        return refuse("request_invalid", "Cycle start needs mode AUTO (or an MDI line)");
       if (selected_.name.empty()) return refuse("program_missing", "No program is selected");
       return start_program({});
     case RunState::HELD:
@@ -100,7 +119,8 @@ Answer ChannelCore::cycle_start() {
       hold_ = false;
       run_ = aborting_ ? RunState::HOLDING : RunState::RUNNING;
       return {};
-    default: return refuse("request_invalid", "The channel is busy");
+    default:
+      return refuse("request_invalid", "The channel is busy");
   }
 }
 
@@ -108,7 +128,8 @@ Answer ChannelCore::start_program(const RestartPoint& restart) {
   for (const auto& entry : programs_.programs)
     if (entry.name == selected_.name) {
       if (restart.sequence != 0 && entry.revision != selected_.revision)
-        return refuse("program_missing", "Program '" + selected_.name + "' has changed since it was interrupted: reset first");
+        return refuse("program_missing",
+                      "Program '" + selected_.name + "' has changed since it was interrupted: reset first");
       selected_ = entry;
     }
   apply_parameters();
@@ -182,18 +203,22 @@ Answer ChannelCore::start_move(std::uint8_t axis, double target, double feed) {
 Answer ChannelCore::jog(const ChannelRequest& request) {
   if (mode_ != Mode::JOG) return refuse("request_invalid", "Jog needs mode JOG");
   const auto& axes = machine_.channel_axes().index;
-  if (request.axis >= axes.size()) return refuse("request_invalid", "The channel has no axis number " + std::to_string(request.axis));
+  if (request.axis >= axes.size())
+    return refuse("request_invalid", "The channel has no axis number " + std::to_string(request.axis));
   if (request.value == 0) return refuse("request_invalid", "Jog needs a speed other than 0");
   const auto axis = axes[request.axis];
   const double fastest = machine_.jog_feed(axis);
   if (std::abs(request.value) > fastest * 1.0001)
-    return refuse("request_invalid", "Jog speed " + std::to_string(std::abs(request.value)) + " is above the axis' " + std::to_string(fastest));
+    return refuse("request_invalid", "Jog speed " + std::to_string(std::abs(request.value)) +
+                                         " is above the axis' " + std::to_string(fastest));
   adopt_position();
   const auto& travel = machine_.travel(axis);
   const double direction = request.value > 0 ? 1 : -1;
   const double from = machine_start_[axis];
   const double end = direction > 0 ? travel.positive : travel.negative;
-  if ((end - from) * direction <= 0) return refuse("travel_limit", std::string("Axis ") + language::axis_letters[axis] + " is at its travel limit");
+  if ((end - from) * direction <= 0)
+    return refuse("travel_limit",
+                  std::string("Axis ") + language::axis_letters[axis] + " is at its travel limit");
   const double target = request.increment > 0 ? from + direction * request.increment : end;
   return start_move(axis, target, std::abs(request.value));
 }
@@ -205,7 +230,8 @@ void ChannelCore::reset() {
     apply_parameters();
     return;
   }
-  const bool moving = link_.state() == LinkState::active && run_ != RunState::INTERRUPTED && run_ != RunState::HELD;
+  const bool moving =
+      link_.state() == LinkState::active && run_ != RunState::INTERRUPTED && run_ != RunState::HELD;
   if (!moving) {
     stop_activity();
     return;
@@ -228,22 +254,28 @@ const idl::channel::ChannelState& ChannelCore::state() {
   s.line = shown_.line;
   s.lines_total = selected_.lines;
   s.progress = selected_.lines > 0 ? std::min(1.0, static_cast<double>(shown_.line) / selected_.lines) : 0;
-  const auto& modal = activity_ == Activity::program || activity_ == Activity::mdi ? flow_.executing() : modal_;
+  const auto& modal =
+      activity_ == Activity::program || activity_ == Activity::mdi ? flow_.executing() : modal_;
   s.modal = {"G" + std::to_string(modal.motion),
              modal.plane == language::Plane::xy   ? "G17"
              : modal.plane == language::Plane::zx ? "G18"
                                                   : "G19",
-             modal.metric ? "G21" : "G20", modal.absolute ? "G90" : "G91",
+             modal.metric ? "G21" : "G20",
+             modal.absolute ? "G90" : "G91",
              modal.feed_mode == language::FeedMode::per_minute     ? "G94"
              : modal.feed_mode == language::FeedMode::inverse_time ? "G93"
                                                                    : "G95",
-             modal.path_control == language::PathControl::exact_stop ? "G61" : "G64", "G" + std::to_string(54 + modal.work_offset),
-             modal.transformation == language::Transformation::rtcp ? "G43.4" : modal.length_offset != 0 ? "G43" : "G49"};
+             modal.path_control == language::PathControl::exact_stop ? "G61" : "G64",
+             "G" + std::to_string(54 + modal.work_offset),
+             modal.transformation == language::Transformation::rtcp ? "G43.4"
+             : modal.length_offset != 0                             ? "G43"
+                                                                    : "G49"};
   const bool moving = link_.state() == LinkState::active || link_.state() == LinkState::ending;
   s.feed = moving ? shown_.feed * 60 : 0;
   s.programmed_feed = modal.feed;
   s.spindle_programmed = spindle_programmed_;
-  s.feed_override = feed_override_, s.rapid_override = rapid_override_, s.spindle_override = spindle_override_;
+  s.feed_override = feed_override_, s.rapid_override = rapid_override_,
+  s.spindle_override = spindle_override_;
   s.tool = tool_;
   s.length_offset = modal.length_offset;
   s.tool_length = modal.tool_length;
@@ -260,7 +292,8 @@ const idl::channel::ChannelState& ChannelCore::state() {
     AxisValues position{};
     for (std::size_t i = 0; i < index.size(); ++i) {
       const int column = machine_.columns()[i];
-      if (column >= 0 && static_cast<std::size_t>(column) < link_.positions().size()) position[index[i]] = link_.positions()[static_cast<std::size_t>(column)];
+      if (column >= 0 && static_cast<std::size_t>(column) < link_.positions().size())
+        position[index[i]] = link_.positions()[static_cast<std::size_t>(column)];
     }
     AxisValues tip = position;
     if (s.rtcp)
@@ -276,7 +309,8 @@ const idl::channel::ChannelState& ChannelCore::state() {
   }
   s.reset_count = reset_count_;
   s.revision = machine_.revision();
-  s.frames_ahead = static_cast<std::uint32_t>(link_.next() > link_.executed() ? link_.next() - link_.executed() : 0);
+  s.frames_ahead =
+      static_cast<std::uint32_t>(link_.next() > link_.executed() ? link_.next() - link_.executed() : 0);
   s.homed = true;  // absolute encoders
   return s;
 }

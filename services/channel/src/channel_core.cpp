@@ -9,11 +9,29 @@
 namespace trunnion::channel {
 namespace {
 // Meaning of the channel's entry in the stream's states, from which a restarted process goes on.
-enum StateIndex { s_running, s_crc, s_revision, s_sequence, s_fraction, s_line, s_transformation, s_tool_length, s_tool, s_position, s_start = s_position + 9, s_size = s_start + 9 };
+enum StateIndex {
+  s_running,
+  s_crc,
+  s_revision,
+  s_sequence,
+  s_fraction,
+  s_line,
+  s_transformation,
+  s_tool_length,
+  s_tool,
+  s_position,
+  s_start = s_position + 9,
+  s_size = s_start + 9
+};
 }  // namespace
 
 ChannelCore::ChannelCore(std::uint16_t channel, bool virtual_time)
-    : number_(channel), virtual_time_(virtual_time), machine_(channel), link_(channel), flow_(machine_, trajectory_), written_(history) {
+    : number_(channel),
+      virtual_time_(virtual_time),
+      machine_(channel),
+      link_(channel),
+      flow_(machine_, trajectory_),
+      written_(history) {
   machine_.resolve = [this](std::string_view name) -> language::TextSource* {
     const auto matches = [&](const std::string& stored) {
       return stored.rfind(name, 0) == 0 && (stored.size() == name.size() || stored[name.size()] == '.');
@@ -50,7 +68,8 @@ void ChannelCore::apply_parameters() {
     return;
   }
   parameters_ = std::exchange(next_parameters_, nullptr);
-  trajectory_owner_ = std::make_unique<motion::Trajectory>(machine_.limits(), &machine_.chain(), machine_.cycle_seconds());
+  trajectory_owner_ =
+      std::make_unique<motion::Trajectory>(machine_.limits(), &machine_.chain(), machine_.cycle_seconds());
   trajectory_ = trajectory_owner_.get();
   frame_ = language::Transformation::none;
   frame_tool_length_ = 0;
@@ -96,7 +115,8 @@ void ChannelCore::recover() {
   const auto& v = own->values;
   tool_ = static_cast<std::uint32_t>(v[s_tool]);
   for (const auto& entry : programs_.programs)
-    if (entry.crc32 == static_cast<std::uint32_t>(v[s_crc]) && entry.revision == static_cast<std::uint64_t>(v[s_revision]))
+    if (entry.crc32 == static_cast<std::uint32_t>(v[s_crc]) &&
+        entry.revision == static_cast<std::uint64_t>(v[s_revision]))
       selected_ = entry;
   if (selected_.name.empty()) {
     link_.leave();
@@ -113,7 +133,8 @@ void ChannelCore::recover() {
   activity_ = Activity::program;
   run_ = RunState::INTERRUPTED;
   shown_.line = static_cast<std::uint32_t>(v[s_line]);
-  event("interrupted", "Program " + selected_.name + " was interrupted in line " + std::to_string(shown_.line));
+  event("interrupted",
+        "Program " + selected_.name + " was interrupted in line " + std::to_string(shown_.line));
 }
 
 void ChannelCore::interrupt(const std::string& why) {
@@ -158,7 +179,8 @@ void ChannelCore::on_auxiliary_done(const idl::plc::AuxiliaryDone& done) {
   if (!auxiliary_open_ || done.number != auxiliary_.number) return;
   auxiliary_open_ = false;
   if (done.failed) {
-    event("auxiliary_refused", "line " + std::to_string(flow_.pending().line) + ": the PLC could not carry it out");
+    event("auxiliary_refused",
+          "line " + std::to_string(flow_.pending().line) + ": the PLC could not carry it out");
     auxiliary_.kind = 0;
     outgoing_auxiliary_ = auxiliary_;
     stop_activity();
@@ -177,7 +199,8 @@ void ChannelCore::on_auxiliary_done(const idl::plc::AuxiliaryDone& done) {
     finish(true);
     return;
   }
-  const bool stop = command.kind == language::CommandKind::auxiliary && (command.number == 0 || command.number == 1);
+  const bool stop =
+      command.kind == language::CommandKind::auxiliary && (command.number == 0 || command.number == 1);
   run_ = stop || hold_ || !external_hold_.empty() ? RunState::HELD : RunState::RUNNING;
   hold_ = false;
 }
@@ -194,13 +217,15 @@ void ChannelCore::begin_auxiliary(std::uint8_t kind, std::uint32_t code, double 
 }
 
 AxisValues ChannelCore::machine_position() const {
-  return frame_ == language::Transformation::rtcp ? machine_.machine_from_tip(trajectory_->position(), frame_tool_length_)
-                                                  : trajectory_->position();
+  return frame_ == language::Transformation::rtcp
+             ? machine_.machine_from_tip(trajectory_->position(), frame_tool_length_)
+             : trajectory_->position();
 }
 
 AxisValues ChannelCore::frame_position(const language::ModalState& modal) const {
-  return modal.transformation == language::Transformation::rtcp ? machine_.tip_from_machine(machine_start_, modal.tool_length)
-                                                               : machine_start_;
+  return modal.transformation == language::Transformation::rtcp
+             ? machine_.tip_from_machine(machine_start_, modal.tool_length)
+             : machine_start_;
 }
 
 // Where a new epoch begins: where the drive has the axes.
@@ -215,7 +240,9 @@ void ChannelCore::adopt_position() {
 }
 
 void ChannelCore::stop_activity() {
-  if (link_.state() == LinkState::active || link_.state() == LinkState::ending || link_.state() == LinkState::requested) link_.leave();
+  if (link_.state() == LinkState::active || link_.state() == LinkState::ending ||
+      link_.state() == LinkState::requested)
+    link_.leave();
   activity_ = Activity::none;
   run_ = RunState::IDLE;
   hold_ = aborting_ = false;
@@ -252,17 +279,23 @@ void ChannelCore::run_pending(FlowState flow) {
   using language::CommandKind;
   switch (flow) {
     case FlowState::alarm:
-      events_.push_back({flow_.alarm_number() < 1000 ? "travel_limit" : "", flow_.alarm_number(), (activity_ == Activity::program ? selected_.name : "MDI") + ":" + flow_.alarm_text()});
+      events_.push_back(
+          {flow_.alarm_number() < 1000 ? "travel_limit" : "", flow_.alarm_number(),
+           (activity_ == Activity::program ? selected_.name : "MDI") + ":" + flow_.alarm_text()});
       finish(false);
       return;
-    case FlowState::end: finish(true); return;
+    case FlowState::end:
+      finish(true);
+      return;
     case FlowState::block_end:
       flow_.next_block();
       run_ = RunState::HELD;
       return;
     case FlowState::full:
-    case FlowState::waiting: return;
-    case FlowState::command: break;
+    case FlowState::waiting:
+      return;
+    case FlowState::command:
+      break;
   }
   const auto& command = flow_.pending();
   switch (command.kind) {
@@ -273,7 +306,9 @@ void ChannelCore::run_pending(FlowState flow) {
       trajectory_->start(command.target, frame_, frame_tool_length_);
       flow_.finish_pending();
       return;
-    case CommandKind::tool: begin_auxiliary(3, command.number, 0); return;
+    case CommandKind::tool:
+      begin_auxiliary(3, command.number, 0);
+      return;
     case CommandKind::spindle_speed:
       spindle_programmed_ = command.value;
       begin_auxiliary(2, 0, command.value);
@@ -285,8 +320,12 @@ void ChannelCore::run_pending(FlowState flow) {
       }
       begin_auxiliary(1, command.number, 0);
       return;
-    case CommandKind::end: begin_auxiliary(1, command.number, 0); return;
-    default: flow_.finish_pending(); return;
+    case CommandKind::end:
+      begin_auxiliary(1, command.number, 0);
+      return;
+    default:
+      flow_.finish_pending();
+      return;
   }
 }
 
@@ -376,7 +415,8 @@ std::vector<double> ChannelCore::stage_state(FlowState flow) {
   // The smoothed setpoint lies half the window behind the path point that motion has reached.
   const std::size_t behind = static_cast<std::size_t>(machine_.limits().smoothing_cycles) / 2;
   const auto& point = points_[(point_ + points_.size() - 1 - std::min(behind, point_ - 1)) % points_.size()];
-  const bool last = flow == FlowState::end || (flow == FlowState::command && flow_.pending().kind == language::CommandKind::end);
+  const bool last = flow == FlowState::end ||
+                    (flow == FlowState::command && flow_.pending().kind == language::CommandKind::end);
   v[s_running] = activity_ == Activity::program && !aborting_ && !(last && trajectory_->at_rest()) ? 1 : 0;
   v[s_crc] = selected_.crc32;
   v[s_revision] = static_cast<double>(selected_.revision);
@@ -394,7 +434,8 @@ std::vector<double> ChannelCore::stage_state(FlowState flow) {
 void ChannelCore::remember_executed() {
   if (link_.executed() == 0) return;
   const auto& written = written_[(link_.executed() - 1) % history];
-  if (written.cycle == link_.executed() - 1 && (written.line != 0 || activity_ != Activity::program)) shown_ = written;
+  if (written.cycle == link_.executed() - 1 && (written.line != 0 || activity_ != Activity::program))
+    shown_ = written;
 }
 
 std::optional<ChunkWanted> ChannelCore::wanted() const {

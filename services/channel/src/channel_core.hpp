@@ -118,10 +118,10 @@ class ChannelCore {
   std::vector<std::unique_ptr<ProgramText>> subprograms_;
   std::string mdi_line_;
   std::optional<language::StringSource> mdi_source_;
-  language::ModalState modal_;     // of MDI, kept from line to line
+  language::ModalState modal_;                                       // of MDI, kept from line to line
   language::Transformation frame_ = language::Transformation::none;  // of the trajectory
   double frame_tool_length_ = 0;
-  AxisValues machine_start_{};     // machine coordinates at rest
+  AxisValues machine_start_{};  // machine coordinates at rest
   AxisValues program_start_{};
   std::optional<RestartPoint> restart_;
   bool auxiliary_open_ = false;

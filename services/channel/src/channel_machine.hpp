@@ -1,4 +1,5 @@
-// What the channel knows of the machine: axes, limits, transformation, tools and offsets, of one parameter revision.
+// What the channel knows of the machine: axes, limits, transformation, tools and offsets, of one parameter
+// revision.
 #pragma once
 
 #include <functional>
@@ -38,9 +39,12 @@ class ChannelMachine : public language::Environment {
   AxisValues machine_from_tip(const AxisValues& tip, double tool_length) const override;
   std::uint16_t axes() const override { return mask_; }
   double radius_deviation() const override { return radius_deviation_; }
-  language::TextSource* subprogram(std::string_view name) override { return resolve ? resolve(name) : nullptr; }
+  language::TextSource* subprogram(std::string_view name) override {
+    return resolve ? resolve(name) : nullptr;
+  }
 
-  /// Empty, or one line about the first axis that would leave its travel on the way from `from` to the end of `move`.
+  /// Empty, or one line about the first axis that would leave its travel on the way from `from` to the end of
+  /// `move`.
   std::string travel_error(const AxisValues& from, const language::Command& move) const;
 
   const machine::ChannelAxes& channel_axes() const { return channel_axes_; }

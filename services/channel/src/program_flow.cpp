@@ -4,8 +4,8 @@ namespace trunnion::channel {
 
 using language::CommandKind;
 
-void ProgramFlow::start(language::TextSource& text, const AxisValues& position, const language::ModalState& initial,
-                        const RestartPoint& restart) {
+void ProgramFlow::start(language::TextSource& text, const AxisValues& position,
+                        const language::ModalState& initial, const RestartPoint& restart) {
   interpreter_.start(text, position, initial);
   have_command_ = false;
   block_line_ = 0;
@@ -33,7 +33,8 @@ FlowState ProgramFlow::push_move() {
   const bool taken = partly ? trajectory_->push_from(move, restart_.fraction) : trajectory_->push(move);
   if (!taken) {
     alarm_number_ = 1112;
-    alarm_text_ = "line " + std::to_string(command_.line) + ": feed must be above zero (per revolution: with the spindle turning)";
+    alarm_text_ = "line " + std::to_string(command_.line) +
+                  ": feed must be above zero (per revolution: with the spindle turning)";
     return FlowState::alarm;
   }
   executing_ = command_.modal;
@@ -47,15 +48,21 @@ FlowState ProgramFlow::fill(bool single_block) {
     if (!searching_ && !trajectory_->can_accept()) return FlowState::full;
     if (!have_command_) {
       switch (interpreter_.next(command_)) {
-        case language::Step::command: have_command_ = true; break;
-        case language::Step::working: continue;
-        case language::Step::pending: return FlowState::waiting;
-        case language::Step::end: return FlowState::end;
+        case language::Step::command:
+          have_command_ = true;
+          break;
+        case language::Step::working:
+          continue;
+        case language::Step::pending:
+          return FlowState::waiting;
+        case language::Step::end:
+          return FlowState::end;
         case language::Step::alarm: {
           const auto& alarm = interpreter_.alarm();
           alarm_number_ = static_cast<std::uint32_t>(alarm.number);
-          alarm_text_ = (alarm.program != 0 ? "O" + std::to_string(alarm.program) + ":" : std::string()) + std::to_string(alarm.line) +
-                        ":" + std::to_string(alarm.column) + ": " + alarm.text.data();
+          alarm_text_ = (alarm.program != 0 ? "O" + std::to_string(alarm.program) + ":" : std::string()) +
+                        std::to_string(alarm.line) + ":" + std::to_string(alarm.column) + ": " +
+                        alarm.text.data();
           trajectory_->finish();
           return FlowState::alarm;
         }

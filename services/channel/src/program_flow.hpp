@@ -1,4 +1,5 @@
-// Pulls commands out of the interpreter and feeds them to motion; stops where something else has to happen first.
+// Pulls commands out of the interpreter and feeds them to motion; stops where something else has to happen
+// first.
 #pragma once
 
 #include <optional>
@@ -27,7 +28,8 @@ struct RestartPoint {
 
 class ProgramFlow {
  public:
-  ProgramFlow(ChannelMachine& machine, motion::Trajectory*& trajectory) : machine_(machine), trajectory_(trajectory), interpreter_(machine) {}
+  ProgramFlow(ChannelMachine& machine, motion::Trajectory*& trajectory)
+      : machine_(machine), trajectory_(trajectory), interpreter_(machine) {}
 
   /// `position` in the frame of `initial`. The trajectory must be at rest there.
   void start(language::TextSource& text, const AxisValues& position, const language::ModalState& initial,

@@ -18,7 +18,8 @@ struct ChunkWanted {
   std::uint64_t offset = 0;
 };
 
-/// The interpreter reads; who owns the bus asks wanted(), fetches and delivers. Memory does not grow with the program.
+/// The interpreter reads; who owns the bus asks wanted(), fetches and delivers. Memory does not grow with the
+/// program.
 class ProgramText : public language::TextSource {
  public:
   static constexpr std::size_t chunk_size = 32768;
@@ -28,7 +29,8 @@ class ProgramText : public language::TextSource {
 
   language::ReadResult read(std::uint64_t offset, char* buffer, std::size_t capacity) override;
 
-  /// The chunk the interpreter waits for, else the one after the newest it read: nothing when all of that is here.
+  /// The chunk the interpreter waits for, else the one after the newest it read: nothing when all of that is
+  /// here.
   std::optional<ChunkWanted> wanted() const;
   void deliver(std::uint64_t offset, std::vector<std::uint8_t> data);
   void fail() { failed_ = true; }
@@ -39,7 +41,9 @@ class ProgramText : public language::TextSource {
     std::uint64_t index = ~0ull;
     std::vector<std::uint8_t> data;
   };
-  const Chunk* find(std::uint64_t index) const { return chunks_[index % chunks_.size()].index == index ? &chunks_[index % chunks_.size()] : nullptr; }
+  const Chunk* find(std::uint64_t index) const {
+    return chunks_[index % chunks_.size()].index == index ? &chunks_[index % chunks_.size()] : nullptr;
+  }
   std::string name_;
   std::uint64_t revision_, size_;
   std::array<Chunk, 4> chunks_;

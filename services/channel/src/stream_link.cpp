@@ -13,7 +13,8 @@ void StreamLink::on_feedback(const idl::stream::FeedbackFrame& feedback) {
     if (echo.channel != channel_) continue;
     echo_active_ = echo.active;
     if (!echo.states.empty()) states_ = echo.states;
-    if (request_ == 0) {  // a process before this one may have asked already: numbers and epochs go on from its
+    if (request_ ==
+        0) {  // a process before this one may have asked already: numbers and epochs go on from its
       request_ = echo.request;
       epoch_ = echo.epoch;
     }
@@ -36,7 +37,8 @@ void StreamLink::on_feedback(const idl::stream::FeedbackFrame& feedback) {
         if (echo.active) break;
         state_ = state_ == LinkState::ending && executed_ >= next_ ? LinkState::idle : LinkState::lost;
         break;
-      default: break;
+      default:
+        break;
     }
   }
 }
@@ -60,6 +62,8 @@ void StreamLink::leave() {
   new_epoch_ = true;
 }
 
-std::optional<idl::stream::StreamRequest> StreamLink::take_request() { return std::exchange(outgoing_, std::nullopt); }
+std::optional<idl::stream::StreamRequest> StreamLink::take_request() {
+  return std::exchange(outgoing_, std::nullopt);
+}
 
 }  // namespace trunnion::channel

@@ -40,7 +40,10 @@ class StreamLink {
     if (ends) state_ = LinkState::ending;
   }
   /// After refused or lost.
-  void acknowledge() { state_ = LinkState::idle; new_epoch_ = true; }
+  void acknowledge() {
+    state_ = LinkState::idle;
+    new_epoch_ = true;
+  }
 
   /// A resume was asked for and the drive has not answered: its hold is old news.
   bool resuming() const { return resuming_; }

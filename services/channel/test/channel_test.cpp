@@ -48,12 +48,15 @@ struct Channel : ::testing::Test {
   }
   void store() {
     idl::program::ProgramList list;
-    list.programs.push_back({"part.nc", 3, text.size(), 77, static_cast<std::uint32_t>(std::count(text.begin(), text.end(), '\n'))});
+    list.programs.push_back({"part.nc", 3, text.size(), 77,
+                             static_cast<std::uint32_t>(std::count(text.begin(), text.end(), '\n'))});
     core->set_programs(list);
   }
-  Answer ask(CommandKind command, const std::string& argument = "", double value = 0, double increment = 0, Mode mode = Mode::AUTO) {
+  Answer ask(CommandKind command, const std::string& argument = "", double value = 0, double increment = 0,
+             Mode mode = Mode::AUTO) {
     ChannelRequest request;
-    request.command = command, request.text = argument, request.value = value, request.increment = increment, request.mode = mode;
+    request.command = command, request.text = argument, request.value = value, request.increment = increment,
+    request.mode = mode;
     return core->handle(request);
   }
   void load(const std::string& program) {
@@ -64,7 +67,11 @@ struct Channel : ::testing::Test {
   }
   void round() {
     core->advance();
-    if (const auto chunk = core->wanted()) core->deliver(chunk->name, chunk->offset, {text.begin() + static_cast<long>(chunk->offset), text.begin() + static_cast<long>(std::min(text.size(), chunk->offset + ProgramText::chunk_size))});
+    if (const auto chunk = core->wanted())
+      core->deliver(
+          chunk->name, chunk->offset,
+          {text.begin() + static_cast<long>(chunk->offset),
+           text.begin() + static_cast<long>(std::min(text.size(), chunk->offset + ProgramText::chunk_size))});
     core->advance();
     if (const auto request = core->take_stream_request()) drive.request(*request);
     idl::stream::PathFrame frame;
@@ -79,7 +86,9 @@ struct Channel : ::testing::Test {
   void run(int rounds = 100000) {
     for (int i = 0; i < rounds; ++i) {
       round();
-      if (core->run_state() == RunState::IDLE || core->run_state() == RunState::HELD || core->run_state() == RunState::INTERRUPTED) break;
+      if (core->run_state() == RunState::IDLE || core->run_state() == RunState::HELD ||
+          core->run_state() == RunState::INTERRUPTED)
+        break;
     }
   }
 };
@@ -137,7 +146,8 @@ TEST_F(Channel, ResetWhileMovingBrakesOnThePathAndForgetsTheRest) {
   EXPECT_EQ(core->run_state(), RunState::IDLE);
   EXPECT_LT(drive.rows.back()[0], 100);
   double fastest = 0;
-  for (std::size_t i = 1; i < drive.rows.size(); ++i) fastest = std::max(fastest, std::abs(drive.rows[i][0] - drive.rows[i - 1][0]));
+  for (std::size_t i = 1; i < drive.rows.size(); ++i)
+    fastest = std::max(fastest, std::abs(drive.rows[i][0] - drive.rows[i - 1][0]));
   EXPECT_LT(std::abs(drive.rows.back()[0] - drive.rows[drive.rows.size() - 2][0]), fastest / 20);
 }
 
@@ -245,7 +255,8 @@ TEST_F(Channel, AFreshProcessGoesOnWhereTheKilledOneWas) {
     ASSERT_GT(drive.rows.size(), before);
     EXPECT_NEAR(drive.rows[before][0], x, 0.5);
     EXPECT_EQ(drive.rows.back()[0], 60);
-    for (const auto& row : drive.rows) ASSERT_LT(distance_to_path(row), 0.025) << "contour tolerance 0.01 of either run, 0.005 of the arc";
+    for (const auto& row : drive.rows)
+      ASSERT_LT(distance_to_path(row), 0.025) << "contour tolerance 0.01 of either run, 0.005 of the arc";
   }
 }
 
@@ -298,7 +309,8 @@ TEST_F(Channel, RequestsThatMakeNoSenseAreRefusedWithAReason) {
   EXPECT_NE(ask(CommandKind::SELECT_PROGRAM, "none.nc").reason.find("none.nc"), std::string::npos);
   EXPECT_FALSE(ask(CommandKind::CYCLE_START).accepted) << "mode JOG";
   EXPECT_FALSE(ask(CommandKind::MDI_LINE, "G0 X1").accepted);
-  EXPECT_EQ(ask(CommandKind::FEED_OVERRIDE, "", 1.6).reason, "override 160.000000 % is outside 0.000000 .. 150.000000 %");
+  EXPECT_EQ(ask(CommandKind::FEED_OVERRIDE, "", 1.6).reason,
+            "override 160.000000 % is outside 0.000000 .. 150.000000 %");
   EXPECT_FALSE(ask(CommandKind::FEED_OVERRIDE, "", std::nan("")).accepted);
   core->set_ready(false);
   ask(CommandKind::SET_MODE);

@@ -96,7 +96,8 @@ void DriveCore::request(const idl::stream::StreamRequest& request) {
     case 3: {
       leave(channel);
       // A start within an epoch this process did not see begin is a message from before it was restarted.
-      const bool known = request.kind == 3 ? request.epoch > channel.epoch : channel.begun && request.epoch == channel.epoch;
+      const bool known =
+          request.kind == 3 ? request.epoch > channel.epoch : channel.begun && request.epoch == channel.epoch;
       if (!known) break;
       channel.epoch = request.epoch;
       channel.begun = true;
