@@ -129,7 +129,8 @@ MachineTables ac_table() {
 
 std::uint64_t record_run(const RunOptions& options) {
   const MachineTables tables = ac_table();
-  const auto rows = rows_of(options.program, tables);
+  auto rows = rows_of(options.program, tables);
+  rows.insert(rows.begin(), static_cast<std::size_t>(options.standing_cycles), Row{{}, 0, false, 0});
   const auto chain = machine::make_chain(tables.parameters, 0);
   const auto axes = machine::channel_axes(tables.parameters, 0);
   RecordingFile file(options.file);
@@ -178,7 +179,7 @@ std::uint64_t record_run(const RunOptions& options) {
     joints.count = feedback.count = path.count;
     joints.lines = path.lines;
     std::int64_t time = start_time + frame_number * frame_interval;
-    file.write(topics::path_frame, path, time);
+    if (frame_number >= options.late_frames) file.write(topics::path_frame, path, time);
     for (int stage = 2; stage <= 4; ++stage) {
       joints.stage = static_cast<std::uint8_t>(stage);
       time += stage_latency[stage - 2];
