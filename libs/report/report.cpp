@@ -95,7 +95,6 @@ class Evaluation {
         actual_feed(report_.actual_feed), actual_rapid(report_.actual_rapid);
     Cursor gantry(capture_.gantry), commanded(capture_.commanded), actual(capture_.actual);
     Fnv1a hash;
-    const double* previous = nullptr;
     const auto& programmed = report_.programmed;
     std::size_t guess = 0, actual_guess = 0;
     double residual_squares = 0, feed_sum = 0;
@@ -120,10 +119,7 @@ class Evaluation {
         report_.residual_largest = std::max(report_.residual_largest, off);
       }
       if (const double* command = commanded.at(row.cycle)) {
-        const std::size_t bytes = capture_.commanded.width * sizeof(double);
-        if (previous == nullptr || std::memcmp(previous, command, bytes) != 0)
-          hash.add(command, capture_.commanded.width);
-        previous = command;
+        hash.add(command, capture_.commanded.width);
         ++report_.executed;
       }
       if (const double* position = actual.at(row.cycle)) {

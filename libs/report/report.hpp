@@ -71,8 +71,7 @@ struct Report {
   std::uint64_t late_frames = 0, repeated_frames = 0, starved = 0;
   std::vector<Latency> latencies;
   /// FNV-1a (64 bit) of the drive's commands: for every cycle of the motion the doubles of every axis as they
-  /// are in memory. Cycles in which no axis is told to move count once, for their number is also how long the
-  /// PLC took over an M function. Two runs with the same hash moved the machine the same, bit for bit.
+  /// are in memory. Two runs with the same hash moved the machine the same, bit for bit.
   std::uint64_t command_hash = 0;
 };
 

@@ -129,8 +129,7 @@ MachineTables ac_table() {
 
 std::uint64_t record_run(const RunOptions& options) {
   const MachineTables tables = ac_table();
-  auto rows = rows_of(options.program, tables);
-  rows.insert(rows.begin(), static_cast<std::size_t>(options.standing_cycles), Row{{}, 0, false, 0});
+  const auto rows = rows_of(options.program, tables);
   const auto chain = machine::make_chain(tables.parameters, 0);
   const auto axes = machine::channel_axes(tables.parameters, 0);
   RecordingFile file(options.file);
