@@ -25,10 +25,10 @@ using idl::channel::RunState;
 // Stops what a run has started, however it ends.
 class Recorder {
  public:
-  Recorder(const std::string& file, std::uint32_t domain) {
+  Recorder(const std::string& file, const RunningCluster& cluster) {
     int out[2];
     if (pipe(out) != 0) throw std::runtime_error("no pipe");
-    std::vector<std::string> args{binary_directory() + "/trunnion-recorder", "--output", file, "--domain", std::to_string(domain)};
+    std::vector<std::string> args{binary_directory() + "/trunnion-recorder", "--output", file, "--machine", cluster.machine, "--domain", std::to_string(cluster.run.domain), "--parent-bound"};
     std::vector<char*> argv;
     for (auto& arg : args) argv.push_back(arg.data());
     argv.push_back(nullptr);
@@ -218,7 +218,7 @@ RunResult run_programs(const RunOptions& options) {
       client.channel(c, CommandKind::SET_MODE, "", 0, Mode::AUTO);
       select(client, c, names.back());
     }
-    Recorder recorder(options.recording, cluster.get().run.domain);
+    Recorder recorder(options.recording, cluster.get());
     result.alarm = execute(client, options.programs.size(), options.timeout, !options.quiet && isatty(2) != 0);
     std::this_thread::sleep_for(std::chrono::milliseconds(100));  // what the stages wrote last is still on its way
     recorder.stop();
@@ -230,6 +230,7 @@ RunResult run_programs(const RunOptions& options) {
     inputs.program_text = texts[c];
     inputs.channel = c;
     result.reports.push_back(report::make_report(options.recording, inputs));
+    if (result.alarm.empty() && !result.reports.back().problem.empty()) result.alarm = result.reports.back().problem;
   }
   return result;
 }
