@@ -6,18 +6,12 @@
 
 #include "bus/bus.hpp"
 #include "contracts/topics.hpp"
+#include "testing_support/eventually.hpp"
 
 namespace trunnion::bus {
 namespace {
 
-template <class Condition>
-bool eventually(Condition condition) {
-  for (int i = 0; i < 5000; ++i) {
-    if (condition()) return true;
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  }
-  return false;
-}
+using testing_support::eventually;
 
 struct Pair {
   Vendor writer, reader;
