@@ -13,6 +13,11 @@ std::string position(const std::string& file, const YAML::Mark& mark) {
 
 std::string at(const std::string& file, const YAML::Node& node) { return position(file, node.Mark()); }
 
+std::string scalar(const std::string& file, const YAML::Node& node) {
+  if (!node.IsScalar()) throw std::runtime_error(at(file, node) + "expected one value");
+  return node.Scalar();
+}
+
 YAML::Node parse_yaml(const std::string& text, const std::string& file) {
   try {
     return YAML::Load(text);
@@ -21,12 +26,12 @@ YAML::Node parse_yaml(const std::string& text, const std::string& file) {
   }
 }
 
-YAML::Node load_yaml(const std::string& path) {
+std::string read_text(const std::string& path) {
   std::ifstream in(path, std::ios::binary);
   if (!in) throw std::runtime_error(path + ": error: cannot be opened");
   std::ostringstream text;
   text << in.rdbuf();
-  return parse_yaml(text.str(), path);
+  return text.str();
 }
 
 }  // namespace trunnion::machine

@@ -35,7 +35,7 @@ YAML::Node list_of(const std::string& text, const std::string& file, const char*
   if (document.IsSequence() || document.IsNull()) return document;
   if (!document.IsMap()) throw std::runtime_error(machine::at(file, document) + "expected a list");
   for (const auto& entry : document) {
-    const auto name = entry.first.as<std::string>();
+    const auto name = machine::scalar(file, entry.first);
     if (name == "revision")
       revision = value<std::uint64_t>(file, entry.second, name);
     else if (name != key)
@@ -89,7 +89,7 @@ Tools read_tools(const std::string& text, const std::string& file, std::uint64_t
     if (!node.IsMap()) throw std::runtime_error(machine::at(file, node) + "expected {number, length, ...}");
     idl::parameters::Tool tool;
     for (const auto& entry : node) {
-      const auto key = entry.first.as<std::string>();
+      const auto key = machine::scalar(file, entry.first);
       if (key == "number")
         tool.number = value<std::uint32_t>(file, entry.second, key);
       else if (key == "length")
@@ -134,7 +134,7 @@ Offsets read_offsets(const std::string& text, const std::string& file, std::uint
     offset.index = 255;
     offset.values.assign(9, 0.0);
     for (const auto& entry : node) {
-      const auto key = entry.first.as<std::string>();
+      const auto key = machine::scalar(file, entry.first);
       const auto* letter = std::string(letters).find(key) != std::string::npos && key.size() == 1
                                ? std::char_traits<char>::find(letters, 9, key[0])
                                : nullptr;
