@@ -72,7 +72,7 @@ function(trunnion_fuzzer name)
     target_link_libraries(${name} PRIVATE trunnion_options ${ARG_LINK})
     add_dependencies(fuzzers ${name})
     add_test(NAME ${name} WORKING_DIRECTORY ${CMAKE_BINARY_DIR}
-      COMMAND ${name} -runs=20000 -max_total_time=15 -seed=1 -timeout=10 -verbosity=0 ${found} ${ARG_CORPUS})
+      COMMAND ${name} -runs=20000 -max_total_time=15 -seed=1 -len_control=0 -timeout=10 -verbosity=0 ${found} ${ARG_CORPUS})
     set_tests_properties(${name} PROPERTIES LABELS fuzz TIMEOUT 120)
   endif()
 endfunction()

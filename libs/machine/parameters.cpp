@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "machine/yaml.hpp"
+#include "text/utf8.hpp"
 
 namespace trunnion::machine {
 
@@ -118,8 +119,10 @@ std::string Catalogue::check(std::uint32_t number, double value, const std::stri
   const auto* d = find(number);
   if (d == nullptr) return "parameter " + number_text(number) + " does not exist";
   const auto who = "parameter " + number_text(number) + " (" + d->name + ")";
-  if (d->type == ParameterType::text)
-    return text.size() <= 64 ? "" : who + ": text of " + std::to_string(text.size()) + " bytes, at most 64";
+  if (d->type == ParameterType::text) {
+    if (text.size() > 64) return who + ": text of " + std::to_string(text.size()) + " bytes, at most 64";
+    return text::valid_utf8_prefix(text) == text.size() ? "" : who + ": the text is not UTF-8";
+  }
   if (!text.empty()) return who + ": expected a number, got '" + text + "'";
   std::ostringstream limits;
   limits << who << ": " << value << " is outside " << d->minimum << " .. " << d->maximum;

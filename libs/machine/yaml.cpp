@@ -1,8 +1,11 @@
 #include "machine/yaml.hpp"
 
+#include <algorithm>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
+
+#include "text/utf8.hpp"
 
 namespace trunnion::machine {
 namespace {
@@ -19,6 +22,13 @@ std::string scalar(const std::string& file, const YAML::Node& node) {
 }
 
 YAML::Node parse_yaml(const std::string& text, const std::string& file) {
+  // yaml-cpp would take any bytes and write others.
+  if (const auto valid = text::valid_utf8_prefix(text); valid != text.size()) {
+    YAML::Mark mark;
+    mark.line = static_cast<int>(std::count(text.begin(), text.begin() + static_cast<long>(valid), '\n'));
+    mark.column = static_cast<int>(valid - (text.rfind('\n', valid) + 1));
+    throw std::runtime_error(position(file, mark) + "the text is not UTF-8");
+  }
   try {
     return YAML::Load(text);
   } catch (const YAML::Exception& e) {

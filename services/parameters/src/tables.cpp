@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "machine/yaml.hpp"
+#include "text/utf8.hpp"
 
 namespace trunnion::parameters {
 namespace {
@@ -60,6 +61,7 @@ std::string check_tool(const idl::parameters::Tool& tool) {
   if (tool.number < 1 || tool.number > largest_tool)
     return who + ": the number is outside 1 .. " + std::to_string(largest_tool);
   if (tool.name.size() > 64) return who + " (name): longer than 64 bytes";
+  if (text::valid_utf8_prefix(tool.name) != tool.name.size()) return who + " (name): not UTF-8";
   for (const auto& error : {check_value(who + " (length)", tool.length, -limit),
                             check_value(who + " (length_wear)", tool.length_wear, -limit),
                             check_value(who + " (radius)", tool.radius, 0),
