@@ -27,6 +27,17 @@ function(trunnion_library name)
   target_link_libraries(${name} PUBLIC trunnion_options ${ARG_LINK})
 endfunction()
 
+# trunnion_embed(sources name file): makes the C++ source of the text constant trunnion::machine::<name> from a file of this
+# folder and adds it to the list `sources`.
+function(trunnion_embed sources name file)
+  set(out ${CMAKE_CURRENT_BINARY_DIR}/${name}.cpp)
+  set(script ${CMAKE_SOURCE_DIR}/cmake/embed.cmake)
+  add_custom_command(OUTPUT ${out}
+    COMMAND ${CMAKE_COMMAND} -DINPUT=${CMAKE_CURRENT_SOURCE_DIR}/${file} -DOUTPUT=${out} -DNAME=${name} -P ${script}
+    DEPENDS ${file} ${script} VERBATIM)
+  set(${sources} ${${sources}} ${out} PARENT_SCOPE)
+endfunction()
+
 # trunnion_test(name SOURCES a_test.cpp ... [LINK libs...] [LABELS unit]): one GoogleTest program, one CTest entry.
 function(trunnion_test name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LINK;LABELS" ${ARGN})
@@ -61,7 +72,7 @@ function(trunnion_fuzzer name)
     target_link_libraries(${name} PRIVATE trunnion_options ${ARG_LINK})
     add_dependencies(fuzzers ${name})
     add_test(NAME ${name} WORKING_DIRECTORY ${CMAKE_BINARY_DIR}
-      COMMAND ${name} -runs=20000 -max_total_time=15 -seed=1 -timeout=10 -verbosity=0 ${found} ${ARG_CORPUS})
+      COMMAND ${name} -runs=20000 -max_total_time=15 -seed=1 -len_control=0 -timeout=10 -verbosity=0 ${found} ${ARG_CORPUS})
     set_tests_properties(${name} PROPERTIES LABELS fuzz TIMEOUT 120)
   endif()
 endfunction()

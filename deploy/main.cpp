@@ -23,7 +23,7 @@ int main(int argc, char** argv) {
     return app.exit(e);
   } catch (const std::exception& e) {
     if (common.json)
-      std::cout << trunnion::bus::Json{{"error", e.what()}}.dump() << "\n";
+      std::cout << trunnion::bus::text_of({{"error", e.what()}}) << "\n";
     else
       std::cerr << "trunnion: " << e.what() << "\n";
     return 1;

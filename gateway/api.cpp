@@ -4,6 +4,7 @@
 
 #include "src/orders.hpp"
 #include "src/static_files.hpp"
+#include "storage/crc32.hpp"
 
 namespace trunnion::machine {
 // gateway/openapi.json, embedded by the same script as the catalogue.
@@ -45,7 +46,7 @@ std::size_t count_in_query(const std::string& query, const char* name, std::uint
 
 Answer json_answer(unsigned status, const Json& body) {
   // Texts of the bus may be cut within a character; such a byte must not take the answer down.
-  return {status, body.dump(-1, ' ', false, Json::error_handler_t::replace)};
+  return {status, bus::text_of(body)};
 }
 
 Answer error_answer(unsigned status, const std::string& text, const std::string& field) {
@@ -265,14 +266,14 @@ void ProgramUpload::write(std::vector<std::uint8_t> data, ProgramDone done) {
   auto part = request(idl::program::Operation::WRITE);
   part.offset = size_;
   size_ += data.size();
-  crc_.add(data);
+  crc_ = storage::crc32(crc_, data);
   part.data = std::move(data);
   send(std::move(part), std::move(done));
 }
 
 void ProgramUpload::commit(ProgramDone done) {
   auto end = request(idl::program::Operation::COMMIT_UPLOAD);
-  end.crc32 = crc_.value();
+  end.crc32 = crc_;
   end.size = size_;
   send(std::move(end), std::move(done));
 }

@@ -6,7 +6,6 @@
 #include <string>
 
 #include "mailbox.hpp"
-#include "src/crc32.hpp"
 #include "src/router.hpp"
 
 namespace trunnion::gateway {
@@ -81,7 +80,7 @@ class ProgramUpload {
   Mailbox& mailbox_;
   std::string name_;
   std::uint64_t client_ = node::make_client_id(), number_ = 0, size_ = 0;
-  Crc32 crc_;
+  std::uint32_t crc_ = 0;
 };
 
 /// Reads chunk_bytes of a program at `offset`; `revision` 0 is the newest.

@@ -1,25 +1,12 @@
 #include "client.hpp"
 
-#include <array>
 #include <stdexcept>
+
+#include "storage/crc32.hpp"
 
 namespace trunnion::deploy {
 namespace {
 constexpr double patience = 3;  // s for an answer
-}
-
-std::uint32_t crc32(const std::string& text) {
-  static const auto table = [] {
-    std::array<std::uint32_t, 256> t{};
-    for (std::uint32_t i = 0; i < 256; ++i) {
-      t[i] = i;
-      for (int k = 0; k < 8; ++k) t[i] = (t[i] & 1) != 0 ? 0xEDB88320u ^ (t[i] >> 1) : t[i] >> 1;
-    }
-    return t;
-  }();
-  std::uint32_t crc = ~0u;
-  for (const char c : text) crc = table[(crc ^ static_cast<std::uint8_t>(c)) & 0xFF] ^ (crc >> 8);
-  return ~crc;
 }
 
 Client::Client(std::uint32_t domain)
@@ -80,7 +67,7 @@ void Client::upload(const std::string& name, const std::string& text) {
   request.data.clear();
   request.operation = idl::program::Operation::COMMIT_UPLOAD;
   request.size = text.size();
-  request.crc32 = crc32(text);
+  request.crc32 = storage::crc32(text);
   program(request);
 }
 

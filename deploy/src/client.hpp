@@ -37,9 +37,6 @@ class Client {
   node::RequestClient<idl::plc::PanelRequest, idl::plc::PanelReply> panel_;
 };
 
-/// CRC-32 with the polynomial of zlib.
-std::uint32_t crc32(const std::string& text);
-
 template <class T>
 T Client::newest(const bus::Topic<T>& topic, double timeout) {
   auto reader = bus_.reader(topic);

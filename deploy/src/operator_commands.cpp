@@ -49,7 +49,7 @@ int mdi(const Common& common, const std::string& line, std::uint16_t channel, do
   wait_until_idle(client, channel, timeout);
   const auto state = client.newest(topics::channel_state);
   if (common.json) {
-    std::cout << bus::to_json(state).dump() << "\n";
+    std::cout << bus::text_of(bus::to_json(state)) << "\n";
     return 0;
   }
   for (std::size_t i = 0; i < state.letters.size() && i < state.machine.size(); ++i)
@@ -85,7 +85,7 @@ int alarms(const Common& common, bool reset) {
       std::printf("%4u %-10s %-12s cycle %-10llu %s\n", entry.number, bus::to_string(entry.severity),
                   entry.source.c_str(), static_cast<unsigned long long>(entry.cycle), entry.text.c_str());
   }
-  if (common.json) std::cout << json.dump(2) << "\n";
+  if (common.json) std::cout << bus::text_of(json, 2) << "\n";
   if (!common.json && json.empty()) std::printf("no alarms\n");
   return 0;
 }

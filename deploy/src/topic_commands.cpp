@@ -45,7 +45,7 @@ int echo(const Common& common, const std::string& name, int count, double timeou
   while (count == 0 || printed < count) {
     bus.signal().wait(0.1);
     while ((count == 0 || printed < count) && reader->take(bytes, info)) {
-      std::cout << topic.to_json(bytes).dump(common.json ? -1 : 2) << std::endl;
+      std::cout << bus::text_of(topic.to_json(bytes), common.json ? -1 : 2) << std::endl;
       heard = node::monotonic_seconds();
       ++printed;
     }

@@ -14,7 +14,7 @@ using std::chrono::milliseconds;
 constexpr milliseconds period{50}, heartbeat_period{500};
 
 std::shared_ptr<const std::string> text(const bus::Json& json) {
-  return std::make_shared<const std::string>(json.dump(-1, ' ', false, bus::Json::error_handler_t::replace));
+  return std::make_shared<const std::string>(bus::text_of(json));
 }
 
 }  // namespace

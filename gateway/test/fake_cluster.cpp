@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "src/crc32.hpp"
+#include "storage/crc32.hpp"
 
 namespace trunnion::gateway {
 namespace {
@@ -19,9 +19,7 @@ std::uint32_t lines_of(const std::vector<std::uint8_t>& text) {
 }
 
 idl::program::ProgramEntry entry_of(const std::string& name, const std::vector<std::uint8_t>& text) {
-  Crc32 crc;
-  crc.add(text);
-  return {name, 1, text.size(), crc.value(), lines_of(text)};
+  return {name, 1, text.size(), storage::crc32(0, text), lines_of(text)};
 }
 
 std::vector<std::uint8_t> circle_program() {

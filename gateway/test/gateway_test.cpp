@@ -12,12 +12,14 @@
 
 #include "test/client.hpp"
 #include "test/fake_cluster.hpp"
+#include "testing_support/eventually.hpp"
 
 namespace trunnion::gateway {
 namespace {
 
 using nlohmann::json;
 using testing::HasSubstr;
+using testing_support::eventually;
 
 constexpr std::uint32_t domain = 51;
 
@@ -97,14 +99,6 @@ class Gateway : public testing::Test {
     std::filesystem::remove_all(web_);
   }
 
-  template <class Condition>
-  static bool eventually(Condition condition) {
-    for (int i = 0; i < 1000; ++i) {
-      if (condition()) return true;
-      std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    }
-    return false;
-  }
   Response get(const std::string& target) const { return http(port_, "GET", target); }
   Response post(const std::string& target, const json& body = json::object()) const {
     return http(port_, "POST", target, body.dump());

@@ -2,7 +2,6 @@
 
 #include <random>
 
-#include "src/crc32.hpp"
 #include "src/jog_guard.hpp"
 #include "src/merge_patch.hpp"
 #include "src/snapshot.hpp"
@@ -44,20 +43,6 @@ TEST(MergePatch, AppliedToTheOldStateItGivesTheNewOne) {
     ASSERT_EQ(patched, nlohmann::json(to)) << from << " -> " << to << " by " << patch;
     ASSERT_EQ(merge_patch(to, to), Json::object());
   }
-}
-
-TEST(Crc32, IsTheOneOfZlib) {
-  // The check value that catalogues of CRCs give for "123456789".
-  const std::string text = "123456789";
-  Crc32 whole, parts;
-  whole.add({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
-  EXPECT_EQ(whole.value(), 0xCBF43926u);
-  for (const char c : text) {
-    const auto byte = static_cast<std::uint8_t>(c);
-    parts.add({&byte, 1});
-  }
-  EXPECT_EQ(parts.value(), whole.value());
-  EXPECT_EQ(Crc32{}.value(), 0u);
 }
 
 TEST(JogGuard, OnlyTheFirstPressAndAChangeOfSpeedReachTheChannel) {

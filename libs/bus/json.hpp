@@ -2,6 +2,7 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
+#include <string>
 
 #include "bus/fields.hpp"
 
@@ -25,6 +26,12 @@ Json to_json(const T& value) {
     for (const auto& element : value) array.push_back(to_json(element));
     return array;
   }
+}
+
+/// On one line, or indented by so many blanks. Bytes that are not UTF-8 become U+FFFD: a peer's strings are
+/// whatever it sent.
+inline std::string text_of(const Json& json, int indent = -1) {
+  return json.dump(indent, ' ', false, Json::error_handler_t::replace);
 }
 
 }  // namespace trunnion::bus

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "language/decimal.hpp"
-#include "language/utf8.hpp"
+#include "text/utf8.hpp"
 
 namespace trunnion::language {
 namespace {
@@ -88,7 +88,7 @@ Fault read_word(Scanner& scanner, char letter, Block& block) {
 
 Fault IsoDialect::read_block(std::string_view line, Block& block) const {
   block.clear();
-  if (const std::size_t valid = valid_utf8_prefix(line); valid != line.size()) {
+  if (const std::size_t valid = text::valid_utf8_prefix(line); valid != line.size()) {
     return {AlarmNumber::not_utf8, static_cast<std::uint16_t>(valid)};
   }
   Scanner scanner(line);

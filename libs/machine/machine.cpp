@@ -25,7 +25,7 @@ T value(const std::string& file, const YAML::Node& parent, const char* key, T fa
 void check_keys(const std::string& file, const YAML::Node& map, const std::vector<std::string>& keys) {
   if (!map.IsMap()) throw std::runtime_error(at(file, map) + "expected 'key: value' lines");
   for (const auto& entry : map) {
-    const auto key = entry.first.as<std::string>();
+    const auto key = scalar(file, entry.first);
     if (std::find(keys.begin(), keys.end(), key) == keys.end())
       throw std::runtime_error(at(file, entry.first) + "unknown key '" + key + "'");
   }
@@ -33,9 +33,10 @@ void check_keys(const std::string& file, const YAML::Node& map, const std::vecto
 
 }  // namespace
 
-MachineConfig load_machine(const std::string& directory, const std::string& vendor_override) {
+MachineConfig parse_machine(const std::string& text, const std::string& directory,
+                            const std::string& vendor_override) {
   const std::string file = directory + "/machine.yaml";
-  const auto document = load_yaml(file);
+  const auto document = parse_yaml(text, file);
   check_keys(file, document, {"name", "title", "domain", "port", "time", "vendor", "services"});
   MachineConfig config;
   config.directory = directory;
@@ -65,6 +66,7 @@ MachineConfig load_machine(const std::string& directory, const std::string& vend
     if (std::find(known_services.begin(), known_services.end(), entry.service) == known_services.end())
       throw std::runtime_error(at(file, node) + "unknown service '" + entry.service + "'");
     entry.channel = value<std::uint32_t>(file, node, "channel", 0);
+    if (entry.channel > 31) throw std::runtime_error(at(file, node["channel"]) + "channel must be 0 .. 31");
     if (entry.service == "channel") config.channels = std::max(config.channels, entry.channel + 1);
     const auto replicas = value<std::uint32_t>(file, node, "replicas", 1);
     const bool stage =
@@ -76,7 +78,7 @@ MachineConfig load_machine(const std::string& directory, const std::string& vend
       entry.copy = copy;
       const auto vendor = node["vendor"];
       entry.vendor = vendor && vendor.IsSequence()
-                         ? (copy < vendor.size() ? vendor[copy].as<std::string>() : default_vendor)
+                         ? (copy < vendor.size() ? scalar(file, vendor[copy]) : default_vendor)
                          : value<std::string>(file, node, "vendor", default_vendor);
       if (entry.vendor != "fastdds" && entry.vendor != "cyclonedds")
         throw std::runtime_error(at(file, vendor ? vendor : document["vendor"]) + "unknown vendor '" +
@@ -96,6 +98,10 @@ MachineConfig load_machine(const std::string& directory, const std::string& vend
       throw std::runtime_error(at(file, services) + "service '" + needed + "' is missing");
   }
   return config;
+}
+
+MachineConfig load_machine(const std::string& directory, const std::string& vendor_override) {
+  return parse_machine(read_text(directory + "/machine.yaml"), directory, vendor_override);
 }
 
 }  // namespace trunnion::machine

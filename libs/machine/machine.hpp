@@ -32,8 +32,11 @@ struct MachineConfig {
   std::string plc_directory() const { return directory + "/plc"; }
 };
 
-/// `vendor_override`: empty, fastdds, cyclonedds or mixed (alternating). Throws std::runtime_error with
-/// file:line:column.
+/// `text` is that of machine.yaml in `directory`. `vendor_override`: empty, fastdds, cyclonedds or mixed
+/// (alternating). Throws std::runtime_error with file:line:column.
+MachineConfig parse_machine(const std::string& text, const std::string& directory,
+                            const std::string& vendor_override = "");
+/// The same from the file; throws std::runtime_error also when it cannot be read.
 MachineConfig load_machine(const std::string& directory, const std::string& vendor_override = "");
 
 }  // namespace trunnion::machine

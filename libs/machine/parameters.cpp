@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "machine/yaml.hpp"
+#include "text/utf8.hpp"
 
 namespace trunnion::machine {
 
@@ -118,8 +119,10 @@ std::string Catalogue::check(std::uint32_t number, double value, const std::stri
   const auto* d = find(number);
   if (d == nullptr) return "parameter " + number_text(number) + " does not exist";
   const auto who = "parameter " + number_text(number) + " (" + d->name + ")";
-  if (d->type == ParameterType::text)
-    return text.size() <= 64 ? "" : who + ": text of " + std::to_string(text.size()) + " bytes, at most 64";
+  if (d->type == ParameterType::text) {
+    if (text.size() > 64) return who + ": text of " + std::to_string(text.size()) + " bytes, at most 64";
+    return text::valid_utf8_prefix(text) == text.size() ? "" : who + ": the text is not UTF-8";
+  }
   if (!text.empty()) return who + ": expected a number, got '" + text + "'";
   std::ostringstream limits;
   limits << who << ": " << value << " is outside " << d->minimum << " .. " << d->maximum;
@@ -151,38 +154,52 @@ std::string Parameters::text(const std::string& name, std::uint32_t unit) const 
   return found != values.end() ? found->second.text : "";
 }
 
-std::map<std::uint32_t, ParameterValue> read_parameter_file(const std::string& path) {
+namespace {
+
+/// Makes the value of a parameter from what stands in the file. Empty, or why the catalogue refuses it.
+std::string take(const Definition* definition, const std::string& key, const std::string& text,
+                 ParameterValue& value) {
+  if (definition == nullptr) return "parameter " + key + " does not exist";
+  if (definition->type == ParameterType::text)
+    value.text = text;
+  else if (!YAML::convert<double>::decode(YAML::Node(text), value.value))
+    return "parameter " + key + " (" + definition->name + "): '" + text + "' is not a number";
+  return Catalogue::instance().check(static_cast<std::uint32_t>(std::stoul(key)), value.value, value.text);
+}
+
+}  // namespace
+
+std::map<std::uint32_t, ParameterValue> read_parameter_values(const YAML::Node& map, const std::string& file,
+                                                              bool strict) {
   std::map<std::uint32_t, ParameterValue> result;
-  const auto document = load_yaml(path);
-  if (document.IsNull()) return result;
-  if (!document.IsMap()) throw std::runtime_error(at(path, document) + "expected lines of 'number: value'");
-  for (const auto& entry : document) {
-    const auto key = entry.first.as<std::string>();
+  if (!map || map.IsNull()) return result;
+  if (!map.IsMap()) throw std::runtime_error(at(file, map) + "expected lines of 'number: value'");
+  for (const auto& entry : map) {
+    const auto key = scalar(file, entry.first);
     if (key.size() != 6 || key.find_first_not_of("0123456789") != std::string::npos)
-      throw std::runtime_error(at(path, entry.first) + "'" + key +
+      throw std::runtime_error(at(file, entry.first) + "'" + key +
                                "' is not a parameter number of six digits");
     const auto number = static_cast<std::uint32_t>(std::stoul(key));
     const auto* definition = Catalogue::instance().find(number);
-    if (definition == nullptr)
-      throw std::runtime_error(at(path, entry.first) + "parameter " + key + " does not exist");
     ParameterValue value;
-    if (!entry.second.IsScalar()) throw std::runtime_error(at(path, entry.second) + "expected one value");
-    if (definition->type == ParameterType::text) {
-      value.text = entry.second.as<std::string>();
-    } else {
-      try {
-        value.value = entry.second.as<double>();
-      } catch (const YAML::Exception&) {
-        throw std::runtime_error(at(path, entry.second) + "parameter " + key + " (" + definition->name +
-                                 "): '" + entry.second.Scalar() + "' is not a number");
-      }
+    const auto error = take(definition, key, scalar(file, entry.second), value);
+    if (!error.empty()) {
+      if (!strict) continue;
+      throw std::runtime_error(at(file, definition == nullptr ? entry.first : entry.second) + error);
     }
-    const auto error = Catalogue::instance().check(number, value.value, value.text);
-    if (!error.empty()) throw std::runtime_error(at(path, entry.second) + error);
     if (!result.emplace(number, value).second)
-      throw std::runtime_error(at(path, entry.first) + "parameter " + key + " is given twice");
+      throw std::runtime_error(at(file, entry.first) + "parameter " + key + " is given twice");
   }
   return result;
+}
+
+std::map<std::uint32_t, ParameterValue> read_parameter_text(const std::string& text,
+                                                            const std::string& file) {
+  return read_parameter_values(parse_yaml(text, file), file, true);
+}
+
+std::map<std::uint32_t, ParameterValue> read_parameter_file(const std::string& path) {
+  return read_parameter_text(read_text(path), path);
 }
 
 std::string write_parameter_text(const std::map<std::uint32_t, ParameterValue>& values) {

@@ -7,6 +7,10 @@
 #include <string>
 #include <vector>
 
+namespace YAML {
+class Node;
+}
+
 namespace trunnion::machine {
 
 enum class Activation { save, reset, restart };
@@ -80,7 +84,13 @@ class Parameters {
   std::uint64_t revision = 0;
 };
 
-/// Reads `number: value` lines (numbers quoted, six digits). Throws std::runtime_error with file:line:column.
+/// `number: value` lines (numbers quoted, six digits) of a map; nothing of an empty node. Values that the
+/// catalogue refuses are an error when `strict`, else left out. Throws std::runtime_error with
+/// file:line:column.
+std::map<std::uint32_t, ParameterValue> read_parameter_values(const YAML::Node& map, const std::string& file,
+                                                              bool strict);
+/// Strictly, from a text that is said to be that of `file`, and from the file.
+std::map<std::uint32_t, ParameterValue> read_parameter_text(const std::string& text, const std::string& file);
 std::map<std::uint32_t, ParameterValue> read_parameter_file(const std::string& path);
 std::string write_parameter_text(const std::map<std::uint32_t, ParameterValue>& values);
 

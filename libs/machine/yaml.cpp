@@ -1,8 +1,11 @@
 #include "machine/yaml.hpp"
 
+#include <algorithm>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
+
+#include "text/utf8.hpp"
 
 namespace trunnion::machine {
 namespace {
@@ -13,7 +16,19 @@ std::string position(const std::string& file, const YAML::Mark& mark) {
 
 std::string at(const std::string& file, const YAML::Node& node) { return position(file, node.Mark()); }
 
+std::string scalar(const std::string& file, const YAML::Node& node) {
+  if (!node.IsScalar()) throw std::runtime_error(at(file, node) + "expected one value");
+  return node.Scalar();
+}
+
 YAML::Node parse_yaml(const std::string& text, const std::string& file) {
+  // yaml-cpp would take any bytes and write others.
+  if (const auto valid = text::valid_utf8_prefix(text); valid != text.size()) {
+    YAML::Mark mark;
+    mark.line = static_cast<int>(std::count(text.begin(), text.begin() + static_cast<long>(valid), '\n'));
+    mark.column = static_cast<int>(valid - (text.rfind('\n', valid) + 1));
+    throw std::runtime_error(position(file, mark) + "the text is not UTF-8");
+  }
   try {
     return YAML::Load(text);
   } catch (const YAML::Exception& e) {
@@ -21,12 +36,12 @@ YAML::Node parse_yaml(const std::string& text, const std::string& file) {
   }
 }
 
-YAML::Node load_yaml(const std::string& path) {
+std::string read_text(const std::string& path) {
   std::ifstream in(path, std::ios::binary);
   if (!in) throw std::runtime_error(path + ": error: cannot be opened");
   std::ostringstream text;
   text << in.rdbuf();
-  return parse_yaml(text.str(), path);
+  return text.str();
 }
 
 }  // namespace trunnion::machine

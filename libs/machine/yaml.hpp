@@ -9,8 +9,11 @@ namespace trunnion::machine {
 
 /// "file:line:column: error: " of a node.
 std::string at(const std::string& file, const YAML::Node& node);
+/// The text of a key or of one value. Throws std::runtime_error with file:line:column for a map or a list.
+std::string scalar(const std::string& file, const YAML::Node& node);
 /// Throws std::runtime_error with file:line:column.
 YAML::Node parse_yaml(const std::string& text, const std::string& file);
-YAML::Node load_yaml(const std::string& path);
+/// A whole file. Throws std::runtime_error naming it.
+std::string read_text(const std::string& path);
 
 }  // namespace trunnion::machine

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "recording/crc32.hpp"
+#include "storage/crc32.hpp"
 
 namespace trunnion::recording {
 
@@ -81,7 +81,7 @@ bool Reader::open_chunk(std::span<const std::uint8_t> content) {
   } else {
     return end(Ending::damaged, where + " has the unknown compression '" + compression + "'");
   }
-  if (chunk_.size() != size || (crc != 0 && crc32(0, chunk_) != crc))
+  if (chunk_.size() != size || (crc != 0 && storage::crc32(0, chunk_) != crc))
     return end(Ending::damaged, where + " fails its checksum");
   in_chunk_ = chunk_;
   return true;

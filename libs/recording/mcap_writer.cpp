@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "recording/crc32.hpp"
+#include "storage/crc32.hpp"
 
 namespace trunnion::recording {
 
@@ -32,7 +32,7 @@ Writer::~Writer() = default;
 // Writes what is in out_ and counts it.
 bool Writer::emit() {
   if (!failed_) {
-    data_crc_ = crc32(data_crc_, out_);
+    data_crc_ = storage::crc32(data_crc_, out_);
     failed_ = !sink_.write(out_);
     if (!failed_) offset_ += out_.size();
   }
@@ -129,7 +129,7 @@ bool Writer::flush() {
   out.put(chunk_first_);
   out.put(chunk_last_);
   out.put(static_cast<std::uint64_t>(chunk_.size()));
-  out.put(crc32(0, chunk_));
+  out.put(storage::crc32(0, chunk_));
   out.put(std::string_view(stored ? "" : "zstd"));
   out.put(static_cast<std::uint64_t>(payload.size()));
   out.put(payload);
@@ -238,7 +238,7 @@ void Writer::put_summary() {
   out.put(std::uint64_t{20});
   out.put(summary);
   out.put(summary_offsets);
-  out.put(crc32(0, out_));
+  out.put(storage::crc32(0, out_));
   out.put(std::span<const std::uint8_t>(mcap_magic));
 }
 

@@ -1,11 +1,5 @@
 #include "service.hpp"
 
-#include <fcntl.h>
-#include <sys/mman.h>
-#include <unistd.h>
-
-#include <stdexcept>
-
 #include "stream/stage_service.hpp"
 
 namespace trunnion::drive {
@@ -15,28 +9,17 @@ constexpr double plc_patience = 1.5;   // s without a sign of the PLC until the 
 constexpr double idle_feedback = 0.1;  // s between two feedback frames while nothing moves
 }  // namespace
 
-EncoderMemory::EncoderMemory(const std::string& path) {
-  const int file = open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
-  if (file < 0 || ftruncate(file, sizeof(Memory)) != 0) {
-    if (file >= 0) close(file);
-    throw std::runtime_error(path + ": cannot be opened for writing");
-  }
-  void* address = mmap(nullptr, sizeof(Memory), PROT_READ | PROT_WRITE, MAP_SHARED, file, 0);
-  close(file);
-  if (address == MAP_FAILED) throw std::runtime_error(path + ": cannot be mapped");
-  memory_ = static_cast<Memory*>(address);
-}
-
-EncoderMemory::~EncoderMemory() { munmap(memory_, sizeof(Memory)); }
-
 DriveService::DriveService(node::Node& node)
-    : node_(node), parameters_(node.bus()), memory_(node.options().state_directory + "/encoders.bin") {}
+    : node_(node),
+      parameters_(node.bus()),
+      encoders_(node.options().state_directory + "/encoders.bin", sizeof(Memory)),
+      memory_(static_cast<Memory*>(encoders_.data())) {}
 
 void DriveService::start() {
   const auto& p = *parameters_.newest();
   core_.configure(p, node_.options().virtual_time);
   revision_ = p.revision;
-  core_.restore(*memory_.get());
+  core_.restore(*memory_);
   frame_cycles_ = static_cast<std::uint32_t>(
       p.integer(node_.options().virtual_time ? "frame_cycles_virtual_time" : "frame_cycles_real_time"));
   node_.bus().set_depth({stream::stream_depth(p.integer("stream_lead"), static_cast<int>(frame_cycles_), 1)});
@@ -111,7 +94,7 @@ void DriveService::send() {
   core_.fill(feedback_);
   writer_->write(feedback_);
   ++frames_out_;
-  *memory_.get() = core_.memory();
+  *memory_ = core_.memory();
   last_sent_ = node::monotonic_seconds();
   changed_ = false;
 }

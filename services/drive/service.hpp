@@ -5,21 +5,9 @@
 #include "node/node.hpp"
 #include "node/parameter_client.hpp"
 #include "src/drive_core.hpp"
+#include "storage/mapped_file.hpp"
 
 namespace trunnion::drive {
-
-/// A memory-mapped file: what is written survives kill -9 of the process, as an absolute encoder would.
-class EncoderMemory {
- public:
-  explicit EncoderMemory(const std::string& path);
-  ~EncoderMemory();
-  EncoderMemory(const EncoderMemory&) = delete;
-  EncoderMemory& operator=(const EncoderMemory&) = delete;
-  Memory* get() { return memory_; }
-
- private:
-  Memory* memory_ = nullptr;
-};
 
 class DriveService : public node::Service {
  public:
@@ -38,7 +26,8 @@ class DriveService : public node::Service {
 
   node::Node& node_;
   node::ParameterClient parameters_;
-  EncoderMemory memory_;
+  storage::MappedFile encoders_;  ///< as an absolute encoder would, it survives kill -9 of the process
+  Memory* memory_;
   DriveCore core_;
   std::optional<bus::Reader<idl::stream::AxisFrame>> frames_;
   std::optional<bus::Reader<idl::stream::StreamRequest>> requests_;

@@ -49,7 +49,7 @@ void ProgramService::pump() {
   }
   try {
     store_.drop_stale_uploads(now);
-  } catch (const FileError& e) {
+  } catch (const StorageError& e) {
     node_.alarms().raise("storage_failed", 0, e.what());
   }
   if (store_.take_change()) list_.write(store_.list());

@@ -69,6 +69,12 @@ TEST(ParameterFile, ErrorsNameLineAndColumn) {
   EXPECT_NE(error_of("\"100900\": [1\n").find("parameters.yaml:2:1: error:"), std::string::npos);
 }
 
+TEST(Catalogue, ATextThatCouldNotBeReadBackIsRefused) {
+  EXPECT_EQ(Catalogue::instance().check(100000, 0, "\xc3\xa4"), "");
+  EXPECT_EQ(Catalogue::instance().check(100000, 0, "\xe4"),
+            "parameter 100000 (axis_name): the text is not UTF-8");
+}
+
 TEST(ParameterFile, WrittenTextReadsBackTheSame) {
   std::map<std::uint32_t, ParameterValue> values{{100000, {0, "X: \"1\" # no"}}, {100900, {0.1 + 60, ""}}};
   EXPECT_EQ(read_parameter_file(file_with(write_parameter_text(values))), values);

@@ -3,9 +3,9 @@
 #include <cmath>
 #include <cstring>
 
-#include "recording/crc32.hpp"
 #include "recording/mcap_reader.hpp"
 #include "recording/mcap_writer.hpp"
+#include "storage/crc32.hpp"
 
 namespace trunnion::recording {
 namespace {
@@ -58,7 +58,7 @@ BENCHMARK(read_frames);
 
 void checksum(benchmark::State& state) {
   const Bytes bytes(1 << 20, 0x5a);
-  for (auto _ : state) benchmark::DoNotOptimize(crc32(0, bytes));
+  for (auto _ : state) benchmark::DoNotOptimize(storage::crc32(0, bytes));
   state.SetBytesProcessed(state.iterations() << 20);
 }
 BENCHMARK(checksum);

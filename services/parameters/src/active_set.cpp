@@ -8,42 +8,6 @@
 
 namespace trunnion::parameters {
 
-namespace {
-
-/// Values that the catalogue refuses are an error when `strict`, else left out.
-Values values_of(const YAML::Node& map, const std::string& file, bool strict) {
-  Values result;
-  if (!map || map.IsNull()) return result;
-  if (!map.IsMap()) throw std::runtime_error(machine::at(file, map) + "expected lines of 'number: value'");
-  const auto& catalogue = machine::Catalogue::instance();
-  for (const auto& entry : map) {
-    const auto key = entry.first.as<std::string>();
-    if (key.size() != 6 || key.find_first_not_of("0123456789") != std::string::npos)
-      throw std::runtime_error(machine::at(file, entry.first) + "'" + key +
-                               "' is not a parameter number of six digits");
-    const auto number = static_cast<std::uint32_t>(std::stoul(key));
-    const auto* definition = catalogue.find(number);
-    if (!entry.second.IsScalar())
-      throw std::runtime_error(machine::at(file, entry.second) + "expected one value");
-    machine::ParameterValue value;
-    if (definition == nullptr || definition->type == machine::ParameterType::text)
-      value.text = entry.second.as<std::string>();
-    else if (!YAML::convert<double>::decode(entry.second, value.value))
-      value.text = entry.second.Scalar();  // refused below with the parameter's name
-    const auto error = catalogue.check(number, value.value, value.text);
-    if (!error.empty() && strict) throw std::runtime_error(machine::at(file, entry.second) + error);
-    if (error.empty() && !result.emplace(number, value).second)
-      throw std::runtime_error(machine::at(file, entry.first) + "parameter " + key + " is given twice");
-  }
-  return result;
-}
-
-}  // namespace
-
-Values read_values(const std::string& text, const std::string& file) {
-  return values_of(machine::parse_yaml(text, file), file, true);
-}
-
 ActiveSet read_active(const std::string& text, const std::string& file) {
   ActiveSet active;
   const auto document = machine::parse_yaml(text, file);
@@ -57,7 +21,7 @@ ActiveSet read_active(const std::string& text, const std::string& file) {
     throw std::runtime_error(file + ":" + std::to_string(e.mark.line + 1) + ":" +
                              std::to_string(e.mark.column + 1) + ": error: " + e.msg);
   }
-  active.values = values_of(document["values"], file, false);
+  active.values = machine::read_parameter_values(document["values"], file, false);
   return active;
 }
 

@@ -17,10 +17,6 @@ struct ActiveSet {
   Values values;                                  ///< those that differ from the catalogue's defaults
 };
 
-/// `number: value` lines as read_parameter_file takes them, from a text.
-/// Throws std::runtime_error with file:line:column.
-Values read_values(const std::string& text, const std::string& file);
-
 /// Throws std::runtime_error with file:line:column. Values that the catalogue no longer takes are left out.
 ActiveSet read_active(const std::string& text, const std::string& file);
 std::string write_active(const ActiveSet& active);

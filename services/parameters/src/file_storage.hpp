@@ -17,7 +17,6 @@ class FileStorage : public Storage {
 
  private:
   std::string path(const std::string& name) const { return directory_ + "/" + name; }
-  void sync_directory() const;
   std::string directory_;
 };
 

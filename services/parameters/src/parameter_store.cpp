@@ -59,7 +59,7 @@ ParameterStore::ParameterStore(Storage& storage, MachineDefaults defaults, const
   state_.tools = defaults_.tools;
   state_.offsets = defaults_.offsets;
   if (const auto text = storage_.read(parameters_file))
-    state_.overrides = read_values(*text, parameters_file);
+    state_.overrides = machine::read_parameter_text(*text, parameters_file);
   if (const auto text = storage_.read(tools_file))
     state_.tools = read_tools(*text, tools_file, state_.tools_revision);
   if (const auto text = storage_.read(offsets_file))

@@ -3,17 +3,14 @@
 
 #include <cstdint>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "storage/file.hpp"
+
 namespace trunnion::parameters {
 
-/// The disk refused; what() names the file and the reason.
-class StorageError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
+using storage::StorageError;
 
 struct NamedText {
   std::string name;

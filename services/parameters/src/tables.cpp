@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "machine/yaml.hpp"
+#include "text/utf8.hpp"
 
 namespace trunnion::parameters {
 namespace {
@@ -35,7 +36,7 @@ YAML::Node list_of(const std::string& text, const std::string& file, const char*
   if (document.IsSequence() || document.IsNull()) return document;
   if (!document.IsMap()) throw std::runtime_error(machine::at(file, document) + "expected a list");
   for (const auto& entry : document) {
-    const auto name = entry.first.as<std::string>();
+    const auto name = machine::scalar(file, entry.first);
     if (name == "revision")
       revision = value<std::uint64_t>(file, entry.second, name);
     else if (name != key)
@@ -60,6 +61,7 @@ std::string check_tool(const idl::parameters::Tool& tool) {
   if (tool.number < 1 || tool.number > largest_tool)
     return who + ": the number is outside 1 .. " + std::to_string(largest_tool);
   if (tool.name.size() > 64) return who + " (name): longer than 64 bytes";
+  if (text::valid_utf8_prefix(tool.name) != tool.name.size()) return who + " (name): not UTF-8";
   for (const auto& error : {check_value(who + " (length)", tool.length, -limit),
                             check_value(who + " (length_wear)", tool.length_wear, -limit),
                             check_value(who + " (radius)", tool.radius, 0),
@@ -89,7 +91,7 @@ Tools read_tools(const std::string& text, const std::string& file, std::uint64_t
     if (!node.IsMap()) throw std::runtime_error(machine::at(file, node) + "expected {number, length, ...}");
     idl::parameters::Tool tool;
     for (const auto& entry : node) {
-      const auto key = entry.first.as<std::string>();
+      const auto key = machine::scalar(file, entry.first);
       if (key == "number")
         tool.number = value<std::uint32_t>(file, entry.second, key);
       else if (key == "length")
@@ -134,7 +136,7 @@ Offsets read_offsets(const std::string& text, const std::string& file, std::uint
     offset.index = 255;
     offset.values.assign(9, 0.0);
     for (const auto& entry : node) {
-      const auto key = entry.first.as<std::string>();
+      const auto key = machine::scalar(file, entry.first);
       const auto* letter = std::string(letters).find(key) != std::string::npos && key.size() == 1
                                ? std::char_traits<char>::find(letters, 9, key[0])
                                : nullptr;

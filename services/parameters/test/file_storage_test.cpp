@@ -1,7 +1,6 @@
-// Files on a real disk: refused, torn and killed writers.
+// Files on a real disk: refused and killed writers.
 #include <gtest/gtest.h>
 #include <signal.h>
-#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -44,27 +43,6 @@ TEST_F(FileStorageTest, AnUnwritableDirectoryLeavesEverythingAsItWas) {
   EXPECT_THROW(storage.replace({{"a", "new"}, {"b", "new"}}), StorageError);
   EXPECT_EQ(storage.read("a"), "old");
   EXPECT_FALSE(std::filesystem::exists(directory_ + "/a.new"));
-}
-
-TEST_F(FileStorageTest, AFileThatMayNotGrowIsNotHalfAppended) {
-  FileStorage storage(directory_);
-  storage.append("j", "one\n");
-  const pid_t child = fork();  // the limit must not touch the test program's own output
-  if (child == 0) {
-    signal(SIGXFSZ, SIG_IGN);
-    const rlimit limit{6, 6};
-    setrlimit(RLIMIT_FSIZE, &limit);
-    try {
-      FileStorage(directory_).append("j", "second\n");
-    } catch (const StorageError&) {
-      _exit(0);
-    }
-    _exit(1);
-  }
-  int status = 0;
-  waitpid(child, &status, 0);
-  EXPECT_EQ(status, 0);
-  EXPECT_EQ(storage.read("j"), "one\n");
 }
 
 TEST_F(FileStorageTest, AfterAKillAtAnyMomentAFileIsOldOrNew) {

@@ -4,7 +4,7 @@
 #include "contracts/topics.hpp"
 #include "machine/parameters.hpp"
 #include "node/request.hpp"
-#include "running_service.hpp"
+#include "testing_support/running_service.hpp"
 
 namespace trunnion::parameters {
 namespace {

@@ -1,12 +1,8 @@
 #include "retained_memory.hpp"
 
-#include <fcntl.h>
-#include <sys/mman.h>
-#include <unistd.h>
-
+#include <algorithm>
 #include <atomic>
 #include <cstring>
-#include <stdexcept>
 
 namespace trunnion::plc {
 
@@ -42,19 +38,8 @@ std::uint64_t checksum(const T& value, std::uint64_t seed) {
 
 }  // namespace
 
-RetainedMemory::RetainedMemory(const std::string& path) {
-  const int file = open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
-  if (file < 0 || ftruncate(file, sizeof(Layout)) != 0) {
-    if (file >= 0) close(file);
-    throw std::runtime_error(path + ": cannot be opened for writing");
-  }
-  void* address = mmap(nullptr, sizeof(Layout), PROT_READ | PROT_WRITE, MAP_SHARED, file, 0);
-  close(file);
-  if (address == MAP_FAILED) throw std::runtime_error(path + ": cannot be mapped");
-  layout_ = static_cast<Layout*>(address);
-}
-
-RetainedMemory::~RetainedMemory() { munmap(layout_, sizeof(Layout)); }
+RetainedMemory::RetainedMemory(const std::string& path)
+    : file_(path, sizeof(Layout)), layout_(static_cast<Layout*>(file_.data())) {}
 
 std::optional<RetainedMemory::Kept> RetainedMemory::load() const {
   const Slot* newest = nullptr;

@@ -5,17 +5,15 @@
 #include <string>
 
 #include "memory.hpp"
+#include "storage/mapped_file.hpp"
 
 namespace trunnion::plc {
 
 /// Two slots, written in turn: whoever dies while writing one leaves the other.
 class RetainedMemory {
  public:
-  /// Throws std::runtime_error naming the file.
+  /// Throws storage::StorageError naming the file.
   explicit RetainedMemory(const std::string& path);
-  ~RetainedMemory();
-  RetainedMemory(const RetainedMemory&) = delete;
-  RetainedMemory& operator=(const RetainedMemory&) = delete;
 
   struct Kept {
     std::string boot;
@@ -29,7 +27,8 @@ class RetainedMemory {
  private:
   struct Slot;
   struct Layout;
-  Layout* layout_ = nullptr;
+  storage::MappedFile file_;
+  Layout* layout_;
 };
 
 }  // namespace trunnion::plc

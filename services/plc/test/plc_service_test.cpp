@@ -5,7 +5,7 @@
 
 #include "contracts/topics.hpp"
 #include "node/request.hpp"
-#include "running_service.hpp"
+#include "testing_support/running_service.hpp"
 
 namespace trunnion::plc {
 namespace {

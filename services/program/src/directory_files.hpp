@@ -18,7 +18,6 @@ class DirectoryFiles : public Files {
 
  private:
   std::string path(const std::string& name) const { return directory_ + "/" + name; }
-  void sync_directory() const;
   std::string directory_;
 };
 

@@ -4,33 +4,30 @@
 #include <cstdint>
 #include <optional>
 #include <span>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "storage/file.hpp"
+
 namespace trunnion::program {
 
-/// The disk refused; what() names the file and the reason.
-class FileError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
+using storage::StorageError;
 
 class Files {
  public:
   virtual ~Files() = default;
   /// Regular files, ascending.
   virtual std::vector<std::string> list() = 0;
-  /// Bytes from `offset`, fewer at the end of the file; returns how many. Throws FileError.
+  /// Bytes from `offset`, fewer at the end of the file; returns how many. Throws StorageError.
   virtual std::size_t read(const std::string& name, std::uint64_t offset, std::span<std::uint8_t> bytes) = 0;
-  /// Starts an empty file. Throws FileError.
+  /// Starts an empty file. Throws StorageError.
   virtual void create(const std::string& name) = 0;
-  /// Writes at the end, `offset`; after FileError the file ends at `offset` again.
+  /// Writes at the end, `offset`; after StorageError the file ends at `offset` again.
   virtual void append(const std::string& name, std::uint64_t offset, std::span<const std::uint8_t> bytes) = 0;
   /// Makes `from` durable and puts it in the place of `to`: after a crash `to` is old or new. Throws
-  /// FileError.
+  /// StorageError.
   virtual void publish(const std::string& from, const std::string& to) = 0;
-  /// Throws FileError; a file that is not there is no error.
+  /// Throws StorageError; a file that is not there is no error.
   virtual void remove(const std::string& name) = 0;
 };
 

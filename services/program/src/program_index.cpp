@@ -4,7 +4,7 @@
 #include <array>
 #include <vector>
 
-#include "crc32.hpp"
+#include "storage/crc32.hpp"
 
 namespace trunnion::program {
 namespace {
@@ -27,7 +27,7 @@ std::optional<std::uint32_t> digits(const std::string& text, std::size_t at, std
 void TextScan::add(std::span<const std::uint8_t> bytes) {
   if (bytes.empty()) return;
   size_ += bytes.size();
-  crc_ = program::crc32(crc_, bytes);
+  crc_ = storage::crc32(crc_, bytes);
   newlines_ += static_cast<std::uint32_t>(std::count(bytes.begin(), bytes.end(), std::uint8_t{'\n'}));
   last_ = bytes.back();
   for (std::size_t i = 0; i < bytes.size() && head_.size() < head_length; ++i) {

@@ -40,7 +40,7 @@ bool valid_name(const std::string& name);
 /// The number that a name or a program call asks for: O1234, %1234, 1234, each with or without an extension.
 std::optional<std::uint32_t> number_in_name(const std::string& name);
 
-/// Reads the whole file in pieces of 64 KiB. Throws FileError.
+/// Reads the whole file in pieces of 64 KiB. Throws StorageError.
 TextScan scan(Files& files, const std::string& name);
 
 using Index = std::map<std::string, IndexedProgram>;

@@ -185,7 +185,7 @@ idl::program::ProgramReply ProgramStore::apply(const Request& request, double no
       reply.alarm =
           machine::alarm_definition(error == unknown(request.name) ? "program_missing" : "request_invalid")
               .number;
-  } catch (const FileError& e) {
+  } catch (const StorageError& e) {
     error = e.what();
     reply.data.clear();
     reply.alarm = machine::alarm_definition("storage_failed").number;
@@ -217,7 +217,7 @@ std::string ProgramStore::read(const Request& request, Reply& reply) {
   const auto length = std::min<std::uint64_t>(request.length, entry.size - request.offset);
   reply.data.resize(static_cast<std::size_t>(length));
   if (files->read(request.name, request.offset, reply.data) != length)
-    throw FileError("program '" + request.name + "' was shortened from outside");
+    throw StorageError("program '" + request.name + "' was shortened from outside");
   return "";
 }
 

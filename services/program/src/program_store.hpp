@@ -16,7 +16,7 @@ inline constexpr double upload_patience = 60;        ///< s without a WRITE afte
 class ProgramStore {
  public:
   /// `programs` holds the programs, `state` the file programs.yaml with the revisions. Scans every program,
-  /// so a change made behind our back gets a new revision. Throws FileError, std::runtime_error with
+  /// so a change made behind our back gets a new revision. Throws StorageError, std::runtime_error with
   /// file:line:column.
   ProgramStore(Files& programs, Files& state);
 

@@ -2,9 +2,9 @@
 #include <gtest/gtest.h>
 
 #include "contracts/topics.hpp"
-#include "crc32.hpp"
 #include "node/request.hpp"
-#include "running_service.hpp"
+#include "storage/crc32.hpp"
+#include "testing_support/running_service.hpp"
 
 namespace trunnion::program {
 namespace {
@@ -51,7 +51,7 @@ TEST(ProgramServiceOverDds, AnUploadComesBackTheSameAndSurvivesAKill) {
   }
   request.data.clear();
   request.size = text.size();
-  request.crc32 = crc32(0, text);
+  request.crc32 = storage::crc32(0, text);
   EXPECT_EQ(call(Operation::COMMIT_UPLOAD).entry.lines, 10000u);
   ASSERT_TRUE(listed(2));
 

@@ -4,9 +4,9 @@
 
 #include <map>
 
-#include "crc32.hpp"
 #include "machine/alarms.hpp"
 #include "program_store.hpp"
+#include "storage/crc32.hpp"
 
 namespace trunnion::program {
 namespace {
@@ -50,7 +50,7 @@ class MemoryFiles : public Files {
 class DiskFullFiles : public MemoryFiles {
  public:
   void append(const std::string& name, std::uint64_t offset, std::span<const std::uint8_t> bytes) override {
-    if (full) throw FileError("disk: no space");
+    if (full) throw StorageError("disk: no space");
     MemoryFiles::append(name, offset, bytes);
   }
   bool full = false;
@@ -59,7 +59,7 @@ class DiskFullFiles : public MemoryFiles {
 /// A finished file cannot be put in place.
 class RenameFailsFiles : public MemoryFiles {
  public:
-  void publish(const std::string&, const std::string&) override { throw FileError("disk: read-only"); }
+  void publish(const std::string&, const std::string&) override { throw StorageError("disk: read-only"); }
 };
 
 ProgramRequest request(Operation operation, const std::string& name, std::uint64_t client = 1) {
@@ -68,10 +68,6 @@ ProgramRequest request(Operation operation, const std::string& name, std::uint64
   r.operation = operation;
   r.name = name;
   return r;
-}
-
-std::uint32_t crc_of(const std::string& text) {
-  return crc32(0, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
 }
 
 ProgramReply upload(ProgramStore& store, const std::string& name, const std::string& text) {
@@ -85,17 +81,8 @@ ProgramReply upload(ProgramStore& store, const std::string& name, const std::str
   }
   auto commit = request(Operation::COMMIT_UPLOAD, name);
   commit.size = text.size();
-  commit.crc32 = crc_of(text);
+  commit.crc32 = storage::crc32(text);
   return store.apply(commit, 0);
-}
-
-TEST(Crc32, IsZlibs) {
-  // The check value of CRC-32/ISO-HDLC, and the same in two pieces.
-  EXPECT_EQ(crc_of("123456789"), 0xCBF43926u);
-  const std::string text = "123456789";
-  const auto* bytes = reinterpret_cast<const std::uint8_t*>(text.data());
-  EXPECT_EQ(crc32(crc32(0, {bytes, 4}), {bytes + 4, 5}), 0xCBF43926u);
-  EXPECT_EQ(crc_of(""), 0u);
 }
 
 TEST(TextScan, CountsLinesWithAndWithoutALastEnd) {
@@ -116,7 +103,7 @@ TEST(ProgramStore, AnUploadBecomesAProgramWithRevisionSizeChecksumAndLines) {
   const std::string text = "G0 X0\nG1 X10 F100\nM30\n";
   const auto reply = upload(store, "part.nc", text);
   ASSERT_TRUE(reply.accepted) << reply.reason;
-  EXPECT_EQ(reply.entry, (idl::program::ProgramEntry{"part.nc", 1, text.size(), crc_of(text), 3}));
+  EXPECT_EQ(reply.entry, (idl::program::ProgramEntry{"part.nc", 1, text.size(), storage::crc32(text), 3}));
   EXPECT_EQ(files.texts, (std::map<std::string, std::string>{{"part.nc", text}}));
   EXPECT_EQ(store.list().programs.size(), 1u);
   EXPECT_EQ(upload(store, "part.nc", text).entry.revision, 1u) << "the same text is no change";
@@ -164,7 +151,7 @@ TEST(ProgramStore, AnUploadWithAGapAWrongSizeOrAWrongChecksumIsRefused) {
   write.offset = 3;
   EXPECT_THAT(store.apply(write, 0).reason, HasSubstr("offset 3 is not the end of the upload at 2"));
   auto commit = request(Operation::COMMIT_UPLOAD, "a");
-  commit.size = 3, commit.crc32 = crc_of("ab");
+  commit.size = 3, commit.crc32 = storage::crc32("ab");
   EXPECT_FALSE(store.apply(commit, 0).accepted);
   commit.size = 2, commit.crc32 ^= 1;
   EXPECT_FALSE(store.apply(commit, 0).accepted);

@@ -1,9 +1,9 @@
-#include "language/utf8.hpp"
+#include "text/utf8.hpp"
 
 #include <cstdint>
 #include <cstring>
 
-namespace trunnion::language {
+namespace trunnion::text {
 namespace {
 
 constexpr std::uint64_t high_bits = 0x8080808080808080ull;
@@ -53,4 +53,4 @@ std::size_t valid_utf8_prefix(std::string_view text) {
   return i;
 }
 
-}  // namespace trunnion::language
+}  // namespace trunnion::text

@@ -1,10 +1,10 @@
-#include "crc32.hpp"
+#include "storage/crc32.hpp"
 
 #include <array>
 #include <bit>
 #include <cstring>
 
-namespace trunnion::program {
+namespace trunnion::storage {
 namespace {
 
 using Table = std::array<std::uint32_t, 256>;
@@ -32,7 +32,7 @@ std::uint32_t crc32(std::uint32_t crc, std::span<const std::uint8_t> bytes) {
   std::uint32_t c = ~crc;
   std::size_t i = 0;
   for (; i + 8 <= bytes.size(); i += 8) {
-    std::uint32_t low, high;
+    std::uint32_t low = 0, high = 0;
     std::memcpy(&low, bytes.data() + i, 4);
     std::memcpy(&high, bytes.data() + i + 4, 4);
     low ^= c;
@@ -44,4 +44,8 @@ std::uint32_t crc32(std::uint32_t crc, std::span<const std::uint8_t> bytes) {
   return ~c;
 }
 
-}  // namespace trunnion::program
+std::uint32_t crc32(std::string_view text) {
+  return crc32(0, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+}
+
+}  // namespace trunnion::storage

@@ -6,24 +6,14 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <chrono>
 #include <filesystem>
 #include <fstream>
 #include <string>
-#include <thread>
 #include <vector>
 
-namespace trunnion::testing_support {
+#include "testing_support/eventually.hpp"
 
-/// Waits up to 10 s: a time-out, not a measurement.
-template <class Condition>
-bool eventually(Condition condition) {
-  for (int i = 0; i < 10000; ++i) {
-    if (condition()) return true;
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  }
-  return false;
-}
+namespace trunnion::testing_support {
 
 class RunningService {
  public:

@@ -3,9 +3,9 @@
 
 #include <string_view>
 
-namespace trunnion::language {
+namespace trunnion::text {
 
 /// Length of the longest prefix of `text` that is well-formed UTF-8 (Unicode 15, table 3-7).
 std::size_t valid_utf8_prefix(std::string_view text);
 
-}  // namespace trunnion::language
+}  // namespace trunnion::text

@@ -1,0 +1,80 @@
+// Any request line and body: they are refused with the field, or become an order that is within its limits.
+#include <cmath>
+#include <cstdlib>
+#include <string>
+
+#include "src/orders.hpp"
+#include "src/router.hpp"
+
+namespace trunnion::gateway {
+namespace {
+
+void require(bool condition) {
+  if (!condition) std::abort();
+}
+
+void check(const idl::channel::ChannelRequest& request) {
+  require(request.channel == 2 && request.text.size() <= 256);
+  require(std::isfinite(request.value) && std::isfinite(request.increment) && request.axis < 5);
+}
+
+void body(const std::string& text) {
+  idl::channel::ChannelState state{};
+  state.channel = 2;
+  state.axes = {0, 1, 2, 4, 6};
+  state.letters = "XYZAC";
+  bus::Json json;
+  try {
+    json = parse_body(text);
+  } catch (const BadRequest&) {
+    return;
+  }
+  const auto refused_or = [](auto order) {
+    try {
+      order();
+    } catch (const BadRequest& bad) {
+      require(bad.what()[0] != 0);
+    }
+  };
+  for (const auto operation :
+       {Operation::mode, Operation::select, Operation::cycle_start, Operation::feed_hold, Operation::reset,
+        Operation::mdi, Operation::jog, Operation::jog_stop, Operation::reference, Operation::override_,
+        Operation::single_block, Operation::optional_stop})
+    refused_or([&] { check(channel_order(operation, json, state)); });
+  for (const auto operation : {Operation::emergency_stop, Operation::release, Operation::panel_reset})
+    refused_or([&] { panel_order(operation, json); });
+  refused_or([&] { alarm_reset_order(json); });
+  for (const bool is_text : {false, true})
+    refused_or([&] { require(std::isfinite(parameter_order(100034, is_text, json).values.at(0).value)); });
+  refused_or([&] {
+    const auto request = work_offset_order(json);
+    for (const double value : request.offsets.at(0).values) require(std::isfinite(value));
+  });
+}
+
+}  // namespace
+}  // namespace trunnion::gateway
+
+/// The first line is method, path and query, the rest the body.
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace trunnion::gateway;
+  const std::string text(reinterpret_cast<const char*>(data), size);
+  const auto end = text.find('\n');
+  const auto line = text.substr(0, end);
+  const auto space = line.find(' ');
+  const auto target = space == std::string::npos ? std::string() : line.substr(space + 1);
+  const auto question = target.find('?');
+  const auto found = match(line.substr(0, space), target.substr(0, question));
+  require((found.result == RouteResult::found) || found.parts.empty());
+  for (const auto& part : found.parts) {
+    path_number(part, 999999);
+    try {
+      check_program_name(part);
+      require(!part.empty() && part.size() <= 64 && part.find('/') == std::string::npos);
+    } catch (const BadRequest&) {
+    }
+  }
+  if (question != std::string::npos) query_value(target.substr(question + 1), "search");
+  if (end != std::string::npos) body(text.substr(end + 1));
+  return 0;
+}

@@ -1,0 +1,19 @@
+// For tests of what other threads and processes do.
+#pragma once
+
+#include <chrono>
+#include <thread>
+
+namespace trunnion::testing_support {
+
+/// Waits up to 10 s until `condition` holds, asking every millisecond: a time-out, not a measurement.
+template <class Condition>
+bool eventually(Condition condition) {
+  for (int i = 0; i < 10000; ++i) {
+    if (condition()) return true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  return false;
+}
+
+}  // namespace trunnion::testing_support
