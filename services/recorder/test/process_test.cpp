@@ -161,8 +161,8 @@ TEST_P(RecorderProcess, AFullDiskIsOneLine) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Vendors, RecorderProcess,
-                         testing::Values(std::pair{bus::Vendor::cyclonedds, 90u},
-                                         std::pair{bus::Vendor::fastdds, 95u}),
+                         testing::Values(std::pair{bus::Vendor::cyclonedds, 65u},
+                                         std::pair{bus::Vendor::fastdds, 70u}),
                          [](const auto& it) { return std::string(bus::to_string(it.param.first)); });
 
 TEST(RecorderCommandLine, NamesATopicThatDoesNotExist) {
