@@ -68,16 +68,16 @@ std::uint32_t free_domain() {
   // A directory is made by one process only, so it reserves the domain.
   std::error_code ignored;
   fs::create_directories(base(), ignored);
-  const auto first = static_cast<std::uint32_t>(getpid()) % 40;
-  for (std::uint32_t i = 0; i < 40; ++i) {
-    const RunDirectory run{60 + (first + i) % 40};
+  const auto first = static_cast<std::uint32_t>(getpid()) % 20;
+  for (std::uint32_t i = 0; i < 20; ++i) {
+    const RunDirectory run{80 + (first + i) % 20};
     if (fs::exists(run.path()) && !run.launcher() &&
         fs::last_write_time(run.path()) < fs::file_time_type::clock::now() - std::chrono::minutes(1))
       run.remove();
     fs::create_directories(base(), ignored);
     if (fs::create_directory(run.path(), ignored)) return run.domain;
   }
-  throw std::runtime_error("domains 60 .. 99 are all taken: stop a cluster with 'trunnion down'");
+  throw std::runtime_error("domains 80 .. 99 are all taken: stop a cluster with 'trunnion down'");
 }
 
 std::optional<std::uint32_t> only_running_domain() {

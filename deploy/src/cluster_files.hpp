@@ -28,7 +28,7 @@ struct RunDirectory {
   void remove() const;
 };
 
-/// A domain in 60 .. 99 that no cluster of this user runs in. Throws std::runtime_error when all are taken.
+/// A domain in 80 .. 99 that no cluster of this user runs in. Throws std::runtime_error when all are taken.
 std::uint32_t free_domain();
 /// Domains of this user's clusters that are running.
 std::optional<std::uint32_t> only_running_domain();

@@ -186,7 +186,7 @@ void Launcher::watch() {
     if (process.lost && process.lifecycle == idl::service::Lifecycle::ACTIVE) {
       process.lost = false;
       alarms_.release("service_lost", process.entry.instance);
-      alarms_.clear("redundancy_lost", process.entry.instance);
+      alarms_.release("redundancy_lost", process.entry.instance);
     }
   }
 }

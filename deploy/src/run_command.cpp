@@ -1,261 +1,61 @@
-// run: a machine, a program, a report
-#include <fcntl.h>
-#include <signal.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
+// run: a machine, a program, a report; bench: the same as a measurement
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
 #include <memory>
-#include <sstream>
 
 #include "bus/json.hpp"
-#include "client.hpp"
-#include "cluster.hpp"
+#include "cluster_files.hpp"
 #include "commands.hpp"
-#include "report/report.hpp"
+#include "run.hpp"
 
 namespace trunnion::deploy {
 namespace fs = std::filesystem;
 namespace {
 
-using idl::channel::CommandKind;
-using idl::channel::Mode;
-using idl::channel::RunState;
-
-struct RunOptions {
-  std::string machine;
-  std::vector<std::string> programs;  ///< one for each channel
-  std::string vendor, record, report;
-  bool real_time = false;
-  double timeout = 3600;
-};
-
-// Stops what a run has started, however it ends.
-class Recorder {
- public:
-  Recorder(const std::string& file, std::uint32_t domain) {
-    int out[2];
-    if (pipe(out) != 0) throw std::runtime_error("no pipe");
-    std::vector<std::string> args{binary_directory() + "/trunnion-recorder", "--output", file, "--domain",
-                                  std::to_string(domain)};
-    std::vector<char*> argv;
-    for (auto& arg : args) argv.push_back(arg.data());
-    argv.push_back(nullptr);
-    pid_ = fork();
-    if (pid_ == 0) {
-      dup2(out[1], 1);
-      close(out[0]);
-      execv(argv[0], argv.data());
-      _exit(127);
-    }
-    close(out[1]);
-    out_ = out[0];
-    std::string line;
-    char c = 0;
-    while (read(out_, &c, 1) == 1 && c != '\n') line += c;
-    if (line.rfind("recording", 0) != 0) {
-      stop();
-      throw std::runtime_error("the recorder did not start: " + line);
-    }
-  }
-  ~Recorder() { stop(); }
-  Recorder(const Recorder&) = delete;
-  Recorder& operator=(const Recorder&) = delete;
-  void stop() {
-    if (pid_ <= 0) return;
-    kill(pid_, SIGTERM);
-    waitpid(pid_, nullptr, 0);
-    close(out_);
-    pid_ = 0;
-  }
-
- private:
-  int pid_ = 0, out_ = -1;
-};
-
-class ClusterGuard {
- public:
-  explicit ClusterGuard(RunningCluster cluster) : cluster_(std::move(cluster)) {}
-  ~ClusterGuard() { stop(); }
-  ClusterGuard(const ClusterGuard&) = delete;
-  ClusterGuard& operator=(const ClusterGuard&) = delete;
-  const RunningCluster& get() const { return cluster_; }
-  void stop() {
-    if (!running_) return;
-    running_ = false;
-    try {
-      stop_cluster(cluster_.run);
-    } catch (const std::exception& e) {
-      std::fprintf(stderr, "%s\n", e.what());
-    }
-  }
-
- private:
-  RunningCluster cluster_;
-  bool running_ = true;
-};
-
-std::string read_file(const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
-  if (!in) throw std::runtime_error(path + ": cannot be opened");
-  std::ostringstream text;
-  text << in.rdbuf();
-  return text.str();
-}
-
-// A file is uploaded; another name must be in the store.
-std::string place_program(Client& client, const machine::MachineConfig& machine, const std::string& program) {
-  const auto list = client.newest(topics::program_list);
-  const auto stored = [&](const std::string& name) {
-    return std::any_of(list.programs.begin(), list.programs.end(),
-                       [&](const auto& p) { return p.name == name; });
-  };
-  if (fs::is_regular_file(program)) {
-    const auto name = fs::path(program).filename().string();
-    client.upload(name, read_file(program));
-    for (int i = 0; i < 500; ++i) {  // until the store has published it
-      const auto now = client.newest(topics::program_list);
-      if (std::any_of(now.programs.begin(), now.programs.end(),
-                      [&](const auto& p) { return p.name == name; }))
-        break;
-      std::this_thread::sleep_for(std::chrono::milliseconds(5));
-    }
-    return name;
-  }
-  for (const auto& name : {program, program + ".nc"})
-    if (stored(name)) return name;
-  throw std::runtime_error("program '" + program + "': no such file, and machine " + machine.name +
-                           " has none of this name");
-}
-
-void draw_progress(const std::vector<idl::channel::ChannelState>& states, double seconds) {
-  double progress = 1;
-  std::uint64_t cycle = 0;
-  for (const auto& state : states) {
-    progress = std::min(progress, state.progress);
-    cycle = std::max(cycle, state.cycle);
-  }
-  constexpr int width = 40;
-  const int filled = static_cast<int>(progress * width);
-  std::fprintf(stderr, "\r[%s%s] %3.0f %%  line %u  cycle %llu  %.1f s ",
-               std::string(static_cast<std::size_t>(filled), '#').c_str(),
-               std::string(static_cast<std::size_t>(width - filled), '.').c_str(), progress * 100,
-               states.empty() ? 0 : states[0].line, static_cast<unsigned long long>(cycle), seconds);
-  std::fflush(stderr);
-}
-
-// Starts every channel and waits until all are idle again. Returns the first alarm, or empty.
-std::string execute(Client& client, std::size_t channels, double timeout, bool bar) {
-  auto states = client.bus().reader(topics::channel_state);
-  auto alarms = client.bus().reader(topics::alarm);
-  for (std::uint16_t c = 0; c < channels; ++c) client.channel(c, CommandKind::CYCLE_START);
-  std::vector<idl::channel::ChannelState> newest(channels);
-  std::vector<bool> ran(channels), done(channels);
-  const double began = node::monotonic_seconds();
-  double drawn = 0;
-  std::string alarm;
-  while (std::find(done.begin(), done.end(), false) != done.end()) {
-    client.bus().signal().wait(0.05);
-    idl::channel::ChannelState state;
-    while (states.take(state)) {
-      if (state.channel >= channels) continue;
-      const auto c = state.channel;
-      if (state.state != RunState::IDLE) ran[c] = true;
-      // A short program may be over between two states: then its cycles tell that it ran.
-      done[c] = state.state == RunState::IDLE &&
-                (ran[c] || state.cycle > newest[c].cycle || node::monotonic_seconds() - began > 1);
-      newest[c] = state;
-    }
-    idl::service::Alarm a;
-    while (alarms.take(a))
-      if (a.active && alarm.empty() && a.severity >= idl::service::Severity::ERROR)
-        alarm = "alarm " + std::to_string(a.number) + " (" + a.source + "): " + a.text;
-    const double now = node::monotonic_seconds();
-    if (bar && now - drawn > 0.1) {
-      draw_progress(newest, now - began);
-      drawn = now;
-    }
-    const bool stuck = std::any_of(newest.begin(), newest.end(), [](const auto& s) {
-      return s.state == RunState::INTERRUPTED || s.state == RunState::HELD;
-    });
-    if (stuck && !alarm.empty()) break;
-    if (now - began > timeout) {
-      alarm = "the program did not end within " + std::to_string(static_cast<int>(timeout)) + " s";
-      break;
-    }
-  }
-  if (bar) {
-    for (auto& state : newest)
-      if (alarm.empty()) state.progress = 1;
-    draw_progress(newest, node::monotonic_seconds() - began);
-    std::fprintf(stderr, "\n");
-  }
-  return alarm;
-}
-
-int run(const Common& common, RunOptions options) {
-  const auto directory = find_machine(options.machine);
-  const auto machine = machine::load_machine(directory, options.vendor);
-  if (options.programs.size() > machine.channels)
-    throw std::runtime_error("machine " + machine.name + " has " + std::to_string(machine.channels) +
-                             " channel(s), " + std::to_string(options.programs.size()) +
-                             " programs were given");
-  const fs::path out = options.report.empty() ? fs::path("out") : fs::path(options.report);
+int run(const Common& common, RunOptions options, const std::string& report_directory) {
+  const fs::path out = report_directory.empty() ? fs::path("out") : fs::path(report_directory);
   fs::create_directories(out);
-  const std::string recording = options.record.empty() ? (out / "recording.mcap").string() : options.record;
-  const bool bar = !common.json && isatty(2) != 0;
-
-  UpOptions up;
-  up.machine = directory;
-  up.vendor = options.vendor;
-  up.state_directory = "temporary";
-  up.own_domain = !common.domain;
-  up.domain = common.domain;
-  up.virtual_time = !options.real_time;
-  up.with_gateway = false;
-  ClusterGuard cluster(start_cluster(up));
-  if (!common.json)
-    std::printf("%s is ready in %.2f s (%s time, domain %u)\n", machine.name.c_str(),
-                cluster.get().start_seconds, options.real_time ? "real" : "virtual",
-                cluster.get().run.domain);
-  std::fflush(stdout);
-  std::string alarm;
-  std::vector<std::string> names, texts;
-  {
-    Client client(cluster.get().run.domain);
-    for (std::uint16_t c = 0; c < options.programs.size(); ++c) {
-      names.push_back(place_program(client, machine, options.programs[c]));
-      texts.push_back(client.download(names.back()));
-      client.channel(c, CommandKind::SET_MODE, "", 0, Mode::AUTO);
-      client.channel(c, CommandKind::SELECT_PROGRAM, names.back());
-    }
-    Recorder recorder(recording, cluster.get().run.domain);
-    alarm = execute(client, options.programs.size(), options.timeout, bar);
-    std::this_thread::sleep_for(
-        std::chrono::milliseconds(100));  // what the stages wrote last is still on its way
-    recorder.stop();
-  }
-  cluster.stop();
+  if (options.recording.empty()) options.recording = (out / "recording.mcap").string();
+  options.quiet = common.json;
+  options.domain = common.domain;
+  const auto result = run_programs(options);
   bus::Json all = bus::Json::array();
-  for (std::uint16_t c = 0; c < names.size(); ++c) {
-    report::ReportInputs inputs;
-    inputs.program_name = names[c];
-    inputs.program_text = texts[c];
-    inputs.channel = c;
-    const auto result = report::make_report(recording, inputs);
-    const auto directory = names.size() == 1 ? out : out / ("channel" + std::to_string(c));
-    report::write_report(result, directory.string());
+  for (std::size_t c = 0; c < result.reports.size(); ++c) {
+    const auto directory = result.reports.size() == 1 ? out : out / ("channel" + std::to_string(c));
+    report::write_report(result.reports[c], directory.string());
     if (common.json)
-      all.push_back(bus::Json::parse(report::json_text(result)));
+      all.push_back(bus::Json::parse(report::json_text(result.reports[c])));
     else
-      std::printf("\n%s\nReport: %s\n", report::terminal_text(result).c_str(), directory.string().c_str());
+      std::printf("\n%s\nReport: %s\n", report::terminal_text(result.reports[c]).c_str(), directory.string().c_str());
   }
   if (common.json) std::cout << (all.size() == 1 ? all[0] : all).dump(2) << "\n";
-  if (!alarm.empty()) throw std::runtime_error(alarm);
+  if (!result.alarm.empty()) throw std::runtime_error(result.alarm);
+  return 0;
+}
+
+// Times the cone over the vendors in virtual time, each layout several times in turn, so that a noisy machine is noisy
+// for all; or counts starved cycles in real time.
+int bench(const Common& common, const std::string& machine, const std::string& program, int rounds, bool real_time) {
+  const auto recording = (fs::temp_directory_path() / ("trunnion-bench-" + std::to_string(getpid()) + ".mcap")).string();
+  bus::Json rows = bus::Json::array();
+  if (!common.json) std::printf("%-11s %5s %12s %14s %10s %18s\n", "vendor", "round", "cycles", "x real time", "starved", "command hash");
+  for (int round = 0; round < rounds; ++round)
+    for (const char* vendor : {"cyclonedds", "mixed", "fastdds"}) {
+      RunOptions options;
+      options.machine = machine, options.programs = {program}, options.vendor = vendor;
+      options.recording = recording, options.quiet = true, options.real_time = real_time;
+      const auto result = run_programs(options);
+      fs::remove(recording);
+      if (!result.alarm.empty()) throw std::runtime_error(result.alarm);
+      const auto& r = result.reports.at(0);
+      rows.push_back({{"vendor", vendor}, {"round", round}, {"cycles", r.executed}, {"times_real_time", r.speed}, {"starved_periods", r.starved}, {"ready_seconds", result.start_seconds}});
+      if (!common.json)
+        std::printf("%-11s %5d %12llu %14.1f %10llu   %016llx\n", vendor, round, static_cast<unsigned long long>(r.executed), r.speed, static_cast<unsigned long long>(r.starved), static_cast<unsigned long long>(r.command_hash));
+      std::fflush(stdout);
+    }
+  if (common.json) std::cout << rows.dump(2) << "\n";
   return 0;
 }
 
@@ -263,25 +63,25 @@ int run(const Common& common, RunOptions options) {
 
 void add_run_command(CLI::App& app, Common& common) {
   auto options = std::make_shared<RunOptions>();
-  auto* command = add_command(app, common, "run",
-                              "Start a cluster of its own, run a program on it, write a report, stop it",
-                              [&common, options] { return run(common, *options); });
-  command
-      ->add_option("machine", options->machine,
-                   "Name under configs/machines, or a directory with machine.yaml")
-      ->required();
-  command
-      ->add_option("programs", options->programs,
-                   "Program file, or name of a stored program; one for each channel")
-      ->required();
-  command->add_option("--record", options->record,
-                      "Recording to write (default: recording.mcap in the report's directory)");
-  command->add_option("--report", options->report, "Directory of the report (default: out)");
-  command->add_flag("--real-time", options->real_time,
-                    "One cycle in one cycle time instead of as fast as possible");
-  command->add_option("--vendor", options->vendor, "DDS vendor of every service, instead of machine.yaml's")
-      ->check(CLI::IsMember({"fastdds", "cyclonedds", "mixed"}));
+  auto report_directory = std::make_shared<std::string>();
+  auto* command = add_command(app, common, "run", "Start a cluster of its own, run a program on it, write a report, stop it", [&common, options, report_directory] { return run(common, *options, *report_directory); });
+  command->add_option("machine", options->machine, "Name under configs/machines, or a directory with machine.yaml")->required();
+  command->add_option("programs", options->programs, "Program file, or name of a stored program; one for each channel")->required();
+  command->add_option("--record", options->recording, "Recording to write (default: recording.mcap in the report's directory)");
+  command->add_option("--report", *report_directory, "Directory of the report (default: out)");
+  command->add_flag("--real-time", options->real_time, "One cycle in one cycle time instead of as fast as possible");
+  command->add_option("--vendor", options->vendor, "DDS vendor of every service, instead of machine.yaml's")->check(CLI::IsMember({"fastdds", "cyclonedds", "mixed"}));
   command->add_option("--timeout", options->timeout, "Seconds of wall time after which the run has failed");
+
+  auto machine = std::make_shared<std::string>("ac-table"), program = std::make_shared<std::string>("nas979_cone");
+  auto rounds = std::make_shared<int>(3);
+  auto real_time = std::make_shared<bool>(false);
+  command = add_command(app, common, "bench", "Measure the stream: the speed of a program in virtual time over the DDS vendors, or starved cycles in real time",
+                        [&common, machine, program, rounds, real_time] { return bench(common, *machine, *program, *rounds, *real_time); });
+  command->add_option("--machine", *machine, "Machine (default ac-table)");
+  command->add_option("--program", *program, "Program (default nas979_cone)");
+  command->add_option("--rounds", *rounds, "Rounds over the vendors")->check(CLI::Range(1, 1000));
+  command->add_flag("--real-time", *real_time, "Run in real time and count starved cycles");
 }
 
 }  // namespace trunnion::deploy

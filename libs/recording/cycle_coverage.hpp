@@ -18,6 +18,8 @@ class CycleCoverage {
   std::uint64_t covered() const;
   /// Cycles between the first and the last that no frame covers although the channel was not idle.
   std::uint64_t lost() const;
+  /// The first frame says that nothing was before it.
+  bool begins_at_a_start() const { return runs_.empty() || runs_.begin()->second.starts; }
   /// Frames that brought nothing new.
   std::uint64_t repeated() const { return repeated_; }
   /// Frames that came after a later one, and were still news.

@@ -45,6 +45,8 @@ class Collector {
       out_.lost[key.first] += coverage.lost();
       out_.late_frames += coverage.late();
       out_.repeated_frames += coverage.repeated();
+      if (key.first == "path_frame" && !coverage.begins_at_a_start() && out_.problem.empty())
+        out_.problem = "the recording begins after the motion did";
     }
     // Of a cycle that was written again in a later epoch the first was void.
     std::stable_sort(out_.path.begin(), out_.path.end(), [](const PathRow& a, const PathRow& b) {

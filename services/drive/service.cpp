@@ -26,6 +26,7 @@ void DriveService::start() {
   writer_.emplace(node_.bus().writer(topics::feedback_frame));
   outputs_.emplace(node_.bus().reader(topics::plc_outputs));
   services_.emplace(node_.bus().reader(topics::service_state));
+  alarms_.emplace(node_.bus().reader(topics::alarm));
   requests_.emplace(node_.bus().reader(topics::stream_request));
   frames_.emplace(node_.bus().reader(topics::gantry_frame));
   next_tick_ = node::monotonic_seconds();
@@ -74,6 +75,9 @@ void DriveService::drain() {
   idl::service::ServiceState state;
   while (services_->take(state))
     if (state.service == "plc") plc_seen_ = now;
+  idl::service::Alarm alarm;
+  while (alarms_->take(alarm))
+    if (alarm.active && alarm.reaction == idl::service::Reaction::AXIS_STOP && alarm.instance != node_.options().instance) core_.stop();
   // An emergency stop is also the drive's own reaction to the silence of the one who could order it.
   if (have_plc_ && now - plc_seen_ > plc_patience) {
     node_.alarms().raise("plc_absent", 0, "No sign of the PLC for " + std::to_string(plc_patience) + " s",

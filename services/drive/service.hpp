@@ -33,6 +33,7 @@ class DriveService : public node::Service {
   std::optional<bus::Reader<idl::stream::StreamRequest>> requests_;
   std::optional<bus::Reader<idl::plc::Outputs>> outputs_;
   std::optional<bus::Reader<idl::service::ServiceState>> services_;
+  std::optional<bus::Reader<idl::service::Alarm>> alarms_;
   std::optional<bus::Writer<idl::stream::FeedbackFrame>> writer_;
   idl::stream::AxisFrame frame_;
   idl::stream::FeedbackFrame feedback_;

@@ -2,8 +2,11 @@
 
 #include <signal.h>
 #include <sys/prctl.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <chrono>
 #include <iostream>
 #include <stdexcept>
 #include <thread>
@@ -21,6 +24,8 @@ namespace trunnion::recorder {
 namespace {
 
 constexpr double flush_seconds = 1.0;  // what a crash of the recorder may cost
+constexpr double match_seconds = 1.0;  // how long to wait for the writers of the stream
+constexpr int priority = -10;          // of the threads that take samples; they use little
 
 volatile sig_atomic_t stop_requested = 0;
 
@@ -137,6 +142,18 @@ bool drain(std::vector<Topic>& topics, MessageQueue& queue, Message& message) {
   return any;
 }
 
+// Motion that begins before the stream's readers are matched would be missing from the recording.
+void wait_for_writers(const std::vector<Topic>& topics) {
+  const double until = node::monotonic_seconds() + match_seconds;
+  const auto matched = [&] {
+    return std::all_of(topics.begin(), topics.end(), [](const Topic& topic) {
+      return topic.entry->qos != bus::QosKind::frame || topic.reader->matched() > 0;
+    });
+  };
+  while (!matched() && stop_requested == 0 && node::monotonic_seconds() < until)
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+}
+
 void print_summary(const Options& options, const FileThread& file, std::uint64_t dropped) {
   const auto& tally = file.tally();
   if (options.json) {
@@ -175,12 +192,16 @@ int record(const Options& options) {
   const auto entries = chosen_topics(options.topics);
   MessageQueue queue(options.queue_mebibytes << 20);
   FileThread file(options, entries, queue);
+  // A stream faster than real time keeps only some milliseconds for whoever is late, so the threads that take
+  // samples go first where that is allowed; the one that compresses has begun before and stays as it is.
+  setpriority(PRIO_PROCESS, 0, priority);
   bus::Bus bus(options.vendor, options.network);
   std::vector<Topic> topics;
   for (const auto* entry : entries) {
     const bool late = bus::reader_qos(entry->qos).transient_local;
     topics.push_back({entry, bus.backend().reader(entry->description, {late, 0}, &bus.signal()), 0});
   }
+  wait_for_writers(topics);
   std::cout << "recording " << options.output << std::endl;
 
   const double started = node::monotonic_seconds();

@@ -289,6 +289,8 @@ std::string configuration(const NetworkSettings& network) {
   std::istringstream peers(network.peers);
   for (std::string peer; std::getline(peers, peer, ',');) xml << "<Peer address=\"" << peer << "\"/>";
   xml << "</Peers><SPDPInterval>0.5s</SPDPInterval><LeaseDuration>3s</LeaseDuration></Discovery>"
+         // A writer never waits for a reader that is slow or dead: its bounded history is what it may lose.
+         "<Internal><Watermarks><WhcHigh>64MB</WhcHigh></Watermarks></Internal>"
          "</Domain></CycloneDDS>";
   return xml.str();
 }

@@ -37,7 +37,7 @@ TEST_P(BusOverVendors, KeyedStateReachesALateJoinerWithTheNewestOfEachKey) {
 
 TEST_P(BusOverVendors, FramesArriveInOrderAndHistoryIsAsDeepAsAsked) {
   const auto [from, to, domain] = GetParam();
-  Bus a(from, {domain + 10}, {16}), b(to, {domain + 10});
+  Bus a(from, {domain + 4}, {16}), b(to, {domain + 4});
   auto writer = a.writer(topics::gantry_frame);
   idl::stream::AxisFrame frame;
   for (frame.first = 1; frame.first <= 40; ++frame.first) writer.write(frame);
@@ -58,7 +58,7 @@ TEST_P(BusOverVendors, FramesArriveInOrderAndHistoryIsAsDeepAsAsked) {
 
 TEST_P(BusOverVendors, AnotherContractDoesNotMatch) {
   const auto [from, to, domain] = GetParam();
-  Bus a(from, {domain + 20}), b(to, {domain + 20});
+  Bus a(from, {domain + 8}), b(to, {domain + 8});
   auto other = topics::alarm;
   other.wire_type = "trunnion::service::Alarm_00000000";
   auto stranger = a.writer(other);
@@ -71,7 +71,7 @@ TEST_P(BusOverVendors, AnotherContractDoesNotMatch) {
 
 TEST_P(BusOverVendors, ASampleOf60KilobytesIsDelivered) {
   const auto [from, to, domain] = GetParam();
-  Bus a(from, {domain + 30}), b(to, {domain + 30});
+  Bus a(from, {domain + 12}), b(to, {domain + 12});
   auto writer = a.writer(topics::program_reply);
   auto reader = b.reader(topics::program_reply);
   idl::program::ProgramReply reply, in;
@@ -82,10 +82,10 @@ TEST_P(BusOverVendors, ASampleOf60KilobytesIsDelivered) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Vendors, BusOverVendors,
-                         testing::Values(Pair{Vendor::cyclonedds, Vendor::cyclonedds, 41},
-                                         Pair{Vendor::fastdds, Vendor::fastdds, 42},
-                                         Pair{Vendor::cyclonedds, Vendor::fastdds, 43},
-                                         Pair{Vendor::fastdds, Vendor::cyclonedds, 44}),
+                         testing::Values(Pair{Vendor::cyclonedds, Vendor::cyclonedds, 20},
+                                         Pair{Vendor::fastdds, Vendor::fastdds, 21},
+                                         Pair{Vendor::cyclonedds, Vendor::fastdds, 22},
+                                         Pair{Vendor::fastdds, Vendor::cyclonedds, 23}),
                          [](const auto& vendors) {
                            return std::string(to_string(vendors.param.writer)) + "_to_" +
                                   to_string(vendors.param.reader);

@@ -35,6 +35,15 @@ TEST(CycleCoverage, AMissingEndOrStartIsAGap) {
   EXPECT_EQ(no_start.lost(), 2u);
 }
 
+TEST(CycleCoverage, ARecordingThatCameLateDoesNotBeginAtAStart) {
+  CycleCoverage c;
+  EXPECT_TRUE(c.begins_at_a_start());
+  c.add(108, 8, false, false);
+  EXPECT_FALSE(c.begins_at_a_start());
+  c.add(100, 8, true, false);
+  EXPECT_TRUE(c.begins_at_a_start());
+}
+
 TEST(CycleCoverage, CopiesRepeatAndLateFramesFillTheirGap) {
   CycleCoverage c;
   c.add(0, 8, true, false);

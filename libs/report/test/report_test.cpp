@@ -83,6 +83,13 @@ TEST_F(ReportOfARun, MissingFramesAreLostCycles) {
   EXPECT_EQ(r.residual_cycles, cycles - test::frame_cycles);
 }
 
+TEST_F(ReportOfARun, ALateRecordingIsAProblem) {
+  run.late_frames = 5;
+  const auto r = report();
+  EXPECT_EQ(r.problem, "the recording begins after the motion did");
+  EXPECT_EQ(r.cycles, cycles - 5 * test::frame_cycles);
+}
+
 TEST_F(ReportOfARun, CopiesOfTwinsAreNeitherLostNorCountedTwice) {
   run.twins = true;
   const auto r = report();

@@ -178,7 +178,7 @@ std::uint64_t record_run(const RunOptions& options) {
     joints.count = feedback.count = path.count;
     joints.lines = path.lines;
     std::int64_t time = start_time + frame_number * frame_interval;
-    file.write(topics::path_frame, path, time);
+    if (frame_number >= options.late_frames) file.write(topics::path_frame, path, time);
     for (int stage = 2; stage <= 4; ++stage) {
       joints.stage = static_cast<std::uint8_t>(stage);
       time += stage_latency[stage - 2];

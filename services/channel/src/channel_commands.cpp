@@ -111,6 +111,7 @@ Answer ChannelCore::cycle_start() {
       run_ = RunState::RUNNING;
       return {};
     case RunState::INTERRUPTED:
+      if (must_reset_) return refuse("not_ready", "The drives were switched off in the program: reset the channel");
       if (restart_) {  // the stream was lost: begin anew at the newest point that was executed
         const auto point = *restart_;
         return start_program(point);
@@ -225,6 +226,7 @@ Answer ChannelCore::jog(const ChannelRequest& request) {
 
 void ChannelCore::reset() {
   ++reset_count_;
+  must_reset_ = false;
   modal_ = power_on_modal();
   if (activity_ == Activity::none) {
     apply_parameters();

@@ -138,6 +138,7 @@ void ChannelCore::recover() {
 }
 
 void ChannelCore::interrupt(const std::string& why) {
+  must_reset_ = must_reset_ || (link_.drive_mode() == DriveMode::off && link_.state() != LinkState::lost && activity_ != Activity::none);
   if (link_.state() == LinkState::lost || link_.state() == LinkState::refused) {
     // What was written is void: go on from the newest consistent cut, if there is a program to go on with.
     const bool was_lost = link_.state() == LinkState::lost;
@@ -180,7 +181,7 @@ void ChannelCore::on_auxiliary_done(const idl::plc::AuxiliaryDone& done) {
   auxiliary_open_ = false;
   if (done.failed) {
     event("auxiliary_refused",
-          "line " + std::to_string(flow_.pending().line) + ": the PLC could not carry it out");
+          selected_.name + ":" + std::to_string(flow_.pending().line) + ": the PLC could not carry it out");
     auxiliary_.kind = 0;
     outgoing_auxiliary_ = auxiliary_;
     stop_activity();

@@ -92,7 +92,7 @@ std::string ChannelMachine::travel_error(const AxisValues& from, const language:
           machine[index] <= travel_[index].positive + 1e-6)
         continue;
       char text[160];
-      std::snprintf(text, sizeof text, "line %u: %c would go to %.4f, its travel is %.4f .. %.4f", move.line,
+      std::snprintf(text, sizeof text, "%u: %c would go to %.4f, its travel is %.4f .. %.4f", move.line,
                     language::axis_letters[index], machine[index], travel_[index].negative,
                     travel_[index].positive);
       return text;

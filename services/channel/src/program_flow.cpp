@@ -33,7 +33,7 @@ FlowState ProgramFlow::push_move() {
   const bool taken = partly ? trajectory_->push_from(move, restart_.fraction) : trajectory_->push(move);
   if (!taken) {
     alarm_number_ = 1112;
-    alarm_text_ = "line " + std::to_string(command_.line) +
+    alarm_text_ = std::to_string(command_.line) +
                   ": feed must be above zero (per revolution: with the spindle turning)";
     return FlowState::alarm;
   }

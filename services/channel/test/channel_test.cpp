@@ -190,7 +190,7 @@ TEST_F(Channel, AMoveBeyondTheTravelIsAnAlarmBeforeItMoves) {
   run();
   EXPECT_EQ(core->run_state(), RunState::IDLE);
   ASSERT_EQ(events.size(), 1u);
-  EXPECT_EQ(events[0].text, "part.nc:line 3: X would go to 401.0000, its travel is -400.0000 .. 400.0000");
+  EXPECT_EQ(events[0].text, "part.nc:3: X would go to 401.0000, its travel is -400.0000 .. 400.0000");
   EXPECT_EQ(drive.rows.back()[0], 10);
 }
 

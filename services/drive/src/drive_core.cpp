@@ -346,17 +346,29 @@ void DriveCore::advance(double cycles) {
   }
 }
 
+// The channel that starts alone may begin away from where its axes are: they are moved there first. When others move,
+// its first setpoint is a setpoint like any other, and must not jump.
+bool DriveCore::approach_needed() {
+  const auto active = std::count_if(channels_.begin(), channels_.end(), [](const auto& c) { return c.second.active; });
+  const bool starts = std::any_of(channels_.begin(), channels_.end(), [&](const auto& c) { return c.second.active && c.second.start == next_; });
+  if (!starts || active != 1) return false;
+  target_of(next_, scratch_);
+  for (std::size_t i = 0; i < axes_.size(); ++i)
+    if (std::abs(scratch_[i] - command_[i]) > on_path) return true;
+  return false;
+}
+
+// Another part of the controller has found a reason to stop: along the path, as for a missing setpoint.
+void DriveCore::stop() {
+  if (mode_ == Mode::following && any_active()) begin_braking();
+}
+
 void DriveCore::follow() {
   if (rate_ == 1 && phase_ == 0) {  // the ordinary case: one cycle in one period, the setpoint as it is
-    if (std::any_of(channels_.begin(), channels_.end(),
-                    [&](const auto& c) { return c.second.active && c.second.start == next_; })) {
-      target_of(next_, scratch_);
-      for (std::size_t i = 0; i < axes_.size(); ++i)
-        if (std::abs(scratch_[i] - command_[i]) > on_path) {
-          const auto start = scratch_;
-          plan_return(start);
-          return;
-        }
+    if (approach_needed()) {
+      const auto start = scratch_;
+      plan_return(start);
+      return;
     }
     if (!pass_cycle()) return;
     command_ = target_;

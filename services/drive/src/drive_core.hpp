@@ -57,6 +57,8 @@ class DriveCore {
   void fill(idl::stream::FeedbackFrame& out);
   std::uint32_t pending_rows() const { return rows_; }
   std::vector<DriveEvent> take_events();
+  /// Stops along the path and holds.
+  void stop();
   /// Alarms about to be reset: supervision may fire again.
   void acknowledge();
 
@@ -101,6 +103,7 @@ class DriveCore {
   void begin_braking();
   bool pass_cycle();
   void advance(double cycles);
+  bool approach_needed();
   void follow();
   void brake();
   void resume();

@@ -20,12 +20,13 @@ bool MessageQueue::push(Message& message) {
     }
     bytes_ += size;
     most_used_ = std::max(most_used_, bytes_ + taken_);
-    messages_.push_back(std::move(message));
-    message.cdr.clear();
+    std::vector<std::uint8_t> buffer;
     if (!buffers_.empty()) {
-      message.cdr = std::move(buffers_.back());
+      buffer = std::move(buffers_.back());
       buffers_.pop_back();
     }
+    messages_.push_back({message.topic, message.sequence, message.source_time,
+                         std::exchange(message.cdr, std::move(buffer))});
   }
   arrived_.notify_one();
   return true;

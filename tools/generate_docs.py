@@ -1,0 +1,148 @@
+#!/usr/bin/env python3
+"""Writes the reference tables of docs/ from the files that define what they list: parameters, alarms, G and M codes, PLC registers.
+
+With --check nothing is written: differences are printed and the exit status is 1.
+"""
+import argparse, difflib, os, re, sys
+import yaml
+
+ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+TEXT = r'((?:"(?:[^"\\]|\\.)*"\s*)+)'  # C++ string literals, which the compiler joins
+
+
+def read(path):
+    with open(os.path.join(ROOT, path), encoding="utf-8") as f: return f.read()
+
+
+def fail(path, text): sys.exit(f"{path}: error: {text}")
+
+
+def cell(value): return str(value).replace("|", "\\|").replace("\n", " ")
+
+
+def table(head, rows):
+    return ["| " + " | ".join(head) + " |", "|" + "---|" * len(head)] + ["| " + " | ".join(cell(c) for c in row) + " |" for row in rows]
+
+
+def entries(path, name, pattern):
+    """Every NAME{...} of a C++ table; an entry that the pattern does not understand is an error, never left out."""
+    text = read(path)
+    found = re.findall(name + r"\{" + pattern + r"\s*\}", text)
+    there = len(re.findall(name + r"\{", text))
+    if not found or len(found) != there: fail(path, f"{len(found)} of {there} entries {name}{{...}} can be read")
+    return found
+
+
+def joined(literals): return "".join(re.findall(r'"((?:[^"\\]|\\.)*)"', literals)).replace('\\"', '"')
+
+
+def number(value):
+    if isinstance(value, list): return " ".join(number(v) for v in value)
+    return f"{value:g}" if abs(value) < 1e6 else f"{value:.0f}"
+
+
+def parameters():
+    path = "libs/machine/catalogue.yaml"
+    catalogue = yaml.safe_load(read(path))
+    out = ["# Parameters", "", f"Generated from `{path}` by `tools/generate_docs.py`.", "",
+           "A number is the base of its class, plus 1000 for each unit (channel c, axis a), plus the offset: `10a034` is 100034 for axis 0 and 112034 for axis 12.",
+           "Activation: *save* takes effect at once, *reset* at the next reset of a channel, *restart* when the cluster starts. The numbers are those of",
+           "the HNC-8 manual, but offsets 900 and above are Trunnion's own, and 30a020 to 30a024, which the manual leaves open, mirror its straightness tables. Values are changed with `trunnion param`, on the page, or with `PUT /api/parameters/{number}`.", ""]
+    known = set()
+    for name, about in catalogue["classes"].items():
+        letter = {"channel": "c", "axis": "a", "compensation": "a"}.get(name)
+        if about["units"] > 1 and letter is None: fail(path, f"class {name} has several units and no letter for them here")
+        rows = []
+        for p in sorted((p for p in catalogue["parameters"] if p["class"] == name), key=lambda p: p["offset"]):
+            known.add((name, p["name"]))
+            first, last = p["offset"], p["offset"] + p.get("count", 1) - 1
+            base = f"{about['base'] // 1000:03d}"
+            digits = (lambda o: f"{base[:2]}{letter}{o:03d}") if letter else (lambda o: f"{about['base'] + o:06d}")
+            text = p["type"] == "text"
+            rows.append((f"`{digits(first)}`" + (f" .. `{digits(last)}`" if last > first else ""), p["name"], p["unit"].replace("|", " or "),
+                         p["type"], "" if text else f"{number(p['min'])} .. {number(p['max'])}", p["default"] if text else number(p["default"]),
+                         p["activation"], p["access"], p["help"]))
+        out += [f"## {about['about'][0].upper()}{about['about'][1:]}", ""] + table(("number", "name", "unit", "type", "range", "default", "activation", "access", "meaning"), rows) + [""]
+    if len(known) != len(catalogue["parameters"]): fail(path, "a parameter is in no class, or twice in one")
+    return out
+
+
+def alarms():
+    machine, language = "libs/machine/alarms.yaml", "libs/language/alarms.hpp"
+    rows = [(a["number"], f"`{a['name']}`", a["severity"], a["reaction"], a["text"]) for a in sorted(yaml.safe_load(read(machine))["alarms"], key=lambda a: a["number"])]
+    block = re.search(r"enum class AlarmNumber[^{]*\{(.*?)\};", read(language), re.S)
+    if not block: fail(language, "enum AlarmNumber is not there")
+    numbers = {name: int(value) for name, value in re.findall(r"(\w+)\s*=\s*(\d+)", block.group(1))}
+    texts = {name: joined(text) for name, text in entries(language, "AlarmText", r"AlarmNumber::(\w+),\s*" + TEXT)}
+    if set(texts) != set(numbers) - {"none"}: fail(language, "numbers and texts do not match: " + ", ".join(sorted(set(texts) ^ (set(numbers) - {"none"}))))
+    out = ["# Alarms", "", f"Generated from `{machine}` and `{language}` by `tools/generate_docs.py`.", "",
+           "An alarm is latched: it stays until it is reset (`trunnion alarms --reset`, or on the page), and a reset clears only what no longer holds. While an alarm with a",
+           "reaction other than *show* is active, every channel holds on its path and nothing can be started. For 110 to 113 the drive brakes by itself as well; for 130 and 133 it brakes and",
+           "switches the axes off. What follows the loss of a process is in [faults.md](faults.md).", "", "## Machine and cluster", ""]
+    out += table(("number", "name", "severity", "reaction", "text"), rows)
+    out += ["", "## NC language", "", "Severity *error*, reaction *show*: the program ends where the fault is. The text names the place, `program:line:column`, and the word.", ""]
+    return out + table(("number", "text"), [(numbers[n], texts[n]) for n in sorted(texts, key=numbers.get)])
+
+
+def codes():
+    path = "libs/language/codes.hpp"
+    g = [(int(t), group, ok == "true", joined(text)) for t, group, ok, text in entries(path, "GCode", r"(\d+),\s*Group::(\w+),\s*(true|false),\s*" + TEXT)]
+    m = [(int(n), when, action, group, joined(text)) for n, when, action, group, text in
+         entries(path, "MCode", r"(\d+),\s*When::(\w+),\s*MAction::(\w+),\s*MGroup::(\w+),\s*" + TEXT)]
+    name = lambda tenths: f"G{tenths // 10}" + (f".{tenths % 10}" if tenths % 10 else "")
+    out = ["# G and M codes", "", f"Generated from `{path}` by `tools/generate_docs.py`.", "", "## G codes", "",
+           "A block may hold one code of each group. Every group but *one_block* is modal: the code stays until another of its group.", ""]
+    out += table(("code", "group", "meaning"), [(name(t), group, text + ("" if ok else " (known, and refused with alarm 1102)")) for t, group, ok, text in g])
+    out += ["", "## M codes", "", "*before* and *after*: when it acts, seen from the motion of its block. A block may hold one M code of each group, and none twice.",
+            "Every other M code up to M999 goes to the PLC before the motion.", ""]
+    return out + table(("code", "acts", "group", "handled as", "meaning"), [(f"M{n}", when, "" if group == "none" else group, action, text) for n, when, action, group, text in m])
+
+
+def address(first, index, stride):
+    kind, rest = first[0], first[1:]
+    register, _, bit = rest.partition(".")
+    if stride == "bit": return f"{kind}{register}.{int(bit) + index}"
+    return f"{kind}{int(register) + index * stride}" + (f".{bit}" if bit else "")
+
+
+def registers():
+    path = "services/plc/registers.yaml"
+    out = ["# PLC registers", "", f"Generated from `{path}` by `tools/generate_docs.py`.", "",
+           "The interface between the PLC program and everything else; programs use the names. A name with several registers is `name_0`, `name_1` and so on.",
+           "X inputs, Y outputs (bytes), F from the NC and G to the NC (16 bit), R relays (bytes), B kept through a restart (32 bit).",
+           "Free for programs: X16.., Y16.., G300.., all R and all B. The language is described in [services/plc](../services/plc/README.md).", ""]
+    rows = []
+    for r in yaml.safe_load(read(path))["registers"]:
+        count, stride = r.get("count", 1), r.get("stride", 1)
+        several = count > 1
+        where = f"`{r['address']}`" + (f" .. `{address(r['address'], count - 1, stride)}`" if several else "")
+        step = "" if not several else "each bit" if stride == "bit" else f"every {stride}" if stride > 1 else "each"
+        rows.append((f"`{r['name']}" + (f"_0` .. `_{count - 1}`" if several else "`"), where, step, r.get("about", "")))
+    return out + table(("name", "address", "step", "meaning"), rows)
+
+
+DOCUMENTS = {"parameters.md": parameters, "alarms.md": alarms, "codes.md": codes, "plc-registers.md": registers}
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--check", action="store_true", help="compare with the committed files instead of writing them")
+    check = parser.parse_args().check
+    stale = False
+    for name, make in DOCUMENTS.items():
+        path = os.path.join(ROOT, "docs", name)
+        text = "\n".join(make()).rstrip("\n") + "\n"
+        old = ""
+        if os.path.exists(path):
+            with open(path, encoding="utf-8") as f: old = f.read()
+        if old == text: continue
+        if not check:
+            with open(path, "w", encoding="utf-8") as f: f.write(text)
+            continue
+        stale = True
+        sys.stdout.writelines(difflib.unified_diff(old.splitlines(True), text.splitlines(True), f"docs/{name}", "as generated"))
+    if stale: sys.exit("docs/ is not what tools/generate_docs.py writes: run it and commit the result")
+
+
+if __name__ == "__main__":
+    main()
