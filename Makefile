@@ -5,7 +5,7 @@ BUILD := build/$(PRESET)
 TRUNNION := $(BUILD)/bin/trunnion
 JOBS := $(shell nproc)
 
-.PHONY: run test build packages unit sanitize fuzz lint format bench clean
+.PHONY: run test build configure packages unit sanitize fuzz lint format bench clean
 
 run: build
 	$(TRUNNION) run ac-table nas979_cone --report out
@@ -16,31 +16,37 @@ test: build
 packages:
 	@deploy/install-packages.sh
 
-build: packages
+configure: packages
 	@mkdir -p build
 	@cmake --preset $(PRESET) > $(BUILD)-configure.log || { cat $(BUILD)-configure.log; exit 1; }
+
+build: configure
 	@cmake --build --preset $(PRESET) -- --quiet
 
 # The unit tests under the address and undefined-behaviour sanitizers.
 sanitize: packages
-	@cmake --preset sanitize > /dev/null
+	@mkdir -p build
+	@cmake --preset sanitize > build/sanitize-configure.log || { cat build/sanitize-configure.log; exit 1; }
 	cmake --build --preset sanitize -- --quiet
 	ctest --test-dir build/sanitize --output-on-failure -j $(JOBS) -L unit
 
 # A short run of every fuzzer.
 fuzz: packages
-	@cmake --preset fuzz > /dev/null
+	@mkdir -p build
+	@cmake --preset fuzz > build/fuzz-configure.log || { cat build/fuzz-configure.log; exit 1; }
 	cmake --build --preset fuzz -- --quiet
 	ctest --test-dir build/fuzz --output-on-failure -j $(JOBS) -L fuzz
 
-lint: build
+# Needs the generated headers, not the programs.
+lint: configure
+	@cmake --build --preset $(PRESET) --target contracts_generated -- --quiet
 	tools/lint.sh $(BUILD)
 
 format:
 	git ls-files '*.cpp' '*.hpp' | xargs clang-format-14 -i
 
 bench: build
-	for program in $(BUILD)/bin/*_bench; do $$program || exit 1; done
+	for program in $(BUILD)/bin/*_bench; do $$program $(BENCH_OPTIONS) || exit 1; done
 
 clean:
 	rm -rf build out

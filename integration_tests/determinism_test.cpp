@@ -1,4 +1,5 @@
-// The same machine and program give the same drive commands, bit for bit, whatever the vendors and whatever happens to twins.
+// The same machine and program give the same drive commands, bit for bit, whatever the vendors and whatever
+// happens to twins.
 #include <array>
 #include <cstdio>
 #include <nlohmann/json.hpp>
@@ -10,8 +11,10 @@ namespace {
 
 // `trunnion run` as a user calls it; the report as JSON.
 nlohmann::json run(const std::string& arguments) {
-  const auto directory = std::filesystem::temp_directory_path() / ("trunnion-report-" + std::to_string(getpid()));
-  const std::string command = deploy::binary_directory() + "/trunnion run " + arguments + " --json --report " + directory.string();
+  const auto directory =
+      std::filesystem::temp_directory_path() / ("trunnion-report-" + std::to_string(getpid()));
+  const std::string command =
+      deploy::binary_directory() + "/trunnion run " + arguments + " --json --report " + directory.string();
   FILE* pipe = popen(command.c_str(), "r");
   std::string text;
   std::array<char, 4096> buffer;
@@ -30,7 +33,8 @@ TEST(Determinism, TheConeIsTheSameOverThreeRunsAndEveryVendorLayout) {
     EXPECT_EQ(report["problem"], "") << layout;
     EXPECT_GT(report["cycles"].get<std::uint64_t>(), 10000u);
     EXPECT_EQ(report["executed_cycles"], report["cycles"]) << layout;
-    for (const auto& [topic, lost] : report["lost_cycles"].items()) EXPECT_EQ(lost, 0) << topic << " " << layout;
+    for (const auto& [topic, lost] : report["lost_cycles"].items())
+      EXPECT_EQ(lost, 0) << topic << " " << layout;
     EXPECT_EQ(report["late_frames"], 0) << layout;
     // The kinematics' rounding; compensation and gantry correction are off on this machine.
     EXPECT_LT(report["forward_inverse_residual"]["max_mm"].get<double>(), 1e-9) << layout;
@@ -43,13 +47,16 @@ TEST(Determinism, TheConeIsTheSameOverThreeRunsAndEveryVendorLayout) {
 // A copy of a machine with two copies of kinematics, one on each vendor.
 class TwinMachine {
  public:
-  TwinMachine() : directory_(std::filesystem::temp_directory_path() / ("trunnion-twin-" + std::to_string(getpid()))) {
+  TwinMachine()
+      : directory_(std::filesystem::temp_directory_path() / ("trunnion-twin-" + std::to_string(getpid()))) {
     std::filesystem::remove_all(directory_);
-    std::filesystem::copy(deploy::find_machine("ac-table"), directory_, std::filesystem::copy_options::recursive);
+    std::filesystem::copy(deploy::find_machine("ac-table"), directory_,
+                          std::filesystem::copy_options::recursive);
     std::ifstream in(directory_ / "machine.yaml");
     std::string text((std::istreambuf_iterator<char>(in)), {});
     const std::string line = "{service: kinematics}";
-    text.replace(text.find(line), line.size(), "{service: kinematics, replicas: 2, vendor: [cyclonedds, fastdds]}");
+    text.replace(text.find(line), line.size(),
+                 "{service: kinematics, replicas: 2, vendor: [cyclonedds, fastdds]}");
     std::ofstream(directory_ / "machine.yaml") << text;
   }
   ~TwinMachine() { std::filesystem::remove_all(directory_); }
@@ -82,14 +89,17 @@ TEST(Twins, KillingEitherCopyOfKinematicsInMotionLosesNoCycleAndChangesNoBit) {
     ASSERT_TRUE(cluster.until([&] { return cluster.channels[0].line >= 8; }));
     const int pid = cluster.service("kinematics", victim)->pid;
     ASSERT_EQ(kill(pid, SIGKILL), 0);
-    ASSERT_TRUE(cluster.until([&] { return cluster.has_alarm(102, "kinematics"); })) << "redundancy lost is an alarm; " << cluster.active_alarms();
+    ASSERT_TRUE(cluster.until([&] { return cluster.has_alarm(102, "kinematics"); }))
+        << "redundancy lost is an alarm; " << cluster.active_alarms();
     ASSERT_TRUE(cluster.finish()) << cluster.active_alarms();
     EXPECT_FALSE(cluster.has_alarm(110)) << "no setpoint was missing";
     EXPECT_EQ(cluster.lost_frames, 0u);
     EXPECT_EQ(cluster.feedback.starved, 0u);
     EXPECT_EQ(cluster.rows.size(), undisturbed.size());
     EXPECT_TRUE(cluster.rows == undisturbed) << "the same bits";
-    EXPECT_TRUE(cluster.until([&] { return cluster.ready() && cluster.service("kinematics", victim)->pid != pid; })) << "started again";
+    EXPECT_TRUE(cluster.until([&] {
+      return cluster.ready() && cluster.service("kinematics", victim)->pid != pid;
+    })) << "started again";
   }
 }
 

@@ -30,12 +30,14 @@ void add_completion_command(CLI::App& app, Common& common) {
     common.action = [&app] {
       std::string cases, commands = "'param '*|'topic '*";
       collect(app, "", cases);
-      for (const auto* sub : app.get_subcommands([](const CLI::App*) { return true; })) commands += "|' " + sub->get_name() + "'";
+      for (const auto* sub : app.get_subcommands([](const CLI::App*) { return true; }))
+        commands += "|' " + sub->get_name() + "'";
       std::cout << "_trunnion() {\n  local path='' word words='' i\n  for ((i = 1; i < COMP_CWORD; i++)); "
                    "do\n    word=${COMP_WORDS[i]}\n"
                    "    [[ $word == -* ]] || case \"$path $word\" in\n"
                    "      "
-                << commands << ") path=\"${path:+$path }$word\" ;;\n"
+                << commands
+                << ") path=\"${path:+$path }$word\" ;;\n"
                    "    esac\n  done\n  case \"$path\" in\n"
                 << cases
                 << "  esac\n  COMPREPLY=($(compgen -W \"$words\" -- \"${COMP_WORDS[COMP_CWORD]}\"))\n"

@@ -93,9 +93,13 @@ int alarms(const Common& common, bool reset) {
 int order(const Common& common, std::uint16_t channel, const std::string& what, const std::string& argument) {
   const auto cluster = find_cluster(common.domain);
   Client client(cluster.run.domain);
-  const std::map<std::string, CommandKind> orders{{"start", CommandKind::CYCLE_START}, {"hold", CommandKind::FEED_HOLD}, {"reset", CommandKind::RESET},
-                                                  {"select", CommandKind::SELECT_PROGRAM}, {"mode", CommandKind::SET_MODE}};
-  const std::map<std::string, Mode> modes{{"auto", Mode::AUTO}, {"mdi", Mode::MDI}, {"jog", Mode::JOG}, {"ref", Mode::REF}};
+  const std::map<std::string, CommandKind> orders{{"start", CommandKind::CYCLE_START},
+                                                  {"hold", CommandKind::FEED_HOLD},
+                                                  {"reset", CommandKind::RESET},
+                                                  {"select", CommandKind::SELECT_PROGRAM},
+                                                  {"mode", CommandKind::SET_MODE}};
+  const std::map<std::string, Mode> modes{
+      {"auto", Mode::AUTO}, {"mdi", Mode::MDI}, {"jog", Mode::JOG}, {"ref", Mode::REF}};
   Mode mode = Mode::AUTO;
   if (what == "mode") {
     const auto found = modes.find(argument);
@@ -134,9 +138,12 @@ void add_operator_commands(CLI::App& app, Common& common) {
 
   auto what = std::make_shared<std::string>();
   auto argument = std::make_shared<std::string>();
-  command = add_command(app, common, "channel", "Operate a channel: start, hold, reset, select PROGRAM, mode auto|mdi|jog|ref",
-                        [&common, channel, what, argument] { return order(common, *channel, *what, *argument); });
-  command->add_option("what", *what, "start, hold, reset, select or mode")->required()->check(CLI::IsMember({"start", "hold", "reset", "select", "mode"}));
+  command = add_command(
+      app, common, "channel", "Operate a channel: start, hold, reset, select PROGRAM, mode auto|mdi|jog|ref",
+      [&common, channel, what, argument] { return order(common, *channel, *what, *argument); });
+  command->add_option("what", *what, "start, hold, reset, select or mode")
+      ->required()
+      ->check(CLI::IsMember({"start", "hold", "reset", "select", "mode"}));
   command->add_option("argument", *argument, "Program or mode");
   command->add_option("--channel", *channel, "Channel number");
   command = add_command(

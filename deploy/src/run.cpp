@@ -8,8 +8,8 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
-#include <thread>
 #include <sstream>
+#include <thread>
 
 #include "client.hpp"
 #include "cluster.hpp"
@@ -28,7 +28,14 @@ class Recorder {
   Recorder(const std::string& file, const RunningCluster& cluster) {
     int out[2];
     if (pipe(out) != 0) throw std::runtime_error("no pipe");
-    std::vector<std::string> args{binary_directory() + "/trunnion-recorder", "--output", file, "--machine", cluster.machine, "--domain", std::to_string(cluster.run.domain), "--parent-bound"};
+    std::vector<std::string> args{binary_directory() + "/trunnion-recorder",
+                                  "--output",
+                                  file,
+                                  "--machine",
+                                  cluster.machine,
+                                  "--domain",
+                                  std::to_string(cluster.run.domain),
+                                  "--parent-bound"};
     std::vector<char*> argv;
     for (auto& arg : args) argv.push_back(arg.data());
     argv.push_back(nullptr);
@@ -98,21 +105,25 @@ std::string read_file(const std::string& path) {
 std::string place_program(Client& client, const machine::MachineConfig& machine, const std::string& program) {
   const auto list = client.newest(topics::program_list);
   const auto stored = [&](const std::string& name) {
-    return std::any_of(list.programs.begin(), list.programs.end(), [&](const auto& p) { return p.name == name; });
+    return std::any_of(list.programs.begin(), list.programs.end(),
+                       [&](const auto& p) { return p.name == name; });
   };
   if (fs::is_regular_file(program)) {
     const auto name = fs::path(program).filename().string();
     client.upload(name, read_file(program));
     for (int i = 0; i < 500; ++i) {  // until the store has published it
       const auto now = client.newest(topics::program_list);
-      if (std::any_of(now.programs.begin(), now.programs.end(), [&](const auto& p) { return p.name == name; })) break;
+      if (std::any_of(now.programs.begin(), now.programs.end(),
+                      [&](const auto& p) { return p.name == name; }))
+        break;
       std::this_thread::sleep_for(std::chrono::milliseconds(5));
     }
     return name;
   }
   for (const auto& name : {program, program + ".nc"})
     if (stored(name)) return name;
-  throw std::runtime_error("program '" + program + "': no such file, and machine " + machine.name + " has none of this name");
+  throw std::runtime_error("program '" + program + "': no such file, and machine " + machine.name +
+                           " has none of this name");
 }
 
 // The list with a new program may reach the channel after the store's answer has reached us.
@@ -136,9 +147,10 @@ void draw_progress(const std::vector<idl::channel::ChannelState>& states, double
   }
   constexpr int width = 40;
   const int filled = static_cast<int>(progress * width);
-  std::fprintf(stderr, "\r[%s%s] %3.0f %%  line %u  cycle %llu  %.1f s ", std::string(static_cast<std::size_t>(filled), '#').c_str(),
-               std::string(static_cast<std::size_t>(width - filled), '.').c_str(), progress * 100, states.empty() ? 0 : states[0].line,
-               static_cast<unsigned long long>(cycle), seconds);
+  std::fprintf(stderr, "\r[%s%s] %3.0f %%  line %u  cycle %llu  %.1f s ",
+               std::string(static_cast<std::size_t>(filled), '#').c_str(),
+               std::string(static_cast<std::size_t>(width - filled), '.').c_str(), progress * 100,
+               states.empty() ? 0 : states[0].line, static_cast<unsigned long long>(cycle), seconds);
   std::fflush(stderr);
 }
 
@@ -160,18 +172,22 @@ std::string execute(Client& client, std::size_t channels, double timeout, bool b
       const auto c = state.channel;
       if (state.state != RunState::IDLE) ran[c] = true;
       // A short program may be over between two states: then its cycles tell that it ran.
-      done[c] = state.state == RunState::IDLE && (ran[c] || state.cycle > newest[c].cycle || node::monotonic_seconds() - began > 1);
+      done[c] = state.state == RunState::IDLE &&
+                (ran[c] || state.cycle > newest[c].cycle || node::monotonic_seconds() - began > 1);
       newest[c] = state;
     }
     idl::service::Alarm a;
     while (alarms.take(a))
-      if (a.active && alarm.empty() && a.severity >= idl::service::Severity::ERROR) alarm = "alarm " + std::to_string(a.number) + " (" + a.source + "): " + a.text;
+      if (a.active && alarm.empty() && a.severity >= idl::service::Severity::ERROR)
+        alarm = "alarm " + std::to_string(a.number) + " (" + a.source + "): " + a.text;
     const double now = node::monotonic_seconds();
     if (bar && now - drawn > 0.1) {
       draw_progress(newest, now - began);
       drawn = now;
     }
-    const bool stuck = std::any_of(newest.begin(), newest.end(), [](const auto& s) { return s.state == RunState::INTERRUPTED || s.state == RunState::HELD; });
+    const bool stuck = std::any_of(newest.begin(), newest.end(), [](const auto& s) {
+      return s.state == RunState::INTERRUPTED || s.state == RunState::HELD;
+    });
     if (stuck && !alarm.empty()) break;
     if (now - began > timeout) {
       alarm = "the program did not end within " + std::to_string(static_cast<int>(timeout)) + " s";
@@ -193,7 +209,9 @@ RunResult run_programs(const RunOptions& options) {
   const auto directory = find_machine(options.machine);
   const auto machine = machine::load_machine(directory, options.vendor);
   if (options.programs.size() > machine.channels)
-    throw std::runtime_error("machine " + machine.name + " has " + std::to_string(machine.channels) + " channel(s), " + std::to_string(options.programs.size()) + " programs were given");
+    throw std::runtime_error("machine " + machine.name + " has " + std::to_string(machine.channels) +
+                             " channel(s), " + std::to_string(options.programs.size()) +
+                             " programs were given");
   UpOptions up;
   up.machine = directory;
   up.vendor = options.vendor;
@@ -206,7 +224,8 @@ RunResult run_programs(const RunOptions& options) {
   ClusterGuard cluster(start_cluster(up));
   result.start_seconds = cluster.get().start_seconds;
   if (!options.quiet) {
-    std::printf("%s is ready in %.2f s (%s time, domain %u)\n", machine.name.c_str(), result.start_seconds, options.real_time ? "real" : "virtual", cluster.get().run.domain);
+    std::printf("%s is ready in %.2f s (%s time, domain %u)\n", machine.name.c_str(), result.start_seconds,
+                options.real_time ? "real" : "virtual", cluster.get().run.domain);
     std::fflush(stdout);
   }
   std::vector<std::string> names, texts;
@@ -219,8 +238,10 @@ RunResult run_programs(const RunOptions& options) {
       select(client, c, names.back());
     }
     Recorder recorder(options.recording, cluster.get());
-    result.alarm = execute(client, options.programs.size(), options.timeout, !options.quiet && isatty(2) != 0);
-    std::this_thread::sleep_for(std::chrono::milliseconds(100));  // what the stages wrote last is still on its way
+    result.alarm =
+        execute(client, options.programs.size(), options.timeout, !options.quiet && isatty(2) != 0);
+    std::this_thread::sleep_for(
+        std::chrono::milliseconds(100));  // what the stages wrote last is still on its way
     recorder.stop();
   }
   cluster.stop();
@@ -230,7 +251,8 @@ RunResult run_programs(const RunOptions& options) {
     inputs.program_text = texts[c];
     inputs.channel = c;
     result.reports.push_back(report::make_report(options.recording, inputs));
-    if (result.alarm.empty() && !result.reports.back().problem.empty()) result.alarm = result.reports.back().problem;
+    if (result.alarm.empty() && !result.reports.back().problem.empty())
+      result.alarm = result.reports.back().problem;
   }
   return result;
 }

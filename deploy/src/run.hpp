@@ -14,7 +14,7 @@ struct RunOptions {
   std::string vendor;                 ///< empty, fastdds, cyclonedds or mixed
   std::string recording;              ///< file to write
   bool real_time = false;
-  bool quiet = false;  ///< no progress
+  bool quiet = false;     ///< no progress
   double timeout = 3600;  ///< s of wall time
   std::optional<std::uint32_t> domain;
 };

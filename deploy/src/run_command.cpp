@@ -28,19 +28,24 @@ int run(const Common& common, RunOptions options, const std::string& report_dire
     if (common.json)
       all.push_back(bus::Json::parse(report::json_text(result.reports[c])));
     else
-      std::printf("\n%s\nReport: %s\n", report::terminal_text(result.reports[c]).c_str(), directory.string().c_str());
+      std::printf("\n%s\nReport: %s\n", report::terminal_text(result.reports[c]).c_str(),
+                  directory.string().c_str());
   }
   if (common.json) std::cout << (all.size() == 1 ? all[0] : all).dump(2) << "\n";
   if (!result.alarm.empty()) throw std::runtime_error(result.alarm);
   return 0;
 }
 
-// Times the cone over the vendors in virtual time, each layout several times in turn, so that a noisy machine is noisy
-// for all; or counts starved cycles in real time.
-int bench(const Common& common, const std::string& machine, const std::string& program, int rounds, bool real_time) {
-  const auto recording = (fs::temp_directory_path() / ("trunnion-bench-" + std::to_string(getpid()) + ".mcap")).string();
+// Times the cone over the vendors in virtual time, each layout several times in turn, so that a noisy machine
+// is noisy for all; or counts starved cycles in real time.
+int bench(const Common& common, const std::string& machine, const std::string& program, int rounds,
+          bool real_time) {
+  const auto recording =
+      (fs::temp_directory_path() / ("trunnion-bench-" + std::to_string(getpid()) + ".mcap")).string();
   bus::Json rows = bus::Json::array();
-  if (!common.json) std::printf("%-11s %5s %12s %14s %10s %18s\n", "vendor", "round", "cycles", "x real time", "starved", "command hash");
+  if (!common.json)
+    std::printf("%-11s %5s %12s %14s %10s %18s\n", "vendor", "round", "cycles", "x real time", "starved",
+                "command hash");
   for (int round = 0; round < rounds; ++round)
     for (const char* vendor : {"cyclonedds", "mixed", "fastdds"}) {
       RunOptions options;
@@ -50,9 +55,17 @@ int bench(const Common& common, const std::string& machine, const std::string& p
       fs::remove(recording);
       if (!result.alarm.empty()) throw std::runtime_error(result.alarm);
       const auto& r = result.reports.at(0);
-      rows.push_back({{"vendor", vendor}, {"round", round}, {"cycles", r.executed}, {"times_real_time", r.speed}, {"starved_periods", r.starved}, {"ready_seconds", result.start_seconds}});
+      rows.push_back({{"vendor", vendor},
+                      {"round", round},
+                      {"cycles", r.executed},
+                      {"times_real_time", r.speed},
+                      {"starved_periods", r.starved},
+                      {"ready_seconds", result.start_seconds}});
       if (!common.json)
-        std::printf("%-11s %5d %12llu %14.1f %10llu   %016llx\n", vendor, round, static_cast<unsigned long long>(r.executed), r.speed, static_cast<unsigned long long>(r.starved), static_cast<unsigned long long>(r.command_hash));
+        std::printf("%-11s %5d %12llu %14.1f %10llu   %016llx\n", vendor, round,
+                    static_cast<unsigned long long>(r.executed), r.speed,
+                    static_cast<unsigned long long>(r.starved),
+                    static_cast<unsigned long long>(r.command_hash));
       std::fflush(stdout);
     }
   if (common.json) std::cout << rows.dump(2) << "\n";
@@ -64,20 +77,36 @@ int bench(const Common& common, const std::string& machine, const std::string& p
 void add_run_command(CLI::App& app, Common& common) {
   auto options = std::make_shared<RunOptions>();
   auto report_directory = std::make_shared<std::string>();
-  auto* command = add_command(app, common, "run", "Start a cluster of its own, run a program on it, write a report, stop it", [&common, options, report_directory] { return run(common, *options, *report_directory); });
-  command->add_option("machine", options->machine, "Name under configs/machines, or a directory with machine.yaml")->required();
-  command->add_option("programs", options->programs, "Program file, or name of a stored program; one for each channel")->required();
-  command->add_option("--record", options->recording, "Recording to write (default: recording.mcap in the report's directory)");
+  auto* command = add_command(
+      app, common, "run", "Start a cluster of its own, run a program on it, write a report, stop it",
+      [&common, options, report_directory] { return run(common, *options, *report_directory); });
+  command
+      ->add_option("machine", options->machine,
+                   "Name under configs/machines, or a directory with machine.yaml")
+      ->required();
+  command
+      ->add_option("programs", options->programs,
+                   "Program file, or name of a stored program; one for each channel")
+      ->required();
+  command->add_option("--record", options->recording,
+                      "Recording to write (default: recording.mcap in the report's directory)");
   command->add_option("--report", *report_directory, "Directory of the report (default: out)");
-  command->add_flag("--real-time", options->real_time, "One cycle in one cycle time instead of as fast as possible");
-  command->add_option("--vendor", options->vendor, "DDS vendor of every service, instead of machine.yaml's")->check(CLI::IsMember({"fastdds", "cyclonedds", "mixed"}));
+  command->add_flag("--real-time", options->real_time,
+                    "One cycle in one cycle time instead of as fast as possible");
+  command->add_option("--vendor", options->vendor, "DDS vendor of every service, instead of machine.yaml's")
+      ->check(CLI::IsMember({"fastdds", "cyclonedds", "mixed"}));
   command->add_option("--timeout", options->timeout, "Seconds of wall time after which the run has failed");
 
-  auto machine = std::make_shared<std::string>("ac-table"), program = std::make_shared<std::string>("nas979_cone");
+  auto machine = std::make_shared<std::string>("ac-table"),
+       program = std::make_shared<std::string>("nas979_cone");
   auto rounds = std::make_shared<int>(3);
   auto real_time = std::make_shared<bool>(false);
-  command = add_command(app, common, "bench", "Measure the stream: the speed of a program in virtual time over the DDS vendors, or starved cycles in real time",
-                        [&common, machine, program, rounds, real_time] { return bench(common, *machine, *program, *rounds, *real_time); });
+  command = add_command(app, common, "bench",
+                        "Measure the stream: the speed of a program in virtual time over the DDS vendors, or "
+                        "starved cycles in real time",
+                        [&common, machine, program, rounds, real_time] {
+                          return bench(common, *machine, *program, *rounds, *real_time);
+                        });
   command->add_option("--machine", *machine, "Machine (default ac-table)");
   command->add_option("--program", *program, "Program (default nas979_cone)");
   command->add_option("--rounds", *rounds, "Rounds over the vendors")->check(CLI::Range(1, 1000));

@@ -11,8 +11,8 @@
 
 namespace trunnion::stream {
 
-/// How many frames a writer of the stream must keep: twice the lead, in frames, and a few, for every channel. Never fewer
-/// than 256: in virtual time that is how late a recorder may be before cycles are lost to it.
+/// How many frames a writer of the stream must keep: twice the lead, in frames, and a few, for every channel.
+/// Never fewer than 256: in virtual time that is how late a recorder may be before cycles are lost to it.
 inline int stream_depth(int lead, int frame_cycles, int channels) {
   return std::max(256, (2 * lead / std::max(1, frame_cycles) + 6) * std::max(1, channels));
 }

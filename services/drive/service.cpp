@@ -77,7 +77,9 @@ void DriveService::drain() {
     if (state.service == "plc") plc_seen_ = now;
   idl::service::Alarm alarm;
   while (alarms_->take(alarm))
-    if (alarm.active && alarm.reaction == idl::service::Reaction::AXIS_STOP && alarm.instance != node_.options().instance) core_.stop();
+    if (alarm.active && alarm.reaction == idl::service::Reaction::AXIS_STOP &&
+        alarm.instance != node_.options().instance)
+      core_.stop();
   // An emergency stop is also the drive's own reaction to the silence of the one who could order it.
   if (have_plc_ && now - plc_seen_ > plc_patience) {
     node_.alarms().raise("plc_absent", 0, "No sign of the PLC for " + std::to_string(plc_patience) + " s",

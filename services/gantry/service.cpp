@@ -23,10 +23,12 @@ void GantryService::on_feedback(const idl::stream::FeedbackFrame& feedback) {
     const auto supervise = [&](const char* alarm, double limit) {
       if (limit > 0 && std::abs(error) > limit) {
         char text[160];
-        const auto number = machine::number_text(100000 + pair.slave * 1000u + (std::string(alarm) == "synchronization_error" ? 107 : 106));
-      std::snprintf(text, sizeof text, "Axis %d is %.4f mm off its master axis %d, limit %.4f mm (parameter %s)", pair.slave, error,
-                    pair.master, limit, number.c_str());
-      if (!node_.alarms().active(alarm, pair.slave))
+        const auto number = machine::number_text(100000 + pair.slave * 1000u +
+                                                 (std::string(alarm) == "synchronization_error" ? 107 : 106));
+        std::snprintf(text, sizeof text,
+                      "Axis %d is %.4f mm off its master axis %d, limit %.4f mm (parameter %s)", pair.slave,
+                      error, pair.master, limit, number.c_str());
+        if (!node_.alarms().active(alarm, pair.slave))
           node_.alarms().raise(alarm, pair.slave, text, feedback.first);
       } else {
         node_.alarms().release(alarm, pair.slave);

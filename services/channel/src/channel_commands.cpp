@@ -111,7 +111,8 @@ Answer ChannelCore::cycle_start() {
       run_ = RunState::RUNNING;
       return {};
     case RunState::INTERRUPTED:
-      if (must_reset_) return refuse("not_ready", "The drives were switched off in the program: reset the channel");
+      if (must_reset_)
+        return refuse("not_ready", "The drives were switched off in the program: reset the channel");
       if (restart_) {  // the stream was lost: begin anew at the newest point that was executed
         const auto point = *restart_;
         return start_program(point);

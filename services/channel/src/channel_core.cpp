@@ -138,7 +138,8 @@ void ChannelCore::recover() {
 }
 
 void ChannelCore::interrupt(const std::string& why) {
-  must_reset_ = must_reset_ || (link_.drive_mode() == DriveMode::off && link_.state() != LinkState::lost && activity_ != Activity::none);
+  must_reset_ = must_reset_ || (link_.drive_mode() == DriveMode::off && link_.state() != LinkState::lost &&
+                                activity_ != Activity::none);
   if (link_.state() == LinkState::lost || link_.state() == LinkState::refused) {
     // What was written is void: go on from the newest consistent cut, if there is a program to go on with.
     const bool was_lost = link_.state() == LinkState::lost;

@@ -107,7 +107,8 @@ class ChannelCore {
   RunState run_ = RunState::IDLE;
   Activity activity_ = Activity::none;
   bool ready_ = false, recovered_ = false, hold_ = false, aborting_ = false,
-       must_reset_ = false;  // the drives were off: spindle and coolant are, so the program must not just go on
+       must_reset_ =
+           false;  // the drives were off: spindle and coolant are, so the program must not just go on
   std::string external_hold_;
   int standing_ = 0;
   AxisValues last_position_{};

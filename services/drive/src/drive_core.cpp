@@ -346,11 +346,13 @@ void DriveCore::advance(double cycles) {
   }
 }
 
-// The channel that starts alone may begin away from where its axes are: they are moved there first. When others move,
-// its first setpoint is a setpoint like any other, and must not jump.
+// The channel that starts alone may begin away from where its axes are: they are moved there first. When
+// others move, its first setpoint is a setpoint like any other, and must not jump.
 bool DriveCore::approach_needed() {
-  const auto active = std::count_if(channels_.begin(), channels_.end(), [](const auto& c) { return c.second.active; });
-  const bool starts = std::any_of(channels_.begin(), channels_.end(), [&](const auto& c) { return c.second.active && c.second.start == next_; });
+  const auto active =
+      std::count_if(channels_.begin(), channels_.end(), [](const auto& c) { return c.second.active; });
+  const bool starts = std::any_of(channels_.begin(), channels_.end(),
+                                  [&](const auto& c) { return c.second.active && c.second.start == next_; });
   if (!starts || active != 1) return false;
   target_of(next_, scratch_);
   for (std::size_t i = 0; i < axes_.size(); ++i)

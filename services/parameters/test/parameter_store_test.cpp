@@ -192,10 +192,18 @@ TEST(ParameterStore, ResetToDefaultIsTheMachinesDefault) {
   EXPECT_EQ(again.set().values[0].text, "X");
 }
 
+TEST(ParameterStore, ATextThatIsNotUtf8IsRefused) {
+  MemoryStorage storage;
+  ParameterStore store(storage, defaults(), "one");
+  const auto reply = store.apply(set({{name, 0, "A\xff"}}), time_text);
+  EXPECT_FALSE(reply.accepted);
+  EXPECT_THAT(reply.reason, HasSubstr("not UTF-8"));
+}
+
 TEST(ParameterStore, TheJournalTellsWhoChangedWhatFromWhatToWhat) {
   MemoryStorage storage;
   ParameterStore store(storage, defaults(), "one");
-  store.apply(set({{limit, -250, ""}, {name, 0, "A\"\xff"}}), time_text);
+  store.apply(set({{limit, -250, ""}, {name, 0, "A\"\\"}}), time_text);
   store.apply(set({{limit, -250, ""}}), time_text);  // no change, no entry
   storage.files[journal_file] += "{\"time\": \"torn";
   const auto lines = read_journal(storage.files[journal_file]);
