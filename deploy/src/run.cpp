@@ -230,6 +230,8 @@ RunResult run_programs(const RunOptions& options) {
   }
   std::vector<std::string> names, texts;
   {
+    // The recorder has found the stream's writers before the program is in its place.
+    Recorder recorder(options.recording, cluster.get());
     Client client(cluster.get().run.domain);
     for (std::uint16_t c = 0; c < options.programs.size(); ++c) {
       names.push_back(place_program(client, machine, options.programs[c]));
@@ -237,7 +239,6 @@ RunResult run_programs(const RunOptions& options) {
       client.channel(c, CommandKind::SET_MODE, "", 0, Mode::AUTO);
       select(client, c, names.back());
     }
-    Recorder recorder(options.recording, cluster.get());
     result.alarm =
         execute(client, options.programs.size(), options.timeout, !options.quiet && isatty(2) != 0);
     std::this_thread::sleep_for(

@@ -12,9 +12,10 @@
 namespace trunnion::stream {
 
 /// How many frames a writer of the stream must keep: twice the lead, in frames, and a few, for every channel.
-/// Never fewer than 256: in virtual time that is how late a recorder may be before cycles are lost to it.
+/// Never fewer than 1024: in virtual time that is how late a recorder may be before cycles are lost to it,
+/// about a quarter of a second.
 inline int stream_depth(int lead, int frame_cycles, int channels) {
-  return std::max(256, (2 * lead / std::max(1, frame_cycles) + 6) * std::max(1, channels));
+  return std::max(1024, (2 * lead / std::max(1, frame_cycles) + 6) * std::max(1, channels));
 }
 
 template <class In>

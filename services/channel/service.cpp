@@ -3,6 +3,9 @@
 #include "stream/stage_service.hpp"
 
 namespace trunnion::channel {
+namespace {
+constexpr double history_seconds = 0.3;  // for the history of the drive's feedback to arrive
+}
 
 ChannelService::ChannelService(node::Node& node)
     : node_(node),
@@ -106,6 +109,12 @@ void ChannelService::pump() {
     ++frames_in_;
     core_.on_feedback(feedback_);
   }
+  // The history of the drive's feedback arrives before its newest.
+  if (!core_.recovered() && core_.link().has_feedback()) {
+    const double now = node::monotonic_seconds();
+    if (first_feedback_ == 0) first_feedback_ = now;
+    if (now - first_feedback_ > history_seconds) core_.recover();
+  }
   answer_requests();
   fetch_text();
   core_.advance();
@@ -141,12 +150,12 @@ node::Health ChannelService::health() const {
   node::Health health;
   const bool tables = have_tools_ && have_offsets_ && have_programs_;
   health.lifecycle = !core_.configured() || !tables ? Lifecycle::UNCONFIGURED
-                     : core_.link().has_feedback()  ? Lifecycle::ACTIVE
+                     : core_.recovered()            ? Lifecycle::ACTIVE
                                                     : Lifecycle::INACTIVE;
-  health.detail = !core_.configured()            ? "waiting for parameters"
-                  : !tables                      ? "waiting for tools, offsets and programs"
-                  : !core_.link().has_feedback() ? "waiting for the drive"
-                                                 : "";
+  health.detail = !core_.configured()  ? "waiting for parameters"
+                  : !tables            ? "waiting for tools, offsets and programs"
+                  : !core_.recovered() ? "waiting for the drive"
+                                       : "";
   health.frames_in = frames_in_;
   health.frames_out = frames_out_;
   health.revision = core_.machine().revision();

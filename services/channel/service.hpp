@@ -51,7 +51,7 @@ class ChannelService : public node::Service {
   idl::stream::FeedbackFrame feedback_;
   idl::program::ProgramRequest wanted_;
   std::uint64_t frames_in_ = 0, frames_out_ = 0;
-  double last_state_ = 0;
+  double last_state_ = 0, first_feedback_ = 0;
   RunState last_run_ = RunState::IDLE;
   bool changed_ = true;
 };

@@ -91,7 +91,6 @@ void ChannelCore::on_feedback(const idl::stream::FeedbackFrame& feedback) {
   link_.on_feedback(feedback);
   remember_executed();
   if (first) auxiliary_number_ = (link_.epoch() + 1) * 4096;
-  if (!recovered_ && configured()) recover();
   const auto mode = link_.drive_mode();
   const bool streaming = link_.state() == LinkState::active || link_.state() == LinkState::ending;
   if (link_.state() == LinkState::lost)
@@ -103,8 +102,8 @@ void ChannelCore::on_feedback(const idl::stream::FeedbackFrame& feedback) {
     interrupt(mode == DriveMode::off ? "The drives were switched off" : "The drive stopped on the path");
 }
 
-// A process that has just begun may find that one before it died in the middle of a program.
 void ChannelCore::recover() {
+  if (recovered_ || !configured() || !link_.has_feedback()) return;
   recovered_ = true;
   const auto* own = stream::find_state(link_.states(), stream::stage_channel);
   const bool was_running = own != nullptr && own->values.size() == s_size && own->values[s_running] != 0;

@@ -42,6 +42,10 @@ class ChannelCore {
   void set_offsets(const idl::parameters::WorkOffsets& offsets);
   void set_programs(const idl::program::ProgramList& programs);
   void on_feedback(const idl::stream::FeedbackFrame& feedback);
+  /// A process that has just begun may find that one before it died in the middle of a program. Call it once
+  /// the feedback that has arrived is the newest: the first is the drive's history.
+  void recover();
+  bool recovered() const { return recovered_; }
   void on_auxiliary_done(const idl::plc::AuxiliaryDone& done);
   /// Alarms that stop motion, or the PLC's feed hold: `why` is empty when there is none.
   void set_hold(const std::string& why);
@@ -84,7 +88,6 @@ class ChannelCore {
   void adopt_position();
   void run_pending(FlowState flow);
   void begin_auxiliary(std::uint8_t kind, std::uint32_t code, double value);
-  void recover();
   FlowState fill();
   void remember_executed();
   std::vector<double> stage_state(FlowState flow);

@@ -45,6 +45,7 @@ struct Channel : ::testing::Test {
     core->set_ready(true);
     store();
     core->on_feedback(drive.run(0));
+    core->recover();
   }
   void store() {
     idl::program::ProgramList list;
