@@ -16,6 +16,9 @@ namespace trunnion::drive {
 
 enum class Mode : std::uint8_t { following, braking, held, returning, off };
 
+/// mm or deg: axes nearer than this to a point of the path need not be moved there.
+inline constexpr double on_path_distance = 1e-6;
+
 /// What must survive the process: where the axes are and which cycle is next.
 struct Memory {
   static constexpr std::uint32_t magic_value = 0x54524e31;

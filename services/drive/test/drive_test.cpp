@@ -183,6 +183,56 @@ TEST_F(Fixture, AStartAwayFromThePathIsApproachedWithinTheLimits) {
   EXPECT_LT(most, 0.1) << "a quintic of 0.5 mm takes 27 periods: at most 1.875 * 0.5 / 27 = 0.035 a period";
 }
 
+TEST(TwoChannels, ASecondChannelThatStartsDoesNotDisturbTheFirst) {
+  auto p = two_axes();
+  p.values.erase(40002);
+  p.values[41001] = {1, ""};  // axis 1 belongs to channel 1
+  DriveCore core;
+  core.configure(p, true);
+  core.set_enables({1, 1}, false);
+  const auto frame = [](std::uint16_t channel, std::uint64_t first, bool end) {
+    AxisFrame f;
+    f.channel = channel, f.epoch = 1, f.first = first, f.count = 8, f.axes = {channel}, f.ends = end;
+    // 0.05 mm per cycle: 0.4 m/s2 per period to reach, so it is in motion from the start of the test on.
+    for (std::uint64_t n = first; n < first + 8; ++n)
+      f.setpoints.push_back(channel == 0 ? 0.05 * static_cast<double>(n) : 0.0);
+    return f;
+  };
+  std::vector<double> x;
+  const auto run = [&] {
+    idl::stream::FeedbackFrame out;
+    while (core.can_step(false)) {
+      core.step();
+      core.fill(out);
+      for (std::uint32_t i = 0; i < out.count; ++i) x.push_back(out.commanded[2 * i]);
+      EXPECT_NE(core.mode(), Mode::returning);
+    }
+  };
+  core.request({0, 1, 3, 1});
+  for (std::uint64_t first = 0; first < 80; first += 8) {
+    auto f = frame(0, first, false);
+    core.put(f);
+  }
+  run();
+  core.request({1, 1, 3, 1});
+  idl::stream::FeedbackFrame echo;
+  core.fill(echo);
+  const auto start = echo.channels[1].start;
+  EXPECT_EQ(start, core.next() + 32) << "the lead ahead, so that the first needs not wait";
+  for (std::uint64_t first = 80; first < 160; first += 8) {
+    auto f = frame(0, first, first == 152);
+    core.put(f);
+  }
+  for (std::uint64_t first = start; first < start + 16; first += 8) {
+    auto f = frame(1, first, first == start + 8);
+    core.put(f);
+  }
+  run();
+  ASSERT_EQ(x.size(), 160u);
+  for (std::size_t n = 0; n < x.size(); ++n) EXPECT_EQ(x[n], 0.05 * static_cast<double>(n));
+  EXPECT_FALSE(core.any_active());
+}
+
 TEST_F(Fixture, PositionsAndCyclesSurviveTheProcess) {
   begin();
   feed(0, 400, true);

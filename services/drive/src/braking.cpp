@@ -1,0 +1,94 @@
+// Leaving the path and coming back to it: braking, holding, resuming.
+#include <algorithm>
+#include <cmath>
+
+#include "drive_core.hpp"
+
+namespace trunnion::drive {
+
+void DriveCore::begin_braking() {
+  const auto s = supply();
+  const double periods = std::max(2.0, stop_periods(std::min(s.cycles, lead_)));
+  rate_step_ = 1 / periods;
+  if (reserve_ == 0 && mode_ == Mode::following && phase_ == 0 && s.cycles == 0) rate_ = 0;  // standing still
+  if (mode_ == Mode::returning) rate_ = 0;
+  mode_ = Mode::braking;
+  resume_ = false;
+}
+
+// Another part of the controller has found a reason to stop: along the path, as for a missing setpoint.
+void DriveCore::stop() {
+  if (mode_ == Mode::following && any_active()) begin_braking();
+}
+
+void DriveCore::brake() {
+  rate_ -= rate_step_;
+  if (rate_ <= 0) {
+    stopped();
+    return;
+  }
+  if (supply().cycles > 0 && !off_path_) {
+    advance(rate_);
+    return;
+  }
+  // Out of setpoints: on along the tangent. The path is left at its last known point.
+  off_path_ = true;
+  phase_ = 0;
+  for (std::size_t i = 0; i < axes_.size(); ++i) command_[i] += rate_ * velocity_[i];
+}
+
+void DriveCore::stopped() {
+  rate_ = 0, reserve_ = 0;
+  if (!enabled_) {
+    mode_ = Mode::off;
+  } else {
+    mode_ = any_active() ? Mode::held : Mode::following;
+    if (!any_active()) rate_ = 1, phase_ = 0;
+  }
+}
+
+void DriveCore::resume() {
+  resume_ = false;
+  bool away = off_path_;
+  for (std::size_t i = 0; i < axes_.size() && phase_ == 0; ++i)
+    away = away || std::abs(command_[i] - target_[i]) > on_path_distance;
+  if (away) {
+    plan_return(target_);
+    return;
+  }
+  rate_ = 0;
+  rate_step_ = 1 / std::max(2.0, stop_periods(std::min(supply().cycles, lead_)));
+  mode_ = Mode::following;
+}
+
+// A move with a quintic profile: its largest speed is 1.875 d/T, its largest acceleration 5.774 d/T^2.
+void DriveCore::plan_return(const std::vector<double>& target) {
+  double seconds = dt_;
+  for (std::size_t i = 0; i < axes_.size(); ++i) {
+    const double d = std::abs(target[i] - command_[i]);
+    seconds =
+        std::max({seconds, 1.875 * d / limits_[i].velocity, std::sqrt(5.774 * d / limits_[i].acceleration)});
+  }
+  return_from_ = command_;
+  return_to_ = target;
+  return_periods_ = static_cast<std::uint32_t>(std::ceil(seconds / dt_));
+  return_done_ = 0;
+  off_path_ = false;
+  mode_ = Mode::returning;
+}
+
+void DriveCore::step_return() {
+  ++return_done_;
+  const double u = static_cast<double>(return_done_) / return_periods_;
+  const double s = u * u * u * (10 + u * (6 * u - 15));
+  for (std::size_t i = 0; i < axes_.size(); ++i)
+    command_[i] = return_from_[i] + s * (return_to_[i] - return_from_[i]);
+  if (return_done_ < return_periods_) return;
+  command_ = return_to_;
+  target_ = return_to_;
+  mode_ = Mode::following;
+  rate_ = phase_ == 0 && rate_ == 1 ? 1 : 0;
+  if (rate_ == 0) rate_step_ = 1 / std::max(2.0, stop_periods(std::min(supply().cycles, lead_)));
+}
+
+}  // namespace trunnion::drive
