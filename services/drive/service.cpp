@@ -4,7 +4,7 @@
 
 namespace trunnion::drive {
 namespace {
-constexpr double patience = 0.25;      // s of wall time that virtual time waits for a missing setpoint
+constexpr double patience = 1.0;       // s of wall time that virtual time waits for a missing setpoint
 constexpr double plc_patience = 1.5;   // s without a sign of the PLC until the drive stops
 constexpr double idle_feedback = 0.1;  // s between two feedback frames while nothing moves
 }  // namespace

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <chrono>
 #include <iostream>
+#include <set>
 #include <stdexcept>
 #include <thread>
 
@@ -23,9 +24,10 @@
 namespace trunnion::recorder {
 namespace {
 
-constexpr double flush_seconds = 1.0;  // what a crash of the recorder may cost
-constexpr double match_seconds = 1.0;  // how long to wait for the writers of the stream
-constexpr int priority = -10;          // of the threads that take samples; they use little
+constexpr double flush_seconds = 1.0;    // what a crash of the recorder may cost
+constexpr double match_seconds = 1.0;    // how long to wait for the writers of the stream
+constexpr double cluster_seconds = 5.0;  // the same when a launcher says which services there are
+constexpr int priority = -10;            // of the threads that take samples; they use little
 
 volatile sig_atomic_t stop_requested = 0;
 
@@ -142,16 +144,37 @@ bool drain(std::vector<Topic>& topics, MessageQueue& queue, Message& message) {
   return any;
 }
 
-// Motion that begins before the stream's readers are matched would be missing from the recording.
-void wait_for_writers(const std::vector<Topic>& topics) {
-  const double until = node::monotonic_seconds() + match_seconds;
-  const auto matched = [&] {
-    return std::all_of(topics.begin(), topics.end(), [](const Topic& topic) {
+// Motion that begins before the stream's writers know of our readers would be missing from the recording. A
+// writer learns of a participant's readers in the order in which they were made; so a service whose state
+// reaches a reader made last knows of all the others. Without a launcher nobody says which services there
+// are, and a matched writer must do.
+template <class Drain>
+void wait_for_writers(bus::Bus& bus, const std::vector<Topic>& topics, Drain&& drain_all) {
+  auto clusters = bus.reader(topics::cluster);
+  auto states = bus.reader(topics::service_state);
+  idl::service::Cluster cluster;
+  idl::service::ServiceState state;
+  std::set<std::uint32_t> heard;
+  const double began = node::monotonic_seconds();
+  while (stop_requested == 0) {
+    drain_all();
+    while (clusters.take(cluster)) {
+    }
+    while (states.take(state)) heard.insert(state.instance);
+    const bool known = !cluster.services.empty();
+    const bool all_heard =
+        std::all_of(cluster.services.begin(), cluster.services.end(),
+                    [&](const auto& service) { return heard.count(service.instance) != 0; });
+    const bool matched = std::all_of(topics.begin(), topics.end(), [](const Topic& topic) {
       return topic.entry->qos != bus::QosKind::frame || topic.reader->matched() > 0;
     });
-  };
-  while (!matched() && stop_requested == 0 && node::monotonic_seconds() < until)
-    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    if (known && all_heard && matched) return;
+    const double waited = node::monotonic_seconds() - began;
+    if (waited > (known ? cluster_seconds : match_seconds) ||
+        (!known && matched && waited > match_seconds / 2))
+      return;
+    bus.signal().wait(0.002);
+  }
 }
 
 void print_summary(const Options& options, const FileThread& file, std::uint64_t dropped) {
@@ -201,12 +224,12 @@ int record(const Options& options) {
     const bool late = bus::reader_qos(entry->qos).transient_local;
     topics.push_back({entry, bus.backend().reader(entry->description, {late, 0}, &bus.signal()), 0});
   }
-  wait_for_writers(topics);
+  Message message;
+  wait_for_writers(bus, topics, [&] { drain(topics, queue, message); });
   std::cout << "recording " << options.output << std::endl;
 
   const double started = node::monotonic_seconds();
   std::uint64_t told = 0;
-  Message message;
   while (stop_requested == 0 &&
          (options.duration <= 0 || node::monotonic_seconds() - started < options.duration)) {
     if (drain(topics, queue, message)) {

@@ -290,7 +290,10 @@ std::string configuration(const NetworkSettings& network) {
   for (std::string peer; std::getline(peers, peer, ',');) xml << "<Peer address=\"" << peer << "\"/>";
   xml << "</Peers><SPDPInterval>0.5s</SPDPInterval><LeaseDuration>3s</LeaseDuration></Discovery>"
          // A writer never waits for a reader that is slow or dead: its bounded history is what it may lose.
-         "<Internal><Watermarks><WhcHigh>64MB</WhcHigh></Watermarks></Internal>"
+         // A packet that a full socket buffer dropped is asked for again within milliseconds, before it is
+         // overwritten.
+         "<Internal><Watermarks><WhcHigh>64MB</WhcHigh></Watermarks><NackDelay>5ms</NackDelay>"
+         "<HeartbeatInterval>20ms</HeartbeatInterval></Internal>"
          "</Domain></CycloneDDS>";
   return xml.str();
 }
