@@ -39,8 +39,9 @@ class StageService : public node::Service {
       if (!parameters_.newest()) return;
       start();
     }
+    follow_feedback();
     idl::stream::FeedbackFrame feedback;
-    while (feedback_reader_->take(feedback)) {
+    while (feedback_reader_ && feedback_reader_->take(feedback)) {
       feedback_.put(feedback);
       std::swap(newest_feedback_, feedback);
       have_feedback_ = true;
@@ -85,6 +86,8 @@ class StageService : public node::Service {
   }
 
  protected:
+  /// The computation itself needs the feedback. Other stages read it only until they are in step.
+  virtual bool needs_feedback() const { return false; }
   /// For supervision that does not belong to a setpoint.
   virtual void on_feedback(const idl::stream::FeedbackFrame&) {}
   node::Node& node_;
@@ -108,6 +111,18 @@ class StageService : public node::Service {
     writer_.emplace(node_.bus().writer(out_topic_));
     feedback_reader_.emplace(node_.bus().reader(topics::feedback_frame));
     reader_.emplace(node_.bus().reader(in_topic_));
+  }
+
+  // Every reader of the feedback costs the drive a message and this process a wake-up per frame.
+  void follow_feedback() {
+    bool wanted = needs_feedback() || !have_feedback_;
+    for (const auto& [channel, lane] : lanes_) wanted = wanted || !lane.in_step;
+    if (wanted && !feedback_reader_) {
+      newest_feedback_.channels.clear();
+      feedback_reader_.emplace(node_.bus().reader(topics::feedback_frame));
+    } else if (!wanted && feedback_reader_) {
+      feedback_reader_.reset();
+    }
   }
 
   Lane& lane(std::uint16_t channel) {

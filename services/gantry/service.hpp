@@ -11,6 +11,7 @@ class GantryService : public stream::StageService<idl::stream::AxisFrame> {
   explicit GantryService(node::Node& node);
 
  protected:
+  bool needs_feedback() const override { return true; }
   void on_feedback(const idl::stream::FeedbackFrame& feedback) override;
 
  private:
