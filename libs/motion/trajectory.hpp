@@ -50,7 +50,7 @@ class Trajectory {
   /// line from there to the target, an arc with the remaining sweep, a dwell of the remaining time.
   bool push_from(const language::Command& command, double fraction);
 
-  /// Nothing follows for now: lets the motion run to the end of the last command and stop there. Commands may
+  /// Nothing follows yet: lets the motion run to the end of the last command and stop there. Commands may
   /// be pushed afterwards; they start behind that stop.
   void finish() { planner_.finish(); }
 
