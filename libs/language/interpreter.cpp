@@ -52,6 +52,13 @@ void Interpreter::start(TextSource& text, const AxisValues& position, const Moda
 
 Step Interpreter::next(Command& command) {
   for (int lines = 0; queue_.empty(); ++lines) {
+    if (state_ != State::failed && executor_.busy()) {
+      queue_.clear();
+      if (const Fault fault = executor_.resume(queue_)) state_ = fail(fault, {});
+      if (lines == lines_per_call) return Step::working;
+      continue;
+    }
+    if (executor_.needs_position()) return Step::position;
     if (state_ == State::done) return Step::end;
     if (state_ == State::failed) return Step::alarm;
     if (lines == lines_per_call) return Step::working;
@@ -174,7 +181,7 @@ Interpreter::State Interpreter::return_from_subprogram() {
 
 Interpreter::State Interpreter::end_of_text() {
   if (depth_ != 0) return fail({AlarmNumber::subprogram_without_end, 0}, {});
-  executor_.end_program(0, frames_[0].program, line_, queue_);
+  if (const Fault fault = executor_.end_program(0, frames_[0].program, line_, queue_)) return fail(fault, {});
   return State::done;
 }
 

@@ -16,6 +16,8 @@ enum class Step : std::uint8_t {
   pending,  ///< the text source has to deliver first: call again later
   end,      ///< the end command was taken before
   alarm,    ///< see alarm(); stays so until start()
+  position,  ///< the command before was a skip move: set_position() must tell where it ended, for what the
+             ///< program does next depends on it
 };
 
 struct InterpreterOptions {
