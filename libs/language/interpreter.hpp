@@ -59,6 +59,9 @@ class Interpreter {
   const ModalState& modal() const { return executor_.modal(); }
   const AxisValues& position() const { return executor_.position(); }
 
+  /// Positions, frames and tables as the program has left them, for system variables.
+  const BlockExecutor& executor() const { return executor_; }
+
   static const Dialect& iso_dialect();
 
  private:
