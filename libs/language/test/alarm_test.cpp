@@ -3,18 +3,12 @@
 
 #include <set>
 
-#include "test_machine.hpp"
+#include "motion_alarms.hpp"
 
 namespace trunnion::language::test {
 namespace {
 
-struct Wrong {
-  AlarmNumber number;
-  std::string program;
-  unsigned line;
-  unsigned column;
-  std::string word;  ///< as the text ends
-};
+using Wrong = WrongMotion;
 
 std::vector<Wrong> wrong_programs() {
   using enum AlarmNumber;
@@ -25,7 +19,7 @@ std::vector<Wrong> wrong_programs() {
     }
     return text;
   }();
-  return {
+  std::vector<Wrong> wrong = {
       {line_too_long, "G0\n" + std::string(1025, ' ') + "\n", 2, 1, ""},
       {not_utf8, "G0 X1 (\xc3\xa4\xff)", 1, 9, ""},
       {not_utf8, "(\xed\xa0\x80)", 1, 2, ""},  // a surrogate
@@ -110,12 +104,15 @@ std::vector<Wrong> wrong_programs() {
       {subprogram_without_end, "M98 P5\nM30\nO5\nG0 X1\n", 5, 1, ""},
       {subprogram_without_end, "M98 P5\nM30\nO5\nG0 X1\nO6\nM99", 5, 1, ""},
   };
+  for (const Wrong& motion : wrong_motion()) wrong.push_back(motion);
+  return wrong;
 }
 
 TestMachine machine_without_w() {
   TestMachine machine;
   machine.axis_mask = 0b011111111;
   machine.lengths = {{1, 50.0}};
+  machine.tools[1] = {50, 0, 5, 0};
   return machine;
 }
 

@@ -70,7 +70,7 @@ TEST(Compensation, Corners) {
       {"inside corner from line to arc and from arc to line",
        "G42 D1 G1 X-10 F100\nX20\nG3 X40 I10\nG1 X60\nG40 X80\n",
        {"line X-10 Y-5 F100", "line X15.85786438 Y-5 F100",
-        "arc X44.14213562 Y-5 ccw 30 0 0 141.0575588deg F150", "line X60 Y-5 F100", "line X80 F100", "end 0"}},
+        "arc X44.14213562 Y-5 ccw 30 0 0 141.0575587deg F150", "line X60 Y-5 F100", "line X80 F100", "end 0"}},
       {"change of side: straight across",
        "G41 D1 G1 X10 F100\nX30\nG42 X50\nG40 X60\n",
        {"line X10 Y5 F100", "line X30 Y5 F100", "line X30 Y-5 F100", "line X50 Y-5 F100", "line X60 F100", "end 0"}},
