@@ -36,7 +36,7 @@ TEST_P(KillInMotion, StopsNamesTheServiceBecomesReadyAndTheProgramGoesOn) {
     }
   if (victim == "gateway") {
     EXPECT_TRUE(cluster.until([&] {
-      return http_status(cluster.running().port, "/api/state") == "HTTP/1.1 200 OK";
+      return http_status(cluster.running().port, "/api/status") == "HTTP/1.1 200 OK";
     })) << "the page is served again";
   }
   const auto stopped_at = cluster.channels[0].machine;
