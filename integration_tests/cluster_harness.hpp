@@ -143,6 +143,16 @@ class Cluster {
       if (alarm.active) all += std::to_string(alarm.number) + " " + alarm.source + ": " + alarm.text + "; ";
     return all;
   }
+  /// Everything that was raised and released, for the message of a test that fails: the alarm of a stop may
+  /// arrive after the state that shows it.
+  std::string told() {
+    until([] { return false; }, 0.3);
+    std::string all = std::string("state ") + bus::to_string(state()) + ", alarms:";
+    for (const auto& alarm : history)
+      all += "\n  " + std::string(alarm.active ? "raised " : "ended ") + std::to_string(alarm.number) + " " +
+             alarm.source + ": " + alarm.text;
+    return all;
+  }
 
   void start_text(const std::string& text, std::uint16_t channel = 0) {
     const std::string name = "test" + std::to_string(channel) + ".nc";

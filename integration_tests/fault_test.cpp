@@ -63,8 +63,8 @@ TEST_P(KillInMotion, StopsNamesTheServiceBecomesReadyAndTheProgramGoesOn) {
     }
   })) << refusal
       << " " << cluster.active_alarms();
-  ASSERT_TRUE(cluster.until([&] { return cluster.state() == RunState::RUNNING; })) << cluster.active_alarms();
-  ASSERT_TRUE(cluster.finish()) << cluster.active_alarms();
+  ASSERT_TRUE(cluster.until([&] { return cluster.state() == RunState::RUNNING; })) << cluster.told();
+  ASSERT_TRUE(cluster.finish()) << cluster.told();
   cluster.until([] { return false; },
                 0.2);  // the encoders settle on the commanded position, states are published
   // Tip at X0 Y0 Z80 of G54 (Z -380) with A0 C0: the spindle face is the tool's 100 mm above it.
