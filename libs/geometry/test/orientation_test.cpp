@@ -1,0 +1,4 @@
+#include "geometry/orientation.hpp"
+
+#include <gtest/gtest.h>
+TEST(x, y) {}
