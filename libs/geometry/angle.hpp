@@ -1,6 +1,7 @@
 // Sine and cosine of machine angles: fast, exact at quarter turns, the same bits on every processor.
 #pragma once
 
+#include <Eigen/Geometry>
 #include <cmath>
 #include <cstdint>
 #include <numbers>

@@ -9,7 +9,11 @@
 namespace trunnion::geometry {
 namespace {
 
+#ifdef __SANITIZE_ADDRESS__
+constexpr int poses = 20'000;  // the sanitizers look for other faults, twenty times slower
+#else
 constexpr int poses = 1'000'000;
+#endif
 
 // splitmix64: small, seeded, the same everywhere.
 class Random {
