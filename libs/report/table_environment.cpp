@@ -26,14 +26,14 @@ std::optional<double> TableEnvironment::tool_length(std::uint16_t h) const {
 
 language::AxisValues TableEnvironment::tip_from_machine(const AxisValues& m, double length) const {
   AxisValues result = m;
-  const Vec3 tip = chain_.tip_from_machine({m[0], m[1], m[2]}, {m[3], m[4], m[5]}, length);
+  const Vec3 tip = chain_.tip_from_machine({m[0], m[1], m[2]}, geometry::angles_of(m.data()), length);
   std::copy_n(tip.data(), 3, result.begin());
   return result;
 }
 
 language::AxisValues TableEnvironment::machine_from_tip(const AxisValues& t, double length) const {
   AxisValues result = t;
-  const Vec3 at = chain_.machine_from_tip({t[0], t[1], t[2]}, {t[3], t[4], t[5]}, length);
+  const Vec3 at = chain_.machine_from_tip({t[0], t[1], t[2]}, geometry::angles_of(t.data()), length);
   std::copy_n(at.data(), 3, result.begin());
   return result;
 }
