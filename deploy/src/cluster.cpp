@@ -48,7 +48,7 @@ std::vector<std::string> launcher_arguments(const UpOptions& up, const RunningCl
 RunningCluster start_cluster(const UpOptions& up) {
   const double began = node::monotonic_seconds();
   auto config = machine::load_machine(find_machine(up.machine), up.vendor);
-  machine::read_parameter_file(config.parameters_file());
+  machine::machine_parameters(config);
   RunningCluster cluster;
   cluster.run.domain = up.own_domain ? free_domain() : up.domain.value_or(config.domain);
   if (const auto pid = cluster.run.launcher())
