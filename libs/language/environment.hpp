@@ -33,8 +33,9 @@ struct CutterSettings {
   unsigned check_blocks = 2;       ///< how many moves ahead and behind that looks, at most 6 (010047)
 };
 
-/// Which of several solutions a rotary axis takes: P of G68.1..G68.3.
-enum class RotaryChoice : std::uint8_t { shortest, positive, negative };
+/// Which of several solutions the rotary axes take: P of G68.1..G68.3, or those that follow a path of
+/// directions best (G43.5).
+enum class RotaryChoice : std::uint8_t { shortest, positive, negative, continuous };
 
 inline constexpr std::uint8_t work_offset_count = 54;
 

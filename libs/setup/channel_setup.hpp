@@ -8,6 +8,7 @@
 
 #include "contracts/types.hpp"
 #include "geometry/chain.hpp"
+#include "geometry/orientation.hpp"
 #include "language/environment.hpp"
 #include "machine/axes.hpp"
 #include "motion/limits.hpp"
@@ -35,13 +36,21 @@ class ChannelSetup : public language::Environment {
   /// Finds the texts of subprograms; null when there are none.
   std::function<language::TextSource*(std::string_view)> resolve;
 
-  AxisValues work_offset(std::uint8_t index) const override { return offsets_[index < 6 ? index : 0]; }
+  AxisValues work_offset(std::uint8_t index) const override {
+    return offsets_[index < offsets_.size() ? index : 0];
+  }
   std::optional<double> tool_length(std::uint16_t h) const override;
+  std::optional<language::ToolOffset> tool_offset(std::uint16_t number) const override;
   AxisValues reference_position() const override { return reference_; }
   AxisValues tip_from_machine(const AxisValues& machine, double tool_length) const override;
   AxisValues machine_from_tip(const AxisValues& tip, double tool_length) const override;
   std::uint16_t axes() const override { return mask_; }
   double radius_deviation() const override { return radius_deviation_; }
+  double curve_tolerance() const override { return limits_.arc_tolerance; }
+  double default_feed() const override { return default_feed_; }
+  /// Within the travel of the rotary axes, by the closed form of geometry::OrientationSolver.
+  std::optional<AxisValues> orient(const language::Vector3& direction, const AxisValues& current,
+                                   language::RotaryChoice choice) const override;
   language::TextSource* subprogram(std::string_view name) override {
     return resolve ? resolve(name) : nullptr;
   }
@@ -69,13 +78,14 @@ class ChannelSetup : public language::Environment {
   std::vector<int> columns_;
   motion::Limits limits_;
   std::optional<geometry::Chain> chain_;
-  std::array<AxisValues, 6> offsets_{};
-  std::map<std::uint32_t, double> tools_;
+  std::optional<geometry::OrientationSolver> orientation_;
+  std::array<AxisValues, language::work_offset_count> offsets_{};
+  std::map<std::uint32_t, language::ToolOffset> tools_;
   AxisValues reference_{};
   std::array<Travel, language::axis_count> travel_{};
   AxisValues jog_feed_{}, reference_feed_{};
   std::uint16_t mask_ = 0;
-  double radius_deviation_ = 0.1, cycle_seconds_ = 0.001;
+  double radius_deviation_ = 0.1, default_feed_ = 1000, cycle_seconds_ = 0.001;
   std::uint64_t lead_ = 32, revision_ = 0;
   std::uint32_t frame_real_ = 4, frame_virtual_ = 8;
 };
