@@ -86,7 +86,7 @@ def alarms():
 
 def codes():
     path = "libs/language/codes.hpp"
-    g = [(int(t), group, joined(text), origin, since, example) for t, group, text, origin, since, example in
+    g = [(int(t), group, joined(text), origin, joined(since), joined(example)) for t, group, text, origin, since, example in
          entries(path, "GCode", r"(\d+),\s*Group::(\w+),\s*" + TEXT + r",\s*Origin::(\w+),\s*\"([^\"]*)\",\s*\"([^\"]*)\"")]
     m = [(int(n), when, action, group, joined(text)) for n, when, action, group, text in
          entries(path, "MCode", r"(\d+),\s*When::(\w+),\s*MAction::(\w+),\s*MGroup::(\w+),\s*" + TEXT)]
@@ -95,7 +95,7 @@ def codes():
            "A block may hold one code of each group: two would contradict each other, so the second is an alarm. Every group but *one_block* and *exact_stop* is modal: the code stays until another of its group.",
            "A motion code ends a cycle. *From*: ISO 6983, Fanuc or HNC-8 controls. Each example is a program that a test runs; blocks are separated by /.", ""]
     out += table(("code", "group", "meaning", "from", "since", "example"),
-                 [(name(t), group, text, origin, since, "`" + example.replace("\\n", " / ") + "`") for t, group, text, origin, since, example in g])
+                 [(name(t), group, text, origin, since, "`" + example.replace("\n", " / ") + "`") for t, group, text, origin, since, example in g])
     out += ["", "## M codes", "", "*before* and *after*: when it acts, seen from the motion of its block. A block may hold one M code of each group, and none twice.",
             "Every other M code up to M999 goes to the PLC before the motion.", ""]
     return out + table(("code", "acts", "group", "handled as", "meaning"), [(f"M{n}", when, "" if group == "none" else group, action, text) for n, when, action, group, text in m])

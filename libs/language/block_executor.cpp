@@ -191,7 +191,8 @@ bool BlockExecutor::takes_axis_words(const Block& block, const Codes& codes, std
     take(Group::one_block);
   }
   if (codes.is(Group::scaling, 510)) take(Group::scaling);
-  if (codes.has(Group::mirror) && (axes || codes.code(Group::mirror) == 511 || codes.code(Group::mirror) == 240)) {
+  if (codes.has(Group::mirror) &&
+      (axes || codes.code(Group::mirror) == 511 || codes.code(Group::mirror) == 240)) {
     take(Group::mirror);
   }
   if (codes.has(Group::rotation) && codes.code(Group::rotation) != 690) take(Group::rotation);

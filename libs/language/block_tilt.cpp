@@ -173,8 +173,8 @@ Fault BlockExecutor::point_tool(const Block& block, AxisValues& target) {
   }
   const double size = norm(direction);
   if (!(size > no_length)) return {AlarmNumber::tool_vector_zero, at};
-  const auto turned =
-      environment_.orient(frame_.turned_by_tilt(divided(direction, size)), position_, RotaryChoice::continuous);
+  const auto turned = environment_.orient(frame_.turned_by_tilt(divided(direction, size)), position_,
+                                          RotaryChoice::continuous);
   if (!turned) return {AlarmNumber::orientation_impossible, at};
   const AxisValues& offset = frame_.total_offset();
   for (const Axis axis : {A, B, C, U, V, W}) target[axis] = (*turned)[axis] - offset[axis];

@@ -20,9 +20,9 @@ struct ToolOffset {
 
 /// How canned cycles move where no word says it.
 struct CycleSettings {
-  double retract = 1;     ///< mm, between two pecks of G73 and of tapping
-  double clearance = 1;   ///< mm above the last depth, where G83 goes back to feed
-  int shift_axis = 1;     ///< Q of G76 and G87 along the plane's axis 1 or 2, negative against it
+  double retract = 1;    ///< mm, between two pecks of G73 and of tapping
+  double clearance = 1;  ///< mm above the last depth, where G83 goes back to feed
+  int shift_axis = 1;    ///< Q of G76 and G87 along the plane's axis 1 or 2, negative against it
 };
 
 /// How cutter radius compensation works: parameters 010044..010047.

@@ -11,11 +11,11 @@
 namespace trunnion::language {
 
 enum class Step : std::uint8_t {
-  command,  ///< a command was written
-  working,  ///< a bounded number of blocks was read without a command: call again when convenient
-  pending,  ///< the text source has to deliver first: call again later
-  end,      ///< the end command was taken before
-  alarm,    ///< see alarm(); stays so until start()
+  command,   ///< a command was written
+  working,   ///< a bounded number of blocks was read without a command: call again when convenient
+  pending,   ///< the text source has to deliver first: call again later
+  end,       ///< the end command was taken before
+  alarm,     ///< see alarm(); stays so until start()
   position,  ///< the command before was a skip move: set_position() must tell where it ended, for what the
              ///< program does next depends on it
 };

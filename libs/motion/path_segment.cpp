@@ -83,7 +83,8 @@ PathSegment PathSegment::tilted_arc(const AxisValues& start, const AxisValues& t
   const double rise = dot({target[0] - start[0], target[1] - start[1], target[2] - start[2]}, n);
   const double sweep = arc.sweep * (std::numbers::pi / 180.0) * (arc.clockwise ? -1 : 1);
   PathSegment segment;
-  segment.length_ = std::hypot(std::abs(sweep) * 0.5 * (start_radius + end_radius), end_radius - start_radius, rise);
+  segment.length_ =
+      std::hypot(std::abs(sweep) * 0.5 * (start_radius + end_radius), end_radius - start_radius, rise);
   if (!(start_radius > 0) || !(end_radius > 0) || !(segment.length_ > 0)) return line(start, target);
 
   segment.start_ = start;
@@ -118,7 +119,8 @@ AxisValues PathSegment::position(double s) const {
     const double angle = angle_ + angle_slope_ * s;
     if (is_tilted_) {
       for (std::size_t i = 0; i < 3; ++i) {
-        position[i] = hub_[i] + slope_[i] * s + radius * (std::cos(angle) * first_[i] + std::sin(angle) * second_[i]);
+        position[i] =
+            hub_[i] + slope_[i] * s + radius * (std::cos(angle) * first_[i] + std::sin(angle) * second_[i]);
       }
       return position;
     }

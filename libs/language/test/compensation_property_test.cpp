@@ -24,9 +24,9 @@ std::string words(Vector2 p) {
   return text;
 }
 
-// A contour of lines and arcs that always runs forward along X, so that it never meets itself, with corners to
-// both sides. Headings stay within 80 degrees of X and every piece is long enough for the tool in any corner
-// between two of them: 2 / tan(10 degrees) = 11.3 on either side.
+// A contour of lines and arcs that always runs forward along X, so that it never meets itself, with corners
+// to both sides. Headings stay within 80 degrees of X and every piece is long enough for the tool in any
+// corner between two of them: 2 / tan(10 degrees) = 11.3 on either side.
 Contour random_contour(std::mt19937_64& random, int pieces, bool arcs) {
   std::uniform_real_distribution<double> heading(-80, 80);
   std::uniform_real_distribution<double> size(30, 60);

@@ -159,7 +159,7 @@ inline Interpretation run(Environment& machine, std::string_view text, const Axi
 
 /// One command in a short form, for comparing streams: kind, the axes that are not 0, and what the kind adds.
 inline std::string brief(const Command& command) {
-  static constexpr const char* kinds[] = {"rapid", "line", "arc",  "dwell", "T",    "S",
+  static constexpr const char* kinds[] = {"rapid", "line",  "arc", "dwell", "T",   "S",
                                           "M",     "frame", "end", "skip",  "tap", "table"};
   const auto number = [](double value) {
     char text[40];

@@ -14,7 +14,8 @@ TestMachine machine_with_tool() {
   return machine;
 }
 
-/// Where the tool points in the workpiece frame: from the tip of a tool of length 1 to that of one of length 0.
+/// Where the tool points in the workpiece frame: from the tip of a tool of length 1 to that of one of length
+/// 0.
 Vector3 tool_direction(const TestMachine& machine, const AxisValues& machine_position) {
   const AxisValues tip = machine.tip_from_machine(machine_position, 1);
   const AxisValues gauge = machine.tip_from_machine(machine_position, 0);
@@ -35,7 +36,8 @@ const std::string tilted = "G43.4 H1\nG68.2 X30 Y-40 Z0 I90 J45 K-90\n";
 
 TEST(Tilt, EulerAnglesOfTheManualAndSwingWithTheTipHeld) {
   TestMachine machine = machine_with_tool();
-  const Interpretation result = run(machine, "G0 X5 Y6 Z200\n" + tilted + "G53.2\nG01 X0 Y-15 Z0 F2000\nG69\nX0\n");
+  const Interpretation result =
+      run(machine, "G0 X5 Y6 Z200\n" + tilted + "G53.2\nG01 X0 Y-15 Z0 F2000\nG69\nX0\n");
   ASSERT_EQ(result.last, Step::end) << result.alarm.text.data();
   using enum CommandKind;
   const CommandKind kinds[] = {rapid, transformation, transformation, line, line, transformation, line, end};

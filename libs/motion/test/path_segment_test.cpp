@@ -56,8 +56,8 @@ TEST(PathSegment, planes_turn_as_iso_6983_says) {
   EXPECT_LT(clockwise.position(clockwise.length() / 2)[0], 0);  // passes the lower left at -135 degrees
 }
 
-// A plane given by its normal is the plane: with +Y, G18 itself; and a circle about (1, 0, 1) through (0, 10, 0)
-// turns counterclockwise to the point at right angles to both, (-10 / sqrt 2, 0, 10 / sqrt 2).
+// A plane given by its normal is the plane: with +Y, G18 itself; and a circle about (1, 0, 1) through (0, 10,
+// 0) turns counterclockwise to the point at right angles to both, (-10 / sqrt 2, 0, 10 / sqrt 2).
 TEST(PathSegment, tilted_arcs_turn_about_their_normal) {
   Arc zx{Plane::zx, false, {0, 0, 0}, 90};
   const PathSegment plain = PathSegment::arc({0, 0, 5}, {5, 2, 0}, zx);
