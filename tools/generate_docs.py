@@ -27,7 +27,7 @@ def table(head, rows):
 def entries(path, name, pattern):
     """Every NAME{...} of a C++ table; an entry that the pattern does not understand is an error, never left out."""
     text = read(path)
-    found = re.findall(name + r"\{" + pattern + r"\s*\}", text)
+    found = re.findall(name + r"\{\s*" + pattern + r"\s*\}", text)
     there = len(re.findall(name + r"\{", text))
     if not found or len(found) != there: fail(path, f"{len(found)} of {there} entries {name}{{...}} can be read")
     return found
