@@ -16,6 +16,7 @@ namespace trunnion::language {
 struct Flow {
   enum class Kind : std::uint8_t { next, call, go_back, end };
   Kind kind = Kind::next;
+  bool to_label = false;          ///< go_back to the sequence number `subprogram`
   std::uint32_t subprogram = 0;   ///< of call
   std::uint32_t repetitions = 1;  ///< of call
   std::uint16_t offset = 0;       ///< of the M word in its line
@@ -43,6 +44,10 @@ class BlockExecutor {
 
   /// Appends the end of the program; `number` as Command::number.
   void end_program(std::uint32_t number, std::uint32_t program, std::uint32_t line, CommandQueue& out);
+
+  /// Appends message `number`, whose text is the comment of its line, and the program stop that lets it be
+  /// read.
+  void message(std::uint32_t number, std::uint32_t program, std::uint32_t line, CommandQueue& out);
 
   const ModalState& modal() const { return modal_; }
   const AxisValues& position() const { return position_; }

@@ -54,6 +54,7 @@ enum class CommandKind : std::uint8_t {
   auxiliary,       ///< M code: number
   transformation,  ///< modal.transformation or modal.tool_length changed without motion; target is the
                    ///< position in the new frame
+  message,         ///< number; the text is the comment of its line
   end,             ///< M2, M30, or the end of the text
 };
 
@@ -75,7 +76,7 @@ struct Command {
   AxisValues target{};         ///< end of a move, in the frame modal.transformation says
   Arc arc{};
   double dwell_seconds = 0;
-  std::uint32_t number = 0;  ///< M or T number; of end: 2, 30, or 0 for the end of the text
+  std::uint32_t number = 0;  ///< M, T or message number; of end: 2, 30, or 0 for the end of the text
   double value = 0;          ///< S
   ModalState modal{};
 };

@@ -8,7 +8,7 @@
 
 namespace trunnion::language {
 
-/// A block gives at most S, T, a tool length, two moves and 4 M; the queue has room for them and is empty
+/// A block gives at most S, T, a tool length, two moves and 8 M; the queue has room for them and is empty
 /// before the next block.
 class CommandQueue {
  public:
@@ -18,7 +18,7 @@ class CommandQueue {
   const Command& pop() { return commands_[first_++]; }
 
  private:
-  std::array<Command, 10> commands_{};
+  std::array<Command, 16> commands_{};
   std::size_t first_ = 0;
   std::size_t size_ = 0;
 };

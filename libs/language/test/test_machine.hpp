@@ -25,6 +25,7 @@ struct TestMachine : Environment {
   double off_y = 0.1028;
   std::array<double, 3> centre = {-200.3605, -190.1897, -516.0118};
   std::map<std::string, std::unique_ptr<TextSource>, std::less<>> programs;
+  std::array<std::uint16_t, 8> cycle_m_codes{};
 
   AxisValues work_offset(std::uint8_t index) const override { return offsets.at(index); }
   std::optional<double> tool_length(std::uint16_t h) const override {
@@ -38,6 +39,7 @@ struct TestMachine : Environment {
     const auto found = programs.find(name);
     return found == programs.end() ? nullptr : found->second.get();
   }
+  std::uint16_t cycle_m_code(std::size_t index) const override { return cycle_m_codes.at(index); }
 
   AxisValues machine_from_tip(const AxisValues& tip, double tool_length) const override {
     const double a = -tip[A] * std::numbers::pi / 180;
@@ -101,7 +103,8 @@ inline Interpretation run(Environment& machine, std::string_view text, const Axi
 
 /// One command in a short form, for comparing streams: kind, the axes that are not 0, and what the kind adds.
 inline std::string brief(const Command& command) {
-  static constexpr const char* kinds[] = {"rapid", "line", "arc", "dwell", "T", "S", "M", "frame", "end"};
+  static constexpr const char* kinds[] = {"rapid", "line", "arc",   "dwell",   "T",
+                                          "S",     "M",    "frame", "message", "end"};
   const auto number = [](double value) {
     char text[40];
     std::snprintf(text, sizeof text, "%.10g", std::abs(value) < 1e-12 ? 0.0 : value);
@@ -143,6 +146,7 @@ inline std::string brief(const Command& command) {
       text += " L" + number(command.modal.tool_length);
       values();
       break;
+    case CommandKind::message:
     case CommandKind::end:
       text += " " + std::to_string(command.number);
       break;
