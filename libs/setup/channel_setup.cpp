@@ -1,4 +1,4 @@
-#include "channel_machine.hpp"
+#include "setup/channel_setup.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,9 +6,15 @@
 
 #include "motion/path_segment.hpp"
 
-namespace trunnion::channel {
+namespace trunnion::setup {
 
-void ChannelMachine::configure(const machine::Parameters& p) {
+ChannelSetup::ChannelSetup(const MachineTables& tables) : ChannelSetup(tables.channel) {
+  configure(tables.parameters);
+  set_tools(tables.tools);
+  set_offsets(tables.offsets);
+}
+
+void ChannelSetup::configure(const machine::Parameters& p) {
   auto chain = machine::make_chain(p, channel_);
   channel_axes_ = machine::channel_axes(p, channel_);
   chain_ = chain;
@@ -42,12 +48,12 @@ void ChannelMachine::configure(const machine::Parameters& p) {
   revision_ = p.revision;
 }
 
-void ChannelMachine::set_tools(const idl::parameters::ToolTable& table) {
+void ChannelSetup::set_tools(const idl::parameters::ToolTable& table) {
   tools_.clear();
   for (const auto& tool : table.tools) tools_[tool.number] = tool.length + tool.length_wear;
 }
 
-void ChannelMachine::set_offsets(const idl::parameters::WorkOffsets& table) {
+void ChannelSetup::set_offsets(const idl::parameters::WorkOffsets& table) {
   offsets_ = {};
   for (const auto& offset : table.offsets)
     if (offset.channel == channel_ && offset.index < offsets_.size())
@@ -55,13 +61,13 @@ void ChannelMachine::set_offsets(const idl::parameters::WorkOffsets& table) {
                   offsets_[offset.index].begin());
 }
 
-std::optional<double> ChannelMachine::tool_length(std::uint16_t h) const {
+std::optional<double> ChannelSetup::tool_length(std::uint16_t h) const {
   const auto found = tools_.find(h);
   if (found == tools_.end()) return std::nullopt;
   return found->second;
 }
 
-AxisValues ChannelMachine::tip_from_machine(const AxisValues& machine, double tool_length) const {
+AxisValues ChannelSetup::tip_from_machine(const AxisValues& machine, double tool_length) const {
   AxisValues result = machine;
   const auto tip = chain_->tip_from_machine({machine[0], machine[1], machine[2]},
                                             {machine[3], machine[4], machine[5]}, tool_length);
@@ -69,7 +75,7 @@ AxisValues ChannelMachine::tip_from_machine(const AxisValues& machine, double to
   return result;
 }
 
-AxisValues ChannelMachine::machine_from_tip(const AxisValues& tip, double tool_length) const {
+AxisValues ChannelSetup::machine_from_tip(const AxisValues& tip, double tool_length) const {
   AxisValues result = tip;
   const auto machine =
       chain_->machine_from_tip({tip[0], tip[1], tip[2]}, {tip[3], tip[4], tip[5]}, tool_length);
@@ -77,7 +83,7 @@ AxisValues ChannelMachine::machine_from_tip(const AxisValues& tip, double tool_l
   return result;
 }
 
-std::string ChannelMachine::travel_error(const AxisValues& from, const language::Command& move) const {
+std::string ChannelSetup::travel_error(const AxisValues& from, const language::Command& move) const {
   const bool rtcp = move.modal.transformation == language::Transformation::rtcp;
   const auto path = move.kind == language::CommandKind::arc
                         ? motion::PathSegment::arc(from, move.target, move.arc)
@@ -101,4 +107,4 @@ std::string ChannelMachine::travel_error(const AxisValues& from, const language:
   return "";
 }
 
-}  // namespace trunnion::channel
+}  // namespace trunnion::setup

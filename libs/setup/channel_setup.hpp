@@ -1,5 +1,5 @@
-// What the channel knows of the machine: axes, limits, transformation, tools and offsets, of one parameter
-// revision.
+// What one channel knows of its machine: axes, limits, transformation, tools and offsets, of one parameter
+// revision. The channel, the report and the commands that work without a cluster read programs with it.
 #pragma once
 
 #include <functional>
@@ -11,8 +11,9 @@
 #include "language/environment.hpp"
 #include "machine/axes.hpp"
 #include "motion/limits.hpp"
+#include "setup/machine_tables.hpp"
 
-namespace trunnion::channel {
+namespace trunnion::setup {
 
 using language::AxisValues;
 
@@ -21,9 +22,11 @@ struct Travel {
   double negative = 0, positive = 0;
 };
 
-class ChannelMachine : public language::Environment {
+class ChannelSetup : public language::Environment {
  public:
-  explicit ChannelMachine(std::uint16_t channel) : channel_(channel) {}
+  explicit ChannelSetup(std::uint16_t channel) : channel_(channel) {}
+  /// Configured with the tables. Throws as configure() does.
+  explicit ChannelSetup(const MachineTables& tables);
 
   /// Throws std::runtime_error when the kinematic parameters make no chain.
   void configure(const machine::Parameters& parameters);
@@ -77,4 +80,4 @@ class ChannelMachine : public language::Environment {
   std::uint32_t frame_real_ = 4, frame_virtual_ = 8;
 };
 
-}  // namespace trunnion::channel
+}  // namespace trunnion::setup

@@ -1,4 +1,4 @@
-#include "tables.hpp"
+#include "setup/tables.hpp"
 
 #include <sstream>
 #include <stdexcept>
@@ -6,7 +6,7 @@
 #include "machine/yaml.hpp"
 #include "text/utf8.hpp"
 
-namespace trunnion::parameters {
+namespace trunnion::setup {
 namespace {
 
 constexpr double limit = 100000;  // mm or deg
@@ -174,4 +174,4 @@ std::string write_offsets(const Offsets& offsets, std::uint64_t revision) {
   return out.str();
 }
 
-}  // namespace trunnion::parameters
+}  // namespace trunnion::setup

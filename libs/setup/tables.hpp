@@ -7,7 +7,7 @@
 
 #include "contracts/types.hpp"
 
-namespace trunnion::parameters {
+namespace trunnion::setup {
 
 using Tools = std::map<std::uint32_t, idl::parameters::Tool>;
 /// By channel and index (0 = G54 .. 5 = G59).
@@ -31,4 +31,4 @@ std::string write_tools(const Tools& tools, std::uint64_t revision);
 Offsets read_offsets(const std::string& text, const std::string& file, std::uint64_t& revision);
 std::string write_offsets(const Offsets& offsets, std::uint64_t revision);
 
-}  // namespace trunnion::parameters
+}  // namespace trunnion::setup

@@ -1,0 +1,78 @@
+#include "setup/channel_setup.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+namespace trunnion::setup {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::string ac_table = MACHINES_DIRECTORY "/ac-table";
+
+TEST(ChannelSetup, ReadsAxesToolsOffsetsAndTravelOfAMachineFolder) {
+  const ChannelSetup setup(load_machine_tables(ac_table));
+  EXPECT_EQ(setup.channel_axes().letters, "XYZAC");
+  EXPECT_EQ(setup.axes(), 0b101111);  // bit 0 = X .. bit 5 = C, no B
+  // tools.yaml: tool 1 is 100 mm long; there is no tool 9. work_offsets.yaml: G54 lies at Z -380.
+  EXPECT_EQ(setup.tool_length(1), 100.0);
+  EXPECT_EQ(setup.tool_length(9), std::nullopt);
+  EXPECT_EQ(setup.work_offset(0)[language::Z], -380);
+  EXPECT_EQ(setup.work_offset(1)[language::Z], 0);
+  EXPECT_EQ(setup.travel(language::X).negative, -400);
+  EXPECT_EQ(setup.travel(language::X).positive, 400);
+}
+
+TEST(ChannelSetup, WearCountsInTheToolLength) {
+  auto tables = load_machine_tables(ac_table);
+  tables.tools.tools[0].length_wear = -0.25;
+  EXPECT_EQ(ChannelSetup(tables).tool_length(1), 99.75);
+}
+
+TEST(ChannelSetup, ATableThatTurnsCarriesTheTipAlong) {
+  const ChannelSetup setup(load_machine_tables(ac_table));
+  // C turns about -Z through X0 Y0: at C90 the workpiece point X10 Y0 lies at X0 Y-10, and the spindle face
+  // 100 mm above the tip.
+  const auto machine = setup.machine_from_tip({10, 0, -400, 0, 0, 90}, 100);
+  EXPECT_NEAR(machine[0], 0, 1e-12);
+  EXPECT_NEAR(machine[1], -10, 1e-12);
+  EXPECT_NEAR(machine[2], -300, 1e-12);
+  const auto tip = setup.tip_from_machine(machine, 100);
+  EXPECT_NEAR(tip[0], 10, 1e-12);
+  EXPECT_NEAR(tip[1], 0, 1e-12);
+}
+
+TEST(ChannelSetup, AMoveOutOfTravelIsToldWithLineAxisAndLimits) {
+  const ChannelSetup setup(load_machine_tables(ac_table));
+  language::Command move;
+  move.kind = language::CommandKind::line;
+  move.line = 7;
+  move.target = {500};
+  EXPECT_EQ(setup.travel_error({}, move), "7: X would go to 500.0000, its travel is -400.0000 .. 400.0000");
+  move.target = {400};
+  EXPECT_EQ(setup.travel_error({}, move), "");
+}
+
+TEST(MachineTables, AChannelTheMachineDoesNotHaveIsRefused) {
+  EXPECT_THROW(load_machine_tables(ac_table, 1), std::runtime_error);
+  EXPECT_EQ(load_machine_tables(MACHINES_DIRECTORY "/two-channel", 1).channel, 1);
+}
+
+TEST(MachineTables, AWrongTableIsRefusedWithItsPlace) {
+  const fs::path copy = fs::temp_directory_path() / ("setup_test_" + std::to_string(getpid()));
+  fs::copy(ac_table, copy, fs::copy_options::recursive);
+  std::ofstream(copy / tools_file) << "- {number: 1, length: long}\n";
+  std::string message;
+  try {
+    load_machine_tables(copy.string());
+  } catch (const std::runtime_error& e) {
+    message = e.what();
+  }
+  fs::remove_all(copy);
+  EXPECT_NE(message.find("tools.yaml:1:23: error: 'length'"), std::string::npos) << message;
+}
+
+}  // namespace
+}  // namespace trunnion::setup
