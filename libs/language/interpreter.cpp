@@ -35,6 +35,7 @@ void Interpreter::start(TextSource& text, const AxisValues& position, const Moda
   found_.fill({});
   next_found_ = 0;
   jumps_.clear();
+  blocks_ = 0;
   else_if_due_ = modal_call_active_ = in_modal_call_ = false;
   frames_[0] = Frame{};
   frames_[0].source = &text;
@@ -101,6 +102,7 @@ Interpreter::State Interpreter::execute(std::string_view line) {
     frame.begun = true;
     control_.set_program_number(block_.program_number);
   }
+  if (block_.statement != Statement::none || !block_.empty()) ++blocks_;
   if (block_.has('N')) control_.set_sequence_number(block_.value('N'));
   if (block_.statement != Statement::none) {
     frame.begun = true;
@@ -145,6 +147,14 @@ Interpreter::State Interpreter::go(const Flow& flow, std::string_view line) {
   subprogram.offset = flow.offset;
   subprogram.program_offset = block_.offset('P');
   return call(subprogram, line);
+}
+
+AxisValues Interpreter::workpiece(const Command& command) const {
+  const AxisValues offset = environment_.work_offset(command.modal.work_offset);
+  AxisValues point = command.target;
+  for (std::size_t axis = 0; axis < axis_count; ++axis) point[axis] -= offset[axis];
+  if (command.modal.transformation == Transformation::none) point[Z] -= command.modal.tool_length;
+  return point;
 }
 
 Interpreter::State Interpreter::end_of_text() {

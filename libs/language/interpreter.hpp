@@ -24,6 +24,7 @@ enum class Step : std::uint8_t {
 
 struct InterpreterOptions {
   SkipLevels block_skip = 0;  ///< leave out blocks that begin with / (level 1) or /n of a level in it
+  bool repeat = true;         ///< M99 in the main program begins it again, else it ends it
 };
 
 /// Variables of a control that has never run a program.
@@ -70,6 +71,11 @@ class Interpreter {
   /// The state after the last block that was read.
   const ModalState& modal() const { return executor_.modal(); }
   const AxisValues& position() const { return executor_.position(); }
+  /// Where the last command that next() gave ends in the workpiece: without offsets and, but for tool tip
+  /// control, the tool length.
+  AxisValues workpiece(const Command& command) const;
+  /// Blocks executed since start(), a loop's each time.
+  std::uint64_t blocks() const { return blocks_; }
   const VariableStore& variables() const { return variables_.store(); }
 
   static const Dialect& iso_dialect();
@@ -158,6 +164,7 @@ class Interpreter {
   State state_ = State::done;
   Alarm alarm_;
   std::uint32_t line_ = 0;    // of the block being executed
+  std::uint64_t blocks_ = 0;
   TextPosition position_;     // of that line
   bool else_if_due_ = false;  // the next line is an ELSEIF whose condition decides
   // A jump that looks for its target, and the alarms if it is in vain or not allowed.

@@ -66,6 +66,10 @@ Interpreter::State Interpreter::return_from_subprogram(const Flow& flow, std::st
     return jump(Purpose::label, flow.subprogram, position_, {AlarmNumber::label_missing, block_.offset('P')},
                 line);
   }
+  if (depth_ == 0 && !options_.repeat) {
+    executor_.end_program(0, frame.program, line_, queue_);
+    return State::done;
+  }
   if (depth_ == 0 || frame.remaining > 0) {
     if (depth_ != 0) --frame.remaining;
     frame.begun = false;
