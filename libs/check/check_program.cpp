@@ -38,6 +38,8 @@ bool check_program(language::TextSource& text, language::Environment& environmen
   Step step = Step::working;
   while (step != Step::end && step != Step::alarm) {
     step = interpreter->next(command);
+    // No probe: the move to a skip signal ends where it was to end at the latest.
+    if (step == Step::position) interpreter->set_position(command.target);
     if (step != Step::command) continue;
     if (!options.json_lines) summary.add(command);
     const auto motion = tracker.follow(command);

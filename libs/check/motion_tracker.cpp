@@ -40,6 +40,10 @@ double arc_length(const AxisValues& from, const AxisValues& to, const language::
 std::optional<double> feed_of(const Command& command, double length) {
   const language::ModalState& modal = command.modal;
   if (command.kind == CommandKind::rapid) return std::nullopt;
+  if (command.kind == CommandKind::tap) {
+    return modal.spindle_speed > 0 ? std::optional(std::abs(command.value) * modal.spindle_speed)
+                                   : std::nullopt;
+  }
   switch (modal.feed_mode) {
     case language::FeedMode::inverse_time:
       return modal.feed * length;
@@ -65,6 +69,8 @@ std::optional<Motion> MotionTracker::follow(const Command& command) {
     case CommandKind::rapid:
     case CommandKind::line:
     case CommandKind::arc:
+    case CommandKind::skip:
+    case CommandKind::tap:
       break;
     case CommandKind::transformation:
       target_ = command.target;

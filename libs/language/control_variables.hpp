@@ -1,6 +1,8 @@
 // System variables: the state of the control as a program sees it.
 #pragma once
 
+#include <optional>
+
 #include "language/block_executor.hpp"
 #include "language/environment.hpp"
 #include "language/variables.hpp"
@@ -26,18 +28,21 @@ class ControlVariables final : public SystemVariables {
   void set_time(const ControlTime& time) { time_ = time; }
   void set_sequence_number(double number) { sequence_number_ = number; }
   void set_program_number(std::uint32_t number) { program_number_ = number; }
+  /// Where G31 stopped, workpiece, mm and degrees.
+  void set_skip_position(const AxisValues& position) { skip_position_ = position; }
   void set_modal_macro(bool active) { modal_macro_ = active; }
 
   AlarmNumber read(const VariableRange& range, std::uint32_t index, Value& value) const override;
   AlarmNumber write(const VariableRange& range, std::uint32_t index, Value value) override;
 
-  /// Whether #3006 was written since the last time; its number.
-  bool take_message(std::uint32_t& number);
+  /// Carries out what writing a variable asked for since the last time: a message, a change of a table.
+  Fault carry_out(std::uint32_t program, std::uint32_t line, CommandQueue& out);
 
  private:
   AlarmNumber modal(std::uint32_t number, double& result) const;
   double in_program_units(std::uint32_t axis, double value) const;
-  AxisValues work_position() const;
+  double to_machine_units(std::uint32_t axis, double value) const;
+  AlarmNumber ask(const VariableRange& range, std::uint32_t index, double value);
 
   const Environment& environment_;
   BlockExecutor& executor_;
@@ -47,8 +52,13 @@ class ControlVariables final : public SystemVariables {
   double sequence_number_ = 0;
   std::uint32_t program_number_ = 0;
   bool modal_macro_ = false;
-  bool message_waits_ = false;
-  std::uint32_t message_ = 0;
+  AxisValues skip_position_{};
+  struct Order {
+    VariableKind kind = VariableKind::message;
+    std::uint32_t index = 0;
+    double value = 0;
+  };
+  std::optional<Order> order_;
 };
 
 }  // namespace trunnion::language

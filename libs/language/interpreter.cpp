@@ -46,6 +46,13 @@ void Interpreter::start(TextSource& text, const AxisValues& position, const Moda
 
 Step Interpreter::next(Command& command) {
   for (int lines = 0; queue_.empty(); ++lines) {
+    if (state_ != State::failed && executor_.busy()) {
+      queue_.clear();
+      if (const Fault fault = executor_.resume(queue_)) state_ = fail(fault, {});
+      if (lines == lines_per_call) return Step::working;
+      continue;
+    }
+    if (executor_.needs_position()) return Step::position;
     if (state_ == State::done) return Step::end;
     if (state_ == State::failed) return Step::alarm;
     if (lines == lines_per_call) return Step::working;
@@ -149,12 +156,16 @@ Interpreter::State Interpreter::go(const Flow& flow, std::string_view line) {
   return call(subprogram, line);
 }
 
+void Interpreter::set_position(const AxisValues& position) {
+  const bool skipped = executor_.needs_position();
+  executor_.set_position(position);
+  if (skipped) control_.set_skip_position(executor_.workpiece_position());
+}
+
 AxisValues Interpreter::workpiece(const Command& command) const {
-  const AxisValues offset = environment_.work_offset(command.modal.work_offset);
-  AxisValues point = command.target;
-  for (std::size_t axis = 0; axis < axis_count; ++axis) point[axis] -= offset[axis];
-  if (command.modal.transformation == Transformation::none) point[Z] -= command.modal.tool_length;
-  return point;
+  AxisValues tip = command.target;
+  if (command.modal.transformation == Transformation::none) tip[Z] -= command.modal.tool_length;
+  return executor_.frame().workpiece_from_command(tip);
 }
 
 Interpreter::State Interpreter::end_of_text() {
@@ -164,7 +175,7 @@ Interpreter::State Interpreter::end_of_text() {
     return fail({AlarmNumber::begin_without_end, 0}, {});
   }
   if (depth_ != 0) return fail({AlarmNumber::subprogram_without_end, 0}, {});
-  executor_.end_program(0, frames_[0].program, line_, queue_);
+  if (const Fault fault = executor_.end_program(0, frames_[0].program, line_, queue_)) return fail(fault, {});
   return State::done;
 }
 

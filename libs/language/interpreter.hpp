@@ -15,11 +15,13 @@
 namespace trunnion::language {
 
 enum class Step : std::uint8_t {
-  command,  ///< a command was written
-  working,  ///< a bounded number of blocks was read without a command: call again when convenient
-  pending,  ///< the text source has to deliver first: call again later
-  end,      ///< the end command was taken before
-  alarm,    ///< see alarm(); stays so until start()
+  command,   ///< a command was written
+  working,   ///< a bounded number of blocks was read without a command: call again when convenient
+  pending,   ///< the text source has to deliver first: call again later
+  end,       ///< the end command was taken before
+  alarm,     ///< see alarm(); stays so until start()
+  position,  ///< the command before was a skip move: set_position() must tell where it ended, for what the
+             ///< program does next depends on it
 };
 
 struct InterpreterOptions {
@@ -63,7 +65,7 @@ class Interpreter {
   /// Tells where the machine really is, in the frame of modal().transformation, for the blocks not read yet:
   /// after a move that ended elsewhere than commanded. Only sensible when next() has nothing prepared: after
   /// Step::end, or the command of a block's end.
-  void set_position(const AxisValues& position) { executor_.set_position(position); }
+  void set_position(const AxisValues& position);
 
   /// What the variables of time show from now on; before the first call they show zero.
   void set_time(const ControlTime& time) { control_.set_time(time); }
@@ -163,7 +165,7 @@ class Interpreter {
   std::size_t depth_ = 0;
   State state_ = State::done;
   Alarm alarm_;
-  std::uint32_t line_ = 0;    // of the block being executed
+  std::uint32_t line_ = 0;  // of the block being executed
   std::uint64_t blocks_ = 0;
   TextPosition position_;     // of that line
   bool else_if_due_ = false;  // the next line is an ELSEIF whose condition decides

@@ -67,7 +67,7 @@ Interpreter::State Interpreter::return_from_subprogram(const Flow& flow, std::st
                 line);
   }
   if (depth_ == 0 && !options_.repeat) {
-    executor_.end_program(0, frame.program, line_, queue_);
+    if (const Fault fault = executor_.end_program(0, frame.program, line_, queue_)) return fail(fault, line);
     return State::done;
   }
   if (depth_ == 0 || frame.remaining > 0) {

@@ -10,11 +10,12 @@ Interpreter::State Interpreter::run_statement(std::string_view line) {
   switch (statement) {
     case Statement::none:
       return State::running;
-    case Statement::assignment: {
-      std::uint32_t number = 0;
-      if (control_.take_message(number)) executor_.message(number, frame.program, line_, queue_);
+    case Statement::assignment:
+      if (Fault fault = control_.carry_out(frame.program, line_, queue_)) {
+        fault.offset = block_.at;
+        return fail(fault, line);
+      }
       return State::running;
-    }
     case Statement::go_to:
       return jump(Purpose::label, block_.label, position_, {AlarmNumber::label_missing, block_.at}, line);
     default:

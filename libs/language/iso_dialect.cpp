@@ -154,6 +154,7 @@ class BlockReader {
   Fault assignments() {
     while (scanner_.more() && scanner_.peek() == '#') {
       const std::uint16_t at = scanner_.offset();
+      block_.at = at;
       scanner_.advance();
       ExpressionReader reader(scanner_, variables_);
       double number = 0;
@@ -163,6 +164,8 @@ class BlockReader {
       if (const Fault fault = reader.expression(value)) return fault;
       if (const AlarmNumber alarm = variables_.write(number, value); alarm != AlarmNumber::none)
         return {alarm, at};
+      // What a system variable asks for is carried out before anything else.
+      if (is_system_variable(number)) break;
     }
     return state(Statement::assignment);
   }

@@ -24,7 +24,7 @@ namespace trunnion::language {
 /// Which of two
 ///   would be meant cannot be known;
 /// - assignments and instructions stand alone in their block, but for N; several assignments may follow each
-/// other.
+///   other, of which one to a system variable is the last.
 class IsoDialect final : public Dialect {
  public:
   Fault read_block(std::string_view line, SkipLevels skip, Variables& variables, Block& block) const override;

@@ -68,7 +68,7 @@ inline constexpr std::array variable_ranges = {
     VariableRange{3012, 3012, VariableKind::time_of_day, false, "time as hours minutes seconds: 235959"},
     VariableRange{4001, 4130, VariableKind::modal, false, "modal codes and words of the blocks before"},
     VariableRange{5001, 5009, VariableKind::block_end, false,
-                  "end of the block before, workpiece, X Y Z A B C U V W"},
+                  "end of the block before, program coordinates, X Y Z A B C U V W"},
     VariableRange{5021, 5029, VariableKind::machine_position, false, "position, machine coordinates"},
     VariableRange{5041, 5049, VariableKind::work_position, false, "position, workpiece coordinates"},
     VariableRange{5061, 5069, VariableKind::skip_position, false, "where G31 stopped, workpiece coordinates"},
@@ -79,6 +79,9 @@ inline constexpr std::array variable_ranges = {
                   "work offsets: 7001 X of G54.1 P1, 7021 of P2 .. 7941 of P48"},
     VariableRange{50000, 54999, VariableKind::user, true, "common to all programs, kept"},
 };
+
+/// Whether a variable is the control's and not a place to store something.
+constexpr bool is_system_variable(double number) { return number >= 1000 && number < 50000; }
 
 /// What outlives a program. Its user takes it out when a program ends and hands it to the next; a program
 /// that is interpreted again needs it as it was at that program's start.
