@@ -74,6 +74,13 @@ std::optional<double> DefaultMachine::tool_length(std::uint16_t h) const {
   return found == tools_->end() ? std::nullopt : std::optional(found->second.length);
 }
 
+std::optional<language::ToolOffset> DefaultMachine::tool_offset(std::uint16_t number) const {
+  if (!tools_) return language::ToolOffset{0, 0, 0.0, 0};
+  const auto found = tools_->find(number);
+  if (found == tools_->end()) return std::nullopt;
+  return language::ToolOffset{found->second.length, 0, found->second.radius, 0};
+}
+
 language::AxisValues DefaultMachine::tip_from_machine(const language::AxisValues& machine,
                                                       double tool_length) const {
   language::AxisValues tip = machine;

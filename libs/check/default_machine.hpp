@@ -20,7 +20,7 @@ using ToolRows = std::map<std::uint16_t, ToolRow>;
 /// first line of column names are passed over). Throws std::runtime_error with file:line.
 ToolRows read_tool_rows(const std::string& text, const std::string& file);
 
-class DefaultMachine final : public language::Environment {
+class DefaultMachine : public language::Environment {
  public:
   /// Without `tools` every tool exists and has length and radius 0; with them only those.
   explicit DefaultMachine(std::optional<ToolRows> tools) : tools_(std::move(tools)) {}
@@ -30,6 +30,7 @@ class DefaultMachine final : public language::Environment {
 
   language::AxisValues work_offset(std::uint8_t) const override { return {}; }
   std::optional<double> tool_length(std::uint16_t h) const override;
+  std::optional<language::ToolOffset> tool_offset(std::uint16_t number) const override;
   language::AxisValues reference_position() const override { return {}; }
   language::AxisValues tip_from_machine(const language::AxisValues& machine,
                                         double tool_length) const override;

@@ -67,7 +67,7 @@ Fault BlockExecutor::set_spindle(const Block& block, const Codes& codes, Command
         codes.has(Group::spindle_mode) ? codes.offset(Group::spindle_mode) : block.offset('S');
     return {AlarmNumber::surface_speed_missing, at};
   }
-  if (block.has('S') || modal_.spindle_mode != before) {
+  if ((block.has('S') && !limit) || modal_.spindle_mode != before) {
     push(CommandKind::spindle_speed, out).value = surface ? modal_.surface_speed : modal_.spindle_speed;
   }
   return {};

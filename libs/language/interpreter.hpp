@@ -80,6 +80,9 @@ class Interpreter {
   std::uint64_t blocks() const { return blocks_; }
   const VariableStore& variables() const { return variables_.store(); }
 
+  /// Positions, frames and tables as the program has left them, for system variables.
+  const BlockExecutor& executor() const { return executor_; }
+
   static const Dialect& iso_dialect();
 
  private:

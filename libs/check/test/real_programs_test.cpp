@@ -12,9 +12,14 @@
 namespace trunnion::check {
 namespace {
 
-/// Checks a program on the default machine; the summary and the alarm, if any.
-std::string summary_of(const std::filesystem::path& path, bool& good) {
-  DefaultMachine machine({});
+/// Linear axes and a rotary table whose turning moves nothing: enough to read five-axis programs.
+struct FiveAxes : DefaultMachine {
+  FiveAxes() : DefaultMachine(std::nullopt) {}
+  std::uint16_t axes() const override { return 0b101111; }
+};
+
+/// The summary and the alarm, if any.
+std::string summary_of(language::Environment& machine, const std::filesystem::path& path, bool& good) {
   FileSource text(path.string());
   std::ostringstream out;
   good = check_program(
@@ -29,11 +34,35 @@ struct RealProgram {
 
 class RealPrograms : public testing::TestWithParam<RealProgram> {};
 
-TEST_P(RealPrograms, RunsToItsEnd) {
+TEST_P(RealPrograms, RunToTheirEnd) {
   const auto path = std::filesystem::path(NC_PROGRAMS_DIRECTORY) / GetParam().file;
   if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not there";
+  FiveAxes machine;
   bool good = false;
-  const std::string summary = summary_of(path, good);
+  const std::string summary = summary_of(machine, path, good);
   EXPECT_TRUE(good) << summary;
   EXPECT_NE(summary.find(GetParam().moves), std::string::npos) << summary;
 }
+
+INSTANTIATE_TEST_SUITE_P(
+    All, RealPrograms,
+    testing::Values(RealProgram{"CAMotics__flower_mold.nc", "?"},
+                    RealProgram{"Gcode5Axis__5_Axis_Simultaneous_Milling_Aileron_bracket.nc", "?"},
+                    RealProgram{"easy_gcode_plot__G17_18_19_G91.NC", "?"},
+                    RealProgram{"easy_gcode_plot__G83.NC", "?"},
+                    RealProgram{"easy_gcode_plot__PARALLEL.NC", "?"},
+                    RealProgram{"linuxcnc__wheels.ngc", "?"}));
+
+TEST(RealPrograms, RotaryWordsNeedAMachineThatHasThem) {
+  const auto path = std::filesystem::path(NC_PROGRAMS_DIRECTORY) /
+                    "Gcode5Axis__5_Axis_Simultaneous_Milling_Aileron_bracket.nc";
+  if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not there";
+  DefaultMachine machine({});
+  bool good = true;
+  EXPECT_NE(summary_of(machine, path, good).find("1109: channel does not have this axis: A0.0"),
+            std::string::npos);
+  EXPECT_FALSE(good);
+}
+
+}  // namespace
+}  // namespace trunnion::check

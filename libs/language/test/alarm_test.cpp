@@ -56,10 +56,8 @@ std::vector<Wrong> wrong_programs() {
       {unknown_g, "G43.45", 1, 1, ": G43.45"},
       {unknown_g, "G-1", 1, 1, ": G-1"},
       {unknown_g, "G100000000", 1, 1, ": G100000000"},
-      {unavailable_g, "G41 D1", 1, 1, ": G41"},
-      {unavailable_g, "G42", 1, 1, ": G42"},
       {group_twice, "G0 G1 X1", 1, 4, ": G1"},
-      {group_twice, "G1 G80", 1, 4, ": G80"},
+      {group_twice, "G1 G81 Z-1 R1", 1, 4, ": G81"},
       {group_twice, "G90 G90", 1, 5, ": G90"},
       {group_twice, "G4 G28 X1", 1, 4, ": G28"},
       {group_twice, "M3 M5", 1, 4, ": M5"},
@@ -91,7 +89,6 @@ std::vector<Wrong> wrong_programs() {
       {axis_absent, "G0 X1 W1", 1, 7, ": W1"},
       {axis_absent, "G28 W1", 1, 5, ": W1"},
       {axis_absent, "G53 W1", 1, 5, ": W1"},
-      {motion_missing, "G80\nX1", 2, 1, ": X1"},
       {feed_missing, "G1 X1", 1, 4, ": X1"},
       {feed_missing, "G1 F5 X1\nG93 X2", 2, 5, ": X2"},
       {feed_missing, "G93 G1 F5 X1\nX2", 2, 1, ": X2"},
@@ -109,7 +106,6 @@ std::vector<Wrong> wrong_programs() {
       {arc_radius_too_small, "G2 X10 R4.89 F1", 1, 8, ": R4.89"},
       {arc_full_with_radius, "G2 X0 R5 F1", 1, 7, ": R5"},
       {machine_coordinates_motion, "G3 G53 X1 F1", 1, 4, ": G53"},
-      {machine_coordinates_motion, "G80 G53 X1", 1, 5, ": G53"},
       {machine_coordinates_rtcp, "G43.4 H1\nG53 G0 X1", 2, 1, ": G53"},
       {machine_coordinates_rtcp, "G43.4 H1\nG28 X1", 2, 1, ": G28"},
       {tool_length_unknown, "G43 H7", 1, 5, ": H7"},
@@ -196,6 +192,10 @@ std::vector<Wrong> wrong_programs() {
       {variable_unknown, "#1=AR[#60]", 1, 4, ": AR"},
       {variable_read_only, "#5001=1", 1, 1, ": #5001"},
       {variable_value, "#3006=-1", 1, 1, ": #3006"},
+      {variable_value, "#2601=-1", 1, 1, ": #2601"},
+      {variable_unknown, "#5231=1", 1, 1, ": #5231"},
+      {text_behind_statement, "#3006=1 #1=2", 1, 9, ": #1"},
+      {tool_undefined, "#2007=1", 1, 1, ": #2007"},
   };
 }
 

@@ -192,7 +192,7 @@ TEST(Codes, EveryCodeIsFoundByItsNumberAndHasAMeaning) {
     EXPECT_EQ(g_code(code.tenths), &code);
     EXPECT_STRNE(code.meaning, "");
   }
-  EXPECT_EQ(g_code(435), nullptr);
+  EXPECT_EQ(g_code(436), nullptr);
   EXPECT_EQ(g_code(1000), nullptr);
   EXPECT_EQ(m_code(30).action, MAction::program_end);
   EXPECT_EQ(m_code(500).when, When::before);

@@ -127,6 +127,62 @@ TEST(SystemVariables, TimeIsHandedIn) {
   EXPECT_EQ(command.target[X], 250);
 }
 
+TEST(SystemVariables, ModalStateOfFramesAndCycles) {
+  TestMachine machine;
+  machine.tools[4] = {50, 0, 3, 0};
+  EXPECT_THAT(
+      values(machine, "", {"#4007", "#4009", "#4010", "#4011", "#4013", "#4016", "#4018", "#4022", "#4130"}),
+      ElementsAre(40, 80, 98, 50, 97, 69, 15, 50.1, 0));
+  EXPECT_THAT(values(machine, "G99 G51 X0 Y0 P2\nG51.1 X0\nG68 X0 Y0 R30\nG54.1 P7",
+                     {"#4010", "#4011", "#4016", "#4022", "#4014", "#4130"}),
+              ElementsAre(99, 51, 68, 51.1, 54.1, 7));
+  EXPECT_THAT(values(machine, "G16", {"#4018"}), ElementsAre(16));
+  EXPECT_THAT(values(machine, "G41 D4", {"#4007", "#4107"}), ElementsAre(41, 4));
+}
+
+TEST(SystemVariables, PositionsUnderFrames) {
+  TestMachine machine;
+  machine.offsets[0] = {100, 0, 0, 0, 0, 0, 0, 0, 0};
+  // Turned by 90 degrees about the zero of the workpiece: program (10, 0) is workpiece (0, 10), machine (100,
+  // 10).
+  const auto turned =
+      values(machine, "G68 X0 Y0 R90\nG0 X10 Y0", {"#5001", "#5002", "#5041", "#5042", "#5021", "#5022"});
+  const std::vector<double> expected{10, 0, 0, 10, 100, 10};
+  for (std::size_t i = 0; i < expected.size(); ++i) EXPECT_NEAR(turned[i], expected[i], 1e-12) << i;
+}
+
+TEST(SystemVariables, WritingATableActsAtOnceAndIsPassedOn) {
+  TestMachine machine;
+  machine.tools[1] = {50, 0, 4, 0};
+  EXPECT_THAT(
+      stream(run(machine,
+                 "#5221=10\nG0 X1\n#5246=45\nG55 C0\n#7041=3\nG54.1 P3 X0\n#1=1 #2201=60\nG43 H1 Z0\nM30\n")),
+      ElementsAre("table1 0 X10", "rapid X11", "table1 1 C45", "rapid X11 C45", "table1 8 X3", "rapid X3 C45",
+                  "table2 1 60", "frame none L60 X3 C45", "rapid X3 Z60 C45", "end 30"));
+  EXPECT_THAT(values(machine, "#2001=0.5\n#2401=-0.1\n#2601=3\n#2205=7",
+                     {"#2001", "#2201", "#2401", "#2601", "#2205", "#2605"}),
+              ElementsAre(0.5, 50, -0.1, 3, 7, 0));
+  // In inches 1 is 25.4 mm.
+  EXPECT_THAT(values(machine, "G20\n#5221=1\nG21", {"#5221"}), ElementsAre(25.4));
+  EXPECT_FALSE(after("#500=#2203", no_variables, machine).kept[0].given);
+}
+
+TEST(SystemVariables, SkipPositionIsWhereTheMachineStopped) {
+  TestMachine machine;
+  machine.offsets[0] = {100, 0, 0, 0, 0, 0, 0, 0, 0};
+  StringSource source("G31 X50 F100\n#500=#5061\nG0 X[#5061+1]\n");
+  Interpreter interpreter(machine);
+  interpreter.start(source, {100}, {});
+  Command command;
+  ASSERT_EQ(interpreter.next(command), Step::command);
+  EXPECT_EQ(command.kind, CommandKind::skip);
+  ASSERT_EQ(interpreter.next(command), Step::position);
+  interpreter.set_position({130.5});
+  ASSERT_EQ(interpreter.next(command), Step::command);
+  EXPECT_EQ(command.target[X], 131.5);
+  EXPECT_EQ(interpreter.variables().kept[0].number, 30.5);
+}
+
 TEST(SystemVariables, EveryRangeOfTheTableIsApartFromTheOthers) {
   std::uint32_t next = 0;
   for (const VariableRange& range : variable_ranges) {
