@@ -44,14 +44,17 @@ TEST_P(RealPrograms, RunToTheirEnd) {
   EXPECT_NE(summary.find(GetParam().moves), std::string::npos) << summary;
 }
 
+// Counted in the texts: blocks with G0, G1, and G2 or G3 whose end differs from that of the block before, G28
+// as one rapid when it begins where its point is; G83 of 12 holes 22 mm deep by 2 mm is 11 lines a hole.
 INSTANTIATE_TEST_SUITE_P(
     All, RealPrograms,
-    testing::Values(RealProgram{"CAMotics__flower_mold.nc", "?"},
-                    RealProgram{"Gcode5Axis__5_Axis_Simultaneous_Milling_Aileron_bracket.nc", "?"},
-                    RealProgram{"easy_gcode_plot__G17_18_19_G91.NC", "?"},
-                    RealProgram{"easy_gcode_plot__G83.NC", "?"},
-                    RealProgram{"easy_gcode_plot__PARALLEL.NC", "?"},
-                    RealProgram{"linuxcnc__wheels.ngc", "?"}));
+    testing::Values(RealProgram{"CAMotics__flower_mold.nc", "4 rapid, 16553 lines, 0 arcs"},
+                    RealProgram{"Gcode5Axis__5_Axis_Simultaneous_Milling_Aileron_bracket.nc",
+                                "114 rapid, 6285 lines, 3983 arcs"},
+                    RealProgram{"easy_gcode_plot__G17_18_19_G91.NC", "7 rapid, 3 lines, 3 arcs"},
+                    RealProgram{"easy_gcode_plot__G83.NC", "279 rapid, 132 lines, 0 arcs"},
+                    RealProgram{"easy_gcode_plot__PARALLEL.NC", "6 rapid, 3652 lines, 60 arcs"},
+                    RealProgram{"linuxcnc__wheels.ngc", "5 rapid, 7273 lines, 0 arcs"}));
 
 TEST(RealPrograms, RotaryWordsNeedAMachineThatHasThem) {
   const auto path = std::filesystem::path(NC_PROGRAMS_DIRECTORY) /

@@ -113,7 +113,7 @@ TEST(SystemVariables, TimeIsHandedIn) {
   const ControlTime time{5000, 2.5, 20250131, 235959};
   EXPECT_THAT(values(machine, "", {"#3001", "#3002", "#3011", "#3012"}, time),
               ElementsAre(5000, 2.5, 20250131, 235959));
-  EXPECT_THAT(values(machine, "#3001=0 #3002=1", {"#3001", "#3002"}, time), ElementsAre(0, 1));
+  EXPECT_THAT(values(machine, "#3001=0\n#3002=1", {"#3001", "#3002"}, time), ElementsAre(0, 1));
 
   // A timer that was set runs on.
   StringSource source("#3001=0\nG0 X1\nX[#3001]\n");
