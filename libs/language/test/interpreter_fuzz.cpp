@@ -42,11 +42,16 @@ struct Stepper {
   /// The next command, end or alarm; working when the program goes on without one.
   Step next(Command& command) {
     Step step = Step::pending;
-    while (step == Step::pending) step = interpreter.next(command);
+    while (step == Step::pending || step == Step::position) {
+      step = interpreter.next(command);
+      if (step == Step::position) interpreter.set_position(skip);
+    }
+    if (step == Step::command && command.kind == CommandKind::skip) skip = command.target;
     return step;
   }
   ChunkedSource source;
   Interpreter interpreter;
+  AxisValues skip{};
 };
 
 }  // namespace
