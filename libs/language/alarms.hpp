@@ -19,6 +19,10 @@ enum class AlarmNumber : std::uint16_t {
   too_many_codes = 1008,
   misplaced_head = 1009,
   text_unreadable = 1010,
+  unknown_instruction = 1011,
+  statement_not_first = 1012,
+  text_behind_statement = 1013,
+  too_many_centres = 1014,
   unknown_g = 1101,
   group_twice = 1103,
   unknown_m = 1104,
@@ -59,6 +63,23 @@ enum class AlarmNumber : std::uint16_t {
   subprogram_missing = 1401,
   nesting_too_deep = 1402,
   subprogram_without_end = 1403,
+  end_without_begin = 1404,
+  begin_without_end = 1405,
+  structure_too_deep = 1406,
+  label_missing = 1407,
+  jump_into_structure = 1408,
+  call_not_alone = 1409,
+  program_alarm = 1501,
+  operand_missing = 1502,
+  bracket_open = 1503,
+  brackets_too_deep = 1504,
+  division_by_zero = 1505,
+  function_domain = 1506,
+  result_too_large = 1507,
+  bits_of_fraction = 1508,
+  variable_unknown = 1509,
+  variable_read_only = 1510,
+  variable_value = 1511,
   cycle_depth_missing = 1601,
   cycle_peck_missing = 1602,
   cycle_inverse_time = 1603,
@@ -91,16 +112,20 @@ struct AlarmText {
 
 /// The texts. The word at fault is appended after a colon.
 inline constexpr std::array alarm_texts = {
-    AlarmText{AlarmNumber::line_too_long, "line longer than 1024 bytes"},
-    AlarmText{AlarmNumber::not_utf8, "text is not valid UTF-8"},
+    AlarmText{AlarmNumber::line_too_long, "line longer than 16384 bytes"},
+    AlarmText{AlarmNumber::not_utf8, "text outside comments is not valid UTF-8"},
     AlarmText{AlarmNumber::unknown_character, "character has no meaning outside a comment"},
     AlarmText{AlarmNumber::open_comment, "comment is not closed in its line"},
     AlarmText{AlarmNumber::number_missing, "letter without a number"},
     AlarmText{AlarmNumber::number_range, "number too large: at most 999999999"},
     AlarmText{AlarmNumber::letter_twice, "letter twice in one block"},
-    AlarmText{AlarmNumber::too_many_codes, "too many codes in one block: at most 12 G and 4 M"},
+    AlarmText{AlarmNumber::too_many_codes, "too many codes in one block: at most 12 G and 8 M"},
     AlarmText{AlarmNumber::misplaced_head, "program number or block skip only at the start of a line"},
     AlarmText{AlarmNumber::text_unreadable, "program text cannot be read"},
+    AlarmText{AlarmNumber::unknown_instruction, "unknown instruction, or a letter without a number"},
+    AlarmText{AlarmNumber::statement_not_first, "assignment or instruction only at the start of a block"},
+    AlarmText{AlarmNumber::text_behind_statement, "text behind an assignment or instruction"},
+    AlarmText{AlarmNumber::too_many_centres, "more than ten times I, J or K in a macro call"},
     AlarmText{AlarmNumber::unknown_g, "unknown G code"},
     AlarmText{AlarmNumber::group_twice, "second code of the same group in one block"},
     AlarmText{AlarmNumber::unknown_m, "unknown M code: M0 to M999 exist"},
@@ -143,6 +168,23 @@ inline constexpr std::array alarm_texts = {
     AlarmText{AlarmNumber::subprogram_missing, "subprogram not found"},
     AlarmText{AlarmNumber::nesting_too_deep, "subprograms nested deeper than 8"},
     AlarmText{AlarmNumber::subprogram_without_end, "subprogram ends without M99"},
+    AlarmText{AlarmNumber::end_without_begin, "ELSE, ENDIF, ENDW or END without its beginning"},
+    AlarmText{AlarmNumber::begin_without_end, "IF, WHILE or DO without its end in this program"},
+    AlarmText{AlarmNumber::structure_too_deep, "IF, WHILE and DO nested deeper than 16"},
+    AlarmText{AlarmNumber::label_missing, "sequence number not found in this program"},
+    AlarmText{AlarmNumber::jump_into_structure, "jump into an IF, WHILE or DO"},
+    AlarmText{AlarmNumber::call_not_alone, "macro or cycle call beside another G or M code"},
+    AlarmText{AlarmNumber::program_alarm, "alarm of the program"},
+    AlarmText{AlarmNumber::operand_missing, "number, variable, bracket or function expected"},
+    AlarmText{AlarmNumber::bracket_open, "bracket is not closed"},
+    AlarmText{AlarmNumber::brackets_too_deep, "brackets nested deeper than 32"},
+    AlarmText{AlarmNumber::division_by_zero, "division by zero"},
+    AlarmText{AlarmNumber::function_domain, "argument outside the domain of the function"},
+    AlarmText{AlarmNumber::result_too_large, "result is too large"},
+    AlarmText{AlarmNumber::bits_of_fraction, "AND, OR and XOR need whole numbers"},
+    AlarmText{AlarmNumber::variable_unknown, "variable does not exist"},
+    AlarmText{AlarmNumber::variable_read_only, "variable cannot be written"},
+    AlarmText{AlarmNumber::variable_value, "value is not allowed in this variable"},
     AlarmText{AlarmNumber::cycle_depth_missing, "cycle without depth or R level"},
     AlarmText{AlarmNumber::cycle_peck_missing, "cycle needs Q of at least 0.001 mm"},
     AlarmText{AlarmNumber::cycle_inverse_time, "cycle is not possible with G93"},
@@ -185,13 +227,24 @@ struct Fault {
   explicit operator bool() const { return number != AlarmNumber::none; }
 };
 
+/// Subprograms, macros and cycles inside each other.
+inline constexpr std::size_t max_nesting = 8;
+
+/// A place in a text: a call on the way to an alarm.
+struct CallSite {
+  std::uint32_t program = 0;  ///< as Command::program
+  std::uint32_t line = 0;     ///< from 1
+};
+
 /// An alarm with its place. The caller knows the file name and formats `file:line:column: text`.
 struct Alarm {
   AlarmNumber number = AlarmNumber::none;
-  std::uint32_t program = 0;     ///< as Command::program
-  std::uint32_t line = 0;        ///< from 1
-  std::uint32_t column = 0;      ///< in characters (code points) from 1
-  std::array<char, 128> text{};  ///< what is wrong and the word at fault, ends with a zero
+  std::uint32_t program = 0;                  ///< as Command::program
+  std::uint32_t line = 0;                     ///< from 1
+  std::uint32_t column = 0;                   ///< in characters (code points) from 1
+  std::array<char, 128> text{};               ///< what is wrong and the word at fault, ends with a zero
+  std::uint8_t calls = 0;                     ///< how many calls led here
+  std::array<CallSite, max_nesting> chain{};  ///< their places, the main program's first
 };
 
 /// Composes the alarm for a fault in `line_text`; `line_text` may be empty when the line is not at hand.

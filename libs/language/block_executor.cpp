@@ -270,6 +270,20 @@ Fault BlockExecutor::push_end(std::uint32_t number, CommandQueue& out) {
   return {};
 }
 
+Fault BlockExecutor::message(std::uint32_t number, std::uint32_t program, std::uint32_t line, CommandQueue& out) {
+  program_ = program;
+  line_ = line;
+  push(CommandKind::message, out).number = number;
+  push(CommandKind::auxiliary, out).number = 0;
+  return settle(out);
+}
+
+Fault BlockExecutor::settle(CommandQueue& out) {
+  if (!held_too_many_) return drain_compensation(out);
+  held_too_many_ = false;
+  return {AlarmNumber::compensation_look_ahead, 0};
+}
+
 Command& BlockExecutor::push(CommandKind kind, CommandQueue& out) {
   const bool held = compensation_.active();
   Command* place = held ? compensation_.add_standing() : &out.push();
@@ -446,7 +460,15 @@ Fault BlockExecutor::set_flow(const Block& block, const MCodes& codes, Flow& flo
     if (action == MAction::auxiliary || action == MAction::tool_change) continue;
     flow.offset = codes.offsets[i];
     if (action == MAction::program_end) flow.kind = Flow::Kind::end;
-    if (action == MAction::go_back) flow.kind = Flow::Kind::go_back;
+    if (action == MAction::go_back) {
+      flow.kind = Flow::Kind::go_back;
+      flow.to_label = block.has('P');
+      if (flow.to_label && (used_ & Block::bit('P')) != 0)
+        return {AlarmNumber::unused_word, block.offset('P')};
+      if (flow.to_label) {
+        if (const Fault fault = whole_number(block, 'P', 0, 99999999, flow.subprogram)) return fault;
+      }
+    }
     if (action != MAction::call) continue;
     flow.kind = Flow::Kind::call;
     if (!block.has('P')) return {AlarmNumber::missing_word, flow.offset};

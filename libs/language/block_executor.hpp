@@ -22,6 +22,7 @@ namespace trunnion::language {
 struct Flow {
   enum class Kind : std::uint8_t { next, call, go_back, end };
   Kind kind = Kind::next;
+  bool to_label = false;          ///< go_back to the sequence number `subprogram`
   std::uint32_t subprogram = 0;   ///< of call
   std::uint32_t repetitions = 1;  ///< of call
   std::uint16_t offset = 0;       ///< of the M word in its line
@@ -62,6 +63,16 @@ class BlockExecutor {
 
   /// Appends the end of the program; `number` as Command::number.
   Fault end_program(std::uint32_t number, std::uint32_t program, std::uint32_t line, CommandQueue& out);
+
+  /// Change a table as G10 does, `value` in mm or degrees in place of the old.
+  Fault write_work_offset(std::uint8_t index, std::size_t axis, double value, std::uint32_t program,
+                          std::uint32_t line, CommandQueue& out);
+  Fault write_tool(Table table, std::uint16_t number, double value, std::uint32_t program, std::uint32_t line,
+                   CommandQueue& out);
+
+  /// Appends message `number`, whose text is the comment of its line, and the program stop that lets it be
+  /// read.
+  Fault message(std::uint32_t number, std::uint32_t program, std::uint32_t line, CommandQueue& out);
 
   const ModalState& modal() const { return modal_; }
   /// Where the last move that was read ends, in the frame of its commands. With cutter compensation this is
@@ -144,6 +155,8 @@ class BlockExecutor {
   Fault change_table(const Block& block, const Codes& codes, CommandQueue& out);
   Fault change_work_offset(const Block& block, const Codes& codes, std::uint32_t l, CommandQueue& out);
   Fault change_tool(const Block& block, const Codes& codes, std::uint32_t l, CommandQueue& out);
+  void store_work_offset(std::uint8_t index, const AxisValues& values, CommandQueue& out);
+  Fault store_tool(Table table, std::uint16_t number, double value, bool adds, std::uint16_t at, CommandQueue& out);
   Fault define_tool(const Block& block, std::uint16_t at, CommandQueue& out);
   Fault change_parameter(const Block& block, char number_letter, CommandQueue& out);
 
@@ -195,6 +208,8 @@ class BlockExecutor {
   double length_word(const Block& block, char letter);
   Fault refuse_in_compensation(std::uint16_t at) const;
   Command& push(CommandKind kind, CommandQueue& out);
+  /// The end of what pushed commands outside a block.
+  Fault settle(CommandQueue& out);
   Fault drain_compensation(CommandQueue& out);
   void to_command_frame(Command& command) const;
   /// Makes program coordinates of a position in the frame of the commands, after a change of frames.

@@ -53,6 +53,11 @@ Fault BlockExecutor::change_work_offset(const Block& block, const Codes& codes, 
     const double word = block.value(axis_letters[axis]) * (is_rotary(axis) ? 1.0 : length_scale());
     values[axis] = modal_.absolute ? word : values[axis] + word;
   }
+  store_work_offset(index, values, out);
+  return {};
+}
+
+void BlockExecutor::store_work_offset(std::uint8_t index, const AxisValues& values, CommandQueue& out) {
   tables_.set_work_offset(index, values);
   if (index == modal_.work_offset) {
     frame_.set_work_offset(values);
@@ -62,7 +67,19 @@ Fault BlockExecutor::change_work_offset(const Block& block, const Codes& codes, 
   command.table = Table::work_offset;
   command.number = index;
   command.target = values;
-  return {};
+}
+
+Fault BlockExecutor::write_work_offset(std::uint8_t index, std::size_t axis, double value, std::uint32_t program,
+                                       std::uint32_t line, CommandQueue& out) {
+  program_ = program;
+  line_ = line;
+  if (index == modal_.work_offset) {
+    if (const Fault fault = refuse_in_compensation(0)) return fault;
+  }
+  AxisValues values = tables_.work_offset(index);
+  values[axis] = value;
+  store_work_offset(index, values, out);
+  return settle(out);
 }
 
 Fault BlockExecutor::change_tool(const Block& block, const Codes& codes, std::uint32_t l, CommandQueue& out) {
@@ -71,30 +88,42 @@ Fault BlockExecutor::change_tool(const Block& block, const Codes& codes, std::ui
   }
   std::uint32_t number = 0;
   if (const Fault fault = whole_number(block, 'P', 1, highest_tool, number)) return fault;
-  const double word = length_word(block, 'R');
-  const auto entry = tables_.tool(static_cast<std::uint16_t>(number));
+  const Table table = l == 10   ? Table::tool_length
+                      : l == 11 ? Table::tool_length_wear
+                      : l == 12 ? Table::tool_radius
+                                : Table::tool_radius_wear;
+  return store_tool(table, static_cast<std::uint16_t>(number), length_word(block, 'R'), !modal_.absolute,
+                    block.offset('P'), out);
+}
+
+Fault BlockExecutor::store_tool(Table table, std::uint16_t number, double value, bool adds, std::uint16_t at,
+                                CommandQueue& out) {
+  const auto entry = tables_.tool(number);
   // A length or a radius makes an entry; wear or a change needs one.
-  const bool makes = modal_.absolute && (l == 10 || l == 12);
-  if (!entry && !makes) return {AlarmNumber::tool_undefined, block.offset('P')};
+  const bool makes = !adds && (table == Table::tool_length || table == Table::tool_radius);
+  if (!entry && !makes) return {AlarmNumber::tool_undefined, at};
   ToolOffset tool = entry.value_or(ToolOffset{});
   if (!tool.radius) tool.radius = 0;
-  double& value = l == 10   ? tool.length
-                  : l == 11 ? tool.length_wear
-                  : l == 12 ? *tool.radius
-                            : tool.radius_wear;
-  value = modal_.absolute ? word : value + word;
-  const double result = value;
-  if (!tables_.set_tool(static_cast<std::uint16_t>(number), tool)) {
-    return {AlarmNumber::too_many_tools_changed, block.offset('P')};
-  }
+  double& place = table == Table::tool_length        ? tool.length
+                  : table == Table::tool_length_wear ? tool.length_wear
+                  : table == Table::tool_radius      ? *tool.radius
+                                                     : tool.radius_wear;
+  place = adds ? place + value : value;
+  const double result = place;
+  if (!tables_.set_tool(number, tool)) return {AlarmNumber::too_many_tools_changed, at};
   Command& command = push(CommandKind::table, out);
-  command.table = l == 10   ? Table::tool_length
-                  : l == 11 ? Table::tool_length_wear
-                  : l == 12 ? Table::tool_radius
-                            : Table::tool_radius_wear;
+  command.table = table;
   command.number = number;
   command.value = result;
   return {};
+}
+
+Fault BlockExecutor::write_tool(Table table, std::uint16_t number, double value, std::uint32_t program,
+                                std::uint32_t line, CommandQueue& out) {
+  program_ = program;
+  line_ = line;
+  if (const Fault fault = store_tool(table, number, value, false, 0, out)) return fault;
+  return settle(out);
 }
 
 // The older form: P the entry, Z its length, R its radius; T only says which tool it is for.

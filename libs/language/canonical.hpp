@@ -89,6 +89,7 @@ enum class CommandKind : std::uint8_t {
           ///< positive lead (right-hand thread) the spindle turns clockwise on the way in and back on the way
           ///< out. number = tapping axis, 0 the spindle, 1..6 A B C U V W
   table,  ///< a table was changed by the program (G10): `table`, entry `number`, and `value` or target
+  message,  ///< number; the text is the comment of its line
 };
 
 /// What a command of kind table changed, for the owner of the tables; the interpreter has done so already.
@@ -122,7 +123,7 @@ struct Command {
   AxisValues target{};         ///< end of a move, in the frame modal.transformation says
   Arc arc{};
   double dwell_seconds = 0;
-  std::uint32_t number = 0;   ///< M or T number; of end: 2, 30, or 0 for the end of the text
+  std::uint32_t number = 0;   ///< M, T or message number; of end: 2, 30, or 0 for the end of the text
   double value = 0;           ///< S in 1/min, or in m/min when modal.spindle_mode says surface
   Table table = Table::none;  ///< of kind table
   bool chord = false;         ///< a line that is a piece of a smooth curve (G6.2): its ends are no corners

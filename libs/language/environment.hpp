@@ -97,9 +97,14 @@ class Environment {
   /// Largest difference of an arc's radii at its start and its end in mm (parameter 000011, default 0.1).
   virtual double radius_deviation() const = 0;
   /// The text of a subprogram that is not in the calling text, or nullptr. `name` is O and at least four
-  /// digits
-  /// ("O0012"). The text must live until the program's end; it may be pending at first or fail later.
+  /// digits ("O0012"), or "USERDEF.CYC" for the file of canned cycles. The text must live until the program's
+  /// end; it may be pending at first or fail later.
   virtual TextSource* subprogram(std::string_view name) = 0;
+  /// The M code that calls canned cycle G1007 + `index`, index 0 to 7, or 0 (parameters 010170 .. 010177).
+  virtual std::uint16_t cycle_m_code(std::size_t index) const {
+    (void)index;
+    return 0;
+  }
 };
 
 }  // namespace trunnion::language

@@ -25,7 +25,7 @@ struct PlainMachine : Environment {
   TextSource* subprogram(std::string_view) override { return nullptr; }
 };
 
-void interpret(benchmark::State& state, const std::string& text) {
+void interpret(benchmark::State& state, const std::string& text, int lines = blocks) {
   PlainMachine machine;
   Interpreter interpreter(machine);
   while (state.KeepRunning()) {
@@ -39,7 +39,7 @@ void interpret(benchmark::State& state, const std::string& text) {
     if (step == Step::alarm) state.SkipWithError(interpreter.alarm().text.data());
     benchmark::DoNotOptimize(sum);
   }
-  state.SetItemsProcessed(state.iterations() * blocks);
+  state.SetItemsProcessed(state.iterations() * lines);
   state.SetBytesProcessed(state.iterations() * static_cast<std::int64_t>(text.size()));
 }
 
@@ -90,6 +90,52 @@ void BM_Arcs(benchmark::State& state) {
   interpret(state, text + "M30\n");
 }
 BENCHMARK(BM_Arcs)->Unit(benchmark::kMillisecond);
+
+/// A spiral computed block by block: nine lines a turn.
+void BM_MacroLoop(benchmark::State& state) {
+  constexpr int turns = 20000;
+  const std::string text =
+      "%1\nG90 G54 G1 F2000\n#1=0\n#2=0\n"
+      "WHILE [#1 LT " +
+      std::to_string(turns) +
+      "] DO1\n"
+      "#3=10+#1*0.001\n"
+      "#4=#3*COS[#2]\n"
+      "#5=#3*SIN[#2]\n"
+      "G1 X#4 Y#5 Z[-#1/1000]\n"
+      "#2=#2+1.5\n"
+      "IF [#2 LT 360] GOTO 10\n"
+      "#2=#2-360\n"
+      "N10 #1=#1+1\n"
+      "END1\nM30\n";
+  // WHILE, 7 lines, N10 and END a turn; the line behind GOTO only once in 240.
+  interpret(state, text, turns * 9);
+}
+BENCHMARK(BM_MacroLoop)->Unit(benchmark::kMillisecond);
+
+/// The same with the branches and loops of HNC.
+void BM_MacroBranches(benchmark::State& state) {
+  constexpr int turns = 20000;
+  const std::string text =
+      "%1\nG90 G54 G1 F2000\n#1=0\n"
+      "WHILE #1 LT " +
+      std::to_string(turns) +
+      "\n"
+      "#2=#1 MOD 3\n"
+      "IF #2 EQ 0\n"
+      "G1 X#1\n"
+      "ELSEIF #2 EQ 1\n"
+      "G1 Y#1\n"
+      "ELSE\n"
+      "G1 Z#1\n"
+      "ENDIF\n"
+      "#1=#1+1\n"
+      "ENDW\nM30\n";
+  // Run are WHILE, MOD, IF, G1, #1, ENDW and of the other branches' beginnings and ENDIF two of three on
+  // average.
+  interpret(state, text, turns * 8);
+}
+BENCHMARK(BM_MacroBranches)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace trunnion::language

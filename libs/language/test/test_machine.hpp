@@ -34,6 +34,7 @@ struct TestMachine : Environment {
   double off_y = 0.1028;
   std::array<double, 3> centre = {-200.3605, -190.1897, -516.0118};
   std::map<std::string, std::unique_ptr<TextSource>, std::less<>> programs;
+  std::array<std::uint16_t, 8> cycle_m_codes{};
 
   AxisValues work_offset(std::uint8_t index) const override {
     if (index < offsets.size()) return offsets.at(index);
@@ -95,6 +96,7 @@ struct TestMachine : Environment {
     const auto found = programs.find(name);
     return found == programs.end() ? nullptr : found->second.get();
   }
+  std::uint16_t cycle_m_code(std::size_t index) const override { return cycle_m_codes.at(index); }
 
   AxisValues machine_from_tip(const AxisValues& tip, double tool_length) const override {
     const double a = -tip[A] * std::numbers::pi / 180;
@@ -159,8 +161,8 @@ inline Interpretation run(Environment& machine, std::string_view text, const Axi
 
 /// One command in a short form, for comparing streams: kind, the axes that are not 0, and what the kind adds.
 inline std::string brief(const Command& command) {
-  static constexpr const char* kinds[] = {"rapid", "line",  "arc", "dwell", "T",   "S",
-                                          "M",     "frame", "end", "skip",  "tap", "table"};
+  static constexpr const char* kinds[] = {"rapid", "line", "arc",  "dwell", "T",    "S",
+                                          "M",     "frame", "end", "skip",  "tap", "table", "message"};
   const auto number = [](double value) {
     char text[40];
     std::snprintf(text, sizeof text, "%.10g", std::abs(value) < 1e-12 ? 0.0 : value);
@@ -220,6 +222,7 @@ inline std::string brief(const Command& command) {
         text += " " + number(command.value);
       }
       break;
+    case CommandKind::message:
     case CommandKind::end:
       text += " " + std::to_string(command.number);
       break;
