@@ -39,6 +39,8 @@ void ChannelSetup::configure(const machine::Parameters& p) {
   limits_.arc_tolerance = p.get("arc_tolerance");
   limits_.orientation_tolerance = p.get("orientation_tolerance", channel_);
   radius_deviation_ = p.get("radius_deviation");
+  for (std::uint32_t i = 0; i < cycle_m_codes_.size(); ++i)
+    cycle_m_codes_[i] = static_cast<std::uint16_t>(p.integer("cycle_m_code", 0, i));
   cycle_seconds_ = p.get("interpolation_cycle") * 1e-6;
   lead_ = static_cast<std::uint64_t>(p.integer("stream_lead"));
   // Two frames must fit into the lead, or the credits would never let the second be written.
@@ -50,7 +52,8 @@ void ChannelSetup::configure(const machine::Parameters& p) {
 
 void ChannelSetup::set_tools(const idl::parameters::ToolTable& table) {
   tools_.clear();
-  for (const auto& tool : table.tools) tools_[tool.number] = tool.length + tool.length_wear;
+  for (const auto& tool : table.tools)
+    tools_[tool.number] = {tool.length, tool.length_wear, tool.radius, tool.radius_wear};
 }
 
 void ChannelSetup::set_offsets(const idl::parameters::WorkOffsets& table) {
@@ -64,7 +67,12 @@ void ChannelSetup::set_offsets(const idl::parameters::WorkOffsets& table) {
 std::optional<double> ChannelSetup::tool_length(std::uint16_t h) const {
   const auto found = tools_.find(h);
   if (found == tools_.end()) return std::nullopt;
-  return found->second;
+  return found->second.length + found->second.length_wear;
+}
+
+std::optional<language::ToolOffset> ChannelSetup::tool_offset(std::uint16_t number) const {
+  const auto found = tools_.find(number);
+  return found == tools_.end() ? std::nullopt : std::optional(found->second);
 }
 
 AxisValues ChannelSetup::tip_from_machine(const AxisValues& machine, double tool_length) const {

@@ -35,12 +35,17 @@ class ChannelSetup : public language::Environment {
   /// Finds the texts of subprograms; null when there are none.
   std::function<language::TextSource*(std::string_view)> resolve;
 
-  AxisValues work_offset(std::uint8_t index) const override { return offsets_[index < 6 ? index : 0]; }
+  /// The tables hold G54 .. G59; the additional ones are zero.
+  AxisValues work_offset(std::uint8_t index) const override {
+    return index < offsets_.size() ? offsets_[index] : AxisValues{};
+  }
   std::optional<double> tool_length(std::uint16_t h) const override;
+  std::optional<language::ToolOffset> tool_offset(std::uint16_t number) const override;
   AxisValues reference_position() const override { return reference_; }
   AxisValues tip_from_machine(const AxisValues& machine, double tool_length) const override;
   AxisValues machine_from_tip(const AxisValues& tip, double tool_length) const override;
   std::uint16_t axes() const override { return mask_; }
+  std::uint16_t cycle_m_code(std::size_t index) const override { return cycle_m_codes_[index]; }
   double radius_deviation() const override { return radius_deviation_; }
   language::TextSource* subprogram(std::string_view name) override {
     return resolve ? resolve(name) : nullptr;
@@ -70,8 +75,9 @@ class ChannelSetup : public language::Environment {
   motion::Limits limits_;
   std::optional<geometry::Chain> chain_;
   std::array<AxisValues, 6> offsets_{};
-  std::map<std::uint32_t, double> tools_;
+  std::map<std::uint32_t, language::ToolOffset> tools_;
   AxisValues reference_{};
+  std::array<std::uint16_t, 8> cycle_m_codes_{};
   std::array<Travel, language::axis_count> travel_{};
   AxisValues jog_feed_{}, reference_feed_{};
   std::uint16_t mask_ = 0;
