@@ -65,7 +65,7 @@ ProgramName::ProgramName(std::uint32_t program) {
   append({digits.data(), count});
 }
 
-bool find_call(const Block& block, const CycleMCodes& m_codes, Call& call) {
+bool find_call(const Block& block, const CycleMCodes& cycle_m_codes, Call& call) {
   for (std::size_t i = 0; i < block.g_count; ++i) {
     const double code = block.g[i].value;
     if (code < call_codes[0].first) continue;
@@ -80,8 +80,8 @@ bool find_call(const Block& block, const CycleMCodes& m_codes, Call& call) {
   }
   for (std::size_t i = 0; i < block.m_count; ++i) {
     const double code = block.m[i].value;
-    for (std::uint32_t k = 0; k < m_codes.size(); ++k) {
-      if (m_codes[k] == 0 || code != m_codes[k]) continue;
+    for (std::uint32_t k = 0; k < cycle_m_codes.size(); ++k) {
+      if (cycle_m_codes[k] == 0 || code != cycle_m_codes[k]) continue;
       call = Call{};
       call.kind = CallKind::cycle;
       call.number = first_m_cycle + k;

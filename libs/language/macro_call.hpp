@@ -66,7 +66,7 @@ struct Call {
 using CycleMCodes = std::array<std::uint16_t, 8>;
 
 /// Whether `block` calls a macro or a cycle.
-bool find_call(const Block& block, const CycleMCodes& m_codes, Call& call);
+bool find_call(const Block& block, const CycleMCodes& cycle_m_codes, Call& call);
 
 /// Completes a call that find_call has found: P, L and that nothing else is in the block.
 Fault read_call(const Block& block, Call& call);
