@@ -114,5 +114,40 @@ TEST(Faults, EmergencyStopStopsSwitchesOffAndNeedsAReset) {
       << cluster.channels[0].machine[0];
 }
 
+TEST(Faults, AKilledLauncherTakesItsServicesWithItAndTheNextCommandSaysSo) {
+  deploy::UpOptions up;
+  up.machine = "ac-table";
+  up.state_directory = "temporary";
+  up.own_domain = true;
+  up.virtual_time = true;
+  up.with_gateway = false;
+  const auto cluster = deploy::start_cluster(up);
+  std::vector<int> pids;
+  {
+    deploy::Client client(cluster.run.domain);
+    for (const auto& service : client.newest(topics::cluster).services) pids.push_back(service.pid);
+  }
+  ASSERT_EQ(pids.size(), 8u);
+  ASSERT_EQ(kill(*cluster.run.launcher(), SIGKILL), 0);
+  const auto alive = [](int pid) {
+    std::ifstream stat("/proc/" + std::to_string(pid) + "/stat");
+    std::string number, name, state;
+    return static_cast<bool>(stat >> number >> name >> state) && state != "Z";
+  };
+  for (int i = 0; i < 500 && std::any_of(pids.begin(), pids.end(), alive); ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  EXPECT_TRUE(std::none_of(pids.begin(), pids.end(), alive));
+  std::string message;
+  try {
+    deploy::find_cluster(cluster.run.domain);
+  } catch (const std::exception& e) {
+    message = e.what();
+  }
+  EXPECT_NE(message.find("was killed"), std::string::npos) << message;
+  EXPECT_TRUE(cluster.run.abandoned());
+  cluster.run.remove();
+  EXPECT_FALSE(std::filesystem::exists(cluster.run.path()));
+}
+
 }  // namespace
 }  // namespace trunnion::integration

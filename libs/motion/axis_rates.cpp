@@ -13,11 +13,12 @@ AxisValues rates_at(const PathSegment& segment, double s, const geometry::Chain*
   AxisValues rate = segment.derivative(s);
   if (chain == nullptr) return rate;
   const AxisValues at = segment.position(s);
-  const geometry::Jacobian j = chain->jacobian(
-      {at[0], at[1], at[2]}, {at[language::A], at[language::B], at[language::C]}, tool_length);
+  const geometry::Jacobian j =
+      chain->jacobian({at[0], at[1], at[2]}, geometry::angles_of(at.data()), tool_length);
   const geometry::Vec3 linear =
       j.tip * geometry::Vec3(rate[0], rate[1], rate[2]) +
-      j.angle * geometry::Vec3(rate[language::A], rate[language::B], rate[language::C]);
+      j.angle * geometry::Vec3(rate[language::A], rate[language::B], rate[language::C]) +
+      j.further_angle * geometry::Vec3(rate[language::U], rate[language::V], rate[language::W]);
   for (std::size_t i = 0; i < 3; ++i) rate[i] = linear[static_cast<Eigen::Index>(i)];
   return rate;
 }
@@ -54,9 +55,8 @@ AxisRates sample_rates(const PathSegment& segment, const geometry::Chain* chain,
 AxisValues machine_axes(const AxisValues& position, const geometry::Chain* chain, double tool_length) {
   AxisValues axes = position;
   if (chain == nullptr) return axes;
-  const geometry::Vec3 machine = chain->machine_from_tip(
-      {position[0], position[1], position[2]},
-      {position[language::A], position[language::B], position[language::C]}, tool_length);
+  const geometry::Vec3 machine = chain->machine_from_tip({position[0], position[1], position[2]},
+                                                         geometry::angles_of(position.data()), tool_length);
   for (std::size_t i = 0; i < 3; ++i) axes[i] = machine[static_cast<Eigen::Index>(i)];
   return axes;
 }

@@ -29,8 +29,11 @@ PathSegment PathSegment::line(const AxisValues& start, const AxisValues& target)
   return segment;
 }
 
+namespace {
+constexpr std::array<std::array<std::size_t, 3>, 3> planes{{{0, 1, 2}, {2, 0, 1}, {1, 2, 0}}};
+}
+
 PathSegment PathSegment::arc(const AxisValues& start, const AxisValues& target, const language::Arc& arc) {
-  static constexpr std::array<std::array<std::size_t, 3>, 3> planes{{{0, 1, 2}, {2, 0, 1}, {1, 2, 0}}};
   const auto& [p, q, along] = planes[static_cast<std::size_t>(arc.plane)];
   const double start_radius = std::hypot(start[p] - arc.centre[p], start[q] - arc.centre[q]);
   const double end_radius = std::hypot(target[p] - arc.centre[p], target[q] - arc.centre[q]);
@@ -87,6 +90,17 @@ AxisValues PathSegment::derivative(double s) const {
     derivative[plane_[1]] += radius_slope_ * sine + radius * angle_slope_ * cosine;
   }
   return derivative;
+}
+
+double remaining_sweep(const AxisValues& position, const AxisValues& target, const language::Arc& arc,
+                       double fraction) {
+  const auto p = planes[static_cast<std::size_t>(arc.plane)][0];
+  const auto q = planes[static_cast<std::size_t>(arc.plane)][1];
+  const auto angle = [&](const AxisValues& at) {
+    return std::atan2(at[q] - arc.centre[q], at[p] - arc.centre[p]) * (180 / std::numbers::pi);
+  };
+  const double between = (angle(target) - angle(position)) * (arc.clockwise ? -1 : 1);
+  return between + 360 * std::round((arc.sweep * (1 - fraction) - between) / 360);
 }
 
 }  // namespace trunnion::motion

@@ -54,4 +54,10 @@ class PathSegment {
   double angle_ = 0, angle_slope_ = 0;    // rad, rad per mm
 };
 
+/// Sweep in degrees that is left of `arc` from `position` on to `target`, when about `fraction` (0..1) of it
+/// is done: the angle between the two, with the turns that come nearest. Not above 0 when the target is
+/// passed.
+double remaining_sweep(const AxisValues& position, const AxisValues& target, const language::Arc& arc,
+                       double fraction);
+
 }  // namespace trunnion::motion

@@ -78,7 +78,7 @@ std::optional<language::ToolOffset> ChannelSetup::tool_offset(std::uint16_t numb
 AxisValues ChannelSetup::tip_from_machine(const AxisValues& machine, double tool_length) const {
   AxisValues result = machine;
   const auto tip = chain_->tip_from_machine({machine[0], machine[1], machine[2]},
-                                            {machine[3], machine[4], machine[5]}, tool_length);
+                                            geometry::angles_of(machine.data()), tool_length);
   std::copy_n(tip.data(), 3, result.begin());
   return result;
 }
@@ -86,7 +86,7 @@ AxisValues ChannelSetup::tip_from_machine(const AxisValues& machine, double tool
 AxisValues ChannelSetup::machine_from_tip(const AxisValues& tip, double tool_length) const {
   AxisValues result = tip;
   const auto machine =
-      chain_->machine_from_tip({tip[0], tip[1], tip[2]}, {tip[3], tip[4], tip[5]}, tool_length);
+      chain_->machine_from_tip({tip[0], tip[1], tip[2]}, geometry::angles_of(tip.data()), tool_length);
   std::copy_n(machine.data(), 3, result.begin());
   return result;
 }

@@ -27,7 +27,7 @@ MachineTables load_machine_tables(const std::string& directory, std::uint16_t ch
                              std::to_string(machine.channels - 1));
   MachineTables tables;
   tables.channel = channel;
-  tables.parameters.values = machine::read_parameter_file(machine.parameters_file());
+  tables.parameters.values = machine::machine_parameters(machine);
   tables.parameters.revision = 1;
   const auto tools = directory + "/" + tools_file, offsets = directory + "/" + offsets_file;
   if (const auto text = text_of(tools))

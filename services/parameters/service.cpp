@@ -10,7 +10,7 @@ namespace {
 
 MachineDefaults defaults_of(const machine::MachineConfig& machine) {
   MachineDefaults defaults;
-  defaults.values = machine::read_parameter_file(machine.parameters_file());
+  defaults.values = machine::machine_parameters(machine);
   FileStorage files(machine.directory);
   std::uint64_t revision = 0;
   if (const auto text = files.read(setup::tools_file))

@@ -103,5 +103,20 @@ TEST(PathSegment, arc_around_its_own_start_falls_back_to_a_line) {
   EXPECT_EQ(arc.curvature(), 0);
 }
 
+TEST(RemainingSweep, IsTheAngleToTheTargetWhateverTheFractionSaysButForWholeTurns) {
+  language::Arc arc;
+  arc.sweep = 270 + 720;
+  arc.clockwise = true;
+  // Clockwise about the origin from 0 deg, two turns and 270 deg to 90 deg. At -45 deg of the second turn 405
+  // of 990 deg are done and 585 are left; a fraction that is 3 % off names the same turn.
+  const AxisValues target{0, 10}, at{10 * std::sqrt(0.5), -10 * std::sqrt(0.5)};
+  for (const double error : {-0.03, 0.0, 0.03})
+    EXPECT_NEAR(remaining_sweep(at, target, arc, 405.0 / 990 + error), 585, 1e-9) << error;
+  // Past the target by a tenth of a degree.
+  const AxisValues past{10 * std::sin(0.1 * std::numbers::pi / 180),
+                        10 * std::cos(0.1 * std::numbers::pi / 180)};
+  EXPECT_NEAR(remaining_sweep(past, target, arc, 1), -0.1, 1e-9);
+}
+
 }  // namespace
 }  // namespace trunnion::motion

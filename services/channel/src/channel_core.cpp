@@ -63,11 +63,13 @@ void ChannelCore::apply_parameters() {
   try {
     machine_.configure(*next_parameters_);
   } catch (const std::exception& e) {
-    event("kinematics_invalid", e.what());
+    event(machine::alarm_of(e), e.what());
     next_parameters_.reset();
     return;
   }
   parameters_ = std::exchange(next_parameters_, nullptr);
+  for (const auto& line : machine::kinematics_warnings(*parameters_, number_))
+    event("direction_not_unit", line);
   trajectory_owner_ =
       std::make_unique<motion::Trajectory>(machine_.limits(), &machine_.chain(), machine_.cycle_seconds());
   trajectory_ = trajectory_owner_.get();

@@ -94,7 +94,9 @@ class ChannelCore {
   language::ModalState power_on_modal() const;
   AxisValues machine_position() const;
   AxisValues frame_position(const language::ModalState& modal) const;
-  void event(const char* alarm, std::string text) { events_.push_back({alarm, 0, std::move(text)}); }
+  void event(std::string alarm, std::string text) {
+    events_.push_back({std::move(alarm), 0, std::move(text)});
+  }
 
   std::uint16_t number_;
   bool virtual_time_;

@@ -1,0 +1,307 @@
+#include "geometry/orientation.hpp"
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <tuple>
+
+#include "geometry/angle.hpp"
+
+namespace trunnion::geometry {
+namespace {
+
+constexpr double degrees_per_radian = 1 / radians_per_degree;
+// Closer than this (sine) to an axis a direction has no azimuth about it.
+constexpr double no_azimuth = 1e-13;
+// Degrees: travel is kept, and ways are equal, within this.
+constexpr double slack = 1e-9;
+
+Vec3 turned(const Vec3& k, double sine, double cosine, const Vec3& v) {
+  return cosine * v + sine * k.cross(v) + ((1 - cosine) * k.dot(v)) * k;
+}
+
+// The angle in degrees about k from one vector to another, given as k x v each: so that nothing cancels when
+// both are near k.
+double azimuth(const Vec3& k, const Vec3& from, const Vec3& to) {
+  return degrees_per_radian * std::atan2(k.dot(from.cross(to)), from.dot(to));
+}
+
+// The position nearest to `present` that is `angle` plus full turns and within the travel; of two equally
+// near ones the greater.
+bool nearest_turn(double angle, double present, const AngleTravel& travel, double& position) {
+  position = angle + 360 * std::floor((present + 180 - angle) / 360 + 1e-12);
+  if (position > travel.positive + slack)
+    position -= 360 * std::ceil((position - travel.positive - slack) / 360);
+  else if (position < travel.negative - slack)
+    position += 360 * std::ceil((travel.negative - slack - position) / 360);
+  return position >= travel.negative - slack && position <= travel.positive + slack;
+}
+
+// The same, but never against the sense (+1 or -1).
+bool next_turn(double angle, double present, int sense, const AngleTravel& travel, double& position) {
+  const double way = std::ceil((sense * (present - angle) - slack) / 360) * 360;
+  position = angle + sense * way;
+  if (sense > 0 && position < travel.negative - slack)
+    position += 360 * std::ceil((travel.negative - slack - position) / 360);
+  if (sense < 0 && position > travel.positive + slack)
+    position -= 360 * std::ceil((position - travel.positive - slack) / 360);
+  return position >= travel.negative - slack && position <= travel.positive + slack;
+}
+
+int sense_of(WayChoice way) { return way == WayChoice::positive ? 1 : way == WayChoice::negative ? -1 : 0; }
+
+// Smaller is better. Ways are counted in whole steps, so that rounding never decides between equal ones.
+using Rank = std::tuple<long long, long long, long long, long long>;
+
+Rank rank_of(const Orientation& o, const OrientationRequest& request, std::size_t first, std::size_t second) {
+  const auto steps = [](double degrees) { return static_cast<long long>(std::floor(degrees * 1e7 + 0.5)); };
+  const double leading = o.angles[second], other = first < angle_count ? o.angles[first] : 0;
+  const long long way = steps(std::abs(leading - request.present[second]));
+  const long long other_way = first < angle_count ? steps(std::abs(other - request.present[first])) : 0;
+  if (request.way == WayChoice::continuous) return {way + other_way, way, -steps(leading), -steps(other)};
+  return {way, other_way, -steps(leading), -steps(other)};
+}
+
+}  // namespace
+
+OrientationSolver::OrientationSolver(const Chain& chain)
+    : count_(chain.rotary_count()), tool_(chain.tool_direction()) {
+  for (std::size_t i = 0; i < count_; ++i) axes_[i] = chain.orienting_axis(i);
+  Pair pair;
+  if (count_ == 2 && make_pair(axes_[0].direction, axes_[1].direction, tool_, pair)) {
+    pair.first = axes_[0].angle;
+    pair.second = axes_[1].angle;
+    only_pair_ = pair;
+  }
+}
+
+bool OrientationSolver::make_pair(const Vec3& k1, const Vec3& k2, const Vec3& tool, Pair& pair) {
+  const Vec3 normal = k2.cross(k1);
+  if (normal.norm() < parallel_sine || k2.cross(tool).norm() < parallel_sine) return false;
+  pair.k1 = k1;
+  pair.k2 = k2;
+  pair.g = normal.normalized();
+  pair.f = pair.g.cross(k2);
+  pair.alpha = angle_between(k1, k2);
+  pair.beta = angle_between(tool, k2);
+  pair.sine_beta = k2.cross(tool).norm();
+  pair.cosine_beta = k2.dot(tool);
+  pair.zero = std::atan2(pair.g.dot(tool), pair.f.dot(tool));
+  return true;
+}
+
+// On the unit sphere k1, k2 and the turned tool v are a triangle with the sides alpha (k1 k2), beta (k2 v)
+// and psi (k1 v), where psi is given by u: turning about k1 keeps it. Its angle x at k2 is where the tool
+// must stand about k2, to either side, by the half-angle formulae, which lose no digits near poles and
+// borders:
+//   sin^2(x/2) = S / (sin alpha sin beta), S = sin((psi + alpha - beta)/2) sin((psi - alpha + beta)/2)
+//   cos^2(x/2) = C / (sin alpha sin beta), C = sin((alpha + beta + psi)/2) sin((alpha + beta - psi)/2)
+// Then axis 1 turns v onto u.
+OrientationSolver::Solutions OrientationSolver::solve(const Pair& p, const Vec3& u,
+                                                      const OrientationRequest& request) {
+  Solutions out;
+  out.first = p.first;
+  out.second = p.second;
+  const Vec3 across = p.k1.cross(u);
+  const double sine_psi = across.norm(), cosine_psi = p.k1.dot(u);
+  double psi = std::atan2(sine_psi, cosine_psi);
+  const double least = std::abs(p.alpha - p.beta);
+  const double most = std::numbers::pi - std::abs(std::numbers::pi - (p.alpha + p.beta));
+  const double tolerance = request.tolerance * radians_per_degree;
+  const bool reached = psi >= least - tolerance && psi <= most + tolerance;
+  psi = std::clamp(psi, least, most);
+  const double s =
+      std::max(0.0, std::sin(0.5 * (psi + p.alpha - p.beta)) * std::sin(0.5 * (psi - p.alpha + p.beta)));
+  const double c =
+      std::max(0.0, std::sin(0.5 * (p.alpha + p.beta + psi)) * std::sin(0.5 * (p.alpha + p.beta - psi)));
+  const double root_s = std::sqrt(s), root_c = std::sqrt(c);
+  const double x = 2 * std::atan2(root_s, root_c);
+  const double sine_x = 2 * root_s * root_c / (s + c), cosine_x = (c - s) / (s + c);
+  const std::size_t different = root_s > 0 && root_c > 0 ? 2 : 1;
+  for (std::size_t n = 0; n < different; ++n) {
+    const double side = n == 0 ? 1 : -1;
+    const Vec3 v = p.cosine_beta * p.k2 + p.sine_beta * (cosine_x * p.f + side * sine_x * p.g);
+    double first = request.present[p.first];
+    const Vec3 around = p.k1.cross(v);
+    if (sine_psi > no_azimuth && around.norm() > no_azimuth) first = azimuth(p.k1, around, across);
+    if (n == 0 && !reached) {
+      const auto t = sine_cosine(first);
+      out.nearest = turned(p.k1, t.sine, t.cosine, v);
+      return out;
+    }
+    Orientation& o = out.of[out.count++];
+    o.angles = request.present;
+    o.angles[p.first] = first;
+    o.angles[p.second] = degrees_per_radian * (side * x - p.zero);
+    o.regularity = (s + c) * sine_x;
+  }
+  return out;
+}
+
+OrientationSolver::Solutions OrientationSolver::solve_single(std::size_t i, const Vec3& u,
+                                                             const OrientationRequest& request) const {
+  // What stands before and behind the axis keeps its position.
+  Vec3 target = u, tool = tool_;
+  for (std::size_t n = 0; n < i; ++n) target = turned_by(n, target, request.present, -1);
+  for (std::size_t n = count_; n-- > i + 1;) tool = turned_by(n, tool, request.present, 1);
+  Solutions out;
+  out.second = axes_[i].angle;
+  const Vec3& k = axes_[i].direction;
+  const Vec3 around = k.cross(tool);
+  double angle = request.present[out.second];
+  const Vec3 across = k.cross(target);
+  if (around.norm() > no_azimuth && across.norm() > no_azimuth) angle = azimuth(k, around, across);
+  const auto t = sine_cosine(angle);
+  out.nearest = turned(k, t.sine, t.cosine, tool);
+  if (angle_between(out.nearest, target) <= std::max(request.tolerance * radians_per_degree, 1e-15)) {
+    out.of[0] = {request.present, around.norm()};
+    out.of[0].angles[out.second] = angle;
+    out.count = 1;
+  }
+  for (std::size_t n = i; n-- > 0;) out.nearest = turned_by(n, out.nearest, request.present, 1);
+  return out;
+}
+
+Vec3 OrientationSolver::turned_by(std::size_t i, const Vec3& v, const Angles& at, double sign) const {
+  const auto t = sine_cosine(at[axes_[i].angle]);
+  return turned(axes_[i].direction, sign * t.sine, t.cosine, v);
+}
+
+template <class Visit>
+OrientationAnswer OrientationSolver::search(const OrientationRequest& request, Visit&& visit) const {
+  OrientationAnswer answer;
+  Vec3 u = request.direction;
+  const double length = u.stableNorm();
+  if (!u.allFinite() || !(length > 0)) {
+    answer.status = OrientationStatus::not_a_direction;
+    return answer;
+  }
+  u /= length;
+  bool asked = false, reachable = false;
+  const auto take = [&](const Solutions& solutions) {
+    if (!asked) answer.nearest = solutions.nearest;
+    asked = true;
+    reachable = reachable || solutions.count > 0;
+    bool found = false;
+    for (std::size_t n = 0; n < solutions.count; ++n) found = visit(solutions, n) || found;
+    if (found) answer.status = OrientationStatus::found;
+    return found;
+  };
+  if (only_pair_) {
+    take(solve(*only_pair_, u, request));
+  } else {
+    for (std::size_t j = count_; j-- > 1;)
+      for (std::size_t i = j; i-- > 0;) {
+        // u = Q0 .. Qi-1 R(ki) Qi+1 .. Qj-1 R(kj) Qj+1 .. tool, where every Q stands still.
+        Vec3 target = u, tool = tool_, k2 = axes_[j].direction;
+        for (std::size_t n = 0; n < i; ++n) target = turned_by(n, target, request.present, -1);
+        for (std::size_t n = count_; n-- > j + 1;) tool = turned_by(n, tool, request.present, 1);
+        for (std::size_t n = j; n-- > i + 1;) {
+          tool = turned_by(n, tool, request.present, 1);
+          k2 = turned_by(n, k2, request.present, 1);
+        }
+        Pair pair;
+        if (!make_pair(axes_[i].direction, k2, tool, pair)) continue;
+        pair.first = axes_[i].angle;
+        pair.second = axes_[j].angle;
+        Solutions solutions = solve(pair, target, request);
+        for (std::size_t n = i; n-- > 0;)
+          solutions.nearest = turned_by(n, solutions.nearest, request.present, 1);
+        if (take(solutions)) return answer;
+      }
+    if (!asked)
+      for (std::size_t i = count_; i-- > 0;)
+        if (take(solve_single(i, u, request))) return answer;
+    if (!asked) {
+      Solutions rigid;
+      rigid.nearest = tool_;
+      if (angle_between(tool_, u) <= request.tolerance * radians_per_degree) {
+        rigid.of[0].angles = request.present;
+        rigid.count = 1;
+      }
+      take(rigid);
+    }
+  }
+  if (answer.status == OrientationStatus::unreachable && reachable)
+    answer.status = OrientationStatus::outside_travel;
+  return answer;
+}
+
+OrientationAnswer OrientationSolver::best(const OrientationRequest& request) const {
+  Orientation chosen;
+  Rank chosen_rank;
+  bool any = false;
+  auto answer = search(request, [&](const Solutions& solutions, std::size_t n) {
+    Orientation o = solutions.of[n];
+    if (solutions.second < angle_count) {
+      const int sense = sense_of(request.way);
+      const auto a = solutions.first, b = solutions.second;
+      if (!(sense == 0 ? nearest_turn(o.angles[b], request.present[b], request.travel[b], o.angles[b])
+                       : next_turn(o.angles[b], request.present[b], sense, request.travel[b], o.angles[b])))
+        return false;
+      if (a < angle_count && !nearest_turn(o.angles[a], request.present[a], request.travel[a], o.angles[a]))
+        return false;
+      const Rank rank = rank_of(o, request, a, b);
+      if (any && !(rank < chosen_rank)) return true;
+      chosen_rank = rank;
+    }
+    any = true;
+    chosen = o;
+    return true;
+  });
+  answer.best = chosen;
+  return answer;
+}
+
+std::size_t OrientationSolver::all(const OrientationRequest& request, std::span<Orientation> out,
+                                   OrientationAnswer& answer) const {
+  std::array<Rank, most_solutions> ranks;
+  const std::size_t room = std::min(out.size(), most_solutions);
+  std::size_t count = 0;
+  const auto insert = [&](const Orientation& o, const Rank& rank) {
+    std::size_t at = count;
+    while (at > 0 && rank < ranks[at - 1]) --at;
+    if (at == room) return;
+    if (count < room) ++count;
+    for (std::size_t n = count - 1; n > at; --n) out[n] = out[n - 1], ranks[n] = ranks[n - 1];
+    out[at] = o;
+    ranks[at] = rank;
+  };
+  // Positions of one axis, at most nine.
+  const auto turns = [&](std::size_t axis, double angle, int sense, std::array<double, 9>& positions) {
+    const AngleTravel& travel = request.travel[axis];
+    const double present = request.present[axis];
+    if (travel.endless()) {
+      const bool ok = sense == 0 ? nearest_turn(angle, present, travel, positions[0])
+                                 : next_turn(angle, present, sense, travel, positions[0]);
+      return std::size_t{ok ? 1u : 0u};
+    }
+    std::size_t n = 0;
+    const double first = angle + 360 * std::ceil((travel.negative - slack - angle) / 360);
+    for (double at = first; at <= travel.positive + slack && n < positions.size(); at += 360)
+      if (sense * (at - present) >= -slack) positions[n++] = at;
+    return n;
+  };
+  answer = search(request, [&](const Solutions& solutions, std::size_t n) {
+    const Orientation& base = solutions.of[n];
+    const auto a = solutions.first, b = solutions.second;
+    if (b == angle_count) {
+      insert(base, {});
+      return true;
+    }
+    std::array<double, 9> leading, other{};
+    const std::size_t leading_count = turns(b, base.angles[b], sense_of(request.way), leading);
+    const std::size_t other_count = a < angle_count ? turns(a, base.angles[a], 0, other) : 1;
+    for (std::size_t l = 0; l < leading_count; ++l)
+      for (std::size_t m = 0; m < other_count; ++m) {
+        Orientation o = base;
+        o.angles[b] = leading[l];
+        if (a < angle_count) o.angles[a] = other[m];
+        insert(o, rank_of(o, request, a, b));
+      }
+    return leading_count * other_count > 0;
+  });
+  if (count > 0) answer.best = out[0];
+  return count;
+}
+
+}  // namespace trunnion::geometry
