@@ -27,7 +27,7 @@ def table(head, rows):
 def entries(path, name, pattern):
     """Every NAME{...} of a C++ table; an entry that the pattern does not understand is an error, never left out."""
     text = read(path)
-    found = re.findall(name + r"\{" + pattern + r"\s*\}", text)
+    found = re.findall(name + r"\{\s*" + pattern + r"\s*\}", text)
     there = len(re.findall(name + r"\{", text))
     if not found or len(found) != there: fail(path, f"{len(found)} of {there} entries {name}{{...}} can be read")
     return found
@@ -86,20 +86,22 @@ def alarms():
 
 def codes():
     path, calls = "libs/language/codes.hpp", "libs/language/macro_call.hpp"
-    origin = {"iso": "ISO", "fanuc": "Fanuc", "hnc": "HNC"}
-    g = [(int(t), group, joined(text), origin[o], joined(since)) for t, group, text, o, since, _ in
-         entries(path, "GCode", r"(\d+),\s*Group::(\w+),\s*" + TEXT + r",\s*Origin::(\w+),\s*" + TEXT + r",\s*" + TEXT)]
-    c = [(first, last, joined(text), origin[o], joined(since)) for first, last, text, o, since, _ in
-         entries(calls, "CallCode", r"(\d+),\s*(\d+),\s*CallKind::\w+,\s*" + TEXT + r",\s*Origin::(\w+),\s*" + TEXT + r",\s*" + TEXT)]
+    dialect = {"iso": "ISO", "fanuc": "Fanuc", "hnc": "HNC"}
+    program = lambda text: "`" + joined(text).replace("\\n", " / ") + "`"
+    shown = r",\s*Origin::(\w+),\s*" + TEXT + r",\s*" + TEXT
+    g = [(int(t), group, joined(text), dialect[o], joined(since), program(example)) for t, group, text, o, since, example in
+         entries(path, "GCode", r"(\d+),\s*Group::(\w+),\s*" + TEXT + shown)]
+    c = [(first, last, joined(text), dialect[o], joined(since), program(example)) for first, last, text, o, since, example in
+         entries(calls, "CallCode", r"(\d+),\s*(\d+),\s*CallKind::\w+,\s*" + TEXT + shown)]
     m = [(int(n), when, action, group, joined(text)) for n, when, action, group, text in
          entries(path, "MCode", r"(\d+),\s*When::(\w+),\s*MAction::(\w+),\s*MGroup::(\w+),\s*" + TEXT)]
     name = lambda tenths: f"G{tenths // 10}" + (f".{tenths % 10}" if tenths % 10 else "")
     out = ["# G and M codes", "", f"Generated from `{path}` and `{calls}` by `tools/generate_docs.py`.", "", "## G codes", "",
-           "A block may hold one code of each group: two would contradict each other, so the second is an alarm. Every group but *one_block* and",
-           "*exact_stop* is modal: the code stays until another of its group. *since*: the version of Trunnion.", ""]
-    out += table(("code", "group", "meaning", "dialect", "since"), [(name(t), group, text, o, since) for t, group, text, o, since in g])
+           "A block may hold one code of each group: two would contradict each other, so the second is an alarm. Every group but *one_block* and *exact_stop* is modal: the code stays until another of its group.",
+           "A motion code ends a cycle. *Dialect*: ISO 6983, Fanuc or HNC-8 controls; *since*: the version of Trunnion. Each example is a program that a test runs; blocks are separated by /.", ""]
+    out += table(("code", "group", "meaning", "dialect", "since", "example"), [(name(t), *rest) for t, *rest in g])
     out += ["", "## Calls", "", "Such a code stands alone among the codes of its block; see [macros.md](macros.md) for the arguments.", ""]
-    out += table(("code", "meaning", "dialect", "since"), [(f"G{a}" + (f" .. G{b}" if b != a else ""), text, o, since) for a, b, text, o, since in c])
+    out += table(("code", "meaning", "dialect", "since", "example"), [(f"G{a}" + (f" .. G{b}" if b != a else ""), *rest) for a, b, *rest in c])
     out += ["", "## M codes", "", "*before* and *after*: when it acts, seen from the motion of its block. A block may hold one M code of each group, and none twice.",
             "Every other M code up to M999 goes to the PLC before the motion, but those of parameters 010170 to 010177 call G1007 to G1014.", ""]
     return out + table(("code", "acts", "group", "handled as", "meaning"), [(f"M{n}", when, "" if group == "none" else group, action, text) for n, when, action, group, text in m])

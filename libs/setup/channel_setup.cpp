@@ -18,6 +18,7 @@ void ChannelSetup::configure(const machine::Parameters& p) {
   auto chain = machine::make_chain(p, channel_);
   channel_axes_ = machine::channel_axes(p, channel_);
   chain_ = chain;
+  orientation_.emplace(chain);
   const auto drive = machine::drive_axes(p);
   columns_.clear();
   mask_ = 0;
@@ -41,6 +42,7 @@ void ChannelSetup::configure(const machine::Parameters& p) {
   radius_deviation_ = p.get("radius_deviation");
   for (std::uint32_t i = 0; i < cycle_m_codes_.size(); ++i)
     cycle_m_codes_[i] = static_cast<std::uint16_t>(p.integer("cycle_m_code", 0, i));
+  default_feed_ = p.get("default_feed", channel_);
   cycle_seconds_ = p.get("interpolation_cycle") * 1e-6;
   lead_ = static_cast<std::uint64_t>(p.integer("stream_lead"));
   // Two frames must fit into the lead, or the credits would never let the second be written.
@@ -72,7 +74,24 @@ std::optional<double> ChannelSetup::tool_length(std::uint16_t h) const {
 
 std::optional<language::ToolOffset> ChannelSetup::tool_offset(std::uint16_t number) const {
   const auto found = tools_.find(number);
-  return found == tools_.end() ? std::nullopt : std::optional(found->second);
+  if (found == tools_.end()) return std::nullopt;
+  return found->second;
+}
+
+std::optional<AxisValues> ChannelSetup::orient(const language::Vector3& direction, const AxisValues& current,
+                                               language::RotaryChoice choice) const {
+  geometry::OrientationRequest request;
+  request.direction = {direction[0], direction[1], direction[2]};
+  request.present = geometry::angles_of(current.data());
+  for (std::size_t i = 0; i < geometry::angle_count; ++i) {
+    request.travel[i] = {travel_[language::A + i].negative, travel_[language::A + i].positive};
+  }
+  request.way = static_cast<geometry::WayChoice>(choice);
+  const auto answer = orientation_->best(request);
+  if (answer.status != geometry::OrientationStatus::found) return std::nullopt;
+  AxisValues turned = current;
+  for (std::size_t i = 0; i < geometry::angle_count; ++i) turned[language::A + i] = answer.best.angles[i];
+  return turned;
 }
 
 AxisValues ChannelSetup::tip_from_machine(const AxisValues& machine, double tool_length) const {

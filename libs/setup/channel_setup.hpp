@@ -8,6 +8,7 @@
 
 #include "contracts/types.hpp"
 #include "geometry/chain.hpp"
+#include "geometry/orientation.hpp"
 #include "language/environment.hpp"
 #include "machine/axes.hpp"
 #include "motion/limits.hpp"
@@ -35,9 +36,8 @@ class ChannelSetup : public language::Environment {
   /// Finds the texts of subprograms; null when there are none.
   std::function<language::TextSource*(std::string_view)> resolve;
 
-  /// The tables hold G54 .. G59; the additional ones are zero.
   AxisValues work_offset(std::uint8_t index) const override {
-    return index < offsets_.size() ? offsets_[index] : AxisValues{};
+    return offsets_[index < offsets_.size() ? index : 0];
   }
   std::optional<double> tool_length(std::uint16_t h) const override;
   std::optional<language::ToolOffset> tool_offset(std::uint16_t number) const override;
@@ -47,6 +47,11 @@ class ChannelSetup : public language::Environment {
   std::uint16_t axes() const override { return mask_; }
   std::uint16_t cycle_m_code(std::size_t index) const override { return cycle_m_codes_[index]; }
   double radius_deviation() const override { return radius_deviation_; }
+  double curve_tolerance() const override { return limits_.arc_tolerance; }
+  double default_feed() const override { return default_feed_; }
+  /// Within the travel of the rotary axes, by the closed form of geometry::OrientationSolver.
+  std::optional<AxisValues> orient(const language::Vector3& direction, const AxisValues& current,
+                                   language::RotaryChoice choice) const override;
   language::TextSource* subprogram(std::string_view name) override {
     return resolve ? resolve(name) : nullptr;
   }
@@ -74,14 +79,15 @@ class ChannelSetup : public language::Environment {
   std::vector<int> columns_;
   motion::Limits limits_;
   std::optional<geometry::Chain> chain_;
-  std::array<AxisValues, 6> offsets_{};
+  std::optional<geometry::OrientationSolver> orientation_;
+  std::array<AxisValues, language::work_offset_count> offsets_{};
   std::map<std::uint32_t, language::ToolOffset> tools_;
   AxisValues reference_{};
   std::array<std::uint16_t, 8> cycle_m_codes_{};
   std::array<Travel, language::axis_count> travel_{};
   AxisValues jog_feed_{}, reference_feed_{};
   std::uint16_t mask_ = 0;
-  double radius_deviation_ = 0.1, cycle_seconds_ = 0.001;
+  double radius_deviation_ = 0.1, default_feed_ = 1000, cycle_seconds_ = 0.001;
   std::uint64_t lead_ = 32, revision_ = 0;
   std::uint32_t frame_real_ = 4, frame_virtual_ = 8;
 };

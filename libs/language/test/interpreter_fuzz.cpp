@@ -64,6 +64,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::string_view text(reinterpret_cast<const char*>(data) + 1, size - 1);
   TestMachine machine;
   machine.lengths = {{1, 100.0}, {2, 55.5}};
+  machine.tools = {{3, {10, 0, 4, 0.1}}, {1, {100, 0, 5, 0}}};
+  machine.further_references[2] = {1, 2, 3};
+  machine.planes[1] = {{{0, 0, 0}, {1, 0, 0}, {0, 1, 1}}};
+  machine.last_way = {0.5, 0.5};
   machine.offsets[1] = {10, 20, 30, 0, 0, 45, 0, 0, 0};
   machine.axis_mask = 0b000111111;
   machine.programs["O0009"] = std::make_unique<StringSource>("G91 X1\n#100=#100+1\nM99\n");

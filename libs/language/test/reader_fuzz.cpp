@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <string_view>
 
+#include "language/decimal.hpp"
 #include "language/interpreter.hpp"
 
 namespace trunnion::language {
