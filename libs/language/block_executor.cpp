@@ -4,14 +4,13 @@
 #include <bit>
 #include <cmath>
 
+#include "language/decimal.hpp"
 #include "language/letters.hpp"
 
 namespace trunnion::language {
 namespace {
 
 constexpr std::uint32_t highest_repetition = 999999;
-/// Words of the reader are smaller; expressions could give more, and squares of that must stay finite.
-constexpr double largest_number = 999999999;
 
 bool is_whole(double value, double low, double high) {
   return value == std::floor(value) && value >= low && value <= high;
@@ -191,7 +190,8 @@ bool BlockExecutor::takes_axis_words(const Block& block, const Codes& codes, std
     take(Group::one_block);
   }
   if (codes.is(Group::scaling, 510)) take(Group::scaling);
-  if (codes.has(Group::mirror) && (axes || codes.code(Group::mirror) == 511 || codes.code(Group::mirror) == 240)) {
+  if (codes.has(Group::mirror) &&
+      (axes || codes.code(Group::mirror) == 511 || codes.code(Group::mirror) == 240)) {
     take(Group::mirror);
   }
   if (codes.has(Group::rotation) && codes.code(Group::rotation) != 690) take(Group::rotation);
@@ -269,7 +269,8 @@ Fault BlockExecutor::push_end(std::uint32_t number, CommandQueue& out) {
   return {};
 }
 
-Fault BlockExecutor::message(std::uint32_t number, std::uint32_t program, std::uint32_t line, CommandQueue& out) {
+Fault BlockExecutor::message(std::uint32_t number, std::uint32_t program, std::uint32_t line,
+                             CommandQueue& out) {
   program_ = program;
   line_ = line;
   push(CommandKind::message, out).number = number;

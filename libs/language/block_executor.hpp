@@ -156,7 +156,8 @@ class BlockExecutor {
   Fault change_work_offset(const Block& block, const Codes& codes, std::uint32_t l, CommandQueue& out);
   Fault change_tool(const Block& block, const Codes& codes, std::uint32_t l, CommandQueue& out);
   void store_work_offset(std::uint8_t index, const AxisValues& values, CommandQueue& out);
-  Fault store_tool(Table table, std::uint16_t number, double value, bool adds, std::uint16_t at, CommandQueue& out);
+  Fault store_tool(Table table, std::uint16_t number, double value, bool adds, std::uint16_t at,
+                   CommandQueue& out);
   Fault define_tool(const Block& block, std::uint16_t at, CommandQueue& out);
   Fault change_parameter(const Block& block, char number_letter, CommandQueue& out);
 

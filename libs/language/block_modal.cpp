@@ -45,8 +45,7 @@ Fault BlockExecutor::select_spindle_and_tool(const Block& block, const Codes& co
 Fault BlockExecutor::set_spindle(const Block& block, const Codes& codes, CommandQueue& out) {
   const SpindleMode before = modal_.spindle_mode;
   if (codes.has(Group::spindle_mode)) {
-    modal_.spindle_mode =
-        codes.code(Group::spindle_mode) == 960 ? SpindleMode::surface : SpindleMode::speed;
+    modal_.spindle_mode = codes.code(Group::spindle_mode) == 960 ? SpindleMode::surface : SpindleMode::speed;
   }
   const bool surface = modal_.spindle_mode == SpindleMode::surface;
   const bool limit = codes.is(Group::one_block, 920);
@@ -87,7 +86,8 @@ Fault BlockExecutor::set_modal_codes(const Block& block, const Codes& codes) {
     modal_.smoothing = static_cast<std::uint8_t>(q);
   }
   if (codes.has(Group::motion)) {
-    modal_.motion = static_cast<std::uint8_t>(codes.code(Group::motion) == 62 ? 62 : codes.code(Group::motion) / 10);
+    modal_.motion =
+        static_cast<std::uint8_t>(codes.code(Group::motion) == 62 ? 62 : codes.code(Group::motion) / 10);
     modal_.cycle = 80;
   }
   if (codes.has(Group::cycle)) {
@@ -159,8 +159,8 @@ Fault BlockExecutor::set_polar(const Codes& codes) {
 }
 
 Fault BlockExecutor::set_tool_length(const Block& block, const Codes& codes, CommandQueue& out) {
-  const bool on = modal_.tool_vector || modal_.transformation == Transformation::rtcp ||
-                  modal_.length_offset != 0;
+  const bool on =
+      modal_.tool_vector || modal_.transformation == Transformation::rtcp || modal_.length_offset != 0;
   if (!codes.has(Group::tool_length)) {
     // H alone exchanges the length that counts; H0 takes it away, and without one there is nothing to take.
     if (!block.has('H') || (!on && block.value('H') != 0)) return {};
@@ -225,9 +225,7 @@ Fault BlockExecutor::set_cutter_compensation(const Block& block, const Codes& co
   }
   if (codes.has(Group::cutter_compensation)) {
     const std::uint16_t code = codes.code(Group::cutter_compensation);
-    modal_.cutter_side = code == 410   ? CutterSide::left
-                         : code == 420 ? CutterSide::right
-                                       : CutterSide::off;
+    modal_.cutter_side = code == 410 ? CutterSide::left : code == 420 ? CutterSide::right : CutterSide::off;
     at = block.has('D') ? at : codes.offset(Group::cutter_compensation);
   }
   double radius = 0;

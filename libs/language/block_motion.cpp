@@ -235,9 +235,9 @@ Fault BlockExecutor::start_curve(const Block& block, const Codes& codes) {
   constexpr std::uint32_t curve_words = letter_bits("KR") | axis_bits;
   const bool named = codes.is(Group::motion, 62);
   if (!named && (block.letters & curve_words) == 0) return {};
-  const std::uint16_t at = named ? codes.offset(Group::motion)
-                                 : block.offsets[static_cast<std::size_t>(
-                                       std::countr_zero(block.letters & curve_words))];
+  const std::uint16_t at =
+      named ? codes.offset(Group::motion)
+            : block.offsets[static_cast<std::size_t>(std::countr_zero(block.letters & curve_words))];
   if (const Fault fault = refuse_in_compensation(at)) return fault;
   if (modal_.feed_mode == FeedMode::inverse_time) return {AlarmNumber::cycle_inverse_time, at};
   if (const Fault fault = check_feed(block, at)) return fault;
@@ -267,7 +267,8 @@ Fault BlockExecutor::continue_curve(const Block& block) {
 }
 
 Fault BlockExecutor::add_curve_block(const Block& block) {
-  const std::uint16_t at = block.offsets[static_cast<std::size_t>(std::countr_zero(block.letters | 1u << 25))];
+  const std::uint16_t at =
+      block.offsets[static_cast<std::size_t>(std::countr_zero(block.letters | 1u << 25))];
   if (!block.has('K')) return {AlarmNumber::curve_words, at};
   use('K');
   const double knot = block.value('K');

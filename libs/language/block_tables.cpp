@@ -38,7 +38,8 @@ Fault BlockExecutor::change_work_offset(const Block& block, const Codes& codes, 
   const std::uint16_t at = codes.offset(Group::one_block);
   if (!block.has('P')) return {AlarmNumber::missing_word, at};
   std::uint32_t number = 0;
-  if (const Fault fault = whole_number(block, 'P', 1, l == 2 ? 6 : work_offset_count - 6, number)) return fault;
+  if (const Fault fault = whole_number(block, 'P', 1, l == 2 ? 6 : work_offset_count - 6, number))
+    return fault;
   const auto index = static_cast<std::uint8_t>(l == 2 ? number - 1 : number + 5);
   std::uint32_t axes = 0;
   if (const Fault fault = take_axes(block, at, axes)) return fault;
@@ -68,8 +69,8 @@ void BlockExecutor::store_work_offset(std::uint8_t index, const AxisValues& valu
   command.target = values;
 }
 
-Fault BlockExecutor::write_work_offset(std::uint8_t index, std::size_t axis, double value, std::uint32_t program,
-                                       std::uint32_t line, CommandQueue& out) {
+Fault BlockExecutor::write_work_offset(std::uint8_t index, std::size_t axis, double value,
+                                       std::uint32_t program, std::uint32_t line, CommandQueue& out) {
   program_ = program;
   line_ = line;
   if (index == modal_.work_offset) {

@@ -103,7 +103,7 @@ Fault BlockExecutor::swing(const Codes& codes, CommandQueue& out) {
   const auto turned = environment_.orient(frame_.turned_by_tilt({0, 0, 1}), position_, swing_choice_);
   if (!turned) return {AlarmNumber::orientation_impossible, at};
   AxisValues target = position_;
-  for (const Axis axis : {A, B, C}) target[axis] = (*turned)[axis];
+  for (const Axis axis : {A, B, C, U, V, W}) target[axis] = (*turned)[axis];
   const double feed = modal_.feed;
   const FeedMode mode = modal_.feed_mode;
   if (!(feed > 0) || mode != FeedMode::per_minute) {
@@ -173,11 +173,11 @@ Fault BlockExecutor::point_tool(const Block& block, AxisValues& target) {
   }
   const double size = norm(direction);
   if (!(size > no_length)) return {AlarmNumber::tool_vector_zero, at};
-  const auto turned =
-      environment_.orient(frame_.turned_by_tilt(divided(direction, size)), position_, RotaryChoice::shortest);
+  const auto turned = environment_.orient(frame_.turned_by_tilt(divided(direction, size)), position_,
+                                          RotaryChoice::continuous);
   if (!turned) return {AlarmNumber::orientation_impossible, at};
   const AxisValues& offset = frame_.total_offset();
-  for (const Axis axis : {A, B, C}) target[axis] = (*turned)[axis] - offset[axis];
+  for (const Axis axis : {A, B, C, U, V, W}) target[axis] = (*turned)[axis] - offset[axis];
   return {};
 }
 

@@ -7,8 +7,8 @@
 namespace trunnion::language {
 namespace {
 
-constexpr double no_distance = 1e-9;   // mm
-constexpr double tangent = 1e-6;       // sine of a corner that is none
+constexpr double no_distance = 1e-9;  // mm
+constexpr double tangent = 1e-6;      // sine of a corner that is none
 /// How far rounding and the programmed radii of arcs may bring tool and contour together, mm.
 constexpr double touching = 1e-5;
 /// Corners below this (rad) whose offsets do not meet are closed straight: the ends of an arc may be off its
@@ -277,7 +277,8 @@ AlarmNumber CutterCompensation::pop(Command& command, bool& popped) {
   const double moved = length(in_plane(command.target) - in_plane(tool_));
   bool other_axes = false;
   for (std::size_t i = 0; i < axis_count; ++i) {
-    other_axes |= i != axes_.first && i != axes_.second && std::abs(command.target[i] - tool_[i]) > no_distance;
+    other_axes |=
+        i != axes_.first && i != axes_.second && std::abs(command.target[i] - tool_[i]) > no_distance;
   }
   tool_ = command.target;
   first_ = (first_ + 1) % capacity;

@@ -66,12 +66,12 @@ class CutterCompensation {
   struct Item {
     Command command;
     bool moves_in_plane = false;
-    bool leads = false;        // in or out: not on the contour
-    double left = 0;           // offset to the left of the walk, mm
+    bool leads = false;  // in or out: not on the contour
+    double left = 0;     // offset to the left of the walk, mm
     PlanarPiece contour;
     Vector2 tool_start, tool_end;
     bool end_known = false;
-    bool around = false;       // joined to the move before by an arc about the corner
+    bool around = false;  // joined to the move before by an arc about the corner
   };
 
   Item& item(std::size_t i) { return items_[(first_ + i) % capacity]; }
@@ -105,8 +105,8 @@ class CutterCompensation {
   std::size_t count_ = 0;
   std::size_t last_move_ = 0;  // slot of the newest move in the plane
   bool has_last_move_ = false;
-  int join_step_ = 0;   // corners of the polygon in rapid already given
-  Vector2 join_from_;   // from the corner to where that polygon begins
+  int join_step_ = 0;  // corners of the polygon in rapid already given
+  Vector2 join_from_;  // from the corner to where that polygon begins
   struct Past {
     PlanarPiece contour;
     double left = 0;

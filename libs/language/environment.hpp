@@ -20,9 +20,9 @@ struct ToolOffset {
 
 /// How canned cycles move where no word says it.
 struct CycleSettings {
-  double retract = 1;     ///< mm, between two pecks of G73 and of tapping
-  double clearance = 1;   ///< mm above the last depth, where G83 goes back to feed
-  int shift_axis = 1;     ///< Q of G76 and G87 along the plane's axis 1 or 2, negative against it
+  double retract = 1;    ///< mm, between two pecks of G73 and of tapping
+  double clearance = 1;  ///< mm above the last depth, where G83 goes back to feed
+  int shift_axis = 1;    ///< Q of G76 and G87 along the plane's axis 1 or 2, negative against it
 };
 
 /// How cutter radius compensation works: parameters 010044..010047.
@@ -33,8 +33,9 @@ struct CutterSettings {
   unsigned check_blocks = 2;       ///< how many moves ahead and behind that looks, at most 6 (010047)
 };
 
-/// Which of several solutions a rotary axis takes: P of G68.1..G68.3.
-enum class RotaryChoice : std::uint8_t { shortest, positive, negative };
+/// Which of several solutions the rotary axes take: P of G68.1..G68.3, or those that follow a path of
+/// directions best (G43.5).
+enum class RotaryChoice : std::uint8_t { shortest, positive, negative, continuous };
 
 inline constexpr std::uint8_t work_offset_count = 54;
 

@@ -29,10 +29,10 @@ struct HoleParameters {
   double r = 0;             ///< level where feed begins
   double z = 0;             ///< level of the bottom; of G87 the end of the bore
   bool return_to_initial = true;
-  double peck = 0;          ///< mm, > 0; 0 without pecks
-  double dwell = 0;         ///< seconds
-  double retract = 0;       ///< mm, between pecks of G73 and tapping
-  double clearance = 0;     ///< mm above the last depth (G83)
+  double peck = 0;            ///< mm, > 0; 0 without pecks
+  double dwell = 0;           ///< seconds
+  double retract = 0;         ///< mm, between pecks of G73 and tapping
+  double clearance = 0;       ///< mm above the last depth (G83)
   std::uint32_t restart = 3;  ///< M code that starts the spindle again: 3 or 4
 };
 
@@ -47,7 +47,9 @@ class HoleCycle {
 
  private:
   using Kind = HoleStep::Kind;
-  void add(Kind kind, double value = 0, std::uint32_t number = 0) { steps_[count_++] = {kind, value, number}; }
+  void add(Kind kind, double value = 0, std::uint32_t number = 0) {
+    steps_[count_++] = {kind, value, number};
+  }
   void add_dwell();
   void add_whole_hole();
   void add_peck();

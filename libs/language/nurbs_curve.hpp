@@ -9,8 +9,8 @@
 
 namespace trunnion::language {
 
-/// G6.2 as it streams: block i brings knot i and, for the first blocks, control point i. As soon as a span has
-/// its knots it is given out as chords within a tolerance, so the curve may have any number of points and
+/// G6.2 as it streams: block i brings knot i and, for the first blocks, control point i. As soon as a span
+/// has its knots it is given out as chords within a tolerance, so the curve may have any number of points and
 /// needs only a window of them.
 ///
 /// Chords and not a curve command, because everything behind (travel check, restart at a fraction of a

@@ -83,9 +83,7 @@ bool on_line(const PlanarPiece& line, Vector2 p) {
   return along >= 0 && along <= dot(d, d);
 }
 
-bool within(const PlanarPiece& piece, Vector2 p) {
-  return piece.arc ? passes(piece, p) : on_line(piece, p);
-}
+bool within(const PlanarPiece& piece, Vector2 p) { return piece.arc ? passes(piece, p) : on_line(piece, p); }
 
 bool lines_cross(const PlanarPiece& a, const PlanarPiece& b) {
   const Vector2 da = a.end - a.start;
@@ -118,9 +116,7 @@ Vector2 PlanarPiece::left_of_start(double distance) const {
   return start + distance * left_of(tangent_at_start());
 }
 
-Vector2 PlanarPiece::left_of_end(double distance) const {
-  return end + distance * left_of(tangent_at_end());
-}
+Vector2 PlanarPiece::left_of_end(double distance) const { return end + distance * left_of(tangent_at_end()); }
 
 double PlanarPiece::length() const {
   if (!arc) return language::length(end - start);

@@ -26,8 +26,8 @@ struct PlanarPiece {
   bool arc = false;
   Vector2 start;
   Vector2 end;
-  Vector2 centre;     ///< of an arc
-  double sweep = 0;   ///< radians, > 0 anticlockwise, < 0 clockwise; beyond a full turn for several
+  Vector2 centre;    ///< of an arc
+  double sweep = 0;  ///< radians, > 0 anticlockwise, < 0 clockwise; beyond a full turn for several
 
   /// Directions of the walk, of length 1.
   Vector2 tangent_at_start() const;

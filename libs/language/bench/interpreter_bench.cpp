@@ -16,6 +16,7 @@ constexpr int blocks = 200000;
 struct PlainMachine : Environment {
   AxisValues work_offset(std::uint8_t) const override { return {10, 20, 30}; }
   std::optional<double> tool_length(std::uint16_t) const override { return 100; }
+  std::optional<ToolOffset> tool_offset(std::uint16_t) const override { return ToolOffset{100, 0, 5, 0}; }
   AxisValues reference_position() const override { return {}; }
   AxisValues tip_from_machine(const AxisValues& machine, double) const override { return machine; }
   AxisValues machine_from_tip(const AxisValues& tip, double) const override { return tip; }
@@ -67,6 +68,21 @@ void BM_FiveAxisLines(benchmark::State& state) {
   interpret(state, text + "M30\n");
 }
 BENCHMARK(BM_FiveAxisLines)->Unit(benchmark::kMillisecond);
+
+/// A square, compensated on its inside, again and again: a corner in every block.
+void BM_CompensatedContour(benchmark::State& state) {
+  std::string text = "%1\nF2000 G41 D1 G1 X10 Y0\n";
+  for (int i = 0; i < blocks / 4; ++i) text += "X90\nY90\nX10\nY10\n";
+  interpret(state, text + "G40 X0 Y0\nM30\n");
+}
+BENCHMARK(BM_CompensatedContour)->Unit(benchmark::kMillisecond);
+
+void BM_TurnedLines(benchmark::State& state) {
+  std::string text = "%1\nG51 X0 Y0 Z0 P2\nG68 X5 Y5 R30\nG91 G1 F2000\n";
+  for (int i = 0; i < blocks; ++i) text += i % 2 == 0 ? "X10. Y5.\n" : "X-10. Y-5.\n";
+  interpret(state, text + "M30\n");
+}
+BENCHMARK(BM_TurnedLines)->Unit(benchmark::kMillisecond);
 
 void BM_Arcs(benchmark::State& state) {
   std::string text = "%1\nG91 G17 F2000\n";

@@ -34,17 +34,20 @@ TEST(Frames, Offsets) {
       {"table offset changes at once and is passed on",
        "G10 L2 P1 X5 Y6\nG0 X1\nG91 G10 L2 P1 X2\nG90 X1\nG10 L20 P2 Z4\nG54.1 P2 Z0\n",
        {"table1 0 X5 Y6", "rapid X6", "table1 0 X7 Y6", "rapid X8", "table1 7 Z4", "rapid X8 Z4", "end 0"}},
-      {"offset of another number moves nothing", "G10 L2 P3 X5\nG0 X1\n", {"table1 2 X5", "rapid X1", "end 0"}},
+      {"offset of another number moves nothing",
+       "G10 L2 P3 X5\nG0 X1\n",
+       {"table1 2 X5", "rapid X1", "end 0"}},
       {"tool length and wear by the program",
        // 50 + 0.5, then 40 + 0.5, then 40 + 0.5 + 0.25
        "G43 H1 G0 Z0\nG10 L10 P1 R40\nG43 H1 Z0\nG91 G10 L11 P1 R0.25\nG90 G43 H1 Z0\n",
-       {"frame none L50.5", "rapid Z50.5", "table2 1 40", "frame none L40.5 Z50.5", "rapid Z40.5", "table3 1 0.75",
-        "frame none L40.75 Z40.5", "rapid Z40.75", "end 0"}},
+       {"frame none L50.5", "rapid Z50.5", "table2 1 40", "frame none L40.5 Z50.5", "rapid Z40.5",
+        "table3 1 0.75", "frame none L40.75 Z40.5", "rapid Z40.75", "end 0"}},
       {"radius and its wear", "G20 G10 L12 P1 R1\nG10 L13 P1 R0\n", {"table4 1 25.4", "table5 1 0", "end 0"}},
       {"length and radius in one block, T selects nothing",
        "G10 P9 Z128 R6 T01\nG43 H9 G0 Z0\n",
        {"table2 9 128", "table4 9 6", "frame none L128", "rapid Z128", "end 0"}},
-      {"parameters", "G10 L50\nN10010 R3\nN100 P1 R2.5\nG11\nG10 L50 P40030 R500\n",
+      {"parameters",
+       "G10 L50\nN10010 R3\nN100 P1 R2.5\nG11\nG10 L50 P40030 R500\n",
        {"table6 10010 3", "table6 1100 2.5", "table6 40030 500", "end 0"}},
       {"G44 subtracts", "G44 H1 G0 Z100\n", {"frame none L-50.5", "rapid Z49.5", "end 0"}},
       {"H alone exchanges the length, H0 takes it away",
@@ -61,7 +64,8 @@ TEST(Frames, Shapes) {
       {"scaling per axis, off again goes on from the position",
        "G51 X0 Y0 Z0 I2 J3\nG0 X1 Y1 Z1\nG50\nG91 X1\n",
        {"rapid X2 Y3 Z1", "rapid X3 Y3 Z1", "end 0"}},
-      {"scaling without a point is about the position", "G0 X10\nG51 P2\nG0 X11\n",
+      {"scaling without a point is about the position",
+       "G0 X10\nG51 P2\nG0 X11\n",
        {"rapid X10", "rapid X12", "end 0"}},
       {"incremental words are scaled too", "G51 X5 Y5 Z5 P0.5\nG91 G0 X4\n", {"rapid X2", "end 0"}},
       {"a negative factor mirrors, and a circle turns round",
@@ -83,10 +87,9 @@ TEST(Frames, Shapes) {
        "G68 X0 Y0 P90\nG0 X10\nG3 X0 Y10 I-10 F100\n",
        {"rapid Y10", "arc X-10 ccw 0 0 0 90deg F100", "end 0"}},
       {"rotation in ZX", "G18 G68 X0 Z0 R90\nG0 Z10\n", {"rapid X10", "end 0"}},
-      {"incremental angles add",
-       "G68 X0 Y0 R30\nG91 G68 X0 Y0 R60\nG90 G0 X10\n",
-       {"rapid Y10", "end 0"}},
-      {"G69 goes on from the position", "G68 X0 Y0 R90\nG0 X10\nG69\nG0 X1\n",
+      {"incremental angles add", "G68 X0 Y0 R30\nG91 G68 X0 Y0 R60\nG90 G0 X10\n", {"rapid Y10", "end 0"}},
+      {"G69 goes on from the position",
+       "G68 X0 Y0 R90\nG0 X10\nG69\nG0 X1\n",
        {"rapid Y10", "rapid X1 Y10", "end 0"}},
       // mirror: X 1 -> -1; scaling by 2: -2, Y 0; rotation by 90 about 0: (0, -2); G52 X100: (100, -2).
       {"mirror, then scaling, then rotation, then offsets, whatever the order they were called in",
@@ -96,12 +99,15 @@ TEST(Frames, Shapes) {
       {"the centre of rotation is scaled with the drawing",
        "G51 X0 Y0 Z0 P2\nG68 X10 Y0 R90\nG0 X11 Y0\n",
        {"rapid X20 Y2", "end 0"}},
-      {"a frame moves nothing by itself", "G0 X3 Y4\nG68 X0 Y0 R90\nG51 P2\nG51.1 X7\nG0 A1\n",
+      {"a frame moves nothing by itself",
+       "G0 X3 Y4\nG68 X0 Y0 R90\nG51 P2\nG51.1 X7\nG0 A1\n",
        {"rapid X3 Y4", "rapid X3 Y4 A1", "end 0"}},
-      {"polar words", "G16 G0 X10 Y90\nY180\nX20\nG91 Y90\nG90 G15 X1\n",
+      {"polar words",
+       "G16 G0 X10 Y90\nY180\nX20\nG91 Y90\nG90 G15 X1\n",
        // radius 10 at 90, 180 degrees; radius 20 at 180; 90 degrees on: 270.
        {"rapid Y10", "rapid X-10", "rapid X-20", "rapid Y-20", "rapid X1 Y-20", "end 0"}},
-      {"an incremental polar radius is about the position", "G0 X5\nG16 G91 X10 Y90\n",
+      {"an incremental polar radius is about the position",
+       "G0 X5\nG16 G91 X10 Y90\n",
        {"rapid X5", "rapid X5 Y10", "end 0"}},
   };
   expect_streams(machine, goldens);
@@ -114,7 +120,8 @@ TEST(Frames, DiameterProgrammingHalvesXWords) {
       {"absolute and incremental, but not I and R",
        "G18 G0 X20 Z0\nG91 X10\nG90 G2 X10 Z0 I-5 F100\n",
        {"rapid X10", "rapid X15", "arc X5 cw 10 0 0 180deg F100", "end 0"}},
-      {"offsets of the program are diameters, those of the table are not", "G52 X20\nG0 X0\nG10 L2 P1 X20\nX0\n",
+      {"offsets of the program are diameters, those of the table are not",
+       "G52 X20\nG0 X0\nG10 L2 P1 X20\nX0\n",
        {"rapid X10", "table1 0 X20", "rapid X30", "end 0"}},
   };
   expect_streams(machine, goldens);
@@ -136,7 +143,8 @@ TEST(Frames, EveryFrameCanBeUndone) {
     frame.set_work_offset(random_point(random));
     frame.set_local(X, value(random));
     frame.set_shift(B, value(random));
-    if (random() % 2 == 0) frame.set_mirror(static_cast<std::uint8_t>(random() % axis_count), true, value(random));
+    if (random() % 2 == 0)
+      frame.set_mirror(static_cast<std::uint8_t>(random() % axis_count), true, value(random));
     if (random() % 2 == 0) {
       frame.set_scaling({value(random), value(random), value(random)},
                         {size(random), -size(random), size(random)});
@@ -212,7 +220,8 @@ void expect_same_path(const Interpretation& a, const Interpretation& b, double t
     if (command.kind != CommandKind::arc) continue;
     const Vector3& c = expected.arc.centre;
     const AxisValues centre = map != nullptr ? map({c[0], c[1], c[2]}) : AxisValues{c[0], c[1], c[2]};
-    for (std::size_t axis = 0; axis < 3; ++axis) ASSERT_NEAR(command.arc.centre[axis], centre[axis], tolerance);
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      ASSERT_NEAR(command.arc.centre[axis], centre[axis], tolerance);
     ASSERT_EQ(command.arc.clockwise, expected.arc.clockwise != turned_round);
     ASSERT_NEAR(command.arc.sweep, expected.arc.sweep, 1e-6);
   }
@@ -259,8 +268,8 @@ TEST(FrameProperty, OffsetsOnlyTranslate) {
     const std::string pocket = random_pocket(random);
     TestMachine machine = offsets();
     machine.offsets[1] = {100, 200, 300};
-    expect_same_path(run(machine, pocket),
-                     run(machine, "G55 G52 X1 Z-4\n" + pocket, {101, 200, 296}), 1e-9, shift);
+    expect_same_path(run(machine, pocket), run(machine, "G55 G52 X1 Z-4\n" + pocket, {101, 200, 296}), 1e-9,
+                     shift);
   }
 }
 

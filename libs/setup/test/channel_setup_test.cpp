@@ -34,6 +34,19 @@ TEST(ChannelSetup, WearCountsInTheToolLength) {
   auto tables = load_machine_tables(ac_table);
   tables.tools.tools[0].length_wear = -0.25;
   EXPECT_EQ(ChannelSetup(tables).tool_length(1), 99.75);
+  const auto tool = ChannelSetup(tables).tool_offset(1);
+  ASSERT_TRUE(tool.has_value());
+  EXPECT_EQ(tool->length, 100);
+  EXPECT_EQ(tool->length_wear, -0.25);
+  EXPECT_EQ(tool->radius, tables.tools.tools[0].radius);
+}
+
+TEST(ChannelSetup, MCodesOfUserCyclesAreParameters) {
+  auto tables = load_machine_tables(ac_table);
+  EXPECT_EQ(ChannelSetup(tables).cycle_m_code(3), 0);
+  tables.parameters.values[10173] = {130, ""};  // 010173: M code of G1010
+  EXPECT_EQ(ChannelSetup(tables).cycle_m_code(3), 130);
+  EXPECT_EQ(ChannelSetup(tables).cycle_m_code(4), 0);
 }
 
 TEST(ChannelSetup, ToolOffsetsCarryLengthRadiusAndWear) {
@@ -97,6 +110,34 @@ TEST(ChannelSetup, ATableThatTurnsCarriesTheTipAlong) {
   const auto tip = setup.tip_from_machine(machine, 100);
   EXPECT_NEAR(tip[0], 10, 1e-12);
   EXPECT_NEAR(tip[1], 0, 1e-12);
+}
+
+TEST(ChannelSetup, ToolRadiiAndAdditionalOffsetsAreThoseOfTheTables) {
+  auto tables = load_machine_tables(ac_table);
+  tables.tools.tools[0].radius = 4;
+  tables.tools.tools[0].radius_wear = -0.1;
+  tables.offsets.offsets.push_back({0, 53, {1, 2, 3}});
+  const ChannelSetup setup(tables);
+  const auto tool = setup.tool_offset(1);
+  ASSERT_TRUE(tool.has_value());
+  EXPECT_EQ(tool->length, 100);
+  EXPECT_EQ(tool->radius, 4);
+  EXPECT_EQ(tool->radius_wear, -0.1);
+  EXPECT_EQ(setup.work_offset(53)[language::Y], 2);  // G54.1 P48
+}
+
+TEST(ChannelSetup, OrientsTheToolWithinTheTravelOfTheRotaryAxes) {
+  const ChannelSetup setup(load_machine_tables(ac_table));
+  // 30 degrees from Z towards -Y of the workpiece: the tip of a shorter tool lies in that direction.
+  const auto turned = setup.orient({0, -0.5, std::sqrt(0.75)}, {}, language::RotaryChoice::shortest);
+  ASSERT_TRUE(turned.has_value());
+  const auto tip = setup.tip_from_machine(*turned, 1);
+  const auto gauge = setup.tip_from_machine(*turned, 0);
+  EXPECT_NEAR(gauge[0] - tip[0], 0, 1e-9);
+  EXPECT_NEAR(gauge[1] - tip[1], -0.5, 1e-9);
+  EXPECT_NEAR(gauge[2] - tip[2], std::sqrt(0.75), 1e-9);
+  // From below no table can be cut.
+  EXPECT_EQ(setup.orient({0, 0, -1}, {}, language::RotaryChoice::shortest), std::nullopt);
 }
 
 TEST(ChannelSetup, AMoveOutOfTravelIsToldWithLineAxisAndLimits) {
