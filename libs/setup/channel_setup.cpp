@@ -106,9 +106,10 @@ std::optional<AxisValues> ChannelSetup::orient(const language::Vector3& directio
   request.direction = {direction[0], direction[1], direction[2]};
   request.present = geometry::angles_of(current.data());
   request.travel = rotary_travel_;
-  request.way = choice == language::RotaryChoice::positive   ? geometry::WayChoice::positive
-                : choice == language::RotaryChoice::negative ? geometry::WayChoice::negative
-                                                             : geometry::WayChoice::shortest;
+  request.way = choice == language::RotaryChoice::positive     ? geometry::WayChoice::positive
+                : choice == language::RotaryChoice::negative   ? geometry::WayChoice::negative
+                : choice == language::RotaryChoice::continuous ? geometry::WayChoice::continuous
+                                                               : geometry::WayChoice::shortest;
   const auto answer = solver_->best(request);
   if (answer.status != geometry::OrientationStatus::found) return std::nullopt;
   AxisValues result = current;
