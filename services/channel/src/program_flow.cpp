@@ -5,8 +5,9 @@ namespace trunnion::channel {
 using language::CommandKind;
 
 void ProgramFlow::start(language::TextSource& text, const AxisValues& position,
-                        const language::ModalState& initial, const RestartPoint& restart) {
-  interpreter_.start(text, position, initial);
+                        const language::ModalState& initial, const language::VariableStore& variables,
+                        const RestartPoint& restart) {
+  interpreter_.start(text, position, initial, variables);
   have_command_ = false;
   block_line_ = 0;
   restart_ = restart;
@@ -64,6 +65,8 @@ FlowState ProgramFlow::fill(bool single_block) {
           alarm_text_ = (alarm.program != 0 ? "O" + std::to_string(alarm.program) + ":" : std::string()) +
                         std::to_string(alarm.line) + ":" + std::to_string(alarm.column) + ": " +
                         alarm.text.data();
+          for (std::uint8_t call = alarm.calls; call-- > 0;)
+            alarm_text_ += ", called in line " + std::to_string(alarm.chain[call].line);
           trajectory_->finish();
           return FlowState::alarm;
         }
