@@ -92,7 +92,7 @@ std::string program(unsigned seed, bool inch, bool incremental) {
         // G99 leaves the tool at R: both forms go on from a level they know.
         w.code("G90 G0 ");
         w.code(inch ? "Z2.5" : "Z63.5");
-        w.code(incremental ? " G91\n" : "\n");
+        w.code(incremental ? "\nG91\n" : "\n");
         // The writer's own level is 500 units = 63.5 mm, as before the cycle.
         break;
       }
@@ -124,7 +124,7 @@ std::string program(unsigned seed, bool inch, bool incremental) {
         w.code("G69\n");
         // Both forms name the point they stand at.
         w.code("G90 G0 X0 Y0 ");
-        w.code(incremental ? "G91\n" : "\n");
+        w.code(incremental ? "\nG91\n" : "\n");
         w.axis('X', 0);
         w.axis('Y', 0);
         w.end_block();
