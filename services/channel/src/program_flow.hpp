@@ -33,7 +33,8 @@ class ProgramFlow {
   ProgramFlow(setup::ChannelSetup& machine, motion::Trajectory*& trajectory)
       : machine_(machine), trajectory_(trajectory), interpreter_(machine) {}
 
-  /// `position` in the frame of `initial`. The trajectory must be at rest there.
+  /// Macro variables are those the program or line before left. `position` in the frame of `initial`. The
+  /// trajectory must be at rest there.
   void start(language::TextSource& text, const AxisValues& position, const language::ModalState& initial,
              const RestartPoint& restart = {});
   FlowState fill(bool single_block);
@@ -56,6 +57,7 @@ class ProgramFlow {
   setup::ChannelSetup& machine_;
   motion::Trajectory*& trajectory_;
   language::Interpreter interpreter_;
+  language::VariableStore variables_;  // at the start of the program
   language::Command command_;
   language::ModalState executing_;
   bool have_command_ = false;
