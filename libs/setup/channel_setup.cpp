@@ -18,7 +18,6 @@ void ChannelSetup::configure(const machine::Parameters& p) {
   auto chain = machine::make_chain(p, channel_);
   channel_axes_ = machine::channel_axes(p, channel_);
   chain_ = chain;
-  orientation_.emplace(chain);
   const auto drive = machine::drive_axes(p);
   columns_.clear();
   mask_ = 0;
@@ -34,15 +33,27 @@ void ChannelSetup::configure(const machine::Parameters& p) {
     reference_[index] = p.get("reference_coordinate", a);
     jog_feed_[index] = p.get("jog_feed", a);
     reference_feed_[index] = p.get("reference_feed", a);
+    approach_[index] = p.get("single_direction_approach", a);
+    for (std::uint32_t k = 0; k < 3; ++k) numbered_references_[k][index] = p.get("numbered_reference", a, k);
   }
+  solver_.emplace(*chain_);
+  rotary_travel_ = machine::rotary_travels(p, channel_);
+  diameter_programming_ = p.integer("diameter_programming", channel_) != 0;
+  default_feed_ = p.get("default_feed", channel_);
+  cycles_ = {p.get("cycle_retract", channel_), p.get("cycle_clearance", channel_),
+             p.integer("cycle_shift_axis", channel_)};
+  cutter_ = {p.integer("cutter_feed_at_contour") != 0, p.integer("cutter_wear_sign") != 0 ? 1 : -1,
+             p.integer("cutter_interference_check") != 0,
+             static_cast<unsigned>(p.integer("cutter_check_blocks"))};
+  for (std::uint32_t i = 0; i < 180; ++i)
+    planes_[i / 9][i / 3 % 3][i % 3] = p.get("tilted_plane_points", channel_, i);
+  for (std::uint32_t i = 0; i < cycle_m_codes_.size(); ++i)
+    cycle_m_codes_[i] = static_cast<std::uint16_t>(p.integer("cycle_m_code", 0, i));
   limits_.smoothing_cycles = p.integer("smoothing_cycles", channel_);
   limits_.contour_tolerance = p.get("contour_tolerance", channel_);
   limits_.arc_tolerance = p.get("arc_tolerance");
   limits_.orientation_tolerance = p.get("orientation_tolerance", channel_);
   radius_deviation_ = p.get("radius_deviation");
-  for (std::uint32_t i = 0; i < cycle_m_codes_.size(); ++i)
-    cycle_m_codes_[i] = static_cast<std::uint16_t>(p.integer("cycle_m_code", 0, i));
-  default_feed_ = p.get("default_feed", channel_);
   cycle_seconds_ = p.get("interpolation_cycle") * 1e-6;
   lead_ = static_cast<std::uint64_t>(p.integer("stream_lead"));
   // Two frames must fit into the lead, or the credits would never let the second be written.
@@ -74,8 +85,19 @@ std::optional<double> ChannelSetup::tool_length(std::uint16_t h) const {
 
 std::optional<language::ToolOffset> ChannelSetup::tool_offset(std::uint16_t number) const {
   const auto found = tools_.find(number);
-  if (found == tools_.end()) return std::nullopt;
-  return found->second;
+  return found == tools_.end() ? std::nullopt : std::optional(found->second);
+}
+
+std::optional<AxisValues> ChannelSetup::numbered_reference(std::uint8_t number) const {
+  if (number < 2 || number > 4) return std::nullopt;
+  return numbered_references_[number - 2u];
+}
+
+std::optional<std::array<language::Vector3, 3>> ChannelSetup::plane_points(std::uint8_t index) const {
+  if (index < 1 || index > planes_.size()) return std::nullopt;
+  const auto& plane = planes_[index - 1u];
+  if (plane[0] == plane[1] && plane[1] == plane[2]) return std::nullopt;  // nobody has entered it
+  return plane;
 }
 
 std::optional<AxisValues> ChannelSetup::orient(const language::Vector3& direction, const AxisValues& current,
@@ -83,15 +105,16 @@ std::optional<AxisValues> ChannelSetup::orient(const language::Vector3& directio
   geometry::OrientationRequest request;
   request.direction = {direction[0], direction[1], direction[2]};
   request.present = geometry::angles_of(current.data());
-  for (std::size_t i = 0; i < geometry::angle_count; ++i) {
-    request.travel[i] = {travel_[language::A + i].negative, travel_[language::A + i].positive};
-  }
-  request.way = static_cast<geometry::WayChoice>(choice);
-  const auto answer = orientation_->best(request);
+  request.travel = rotary_travel_;
+  request.way = choice == language::RotaryChoice::positive     ? geometry::WayChoice::positive
+                : choice == language::RotaryChoice::negative   ? geometry::WayChoice::negative
+                : choice == language::RotaryChoice::continuous ? geometry::WayChoice::continuous
+                                                               : geometry::WayChoice::shortest;
+  const auto answer = solver_->best(request);
   if (answer.status != geometry::OrientationStatus::found) return std::nullopt;
-  AxisValues turned = current;
-  for (std::size_t i = 0; i < geometry::angle_count; ++i) turned[language::A + i] = answer.best.angles[i];
-  return turned;
+  AxisValues result = current;
+  std::copy(answer.best.angles.begin(), answer.best.angles.end(), result.begin() + 3);
+  return result;
 }
 
 AxisValues ChannelSetup::tip_from_machine(const AxisValues& machine, double tool_length) const {

@@ -37,21 +37,27 @@ class ChannelSetup : public language::Environment {
   std::function<language::TextSource*(std::string_view)> resolve;
 
   AxisValues work_offset(std::uint8_t index) const override {
-    return offsets_[index < offsets_.size() ? index : 0];
+    return index < offsets_.size() ? offsets_[index] : AxisValues{};
   }
   std::optional<double> tool_length(std::uint16_t h) const override;
   std::optional<language::ToolOffset> tool_offset(std::uint16_t number) const override;
   AxisValues reference_position() const override { return reference_; }
-  AxisValues tip_from_machine(const AxisValues& machine, double tool_length) const override;
-  AxisValues machine_from_tip(const AxisValues& tip, double tool_length) const override;
-  std::uint16_t axes() const override { return mask_; }
-  std::uint16_t cycle_m_code(std::size_t index) const override { return cycle_m_codes_[index]; }
-  double radius_deviation() const override { return radius_deviation_; }
-  double curve_tolerance() const override { return limits_.arc_tolerance; }
+  std::optional<AxisValues> numbered_reference(std::uint8_t number) const override;
+  AxisValues approach() const override { return approach_; }
+  bool diameter_programming() const override { return diameter_programming_; }
   double default_feed() const override { return default_feed_; }
+  double curve_tolerance() const override { return limits_.arc_tolerance; }
+  language::CycleSettings cycle_settings() const override { return cycles_; }
+  language::CutterSettings cutter_settings() const override { return cutter_; }
+  std::optional<std::array<language::Vector3, 3>> plane_points(std::uint8_t index) const override;
   /// Within the travel of the rotary axes, by the closed form of geometry::OrientationSolver.
   std::optional<AxisValues> orient(const language::Vector3& direction, const AxisValues& current,
                                    language::RotaryChoice choice) const override;
+  std::uint16_t cycle_m_code(std::size_t index) const override { return cycle_m_codes_.at(index); }
+  AxisValues tip_from_machine(const AxisValues& machine, double tool_length) const override;
+  AxisValues machine_from_tip(const AxisValues& tip, double tool_length) const override;
+  std::uint16_t axes() const override { return mask_; }
+  double radius_deviation() const override { return radius_deviation_; }
   language::TextSource* subprogram(std::string_view name) override {
     return resolve ? resolve(name) : nullptr;
   }
@@ -79,15 +85,22 @@ class ChannelSetup : public language::Environment {
   std::vector<int> columns_;
   motion::Limits limits_;
   std::optional<geometry::Chain> chain_;
-  std::optional<geometry::OrientationSolver> orientation_;
+  std::optional<geometry::OrientationSolver> solver_;
+  geometry::AngleTravels rotary_travel_{};
   std::array<AxisValues, language::work_offset_count> offsets_{};
   std::map<std::uint32_t, language::ToolOffset> tools_;
-  AxisValues reference_{};
+  AxisValues reference_{}, approach_{};
+  std::array<AxisValues, 3> numbered_references_{};
+  bool diameter_programming_ = false;
+  double default_feed_ = 1000;
+  language::CycleSettings cycles_;
+  language::CutterSettings cutter_;
+  std::array<std::array<language::Vector3, 3>, 20> planes_{};
   std::array<std::uint16_t, 8> cycle_m_codes_{};
   std::array<Travel, language::axis_count> travel_{};
   AxisValues jog_feed_{}, reference_feed_{};
   std::uint16_t mask_ = 0;
-  double radius_deviation_ = 0.1, default_feed_ = 1000, cycle_seconds_ = 0.001;
+  double radius_deviation_ = 0.1, cycle_seconds_ = 0.001;
   std::uint64_t lead_ = 32, revision_ = 0;
   std::uint32_t frame_real_ = 4, frame_virtual_ = 8;
 };

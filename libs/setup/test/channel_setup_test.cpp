@@ -1,10 +1,14 @@
 #include "setup/channel_setup.hpp"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <numbers>
+
+#include "setup/tables.hpp"
 
 namespace trunnion::setup {
 namespace {
@@ -45,6 +49,56 @@ TEST(ChannelSetup, MCodesOfUserCyclesAreParameters) {
   EXPECT_EQ(ChannelSetup(tables).cycle_m_code(4), 0);
 }
 
+TEST(ChannelSetup, ToolOffsetsCarryLengthRadiusAndWear) {
+  auto tables = load_machine_tables(ac_table);
+  tables.tools.tools[0].radius_wear = 0.02;
+  const auto tool = ChannelSetup(tables).tool_offset(1);
+  ASSERT_TRUE(tool);
+  EXPECT_EQ(tool->length, 100);
+  EXPECT_EQ(tool->radius, 10);
+  EXPECT_EQ(tool->radius_wear, 0.02);
+  EXPECT_FALSE(ChannelSetup(tables).tool_offset(9));
+}
+
+TEST(ChannelSetup, FurtherWorkOffsetsFollowTheFirstSix) {
+  auto tables = load_machine_tables(ac_table);
+  idl::parameters::WorkOffset offset;
+  offset.index = 6;  // G54.1 P1
+  offset.values = {1, 2, 3, 0, 0, 0, 0, 0, 0};
+  tables.offsets.offsets.push_back(offset);
+  EXPECT_EQ(ChannelSetup(tables).work_offset(6)[language::Y], 2);
+  EXPECT_EQ(work_offset_code(0), "G54");
+  EXPECT_EQ(work_offset_code(53), "G54.1P48");
+}
+
+TEST(ChannelSetup, ATiltedToolDirectionGivesTheRotaryAnglesOfTheMachine) {
+  const ChannelSetup setup(load_machine_tables(ac_table));
+  // A turns about -X: a table at A30 lifts the workpiece's +Y towards the spindle, so the tool points along
+  // (0, sin 30, cos 30) or its opposite with C turned by 180 degrees.
+  const double s = std::sin(std::numbers::pi / 6), c = std::cos(std::numbers::pi / 6);
+  const auto angles = setup.orient({0, s, c}, {}, language::RotaryChoice::shortest);
+  ASSERT_TRUE(angles);
+  const auto tip = setup.tip_from_machine({(*angles)[0], (*angles)[1], 0, (*angles)[3], 0, (*angles)[5]}, 0);
+  const auto above = setup.tip_from_machine({0, 0, 1, (*angles)[3], 0, (*angles)[5]}, 0);
+  EXPECT_NEAR(above[0] - tip[0], 0, 1e-12);
+  EXPECT_NEAR(above[1] - tip[1], s, 1e-12);
+  EXPECT_NEAR(above[2] - tip[2], c, 1e-12);
+  EXPECT_NEAR(std::abs((*angles)[3]), 30, 1e-9);
+  EXPECT_FALSE(setup.orient({0, 0, -1}, {}, language::RotaryChoice::shortest)) << "A does not turn over";
+}
+
+TEST(ChannelSetup, PlanesNobodyHasEnteredDoNotExist) {
+  auto tables = load_machine_tables(ac_table);
+  // Plane 2: origin 1 2 3, X towards 2 2 3, Y towards 1 3 3; 04c500 + 9 .. 04c500 + 17.
+  const double points[] = {1, 2, 3, 2, 2, 3, 1, 3, 3};
+  for (std::uint32_t i = 0; i < 9; ++i) tables.parameters.values[40509 + i] = {points[i], ""};
+  const ChannelSetup setup(tables);
+  EXPECT_FALSE(setup.plane_points(1));
+  EXPECT_FALSE(setup.plane_points(21));
+  ASSERT_TRUE(setup.plane_points(2));
+  EXPECT_EQ((*setup.plane_points(2))[2], (language::Vector3{1, 3, 3}));
+}
+
 TEST(ChannelSetup, ATableThatTurnsCarriesTheTipAlong) {
   const ChannelSetup setup(load_machine_tables(ac_table));
   // C turns about -Z through X0 Y0: at C90 the workpiece point X10 Y0 lies at X0 Y-10, and the spindle face
@@ -56,34 +110,6 @@ TEST(ChannelSetup, ATableThatTurnsCarriesTheTipAlong) {
   const auto tip = setup.tip_from_machine(machine, 100);
   EXPECT_NEAR(tip[0], 10, 1e-12);
   EXPECT_NEAR(tip[1], 0, 1e-12);
-}
-
-TEST(ChannelSetup, ToolRadiiAndAdditionalOffsetsAreThoseOfTheTables) {
-  auto tables = load_machine_tables(ac_table);
-  tables.tools.tools[0].radius = 4;
-  tables.tools.tools[0].radius_wear = -0.1;
-  tables.offsets.offsets.push_back({0, 53, {1, 2, 3}});
-  const ChannelSetup setup(tables);
-  const auto tool = setup.tool_offset(1);
-  ASSERT_TRUE(tool.has_value());
-  EXPECT_EQ(tool->length, 100);
-  EXPECT_EQ(tool->radius, 4);
-  EXPECT_EQ(tool->radius_wear, -0.1);
-  EXPECT_EQ(setup.work_offset(53)[language::Y], 2);  // G54.1 P48
-}
-
-TEST(ChannelSetup, OrientsTheToolWithinTheTravelOfTheRotaryAxes) {
-  const ChannelSetup setup(load_machine_tables(ac_table));
-  // 30 degrees from Z towards -Y of the workpiece: the tip of a shorter tool lies in that direction.
-  const auto turned = setup.orient({0, -0.5, std::sqrt(0.75)}, {}, language::RotaryChoice::shortest);
-  ASSERT_TRUE(turned.has_value());
-  const auto tip = setup.tip_from_machine(*turned, 1);
-  const auto gauge = setup.tip_from_machine(*turned, 0);
-  EXPECT_NEAR(gauge[0] - tip[0], 0, 1e-9);
-  EXPECT_NEAR(gauge[1] - tip[1], -0.5, 1e-9);
-  EXPECT_NEAR(gauge[2] - tip[2], std::sqrt(0.75), 1e-9);
-  // From below no table can be cut.
-  EXPECT_EQ(setup.orient({0, 0, -1}, {}, language::RotaryChoice::shortest), std::nullopt);
 }
 
 TEST(ChannelSetup, AMoveOutOfTravelIsToldWithLineAxisAndLimits) {
