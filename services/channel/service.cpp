@@ -4,9 +4,9 @@
 #include <fstream>
 #include <sstream>
 
-#include "kept_variables.hpp"
 #include "storage/file.hpp"
 #include "stream/stage_service.hpp"
+#include "variable_text.hpp"
 
 namespace trunnion::channel {
 namespace {
@@ -32,6 +32,8 @@ ChannelService::ChannelService(node::Node& node)
       stream_writer_(node.bus().writer(topics::stream_request)),
       variables_file_(node.options().state_directory + "/channel-" + std::to_string(node.options().channel) +
                       ".variables") {
+  std::ifstream boot(node.options().state_directory + "/cluster.boot");
+  std::getline(boot, boot_);
   read_variables();
 }
 
@@ -43,7 +45,7 @@ void ChannelService::read_variables() {
   text << in.rdbuf();
   auto variables = std::make_unique<language::VariableStore>();
   try {
-    read_kept_variables(text.str(), variables_file_, *variables);
+    channel::read_variables(text.str(), variables_file_, boot_, *variables);
     core_.set_variables(*variables);
   } catch (const std::exception& e) {
     node_.alarms().raise("storage_failed", static_cast<std::uint32_t>(node_.options().channel), e.what());
@@ -56,7 +58,7 @@ void ChannelService::save_variables() {
   if (variables == nullptr) return;
   const auto channel = static_cast<std::uint32_t>(node_.options().channel);
   try {
-    const auto text = write_kept_variables(*variables);
+    const auto text = write_variables(*variables, boot_);
     if (text == saved_variables_) return;
     storage::replace_file(variables_file_, text);
     saved_variables_ = text;

@@ -49,7 +49,7 @@ class ChannelService : public node::Service {
 
   using AlarmKey = std::array<std::uint32_t, 3>;
   std::map<AlarmKey, std::string> holding_alarms_;
-  std::string variables_file_, saved_variables_;
+  std::string variables_file_, saved_variables_, boot_;
   bool plc_hold_ = false;
   bool have_tools_ = false, have_offsets_ = false, have_programs_ = false;
   idl::stream::PathFrame frame_;

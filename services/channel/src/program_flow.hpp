@@ -33,7 +33,8 @@ class ProgramFlow {
   ProgramFlow(setup::ChannelSetup& machine, motion::Trajectory*& trajectory)
       : machine_(machine), trajectory_(trajectory), interpreter_(machine) {}
 
-  /// `position` in the frame of `initial`. The trajectory must be at rest there.
+  /// `position` in the frame of `initial`. The trajectory must be at rest there. A restart needs the
+  /// variables the program began with, for it interprets it again.
   void start(language::TextSource& text, const AxisValues& position, const language::ModalState& initial,
              const language::VariableStore& variables, const RestartPoint& restart = {});
   FlowState fill(bool single_block);

@@ -287,6 +287,32 @@ TEST_F(Channel, AnMdiLineRunsAndKeepsItsModalStateForTheNext) {
   EXPECT_EQ(answer.reason.substr(0, 8), "MDI:1:4:") << answer.reason;
 }
 
+TEST_F(Channel, MacroVariablesGoFromLineToProgramToProgram) {
+  ask(CommandKind::SET_MODE, "", 0, 0, Mode::MDI);
+  ASSERT_TRUE(ask(CommandKind::MDI_LINE, "#500=5").accepted);
+  run();
+  load("G90\n#500=#500+1\nG1 X#500 F6000\nM30\n");
+  for (const double x : {6, 7}) {
+    ask(CommandKind::CYCLE_START);
+    run();
+    EXPECT_EQ(drive.rows.back()[0], x);
+  }
+}
+
+TEST_F(Channel, ARestartInterpretsTheProgramWithTheVariablesItBeganWith) {
+  load("G90\n#100=#100+1\nG1 X[#100*60] F6000\nY[#100]\nM30\n");
+  cycles_per_round = 8;
+  ask(CommandKind::CYCLE_START);
+  for (int i = 0; i < 20; ++i) round();
+  drive.forget();
+  round();
+  EXPECT_EQ(core->run_state(), RunState::INTERRUPTED);
+  ASSERT_TRUE(ask(CommandKind::CYCLE_START).accepted);
+  run();
+  EXPECT_EQ(drive.rows.back()[0], 60);
+  EXPECT_EQ(drive.rows.back()[1], 1);
+}
+
 TEST_F(Channel, JogStopsWhenTheButtonIsLetGoAndAtTheTravelLimit) {
   ask(CommandKind::SET_MODE, "", 0, 0, Mode::JOG);
   cycles_per_round = 8;

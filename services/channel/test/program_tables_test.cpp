@@ -3,38 +3,48 @@
 
 #include <limits>
 
-#include "kept_variables.hpp"
 #include "modal_codes.hpp"
 #include "table_order.hpp"
+#include "variable_text.hpp"
 
 namespace trunnion::channel {
 namespace {
 
 using language::Value;
 
-TEST(KeptVariables, ComeBackBitForBitAndVacantOnesStayVacant) {
+TEST(VariableText, BringsVariablesBackBitForBitAndVacantOnesStayVacant) {
   auto before = std::make_unique<language::VariableStore>();
   before->kept[0] = Value::of(0.1);
   before->kept[499] = Value::of(-1.0 / 3);
   before->user[4999] = Value::of(std::numeric_limits<double>::denorm_min());
-  before->common[5] = Value::of(7);  // #55 is not kept
+  before->common[5] = Value::of(7);
   auto after = std::make_unique<language::VariableStore>();
-  read_kept_variables(write_kept_variables(*before), "f", *after);
+  read_variables(write_variables(*before, "12 ab"), "f", "12 ab", *after);
   EXPECT_EQ(after->kept[0].number, 0.1);
   EXPECT_EQ(after->kept[499].number, -1.0 / 3);
   EXPECT_EQ(after->user[4999].number, std::numeric_limits<double>::denorm_min());
   EXPECT_FALSE(after->kept[1].given);
+  EXPECT_EQ(after->common[5].number, 7);
+}
+
+TEST(VariableText, CommonVariablesAreForgottenAtPowerOff) {
+  auto before = std::make_unique<language::VariableStore>(),
+       after = std::make_unique<language::VariableStore>();
+  before->kept[3] = Value::of(3);
+  before->common[5] = Value::of(7);
+  read_variables(write_variables(*before, "12"), "f", "13", *after);
+  EXPECT_EQ(after->kept[3].number, 3);
   EXPECT_FALSE(after->common[5].given);
 }
 
-TEST(KeptVariables, AWrongLineIsNamed) {
+TEST(VariableText, AWrongLineIsNamed) {
   auto variables = std::make_unique<language::VariableStore>();
   for (const char* bad :
-       {"#500: 1\n500: 2\n", "#500: 1\n#100: 2\n", "#500: 1\n#501: x\n", "#500: 1\n#501: inf\n",
-        "#500: 1\n#501: 1 2\n", "#500: 1\n\n", "#500: 1\n#501:\n"}) {
+       {"#500: 1\n500: 2\n", "#500: 1\n#49: 2\n", "#500: 1\n#501: x\n", "#500: 1\n#501: inf\n",
+        "#500: 1\n#501: 1 2\n", "#500: 1\n\n", "#500: 1\n#501:\n", "boot 1\nboot 1\n"}) {
     std::string message;
     try {
-      read_kept_variables(bad, "channel-0.variables", *variables);
+      read_variables(bad, "channel-0.variables", "1", *variables);
     } catch (const std::runtime_error& e) {
       message = e.what();
     }
