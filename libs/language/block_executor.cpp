@@ -4,14 +4,13 @@
 #include <bit>
 #include <cmath>
 
+#include "language/decimal.hpp"
 #include "language/letters.hpp"
 
 namespace trunnion::language {
 namespace {
 
 constexpr std::uint32_t highest_repetition = 999999;
-/// Words of the reader are smaller; expressions could give more, and squares of that must stay finite.
-constexpr double largest_number = 999999999;
 
 bool is_whole(double value, double low, double high) {
   return value == std::floor(value) && value >= low && value <= high;

@@ -156,7 +156,8 @@ class BlockExecutor {
   Fault change_work_offset(const Block& block, const Codes& codes, std::uint32_t l, CommandQueue& out);
   Fault change_tool(const Block& block, const Codes& codes, std::uint32_t l, CommandQueue& out);
   void store_work_offset(std::uint8_t index, const AxisValues& values, CommandQueue& out);
-  Fault store_tool(Table table, std::uint16_t number, double value, bool adds, std::uint16_t at, CommandQueue& out);
+  Fault store_tool(Table table, std::uint16_t number, double value, bool adds, std::uint16_t at,
+                   CommandQueue& out);
   Fault define_tool(const Block& block, std::uint16_t at, CommandQueue& out);
   Fault change_parameter(const Block& block, char number_letter, CommandQueue& out);
 
@@ -207,7 +208,9 @@ class BlockExecutor {
   /// The word in mm, 0 when absent; counts as used.
   double length_word(const Block& block, char letter);
   Fault refuse_in_compensation(std::uint16_t at) const;
+  // Output: block_output.cpp
   Command& push(CommandKind kind, CommandQueue& out);
+  Fault push_end(std::uint32_t number, CommandQueue& out);
   /// The end of what pushed commands outside a block.
   Fault settle(CommandQueue& out);
   Fault drain_compensation(CommandQueue& out);

@@ -48,7 +48,8 @@ Fault BlockExecutor::push_end(std::uint32_t number, CommandQueue& out) {
   return {};
 }
 
-Fault BlockExecutor::message(std::uint32_t number, std::uint32_t program, std::uint32_t line, CommandQueue& out) {
+Fault BlockExecutor::message(std::uint32_t number, std::uint32_t program, std::uint32_t line,
+                             CommandQueue& out) {
   program_ = program;
   line_ = line;
   push(CommandKind::message, out).number = number;

@@ -69,8 +69,8 @@ void BlockExecutor::store_work_offset(std::uint8_t index, const AxisValues& valu
   command.target = values;
 }
 
-Fault BlockExecutor::write_work_offset(std::uint8_t index, std::size_t axis, double value, std::uint32_t program,
-                                       std::uint32_t line, CommandQueue& out) {
+Fault BlockExecutor::write_work_offset(std::uint8_t index, std::size_t axis, double value,
+                                       std::uint32_t program, std::uint32_t line, CommandQueue& out) {
   program_ = program;
   line_ = line;
   if (index == modal_.work_offset) {

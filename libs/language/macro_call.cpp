@@ -9,8 +9,6 @@ namespace {
 
 constexpr double highest_program = 99999999;
 constexpr double highest_repetition = 999999;
-constexpr double first_cycle = 1000;
-constexpr double last_cycle = 1999;
 constexpr std::uint32_t first_m_cycle = 1007;
 
 Fault whole_word(const Block& block, char name, double lowest, double highest, std::uint32_t& result) {
@@ -67,30 +65,23 @@ ProgramName::ProgramName(std::uint32_t program) {
   append({digits.data(), count});
 }
 
-bool find_call(const Block& block, const CycleMCodes& m_codes, Call& call) {
+bool find_call(const Block& block, const CycleMCodes& cycle_m_codes, Call& call) {
   for (std::size_t i = 0; i < block.g_count; ++i) {
     const double code = block.g[i].value;
-    if (code < 65) continue;
-    call = Call{};
-    call.offset = call.program_offset = block.g[i].offset;
-    if (code == 65) {
-      call.kind = CallKind::macro;
-    } else if (code == 66) {
-      call.kind = CallKind::modal_macro;
-    } else if (code == 67) {
-      call.kind = CallKind::modal_cancel;
-    } else if (code >= first_cycle && code <= last_cycle && code == std::floor(code)) {
-      call.kind = CallKind::cycle;
-      call.number = static_cast<std::uint32_t>(code);
-    } else {
-      continue;
+    if (code < call_codes[0].first) continue;
+    for (const CallCode& entry : call_codes) {
+      if (code < entry.first || code > entry.last || code != std::floor(code)) continue;
+      call = Call{};
+      call.kind = entry.kind;
+      call.offset = call.program_offset = block.g[i].offset;
+      if (entry.kind == CallKind::cycle) call.number = static_cast<std::uint32_t>(code);
+      return true;
     }
-    return true;
   }
   for (std::size_t i = 0; i < block.m_count; ++i) {
     const double code = block.m[i].value;
-    for (std::uint32_t k = 0; k < m_codes.size(); ++k) {
-      if (m_codes[k] == 0 || code != m_codes[k]) continue;
+    for (std::uint32_t k = 0; k < cycle_m_codes.size(); ++k) {
+      if (cycle_m_codes[k] == 0 || code != cycle_m_codes[k]) continue;
       call = Call{};
       call.kind = CallKind::cycle;
       call.number = first_m_cycle + k;

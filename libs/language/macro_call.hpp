@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "language/block.hpp"
+#include "language/codes.hpp"
 
 namespace trunnion::language {
 
@@ -32,6 +33,27 @@ enum class CallKind : std::uint8_t {
   cycle,         ///< G1000..G1999 or a user M code: a level of its own, letter A is #0 .. Z is #25
 };
 
+/// G codes that call programs; they stand alone among the codes of their block.
+struct CallCode {
+  std::uint16_t first;
+  std::uint16_t last;
+  CallKind kind;
+  const char* meaning;
+  Origin origin;
+  const char* since;    ///< version of Trunnion
+  const char* example;  ///< a program that shows the code
+};
+inline constexpr std::array call_codes = {
+    CallCode{65, 65, CallKind::macro, "macro call: P program, L repetitions, letters as arguments",
+             Origin::fanuc, "0.2", "G65 P9010 A5\nM30\nO9010\nM99"},
+    CallCode{66, 66, CallKind::modal_macro, "macro call as G65 behind each block that moves, until G67",
+             Origin::fanuc, "0.2", "G66 P9010 A5\nG0 X1\nG67\nM30\nO9010\nM99"},
+    CallCode{67, 67, CallKind::modal_cancel, "end of the modal macro call", Origin::fanuc, "0.2", "G67"},
+    CallCode{1000, 1999, CallKind::cycle,
+             "user cycle: the program of that number in USERDEF.CYC, letters as arguments", Origin::hnc,
+             "0.2", "G1007 X1"},
+};
+
 struct Call {
   CallKind kind = CallKind::subprogram;
   std::uint32_t number = 0;  ///< of the program
@@ -44,7 +66,7 @@ struct Call {
 using CycleMCodes = std::array<std::uint16_t, 8>;
 
 /// Whether `block` calls a macro or a cycle.
-bool find_call(const Block& block, const CycleMCodes& m_codes, Call& call);
+bool find_call(const Block& block, const CycleMCodes& cycle_m_codes, Call& call);
 
 /// Completes a call that find_call has found: P, L and that nothing else is in the block.
 Fault read_call(const Block& block, Call& call);

@@ -152,12 +152,18 @@ AxisValues PathSegment::derivative(double s) const {
 
 double remaining_sweep(const AxisValues& position, const AxisValues& target, const language::Arc& arc,
                        double fraction) {
-  const auto p = planes[static_cast<std::size_t>(arc.plane)][0];
-  const auto q = planes[static_cast<std::size_t>(arc.plane)][1];
-  const auto angle = [&](const AxisValues& at) {
-    return std::atan2(at[q] - arc.centre[q], at[p] - arc.centre[p]) * (180 / std::numbers::pi);
+  language::Vector3 n = arc.normal;
+  if (n == language::Vector3{}) n[planes[static_cast<std::size_t>(arc.plane)][2]] = 1;
+  const auto arm = [&](const AxisValues& p) {
+    return language::Vector3{p[0] - arc.centre[0], p[1] - arc.centre[1], p[2] - arc.centre[2]};
   };
-  const double between = (angle(target) - angle(position)) * (arc.clockwise ? -1 : 1);
+  const auto dot = [](const auto& a, const auto& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; };
+  const auto a = arm(position), b = arm(target);
+  const language::Vector3 cross{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2],
+                                a[0] * b[1] - a[1] * b[0]};
+  // What lies along the axis of a helix is no part of the angle.
+  const double between = std::atan2(dot(cross, n), dot(a, b) - dot(a, n) * dot(b, n)) *
+                         (arc.clockwise ? -180 : 180) / std::numbers::pi;
   return between + 360 * std::round((arc.sweep * (1 - fraction) - between) / 360);
 }
 

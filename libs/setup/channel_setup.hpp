@@ -50,6 +50,7 @@ class ChannelSetup : public language::Environment {
   language::CycleSettings cycle_settings() const override { return cycles_; }
   language::CutterSettings cutter_settings() const override { return cutter_; }
   std::optional<std::array<language::Vector3, 3>> plane_points(std::uint8_t index) const override;
+  /// Within the travel of the rotary axes, by the closed form of geometry::OrientationSolver.
   std::optional<AxisValues> orient(const language::Vector3& direction, const AxisValues& current,
                                    language::RotaryChoice choice) const override;
   std::uint16_t cycle_m_code(std::size_t index) const override { return cycle_m_codes_.at(index); }

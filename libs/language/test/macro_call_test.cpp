@@ -118,6 +118,31 @@ TEST(MacroCall, AlarmInACycleCarriesTheChainOfCalls) {
   EXPECT_EQ(std::string(deeper.alarm.text.data()), "alarm of the program: #3000=1(H IS MISSING)");
 }
 
+TEST(MacroCall, ExampleOfEveryCallCodeIsAcceptedAndOtherNumbersAreRefused) {
+  TestMachine machine = machine_with_cycles();
+  for (const CallCode& code : call_codes) {
+    const Interpretation result = run(machine, code.example);
+    EXPECT_EQ(result.last, Step::end) << code.example << ": " << result.alarm.text.data();
+    EXPECT_NE(std::string(code.example).find("G" + std::to_string(code.first).substr(0, 2)),
+              std::string::npos);
+    EXPECT_STRNE(code.meaning, "");
+  }
+  const auto called = [](int number) {
+    for (const CallCode& code : call_codes) {
+      if (number >= code.first && number <= code.last) return true;
+    }
+    return false;
+  };
+  // Every G to G2100 in steps of a tenth: what no table names is unknown, and nothing else is.
+  for (std::uint32_t tenths = 0; tenths <= 21000; ++tenths) {
+    const bool whole = tenths % 10 == 0;
+    const bool known = g_code(tenths) != nullptr || (whole && called(static_cast<int>(tenths / 10)));
+    const std::string number = std::to_string(tenths / 10) + "." + std::to_string(tenths % 10);
+    const Interpretation result = run(machine, "G" + number + "\n");
+    EXPECT_EQ(result.alarm.number == AlarmNumber::unknown_g, !known) << "G" << number;
+  }
+}
+
 TEST(MacroCall, RecursionIsAnAlarmAtTheNinthLevel) {
   TestMachine machine = machine_with_cycles();
   for (const char* program : {"M98 P5\nM30\nO5\nM98 P5\nM99", "G65 P5 A1\nM30\nO5\nG65 P5 A#1\nM99"}) {

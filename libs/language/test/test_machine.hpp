@@ -161,8 +161,8 @@ inline Interpretation run(Environment& machine, std::string_view text, const Axi
 
 /// One command in a short form, for comparing streams: kind, the axes that are not 0, and what the kind adds.
 inline std::string brief(const Command& command) {
-  static constexpr const char* kinds[] = {"rapid", "line", "arc",  "dwell", "T",    "S",
-                                          "M",     "frame", "end", "skip",  "tap", "table", "message"};
+  static constexpr const char* kinds[] = {"rapid", "line", "arc",  "dwell", "T",     "S",      "M",
+                                          "frame", "end",  "skip", "tap",   "table", "message"};
   const auto number = [](double value) {
     char text[40];
     std::snprintf(text, sizeof text, "%.10g", std::abs(value) < 1e-12 ? 0.0 : value);

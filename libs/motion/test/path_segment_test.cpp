@@ -138,6 +138,12 @@ TEST(RemainingSweep, IsTheAngleToTheTargetWhateverTheFractionSaysButForWholeTurn
   const AxisValues target{0, 10}, at{10 * std::sqrt(0.5), -10 * std::sqrt(0.5)};
   for (const double error : {-0.03, 0.0, 0.03})
     EXPECT_NEAR(remaining_sweep(at, target, arc, 405.0 / 990 + error), 585, 1e-9) << error;
+  // The same helix on its way, in a plane that is named by its normal.
+  arc.normal = {0, 0, 1};
+  AxisValues higher = at;
+  higher[2] = 7;
+  EXPECT_NEAR(remaining_sweep(higher, target, arc, 405.0 / 990), 585, 1e-9);
+  arc.normal = {};
   // Past the target by a tenth of a degree.
   const AxisValues past{10 * std::sin(0.1 * std::numbers::pi / 180),
                         10 * std::cos(0.1 * std::numbers::pi / 180)};

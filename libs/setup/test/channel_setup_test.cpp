@@ -34,6 +34,19 @@ TEST(ChannelSetup, WearCountsInTheToolLength) {
   auto tables = load_machine_tables(ac_table);
   tables.tools.tools[0].length_wear = -0.25;
   EXPECT_EQ(ChannelSetup(tables).tool_length(1), 99.75);
+  const auto tool = ChannelSetup(tables).tool_offset(1);
+  ASSERT_TRUE(tool.has_value());
+  EXPECT_EQ(tool->length, 100);
+  EXPECT_EQ(tool->length_wear, -0.25);
+  EXPECT_EQ(tool->radius, tables.tools.tools[0].radius);
+}
+
+TEST(ChannelSetup, MCodesOfUserCyclesAreParameters) {
+  auto tables = load_machine_tables(ac_table);
+  EXPECT_EQ(ChannelSetup(tables).cycle_m_code(3), 0);
+  tables.parameters.values[10173] = {130, ""};  // 010173: M code of G1010
+  EXPECT_EQ(ChannelSetup(tables).cycle_m_code(3), 130);
+  EXPECT_EQ(ChannelSetup(tables).cycle_m_code(4), 0);
 }
 
 TEST(ChannelSetup, ToolOffsetsCarryLengthRadiusAndWear) {
