@@ -66,63 +66,29 @@ Rank rank_of(const Orientation& o, const OrientationRequest& request, std::size_
 OrientationSolver::OrientationSolver(const Chain& chain)
     : count_(chain.rotary_count()), tool_(chain.tool_direction()) {
   for (std::size_t i = 0; i < count_; ++i) axes_[i] = chain.orienting_axis(i);
-  Pair pair;
-  if (count_ == 2 && make_pair(axes_[0].direction, axes_[1].direction, tool_, pair)) {
-    pair.first = axes_[0].angle;
-    pair.second = axes_[1].angle;
-    only_pair_ = pair;
-  }
+  if (count_ != 2) return;
+  if (const auto pair = AxisPair::make(axes_[0].direction, axes_[1].direction, tool_))
+    only_pair_ = Pair{*pair, axes_[0].angle, axes_[1].angle};
 }
 
-bool OrientationSolver::make_pair(const Vec3& k1, const Vec3& k2, const Vec3& tool, Pair& pair) {
-  const Vec3 normal = k2.cross(k1);
-  if (normal.norm() < parallel_sine || k2.cross(tool).norm() < parallel_sine) return false;
-  pair.k1 = k1;
-  pair.k2 = k2;
-  pair.g = normal.normalized();
-  pair.f = pair.g.cross(k2);
-  pair.alpha = angle_between(k1, k2);
-  pair.beta = angle_between(tool, k2);
-  pair.sine_beta = k2.cross(tool).norm();
-  pair.cosine_beta = k2.dot(tool);
-  pair.zero = std::atan2(pair.g.dot(tool), pair.f.dot(tool));
-  return true;
-}
-
-// On the unit sphere k1, k2 and the turned tool v are a triangle with the sides alpha (k1 k2), beta (k2 v)
-// and psi (k1 v), where psi is given by u: turning about k1 keeps it. Its angle x at k2 is where the tool
-// must stand about k2, to either side, by the half-angle formulae, which lose no digits near poles and
-// borders:
-//   sin^2(x/2) = S / (sin alpha sin beta), S = sin((psi + alpha - beta)/2) sin((psi - alpha + beta)/2)
-//   cos^2(x/2) = C / (sin alpha sin beta), C = sin((alpha + beta + psi)/2) sin((alpha + beta - psi)/2)
-// Then axis 1 turns v onto u.
-OrientationSolver::Solutions OrientationSolver::solve(const Pair& p, const Vec3& u,
+// Turning about k1 keeps psi, so u gives the triangle; then axis 1 turns the tool onto u.
+OrientationSolver::Solutions OrientationSolver::solve(const Pair& pair, const Vec3& u,
                                                       const OrientationRequest& request) {
+  const AxisPair& p = pair.axes;
   Solutions out;
-  out.first = p.first;
-  out.second = p.second;
+  out.first = pair.first;
+  out.second = pair.second;
   const Vec3 across = p.k1.cross(u);
-  const double sine_psi = across.norm(), cosine_psi = p.k1.dot(u);
-  double psi = std::atan2(sine_psi, cosine_psi);
-  const double least = std::abs(p.alpha - p.beta);
-  const double most = std::numbers::pi - std::abs(std::numbers::pi - (p.alpha + p.beta));
-  const double tolerance = request.tolerance * radians_per_degree;
-  const bool reached = psi >= least - tolerance && psi <= most + tolerance;
-  psi = std::clamp(psi, least, most);
-  const double s =
-      std::max(0.0, std::sin(0.5 * (psi + p.alpha - p.beta)) * std::sin(0.5 * (psi - p.alpha + p.beta)));
-  const double c =
-      std::max(0.0, std::sin(0.5 * (p.alpha + p.beta + psi)) * std::sin(0.5 * (p.alpha + p.beta - psi)));
-  const double root_s = std::sqrt(s), root_c = std::sqrt(c);
-  const double x = 2 * std::atan2(root_s, root_c);
-  const double sine_x = 2 * root_s * root_c / (s + c), cosine_x = (c - s) / (s + c);
-  const std::size_t different = root_s > 0 && root_c > 0 ? 2 : 1;
+  const bool has_azimuth = across.norm() > no_azimuth;
+  const auto triangle = p.triangle(u, across);
+  const bool reached = triangle.missed <= request.tolerance * radians_per_degree;
+  const std::size_t different = triangle.two ? 2 : 1;
   for (std::size_t n = 0; n < different; ++n) {
     const double side = n == 0 ? 1 : -1;
-    const Vec3 v = p.cosine_beta * p.k2 + p.sine_beta * (cosine_x * p.f + side * sine_x * p.g);
-    double first = request.present[p.first];
+    const Vec3 v = p.tool_at(triangle, side);
+    double first = request.present[pair.first];
     const Vec3 around = p.k1.cross(v);
-    if (sine_psi > no_azimuth && around.norm() > no_azimuth) first = azimuth(p.k1, around, across);
+    if (has_azimuth && around.norm() > no_azimuth) first = azimuth(p.k1, around, across);
     if (n == 0 && !reached) {
       const auto t = sine_cosine(first);
       out.nearest = turned(p.k1, t.sine, t.cosine, v);
@@ -130,9 +96,9 @@ OrientationSolver::Solutions OrientationSolver::solve(const Pair& p, const Vec3&
     }
     Orientation& o = out.of[out.count++];
     o.angles = request.present;
-    o.angles[p.first] = first;
-    o.angles[p.second] = degrees_per_radian * (side * x - p.zero);
-    o.regularity = (s + c) * sine_x;
+    o.angles[pair.first] = first;
+    o.angles[pair.second] = p.second(triangle, side);
+    o.regularity = triangle.regularity;
   }
   return out;
 }
@@ -199,11 +165,9 @@ OrientationAnswer OrientationSolver::search(const OrientationRequest& request, V
           tool = turned_by(n, tool, request.present, 1);
           k2 = turned_by(n, k2, request.present, 1);
         }
-        Pair pair;
-        if (!make_pair(axes_[i].direction, k2, tool, pair)) continue;
-        pair.first = axes_[i].angle;
-        pair.second = axes_[j].angle;
-        Solutions solutions = solve(pair, target, request);
+        const auto pair = AxisPair::make(axes_[i].direction, k2, tool);
+        if (!pair) continue;
+        Solutions solutions = solve({*pair, axes_[i].angle, axes_[j].angle}, target, request);
         for (std::size_t n = i; n-- > 0;)
           solutions.nearest = turned_by(n, solutions.nearest, request.present, 1);
         if (take(solutions)) return answer;

@@ -4,6 +4,7 @@
 
 #include <span>
 
+#include "geometry/axis_pair.hpp"
 #include "geometry/chain.hpp"
 
 namespace trunnion::geometry {
@@ -77,13 +78,8 @@ class OrientationSolver {
                   OrientationAnswer& answer) const;
 
  private:
-  // What two axes can do: k1 is nearer the workpiece.
   struct Pair {
-    Vec3 k1 = Vec3::UnitZ(), k2 = Vec3::UnitX();
-    Vec3 f = Vec3::UnitZ(), g = Vec3::UnitX();  // with k2 a right-handed frame; k1 lies in the plane of k2, f
-    double alpha = 0, beta = 0;                 // from k2 to k1 and to the tool, rad
-    double sine_beta = 0, cosine_beta = 1;
-    double zero = 0;                    // where the tool stands about k2, counted from f, rad
+    AxisPair axes;
     std::size_t first = 0, second = 0;  // entries of Angles
   };
   // Solutions modulo full turns of the axes `first` (none: one axis only) and `second`.
@@ -93,7 +89,6 @@ class OrientationSolver {
     std::size_t first = angle_count, second = angle_count;
     Vec3 nearest = Vec3::UnitZ();
   };
-  static bool make_pair(const Vec3& k1, const Vec3& k2, const Vec3& tool, Pair& pair);
   static Solutions solve(const Pair& pair, const Vec3& u, const OrientationRequest& request);
   Solutions solve_single(std::size_t i, const Vec3& u, const OrientationRequest& request) const;
   Vec3 turned_by(std::size_t i, const Vec3& v, const Angles& at, double sign) const;
