@@ -65,4 +65,53 @@ double AxisPair::second(const Triangle& t, double side) const {
   return (side * t.x - zero) / radians_per_degree;
 }
 
+Vec3 AxisPair::direction(double first, double second) const {
+  const auto x = sine_cosine(second + zero / radians_per_degree);
+  const Vec3 v = cosine_beta * k2 + sine_beta * (x.cosine * f + x.sine * g);
+  const auto t = sine_cosine(first);
+  return t.cosine * v + t.sine * k1.cross(v) + ((1 - t.cosine) * k1.dot(v)) * k1;
+}
+
+namespace {
+
+// Derivatives of the azimuth of p, a vector across k, in degrees.
+std::array<double, 3> azimuth_rates(const Vec3& k, const std::array<Vec3, 4>& p) {
+  const double q = p[0].squaredNorm(), q1 = 2 * p[0].dot(p[1]),
+               q2 = 2 * (p[1].squaredNorm() + p[0].dot(p[2]));
+  const double r = k.dot(p[0].cross(p[1])), r1 = k.dot(p[0].cross(p[2])),
+               r2 = k.dot(p[1].cross(p[2]) + p[0].cross(p[3]));
+  const double d1 = r / q, d2 = (r1 - d1 * q1) / q, d3 = (r2 - 2 * d2 * q1 - d1 * q2) / q;
+  return {d1 / radians_per_degree, d2 / radians_per_degree, d3 / radians_per_degree};
+}
+
+}  // namespace
+
+// With m the direction of axis 2 as axis 1 has turned it, w and r the rates of the two axes:
+//   u' = w k1 x u + r m x u,  m' = w k1 x m
+// and so on by differentiation. Each order is the same two equations across u.
+std::array<std::array<double, 2>, 3> AxisPair::derivatives(const std::array<Vec3, 4>& u, double first) const {
+  if (const Vec3 across = k1.cross(u[0]); across.norm() > 1e-9 && triangle(u[0], across).missed > 0) {
+    const auto rates = azimuth_rates(k1, {across, k1.cross(u[1]), k1.cross(u[2]), k1.cross(u[3])});
+    return {{{rates[0], 0}, {rates[1], 0}, {rates[2], 0}}};
+  }
+  const auto t = sine_cosine(first);
+  const Vec3 m = t.cosine * k2 + t.sine * k1.cross(k2) + ((1 - t.cosine) * k1.dot(k2)) * k1;
+  const Vec3 a = k1.cross(u[0]), b = m.cross(u[0]);
+  const double determinant = u[0].dot(a.cross(b));
+  const auto solve = [&](const Vec3& r) -> std::array<double, 2> {
+    if (std::abs(determinant) > 1e-12)
+      return {u[0].dot(r.cross(b)) / determinant, u[0].dot(a.cross(r)) / determinant};
+    return {0, r.dot(b) / b.squaredNorm()};
+  };
+  const auto [w1, r1] = solve(u[1]);
+  const Vec3 m1 = w1 * k1.cross(m);
+  const Vec3 a1 = k1.cross(u[1]), b1 = m1.cross(u[0]) + m.cross(u[1]);
+  const auto [w2, r2] = solve(u[2] - w1 * a1 - r1 * b1);
+  const Vec3 m2 = w2 * k1.cross(m) + w1 * k1.cross(m1);
+  const Vec3 a2 = k1.cross(u[2]), b2 = m2.cross(u[0]) + 2 * m1.cross(u[1]) + m.cross(u[2]);
+  const auto [w3, r3] = solve(u[3] - 2 * (w2 * a1 + r2 * b1) - w1 * a2 - r1 * b2);
+  constexpr double degrees = 1 / radians_per_degree;
+  return {{{w1 * degrees, r1 * degrees}, {w2 * degrees, r2 * degrees}, {w3 * degrees, r3 * degrees}}};
+}
+
 }  // namespace trunnion::geometry

@@ -37,6 +37,14 @@ struct AxisPair {
 
   /// Position of axis 2 in degrees for that.
   double second(const Triangle& triangle, double side) const;
+
+  /// The tool with both axes at these positions, degrees.
+  Vec3 direction(double first, double second) const;
+
+  /// First three derivatives of the positions of axes 1 and 2 (degrees) along a path of directions, given the
+  /// direction and its derivatives and the position of axis 1. At a pole axis 1 stands still and axis 2
+  /// follows what it can.
+  std::array<std::array<double, 2>, 3> derivatives(const std::array<Vec3, 4>& u, double first) const;
 };
 
 }  // namespace trunnion::geometry

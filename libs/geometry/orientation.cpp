@@ -66,13 +66,31 @@ Rank rank_of(const Orientation& o, const OrientationRequest& request, std::size_
 OrientationSolver::OrientationSolver(const Chain& chain)
     : count_(chain.rotary_count()), tool_(chain.tool_direction()) {
   for (std::size_t i = 0; i < count_; ++i) axes_[i] = chain.orienting_axis(i);
-  if (count_ != 2) return;
-  if (const auto pair = AxisPair::make(axes_[0].direction, axes_[1].direction, tool_))
-    only_pair_ = Pair{*pair, axes_[0].angle, axes_[1].angle};
+  if (count_ == 2) only_pair_ = pair(0, 1, {});
+}
+
+// The vector as the axes 0 .. end - 1 carry it, of which i and j are left out.
+Vec3 OrientationSolver::carried(std::size_t end, const Vec3& v, const Angles& at, std::size_t i,
+                                std::size_t j) const {
+  Vec3 result = v;
+  while (end-- > 0) {
+    if (end == i || end == j) continue;
+    const auto t = sine_cosine(at[axes_[end].angle]);
+    result = turned(axes_[end].direction, t.sine, t.cosine, result);
+  }
+  return result;
+}
+
+std::optional<MovingPair> OrientationSolver::pair(std::size_t i, std::size_t j, const Angles& present) const {
+  const auto axes =
+      AxisPair::make(carried(i, axes_[i].direction, present, i, j),
+                     carried(j, axes_[j].direction, present, i, j), carried(count_, tool_, present, i, j));
+  if (!axes) return std::nullopt;
+  return MovingPair{*axes, axes_[i].angle, axes_[j].angle};
 }
 
 // Turning about k1 keeps psi, so u gives the triangle; then axis 1 turns the tool onto u.
-OrientationSolver::Solutions OrientationSolver::solve(const Pair& pair, const Vec3& u,
+OrientationSolver::Solutions OrientationSolver::solve(const MovingPair& pair, const Vec3& u,
                                                       const OrientationRequest& request) {
   const AxisPair& p = pair.axes;
   Solutions out;
@@ -105,31 +123,21 @@ OrientationSolver::Solutions OrientationSolver::solve(const Pair& pair, const Ve
 
 OrientationSolver::Solutions OrientationSolver::solve_single(std::size_t i, const Vec3& u,
                                                              const OrientationRequest& request) const {
-  // What stands before and behind the axis keeps its position.
-  Vec3 target = u, tool = tool_;
-  for (std::size_t n = 0; n < i; ++n) target = turned_by(n, target, request.present, -1);
-  for (std::size_t n = count_; n-- > i + 1;) tool = turned_by(n, tool, request.present, 1);
+  const Vec3 k = carried(i, axes_[i].direction, request.present, i, i);
+  const Vec3 tool = carried(count_, tool_, request.present, i, i);
   Solutions out;
   out.second = axes_[i].angle;
-  const Vec3& k = axes_[i].direction;
-  const Vec3 around = k.cross(tool);
+  const Vec3 around = k.cross(tool), across = k.cross(u);
   double angle = request.present[out.second];
-  const Vec3 across = k.cross(target);
   if (around.norm() > no_azimuth && across.norm() > no_azimuth) angle = azimuth(k, around, across);
   const auto t = sine_cosine(angle);
   out.nearest = turned(k, t.sine, t.cosine, tool);
-  if (angle_between(out.nearest, target) <= std::max(request.tolerance * radians_per_degree, 1e-15)) {
+  if (angle_between(out.nearest, u) <= std::max(request.tolerance * radians_per_degree, 1e-15)) {
     out.of[0] = {request.present, around.norm()};
     out.of[0].angles[out.second] = angle;
     out.count = 1;
   }
-  for (std::size_t n = i; n-- > 0;) out.nearest = turned_by(n, out.nearest, request.present, 1);
   return out;
-}
-
-Vec3 OrientationSolver::turned_by(std::size_t i, const Vec3& v, const Angles& at, double sign) const {
-  const auto t = sine_cosine(at[axes_[i].angle]);
-  return turned(axes_[i].direction, sign * t.sine, t.cosine, v);
 }
 
 template <class Visit>
@@ -157,20 +165,8 @@ OrientationAnswer OrientationSolver::search(const OrientationRequest& request, V
   } else {
     for (std::size_t j = count_; j-- > 1;)
       for (std::size_t i = j; i-- > 0;) {
-        // u = Q0 .. Qi-1 R(ki) Qi+1 .. Qj-1 R(kj) Qj+1 .. tool, where every Q stands still.
-        Vec3 target = u, tool = tool_, k2 = axes_[j].direction;
-        for (std::size_t n = 0; n < i; ++n) target = turned_by(n, target, request.present, -1);
-        for (std::size_t n = count_; n-- > j + 1;) tool = turned_by(n, tool, request.present, 1);
-        for (std::size_t n = j; n-- > i + 1;) {
-          tool = turned_by(n, tool, request.present, 1);
-          k2 = turned_by(n, k2, request.present, 1);
-        }
-        const auto pair = AxisPair::make(axes_[i].direction, k2, tool);
-        if (!pair) continue;
-        Solutions solutions = solve({*pair, axes_[i].angle, axes_[j].angle}, target, request);
-        for (std::size_t n = i; n-- > 0;)
-          solutions.nearest = turned_by(n, solutions.nearest, request.present, 1);
-        if (take(solutions)) return answer;
+        const auto moving = pair(i, j, request.present);
+        if (moving && take(solve(*moving, u, request))) return answer;
       }
     if (!asked)
       for (std::size_t i = count_; i-- > 0;)
