@@ -127,5 +127,68 @@ TEST(Kinematics, TheServiceComputesTheBitsOfTheLibrary) {
   EXPECT_GT(transformed, 10000u) << "cycles compared";
 }
 
+TEST(Kinematics, ParallelAxesAreAnAlarmOfTheirOwnAndNothingMoves) {
+  Cluster cluster("ac-table");
+  idl::parameters::ParameterRequest request;
+  request.operation = idl::parameters::Operation::SET;
+  request.who = "test";
+  request.values = {{40426, 0, ""}, {40428, -1, ""}};
+  cluster.client().parameter(request);
+  cluster.client().channel(0, CommandKind::RESET);
+  EXPECT_TRUE(cluster.until([&] { return cluster.has_alarm(147, "the rotary axes are parallel"); }))
+      << cluster.active_alarms();
+}
+
+TEST(Kinematics, ADirectionThatIsNotOneLongIsAWarning) {
+  Cluster cluster("ac-table");
+  idl::parameters::ParameterRequest request;
+  request.operation = idl::parameters::Operation::SET;
+  request.who = "test";
+  request.values = {{40426, -0.5, ""}};
+  cluster.client().parameter(request);
+  cluster.client().channel(0, CommandKind::RESET);
+  EXPECT_TRUE(cluster.until([&] { return cluster.has_alarm(148, "040426"); })) << cluster.active_alarms();
+}
+
+struct Said {
+  std::string out;
+  int status = 0;
+};
+
+// Standard output and, after it, standard error.
+Said kins(const std::string& arguments, const std::string& input) {
+  const std::string command =
+      "printf '" + input + "' | " + deploy::binary_directory() + "/trunnion kins " + arguments + " 2>&1";
+  FILE* pipe = popen(command.c_str(), "r");
+  Said said;
+  std::array<char, 4096> buffer;
+  while (const auto n = fread(buffer.data(), 1, buffer.size(), pipe)) said.out.append(buffer.data(), n);
+  said.status = WEXITSTATUS(pclose(pipe));
+  return said;
+}
+
+// The axes of the machine meet at Z-400: the tip (1, 2, 3) is 403 above them, A90 takes that to Y403 and Y2
+// to Z-2 below them, and the tool of 100 stands above.
+TEST(KinsCommand, AnswersLineByLineAndStopsAtABadLine) {
+  auto said = kins("ac-table inverse --tool-length 100", "1 2 3 90 0\\n");
+  EXPECT_EQ(said.out, "1.000000000000 403.000000000000 -302.000000000000\n");
+  EXPECT_EQ(said.status, 0);
+  // Both axes through Y-5 Z-300: 7 behind and 303 above goes to 303 behind and 7 below.
+  said = kins("ac-table inverse --tool-length 100 --set 040436=-5 --set 040437=-300", "1 2 3 90 0\\n");
+  EXPECT_EQ(said.out, "1.000000000000 298.000000000000 -207.000000000000\n");
+  said = kins("ac-table forward", "1 2 3 0 0\\n1 2 3 4\\n1 2 3 0 0\\n");
+  EXPECT_EQ(said.out,
+            "1.000000000000 2.000000000000 3.000000000000 0.000000000000 0.000000000000 1.000000000000\n"
+            "trunnion: line 2: expected 5 numbers (rotary axes AC), there are 4\n");
+  EXPECT_EQ(said.status, 1);
+  said = kins("no-such-machine orient", "0 0 1\\n");
+  EXPECT_EQ(said.status, 1);
+  said = kins("ac-table orient --set 040426=0 --set 040428=1", "0 0 1\\n");
+  EXPECT_EQ(said.out, "trunnion: channel 0, parameters 040400 .. 040437: the rotary axes are parallel\n");
+  EXPECT_EQ(said.status, 1);
+  said = kins(deploy::find_machine("four-axis") + "/machine.yaml orient", "0 -0.6 0.8\\n");
+  EXPECT_EQ(said.out, "36.869897645844\n");
+}
+
 }  // namespace
 }  // namespace trunnion::integration
