@@ -119,7 +119,19 @@ void stop_cluster(const RunDirectory& run) {
 }
 
 RunningCluster find_cluster(std::optional<std::uint32_t> domain) {
-  if (!domain) domain = only_running_domain();
+  const auto all = run_directories();
+  if (!domain) {
+    for (const auto& run : all) {
+      if (!run.launcher()) continue;
+      if (domain) throw std::runtime_error("several clusters are running: say which with --domain");
+      domain = run.domain;
+    }
+  }
+  for (const auto& run : all)
+    if (run.abandoned() && (!domain || run.domain == *domain))
+      throw std::runtime_error("the launcher of the cluster in domain " + std::to_string(run.domain) +
+                               " was killed and its services ended with it; their logs are in " + run.path() +
+                               " until 'trunnion down' or the next 'trunnion up'");
   if (!domain) throw std::runtime_error("no cluster is running: start one with 'trunnion up MACHINE'");
   RunningCluster cluster;
   cluster.run.domain = *domain;

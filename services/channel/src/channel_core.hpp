@@ -8,10 +8,10 @@
 #include <utility>
 #include <vector>
 
-#include "channel_machine.hpp"
 #include "contracts/types.hpp"
 #include "program_flow.hpp"
 #include "program_text.hpp"
+#include "setup/channel_setup.hpp"
 #include "stream_link.hpp"
 
 namespace trunnion::channel {
@@ -64,7 +64,7 @@ class ChannelCore {
   const idl::channel::ChannelState& state();
 
   RunState run_state() const { return run_; }
-  const ChannelMachine& machine() const { return machine_; }
+  const setup::ChannelSetup& machine() const { return machine_; }
   const StreamLink& link() const { return link_; }
   bool configured() const { return trajectory_owner_ != nullptr; }
 
@@ -100,7 +100,7 @@ class ChannelCore {
 
   std::uint16_t number_;
   bool virtual_time_;
-  ChannelMachine machine_;
+  setup::ChannelSetup machine_;
   StreamLink link_;
   std::unique_ptr<motion::Trajectory> trajectory_owner_;
   motion::Trajectory* trajectory_ = nullptr;

@@ -54,6 +54,7 @@ FlowState ProgramFlow::fill(bool single_block) {
         case language::Step::working:
           continue;
         case language::Step::pending:
+        case language::Step::position:
           return FlowState::waiting;
         case language::Step::end:
           return FlowState::end;
@@ -83,6 +84,14 @@ FlowState ProgramFlow::fill(bool single_block) {
       return FlowState::block_end;
     }
     block_line_ = command_.line;
+    if (command_.kind == CommandKind::skip || command_.kind == CommandKind::tap) {
+      // Neither may be passed over: the tool would not be where the program thinks.
+      alarm_number_ = static_cast<std::uint32_t>(language::AlarmNumber::move_not_available);
+      alarm_text_ = std::to_string(command_.line) + ": " +
+                    std::string(language::alarm_text(language::AlarmNumber::move_not_available));
+      trajectory_->finish();
+      return FlowState::alarm;
+    }
     if (!move) {
       trajectory_->finish();
       return command_.kind == CommandKind::end && command_.number == 0 ? FlowState::end : FlowState::command;

@@ -4,11 +4,13 @@
 
 #include <optional>
 
-#include "channel_machine.hpp"
 #include "language/interpreter.hpp"
 #include "motion/trajectory.hpp"
+#include "setup/channel_setup.hpp"
 
 namespace trunnion::channel {
+
+using language::AxisValues;
 
 enum class FlowState {
   full,       ///< motion has as much ahead as it can hold: go on stepping
@@ -28,7 +30,7 @@ struct RestartPoint {
 
 class ProgramFlow {
  public:
-  ProgramFlow(ChannelMachine& machine, motion::Trajectory*& trajectory)
+  ProgramFlow(setup::ChannelSetup& machine, motion::Trajectory*& trajectory)
       : machine_(machine), trajectory_(trajectory), interpreter_(machine) {}
 
   /// `position` in the frame of `initial`. The trajectory must be at rest there.
@@ -51,7 +53,7 @@ class ProgramFlow {
 
  private:
   FlowState push_move();
-  ChannelMachine& machine_;
+  setup::ChannelSetup& machine_;
   motion::Trajectory*& trajectory_;
   language::Interpreter interpreter_;
   language::Command command_;

@@ -1,5 +1,5 @@
-// What the channel knows of the machine: axes, limits, transformation, tools and offsets, of one parameter
-// revision.
+// What one channel knows of its machine: axes, limits, transformation, tools and offsets, of one parameter
+// revision. The channel, the report and the commands that work without a cluster read programs with it.
 #pragma once
 
 #include <functional>
@@ -8,11 +8,13 @@
 
 #include "contracts/types.hpp"
 #include "geometry/chain.hpp"
+#include "geometry/orientation.hpp"
 #include "language/environment.hpp"
 #include "machine/axes.hpp"
 #include "motion/limits.hpp"
+#include "setup/machine_tables.hpp"
 
-namespace trunnion::channel {
+namespace trunnion::setup {
 
 using language::AxisValues;
 
@@ -21,9 +23,11 @@ struct Travel {
   double negative = 0, positive = 0;
 };
 
-class ChannelMachine : public language::Environment {
+class ChannelSetup : public language::Environment {
  public:
-  explicit ChannelMachine(std::uint16_t channel) : channel_(channel) {}
+  explicit ChannelSetup(std::uint16_t channel) : channel_(channel) {}
+  /// Configured with the tables. Throws as configure() does.
+  explicit ChannelSetup(const MachineTables& tables);
 
   /// Throws std::runtime_error when the kinematic parameters make no chain.
   void configure(const machine::Parameters& parameters);
@@ -32,9 +36,24 @@ class ChannelMachine : public language::Environment {
   /// Finds the texts of subprograms; null when there are none.
   std::function<language::TextSource*(std::string_view)> resolve;
 
-  AxisValues work_offset(std::uint8_t index) const override { return offsets_[index < 6 ? index : 0]; }
+  AxisValues work_offset(std::uint8_t index) const override {
+    return index < offsets_.size() ? offsets_[index] : AxisValues{};
+  }
   std::optional<double> tool_length(std::uint16_t h) const override;
+  std::optional<language::ToolOffset> tool_offset(std::uint16_t number) const override;
   AxisValues reference_position() const override { return reference_; }
+  std::optional<AxisValues> numbered_reference(std::uint8_t number) const override;
+  AxisValues approach() const override { return approach_; }
+  bool diameter_programming() const override { return diameter_programming_; }
+  double default_feed() const override { return default_feed_; }
+  double curve_tolerance() const override { return limits_.arc_tolerance; }
+  language::CycleSettings cycle_settings() const override { return cycles_; }
+  language::CutterSettings cutter_settings() const override { return cutter_; }
+  std::optional<std::array<language::Vector3, 3>> plane_points(std::uint8_t index) const override;
+  /// Within the travel of the rotary axes, by the closed form of geometry::OrientationSolver.
+  std::optional<AxisValues> orient(const language::Vector3& direction, const AxisValues& current,
+                                   language::RotaryChoice choice) const override;
+  std::uint16_t cycle_m_code(std::size_t index) const override { return cycle_m_codes_.at(index); }
   AxisValues tip_from_machine(const AxisValues& machine, double tool_length) const override;
   AxisValues machine_from_tip(const AxisValues& tip, double tool_length) const override;
   std::uint16_t axes() const override { return mask_; }
@@ -66,9 +85,18 @@ class ChannelMachine : public language::Environment {
   std::vector<int> columns_;
   motion::Limits limits_;
   std::optional<geometry::Chain> chain_;
-  std::array<AxisValues, 6> offsets_{};
-  std::map<std::uint32_t, double> tools_;
-  AxisValues reference_{};
+  std::optional<geometry::OrientationSolver> solver_;
+  geometry::AngleTravels rotary_travel_{};
+  std::array<AxisValues, language::work_offset_count> offsets_{};
+  std::map<std::uint32_t, language::ToolOffset> tools_;
+  AxisValues reference_{}, approach_{};
+  std::array<AxisValues, 3> numbered_references_{};
+  bool diameter_programming_ = false;
+  double default_feed_ = 1000;
+  language::CycleSettings cycles_;
+  language::CutterSettings cutter_;
+  std::array<std::array<language::Vector3, 3>, 20> planes_{};
+  std::array<std::uint16_t, 8> cycle_m_codes_{};
   std::array<Travel, language::axis_count> travel_{};
   AxisValues jog_feed_{}, reference_feed_{};
   std::uint16_t mask_ = 0;
@@ -77,4 +105,4 @@ class ChannelMachine : public language::Environment {
   std::uint32_t frame_real_ = 4, frame_virtual_ = 8;
 };
 
-}  // namespace trunnion::channel
+}  // namespace trunnion::setup

@@ -1,4 +1,4 @@
-#include "tables.hpp"
+#include "setup/tables.hpp"
 
 #include <sstream>
 #include <stdexcept>
@@ -6,7 +6,7 @@
 #include "machine/yaml.hpp"
 #include "text/utf8.hpp"
 
-namespace trunnion::parameters {
+namespace trunnion::setup {
 namespace {
 
 constexpr double limit = 100000;  // mm or deg
@@ -70,16 +70,21 @@ std::string check_tool(const idl::parameters::Tool& tool) {
   return "";
 }
 
+std::string work_offset_code(std::uint8_t index) {
+  return index < 6 ? "G" + std::to_string(54 + index) : "G54.1P" + std::to_string(index - 5);
+}
+
 std::string check_offset(const idl::parameters::WorkOffset& offset) {
   const auto who =
       "channel " + std::to_string(offset.channel) + " work offset " + std::to_string(offset.index);
   if (offset.channel > 31) return who + ": the channel is outside 0 .. 31";
-  if (offset.index > 5) return who + ": the index is outside 0 .. 5";
+  if (offset.index >= work_offset_count)
+    return who + ": the index is outside 0 .. " + std::to_string(work_offset_count - 1);
   if (offset.values.size() != 9) return who + ": expected nine values";
   for (std::size_t i = 0; i < 9; ++i) {
-    auto error = check_value("channel " + std::to_string(offset.channel) + " G" +
-                                 std::to_string(54 + offset.index) + " " + letters[i],
-                             offset.values[i], -limit);
+    auto error = check_value(
+        "channel " + std::to_string(offset.channel) + " " + work_offset_code(offset.index) + " " + letters[i],
+        offset.values[i], -limit);
     if (!error.empty()) return error;
   }
   return "";
@@ -146,9 +151,12 @@ Offsets read_offsets(const std::string& text, const std::string& file, std::uint
         offset.channel = value<std::uint16_t>(file, entry.second, key);
       } else if (key == "offset") {
         const auto code = value<std::string>(file, entry.second, key);
-        if (code.size() != 3 || code[0] != 'G' || code[1] != '5' || code[2] < '4' || code[2] > '9')
-          throw std::runtime_error(machine::at(file, entry.second) + "'" + code + "' is not G54 .. G59");
-        offset.index = static_cast<std::uint8_t>(code[2] - '4');
+        std::uint8_t index = 0;
+        while (index < work_offset_count && work_offset_code(index) != code) ++index;
+        if (index == work_offset_count)
+          throw std::runtime_error(machine::at(file, entry.second) + "'" + code +
+                                   "' is not G54 .. G59 or G54.1P1 .. G54.1P48");
+        offset.index = index;
       } else {
         throw std::runtime_error(machine::at(file, entry.first) + "unknown key '" + key + "'");
       }
@@ -167,11 +175,11 @@ std::string write_offsets(const Offsets& offsets, std::uint64_t revision) {
   out.precision(17);
   out << "revision: " << revision << "\noffsets:\n";
   for (const auto& [key, offset] : offsets) {
-    out << "  - {channel: " << offset.channel << ", offset: G" << 54 + offset.index;
+    out << "  - {channel: " << offset.channel << ", offset: " << work_offset_code(offset.index);
     for (std::size_t i = 0; i < 9; ++i) out << ", " << letters[i] << ": " << offset.values[i];
     out << "}\n";
   }
   return out.str();
 }
 
-}  // namespace trunnion::parameters
+}  // namespace trunnion::setup

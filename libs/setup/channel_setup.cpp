@@ -1,4 +1,4 @@
-#include "channel_machine.hpp"
+#include "setup/channel_setup.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,9 +6,15 @@
 
 #include "motion/path_segment.hpp"
 
-namespace trunnion::channel {
+namespace trunnion::setup {
 
-void ChannelMachine::configure(const machine::Parameters& p) {
+ChannelSetup::ChannelSetup(const MachineTables& tables) : ChannelSetup(tables.channel) {
+  configure(tables.parameters);
+  set_tools(tables.tools);
+  set_offsets(tables.offsets);
+}
+
+void ChannelSetup::configure(const machine::Parameters& p) {
   auto chain = machine::make_chain(p, channel_);
   channel_axes_ = machine::channel_axes(p, channel_);
   chain_ = chain;
@@ -27,7 +33,22 @@ void ChannelMachine::configure(const machine::Parameters& p) {
     reference_[index] = p.get("reference_coordinate", a);
     jog_feed_[index] = p.get("jog_feed", a);
     reference_feed_[index] = p.get("reference_feed", a);
+    approach_[index] = p.get("single_direction_approach", a);
+    for (std::uint32_t k = 0; k < 3; ++k) numbered_references_[k][index] = p.get("numbered_reference", a, k);
   }
+  solver_.emplace(*chain_);
+  rotary_travel_ = machine::rotary_travels(p, channel_);
+  diameter_programming_ = p.integer("diameter_programming", channel_) != 0;
+  default_feed_ = p.get("default_feed", channel_);
+  cycles_ = {p.get("cycle_retract", channel_), p.get("cycle_clearance", channel_),
+             p.integer("cycle_shift_axis", channel_)};
+  cutter_ = {p.integer("cutter_feed_at_contour") != 0, p.integer("cutter_wear_sign") != 0 ? 1 : -1,
+             p.integer("cutter_interference_check") != 0,
+             static_cast<unsigned>(p.integer("cutter_check_blocks"))};
+  for (std::uint32_t i = 0; i < 180; ++i)
+    planes_[i / 9][i / 3 % 3][i % 3] = p.get("tilted_plane_points", channel_, i);
+  for (std::uint32_t i = 0; i < cycle_m_codes_.size(); ++i)
+    cycle_m_codes_[i] = static_cast<std::uint16_t>(p.integer("cycle_m_code", 0, i));
   limits_.smoothing_cycles = p.integer("smoothing_cycles", channel_);
   limits_.contour_tolerance = p.get("contour_tolerance", channel_);
   limits_.arc_tolerance = p.get("arc_tolerance");
@@ -42,12 +63,13 @@ void ChannelMachine::configure(const machine::Parameters& p) {
   revision_ = p.revision;
 }
 
-void ChannelMachine::set_tools(const idl::parameters::ToolTable& table) {
+void ChannelSetup::set_tools(const idl::parameters::ToolTable& table) {
   tools_.clear();
-  for (const auto& tool : table.tools) tools_[tool.number] = tool.length + tool.length_wear;
+  for (const auto& tool : table.tools)
+    tools_[tool.number] = {tool.length, tool.length_wear, tool.radius, tool.radius_wear};
 }
 
-void ChannelMachine::set_offsets(const idl::parameters::WorkOffsets& table) {
+void ChannelSetup::set_offsets(const idl::parameters::WorkOffsets& table) {
   offsets_ = {};
   for (const auto& offset : table.offsets)
     if (offset.channel == channel_ && offset.index < offsets_.size())
@@ -55,13 +77,46 @@ void ChannelMachine::set_offsets(const idl::parameters::WorkOffsets& table) {
                   offsets_[offset.index].begin());
 }
 
-std::optional<double> ChannelMachine::tool_length(std::uint16_t h) const {
+std::optional<double> ChannelSetup::tool_length(std::uint16_t h) const {
   const auto found = tools_.find(h);
   if (found == tools_.end()) return std::nullopt;
-  return found->second;
+  return found->second.length + found->second.length_wear;
 }
 
-AxisValues ChannelMachine::tip_from_machine(const AxisValues& machine, double tool_length) const {
+std::optional<language::ToolOffset> ChannelSetup::tool_offset(std::uint16_t number) const {
+  const auto found = tools_.find(number);
+  return found == tools_.end() ? std::nullopt : std::optional(found->second);
+}
+
+std::optional<AxisValues> ChannelSetup::numbered_reference(std::uint8_t number) const {
+  if (number < 2 || number > 4) return std::nullopt;
+  return numbered_references_[number - 2u];
+}
+
+std::optional<std::array<language::Vector3, 3>> ChannelSetup::plane_points(std::uint8_t index) const {
+  if (index < 1 || index > planes_.size()) return std::nullopt;
+  const auto& plane = planes_[index - 1u];
+  if (plane[0] == plane[1] && plane[1] == plane[2]) return std::nullopt;  // nobody has entered it
+  return plane;
+}
+
+std::optional<AxisValues> ChannelSetup::orient(const language::Vector3& direction, const AxisValues& current,
+                                               language::RotaryChoice choice) const {
+  geometry::OrientationRequest request;
+  request.direction = {direction[0], direction[1], direction[2]};
+  request.present = geometry::angles_of(current.data());
+  request.travel = rotary_travel_;
+  request.way = choice == language::RotaryChoice::positive   ? geometry::WayChoice::positive
+                : choice == language::RotaryChoice::negative ? geometry::WayChoice::negative
+                                                             : geometry::WayChoice::shortest;
+  const auto answer = solver_->best(request);
+  if (answer.status != geometry::OrientationStatus::found) return std::nullopt;
+  AxisValues result = current;
+  std::copy(answer.best.angles.begin(), answer.best.angles.end(), result.begin() + 3);
+  return result;
+}
+
+AxisValues ChannelSetup::tip_from_machine(const AxisValues& machine, double tool_length) const {
   AxisValues result = machine;
   const auto tip = chain_->tip_from_machine({machine[0], machine[1], machine[2]},
                                             geometry::angles_of(machine.data()), tool_length);
@@ -69,7 +124,7 @@ AxisValues ChannelMachine::tip_from_machine(const AxisValues& machine, double to
   return result;
 }
 
-AxisValues ChannelMachine::machine_from_tip(const AxisValues& tip, double tool_length) const {
+AxisValues ChannelSetup::machine_from_tip(const AxisValues& tip, double tool_length) const {
   AxisValues result = tip;
   const auto machine =
       chain_->machine_from_tip({tip[0], tip[1], tip[2]}, geometry::angles_of(tip.data()), tool_length);
@@ -77,7 +132,7 @@ AxisValues ChannelMachine::machine_from_tip(const AxisValues& tip, double tool_l
   return result;
 }
 
-std::string ChannelMachine::travel_error(const AxisValues& from, const language::Command& move) const {
+std::string ChannelSetup::travel_error(const AxisValues& from, const language::Command& move) const {
   const bool rtcp = move.modal.transformation == language::Transformation::rtcp;
   const auto path = move.kind == language::CommandKind::arc
                         ? motion::PathSegment::arc(from, move.target, move.arc)
@@ -101,4 +156,4 @@ std::string ChannelMachine::travel_error(const AxisValues& from, const language:
   return "";
 }
 
-}  // namespace trunnion::channel
+}  // namespace trunnion::setup
