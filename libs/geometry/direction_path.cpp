@@ -373,4 +373,28 @@ std::size_t DirectionPath::windows() const {
   return count;
 }
 
+// A piece is farthest from the path about its middle, or where its halves' middles are when it bends twice.
+std::uint32_t DirectionPath::pieces(const Chain& chain, double deviation, std::uint32_t most) const {
+  const auto fits = [&](std::uint32_t count) {
+    Angles low = angles(0);
+    for (std::uint32_t n = 0; n < count; ++n) {
+      const double begin = static_cast<double>(n) / count, h = 1.0 / count;
+      const Angles high = angles(begin + h);
+      for (const double share : {0.25, 0.5, 0.75}) {
+        Angles straight = low;
+        for (std::size_t i = 0; i < angle_count; ++i) straight[i] += share * (high[i] - low[i]);
+        const Vec3 meant = chain.tool_direction_in_workpiece(angles(begin + share * h));
+        if (angle_between(chain.tool_direction_in_workpiece(straight), meant) >
+            deviation * radians_per_degree)
+          return false;
+      }
+      low = high;
+    }
+    return true;
+  };
+  std::uint32_t count = 1;
+  while (count < most && !fits(count)) count *= 2;
+  return count;
+}
+
 }  // namespace trunnion::geometry

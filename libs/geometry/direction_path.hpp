@@ -54,6 +54,10 @@ class DirectionPath {
   /// turn before the direction can go the path's way, or where the axes must change to the other solution.
   Angles start() const { return angles(0); }
 
+  /// In how many equal pieces of s, a power of two up to `most`, the axes may go in proportion so that the
+  /// direction stays within `deviation` (degrees) of this path.
+  std::uint32_t pieces(const Chain& chain, double deviation, std::uint32_t most) const;
+
   const DirectionArc& arc() const { return arc_; }
   /// Parts led past a pole.
   std::size_t windows() const;
