@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "language/expression.hpp"
+#include "language/arithmetic.hpp"
 #include "language/letters.hpp"
 
 namespace trunnion::language {

@@ -51,9 +51,10 @@ class BlockReader {
   Fault read() {
     block_.clear();
     if (!scanner_.more() || scanner_.peek() == '*') return {};
-    if (scanner_.peek() == '/' && read_skip(scanner_, skip_)) {
-      block_.skipped = true;
-      return {};
+    if (scanner_.peek() == '/') {
+      skip_is_read_ = true;
+      block_.skipped = read_skip(scanner_, skip_);
+      if (block_.skipped) return {};
     }
     if (!scanner_.at_end() && starts_head(scanner_.peek())) {
       if (const Fault fault = read_head(scanner_, block_.head, block_.program_number)) return fault;
@@ -90,7 +91,8 @@ class BlockReader {
       done = true;
       return assignments();
     }
-    if (c == '/' && block_.letters == Block::bit('N') && only_number()) {
+    if (c == '/' && !skip_is_read_ && block_.letters == Block::bit('N') && only_number()) {
+      skip_is_read_ = true;
       done = block_.skipped = read_skip(scanner_, skip_);
       return {};
     }
@@ -281,6 +283,7 @@ class BlockReader {
   Variables& variables_;
   Block& block_;
   bool calls_macro_ = false;
+  bool skip_is_read_ = false;
 };
 
 std::uint32_t plain_number(Scanner& scanner) {

@@ -46,6 +46,8 @@ std::vector<Wrong> wrong_programs() {
       {too_many_codes, "G0G0G0G0G0G0G0G0G0G0G0G0G0", 1, 25, ": G0"},
       {misplaced_head, "G0 O1234", 1, 4, ": O1234"},
       {misplaced_head, "G0 /X1", 1, 4, ": /"},
+      {misplaced_head, "/N1/G0", 1, 4, ": /"},
+      {misplaced_head, "N1//G0", 1, 4, ": /"},
       {misplaced_head, "G0 %", 1, 4, ": %"},
       {unknown_g, "G0 X1\nG77 X2", 2, 1, ": G77"},
       {unknown_g, "G43.45", 1, 1, ": G43.45"},
