@@ -68,10 +68,8 @@ class BlockReader {
   }
 
  private:
-  bool only_number() const {
-    return block_.head == Head::none && block_.g_count == 0 && block_.m_count == 0 &&
-           (block_.letters & ~Block::bit('N')) == 0;
-  }
+  /// Nothing but N and a block skip was read: here a statement may begin.
+  bool at_start() const { return block_.head == Head::none && !word_is_read_; }
 
   Fault item(bool& done) {
     const char c = scanner_.peek();
@@ -87,11 +85,11 @@ class BlockReader {
       return {};
     }
     if (c == '#') {
-      if (!only_number()) return {AlarmNumber::statement_not_first, at};
+      if (!at_start()) return {AlarmNumber::statement_not_first, at};
       done = true;
       return assignments();
     }
-    if (c == '/' && !skip_is_read_ && block_.letters == Block::bit('N') && only_number()) {
+    if (c == '/' && !skip_is_read_ && block_.has('N') && at_start()) {
       skip_is_read_ = true;
       done = block_.skipped = read_skip(scanner_, skip_);
       return {};
@@ -127,6 +125,8 @@ class BlockReader {
     Value value;
     if (const Fault fault = number(at, name != 'N', value)) return fault;
     if (name == 'O') return {AlarmNumber::misplaced_head, at};
+    // A word counts even when it is left out because its variable is vacant.
+    word_is_read_ = word_is_read_ || name != 'N';
     if (!value.given) return {};
     if (name == 'G') {
       if (block_.g_count == max_g_codes) return {AlarmNumber::too_many_codes, at};
@@ -209,7 +209,7 @@ class BlockReader {
   Fault instruction(bool& done) {
     const std::uint16_t at = scanner_.offset();
     block_.at = at;
-    const bool first = only_number();
+    const bool first = at_start();
     done = true;
     Fault fault;
     if (scanner_.take_word("IF")) {
@@ -284,6 +284,7 @@ class BlockReader {
   Block& block_;
   bool calls_macro_ = false;
   bool skip_is_read_ = false;
+  bool word_is_read_ = false;
 };
 
 std::uint32_t plain_number(Scanner& scanner) {

@@ -114,6 +114,7 @@ std::vector<Wrong> wrong_programs() {
       {unknown_instruction, "G0 X1\nTANGON P0", 2, 1, ": TANGON"},
       {unknown_instruction, "G0 XY1", 1, 4, ": XY"},
       {statement_not_first, "G0 X1 #5=1", 1, 7, ": #5"},
+      {statement_not_first, "X#1 ENDW", 1, 5, ": ENDW"},
       {statement_not_first, "G0 IF[1]", 1, 4, ": IF"},
       {text_behind_statement, "#1=1 X5", 1, 6, ": X5"},
       {text_behind_statement, "ENDIF X5", 1, 7, ": X5"},
