@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "language/arithmetic.hpp"
+#include "language/decimal.hpp"
 #include "language/letters.hpp"
 
 namespace trunnion::language {

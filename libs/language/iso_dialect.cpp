@@ -244,7 +244,9 @@ class BlockReader {
     return state(Statement::go_to);
   }
 
+  /// DO and END take their number as it is written, because searches look for it in the text.
   Fault labelled(Statement statement) {
+    if (!scanner_.more() || !is_digit(scanner_.peek())) return {AlarmNumber::number_missing, block_.at};
     if (const Fault fault = label(block_.label)) return fault;
     return state(statement);
   }

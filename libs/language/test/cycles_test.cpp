@@ -40,6 +40,11 @@ TEST(Cycles, Drilling) {
       {"a peck that fits makes no rest",
        "G99 G83 X0 Z-4 R2 Q3 F100\n",
        {"rapid Z2", "line Z-1 F100", "rapid Z2", "rapid", "line Z-4 F100", "rapid Z2", "end 0"}},
+      // 0.3 - 3 * 0.1 is 5.6e-17 above 0 in binary numbers: no fourth peck.
+      {"rounding makes no peck",
+       "G99 G73 X0 Z0 R0.3 Q0.1 F100\n",
+       {"rapid Z0.3", "line Z0.2 F100", "rapid Z0.3", "line Z0.1 F100", "rapid Z0.3", "line F100",
+        "rapid Z0.3", "end 0"}},
       {"a peck deeper than the hole",
        "G99 G83 X0 Z-4 R2 Q30 F100\n",
        {"rapid Z2", "line Z-4 F100", "rapid Z2", "end 0"}},

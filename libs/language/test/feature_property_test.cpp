@@ -119,7 +119,8 @@ std::string program(unsigned seed, bool inch, bool incremental) {
       }
       case 4:
         // In a turned frame the position has other coordinates: both forms first go to a place they name.
-        for (const std::string frame : {"G68 X0 Y0 R" + std::to_string(below(36) * 10), std::string("G69")}) {
+        for (const std::string& frame :
+             {"G68 X0 Y0 R" + std::to_string(below(36) * 10), std::string("G69")}) {
           w.code(frame + "\nG90 G0 X0 Y0");
           w.code(incremental ? "\nG91\n" : "\n");
           w.stand('X', 0);

@@ -16,10 +16,9 @@ std::string place(std::uint32_t program, std::uint32_t line) {
 }  // namespace
 
 void ProgramFlow::start(language::TextSource& text, const AxisValues& position,
-                        const language::ModalState& initial, const RestartPoint& restart) {
-  // A restart interprets the program again, so it needs the variables as they were before it.
-  if (restart.sequence == 0) variables_ = interpreter_.variables();
-  interpreter_.start(text, position, initial, variables_);
+                        const language::ModalState& initial, const language::VariableStore& variables,
+                        const RestartPoint& restart) {
+  interpreter_.start(text, position, initial, variables);
   have_command_ = false;
   block_line_ = 0;
   restart_ = restart;
