@@ -118,7 +118,6 @@ class BlockExecutor {
   Fault act(const Block& block, const Codes& codes, CommandQueue& out);
   Fault finish_block(const MCodes& m, CommandQueue& out);
   Fault auxiliary(const MCodes& codes, When when, CommandQueue& out);
-  Fault push_end(std::uint32_t number, CommandQueue& out);
   bool takes_axis_words(const Block& block, const Codes& codes, std::uint16_t& at, int& takers) const;
   Fault set_flow(const Block& block, const MCodes& codes, Flow& flow);
   Fault report_unused(const Block& block) const;
