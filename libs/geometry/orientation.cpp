@@ -66,63 +66,47 @@ Rank rank_of(const Orientation& o, const OrientationRequest& request, std::size_
 OrientationSolver::OrientationSolver(const Chain& chain)
     : count_(chain.rotary_count()), tool_(chain.tool_direction()) {
   for (std::size_t i = 0; i < count_; ++i) axes_[i] = chain.orienting_axis(i);
-  Pair pair;
-  if (count_ == 2 && make_pair(axes_[0].direction, axes_[1].direction, tool_, pair)) {
-    pair.first = axes_[0].angle;
-    pair.second = axes_[1].angle;
-    only_pair_ = pair;
+  if (count_ == 2) only_pair_ = pair(0, 1, {});
+}
+
+// The vector as the axes 0 .. end - 1 carry it, of which i and j are left out.
+Vec3 OrientationSolver::carried(std::size_t end, const Vec3& v, const Angles& at, std::size_t i,
+                                std::size_t j) const {
+  Vec3 result = v;
+  while (end-- > 0) {
+    if (end == i || end == j) continue;
+    const auto t = sine_cosine(at[axes_[end].angle]);
+    result = turned(axes_[end].direction, t.sine, t.cosine, result);
   }
+  return result;
 }
 
-bool OrientationSolver::make_pair(const Vec3& k1, const Vec3& k2, const Vec3& tool, Pair& pair) {
-  const Vec3 normal = k2.cross(k1);
-  if (normal.norm() < parallel_sine || k2.cross(tool).norm() < parallel_sine) return false;
-  pair.k1 = k1;
-  pair.k2 = k2;
-  pair.g = normal.normalized();
-  pair.f = pair.g.cross(k2);
-  pair.alpha = angle_between(k1, k2);
-  pair.beta = angle_between(tool, k2);
-  pair.sine_beta = k2.cross(tool).norm();
-  pair.cosine_beta = k2.dot(tool);
-  pair.zero = std::atan2(pair.g.dot(tool), pair.f.dot(tool));
-  return true;
+std::optional<MovingPair> OrientationSolver::pair(std::size_t i, std::size_t j, const Angles& present) const {
+  const auto axes =
+      AxisPair::make(carried(i, axes_[i].direction, present, i, j),
+                     carried(j, axes_[j].direction, present, i, j), carried(count_, tool_, present, i, j));
+  if (!axes) return std::nullopt;
+  return MovingPair{*axes, axes_[i].angle, axes_[j].angle};
 }
 
-// On the unit sphere k1, k2 and the turned tool v are a triangle with the sides alpha (k1 k2), beta (k2 v)
-// and psi (k1 v), where psi is given by u: turning about k1 keeps it. Its angle x at k2 is where the tool
-// must stand about k2, to either side, by the half-angle formulae, which lose no digits near poles and
-// borders:
-//   sin^2(x/2) = S / (sin alpha sin beta), S = sin((psi + alpha - beta)/2) sin((psi - alpha + beta)/2)
-//   cos^2(x/2) = C / (sin alpha sin beta), C = sin((alpha + beta + psi)/2) sin((alpha + beta - psi)/2)
-// Then axis 1 turns v onto u.
-OrientationSolver::Solutions OrientationSolver::solve(const Pair& p, const Vec3& u,
+// Turning about k1 keeps psi, so u gives the triangle; then axis 1 turns the tool onto u.
+OrientationSolver::Solutions OrientationSolver::solve(const MovingPair& pair, const Vec3& u,
                                                       const OrientationRequest& request) {
+  const AxisPair& p = pair.axes;
   Solutions out;
-  out.first = p.first;
-  out.second = p.second;
+  out.first = pair.first;
+  out.second = pair.second;
   const Vec3 across = p.k1.cross(u);
-  const double sine_psi = across.norm(), cosine_psi = p.k1.dot(u);
-  double psi = std::atan2(sine_psi, cosine_psi);
-  const double least = std::abs(p.alpha - p.beta);
-  const double most = std::numbers::pi - std::abs(std::numbers::pi - (p.alpha + p.beta));
-  const double tolerance = request.tolerance * radians_per_degree;
-  const bool reached = psi >= least - tolerance && psi <= most + tolerance;
-  psi = std::clamp(psi, least, most);
-  const double s =
-      std::max(0.0, std::sin(0.5 * (psi + p.alpha - p.beta)) * std::sin(0.5 * (psi - p.alpha + p.beta)));
-  const double c =
-      std::max(0.0, std::sin(0.5 * (p.alpha + p.beta + psi)) * std::sin(0.5 * (p.alpha + p.beta - psi)));
-  const double root_s = std::sqrt(s), root_c = std::sqrt(c);
-  const double x = 2 * std::atan2(root_s, root_c);
-  const double sine_x = 2 * root_s * root_c / (s + c), cosine_x = (c - s) / (s + c);
-  const std::size_t different = root_s > 0 && root_c > 0 ? 2 : 1;
+  const bool has_azimuth = across.norm() > no_azimuth;
+  const auto triangle = p.triangle(u, across);
+  const bool reached = triangle.missed <= request.tolerance * radians_per_degree;
+  const std::size_t different = triangle.two ? 2 : 1;
   for (std::size_t n = 0; n < different; ++n) {
     const double side = n == 0 ? 1 : -1;
-    const Vec3 v = p.cosine_beta * p.k2 + p.sine_beta * (cosine_x * p.f + side * sine_x * p.g);
-    double first = request.present[p.first];
+    const Vec3 v = p.tool_at(triangle, side);
+    double first = request.present[pair.first];
     const Vec3 around = p.k1.cross(v);
-    if (sine_psi > no_azimuth && around.norm() > no_azimuth) first = azimuth(p.k1, around, across);
+    if (has_azimuth && around.norm() > no_azimuth) first = azimuth(p.k1, around, across);
     if (n == 0 && !reached) {
       const auto t = sine_cosine(first);
       out.nearest = turned(p.k1, t.sine, t.cosine, v);
@@ -130,40 +114,30 @@ OrientationSolver::Solutions OrientationSolver::solve(const Pair& p, const Vec3&
     }
     Orientation& o = out.of[out.count++];
     o.angles = request.present;
-    o.angles[p.first] = first;
-    o.angles[p.second] = degrees_per_radian * (side * x - p.zero);
-    o.regularity = (s + c) * sine_x;
+    o.angles[pair.first] = first;
+    o.angles[pair.second] = p.second(triangle, side);
+    o.regularity = triangle.regularity;
   }
   return out;
 }
 
 OrientationSolver::Solutions OrientationSolver::solve_single(std::size_t i, const Vec3& u,
                                                              const OrientationRequest& request) const {
-  // What stands before and behind the axis keeps its position.
-  Vec3 target = u, tool = tool_;
-  for (std::size_t n = 0; n < i; ++n) target = turned_by(n, target, request.present, -1);
-  for (std::size_t n = count_; n-- > i + 1;) tool = turned_by(n, tool, request.present, 1);
+  const Vec3 k = carried(i, axes_[i].direction, request.present, i, i);
+  const Vec3 tool = carried(count_, tool_, request.present, i, i);
   Solutions out;
   out.second = axes_[i].angle;
-  const Vec3& k = axes_[i].direction;
-  const Vec3 around = k.cross(tool);
+  const Vec3 around = k.cross(tool), across = k.cross(u);
   double angle = request.present[out.second];
-  const Vec3 across = k.cross(target);
   if (around.norm() > no_azimuth && across.norm() > no_azimuth) angle = azimuth(k, around, across);
   const auto t = sine_cosine(angle);
   out.nearest = turned(k, t.sine, t.cosine, tool);
-  if (angle_between(out.nearest, target) <= std::max(request.tolerance * radians_per_degree, 1e-15)) {
+  if (angle_between(out.nearest, u) <= std::max(request.tolerance * radians_per_degree, 1e-15)) {
     out.of[0] = {request.present, around.norm()};
     out.of[0].angles[out.second] = angle;
     out.count = 1;
   }
-  for (std::size_t n = i; n-- > 0;) out.nearest = turned_by(n, out.nearest, request.present, 1);
   return out;
-}
-
-Vec3 OrientationSolver::turned_by(std::size_t i, const Vec3& v, const Angles& at, double sign) const {
-  const auto t = sine_cosine(at[axes_[i].angle]);
-  return turned(axes_[i].direction, sign * t.sine, t.cosine, v);
 }
 
 template <class Visit>
@@ -191,22 +165,8 @@ OrientationAnswer OrientationSolver::search(const OrientationRequest& request, V
   } else {
     for (std::size_t j = count_; j-- > 1;)
       for (std::size_t i = j; i-- > 0;) {
-        // u = Q0 .. Qi-1 R(ki) Qi+1 .. Qj-1 R(kj) Qj+1 .. tool, where every Q stands still.
-        Vec3 target = u, tool = tool_, k2 = axes_[j].direction;
-        for (std::size_t n = 0; n < i; ++n) target = turned_by(n, target, request.present, -1);
-        for (std::size_t n = count_; n-- > j + 1;) tool = turned_by(n, tool, request.present, 1);
-        for (std::size_t n = j; n-- > i + 1;) {
-          tool = turned_by(n, tool, request.present, 1);
-          k2 = turned_by(n, k2, request.present, 1);
-        }
-        Pair pair;
-        if (!make_pair(axes_[i].direction, k2, tool, pair)) continue;
-        pair.first = axes_[i].angle;
-        pair.second = axes_[j].angle;
-        Solutions solutions = solve(pair, target, request);
-        for (std::size_t n = i; n-- > 0;)
-          solutions.nearest = turned_by(n, solutions.nearest, request.present, 1);
-        if (take(solutions)) return answer;
+        const auto moving = pair(i, j, request.present);
+        if (moving && take(solve(*moving, u, request))) return answer;
       }
     if (!asked)
       for (std::size_t i = count_; i-- > 0;)

@@ -4,6 +4,7 @@
 
 #include <span>
 
+#include "geometry/axis_pair.hpp"
 #include "geometry/chain.hpp"
 
 namespace trunnion::geometry {
@@ -54,6 +55,12 @@ struct OrientationAnswer {
   Vec3 nearest = Vec3::UnitZ();  ///< when unreachable: unit vector of the nearest reachable direction
 };
 
+/// Two axes of a chain while the others stand still, with directions as the workpiece sees them.
+struct MovingPair {
+  AxisPair axes;
+  std::size_t first = 0, second = 0;  ///< entries of Angles
+};
+
 /// Solves tool_direction_in_workpiece(angles) = direction for one chain.
 ///
 /// Two axes solve it; a machine with more of them uses the pair nearest the tool that has a solution within
@@ -76,16 +83,12 @@ class OrientationSolver {
   std::size_t all(const OrientationRequest& request, std::span<Orientation> out,
                   OrientationAnswer& answer) const;
 
+  /// Axes `i` < `j` counted from the workpiece to the tool; the others stand at `present`. Nothing when the
+  /// two are parallel or the second turns about the tool itself.
+  std::optional<MovingPair> pair(std::size_t i, std::size_t j, const Angles& present) const;
+  std::size_t axis_count() const { return count_; }
+
  private:
-  // What two axes can do: k1 is nearer the workpiece.
-  struct Pair {
-    Vec3 k1 = Vec3::UnitZ(), k2 = Vec3::UnitX();
-    Vec3 f = Vec3::UnitZ(), g = Vec3::UnitX();  // with k2 a right-handed frame; k1 lies in the plane of k2, f
-    double alpha = 0, beta = 0;                 // from k2 to k1 and to the tool, rad
-    double sine_beta = 0, cosine_beta = 1;
-    double zero = 0;                    // where the tool stands about k2, counted from f, rad
-    std::size_t first = 0, second = 0;  // entries of Angles
-  };
   // Solutions modulo full turns of the axes `first` (none: one axis only) and `second`.
   struct Solutions {
     std::array<Orientation, 2> of;
@@ -93,17 +96,16 @@ class OrientationSolver {
     std::size_t first = angle_count, second = angle_count;
     Vec3 nearest = Vec3::UnitZ();
   };
-  static bool make_pair(const Vec3& k1, const Vec3& k2, const Vec3& tool, Pair& pair);
-  static Solutions solve(const Pair& pair, const Vec3& u, const OrientationRequest& request);
+  static Solutions solve(const MovingPair& pair, const Vec3& u, const OrientationRequest& request);
   Solutions solve_single(std::size_t i, const Vec3& u, const OrientationRequest& request) const;
-  Vec3 turned_by(std::size_t i, const Vec3& v, const Angles& at, double sign) const;
+  Vec3 carried(std::size_t end, const Vec3& v, const Angles& at, std::size_t i, std::size_t j) const;
   template <class Visit>
   OrientationAnswer search(const OrientationRequest& request, Visit&& visit) const;
 
   std::array<OrientingAxis, 6> axes_;
   std::size_t count_ = 0;
   Vec3 tool_ = Vec3::UnitZ();
-  std::optional<Pair> only_pair_;  // of a machine with two rotary axes
+  std::optional<MovingPair> only_pair_;  // of a machine with two rotary axes
 };
 
 }  // namespace trunnion::geometry

@@ -116,6 +116,7 @@ Fault BlockExecutor::resume(CommandQueue& out) {
   draining_ = false;
   Fault fault;
   if (activity_ == Activity::holes) fault = next_hole_step(out);
+  if (activity_ == Activity::vector) fault = next_vector_piece(out);
   if (activity_ == Activity::curve) {
     Vector3 end{};
     if (curve_.next(end)) {

@@ -106,7 +106,7 @@ class BlockExecutor {
     std::array<std::uint16_t, max_m_codes> offsets{};
     std::uint8_t count = 0;
   };
-  enum class Activity : std::uint8_t { none, holes, curve };
+  enum class Activity : std::uint8_t { none, holes, curve, vector };
 
   // The order of a block: block_executor.cpp
   Fault collect_g(const Block& block, Codes& codes) const;
@@ -178,7 +178,10 @@ class BlockExecutor {
   Fault move(const Block& block, CommandQueue& out);
   Fault move_on_arc(const Block& block, const AxisValues& target, std::uint16_t at, CommandQueue& out);
   Fault set_turns(const Block& block, const AxisValues& target, std::uint16_t at, Arc& arc);
-  Fault point_tool(const Block& block, AxisValues& target);
+  Fault read_tool_vector(const Block& block, std::optional<Vector3>& direction, std::uint16_t& at);
+  Fault point_tool(const Vector3& direction, std::uint16_t at, AxisValues& target) const;
+  Fault lead_tool(const Vector3& direction, std::uint16_t at, const AxisValues& program, CommandQueue& out);
+  Fault next_vector_piece(CommandQueue& out);
   Fault check_feed(const Block& block, std::uint16_t at) const;
   Fault start_curve(const Block& block, const Codes& codes);
   Fault continue_curve(const Block& block);
@@ -263,6 +266,12 @@ class BlockExecutor {
   HolePattern pattern_;
   HoleCycle hole_;
   HolePattern::Point hole_place_{};
+  struct VectorLine {
+    AxisValues start{}, end{};  // frame of the commands; of `end` the linear axes
+    Vector3 direction{};        // workpiece frame
+    std::uint32_t piece = 0, pieces = 1;
+  };
+  VectorLine vector_line_;
   NurbsCurve curve_;
   Vector3 control_point_{};  // program coordinates, the last one of the curve
 };

@@ -85,7 +85,13 @@ Fault BlockExecutor::move(const Block& block, CommandQueue& out) {
   AxisValues target = programmed_target(block, axes);
   if (arc) return move_on_arc(block, target, at, out);
   if (vector) {
-    if (const Fault fault = point_tool(block, target)) return fault;
+    std::optional<Vector3> direction;
+    std::uint16_t vector_at = 0;
+    if (const Fault fault = read_tool_vector(block, direction, vector_at)) return fault;
+    if (direction && modal_.motion == 1 && !compensation_.active())
+      return lead_tool(*direction, vector_at, target, out);
+    if (direction)
+      if (const Fault fault = point_tool(*direction, vector_at, target)) return fault;
   }
   return move_straight(modal_.motion == 1 ? CommandKind::line : CommandKind::rapid, target, out);
 }

@@ -153,32 +153,4 @@ Fault BlockExecutor::move_along_tool(const Block& block, const Codes& codes, Com
   return move_straight_in_command_frame(CommandKind::line, target, out);
 }
 
-Fault BlockExecutor::point_tool(const Block& block, AxisValues& target) {
-  constexpr std::uint32_t vector_words = letter_bits("IJK");
-  const std::uint32_t rotary = block.letters & letter_bits("ABC");
-  if (rotary != 0) {
-    for (const char letter : {'A', 'B', 'C'}) {
-      if (block.has(letter)) return {AlarmNumber::tool_vector_needed, block.offset(letter)};
-    }
-  }
-  if ((block.letters & vector_words) == 0) return {};
-  Vector3 direction{};
-  std::uint16_t at = 0;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const char letter = static_cast<char>('I' + i);
-    if (!block.has(letter)) continue;
-    use(letter);
-    at = block.offset(letter);
-    direction[i] = block.value(letter);
-  }
-  const double size = norm(direction);
-  if (!(size > no_length)) return {AlarmNumber::tool_vector_zero, at};
-  const auto turned = environment_.orient(frame_.turned_by_tilt(divided(direction, size)), position_,
-                                          RotaryChoice::continuous);
-  if (!turned) return {AlarmNumber::orientation_impossible, at};
-  const AxisValues& offset = frame_.total_offset();
-  for (const Axis axis : {A, B, C, U, V, W}) target[axis] = (*turned)[axis] - offset[axis];
-  return {};
-}
-
 }  // namespace trunnion::language

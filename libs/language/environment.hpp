@@ -37,6 +37,19 @@ struct CutterSettings {
 /// directions best (G43.5).
 enum class RotaryChoice : std::uint8_t { shortest, positive, negative, continuous };
 
+/// How the rotary axes go from one tool direction to another over the great circle between them (G43.5).
+struct VectorWay {
+  enum class Fault : std::uint8_t {
+    none,
+    opposite,   ///< the directions are opposite: there is no shortest way
+    end,        ///< no rotary angles give the direction at the end
+    on_the_way  ///< out of reach or of travel, or too near to a pole, on the way
+  };
+  Fault fault = Fault::none;
+  bool turns_first = false;  ///< at a pole: an axis must turn before the direction can change
+  std::uint32_t pieces = 1;  ///< in so many pieces the axes may go in proportion
+};
+
 inline constexpr std::uint8_t work_offset_count = 54;
 
 /// Everything a program's meaning depends on besides its text. The answers must not change between start()
@@ -86,6 +99,17 @@ class Environment {
     static_cast<void>(current);
     static_cast<void>(choice);
     return std::nullopt;
+  }
+  /// The way of the tool from its direction at the rotary axes of `current` to `direction` (as orient()).
+  virtual VectorWay vector_way(const AxisValues& current, const Vector3& direction) const {
+    VectorWay way;
+    if (!orient(direction, current, RotaryChoice::continuous)) way.fault = VectorWay::Fault::end;
+    return way;
+  }
+  /// The rotary axes at share `s` (0..1) of a way without fault; the linear ones of `current`.
+  virtual AxisValues on_vector_way(const AxisValues& current, const Vector3& direction, double s) const {
+    static_cast<void>(s);
+    return orient(direction, current, RotaryChoice::continuous).value_or(current);
   }
   /// Machine coordinates of the control point to the frame of Transformation::rtcp: the linear axes change,
   /// the rotary ones stay. `tool_length` in mm along the tool axis.

@@ -22,14 +22,19 @@ std::string number_of(const std::string& name, std::uint16_t channel, std::uint3
   return number_text(Catalogue::instance().by_name(name).number(channel, index));
 }
 
+[[noreturn]] void fail_type(const std::string& side, std::uint16_t channel, const std::string& what) {
+  const std::string name = side + "_type";
+  std::string text = "parameter ";
+  text.append(number_of(name, channel)).append(" (").append(name).append("): ").append(what);
+  throw KinematicsError("kinematics_invalid", text);
+}
+
 // Digits of a structure type, the last one first: one for each slot in use.
 std::vector<int> digits_of(const Parameters& parameters, const std::string& side, std::uint16_t channel) {
   std::vector<int> digits;
   for (int type = parameters.integer(side + "_type", channel); type > 0; type /= 10)
     digits.push_back(type % 10);
-  if (digits.size() > slots.size())
-    throw KinematicsError("kinematics_invalid", "parameter " + number_of(side + "_type", channel) + " (" +
-                                                    side + "_type): more than three rotary axes");
+  if (digits.size() > slots.size()) fail_type(side, channel, "more than three rotary axes");
   return digits;
 }
 
@@ -38,9 +43,8 @@ void read_side(const Parameters& parameters, const std::string& side, std::uint1
   const auto digits = digits_of(parameters, side, channel);
   for (std::size_t i = 0; i < digits.size(); ++i) {
     if (digits[i] < 3 || digits[i] > 8)
-      throw KinematicsError("kinematics_invalid", "parameter " + number_of(side + "_type", channel) + " (" +
-                                                      side + "_type): digit " + std::to_string(digits[i]) +
-                                                      " is not 3 (A), 4 (B), 5 (C), 6 (U), 7 (V) or 8 (W)");
+      fail_type(side, channel,
+                "digit " + std::to_string(digits[i]) + " is not 3 (A), 4 (B), 5 (C), 6 (U), 7 (V) or 8 (W)");
     *axes[i] = {vector(parameters, side + "_direction" + slots[i], channel),
                 vector(parameters, side + "_offset" + slots[i], channel),
                 static_cast<std::size_t>(digits[i] - 3)};

@@ -7,6 +7,12 @@
 #include "motion/path_segment.hpp"
 
 namespace trunnion::setup {
+namespace {
+
+constexpr double turn_worth_a_move = 1e-6;  // degrees
+constexpr std::uint32_t most_vector_pieces = 1024;
+
+}  // namespace
 
 ChannelSetup::ChannelSetup(const MachineTables& tables) : ChannelSetup(tables.channel) {
   configure(tables.parameters);
@@ -38,6 +44,8 @@ void ChannelSetup::configure(const machine::Parameters& p) {
   }
   solver_.emplace(*chain_);
   rotary_travel_ = machine::rotary_travels(p, channel_);
+  avoid_poles_ = p.integer("pole_handling", channel_) != 0;
+  pole_range_ = p.get("pole_range", channel_);
   diameter_programming_ = p.integer("diameter_programming", channel_) != 0;
   default_feed_ = p.get("default_feed", channel_);
   cycles_ = {p.get("cycle_retract", channel_), p.get("cycle_clearance", channel_),
@@ -106,14 +114,70 @@ std::optional<AxisValues> ChannelSetup::orient(const language::Vector3& directio
   request.direction = {direction[0], direction[1], direction[2]};
   request.present = geometry::angles_of(current.data());
   request.travel = rotary_travel_;
-  request.way = choice == language::RotaryChoice::positive     ? geometry::WayChoice::positive
-                : choice == language::RotaryChoice::negative   ? geometry::WayChoice::negative
-                : choice == language::RotaryChoice::continuous ? geometry::WayChoice::continuous
-                                                               : geometry::WayChoice::shortest;
+  request.tolerance = limits_.orientation_tolerance;
+  switch (choice) {
+    case language::RotaryChoice::shortest:
+      request.way = geometry::WayChoice::shortest;
+      break;
+    case language::RotaryChoice::positive:
+      request.way = geometry::WayChoice::positive;
+      break;
+    case language::RotaryChoice::negative:
+      request.way = geometry::WayChoice::negative;
+      break;
+    case language::RotaryChoice::continuous:
+      request.way = geometry::WayChoice::continuous;
+      break;
+  }
   const auto answer = solver_->best(request);
   if (answer.status != geometry::OrientationStatus::found) return std::nullopt;
   AxisValues result = current;
   std::copy(answer.best.angles.begin(), answer.best.angles.end(), result.begin() + 3);
+  return result;
+}
+
+std::variant<geometry::DirectionPath, geometry::DirectionPathFault> ChannelSetup::direction_path(
+    const AxisValues& current, const language::Vector3& direction) const {
+  geometry::DirectionPathRequest request;
+  request.present = geometry::angles_of(current.data());
+  request.from = chain_->tool_direction_in_workpiece(request.present);
+  request.to = {direction[0], direction[1], direction[2]};
+  request.travel = rotary_travel_;
+  request.tolerance = limits_.orientation_tolerance;
+  request.avoid_poles = avoid_poles_;
+  request.pole_range = pole_range_;
+  return geometry::DirectionPath::make(*solver_, request);
+}
+
+language::VectorWay ChannelSetup::vector_way(const AxisValues& current,
+                                             const language::Vector3& direction) const {
+  using Fault = language::VectorWay::Fault;
+  using PathFault = geometry::DirectionPathFault;
+  language::VectorWay way;
+  const auto made = direction_path(current, direction);
+  if (const auto* fault = std::get_if<PathFault>(&made)) {
+    way.fault = fault->kind == PathFault::opposite                       ? Fault::opposite
+                : fault->kind == PathFault::not_a_direction              ? Fault::end
+                : fault->kind == PathFault::unreachable && fault->s == 1 ? Fault::end
+                                                                         : Fault::on_the_way;
+    return way;
+  }
+  const auto& path = std::get<geometry::DirectionPath>(made);
+  const auto present = geometry::angles_of(current.data()), start = path.start();
+  for (std::size_t i = 0; i < present.size(); ++i)
+    way.turns_first = way.turns_first || std::abs(start[i] - present[i]) > turn_worth_a_move;
+  way.pieces = path.pieces(*chain_, std::max(0.1 * limits_.orientation_tolerance, 1e-4), most_vector_pieces);
+  return way;
+}
+
+AxisValues ChannelSetup::on_vector_way(const AxisValues& current, const language::Vector3& direction,
+                                       double s) const {
+  AxisValues result = current;
+  const auto made = direction_path(current, direction);
+  if (const auto* path = std::get_if<geometry::DirectionPath>(&made)) {
+    const auto angles = path->angles(s);
+    std::copy(angles.begin(), angles.end(), result.begin() + 3);
+  }
   return result;
 }
 

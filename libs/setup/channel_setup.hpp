@@ -8,7 +8,7 @@
 
 #include "contracts/types.hpp"
 #include "geometry/chain.hpp"
-#include "geometry/orientation.hpp"
+#include "geometry/direction_path.hpp"
 #include "language/environment.hpp"
 #include "machine/axes.hpp"
 #include "motion/limits.hpp"
@@ -53,6 +53,11 @@ class ChannelSetup : public language::Environment {
   /// Within the travel of the rotary axes, by the closed form of geometry::OrientationSolver.
   std::optional<AxisValues> orient(const language::Vector3& direction, const AxisValues& current,
                                    language::RotaryChoice choice) const override;
+  /// Over the great circle by geometry::DirectionPath, with the pole handling of parameter 04c100.
+  language::VectorWay vector_way(const AxisValues& current,
+                                 const language::Vector3& direction) const override;
+  AxisValues on_vector_way(const AxisValues& current, const language::Vector3& direction,
+                           double s) const override;
   std::uint16_t cycle_m_code(std::size_t index) const override { return cycle_m_codes_.at(index); }
   AxisValues tip_from_machine(const AxisValues& machine, double tool_length) const override;
   AxisValues machine_from_tip(const AxisValues& tip, double tool_length) const override;
@@ -80,6 +85,9 @@ class ChannelSetup : public language::Environment {
   std::uint64_t revision() const { return revision_; }
 
  private:
+  std::variant<geometry::DirectionPath, geometry::DirectionPathFault> direction_path(
+      const AxisValues& current, const language::Vector3& direction) const;
+
   std::uint16_t channel_;
   machine::ChannelAxes channel_axes_;
   std::vector<int> columns_;
@@ -87,6 +95,8 @@ class ChannelSetup : public language::Environment {
   std::optional<geometry::Chain> chain_;
   std::optional<geometry::OrientationSolver> solver_;
   geometry::AngleTravels rotary_travel_{};
+  bool avoid_poles_ = false;
+  double pole_range_ = 0;
   std::array<AxisValues, language::work_offset_count> offsets_{};
   std::map<std::uint32_t, language::ToolOffset> tools_;
   AxisValues reference_{}, approach_{};

@@ -48,7 +48,7 @@ void check(std::string_view line, SkipLevels skip, Variables& variables, Block& 
   if (block.statement == Statement::begin_do || block.statement == Statement::end_do) {
     require(outline.label == block.label);
   }
-  if (block.head == Head::none && block.has('N') && block.value('N') >= 0 &&
+  if (!block.skipped && block.head == Head::none && block.has('N') && block.value('N') >= 0 &&
       block.value('N') == std::floor(block.value('N'))) {
     require(outline.sequence_number == static_cast<std::uint32_t>(block.value('N')) ||
             !line.starts_with('N'));

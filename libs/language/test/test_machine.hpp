@@ -85,6 +85,16 @@ struct TestMachine : Environment {
     }
     return best;
   }
+  /// Straight there, when that is within 93 degrees of upright and not opposite.
+  VectorWay vector_way(const AxisValues& current, const Vector3& direction) const override {
+    VectorWay way = Environment::vector_way(current, direction);
+    const AxisValues tip = tip_from_machine(current, 1), gauge = tip_from_machine(current, 0);
+    double cosine = 0;
+    for (std::size_t i = 0; i < 3; ++i) cosine += (gauge[i] - tip[i]) * direction[i];
+    if (way.fault == VectorWay::Fault::none && direction[2] < -0.05) way.fault = VectorWay::Fault::on_the_way;
+    if (cosine < -0.999999) way.fault = VectorWay::Fault::opposite;
+    return way;
+  }
   std::optional<double> tool_length(std::uint16_t h) const override {
     const auto found = lengths.find(h);
     return found == lengths.end() ? std::nullopt : std::optional(found->second);
