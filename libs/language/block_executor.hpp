@@ -106,19 +106,18 @@ class BlockExecutor {
     std::array<std::uint16_t, max_m_codes> offsets{};
     std::uint8_t count = 0;
   };
-  /// A swing is due, a curve or the parameter input is open: they decide what the block may hold.
-  Fault check_context(const Block& block, const Codes& codes) const;
   enum class Activity : std::uint8_t { none, holes, curve, vector };
 
   // The order of a block: block_executor.cpp
   Fault collect_g(const Block& block, Codes& codes) const;
   Fault collect_m(const Block& block, MCodes& codes) const;
   Fault check_numbers(const Block& block) const;
+  /// A swing is due, a curve or the parameter input is open: they decide what the block may hold.
+  Fault check_context(const Block& block, const Codes& codes) const;
   Fault run(const Block& block, const Codes& codes, const MCodes& m, CommandQueue& out, Flow& flow);
   Fault act(const Block& block, const Codes& codes, CommandQueue& out);
   Fault finish_block(const MCodes& m, CommandQueue& out);
   Fault auxiliary(const MCodes& codes, When when, CommandQueue& out);
-  Fault push_end(std::uint32_t number, CommandQueue& out);
   bool takes_axis_words(const Block& block, const Codes& codes, std::uint16_t& at, int& takers) const;
   Fault set_flow(const Block& block, const MCodes& codes, Flow& flow);
   Fault report_unused(const Block& block) const;
@@ -211,7 +210,9 @@ class BlockExecutor {
   /// The word in mm, 0 when absent; counts as used.
   double length_word(const Block& block, char letter);
   Fault refuse_in_compensation(std::uint16_t at) const;
+  // Output: block_output.cpp
   Command& push(CommandKind kind, CommandQueue& out);
+  Fault push_end(std::uint32_t number, CommandQueue& out);
   /// The end of what pushed commands outside a block.
   Fault settle(CommandQueue& out);
   Fault drain_compensation(CommandQueue& out);

@@ -44,6 +44,7 @@ Fault BlockExecutor::point_tool(const Vector3& direction, std::uint16_t at, Axis
 // The tip goes straight and the tool over the great circle: the axes in pieces, each a little straight line.
 Fault BlockExecutor::lead_tool(const Vector3& direction, std::uint16_t at, const AxisValues& program,
                                CommandQueue& out) {
+  if (const Fault fault = refuse_in_compensation(at)) return fault;
   const VectorWay way = environment_.vector_way(position_, direction);
   switch (way.fault) {
     case VectorWay::Fault::none:
