@@ -79,13 +79,26 @@ int run_check(const Check& order) {
   return good ? 0 : 1;
 }
 
+/// What keeps a program from being read at all is an error line too, when lines are asked for.
+int run_check_as_asked(const Check& order) {
+  if (!order.json_lines) return run_check(order);
+  try {
+    return run_check(order);
+  } catch (const std::exception& error) {
+    std::cout << "{\"error\":{\"line\":0,\"column\":0,\"number\":"
+              << static_cast<unsigned>(language::AlarmNumber::text_unreadable)
+              << ",\"text\":" << check::json_string(error.what()) << "}}\n";
+    return 1;
+  }
+}
+
 }  // namespace
 
 void add_check_command(CLI::App& app, Common& common) {
   auto order = std::make_shared<Check>();
   auto* command =
       add_command(app, common, "check", "Interpret a program without a cluster and say what it does",
-                  [order] { return run_check(*order); });
+                  [order] { return run_check_as_asked(*order); });
   command->add_option("program", order->program, "The program's file")->required();
   command->add_option(
       "--machine", order->machine,

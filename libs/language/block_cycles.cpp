@@ -22,9 +22,10 @@ Fault BlockExecutor::run_cycle(const Block& block, const Codes& codes, CommandQu
   const bool named = codes.has(Group::cycle);
   const std::uint32_t place_words = axis_bits | Block::bit('R');
   const bool drills = (block.letters & place_words) != 0;
-  if (!named && !drills && (block.letters & letter_bits("QPIJKL")) == 0) return {};
-  const std::uint16_t at = named ? codes.offset(Group::cycle)
-                                 : block.offsets[static_cast<std::size_t>(std::countr_zero(block.letters))];
+  if (!named && !drills) return {};
+  const std::uint16_t at =
+      named ? codes.offset(Group::cycle)
+            : block.offsets[static_cast<std::size_t>(std::countr_zero(block.letters & place_words))];
   if (const Fault fault = refuse_in_compensation(at)) return fault;
   if (const Fault fault = read_cycle_words(block, codes)) return fault;
 
@@ -48,6 +49,13 @@ Fault BlockExecutor::run_cycle(const Block& block, const Codes& codes, CommandQu
   HolePattern::Point step{};
   if (!modal_.absolute) step = {first[0] - before[plane.first], first[1] - before[plane.second]};
   pattern_.line(first, step, repeats);
+  if (modal_.polar && !modal_.absolute && repeats > 1) {
+    // An incremental radius moves the centre with every hole, so it has no repetition.
+    if (((placed >> plane.first) & 1u) != 0) return {AlarmNumber::cycle_repeats, at};
+    const double angle = ((placed >> plane.second) & 1u) != 0 ? block.value(axis_letters[plane.second]) : 0;
+    pattern_.circle(polar_centre_, polar_radius_, polar_angle_, angle, repeats);
+    polar_angle_ = std::fmod(polar_angle_ + angle * (repeats - 1), 360.0);
+  }
   // Other axes (a table) turn with the first positioning.
   if (const Fault fault = move_straight(CommandKind::rapid, target, out)) return fault;
   return begin_holes(out);
@@ -78,14 +86,16 @@ Fault BlockExecutor::read_cycle_words(const Block& block, const Codes& codes) {
     cycle_.z = modal_.absolute ? word : cycle_.r + word;
     cycle_has_depth_ = true;
   }
-  if (block.has('P')) {
+  // P and Q may belong to a modal code of the block: G54.1 P, G64 P, G5.1 Q.
+  const auto has = [&](char letter) { return block.has(letter) && (used_ & Block::bit(letter)) == 0; };
+  if (has('P')) {
     use('P');
     cycle_.dwell = block.value('P') / 1000;
     if (cycle_.dwell < 0 || cycle_.dwell > longest_dwell) {
       return {AlarmNumber::value_range, block.offset('P')};
     }
   }
-  if (block.has('Q')) {
+  if (has('Q')) {
     const double q = std::abs(length_word(block, 'Q'));
     if (is_shifting(modal_.cycle)) {
       const int axis = environment_.cycle_settings().shift_axis;

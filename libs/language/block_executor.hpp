@@ -146,7 +146,7 @@ class BlockExecutor {
   Fault shift_coordinates(const Block& block, const Codes& codes);
   Fault clear_shift(const Codes& codes);
   Fault set_tilt(const Block& block, const Codes& codes, CommandQueue& out);
-  Fault clear_rotation(CommandQueue& out);
+  Fault clear_rotation(std::uint16_t at, CommandQueue& out);
   Fault swing(const Codes& codes, CommandQueue& out);
   Fault move_along_tool(const Block& block, const Codes& codes, CommandQueue& out);
   Vector3 tool_direction() const;

@@ -24,7 +24,7 @@ Fault BlockExecutor::set_frames(const Block& block, const Codes& codes, CommandQ
     case 680:
       return set_rotation(block, codes);
     case 690:
-      return clear_rotation(out);
+      return clear_rotation(codes.offset(Group::rotation), out);
     default:
       return set_tilt(block, codes, out);
   }
@@ -100,7 +100,10 @@ Fault BlockExecutor::set_rotation(const Block& block, const Codes& codes) {
   return {};
 }
 
-Fault BlockExecutor::clear_rotation(CommandQueue& out) {
+Fault BlockExecutor::clear_rotation(std::uint16_t at, CommandQueue& out) {
+  if (modal_.tilt.active) {
+    if (const Fault fault = refuse_in_compensation(at)) return fault;
+  }
   frame_.clear_rotation();
   modal_.rotated = false;
   if (modal_.tilt.active) {

@@ -9,8 +9,9 @@ namespace {
 
 constexpr double no_distance = 1e-9;  // mm
 constexpr double tangent = 1e-6;      // sine of a corner that is none
-/// How far rounding and the programmed radii of arcs may bring tool and contour together, mm.
-constexpr double touching = 1e-5;
+/// How much nearer than its radius the tool may come to a contour nearby, mm: words are rounded to a
+/// micrometre, and what that makes of a smooth contour is no interference.
+constexpr double touching = 0.002;
 /// Corners below this (rad) whose offsets do not meet are closed straight: the ends of an arc may be off its
 /// circle by rounding of the words.
 constexpr double rounding_corner = 0.005;

@@ -99,14 +99,14 @@ class BlockReader {
     return {broken ? AlarmNumber::not_utf8 : AlarmNumber::unknown_character, at};
   }
 
-  /// The number behind a letter, literal or computed.
-  Fault number(std::uint16_t at, Value& value) {
+  /// The number behind a letter, literal or computed; N is literal, because jumps look for it in the text.
+  Fault number(std::uint16_t at, bool may_be_computed, Value& value) {
     scanner_.skip_blanks();
     const char first = scanner_.peek(0);
     std::size_t ahead = first == '-' || first == '+' ? 1 : 0;
     while (ahead != 0 && is_blank(scanner_.peek(ahead))) ++ahead;
     const char c = scanner_.peek(ahead);
-    if (c != '#' && c != '[') {
+    if (!may_be_computed || (c != '#' && c != '[')) {
       const Decimal decimal = scanner_.number();
       if (decimal.status == DecimalStatus::missing) return {AlarmNumber::number_missing, at};
       if (decimal.status == DecimalStatus::too_large) return {AlarmNumber::number_range, at};
@@ -123,7 +123,7 @@ class BlockReader {
     const std::uint16_t at = scanner_.offset();
     scanner_.advance();
     Value value;
-    if (const Fault fault = number(at, value)) return fault;
+    if (const Fault fault = number(at, name != 'N', value)) return fault;
     if (name == 'O') return {AlarmNumber::misplaced_head, at};
     if (!value.given) return {};
     if (name == 'G') {
@@ -372,14 +372,12 @@ Outline IsoDialect::outline(std::string_view line, SkipLevels skip) const {
   if (letter(scanner.peek()) == 'N') {
     scanner.advance();
     scanner.skip_blanks();
-    if (scanner.at_end() || !is_digit(scanner.peek())) return outline;
-    const std::uint32_t number = plain_number(scanner);
-    if (!scanner.more()) {
-      outline.sequence_number = number;
-      return outline;
+    const Decimal number = scanner.number();
+    if (number.status != DecimalStatus::ok) return outline;
+    if (scanner.more() && scanner.peek() == '/' && read_skip(scanner, skip)) return outline;
+    if (number.value >= 0 && number.value == std::floor(number.value)) {
+      outline.sequence_number = static_cast<std::uint32_t>(number.value);
     }
-    if (scanner.peek() == '/' && read_skip(scanner, skip)) return outline;
-    if (!scanner.at_end() && scanner.peek() != '.') outline.sequence_number = number;
   }
   if (!scanner.at_end() && letter(scanner.peek()) != '\0' && letter(scanner.peek(1)) != '\0') {
     outline.statement = outline_statement(scanner, outline.label);

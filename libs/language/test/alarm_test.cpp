@@ -37,6 +37,7 @@ std::vector<Wrong> wrong_programs() {
       {open_comment, "G0\r\nX1 (open\nX2)", 2, 4, ": ("},
       {number_missing, "G0 X Y1", 1, 4, ": X"},
       {number_missing, "G0 X-", 1, 4, ": X-"},
+      {number_missing, "N#1 G0", 1, 1, ": N"},
       {number_missing, "O\n", 1, 1, ": O"},
       {number_range, "G0 X1234567890", 1, 4, ": X1234567890"},
       {number_range, "O1234567890", 1, 1, ": O1234567890"},

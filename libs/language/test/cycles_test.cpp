@@ -40,6 +40,11 @@ TEST(Cycles, Drilling) {
       {"a peck that fits makes no rest",
        "G99 G83 X0 Z-4 R2 Q3 F100\n",
        {"rapid Z2", "line Z-1 F100", "rapid Z2", "rapid", "line Z-4 F100", "rapid Z2", "end 0"}},
+      // 0.3 - 3 * 0.1 is 5.6e-17 above 0 in binary numbers: no fourth peck.
+      {"rounding makes no peck",
+       "G99 G73 X0 Z0 R0.3 Q0.1 F100\n",
+       {"rapid Z0.3", "line Z0.2 F100", "rapid Z0.3", "line Z0.1 F100", "rapid Z0.3", "line F100",
+        "rapid Z0.3", "end 0"}},
       {"a peck deeper than the hole",
        "G99 G83 X0 Z-4 R2 Q30 F100\n",
        {"rapid Z2", "line Z-4 F100", "rapid Z2", "end 0"}},
@@ -163,8 +168,25 @@ TEST(Patterns, CircleArcLineAndGrid) {
   // In G91 the centre is counted from the position.
   expect_places(holes(machine, "G0 X100\n" + cycle + "G91 G70 X5 Y0 I10 J0 K2\n"), {{115, 0}, {95, 0}});
   expect_places(holes(machine, "G20\nG99 G81 Z-1 R1 L0 F100\nG79 X0 Y0 I1 P2 J1 K1\n"), {{0, 0}, {25.4, 0}});
+  expect_places(holes(machine, "G16\n" + cycle + "X10 Y0\nG91 Y90 L3\nY45\n"),
+                {{10, 0}, {0, 10}, {-10, 0}, {0, -10}, {10 * std::sqrt(0.5), -10 * std::sqrt(0.5)}});
   expect_places(holes(machine, "G16\n" + cycle + "G81 X10 Y0 Z-1 R1 F100\nY90\nG91 Y90\n"),
                 {{10, 0}, {0, 10}, {-10, 0}});
+}
+
+TEST(Cycles, WordsOfOtherCodesAreNotTheirs) {
+  TestMachine machine = machine_for_cycles();
+  machine.programs["O0200"] = std::make_unique<StringSource>("X1\nM99\n");
+  const Golden goldens[] = {
+      {"P and Q of modal codes in a block that drills",
+       "G99 G82 Z-1 R0 P100 L0 F100\nG64 P0.5 X1\nG5.1 Q1 X2\n",
+       {"rapid X1", "line X1 Z-1 F100", "dwell 0.1", "rapid X1", "rapid X2", "line X2 Z-1 F100", "dwell 0.1",
+        "rapid X2", "end 0"}},
+      {"P and L of a call while a cycle is on",
+       "G99 G81 Z-1 R0 L0 F100\nM98 P200 L2\n",
+       {"rapid X1", "line X1 Z-1 F100", "rapid X1", "line X1 Z-1 F100", "rapid X1", "end 0"}},
+  };
+  expect_streams(machine, goldens);
 }
 
 TEST(Patterns, HolesAreCommandsOneByOne) {

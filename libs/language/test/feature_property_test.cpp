@@ -28,6 +28,8 @@ class Writer {
   void level(char letter, std::int64_t units, std::int64_t base) {
     number(letter, incremental_ ? units - base : units);
   }
+  /// The program has gone to a place by other words.
+  void stand(char letter, std::int64_t units) { at_[static_cast<std::size_t>(letter - 'X')] = units; }
   void feed(std::int64_t units) { number('F', units); }
   std::string text() const {
     return std::string(inch_ ? "G20" : "G21") + (incremental_ ? " G91\n" : " G90\n") + text_;
@@ -92,7 +94,7 @@ std::string program(unsigned seed, bool inch, bool incremental) {
         // G99 leaves the tool at R: both forms go on from a level they know.
         w.code("G90 G0 ");
         w.code(inch ? "Z2.5" : "Z63.5");
-        w.code(incremental ? " G91\n" : "\n");
+        w.code(incremental ? "\nG91\n" : "\n");
         // The writer's own level is 500 units = 63.5 mm, as before the cycle.
         break;
       }
@@ -116,18 +118,18 @@ std::string program(unsigned seed, bool inch, bool incremental) {
         break;
       }
       case 4:
-        w.code("G68 X0 Y0 R" + std::to_string(below(36) * 10) + "\n");
-        w.code("G1");
-        w.axis('X', coordinate());
-        w.axis('Y', coordinate());
-        w.end_block();
-        w.code("G69\n");
-        // Both forms name the point they stand at.
-        w.code("G90 G0 X0 Y0 ");
-        w.code(incremental ? "G91\n" : "\n");
-        w.axis('X', 0);
-        w.axis('Y', 0);
-        w.end_block();
+        // In a turned frame the position has other coordinates: both forms first go to a place they name.
+        for (const std::string& frame :
+             {"G68 X0 Y0 R" + std::to_string(below(36) * 10), std::string("G69")}) {
+          w.code(frame + "\nG90 G0 X0 Y0");
+          w.code(incremental ? "\nG91\n" : "\n");
+          w.stand('X', 0);
+          w.stand('Y', 0);
+          w.code("G1");
+          w.axis('X', coordinate());
+          w.axis('Y', coordinate());
+          w.end_block();
+        }
         break;
       default:
         w.code("G1");

@@ -61,6 +61,7 @@ inline std::vector<WrongMotion> wrong_motion() {
       {cycle_lead_missing, "S100 G84 X1 Z-1 R1", 1, 6, ": G84"},
       {feed_missing, "G81 X1 Z-1 R1", 1, 1, ": G81"},
       {cycle_repeats, "G81 X1 Z-1 R1 K2 L2 F1", 1, 18, ": L2"},
+      {cycle_repeats, "G16 G81 Z-1 R1 L0 F1\nG91 X1 Y10 L2", 2, 5, ": X1"},
       {cycle_return_level, "G99 G87 X1 Z-1 R-5 Q1 F1", 1, 5, ": G87"},
       {cycle_shift_missing, "G76 X1 Z-1 R1 F1", 1, 1, ": G76"},
       {pattern_without_cycle, "G70 X0 Y0 I1 J0 K4", 1, 1, ": G70"},

@@ -112,34 +112,6 @@ TEST(ChannelSetup, ATableThatTurnsCarriesTheTipAlong) {
   EXPECT_NEAR(tip[1], 0, 1e-12);
 }
 
-TEST(ChannelSetup, ToolRadiiAndAdditionalOffsetsAreThoseOfTheTables) {
-  auto tables = load_machine_tables(ac_table);
-  tables.tools.tools[0].radius = 4;
-  tables.tools.tools[0].radius_wear = -0.1;
-  tables.offsets.offsets.push_back({0, 53, {1, 2, 3}});
-  const ChannelSetup setup(tables);
-  const auto tool = setup.tool_offset(1);
-  ASSERT_TRUE(tool.has_value());
-  EXPECT_EQ(tool->length, 100);
-  EXPECT_EQ(tool->radius, 4);
-  EXPECT_EQ(tool->radius_wear, -0.1);
-  EXPECT_EQ(setup.work_offset(53)[language::Y], 2);  // G54.1 P48
-}
-
-TEST(ChannelSetup, OrientsTheToolWithinTheTravelOfTheRotaryAxes) {
-  const ChannelSetup setup(load_machine_tables(ac_table));
-  // 30 degrees from Z towards -Y of the workpiece: the tip of a shorter tool lies in that direction.
-  const auto turned = setup.orient({0, -0.5, std::sqrt(0.75)}, {}, language::RotaryChoice::shortest);
-  ASSERT_TRUE(turned.has_value());
-  const auto tip = setup.tip_from_machine(*turned, 1);
-  const auto gauge = setup.tip_from_machine(*turned, 0);
-  EXPECT_NEAR(gauge[0] - tip[0], 0, 1e-9);
-  EXPECT_NEAR(gauge[1] - tip[1], -0.5, 1e-9);
-  EXPECT_NEAR(gauge[2] - tip[2], std::sqrt(0.75), 1e-9);
-  // From below no table can be cut.
-  EXPECT_EQ(setup.orient({0, 0, -1}, {}, language::RotaryChoice::shortest), std::nullopt);
-}
-
 TEST(ChannelSetup, AMoveOutOfTravelIsToldWithLineAxisAndLimits) {
   const ChannelSetup setup(load_machine_tables(ac_table));
   language::Command move;
