@@ -108,7 +108,7 @@ def codes():
 
 
 def macros():
-    variables, functions, calls, reader = (f"libs/language/{f}.hpp" for f in ("variables", "expression", "macro_call", "iso_dialect"))
+    variables, functions, calls = (f"libs/language/{f}.hpp" for f in ("variables", "arithmetic", "macro_call"))
     v = [(int(a), int(b), w == "true", joined(text)) for a, b, w, text in
          entries(variables, "VariableRange", r"(\d+),\s*(\d+),\s*VariableKind::\w+,\s*(true|false),\s*" + TEXT)]
     f = [(joined(n), joined(text)) for n, text in entries(functions, "FunctionName", TEXT + r",\s*Function::\w+,\s*" + TEXT)]

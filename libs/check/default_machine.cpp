@@ -47,7 +47,8 @@ ToolRows read_tool_rows(const std::string& text, const std::string& file) {
     from = end + 1;
     ++line_number;
     const auto fail = [&](const std::string& what) {
-      throw std::runtime_error(file + ":" + std::to_string(line_number) + ": " + what);
+      throw std::runtime_error(
+          std::string(file).append(":").append(std::to_string(line_number)).append(": ").append(what));
     };
     if (line.empty() || line.front() == '#') continue;
     const auto fields = columns(line);

@@ -79,6 +79,17 @@ void JsonLines::position(std::string_view key, const language::AxisValues& value
   put(separator == '{' ? "{}" : "}");
 }
 
+void JsonLines::vector(std::string_view key, const language::Vector3& values) {
+  put(key);
+  char separator = '[';
+  for (const double value : values) {
+    put({&separator, 1});
+    number(value);
+    separator = ',';
+  }
+  put("]");
+}
+
 void JsonLines::motion(const Motion& motion) {
   make_room();
   put("{\"n\":");
@@ -94,17 +105,13 @@ void JsonLines::motion(const Motion& motion) {
     put("null");
   }
   if (motion.kind == CommandKind::arc) {
-    put(",\"center\":[");
-    number(motion.arc.centre[0]);
-    put(",");
-    number(motion.arc.centre[1]);
-    put(",");
-    number(motion.arc.centre[2]);
-    put("],\"plane\":\"");
+    vector(",\"center\":", motion.arc.centre);
+    put(",\"plane\":\"");
     put(plane_name(motion.arc.plane));
     put(motion.arc.clockwise ? "\",\"cw\":true" : "\",\"cw\":false");
     put(",\"turns\":");
     whole(motion.turns);
+    if (motion.arc.normal != language::Vector3{}) vector(",\"normal\":", motion.arc.normal);
   }
   put("}\n");
 }

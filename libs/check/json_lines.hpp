@@ -24,6 +24,7 @@ class JsonLines {
   JsonLines(const JsonLines&) = delete;
   JsonLines& operator=(const JsonLines&) = delete;
 
+  /// An arc in none of the three planes has "normal", the vector it turns about, and "plane" says nothing.
   void motion(const Motion& motion);
   void end(const language::AxisValues& mcs);
   /// With "program" when it is in another text, and "called_from", innermost first, when it is in a
@@ -36,6 +37,7 @@ class JsonLines {
   void number(double value);
   void whole(std::uint64_t value);
   void position(std::string_view key, const language::AxisValues& values);
+  void vector(std::string_view key, const language::Vector3& values);
   void make_room();
 
   static constexpr std::size_t room = 1024;  // more than any line of a motion

@@ -1,5 +1,6 @@
 #include "check/motion_tracker.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -30,11 +31,18 @@ double straight_length(const AxisValues& from, const AxisValues& to) {
 }
 
 double arc_length(const AxisValues& from, const AxisValues& to, const language::Arc& arc) {
-  const auto plane = language::plane_axes(arc.plane);
-  const std::size_t third = 3u - plane.first - plane.second;
-  const double radius =
-      std::hypot(from[plane.first] - arc.centre[plane.first], from[plane.second] - arc.centre[plane.second]);
-  return std::hypot(radius * arc.sweep * std::numbers::pi / 180, to[third] - from[third]);
+  const language::Vector3 normal = arc_normal(arc);
+  double along = 0;
+  double rise = 0;
+  double square = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double offset = from[axis] - arc.centre[axis];
+    along += offset * normal[axis];
+    rise += (to[axis] - from[axis]) * normal[axis];
+    square += offset * offset;
+  }
+  const double radius = std::sqrt(std::max(0.0, square - along * along));
+  return std::hypot(radius * arc.sweep * std::numbers::pi / 180, rise);
 }
 
 std::optional<double> feed_of(const Command& command, double length) {
@@ -57,6 +65,13 @@ std::optional<double> feed_of(const Command& command, double length) {
 }
 
 }  // namespace
+
+language::Vector3 arc_normal(const language::Arc& arc) {
+  if (arc.normal != language::Vector3{}) return arc.normal;
+  language::Vector3 normal{};
+  normal[language::plane_axes(arc.plane).normal] = 1;
+  return normal;
+}
 
 AxisValues MotionTracker::to_machine(const Command& command, const AxisValues& point) const {
   return command.modal.transformation == language::Transformation::rtcp

@@ -21,6 +21,9 @@ struct Motion {
   std::uint32_t turns = 0;     ///< of kind arc: begun turns
 };
 
+/// The unit vector an arc turns about.
+language::Vector3 arc_normal(const language::Arc& arc);
+
 /// Follows the commands of one program.
 class MotionTracker {
  public:

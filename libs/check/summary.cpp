@@ -41,21 +41,42 @@ void Summary::extend(const AxisValues& point) {
   }
 }
 
+// The farthest point along an axis is where the radius points most in its direction; it counts when the arc
+// passes it.
 void Summary::extend_over_arc(const Motion& motion) {
-  const auto plane = language::plane_axes(motion.arc.plane);
-  const double x = motion.from[plane.first] - motion.arc.centre[plane.first];
-  const double y = motion.from[plane.second] - motion.arc.centre[plane.second];
-  const double radius = std::hypot(x, y);
-  double start = std::atan2(y, x) * 180 / std::numbers::pi;
-  if (motion.arc.clockwise) start -= motion.arc.sweep;
-  // The farthest points lie at the quarters the arc passes.
-  AxisValues point = motion.from;
-  for (int k = 0, quarter = static_cast<int>(std::ceil(start / 90));
-       k < 4 && 90.0 * quarter <= start + motion.arc.sweep; ++k, ++quarter) {
-    const int side = ((quarter % 4) + 4) % 4;
-    point[plane.first] = motion.arc.centre[plane.first] + (side == 0 ? radius : side == 2 ? -radius : 0);
-    point[plane.second] = motion.arc.centre[plane.second] + (side == 1 ? radius : side == 3 ? -radius : 0);
-    extend(point);
+  using language::Vector3;
+  const Vector3 normal = arc_normal(motion.arc);
+  const auto dot = [](const Vector3& a, const Vector3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; };
+  Vector3 radius{};
+  for (std::size_t axis = 0; axis < 3; ++axis) radius[axis] = motion.from[axis] - motion.arc.centre[axis];
+  const double along = dot(radius, normal);
+  for (std::size_t axis = 0; axis < 3; ++axis) radius[axis] -= along * normal[axis];
+  const double turn = motion.arc.clockwise ? -1 : 1;
+  const Vector3 side{turn * (normal[1] * radius[2] - normal[2] * radius[1]),
+                     turn * (normal[2] * radius[0] - normal[0] * radius[2]),
+                     turn * (normal[0] * radius[1] - normal[1] * radius[0])};
+  const double sweep = motion.arc.sweep * std::numbers::pi / 180;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double first = std::atan2(side[axis], radius[axis]);
+    // Twice a turn, the last times of each included: a helix rises between them.
+    for (int half = 0; half < 2; ++half) {
+      const double begin =
+          std::fmod(first + half * std::numbers::pi + 2 * std::numbers::pi, 2 * std::numbers::pi);
+      const double last = begin + 2 * std::numbers::pi * std::floor((sweep - begin) / (2 * std::numbers::pi));
+      for (const double angle : {begin, last}) {
+        if (angle > sweep || angle < 0) continue;
+        AxisValues point = motion.from;
+        const double share = angle / sweep;
+        for (std::size_t k = 0; k < 3; ++k) {
+          const double rise = dot({motion.mcs[0] - motion.from[0], motion.mcs[1] - motion.from[1],
+                                   motion.mcs[2] - motion.from[2]},
+                                  normal);
+          point[k] = motion.arc.centre[k] + radius[k] * std::cos(angle) + side[k] * std::sin(angle) +
+                     (along + rise * share) * normal[k];
+        }
+        extend(point);
+      }
+    }
   }
 }
 

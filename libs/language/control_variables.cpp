@@ -2,7 +2,8 @@
 
 #include <cmath>
 
-#include "language/expression.hpp"
+#include "language/arithmetic.hpp"
+#include "language/decimal.hpp"
 #include "language/letters.hpp"
 
 namespace trunnion::language {

@@ -181,6 +181,7 @@ class Interpreter {
   Call call_;
   Arguments arguments_;
   TextPosition after_call_;
+  std::uint32_t call_line_ = 0;
   bool modal_call_active_ = false;
   bool in_modal_call_ = false;
   Call modal_call_;

@@ -21,6 +21,7 @@ Interpreter::State Interpreter::call(const Call& call, std::string_view line) {
   if (depth_ == max_nesting) return fail({AlarmNumber::nesting_too_deep, call.offset}, line);
   call_ = call;
   after_call_ = reader_.position();
+  call_line_ = line_;
   const bool cycle = call.kind == CallKind::cycle;
   TextSource* const caller = frames_[depth_].source;
   for (const Found& known : found_) {
@@ -48,7 +49,7 @@ Interpreter::State Interpreter::enter(const Found& target) {
   frame.source = target.source;
   frame.program = target.program;
   frame.top = target.top;
-  frame.call_line = line_;
+  frame.call_line = call_line_;
   frame.remaining = call_.repetitions - 1;
   frame.begun = false;
   frame.own_variables = call_.kind != CallKind::subprogram;

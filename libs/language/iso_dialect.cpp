@@ -51,9 +51,10 @@ class BlockReader {
   Fault read() {
     block_.clear();
     if (!scanner_.more() || scanner_.peek() == '*') return {};
-    if (scanner_.peek() == '/' && read_skip(scanner_, skip_)) {
-      block_.skipped = true;
-      return {};
+    if (scanner_.peek() == '/') {
+      skip_is_read_ = true;
+      block_.skipped = read_skip(scanner_, skip_);
+      if (block_.skipped) return {};
     }
     if (!scanner_.at_end() && starts_head(scanner_.peek())) {
       if (const Fault fault = read_head(scanner_, block_.head, block_.program_number)) return fault;
@@ -67,10 +68,8 @@ class BlockReader {
   }
 
  private:
-  bool only_number() const {
-    return block_.head == Head::none && block_.g_count == 0 && block_.m_count == 0 &&
-           (block_.letters & ~Block::bit('N')) == 0;
-  }
+  /// Nothing but N and a block skip was read: here a statement may begin.
+  bool at_start() const { return block_.head == Head::none && !word_is_read_; }
 
   Fault item(bool& done) {
     const char c = scanner_.peek();
@@ -86,11 +85,12 @@ class BlockReader {
       return {};
     }
     if (c == '#') {
-      if (!only_number()) return {AlarmNumber::statement_not_first, at};
+      if (!at_start()) return {AlarmNumber::statement_not_first, at};
       done = true;
       return assignments();
     }
-    if (c == '/' && block_.letters == Block::bit('N') && only_number()) {
+    if (c == '/' && !skip_is_read_ && block_.has('N') && at_start()) {
+      skip_is_read_ = true;
       done = block_.skipped = read_skip(scanner_, skip_);
       return {};
     }
@@ -125,6 +125,8 @@ class BlockReader {
     Value value;
     if (const Fault fault = number(at, name != 'N', value)) return fault;
     if (name == 'O') return {AlarmNumber::misplaced_head, at};
+    // A word counts even when it is left out because its variable is vacant.
+    word_is_read_ = word_is_read_ || name != 'N';
     if (!value.given) return {};
     if (name == 'G') {
       if (block_.g_count == max_g_codes) return {AlarmNumber::too_many_codes, at};
@@ -207,7 +209,7 @@ class BlockReader {
   Fault instruction(bool& done) {
     const std::uint16_t at = scanner_.offset();
     block_.at = at;
-    const bool first = only_number();
+    const bool first = at_start();
     done = true;
     Fault fault;
     if (scanner_.take_word("IF")) {
@@ -242,7 +244,9 @@ class BlockReader {
     return state(Statement::go_to);
   }
 
+  /// DO and END take their number as it is written, because searches look for it in the text.
   Fault labelled(Statement statement) {
+    if (!scanner_.more() || !is_digit(scanner_.peek())) return {AlarmNumber::number_missing, block_.at};
     if (const Fault fault = label(block_.label)) return fault;
     return state(statement);
   }
@@ -281,6 +285,8 @@ class BlockReader {
   Variables& variables_;
   Block& block_;
   bool calls_macro_ = false;
+  bool skip_is_read_ = false;
+  bool word_is_read_ = false;
 };
 
 std::uint32_t plain_number(Scanner& scanner) {

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -64,6 +65,32 @@ TEST(Summary, ArcsReachBeyondTheirEnds) {
   EXPECT_THAT(text, HasSubstr("Y        -5.0000 .. 5.0000"));
   // Clockwise it is one quarter, within its ends.
   EXPECT_THAT(summary_of("G0 X5\nG2 X0 Y-5 I-5 F10\n"), HasSubstr("X        0.0000 .. 5.0000"));
+}
+
+TEST(Summary, HelixReachesHighestWhereItTurns) {
+  // Three turns of radius 5 about (0, 0) from (5, 0), 30 up: the last time at X 5 is its end.
+  const std::string text = summary_of("G0 X5\nG3 X5 Y0 Z30 I-5 L3 F10\n");
+  EXPECT_THAT(text, HasSubstr("X        -5.0000 .. 5.0000"));
+  EXPECT_THAT(text, HasSubstr("Z        0.0000 .. 30.0000"));
+  // 3 * 2 * pi * 5 = 94.248 around, 30 up.
+  EXPECT_THAT(text, HasSubstr("98.907 mm at feed"));
+}
+
+TEST(Summary, CircleInATiltedPlane) {
+  // Half a circle of radius 10 about (0, 0, 0), turned 45 degrees about X: through (0, 7.0711, 7.0711).
+  Motion motion;
+  motion.kind = language::CommandKind::arc;
+  motion.from = {10};
+  motion.mcs = {-10};
+  motion.length = 31.4159;
+  motion.arc.sweep = 180;
+  motion.arc.normal = {0, -std::sqrt(0.5), std::sqrt(0.5)};
+  Summary summary(0b111);
+  summary.add(motion);
+  EXPECT_NEAR(summary.highest()[0], 10, 1e-9);
+  EXPECT_NEAR(summary.highest()[1], 7.0710678, 1e-6);
+  EXPECT_NEAR(summary.highest()[2], 7.0710678, 1e-6);
+  EXPECT_NEAR(summary.lowest()[1], 0, 1e-9);
 }
 
 TEST(ToolRows, ReadsRowsNamesAndComments) {

@@ -99,6 +99,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       require(whole.interpreter.alarm().column == pieces.interpreter.alarm().column);
       require(whole.interpreter.alarm().text == pieces.interpreter.alarm().text);
       require(whole.interpreter.alarm().calls == pieces.interpreter.alarm().calls);
+      for (std::size_t k = 0; k < max_nesting; ++k) {
+        require(whole.interpreter.alarm().chain[k].line == pieces.interpreter.alarm().chain[k].line);
+      }
     }
     break;
   }

@@ -143,6 +143,24 @@ TEST(MacroCall, ExampleOfEveryCallCodeIsAcceptedAndOtherNumbersAreRefused) {
   }
 }
 
+TEST(MacroCall, ChainOfCallsIsTheSameFromATextThatComesInPieces) {
+  struct Pieces : TextSource {
+    ReadResult read(std::uint64_t offset, char* buffer, std::size_t capacity) override {
+      asked = !asked;
+      if (asked) return {ReadStatus::pending, 0};
+      return whole.read(offset, buffer, std::min<std::size_t>(capacity, 3));
+    }
+    StringSource whole{"G0 X1\nM98 P5\nM30\n(....................)\nO5\nG77\nM99\n"};
+    bool asked = false;
+  };
+  TestMachine machine;
+  Pieces text;
+  const Interpretation result = run(machine, text);
+  EXPECT_EQ(result.alarm.line, 6u);
+  ASSERT_EQ(result.alarm.calls, 1);
+  EXPECT_EQ(result.alarm.chain[0].line, 2u);
+}
+
 TEST(MacroCall, RecursionIsAnAlarmAtTheNinthLevel) {
   TestMachine machine = machine_with_cycles();
   for (const char* program : {"M98 P5\nM30\nO5\nM98 P5\nM99", "G65 P5 A1\nM30\nO5\nG65 P5 A#1\nM99"}) {

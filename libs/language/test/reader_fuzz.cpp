@@ -45,6 +45,14 @@ void check(std::string_view line, SkipLevels skip, Variables& variables, Block& 
     require(is_structure(block.statement) ? outline.statement == block.statement
                                           : outline.statement == Statement::none);
   }
+  if (block.statement == Statement::begin_do || block.statement == Statement::end_do) {
+    require(outline.label == block.label);
+  }
+  if (!block.skipped && block.head == Head::none && block.has('N') && block.value('N') >= 0 &&
+      block.value('N') == std::floor(block.value('N'))) {
+    require(outline.sequence_number == static_cast<std::uint32_t>(block.value('N')) ||
+            !line.starts_with('N'));
+  }
   if (block.statement == Statement::else_if) {
     bool condition = false;
     static_cast<void>(dialect.read_condition(line, block.rest, variables, condition));
