@@ -81,7 +81,7 @@ inline std::vector<WrongMotion> wrong_motion() {
       {compensation_active, "G41 D1\nG43 H1", 2, 1, ": G43"},
       {compensation_active, "G41 D1\nG81 X1 Z-1 R1 F1", 2, 1, ": G81"},
       {compensation_active, "G41 D1\nG92 X1", 2, 1, ": G92"},
-      {compensation_active, "G43.5 H1\nG41 D1\nG1 X5 I1 K1 F1", 3, 10, ": K1"},
+      {compensation_rotary, "G43.5 H1\nG41 D1\nG1 X5 I1 K1 F1", 3, 1, ": G1"},
       {compensation_rotary, "G43.4 H1\nG41 D1 G1 X10 F1 A5", 2, 1, ": G41"},
       {factor_range, "G51 P0", 1, 5, ": P0"},
       {factor_range, "G51 I2 J0", 1, 8, ": J0"},
