@@ -79,6 +79,34 @@ INSTANTIATE_TEST_SUITE_P(Pieces, TestPiece,
                            return name;
                          });
 
+// One program with tool vectors for every machine: lines over which the tool goes round a cone, through the
+// pole and past it. Its tips are the program's on all of them.
+class VectorProgram : public testing::TestWithParam<const char*> {};
+
+TEST_P(VectorProgram, IsTheSameTextForEveryMachineAndKeepsTheTipOnItsLines) {
+  const auto path =
+      std::filesystem::temp_directory_path() / ("trunnion-vector-" + std::to_string(getpid()) + ".nc");
+  std::ofstream(path) << "G21 G17 G90 G54 G94 G61\nG53 G0 Z0\nG43.5 H1\nG0 X0 Y0 Z80\n"
+                         "G1 X0 Y0 Z60 F3000\nX30 I0.4 K1\nX30 Y30 J0.4 K1\nX0 Y30 I-0.4 K1\nX0 Y0 J-0.4 K1\n"
+                         "X20 Y20 J0.4 K1\nX0 Y0 Z65 I0.0004 J-0.4 K1\nX10 I0 J0 K1\nG49\nG53 G0 Z0\nM30\n";
+  const auto report = run(std::string(GetParam()) + " " + path.string());
+  std::filesystem::remove(path);
+  ASSERT_TRUE(report.is_object());
+  EXPECT_EQ(report["problem"], "");
+  EXPECT_GT(report["contour_error"]["commands_feed"]["cycles"].get<int>(), 3000);
+  EXPECT_LT(report["contour_error"]["commands_feed"]["max_mm"].get<double>(), 1e-6);
+  EXPECT_LT(report["forward_inverse_residual"]["max_mm"].get<double>(), 1e-6);
+}
+
+INSTANTIATE_TEST_SUITE_P(Machines, VectorProgram,
+                         testing::Values("ac-table", "bc-table", "cb-head", "ac-head", "b-head-c-table",
+                                         "nutating-b-head-c-table"),
+                         [](const auto& machine) {
+                           std::string name = machine.param;
+                           std::replace(name.begin(), name.end(), '-', '_');
+                           return name;
+                         });
+
 TEST(Kinematics, TheServiceComputesTheBitsOfTheLibrary) {
   const std::string name = "nutating-b-head-c-table";
   machine::Parameters parameters;

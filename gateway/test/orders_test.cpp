@@ -124,7 +124,7 @@ TEST(Orders, AWorkOffsetHasNineNumbers) {
   const Json nine = {1, 2, 3, 4, 5, 6, 7, 8, 9};
   const auto set = work_offset_order({{"channel", 0}, {"index", 5}, {"values", nine}});
   EXPECT_EQ(set.offsets.at(0).values, (std::vector<double>{1, 2, 3, 4, 5, 6, 7, 8, 9}));
-  EXPECT_THROW(work_offset_order({{"channel", 0}, {"index", 6}, {"values", nine}}), BadRequest);
+  EXPECT_THROW(work_offset_order({{"channel", 0}, {"index", 54}, {"values", nine}}), BadRequest);
   EXPECT_THROW(work_offset_order({{"channel", 0}, {"index", 0}, {"values", {1, 2}}}), BadRequest);
   EXPECT_THROW(work_offset_order({{"channel", 0}, {"index", 0}}), BadRequest);
 }

@@ -296,11 +296,14 @@ std::optional<double> DirectionPath::outside(const DirectionPathRequest& request
         return true;
     return false;
   };
-  constexpr int places = 64;
+  // Every degree of direction, at least: short lines are many.
+  const int places = static_cast<int>(std::clamp(std::ceil(arc_.length() / radians_per_degree), 4.0, 64.0));
   for (int n = 0; n <= places; ++n)
     if (const double s = static_cast<double>(n) / places; beyond(s)) return s;
   for (const double s : {foot(1), foot(-1)})
     if (s > 0 && s < 1 && beyond(s)) return s;
+  for (std::size_t n = 0; n < count_; ++n)
+    if (beyond(pieces_[n].end)) return pieces_[n].end;
   return std::nullopt;
 }
 

@@ -22,7 +22,7 @@ struct DirectionPathFault {
     not_a_direction,  ///< no length, or not finite
     opposite,         ///< the directions are opposite: there is no shortest way
     unreachable,      ///< the machine does not reach the direction at `s`
-    outside_travel,   ///< a rotary axis would leave its travel at `s`
+    outside_travel,   ///< a rotary axis is beyond its travel at `s`, within a degree of where it leaves
     pole,             ///< the path comes too close to a pole at `s`
   };
   Kind kind = not_a_direction;

@@ -1,7 +1,7 @@
 #include <benchmark/benchmark.h>
 
 #include "../test/machines.hpp"
-#include "geometry/orientation.hpp"
+#include "geometry/direction_path.hpp"
 
 namespace trunnion::geometry {
 namespace {
@@ -82,6 +82,31 @@ void every_orientation(benchmark::State& state) {
   while (state.KeepRunning()) benchmark::DoNotOptimize(solver.all(request, out, answer));
 }
 BENCHMARK(every_orientation);
+
+DirectionPathRequest past_the_pole() {
+  DirectionPathRequest request;
+  request.from = Vec3(0.0005, -0.4, 1);
+  request.to = Vec3(0.0005, 0.4, 1);
+  return request;
+}
+
+void direction_path(benchmark::State& state) {
+  const OrientationSolver solver(make(ac_table()));
+  const auto request = past_the_pole();
+  while (state.KeepRunning()) benchmark::DoNotOptimize(DirectionPath::make(solver, request));
+}
+BENCHMARK(direction_path);
+
+void derivatives_on_direction_path(benchmark::State& state) {
+  const OrientationSolver solver(make(ac_table()));
+  const auto path = std::get<DirectionPath>(DirectionPath::make(solver, past_the_pole()));
+  double s = 0;
+  while (state.KeepRunning()) {
+    s = s > 0.3 ? 0 : s + 1e-6;
+    benchmark::DoNotOptimize(path.derivatives(s));
+  }
+}
+BENCHMARK(derivatives_on_direction_path);
 
 }  // namespace
 }  // namespace trunnion::geometry

@@ -347,7 +347,6 @@ void ChannelCore::run_pending(FlowState flow) {
                                    std::to_string(command.line) + ": message " +
                                    std::to_string(command.number) + ", see the comment of the line");
       flow_.finish_pending();
-      run_ = RunState::HELD;
       return;
     case CommandKind::tool:
       begin_auxiliary(3, command.number, 0);

@@ -71,6 +71,22 @@ TEST(Kinematics, ForwardOfWhatItCommandsIsTheTipWithin1e9) {
   }
 }
 
+TEST(Kinematics, CommandsTheBitsOfTheLibrary) {
+  KinematicsCore core;
+  core.configure(ac_table(), 0);
+  const auto chain = machine::make_chain(ac_table(), 0);
+  std::mt19937 random(8);
+  std::uniform_real_distribution<double> place(-500, 500), angle(-360, 360);
+  idl::stream::AxisFrame out;
+  for (int i = 0; i < 20000; ++i) {
+    const geometry::Vec3 tip(place(random), place(random), place(random));
+    const double a = angle(random), c = angle(random);
+    core.process(frame({tip.x(), tip.y(), tip.z(), a, 0, c, 0, 0, 0}, 1, 123.4), {}, out);
+    const geometry::Vec3 at = chain.machine_from_tip(tip, {a, 0, c}, 123.4);
+    ASSERT_EQ(out.setpoints, (std::vector<double>{at.x(), at.y(), at.z(), a, c}));
+  }
+}
+
 TEST(Kinematics, AZeroDirectionIsRefusedWithTheParametersNamed) {
   auto parameters = ac_table();
   parameters.values[40426] = {0, ""};

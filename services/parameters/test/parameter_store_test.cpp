@@ -286,7 +286,7 @@ TEST(ParameterStore, AnImportChangesValuesToolsAndOffsetsTogetherOrNothing) {
   ParameterStore store(storage, defaults(), "one");
   auto request = set({{name, 0, "Y"}}, Operation::IMPORT);
   request.tools = {{1, 10, 0, 1, 0, ""}};
-  request.offsets = {{0, 6, {1, 2, 3}}};
+  request.offsets = {{0, 54, {1, 2, 3}}};
   EXPECT_FALSE(store.apply(request, time_text).accepted);
   EXPECT_EQ(store.set().values[0].text, "X");
   EXPECT_TRUE(store.tool_table().tools.empty());
