@@ -82,7 +82,7 @@ TEST(Machines, ParametersTakeEffectAtResetAndWrongOnesAreRefusedWithTheirLimits)
     FAIL();
   } catch (const std::exception& e) {
     EXPECT_EQ(std::string(e.what()),
-              "parameter 100007 (negative_limit): -2e+06 is outside -1e+06 .. 1e+06 mm|deg");
+              "parameter 100007 (negative_limit): -2000000 is outside -1000000 .. 1000000 mm");
   }
 }
 

@@ -116,7 +116,8 @@ double Catalogue::default_of(std::uint32_t number) const {
   return d->default_at(offset - d->offset);
 }
 
-std::string Catalogue::check(std::uint32_t number, double value, const std::string& text) const {
+std::string Catalogue::check(std::uint32_t number, double value, const std::string& text,
+                             const std::string& unit) const {
   const auto* d = find(number);
   if (d == nullptr) return "parameter " + number_text(number) + " does not exist";
   const auto who = "parameter " + number_text(number) + " (" + d->name + ")";
@@ -128,7 +129,7 @@ std::string Catalogue::check(std::uint32_t number, double value, const std::stri
   std::ostringstream limits;
   limits << std::setprecision(15) << who << ": " << value << " is outside " << d->minimum << " .. "
          << d->maximum;
-  if (!d->unit.empty()) limits << " " << d->unit;
+  if (!d->unit.empty()) limits << " " << (unit.empty() ? d->unit : unit);
   if (!(value >= d->minimum && value <= d->maximum)) return limits.str();
   if (d->type == ParameterType::integer && value != std::floor(value)) {
     std::ostringstream whole;

@@ -58,8 +58,10 @@ class Catalogue {
   /// Throws std::out_of_range: service code only asks for names that exist.
   const Definition& by_name(const std::string& name) const;
   double default_of(std::uint32_t number) const;
-  /// Empty when `value` may be stored, else one line that names the parameter and its limits.
-  std::string check(std::uint32_t number, double value, const std::string& text) const;
+  /// Empty when `value` may be stored, else one line that names the parameter and its limits, in `unit` when
+  /// that is given (see unit_of()).
+  std::string check(std::uint32_t number, double value, const std::string& text,
+                    const std::string& unit = "") const;
 
  private:
   std::vector<Definition> definitions_;

@@ -149,8 +149,13 @@ std::string ParameterStore::change(State& next, const ParameterRequest& request,
         value = machine_default(parameter.number);
       else if (definition != nullptr && definition->type == machine::ParameterType::text)
         value.value = 0;
-      if (auto error = Catalogue::instance().check(parameter.number, value.value, value.text); !error.empty())
-        return error;
+      const auto& catalogue = Catalogue::instance();
+      if (!catalogue.check(parameter.number, value.value, value.text).empty()) {
+        auto all = next.overrides;  // with the machine builder's: they say what the axes are
+        all.insert(defaults_.values.begin(), defaults_.values.end());
+        return catalogue.check(parameter.number, value.value, value.text,
+                               machine::unit_of(parameter.number, all));
+      }
       const auto before = stored(next.overrides, parameter.number);
       if (before == value) continue;
       if (value == machine_default(parameter.number))
