@@ -14,6 +14,7 @@ struct AxisLimits {
   double velocity = 100;        ///< at feed, unit/s
   double rapid_velocity = 100;  ///< at rapid, unit/s
   double acceleration = 1000;   ///< unit/s^2, sum of the tangential and the normal part
+  double jerk = 60000;          ///< unit/s^3
 };
 
 /// Limits of a trajectory. The tolerances bound how far the smoothed path may leave the programmed one.
