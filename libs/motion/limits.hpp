@@ -20,10 +20,12 @@ struct AxisLimits {
 /// Limits of a trajectory. The tolerances bound how far the smoothed path may leave the programmed one.
 struct Limits {
   std::array<AxisLimits, language::axis_count> axes{};
-  int smoothing_cycles = 20;            ///< N of the moving average, 1..64
-  double contour_tolerance = 0.01;      ///< mm at corners and along short segments
-  double arc_tolerance = 0.005;         ///< mm along programmed arcs
+  /// An acceleration takes at least this many cycles to build up: jerk stays below acceleration / (N dt).
+  int smoothing_cycles = 1;             ///< 1..64
+  double contour_tolerance = 0.01;      ///< mm at corners and along short segments; 0: exact
+  double arc_tolerance = 0.005;         ///< mm where arcs join other segments
   double orientation_tolerance = 0.05;  ///< degrees of the rotary axes together
+  double centripetal_acceleration = 0;  ///< mm/s^2 of the tool tip in curves; 0: the axes alone
 };
 
 inline constexpr int max_smoothing_cycles = 64;

@@ -89,4 +89,20 @@ AxisValues PathSegment::derivative(double s) const {
   return derivative;
 }
 
+// In polar coordinates with a radius and an angle that grow linearly, e radial and n along the arc:
+// P' = r' e + r w n, P'' = 2 r' w n - r w^2 e, P''' = -3 r' w^2 e - r w^3 n.
+std::array<AxisValues, 3> PathSegment::derivatives(double s) const {
+  std::array<AxisValues, 3> d{slope_, AxisValues{}, AxisValues{}};
+  if (!is_arc_) return d;
+  const double r = radius_ + radius_slope_ * s, w = angle_slope_, dr = radius_slope_;
+  const double angle = angle_ + angle_slope_ * s;
+  const std::array<double, 2> e{std::cos(angle), std::sin(angle)}, n{-e[1], e[0]};
+  for (std::size_t k = 0; k < 2; ++k) {
+    d[0][plane_[k]] += dr * e[k] + r * w * n[k];
+    d[1][plane_[k]] = 2 * dr * w * n[k] - r * w * w * e[k];
+    d[2][plane_[k]] = -3 * dr * w * w * e[k] - r * w * w * w * n[k];
+  }
+  return d;
+}
+
 }  // namespace trunnion::motion

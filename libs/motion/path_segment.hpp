@@ -39,6 +39,12 @@ class PathSegment {
   /// Derivative of the position by s, unit per mm (or per degree, see unit()).
   AxisValues derivative(double s) const;
 
+  /// First, second and third derivative of the position by s.
+  std::array<AxisValues, 3> derivatives(double s) const;
+
+  bool is_arc() const { return is_arc_; }
+  const AxisValues& start() const { return start_; }
+
   /// Largest curvature of the X Y Z curve, 1/mm; 0 for lines.
   double curvature() const { return curvature_; }
 

@@ -30,6 +30,11 @@ void ContourCheck::add(const language::Command& command) {
   piece.is_arc = command.kind == CommandKind::arc;
   piece.sequence = command.sequence;
   piece.size = std::max(distance(end_, command.target, language::X), distance(end_, command.target, language::A));
+  if (piece.is_arc) {
+    const double radius = std::hypot(end_[0] - command.arc.centre[0], end_[1] - command.arc.centre[1],
+                                     end_[2] - command.arc.centre[2]);
+    piece.size = std::max(piece.size, radius * command.arc.sweep * (std::numbers::pi / 180));
+  }
   pieces_.push_back(piece);
   end_ = command.target;
 }

@@ -1,0 +1,248 @@
+#include "motion/speed_stage.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "motion/cell_builder.hpp"
+
+namespace trunnion::motion {
+namespace {
+
+// Rounding that is not worth a reaction: of path coordinates in mm, and of speeds and accelerations as a share.
+constexpr double distance_rounding = 1e-9;
+constexpr double rounding = 1e-7;
+// A rest this small in front of a stop is rounding.
+constexpr double arrival_distance = 1e-7;
+
+}  // namespace
+
+void SpeedStage::clear() {
+  cells_.clear();
+  state_ = {};
+  current_ = 0;
+  entered_ = finished_ = false;
+  wait_ = 0;
+  braking_for_.reset();
+  tail_.reset();
+  overlap_allowed_ = true;
+}
+
+void SpeedStage::extended() {
+  if (braking_for_ && braking_for_->end) braking_for_.reset();
+}
+
+bool SpeedStage::at_end() const {
+  if (cells_.size() == 0) return true;
+  return entered_ && wait_ == 0 && standing() && current_ + 1 == cells_.size() && state_.s == cells_[current_].end;
+}
+
+std::optional<Tail> SpeedStage::take_tail() { return std::exchange(tail_, std::nullopt); }
+
+double SpeedStage::speed_of(const LimitCell& cell, const Look& look) const {
+  if (!look.soft) return cell.speed;
+  return cell.rapid ? cell.speed * look.rapid : std::min(cell.speed, cell.feed * look.feed);
+}
+
+RampLimits SpeedStage::local_ramp(double speed, double reach) const {
+  RampLimits ramp = cells_[current_].ramp(speed);
+  for (std::uint64_t k = current_ + 1; k < cells_.size() && cells_[k].at < state_.s + reach && !cells_[k].stop; ++k) {
+    const RampLimits& next = cells_[k].ramp(speed);
+    ramp.acceleration = std::min(ramp.acceleration, next.acceleration);
+    ramp.jerk = std::min(ramp.jerk, next.jerk);
+  }
+  return ramp;
+}
+
+Transition SpeedStage::wish(const Look& look, bool hold) const {
+  const LimitCell& cell = cells_[current_];
+  double target = hold ? 0 : speed_of(cell, look);
+  const double v = std::max(state_.v, settled_speed(state_.v, state_.a, cell.ramp(state_.v).jerk));
+  // Where faster levels leave less to acceleration, speed is gained level by level.
+  if (!cell.uniform && target > v) target = std::min(target, cell.level_speed(v));
+  const double fastest = std::max(v, target);
+  const RampLimits ramp = local_ramp(fastest, (fastest + 1) * cycle_ * 1.5);
+  return Transition(state_.v, state_.a, target, ramp);
+}
+
+SpeedStage::Obstacle SpeedStage::obstacle_ahead(const PathState& state, std::uint64_t cell, const Look& look) const {
+  const double settled = settled_speed(state.v, state.a, cells_[cell].ramp(state.v).jerk);
+  const double highest = std::max(state.v, settled);
+  RampLimits ramp = cells_[cell].ramp(highest);
+  double stop = braking_distance(state.v, state.a, 0, ramp);
+  for (std::uint64_t k = cell + 1;; ++k) {
+    const bool end = k >= cells_.size();
+    const double distance = (end ? cells_[k - 1].end : cells_[k].at) - state.s + distance_rounding;
+    if (distance >= stop) return {};
+    if (end || cells_[k].stop) return {true, 0, ramp, k, end};
+    const LimitCell& next = cells_[k];
+    const double speed = speed_of(next, look);
+    // A cycle is left between the end of the braking and the slower cell, since cycles do not end at cells.
+    if (highest > speed * (1 + rounding) &&
+        braking_distance(state.v, state.a, speed, ramp) + speed * cycle_ > distance)
+      return {true, speed, ramp, k, false};
+    const RampLimits& own = next.ramp(highest);
+    const double excess = std::abs(state.a) - own.acceleration * (1 + rounding);
+    if (excess > 0) {
+      const double jerk = state.a > 0 ? -ramp.jerk : ramp.jerk;
+      const PathState reduced = integrate({0, state.v, state.a}, jerk, excess / ramp.jerk);
+      if (reduced.s + std::min(speed, std::max(0.0, reduced.v)) * cycle_ > distance)
+        return {true, std::max(0.0, settled_speed(state.v, state.a, ramp.jerk)), {own.acceleration, ramp.jerk}, k, false};
+    }
+    if (own.acceleration < ramp.acceleration || own.jerk < ramp.jerk) {
+      ramp.acceleration = std::min(ramp.acceleration, own.acceleration);
+      ramp.jerk = std::min(ramp.jerk, own.jerk);
+      stop = braking_distance(state.v, state.a, 0, ramp);
+    }
+  }
+}
+
+SpeedStage::Outcome SpeedStage::judge(const PathState& state, const Look& look) const {
+  Outcome outcome{state, current_, {}};
+  const double fastest = std::max(state_.v, state.v);
+  while (state.s > cells_[outcome.cell].end + (outcome.cell + 1 >= cells_.size() ? 1 : 0) * distance_rounding) {
+    const std::uint64_t next = outcome.cell + 1;
+    const bool end = next >= cells_.size() || cells_[next].stop;
+    if (end) {
+      if (state.s > cells_[outcome.cell].end + 2 * distance_rounding || state.v > 1e-3)
+        outcome.obstacle = {true, 0, local_ramp(fastest, fastest * cycle_), next, next >= cells_.size()};
+      return outcome;
+    }
+    const double speed = speed_of(cells_[next], look);
+    if (fastest > speed * (1 + rounding)) {
+      outcome.obstacle = {true, speed, local_ramp(fastest, fastest * cycle_), next, false};
+      return outcome;
+    }
+    outcome.cell = next;
+  }
+  outcome.obstacle = obstacle_ahead(state, outcome.cell, look);
+  return outcome;
+}
+
+// Brakes as an obstacle asks; when that is not enough for another one, as that one asks.
+SpeedStage::Outcome SpeedStage::brake(const Obstacle& first, const Look& look) {
+  Obstacle obstacle = first;
+  for (int attempt = 0; attempt < 8; ++attempt) {
+    const Transition transition(state_.v, state_.a, obstacle.speed, obstacle.ramp);
+    const Outcome outcome = judge(transition.after(state_, cycle_), look);
+    if (!outcome.obstacle.found) {
+      braking_for_ = obstacle;
+      return outcome;
+    }
+    obstacle = outcome.obstacle;
+  }
+  Outcome outcome{state_, current_, obstacle};
+  return outcome;
+}
+
+void SpeedStage::move(const Transition& wished, const Look& look) {
+  const Outcome whole = judge(wished.after(state_, cycle_), look);
+  if (!whole.obstacle.found) {
+    accept(whole);
+    return;
+  }
+  const Obstacle obstacle = whole.obstacle;
+  const auto part = [&](double time) {
+    const PathState at = wished.after(state_, time);
+    return judge(Transition(at.v, at.a, obstacle.speed, obstacle.ramp).after(at, cycle_ - time), look);
+  };
+  Outcome best = part(0);
+  if (best.obstacle.found) {
+    best = brake(best.obstacle, look);
+    if (best.obstacle.found) {
+      // Programmed speeds may have been lowered too late to be met: then they are approached within the limits.
+      const Look hard{false, 1, 1};
+      best = brake(obstacle, hard);
+      braking_for_.reset();
+      if (best.obstacle.found) {
+        ++unsafe_;
+        best.state = Transition(state_.v, state_.a, 0, local_ramp(state_.v, state_.v * cycle_)).after(state_, cycle_);
+      }
+    }
+    accept(best);
+    return;
+  }
+  double low = 0, high = cycle_;
+  for (int k = 0; k < 50; ++k) {
+    const double middle = 0.5 * (low + high);
+    const Outcome outcome = part(middle);
+    if (outcome.obstacle.found) {
+      high = middle;
+    } else {
+      low = middle;
+      best = outcome;
+    }
+  }
+  braking_for_ = obstacle;
+  accept(best);
+}
+
+void SpeedStage::accept(const Outcome& outcome) {
+  state_ = outcome.state;
+  current_ = outcome.cell;
+}
+
+// At a stop, or the end of the path, once the motion has settled there.
+void SpeedStage::arrive() {
+  if (!standing()) return;
+  const bool last = current_ + 1 >= cells_.size();
+  if (last ? !finished_ : !cells_[current_ + 1].stop) return;
+  if (cells_[current_].end - state_.s > arrival_distance) return;
+  state_.s = cells_[current_].end;
+  braking_for_.reset();
+}
+
+void SpeedStage::begin_tail() {
+  if (!overlap_allowed_ || !braking_for_ || braking_for_->speed != 0 || state_.a >= 0) return;
+  const std::uint64_t next = braking_for_->cell;
+  if (next != current_ + 1 || next >= cells_.size() || !(cells_[next].overlap > 0)) return;
+  const double jerk = braking_for_->ramp.jerk, time = -state_.a / jerk;
+  if (time > cells_[next].overlap) return;
+  // Only the last phase of the braking, which nothing can change any more.
+  if (std::abs(state_.v - jerk * time * time / 2) > 1e-6 * (state_.v + 1e-3)) return;
+  if (std::abs(cells_[current_].end - state_.s - jerk * time * time * time / 6) > 1e-8) return;
+  tail_ = Tail{cells_[current_].end, time, jerk, current_};
+  state_ = {cells_[next].at, 0, 0};
+  current_ = next;
+  braking_for_.reset();
+}
+
+void SpeedStage::step(const Overrides& overrides) {
+  tail_.reset();
+  if (cells_.size() == 0) return;
+  Overrides now{std::clamp(overrides.feed, 0.0, highest_override), std::clamp(overrides.rapid, 0.0, 1.0),
+                overrides.hold};
+  if (now.feed != last_.feed || now.rapid != last_.rapid || now.hold != last_.hold) braking_for_.reset();
+  last_ = now;
+  if (!entered_) {
+    entered_ = true;
+    state_ = {cells_[0].at, 0, 0};
+    wait_ = cells_[0].wait_cycles;
+  } else if (standing() && state_.s == cells_[current_].end && current_ + 1 < cells_.size() &&
+             cells_[current_ + 1].stop && wait_ == 0) {
+    ++current_;
+    wait_ = cells_[current_].wait_cycles;
+  }
+  if (wait_ > 0) {
+    if (!now.hold) --wait_;
+    return;
+  }
+  const LimitCell& cell = cells_[current_];
+  const bool hold = now.hold || (cell.rapid ? now.rapid <= 0 : now.feed <= 0);
+  if (hold && standing()) return;
+  Look look{!hold, now.feed, now.rapid};
+  if (now.feed <= 0) look.feed = 1e-3;  // what follows a rapid that goes on is approached slowly
+  if (now.rapid <= 0) look.rapid = 1e-3;
+  if (braking_for_ && !hold) {
+    const Transition transition(state_.v, state_.a, braking_for_->speed, braking_for_->ramp);
+    const bool over = transition.duration() <= cycle_;
+    move(transition, look);
+    if (over) braking_for_.reset();
+  } else {
+    move(wish(look, hold), look);
+  }
+  begin_tail();
+  arrive();
+}
+
+}  // namespace trunnion::motion
