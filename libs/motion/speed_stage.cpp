@@ -12,6 +12,8 @@ namespace {
 // Rounding that is not worth a reaction: of path coordinates in mm, and of speeds and accelerations as a share.
 constexpr double distance_rounding = 1e-9;
 constexpr double rounding = 1e-7;
+// How many stopping distances ahead weak places are taken into account before they have to be.
+constexpr double far_sight = 3;
 // A rest this small in front of a stop is rounding.
 constexpr double arrival_distance = 1e-7;
 
@@ -73,8 +75,8 @@ SpeedStage::Obstacle SpeedStage::obstacle_ahead(const PathState& state, std::uin
   for (std::uint64_t k = cell + 1;; ++k) {
     const bool end = k >= cells_.size();
     const double distance = (end ? cells_[k - 1].end : cells_[k].at) - state.s + distance_rounding;
-    if (distance >= stop) return {};
-    if (end || cells_[k].stop) return {true, 0, ramp, k, end};
+    if (distance >= (look.soft ? far_sight : 1) * stop) return {};
+    if (end || cells_[k].stop) return distance >= stop ? Obstacle{} : Obstacle{true, 0, ramp, k, end};
     const LimitCell& next = cells_[k];
     const double speed = speed_of(next, look);
     // A cycle is left between the end of the braking and the slower cell, since cycles do not end at cells.
@@ -119,27 +121,13 @@ SpeedStage::Outcome SpeedStage::judge(const PathState& state, const Look& look) 
   return outcome;
 }
 
-// Brakes as an obstacle asks; when that is not enough for another one, as that one asks.
-SpeedStage::Outcome SpeedStage::brake(const Obstacle& first, const Look& look) {
-  Obstacle obstacle = first;
-  for (int attempt = 0; attempt < 8; ++attempt) {
-    const Transition transition(state_.v, state_.a, obstacle.speed, obstacle.ramp);
-    const Outcome outcome = judge(transition.after(state_, cycle_), look);
-    if (!outcome.obstacle.found) {
-      braking_for_ = obstacle;
-      return outcome;
-    }
-    obstacle = outcome.obstacle;
-  }
-  Outcome outcome{state_, current_, obstacle};
-  return outcome;
-}
-
-void SpeedStage::move(const Transition& wished, const Look& look) {
+// Follows the transition for as long a part of the cycle as the obstacle it leads to allows, and brakes for that
+// obstacle for the rest. When even braking at once is not enough for another one, that braking is what is followed.
+bool SpeedStage::follow(const Transition& wished, const Look& look, int depth) {
   const Outcome whole = judge(wished.after(state_, cycle_), look);
   if (!whole.obstacle.found) {
     accept(whole);
-    return;
+    return true;
   }
   const Obstacle obstacle = whole.obstacle;
   const auto part = [&](double time) {
@@ -148,19 +136,12 @@ void SpeedStage::move(const Transition& wished, const Look& look) {
   };
   Outcome best = part(0);
   if (best.obstacle.found) {
-    best = brake(best.obstacle, look);
-    if (best.obstacle.found) {
-      // Programmed speeds may have been lowered too late to be met: then they are approached within the limits.
-      const Look hard{false, 1, 1};
-      best = brake(obstacle, hard);
-      braking_for_.reset();
-      if (best.obstacle.found) {
-        ++unsafe_;
-        best.state = Transition(state_.v, state_.a, 0, local_ramp(state_.v, state_.v * cycle_)).after(state_, cycle_);
-      }
-    }
-    accept(best);
-    return;
+    if (depth >= 6) return false;
+    // The ramp an obstacle asks for is the least on the way to it; stronger braking is possible as long as the cells
+    // right ahead stand it.
+    const bool same = best.obstacle.cell == obstacle.cell && best.obstacle.speed == obstacle.speed;
+    const RampLimits ramp = same ? local_ramp(state_.v, (state_.v + 1) * cycle_ * 1.5) : best.obstacle.ramp;
+    return follow(Transition(state_.v, state_.a, same ? 0 : best.obstacle.speed, ramp), look, depth + 1);
   }
   double low = 0, high = cycle_;
   for (int k = 0; k < 50; ++k) {
@@ -175,6 +156,23 @@ void SpeedStage::move(const Transition& wished, const Look& look) {
   }
   braking_for_ = obstacle;
   accept(best);
+  return true;
+}
+
+// Programmed speeds, and weak places far ahead, are wishes as well: when they turn up too late to be met, they are
+// approached within the limits.
+void SpeedStage::move(const Transition& wished, const Look& look) {
+  if (follow(wished, look, 0)) return;
+  const Look hard{false, look.feed, look.rapid};
+  const Outcome ahead = judge(wished.after(state_, cycle_), look);
+  const RampLimits ramp = local_ramp(state_.v, (state_.v + 1) * cycle_ * 1.5);
+  braking_for_.reset();
+  const bool safe = follow(Transition(state_.v, state_.a, ahead.obstacle.speed, ramp), hard, 0);
+  braking_for_.reset();
+  if (safe) return;
+  ++unsafe_;
+  state_ = Transition(state_.v, state_.a, 0, ramp).after(state_, cycle_);
+  while (current_ + 1 < cells_.size() && !cells_[current_ + 1].stop && state_.s > cells_[current_].end) ++current_;
 }
 
 void SpeedStage::accept(const Outcome& outcome) {

@@ -91,7 +91,7 @@ class SpeedStage {
   Obstacle obstacle_ahead(const PathState& state, std::uint64_t cell, const Look& look) const;
   Outcome judge(const PathState& state, const Look& look) const;
   void move(const Transition& wished, const Look& look);
-  Outcome brake(const Obstacle& first, const Look& look);
+  bool follow(const Transition& wished, const Look& look, int depth);
   void accept(const Outcome& outcome);
   void arrive();
   void begin_tail();
