@@ -10,7 +10,7 @@ namespace trunnion::motion {
 namespace {
 
 // Rounding that is not worth a reaction: of path coordinates in mm, and of speeds and accelerations as a share.
-constexpr double distance_rounding = 1e-9;
+constexpr double rounding_distance = 1e-9;
 constexpr double rounding = 1e-7;
 // How many stopping distances ahead weak places are taken into account before they have to be.
 constexpr double far_sight = 3;
@@ -74,7 +74,7 @@ SpeedStage::Obstacle SpeedStage::obstacle_ahead(const PathState& state, std::uin
   double stop = braking_distance(state.v, state.a, 0, ramp);
   for (std::uint64_t k = cell + 1;; ++k) {
     const bool end = k >= cells_.size();
-    const double distance = (end ? cells_[k - 1].end : cells_[k].at) - state.s + distance_rounding;
+    const double distance = (end ? cells_[k - 1].end : cells_[k].at) - state.s + look.rounding;
     if (distance >= (look.soft ? far_sight : 1) * stop) return {};
     if (end || cells_[k].stop) return distance >= stop ? Obstacle{} : Obstacle{true, 0, ramp, k, end};
     const LimitCell& next = cells_[k];
@@ -102,11 +102,11 @@ SpeedStage::Obstacle SpeedStage::obstacle_ahead(const PathState& state, std::uin
 SpeedStage::Outcome SpeedStage::judge(const PathState& state, const Look& look) const {
   Outcome outcome{state, current_, {}};
   const double fastest = std::max(state_.v, state.v);
-  while (state.s > cells_[outcome.cell].end + (outcome.cell + 1 >= cells_.size() ? 1 : 0) * distance_rounding) {
+  while (state.s > cells_[outcome.cell].end + (outcome.cell + 1 >= cells_.size() ? 1 : 0) * look.rounding) {
     const std::uint64_t next = outcome.cell + 1;
     const bool end = next >= cells_.size() || cells_[next].stop;
     if (end) {
-      if (state.s > cells_[outcome.cell].end + 2 * distance_rounding || state.v > 1e-3)
+      if (state.s > cells_[outcome.cell].end + 2 * look.rounding || state.v > 1e-3)
         outcome.obstacle = {true, 0, local_ramp(fastest, fastest * cycle_), next, next >= cells_.size()};
       return outcome;
     }
@@ -130,11 +130,11 @@ bool SpeedStage::follow(const Transition& wished, const Look& look, int depth) {
     return true;
   }
   const Obstacle obstacle = whole.obstacle;
-  const auto part = [&](double time) {
+  const auto part = [&](double time, const Look& how) {
     const PathState at = wished.after(state_, time);
-    return judge(Transition(at.v, at.a, obstacle.speed, obstacle.ramp).after(at, cycle_ - time), look);
+    return judge(Transition(at.v, at.a, obstacle.speed, obstacle.ramp).after(at, cycle_ - time), how);
   };
-  Outcome best = part(0);
+  Outcome best = part(0, look);
   if (best.obstacle.found) {
     if (depth >= 6) return false;
     // The ramp an obstacle asks for is the least on the way to it; stronger braking is possible as long as the cells
@@ -143,10 +143,13 @@ bool SpeedStage::follow(const Transition& wished, const Look& look, int depth) {
     const RampLimits ramp = same ? local_ramp(state_.v, (state_.v + 1) * cycle_ * 1.5) : best.obstacle.ramp;
     return follow(Transition(state_.v, state_.a, same ? 0 : best.obstacle.speed, ramp), look, depth + 1);
   }
+  // The rounding allowed is kept for the cycles that follow.
+  Look strict = look;
+  strict.rounding = 0;
   double low = 0, high = cycle_;
   for (int k = 0; k < 50; ++k) {
     const double middle = 0.5 * (low + high);
-    const Outcome outcome = part(middle);
+    const Outcome outcome = part(middle, strict);
     if (outcome.obstacle.found) {
       high = middle;
     } else {
@@ -163,7 +166,8 @@ bool SpeedStage::follow(const Transition& wished, const Look& look, int depth) {
 // approached within the limits.
 void SpeedStage::move(const Transition& wished, const Look& look) {
   if (follow(wished, look, 0)) return;
-  const Look hard{false, look.feed, look.rapid};
+  Look hard = look;
+  hard.soft = false;
   const Outcome ahead = judge(wished.after(state_, cycle_), look);
   const RampLimits ramp = local_ramp(state_.v, (state_.v + 1) * cycle_ * 1.5);
   braking_for_.reset();
@@ -228,7 +232,7 @@ void SpeedStage::step(const Overrides& overrides) {
   const LimitCell& cell = cells_[current_];
   const bool hold = now.hold || (cell.rapid ? now.rapid <= 0 : now.feed <= 0);
   if (hold && standing()) return;
-  Look look{!hold, now.feed, now.rapid};
+  Look look{!hold, now.feed, now.rapid, rounding_distance};
   if (now.feed <= 0) look.feed = 1e-3;  // what follows a rapid that goes on is approached slowly
   if (now.rapid <= 0) look.rapid = 1e-3;
   if (braking_for_ && !hold) {

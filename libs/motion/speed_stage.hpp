@@ -78,6 +78,7 @@ class SpeedStage {
   struct Look {
     bool soft = true;  // programmed speeds count, not only limits
     double feed = 1, rapid = 1;
+    double rounding = 0;  // mm by which a distance may be too short
   };
   struct Outcome {
     PathState state;
