@@ -22,6 +22,7 @@ constexpr double arrival_distance = 1e-7;
 void SpeedStage::clear() {
   cells_.clear();
   state_ = {};
+  stop_.clear();
   current_ = 0;
   entered_ = finished_ = false;
   wait_ = 0;
@@ -121,27 +122,91 @@ SpeedStage::Outcome SpeedStage::judge(const PathState& state, const Look& look) 
   return outcome;
 }
 
+// A way to a standstill from `state`: braking with what all cells on the way allow; where a slower cell would be
+// entered too fast, down to its speed first and on from there.
+bool SpeedStage::find_stop(const PathState& state, std::uint64_t cell, PhaseList& stop) const {
+  stop.clear();
+  PathState at = state;
+  std::uint64_t here = cell;
+  for (int leg = 0; leg < 8; ++leg) {
+    if (at.v <= 0 && at.a == 0) return true;
+    // The least ramp limits over the distance that braking with them takes.
+    RampLimits ramp = cells_[here].ramp(at.v);
+    Obstacle slower;
+    double distance_needed = braking_distance(at.v, at.a, 0, ramp);
+    for (std::uint64_t k = here + 1; k < cells_.size() && !cells_[k].stop; ++k) {
+      const double distance = cells_[k].at - at.s;
+      if (distance > distance_needed) break;
+      if (!slower.found && at.v > cells_[k].speed * (1 + rounding))
+        slower = {true, cells_[k].speed, ramp, k, false};
+      const RampLimits& own = cells_[k].ramp(at.v);
+      if (own.acceleration < ramp.acceleration || own.jerk < ramp.jerk) {
+        ramp.acceleration = std::min(ramp.acceleration, own.acceleration);
+        ramp.jerk = std::min(ramp.jerk, own.jerk);
+        distance_needed = braking_distance(at.v, at.a, 0, ramp);
+      }
+    }
+    PhaseList whole;
+    whole.add(Transition(at.v, at.a, 0, ramp));
+    std::uint64_t end = here;
+    if (keeps_limits(whole, at, cells_, end)) {
+      for (std::size_t k = 0; k < whole.size(); ++k) {
+        if (!stop.add(whole[k])) return false;
+      }
+      return true;
+    }
+    if (!slower.found) return false;
+    PhaseList part;
+    part.add(Transition(at.v, at.a, slower.speed, slower.ramp));
+    end = here;
+    if (part.size() == 0 || !keeps_limits(part, at, cells_, end)) return false;
+    for (std::size_t k = 0; k < part.size(); ++k) {
+      if (!stop.add(part[k])) return false;
+    }
+    at = part.after(at);
+    at.v = slower.speed;
+    at.a = 0;
+    here = end;
+  }
+  return false;
+}
+
+// Takes a cycle when it keeps the limits and leaves a way to stop.
+bool SpeedStage::accept(const PhaseList& action) {
+  std::uint64_t cell = current_;
+  if (!keeps_limits(action, state_, cells_, cell)) return false;
+  PathState next = action.after(state_);
+  if (std::abs(next.v) < 1e-9 && std::abs(next.a) < 1e-6) next.v = next.a = 0;
+  PhaseList stop;
+  if (!find_stop(next, cell, stop)) return false;
+  state_ = next;
+  current_ = cell;
+  stop_ = stop;
+  return true;
+}
+
 // Follows the transition for as long a part of the cycle as the obstacle it leads to allows, and brakes for that
 // obstacle for the rest. When even braking at once is not enough for another one, that braking is what is followed.
 bool SpeedStage::follow(const Transition& wished, const Look& look, int depth) {
+  PhaseList action;
   const Outcome whole = judge(wished.after(state_, cycle_), look);
   if (!whole.obstacle.found) {
-    accept(whole);
-    return true;
+    action.add(wished, cycle_);
+    return accept(action);
   }
   const Obstacle obstacle = whole.obstacle;
   const auto part = [&](double time, const Look& how) {
     const PathState at = wished.after(state_, time);
     return judge(Transition(at.v, at.a, obstacle.speed, obstacle.ramp).after(at, cycle_ - time), how);
   };
-  Outcome best = part(0, look);
-  if (best.obstacle.found) {
+  const Outcome at_once = part(0, look);
+  if (at_once.obstacle.found) {
     if (depth >= 6) return false;
     // The ramp an obstacle asks for is the least on the way to it; stronger braking is possible as long as the cells
     // right ahead stand it.
-    const bool same = best.obstacle.cell == obstacle.cell && best.obstacle.speed == obstacle.speed;
-    const RampLimits ramp = same ? local_ramp(state_.v, (state_.v + 1) * cycle_ * 1.5) : best.obstacle.ramp;
-    return follow(Transition(state_.v, state_.a, same ? 0 : best.obstacle.speed, ramp), look, depth + 1);
+    const bool same = at_once.obstacle.cell == obstacle.cell && at_once.obstacle.speed == obstacle.speed;
+    const RampLimits ramp = same ? local_ramp(state_.v, (state_.v + 1) * cycle_ * 1.5) : at_once.obstacle.ramp;
+    return follow(Transition(state_.v, state_.a, same ? 0 : at_once.obstacle.speed, ramp), look, depth + 1);
   }
   // The rounding allowed is kept for the cycles that follow.
   Look strict = look;
@@ -149,17 +214,20 @@ bool SpeedStage::follow(const Transition& wished, const Look& look, int depth) {
   double low = 0, high = cycle_;
   for (int k = 0; k < 50; ++k) {
     const double middle = 0.5 * (low + high);
-    const Outcome outcome = part(middle, strict);
-    if (outcome.obstacle.found) {
-      high = middle;
-    } else {
-      low = middle;
-      best = outcome;
-    }
+    (part(middle, strict).obstacle.found ? high : low) = middle;
   }
-  braking_for_ = obstacle;
-  accept(best);
-  return true;
+  for (const double time : {low, 0.0}) {
+    action.clear();
+    action.add(wished, time);
+    const PathState at = wished.after(state_, time);
+    action.add(Transition(at.v, at.a, obstacle.speed, obstacle.ramp), cycle_ - time);
+    if (accept(action)) {
+      braking_for_ = obstacle;
+      return true;
+    }
+    if (low == 0) break;
+  }
+  return false;
 }
 
 // Programmed speeds, and weak places far ahead, are wishes as well: when they turn up too late to be met, they are
@@ -171,17 +239,14 @@ void SpeedStage::move(const Transition& wished, const Look& look) {
   const Outcome ahead = judge(wished.after(state_, cycle_), look);
   const RampLimits ramp = local_ramp(state_.v, (state_.v + 1) * cycle_ * 1.5);
   braking_for_.reset();
-  const bool safe = follow(Transition(state_.v, state_.a, ahead.obstacle.speed, ramp), hard, 0);
+  const bool found = ahead.obstacle.found &&
+                     follow(Transition(state_.v, state_.a, ahead.obstacle.speed, ramp), hard, 0);
   braking_for_.reset();
-  if (safe) return;
-  ++unsafe_;
-  state_ = Transition(state_.v, state_.a, 0, ramp).after(state_, cycle_);
+  if (found) return;
+  ++stopping_;
+  state_ = stop_.advance(state_, cycle_);
+  if (stop_.size() == 0) state_.v = state_.a = 0;
   while (current_ + 1 < cells_.size() && !cells_[current_ + 1].stop && state_.s > cells_[current_].end) ++current_;
-}
-
-void SpeedStage::accept(const Outcome& outcome) {
-  state_ = outcome.state;
-  current_ = outcome.cell;
 }
 
 // At a stop, or the end of the path, once the motion has settled there.
@@ -205,6 +270,7 @@ void SpeedStage::begin_tail() {
   if (std::abs(cells_[current_].end - state_.s - jerk * time * time * time / 6) > 1e-8) return;
   tail_ = Tail{cells_[current_].end, time, jerk, current_};
   state_ = {cells_[next].at, 0, 0};
+  stop_.clear();
   current_ = next;
   braking_for_.reset();
 }

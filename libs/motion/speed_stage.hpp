@@ -1,17 +1,18 @@
 // The speed stage: path speed, acceleration and jerk of every cycle, as fast as the cells ahead allow.
 //
-// A state (s, v, a) is safe when for every cell ahead the closed-form transition to its speed without acceleration
-// fits into the distance to it, with the least ramp limits on the way, and the transition to a standstill fits
-// before the end of the cells. From a safe state, braking keeps the state safe: the distance left shrinks exactly
-// as the transition's own. Each cycle follows the wish (towards the programmed speed under the overrides, or to a
-// standstill when held) for as long a part of the cycle as leaves a safe state, and brakes for the rest. So there is
-// always a way to stop on the known path, whatever the overrides do, and limits are never traded for it.
+// Each cycle follows the wish (towards the programmed speed under the overrides, or to a standstill when held) for as
+// long a part of the cycle as leaves every obstacle ahead (a slower cell, a stop, the end of what is known) reachable
+// by the closed-form transition to its speed, and brakes for the rest. A cycle is only taken when it keeps the limits
+// of every cell it runs over and a way to a standstill behind it has been proved to keep them too; otherwise the way
+// that was proved a cycle ago is followed. So limits hold whatever the overrides do, and never depend on the choice
+// of the wish being right.
 #pragma once
 
 #include <cstdint>
 #include <optional>
 
 #include "motion/limit_cell.hpp"
+#include "motion/phase_list.hpp"
 #include "motion/transition.hpp"
 
 namespace trunnion::motion {
@@ -63,8 +64,8 @@ class SpeedStage {
   void allow_overlap(bool allowed) { overlap_allowed_ = allowed; }
   /// The tail that began in the last cycle, if any.
   std::optional<Tail> take_tail();
-  /// Cycles in which no safe motion was found and the strongest braking was used instead. Always 0.
-  std::uint64_t unsafe_cycles() const { return unsafe_; }
+  /// Cycles in which nothing better was found than the stop that had been proved before.
+  std::uint64_t stopping_cycles() const { return stopping_; }
 
  private:
   /// The first thing ahead that a state would not be slow enough for.
@@ -91,9 +92,10 @@ class SpeedStage {
   Transition wish(const Look& look, bool hold) const;
   Obstacle obstacle_ahead(const PathState& state, std::uint64_t cell, const Look& look) const;
   Outcome judge(const PathState& state, const Look& look) const;
-  void move(const Transition& wished, const Look& look);
   bool follow(const Transition& wished, const Look& look, int depth);
-  void accept(const Outcome& outcome);
+  void move(const Transition& wished, const Look& look);
+  bool accept(const PhaseList& action);
+  bool find_stop(const PathState& state, std::uint64_t cell, PhaseList& stop) const;
   void arrive();
   void begin_tail();
 
@@ -103,11 +105,12 @@ class SpeedStage {
   std::uint64_t current_ = 0;
   bool entered_ = false, finished_ = false;
   int wait_ = 0;
+  PhaseList stop_;  // the way to a standstill that is known to keep all limits
   std::optional<Obstacle> braking_for_;
   Overrides last_;
   bool overlap_allowed_ = true;
   std::optional<Tail> tail_;
-  std::uint64_t unsafe_ = 0;
+  std::uint64_t stopping_ = 0;
 };
 
 }  // namespace trunnion::motion

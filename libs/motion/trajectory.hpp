@@ -68,8 +68,8 @@ class Trajectory {
   const AxisValues& position() const { return output_; }
   /// End of everything pushed.
   const AxisValues& end_position() const { return end_; }
-  /// See SpeedStage::unsafe_cycles.
-  std::uint64_t unsafe_cycles() const { return speed_.unsafe_cycles(); }
+  /// See SpeedStage::stopping_cycles.
+  std::uint64_t stopping_cycles() const { return speed_.stopping_cycles(); }
 
  private:
   bool push_move(const language::Command& command, double fraction);

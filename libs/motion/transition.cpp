@@ -39,7 +39,7 @@ Transition::Transition(double v, double a, double target, const RampLimits& limi
 
 PathState Transition::after(const PathState& state, double time) const {
   PathState now = state;
-  for (const Phase& phase : phases_) {
+  for (const JerkPhase& phase : phases_) {
     if (time < phase.time) return integrate(now, phase.jerk, time);
     now = integrate(now, phase.jerk, phase.time);
     time -= phase.time;
@@ -49,15 +49,8 @@ PathState Transition::after(const PathState& state, double time) const {
 
 double Transition::distance(double v, double a) const {
   PathState state{0, v, a};
-  for (const Phase& phase : phases_) state = integrate(state, phase.jerk, phase.time);
+  for (const JerkPhase& phase : phases_) state = integrate(state, phase.jerk, phase.time);
   return state.s;
-}
-
-double Transition::first_jerk() const {
-  for (const Phase& phase : phases_) {
-    if (phase.time > 0) return phase.jerk;
-  }
-  return 0;
 }
 
 double braking_distance(double v, double a, double target, const RampLimits& limits) {

@@ -16,6 +16,10 @@ struct RampLimits {
   double acceleration = 1, jerk = 1;
 };
 
+struct JerkPhase {
+  double time = 0, jerk = 0;
+};
+
 /// `state` after `time` seconds of constant jerk.
 PathState integrate(const PathState& state, double jerk, double time);
 
@@ -34,14 +38,10 @@ class Transition {
   /// Path travelled until the target is reached.
   double distance(double v, double a) const;
 
-  /// Jerk at its beginning.
-  double first_jerk() const;
+  const std::array<JerkPhase, 3>& phases() const { return phases_; }
 
  private:
-  struct Phase {
-    double time = 0, jerk = 0;
-  };
-  std::array<Phase, 3> phases_;
+  std::array<JerkPhase, 3> phases_;
   double target_;
 };
 

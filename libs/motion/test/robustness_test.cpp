@@ -20,6 +20,7 @@ void expect_sound(const Motion& result, const AxisValues& start, const AxisValue
   const Ratios ratios = axis_ratios(result, start, limits, chain, 0);
   EXPECT_LE(ratios.velocity, 1.001);
   EXPECT_LE(ratios.acceleration, 1.001);
+  EXPECT_LE(ratios.jerk, 1.001);
 }
 
 TEST(Robustness, duplicate_points_do_nothing) {
