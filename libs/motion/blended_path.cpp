@@ -156,8 +156,13 @@ void BlendedPath::update(bool ends) {
     block.reach = !block.stop && (block.weight > 0 || block.bend_weight > 0) ? final_reach(reached_) : 0;
     ++reached_;
   }
-  // What lies before every join without a reach, by the longest reach such a join may get, is settled.
-  while (settled_blocks_ < reached_ && is_known(settled_blocks_, reached_)) ++settled_blocks_;
+  // A block is settled when no join at its end or behind it can reach into it any more.
+  const auto is_settled = [&](std::uint64_t index) {
+    if (ends && reached_ == pushed_) return true;
+    if (index + 1 < pushed_ && (*this)[index + 1].stop) return true;
+    return index + 1 < reached_ && is_known(index + 1, reached_);
+  };
+  while (settled_blocks_ < reached_ && is_settled(settled_blocks_)) ++settled_blocks_;
   if (settled_blocks_ > 0) settled_ = (*this)[settled_blocks_ - 1].end();
 }
 

@@ -68,34 +68,63 @@ Transition SpeedStage::wish(const Look& look, bool hold) const {
   return Transition(state_.v, state_.a, target, ramp);
 }
 
+// Looks along the cells in legs: a leg leads from the state, or from a slower cell at its speed, to the next slower
+// cell. What is ahead of a slower cell only has to be reachable from its speed; when it is not, the cell has to be
+// entered at less.
 SpeedStage::Obstacle SpeedStage::obstacle_ahead(const PathState& state, std::uint64_t cell, const Look& look) const {
-  const double settled = settled_speed(state.v, state.a, cells_[cell].ramp(state.v).jerk);
-  const double highest = std::max(state.v, settled);
+  PathState from = state;
+  double highest = std::max(from.v, settled_speed(from.v, from.a, cells_[cell].ramp(from.v).jerk));
   RampLimits ramp = cells_[cell].ramp(highest);
-  double stop = braking_distance(state.v, state.a, 0, ramp);
+  double stop = braking_distance(from.v, from.a, 0, ramp);
+  Obstacle first;  // the slower cell the first leg ended at
+  const auto report = [&](double speed, std::uint64_t k, bool end) -> Obstacle {
+    if (!first.found) return {true, speed, ramp, k, end};
+    const double distance = (end ? cells_[k - 1].end : cells_[k].at) - from.s;
+    double low = 0, high = first.speed;
+    for (int n = 0; n < 12; ++n) {
+      const double middle = 0.5 * (low + high);
+      (braking_distance(middle, 0, speed, ramp) + speed * cycle_ > distance ? high : low) = middle;
+    }
+    Obstacle obstacle = first;
+    obstacle.speed = low;
+    obstacle.end = end;
+    if (braking_distance(state.v, state.a, low, first.ramp) + low * cycle_ <= cells_[first.cell].at - state.s)
+      obstacle.found = false;
+    return obstacle;
+  };
   for (std::uint64_t k = cell + 1;; ++k) {
     const bool end = k >= cells_.size();
-    const double distance = (end ? cells_[k - 1].end : cells_[k].at) - state.s + look.rounding;
+    const double distance = (end ? cells_[k - 1].end : cells_[k].at) - from.s + look.rounding;
     if (distance >= (look.soft ? far_sight : 1) * stop) return {};
-    if (end || cells_[k].stop) return distance >= stop ? Obstacle{} : Obstacle{true, 0, ramp, k, end};
+    if (end || cells_[k].stop) return distance >= stop ? Obstacle{} : report(0, k, end);
     const LimitCell& next = cells_[k];
     const double speed = speed_of(next, look);
+    const bool slower = highest > speed * (1 + rounding);
     // A cycle is left between the end of the braking and the slower cell, since cycles do not end at cells.
-    if (highest > speed * (1 + rounding) &&
-        braking_distance(state.v, state.a, speed, ramp) + speed * cycle_ > distance)
-      return {true, speed, ramp, k, false};
-    const RampLimits& own = next.ramp(highest);
-    const double excess = std::abs(state.a) - own.acceleration * (1 + rounding);
-    if (excess > 0) {
-      const double jerk = state.a > 0 ? -ramp.jerk : ramp.jerk;
-      const PathState reduced = integrate({0, state.v, state.a}, jerk, excess / ramp.jerk);
-      if (reduced.s + std::min(speed, std::max(0.0, reduced.v)) * cycle_ > distance)
-        return {true, std::max(0.0, settled_speed(state.v, state.a, ramp.jerk)), {own.acceleration, ramp.jerk}, k, false};
+    if (slower && braking_distance(from.v, from.a, speed, ramp) + speed * cycle_ > distance) return report(speed, k, false);
+    if (!first.found) {
+      const RampLimits& own = next.ramp(highest);
+      const double excess = std::abs(state.a) - own.acceleration * (1 + rounding);
+      if (excess > 0) {
+        const double jerk = state.a > 0 ? -ramp.jerk : ramp.jerk;
+        const PathState reduced = integrate({0, state.v, state.a}, jerk, excess / ramp.jerk);
+        if (reduced.s + std::min(speed, std::max(0.0, reduced.v)) * cycle_ > distance)
+          return {true, std::max(0.0, settled_speed(state.v, state.a, ramp.jerk)), {own.acceleration, ramp.jerk}, k, false};
+      }
     }
+    if (slower) {
+      if (!first.found) first = {true, speed, ramp, k, false};
+      from = {next.at, speed, 0};
+      highest = speed;
+      ramp = next.ramp(speed);
+      stop = braking_distance(speed, 0, 0, ramp);
+      continue;
+    }
+    const RampLimits& own = next.ramp(highest);
     if (own.acceleration < ramp.acceleration || own.jerk < ramp.jerk) {
       ramp.acceleration = std::min(ramp.acceleration, own.acceleration);
       ramp.jerk = std::min(ramp.jerk, own.jerk);
-      stop = braking_distance(state.v, state.a, 0, ramp);
+      stop = braking_distance(from.v, from.a, 0, ramp);
     }
   }
 }
