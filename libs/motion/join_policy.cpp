@@ -8,6 +8,9 @@
 namespace trunnion::motion {
 namespace {
 
+// Shorter segments, mm or degrees, are not worth rounding: their directions are mostly rounding themselves.
+constexpr double shortest_rounded = 1e-5;
+
 struct Pace {
   double speed = 1e5, acceleration = 1e9, jerk = 1e12;
 };
@@ -51,10 +54,11 @@ bool stops_at_join(const PathBlock& before, const PathBlock& block, const Limits
   // Exact joins: only what rounding makes of one straight line runs through.
   if (block.weight >= 1e290 || block.bend_weight >= 1e290) return true;
   if (block.weight <= 0) return false;
+  const double length = std::min(before.path.length(), block.path.length());
+  if (length < shortest_rounded) return true;
   const Pace a = pace_of(before, before.path.derivatives(before.path.length())[0], limits);
   const Pace b = pace_of(block, block.path.derivatives(0)[0], limits);
   const Pace pace{std::min(a.speed, b.speed), std::min(a.acceleration, b.acceleration), std::min(a.jerk, b.jerk)};
-  const double length = std::min(before.path.length(), block.path.length());
   // What can be reached on the shorter segment from standstill to standstill.
   const double speed =
       std::min({pace.speed, std::sqrt(pace.acceleration * length), std::cbrt(pace.jerk * length * length / 4)});

@@ -15,7 +15,7 @@ constexpr double rounding = 1e-7;
 // How many stopping distances ahead weak places are taken into account before they have to be.
 constexpr double far_sight = 3;
 // A rest this small in front of a stop is rounding.
-constexpr double arrival_distance = 1e-7;
+constexpr double arrival_distance = 1e-8;
 
 }  // namespace
 
@@ -219,42 +219,48 @@ bool SpeedStage::accept(const PhaseList& action) {
 bool SpeedStage::follow(const Transition& wished, const Look& look, int depth) {
   PhaseList action;
   const Outcome whole = judge(wished.after(state_, cycle_), look);
-  if (!whole.obstacle.found) {
+  Obstacle obstacle = whole.obstacle;
+  double low = cycle_ / 2;
+  if (!obstacle.found) {
     action.add(wished, cycle_);
-    return accept(action);
+    if (accept(action)) return true;
+    // No stop was found behind it: as much of it as leaves one, braking for the rest.
+    obstacle = {true, 0, local_ramp(state_.v, (state_.v + 1) * cycle_ * 1.5), current_, true};
+  } else {
+    const auto part = [&](double time, const Look& how) {
+      const PathState at = wished.after(state_, time);
+      return judge(Transition(at.v, at.a, obstacle.speed, obstacle.ramp).after(at, cycle_ - time), how);
+    };
+    const Outcome at_once = part(0, look);
+    if (at_once.obstacle.found) {
+      if (depth >= 6) return false;
+      // The ramp an obstacle asks for is the least on the way to it; stronger braking is possible as long as the
+      // cells right ahead stand it.
+      const bool same = at_once.obstacle.cell == obstacle.cell && at_once.obstacle.speed == obstacle.speed;
+      const RampLimits ramp = same ? local_ramp(state_.v, (state_.v + 1) * cycle_ * 1.5) : at_once.obstacle.ramp;
+      return follow(Transition(state_.v, state_.a, same ? 0 : at_once.obstacle.speed, ramp), look, depth + 1);
+    }
+    // The rounding allowed is kept for the cycles that follow.
+    Look strict = look;
+    strict.rounding = 0;
+    low = 0;
+    double high = cycle_;
+    for (int k = 0; k < 50; ++k) {
+      const double middle = 0.5 * (low + high);
+      (part(middle, strict).obstacle.found ? high : low) = middle;
+    }
   }
-  const Obstacle obstacle = whole.obstacle;
-  const auto part = [&](double time, const Look& how) {
-    const PathState at = wished.after(state_, time);
-    return judge(Transition(at.v, at.a, obstacle.speed, obstacle.ramp).after(at, cycle_ - time), how);
-  };
-  const Outcome at_once = part(0, look);
-  if (at_once.obstacle.found) {
-    if (depth >= 6) return false;
-    // The ramp an obstacle asks for is the least on the way to it; stronger braking is possible as long as the cells
-    // right ahead stand it.
-    const bool same = at_once.obstacle.cell == obstacle.cell && at_once.obstacle.speed == obstacle.speed;
-    const RampLimits ramp = same ? local_ramp(state_.v, (state_.v + 1) * cycle_ * 1.5) : at_once.obstacle.ramp;
-    return follow(Transition(state_.v, state_.a, same ? 0 : at_once.obstacle.speed, ramp), look, depth + 1);
-  }
-  // The rounding allowed is kept for the cycles that follow.
-  Look strict = look;
-  strict.rounding = 0;
-  double low = 0, high = cycle_;
-  for (int k = 0; k < 50; ++k) {
-    const double middle = 0.5 * (low + high);
-    (part(middle, strict).obstacle.found ? high : low) = middle;
-  }
-  for (const double time : {low, 0.0}) {
+  const int attempts = standing() ? 30 : 5;
+  for (int k = 0; k <= attempts; ++k) {
+    const double time = k < attempts ? std::ldexp(low, -k) : 0;
     action.clear();
     action.add(wished, time);
     const PathState at = wished.after(state_, time);
     action.add(Transition(at.v, at.a, obstacle.speed, obstacle.ramp), cycle_ - time);
-    if (accept(action)) {
-      braking_for_ = obstacle;
-      return true;
-    }
-    if (low == 0) break;
+    if (!accept(action)) continue;
+    braking_for_.reset();
+    if (whole.obstacle.found && k == 0) braking_for_ = obstacle;
+    return true;
   }
   return false;
 }
