@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "motion/cell_builder.hpp"
 
@@ -54,6 +55,10 @@ bool stops_at_join(const PathBlock& before, const PathBlock& block, const Limits
   // Exact joins: only what rounding makes of one straight line runs through.
   if (block.weight >= 1e290 || block.bend_weight >= 1e290) return true;
   if (block.weight <= 0) return false;
+  // Two directions of length 1 that enclose an angle differ by twice the sine of its half.
+  const double turn = std::hypot(block.turn[0], block.turn[1], block.turn[2]);
+  if (limits.smooth_corner_angle < 180 && turn > 2 * std::sin(limits.smooth_corner_angle * (std::numbers::pi / 360)))
+    return true;
   const double length = std::min(before.path.length(), block.path.length());
   if (length < shortest_rounded) return true;
   const Pace a = pace_of(before, before.path.derivatives(before.path.length())[0], limits);

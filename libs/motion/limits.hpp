@@ -25,6 +25,7 @@ struct Limits {
   double contour_tolerance = 0.01;      ///< mm at corners and along short segments; 0: exact
   double arc_tolerance = 0.005;         ///< mm where arcs join other segments
   double orientation_tolerance = 0.05;  ///< degrees of the rotary axes together
+  double smooth_corner_angle = 180;     ///< degrees; motion stops where the direction turns by more
   double centripetal_acceleration = 0;  ///< mm/s^2 of the tool tip in curves; 0: the axes alone
 };
 

@@ -21,10 +21,16 @@ PathSegment PathSegment::line(const AxisValues& start, const AxisValues& target)
   segment.target_ = target;
   for (std::size_t i = 0; i < axis_count; ++i) segment.slope_[i] = target[i] - start[i];
   const double rotary = norm3(segment.slope_, language::A);
-  double linear = norm3(segment.slope_, language::X);
-  if (linear <= 1e-6 * rotary) linear = norm3(segment.slope_, language::U);
-  segment.unit_ = linear > 1e-6 * rotary ? LengthUnit::millimetre : LengthUnit::degree;
-  segment.length_ = segment.unit_ == LengthUnit::millimetre ? linear : rotary;
+  const double main = norm3(segment.slope_, language::X), secondary = norm3(segment.slope_, language::U);
+  const double trace = 1e-6 * std::max(rotary, secondary);
+  const double counted = main > trace ? main : secondary > 1e-6 * rotary ? secondary : rotary;
+  const double longest = std::max({main, secondary, rotary});
+  // A path coordinate that hardly grows while an axis travels far would be all rounding.
+  const bool scaled = counted < 1e-3 * longest;
+  segment.length_ = scaled ? longest : counted;
+  const bool by_rotary = scaled ? rotary >= std::max(main, secondary) : !(main > trace) && !(secondary > 1e-6 * rotary);
+  segment.unit_ = by_rotary && rotary > 0 ? LengthUnit::degree : LengthUnit::millimetre;
+  segment.feed_scale_ = counted > 0 ? segment.length_ / counted : 1;
   for (double& slope : segment.slope_) slope = segment.length_ > 0 ? slope / segment.length_ : 0;
   return segment;
 }

@@ -108,7 +108,7 @@ TEST(Robustness, tiny_feed_moves_at_that_feed) {
   Trajectory t(limits, nullptr, cycle);
   const Motion result = run(t, {line_to({0.001}, 0.06)});  // 1 um/s over 1 um
   expect_sound(result, {}, {0.001}, limits);
-  EXPECT_NEAR(static_cast<double>(result.setpoints.size()), 1020, 5);
+  EXPECT_NEAR(static_cast<double>(result.setpoints.size()), 1000, 5);
 }
 
 TEST(Robustness, rotary_move_with_a_trace_of_linear_travel_ends) {
