@@ -109,7 +109,7 @@ SpeedStage::Obstacle SpeedStage::obstacle_ahead(const PathState& state, std::uin
         const double jerk = state.a > 0 ? -ramp.jerk : ramp.jerk;
         const PathState reduced = integrate({0, state.v, state.a}, jerk, excess / ramp.jerk);
         if (reduced.s + std::min(speed, std::max(0.0, reduced.v)) * cycle_ > distance)
-          return {true, std::max(0.0, settled_speed(state.v, state.a, ramp.jerk)), {own.acceleration, ramp.jerk}, k, false};
+          return {true, state.a > 0 ? settled_speed(state.v, state.a, ramp.jerk) : state.v, {own.acceleration, ramp.jerk}, k, false, true};
       }
     }
     if (slower) {
@@ -259,7 +259,7 @@ bool SpeedStage::follow(const Transition& wished, const Look& look, int depth) {
     action.add(Transition(at.v, at.a, obstacle.speed, obstacle.ramp), cycle_ - time);
     if (!accept(action)) continue;
     braking_for_.reset();
-    if (whole.obstacle.found && k == 0) braking_for_ = obstacle;
+    if (whole.obstacle.found && !obstacle.momentary && k == 0) braking_for_ = obstacle;
     return true;
   }
   return false;

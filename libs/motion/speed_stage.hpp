@@ -74,7 +74,8 @@ class SpeedStage {
     double speed = 0;
     RampLimits ramp;
     std::uint64_t cell = 0;
-    bool end = false;  // of what is known of the path
+    bool end = false;        // of what is known of the path
+    bool momentary = false;  // only the acceleration has to be taken back
   };
   struct Look {
     bool soft = true;  // programmed speeds count, not only limits
