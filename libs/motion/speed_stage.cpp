@@ -80,10 +80,10 @@ SpeedStage::Obstacle SpeedStage::obstacle_ahead(const PathState& state, std::uin
   const auto report = [&](double speed, std::uint64_t k, bool end) -> Obstacle {
     if (!first.found) return {true, speed, ramp, k, end};
     const double distance = (end ? cells_[k - 1].end : cells_[k].at) - from.s;
-    double low = 0, high = first.speed;
+    double low = std::min(speed, first.speed), high = first.speed;
     for (int n = 0; n < 12; ++n) {
       const double middle = 0.5 * (low + high);
-      (braking_distance(middle, 0, speed, ramp) + speed * cycle_ > distance ? high : low) = middle;
+      (middle > speed && braking_distance(middle, 0, speed, ramp) > distance ? high : low) = middle;
     }
     Obstacle obstacle = first;
     obstacle.speed = low;
@@ -101,7 +101,8 @@ SpeedStage::Obstacle SpeedStage::obstacle_ahead(const PathState& state, std::uin
     const double speed = speed_of(next, look);
     const bool slower = highest > speed * (1 + rounding);
     // A cycle is left between the end of the braking and the slower cell, since cycles do not end at cells.
-    if (slower && braking_distance(from.v, from.a, speed, ramp) + speed * cycle_ > distance) return report(speed, k, false);
+    const double margin = first.found ? 0 : speed * cycle_;
+    if (slower && braking_distance(from.v, from.a, speed, ramp) + margin > distance) return report(speed, k, false);
     if (!first.found) {
       const RampLimits& own = next.ramp(highest);
       const double excess = std::abs(state.a) - own.acceleration * (1 + rounding);
