@@ -1,8 +1,12 @@
 // A real cluster for a test: its own domain, its own state, nothing left behind.
 #pragma once
 
+#include <arpa/inet.h>
 #include <gtest/gtest.h>
+#include <netinet/in.h>
 #include <signal.h>
+#include <sys/socket.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -20,6 +24,37 @@ using idl::channel::RunState;
 
 enum class Time { real, virtual_ };
 
+/// A TCP port of this host that nobody listens on.
+inline std::uint16_t free_port() {
+  const int s = socket(AF_INET, SOCK_STREAM, 0);
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  socklen_t size = sizeof address;
+  EXPECT_EQ(bind(s, reinterpret_cast<sockaddr*>(&address), size), 0);
+  getsockname(s, reinterpret_cast<sockaddr*>(&address), &size);
+  close(s);
+  return ntohs(address.sin_port);
+}
+
+/// First line of the answer to GET `path`, empty when nobody answers.
+inline std::string http_status(std::uint16_t port, const std::string& path) {
+  const int s = socket(AF_INET, SOCK_STREAM, 0);
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  address.sin_port = htons(port);
+  std::string answer;
+  if (connect(s, reinterpret_cast<sockaddr*>(&address), sizeof address) == 0) {
+    const std::string request = "GET " + path + " HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n";
+    char c = 0;
+    if (write(s, request.data(), request.size()) == static_cast<ssize_t>(request.size()))
+      while (read(s, &c, 1) == 1 && c != '\r') answer += c;
+  }
+  close(s);
+  return answer;
+}
+
 class Cluster {
  public:
   explicit Cluster(const std::string& machine, Time time = Time::virtual_, const std::string& vendor = "",
@@ -31,6 +66,7 @@ class Cluster {
     up.own_domain = true;
     up.virtual_time = time == Time::virtual_;
     up.with_gateway = gateway;
+    up.port = free_port();
     cluster_ = deploy::start_cluster(up);
     client_ = std::make_unique<deploy::Client>(cluster_.run.domain);
     states_.emplace(client_->bus().reader(topics::channel_state));
@@ -107,6 +143,16 @@ class Cluster {
       if (alarm.active) all += std::to_string(alarm.number) + " " + alarm.source + ": " + alarm.text + "; ";
     return all;
   }
+  /// Everything that was raised and released, for the message of a test that fails: the alarm of a stop may
+  /// arrive after the state that shows it.
+  std::string told() {
+    until([] { return false; }, 0.3);
+    std::string all = std::string("state ") + bus::to_string(state()) + ", alarms:";
+    for (const auto& alarm : history)
+      all += "\n  " + std::string(alarm.active ? "raised " : "ended ") + std::to_string(alarm.number) + " " +
+             alarm.source + ": " + alarm.text;
+    return all;
+  }
 
   void start_text(const std::string& text, std::uint16_t channel = 0) {
     const std::string name = "test" + std::to_string(channel) + ".nc";
@@ -123,9 +169,15 @@ class Cluster {
         if (i == 50) throw;
         std::this_thread::sleep_for(std::chrono::milliseconds(10));
       }
-    const auto before = state_count[channel];
+    cycle_start(channel);
+  }
+  /// Returns when the state is one that was published after the start: the first that arrives after the
+  /// answer may have been on its way before, the second cannot.
+  void cycle_start(std::uint16_t channel = 0) {
     client_->channel(channel, CommandKind::CYCLE_START);
-    until([&] { return state_count[channel] > before && state(channel) != RunState::IDLE; }, 1);
+    drain();
+    const auto before = state_count[channel];
+    EXPECT_TRUE(until([&] { return state_count[channel] >= before + 2; }));
   }
   bool finish(std::uint16_t channel = 0, double seconds = 60) {
     return until([&] { return state(channel) == RunState::IDLE || state(channel) == RunState::INTERRUPTED; },

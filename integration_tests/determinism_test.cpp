@@ -1,28 +1,10 @@
 // The same machine and program give the same drive commands, bit for bit, whatever the vendors and whatever
 // happens to twins.
-#include <array>
-#include <cstdio>
-#include <nlohmann/json.hpp>
-
 #include "cluster_harness.hpp"
+#include "report_run.hpp"
 
 namespace trunnion::integration {
 namespace {
-
-// `trunnion run` as a user calls it; the report as JSON.
-nlohmann::json run(const std::string& arguments) {
-  const auto directory =
-      std::filesystem::temp_directory_path() / ("trunnion-report-" + std::to_string(getpid()));
-  const std::string command =
-      deploy::binary_directory() + "/trunnion run " + arguments + " --json --report " + directory.string();
-  FILE* pipe = popen(command.c_str(), "r");
-  std::string text;
-  std::array<char, 4096> buffer;
-  while (const auto n = fread(buffer.data(), 1, buffer.size(), pipe)) text.append(buffer.data(), n);
-  EXPECT_EQ(pclose(pipe), 0) << text;
-  std::filesystem::remove_all(directory);
-  return nlohmann::json::parse(text, nullptr, false);
-}
 
 TEST(Determinism, TheConeIsTheSameOverThreeRunsAndEveryVendorLayout) {
   std::map<std::string, std::vector<std::string>> runs_by_hash;

@@ -16,7 +16,7 @@ class KillInMotion : public testing::TestWithParam<const char*> {};
 
 TEST_P(KillInMotion, StopsNamesTheServiceBecomesReadyAndTheProgramGoesOn) {
   const std::string victim = GetParam();
-  Cluster cluster("ac-table");
+  Cluster cluster("ac-table", Time::virtual_, "", victim == "gateway");
   cluster.start_text(long_program());
   ASSERT_TRUE(cluster.until([&] { return cluster.channels[0].line >= 8; }));
   std::map<std::string, int> pids;
@@ -34,6 +34,11 @@ TEST_P(KillInMotion, StopsNamesTheServiceBecomesReadyAndTheProgramGoesOn) {
     if (s.service != victim) {
       EXPECT_EQ(s.pid, pids[s.service]) << s.service << " was not restarted";
     }
+  if (victim == "gateway") {
+    EXPECT_TRUE(cluster.until([&] {
+      return http_status(cluster.running().port, "/api/status") == "HTTP/1.1 200 OK";
+    })) << "the page is served again";
+  }
   const auto stopped_at = cluster.channels[0].machine;
   cluster.until([] { return false; }, 0.3);
   for (std::size_t i = 0; i < stopped_at.size(); ++i)
@@ -58,8 +63,8 @@ TEST_P(KillInMotion, StopsNamesTheServiceBecomesReadyAndTheProgramGoesOn) {
     }
   })) << refusal
       << " " << cluster.active_alarms();
-  ASSERT_TRUE(cluster.until([&] { return cluster.state() == RunState::RUNNING; })) << cluster.active_alarms();
-  ASSERT_TRUE(cluster.finish()) << cluster.active_alarms();
+  ASSERT_TRUE(cluster.until([&] { return cluster.state() == RunState::RUNNING; })) << cluster.told();
+  ASSERT_TRUE(cluster.finish()) << cluster.told();
   cluster.until([] { return false; },
                 0.2);  // the encoders settle on the commanded position, states are published
   // Tip at X0 Y0 Z80 of G54 (Z -380) with A0 C0: the spindle face is the tool's 100 mm above it.
@@ -72,7 +77,7 @@ TEST_P(KillInMotion, StopsNamesTheServiceBecomesReadyAndTheProgramGoesOn) {
 
 INSTANTIATE_TEST_SUITE_P(Services, KillInMotion,
                          testing::Values("kinematics", "compensation", "gantry", "drive", "channel", "plc",
-                                         "program", "parameters"),
+                                         "program", "parameters", "gateway"),
                          [](const auto& service) { return std::string(service.param); });
 
 TEST(Faults, AHungServiceIsReplaced) {
@@ -107,6 +112,41 @@ TEST(Faults, EmergencyStopStopsSwitchesOffAndNeedsAReset) {
   // The encoder settles on the commanded position after the last setpoint.
   EXPECT_TRUE(cluster.until([&] { return std::abs(cluster.channels[0].machine[0] - 5) < 0.01; }, 5))
       << cluster.channels[0].machine[0];
+}
+
+TEST(Faults, AKilledLauncherTakesItsServicesWithItAndTheNextCommandSaysSo) {
+  deploy::UpOptions up;
+  up.machine = "ac-table";
+  up.state_directory = "temporary";
+  up.own_domain = true;
+  up.virtual_time = true;
+  up.with_gateway = false;
+  const auto cluster = deploy::start_cluster(up);
+  std::vector<int> pids;
+  {
+    deploy::Client client(cluster.run.domain);
+    for (const auto& service : client.newest(topics::cluster).services) pids.push_back(service.pid);
+  }
+  ASSERT_EQ(pids.size(), 8u);
+  ASSERT_EQ(kill(*cluster.run.launcher(), SIGKILL), 0);
+  const auto alive = [](int pid) {
+    std::ifstream stat("/proc/" + std::to_string(pid) + "/stat");
+    std::string number, name, state;
+    return static_cast<bool>(stat >> number >> name >> state) && state != "Z";
+  };
+  for (int i = 0; i < 500 && std::any_of(pids.begin(), pids.end(), alive); ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  EXPECT_TRUE(std::none_of(pids.begin(), pids.end(), alive));
+  std::string message;
+  try {
+    deploy::find_cluster(cluster.run.domain);
+  } catch (const std::exception& e) {
+    message = e.what();
+  }
+  EXPECT_NE(message.find("was killed"), std::string::npos) << message;
+  EXPECT_TRUE(cluster.run.abandoned());
+  cluster.run.remove();
+  EXPECT_FALSE(std::filesystem::exists(cluster.run.path()));
 }
 
 }  // namespace

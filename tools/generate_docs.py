@@ -27,7 +27,7 @@ def table(head, rows):
 def entries(path, name, pattern):
     """Every NAME{...} of a C++ table; an entry that the pattern does not understand is an error, never left out."""
     text = read(path)
-    found = re.findall(name + r"\{" + pattern + r"\s*\}", text)
+    found = re.findall(name + r"\{\s*" + pattern + r"\s*\}", text)
     there = len(re.findall(name + r"\{", text))
     if not found or len(found) != there: fail(path, f"{len(found)} of {there} entries {name}{{...}} can be read")
     return found
@@ -85,17 +85,62 @@ def alarms():
 
 
 def codes():
-    path = "libs/language/codes.hpp"
-    g = [(int(t), group, ok == "true", joined(text)) for t, group, ok, text in entries(path, "GCode", r"(\d+),\s*Group::(\w+),\s*(true|false),\s*" + TEXT)]
+    path, calls = "libs/language/codes.hpp", "libs/language/macro_call.hpp"
+    dialect = {"iso": "ISO", "fanuc": "Fanuc", "hnc": "HNC"}
+    program = lambda text: "`" + joined(text).replace("\\n", " / ") + "`"
+    shown = r",\s*Origin::(\w+),\s*" + TEXT + r",\s*" + TEXT
+    g = [(int(t), group, joined(text), dialect[o], joined(since), program(example)) for t, group, text, o, since, example in
+         entries(path, "GCode", r"(\d+),\s*Group::(\w+),\s*" + TEXT + shown)]
+    c = [(first, last, joined(text), dialect[o], joined(since), program(example)) for first, last, text, o, since, example in
+         entries(calls, "CallCode", r"(\d+),\s*(\d+),\s*CallKind::\w+,\s*" + TEXT + shown)]
     m = [(int(n), when, action, group, joined(text)) for n, when, action, group, text in
          entries(path, "MCode", r"(\d+),\s*When::(\w+),\s*MAction::(\w+),\s*MGroup::(\w+),\s*" + TEXT)]
     name = lambda tenths: f"G{tenths // 10}" + (f".{tenths % 10}" if tenths % 10 else "")
-    out = ["# G and M codes", "", f"Generated from `{path}` by `tools/generate_docs.py`.", "", "## G codes", "",
-           "A block may hold one code of each group. Every group but *one_block* is modal: the code stays until another of its group.", ""]
-    out += table(("code", "group", "meaning"), [(name(t), group, text + ("" if ok else " (known, and refused with alarm 1102)")) for t, group, ok, text in g])
+    out = ["# G and M codes", "", f"Generated from `{path}` and `{calls}` by `tools/generate_docs.py`.", "", "## G codes", "",
+           "A block may hold one code of each group: two would contradict each other, so the second is an alarm. Every group but *one_block* and *exact_stop* is modal: the code stays until another of its group.",
+           "A motion code ends a cycle. *Dialect*: ISO 6983, Fanuc or HNC-8 controls; *since*: the version of Trunnion. Each example is a program that a test runs; blocks are separated by /.", ""]
+    out += table(("code", "group", "meaning", "dialect", "since", "example"), [(name(t), *rest) for t, *rest in g])
+    out += ["", "## Calls", "", "Such a code stands alone among the codes of its block; see [macros.md](macros.md) for the arguments.", ""]
+    out += table(("code", "meaning", "dialect", "since", "example"), [(f"G{a}" + (f" .. G{b}" if b != a else ""), *rest) for a, b, *rest in c])
     out += ["", "## M codes", "", "*before* and *after*: when it acts, seen from the motion of its block. A block may hold one M code of each group, and none twice.",
-            "Every other M code up to M999 goes to the PLC before the motion.", ""]
+            "Every other M code up to M999 goes to the PLC before the motion, but those of parameters 010170 to 010177 call G1007 to G1014.", ""]
     return out + table(("code", "acts", "group", "handled as", "meaning"), [(f"M{n}", when, "" if group == "none" else group, action, text) for n, when, action, group, text in m])
+
+
+def macros():
+    variables, functions, calls, reader = (f"libs/language/{f}.hpp" for f in ("variables", "expression", "macro_call", "iso_dialect"))
+    v = [(int(a), int(b), w == "true", joined(text)) for a, b, w, text in
+         entries(variables, "VariableRange", r"(\d+),\s*(\d+),\s*VariableKind::\w+,\s*(true|false),\s*" + TEXT)]
+    f = [(joined(n), joined(text)) for n, text in entries(functions, "FunctionName", TEXT + r",\s*Function::\w+,\s*" + TEXT)]
+    letters = re.findall(r"ArgumentLetter\{'(\w)',\s*(\d+)\}", read(calls))
+    out = ["# Macros", "", f"The tables are generated from `{variables}`, `{functions}` and `{calls}` by `tools/generate_docs.py`.", "",
+           "## Variables", "",
+           "A variable nobody has written to is vacant: it counts as 0 in a computation, `EQ` and `NE` tell it from 0, and a word whose number is a vacant",
+           "variable is left out. Where Fanuc and HNC-8 number variables differently, this table is what counts. Lengths of system variables are mm or inch as",
+           "G21 or G20 is active. `#[expression]` names a variable by a computed number.", ""]
+    out += table(("variables", "may be written", "meaning"), [(f"#{a}" + (f" .. #{b}" if b != a else ""), "yes" if w else "no", text) for a, b, w, text in v])
+    out += ["", "## Expressions", "",
+            "What binds first: functions and signs; `*` `/` `MOD` `AND`; `+` `-` `OR` `XOR`; the comparisons `EQ NE GT GE LT LE` or `== != <> > >= < <=`,",
+            "which give 1 or 0; `&&`; `||`. `AND` `OR` `XOR` work on the bits of whole numbers; `&&` `||` `NOT` `!` on true (not 0) and false (0). Brackets are `[ ]`, at most 32 deep.",
+            "`PI` is a constant. The number of any word may be `#variable` or `[expression]`, with a sign: `X[#1+2]`, `Y-#1`, `G#3`.", ""]
+    out += table(("function", "meaning"), f)
+    out += ["", "## Instructions", "",
+            "An assignment or instruction stands alone in its block, but for N. Several assignments may follow each other; one to a system variable is the last.", "",
+            "| form | meaning |", "|---|---|",
+            "| `#i = expression` | assignment |",
+            "| `IF condition` .. `ELSEIF condition` .. `ELSE` .. `ENDIF` | the blocks behind the first condition that holds, else those behind `ELSE`; `THEN` may end the line of `IF` and `ELSEIF` |",
+            "| `IF condition GOTO n`, `IF condition THEN ...` | a jump, an assignment or words, when the condition holds |",
+            "| `WHILE condition` .. `ENDW` | a loop |",
+            "| `WHILE condition DO n` .. `END n`, `DO n` .. `END n` | a loop with a number; without `WHILE` until a jump leaves it |",
+            "| `GOTO n` | to the block with that N: looked for forward, then from the top of the program |", "",
+            "`IF`, `WHILE` and `DO` nest 16 deep in a program. A jump may leave them but not enter one.", "",
+            "## Calls", "",
+            "`M98 P_ L_` calls a subprogram, which shares the local variables of its caller. `G65 P_ L_` and `G66 P_ L_` call a macro, `G1000` .. `G1999` and the M codes of parameters",
+            "010170 to 010177 a cycle of `USERDEF.CYC`; both have local variables of their own, which begin with the arguments, each repetition anew. `M99` returns, `M99 P_` to the block of the caller with",
+            "that N; in the main program it goes there or begins again. Calls nest 8 deep.", "",
+            "The letters of a macro become the variables of Fanuc's argument list I; I, J and K may be given up to ten times, and are then #4 #5 #6, #7 #8 #9 and so on to #33 (list II). A letter that does not go on from I to K begins the next",
+            "set. Of two words for one variable the later counts. The letters of a cycle are numbered by the alphabet, as on HNC-8: A is #0, B #1 .. Z #25. G, N and O are no arguments, nor L and P of a macro, nor M of a cycle.", ""]
+    return out + table([l for l, _ in letters], [[f"#{n}" for _, n in letters]])
 
 
 def address(first, index, stride):
@@ -121,7 +166,7 @@ def registers():
     return out + table(("name", "address", "step", "meaning"), rows)
 
 
-DOCUMENTS = {"parameters.md": parameters, "alarms.md": alarms, "codes.md": codes, "plc-registers.md": registers}
+DOCUMENTS = {"parameters.md": parameters, "alarms.md": alarms, "codes.md": codes, "macros.md": macros, "plc-registers.md": registers}
 
 
 def main():

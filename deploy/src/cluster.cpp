@@ -48,7 +48,7 @@ std::vector<std::string> launcher_arguments(const UpOptions& up, const RunningCl
 RunningCluster start_cluster(const UpOptions& up) {
   const double began = node::monotonic_seconds();
   auto config = machine::load_machine(find_machine(up.machine), up.vendor);
-  machine::read_parameter_file(config.parameters_file());
+  machine::machine_parameters(config);
   RunningCluster cluster;
   cluster.run.domain = up.own_domain ? free_domain() : up.domain.value_or(config.domain);
   if (const auto pid = cluster.run.launcher())
@@ -119,7 +119,19 @@ void stop_cluster(const RunDirectory& run) {
 }
 
 RunningCluster find_cluster(std::optional<std::uint32_t> domain) {
-  if (!domain) domain = only_running_domain();
+  const auto all = run_directories();
+  if (!domain) {
+    for (const auto& run : all) {
+      if (!run.launcher()) continue;
+      if (domain) throw std::runtime_error("several clusters are running: say which with --domain");
+      domain = run.domain;
+    }
+  }
+  for (const auto& run : all)
+    if (run.abandoned() && (!domain || run.domain == *domain))
+      throw std::runtime_error("the launcher of the cluster in domain " + std::to_string(run.domain) +
+                               " was killed and its services ended with it; their logs are in " + run.path() +
+                               " until 'trunnion down' or the next 'trunnion up'");
   if (!domain) throw std::runtime_error("no cluster is running: start one with 'trunnion up MACHINE'");
   RunningCluster cluster;
   cluster.run.domain = *domain;

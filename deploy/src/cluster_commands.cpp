@@ -1,5 +1,6 @@
 // up, down, status
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <iostream>
 #include <memory>
@@ -46,6 +47,16 @@ int up(const Common& common, UpOptions options, const std::string& time) {
 }
 
 int down(const Common& common) {
+  bool cleared = false;
+  for (const auto& run : run_directories())
+    if (run.abandoned() && (!common.domain || *common.domain == run.domain)) {
+      run.remove();
+      cleared = true;
+      std::fprintf(stderr, "Removed what the killed cluster in domain %u had left\n", run.domain);
+    }
+  const auto all = run_directories();
+  if (cleared && std::none_of(all.begin(), all.end(), [](const auto& run) { return run.launcher(); }))
+    return 0;
   const auto cluster = find_cluster(common.domain);
   stop_cluster(cluster.run);
   if (common.json)

@@ -4,6 +4,7 @@
 #include <sys/file.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
@@ -54,9 +55,15 @@ std::string RunDirectory::path() const { return base() + "/" + std::to_string(do
 std::optional<int> RunDirectory::launcher() const {
   std::ifstream in(pid_file());
   int pid = 0;
-  if (!(in >> pid) || pid <= 0 || kill(pid, 0) != 0) return std::nullopt;
+  if (!(in >> pid) || pid <= 0) return std::nullopt;
+  // The number may belong to another process by now, or to one that is dead and not yet waited for.
+  std::ifstream stat("/proc/" + std::to_string(pid) + "/stat");
+  std::string number, name, state;
+  if (!(stat >> number >> name >> state) || name != "(trunnion-launch)" || state == "Z") return std::nullopt;
   return pid;
 }
+
+bool RunDirectory::abandoned() const { return fs::exists(info_file()) && !launcher(); }
 
 void RunDirectory::remove() const {
   std::error_code ignored;
@@ -80,18 +87,16 @@ std::uint32_t free_domain() {
   throw std::runtime_error("domains 80 .. 99 are all taken: stop a cluster with 'trunnion down'");
 }
 
-std::optional<std::uint32_t> only_running_domain() {
-  std::optional<std::uint32_t> found;
+std::vector<RunDirectory> run_directories() {
+  std::vector<RunDirectory> all;
   std::error_code ignored;
   for (const auto& entry : fs::directory_iterator(base(), ignored)) {
     const auto name = entry.path().filename().string();
-    if (name.find_first_not_of("0123456789") != std::string::npos || name.size() > 3) continue;
-    const RunDirectory run{static_cast<std::uint32_t>(std::stoul(name))};
-    if (!run.launcher()) continue;
-    if (found) throw std::runtime_error("several clusters are running: say which with --domain");
-    found = run.domain;
+    if (name.find_first_not_of("0123456789") == std::string::npos && name.size() <= 3)
+      all.push_back({static_cast<std::uint32_t>(std::stoul(name))});
   }
-  return found;
+  std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.domain < b.domain; });
+  return all;
 }
 
 }  // namespace trunnion::deploy

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace trunnion::deploy {
 
@@ -25,12 +26,14 @@ struct RunDirectory {
   std::string log_file(const std::string& service) const { return path() + "/" + service + ".log"; }
   /// Process id of the launcher when it is alive.
   std::optional<int> launcher() const;
+  /// A cluster has run here whose launcher was killed, so that nobody cleared up.
+  bool abandoned() const;
   void remove() const;
 };
 
 /// A domain in 80 .. 99 that no cluster of this user runs in. Throws std::runtime_error when all are taken.
 std::uint32_t free_domain();
-/// Domains of this user's clusters that are running.
-std::optional<std::uint32_t> only_running_domain();
+/// Of every cluster of this user, running or abandoned, by domain.
+std::vector<RunDirectory> run_directories();
 
 }  // namespace trunnion::deploy

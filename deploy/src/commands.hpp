@@ -24,6 +24,8 @@ void add_run_command(CLI::App& app, Common& common);         // run
 void add_operator_commands(CLI::App& app, Common& common);   // mdi, alarms, estop
 void add_parameter_commands(CLI::App& app, Common& common);  // param
 void add_topic_commands(CLI::App& app, Common& common);      // topic, record
+void add_kins_command(CLI::App& app, Common& common);        // kins
+void add_check_command(CLI::App& app, Common& common);       // check
 void add_completion_command(CLI::App& app, Common& common);  // completion
 
 /// --json and --domain.

@@ -1,5 +1,7 @@
 // mdi, alarms, estop, reset
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <iostream>
 #include <memory>
@@ -16,21 +18,29 @@ using idl::channel::CommandKind;
 using idl::channel::Mode;
 using idl::channel::RunState;
 
-// Waits until the channel is idle again; an alarm of the channel on the way is the reason of the failure.
+// Waits until the channel is idle again and its axes have settled; an alarm of the channel on the way is the
+// reason of the failure.
 void wait_until_idle(Client& client, std::uint16_t channel, double timeout) {
   auto reader = client.bus().reader(topics::channel_state);
   auto alarms = client.bus().reader(topics::alarm);
   const double until = node::monotonic_seconds() + timeout;
   std::string alarm;
-  int idle = 0;
+  int idle = 0;  // states in a row
+  std::vector<double> before;
+  constexpr double settled = 1e-4;  // mm or deg between two states
   while (node::monotonic_seconds() < until) {
     idl::service::Alarm a;
     while (alarms.take(a))
       if (a.active && a.source == "channel" && a.part == channel)
         alarm = std::to_string(a.number) + ": " + a.text;
     idl::channel::ChannelState state;
-    while (reader.take(state))
-      if (state.channel == channel) idle = state.state == RunState::IDLE ? idle + 1 : 0;
+    while (reader.take(state)) {
+      if (state.channel != channel) continue;
+      const bool stands = std::equal(before.begin(), before.end(), state.machine.begin(), state.machine.end(),
+                                     [](double p, double q) { return std::abs(p - q) < settled; });
+      idle = state.state == RunState::IDLE && stands ? idle + 1 : 0;
+      before = state.machine;
+    }
     if (idle >= 3) {
       if (!alarm.empty()) throw std::runtime_error("alarm " + alarm);
       return;

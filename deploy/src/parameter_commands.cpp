@@ -43,7 +43,7 @@ bus::Json row(std::uint32_t number, const machine::Parameters& parameters) {
     json["value"] = found != parameters.values.end() ? found->second.text : "";
   else
     json["value"] = parameters.at(number);
-  json["unit"] = d->unit;
+  json["unit"] = machine::unit_of(number, parameters.values);
   json["activation"] = machine::to_string(d->activation);
   if (d->type != machine::ParameterType::text) {
     json["minimum"] = d->minimum, json["maximum"] = d->maximum;

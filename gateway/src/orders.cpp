@@ -235,7 +235,7 @@ idl::parameters::ParameterRequest work_offset_order(const Json& body) {
   request.who = body.contains("who") ? text(body["who"], "who", name_bytes) : "hmi";
   idl::parameters::WorkOffset offset{};
   offset.channel = static_cast<std::uint16_t>(whole(required(body, "channel"), "channel", 31));
-  offset.index = static_cast<std::uint8_t>(whole(required(body, "index"), "index", 5));
+  offset.index = static_cast<std::uint8_t>(whole(required(body, "index"), "index", 53));
   const auto& values = required(body, "values");
   if (!values.is_array() || values.size() != 9)
     throw BadRequest("values", "values must be 9 numbers: X Y Z A B C U V W");

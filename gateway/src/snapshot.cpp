@@ -51,7 +51,7 @@ Json entry(const Snapshot& snapshot, const machine::Definition& definition, std:
   json["name"] = definition.count > 1
                      ? definition.name + " " + std::to_string(index_of(definition, number) + 1)
                      : definition.name;
-  json["unit"] = definition.unit;
+  json["unit"] = machine::unit_of(number, values);
   json["type"] = machine::to_string(definition.type);
   const double fallback = machine::Catalogue::instance().default_of(number);
   if (is_text) {

@@ -1,141 +1,193 @@
 #include "geometry/chain.hpp"
 
 #include <Eigen/Geometry>
-#include <cmath>
-#include <numbers>
+#include <Eigen/LU>
+
+#include "geometry/angle.hpp"
 
 namespace trunnion::geometry {
 namespace {
-
-constexpr double radians_per_degree = std::numbers::pi / 180.0;
-
-// Sine and cosine of an angle in degrees, exact at the multiples of 90 where tables and heads usually stand.
-void sine_cosine(double degrees, double& sine, double& cosine) {
-  int quarter = 0;
-  const double rest = std::remquo(degrees, 90.0, &quarter) * radians_per_degree;
-  const double s = std::sin(rest);
-  const double c = std::cos(rest);
-  switch (quarter & 3) {
-    case 0:
-      sine = s, cosine = c;
-      break;
-    case 1:
-      sine = c, cosine = -s;
-      break;
-    case 2:
-      sine = -s, cosine = -c;
-      break;
-    default:
-      sine = -c, cosine = s;
-      break;
-  }
-}
 
 std::optional<ChainError> normalize(Vec3& direction) {
   if (!direction.allFinite()) return ChainError::not_finite;
   const double length = direction.stableNorm();
   if (!(length > 0)) return ChainError::zero_direction;
   direction /= length;
+  // A subnormal length leaves a direction that is not quite one long.
+  direction /= direction.norm();
   return std::nullopt;
+}
+
+// Rodrigues' formula.
+Vec3 turned(const Vec3& k, const SineCosine& t, const Vec3& v) {
+  return t.cosine * v + t.sine * k.cross(v) + ((1 - t.cosine) * k.dot(v)) * k;
+}
+Vec3 turned_back(const Vec3& k, const SineCosine& t, const Vec3& v) {
+  return turned(k, {-t.sine, t.cosine}, v);
 }
 
 }  // namespace
 
-std::optional<ChainError> Chain::adopt(const std::optional<RotaryAxis>& axis, Joint& joint) {
+Vec3 Chain::Side::offsets() const {
+  Vec3 sum = Vec3::Zero();
+  for (std::size_t i = 0; i < count; ++i) sum += joints[i].offset;
+  return sum;
+}
+
+std::optional<ChainError> Chain::adopt(const std::optional<RotaryAxis>& axis, Side& side) {
   if (!axis) return std::nullopt;
-  if (axis->angle > 2) return ChainError::bad_angle;
+  if (axis->angle >= angle_count) return ChainError::bad_angle;
   if (!axis->offset.allFinite()) return ChainError::not_finite;
-  joint.direction = axis->direction;
-  joint.offset = axis->offset;
-  joint.angle = static_cast<int>(axis->angle);
+  Joint& joint = side.joints[side.count++];
+  joint = {axis->direction, axis->offset, axis->angle};
   return normalize(joint.direction);
 }
 
-std::variant<Chain, ChainError> Chain::make(const ChainParameters& parameters) {
+std::optional<ChainError> Chain::check_rotary() const {
+  bool parallel = rotary_count() > 1;
+  for (std::size_t i = 0; i < rotary_count(); ++i)
+    for (std::size_t j = i + 1; j < rotary_count(); ++j) {
+      const auto a = orienting_axis(i), b = orienting_axis(j);
+      if (a.angle == b.angle) return ChainError::shared_angle;
+      if (a.direction.cross(b.direction).norm() >= parallel_sine) parallel = false;
+    }
+  return parallel ? std::optional(ChainError::parallel_axes) : std::nullopt;
+}
+
+std::variant<Chain, ChainError> Chain::make(const ChainParameters& p) {
   Chain chain;
-  chain.tool_direction_ = parameters.tool_direction;
+  chain.tool_direction_ = p.tool_direction;
   if (const auto error = normalize(chain.tool_direction_)) return *error;
-  if (const auto error = adopt(parameters.head_1, chain.head_1_)) return *error;
-  if (const auto error = adopt(parameters.head_2, chain.head_2_)) return *error;
-  if (const auto error = adopt(parameters.table_1, chain.table_1_)) return *error;
-  if (const auto error = adopt(parameters.table_2, chain.table_2_)) return *error;
-  std::array<int, 3> users{};
-  for (const Joint* joint : {&chain.head_1_, &chain.head_2_, &chain.table_1_, &chain.table_2_}) {
-    if (joint->angle >= 0 && ++users[static_cast<std::size_t>(joint->angle)] > 1)
-      return ChainError::shared_angle;
+  for (const auto* axis : {&p.table_2, &p.table_1, &p.table_0})
+    if (const auto error = adopt(*axis, chain.table_)) return *error;
+  for (const auto* axis : {&p.head_2, &p.head_1, &p.head_0})
+    if (const auto error = adopt(*axis, chain.head_)) return *error;
+  if (const auto error = chain.check_rotary()) return *error;
+  if (!p.origin.allFinite()) return ChainError::not_finite;
+  chain.base_ = chain.table_.offsets() - chain.head_.offsets() - p.origin;
+  for (int i = 0; i < 3; ++i) {
+    Vec3 direction = p.linear_direction.col(i);
+    if (const auto error = normalize(direction)) return *error;
+    chain.to_space_.col(i) = direction;
   }
+  if (std::abs(chain.to_space_.determinant()) < parallel_sine) return ChainError::dependent_linear;
+  chain.perpendicular_ = chain.to_space_ == Mat3::Identity();
+  chain.from_space_ = chain.to_space_.inverse();
   return chain;
 }
 
-// Rodrigues' formula written out.
-Mat3 Chain::rotation(const Joint& joint, const Angles& degrees) {
-  if (joint.angle < 0) return Mat3::Identity();
-  double s = 0;
-  double c = 1;
-  sine_cosine(degrees[static_cast<std::size_t>(joint.angle)], s, c);
-  const Vec3& k = joint.direction;
-  const double d = 1.0 - c;
-  Mat3 r;
-  r << c + d * k.x() * k.x(), d * k.x() * k.y() - s * k.z(), d * k.x() * k.z() + s * k.y(),
-      d * k.x() * k.y() + s * k.z(), c + d * k.y() * k.y(), d * k.y() * k.z() - s * k.x(),
-      d * k.x() * k.z() - s * k.y(), d * k.y() * k.z() + s * k.x(), c + d * k.z() * k.z();
-  return r;
-}
-
 Vec3 Chain::machine_from_tip(const Vec3& w, const Angles& degrees, double tool_length) const {
-  const Vec3 on_table = rotation(table_2_, degrees) * (w - table_2_.offset) - table_1_.offset;
-  const Vec3 point = table_2_.offset + table_1_.offset + rotation(table_1_, degrees) * on_table;
-  const Vec3 in_head =
-      head_1_.offset + rotation(head_2_, degrees) * (head_2_.offset + tool_length * tool_direction_);
-  return point - (head_1_.offset + head_2_.offset) + rotation(head_1_, degrees) * in_head;
+  Vec3 point = w;
+  for (std::size_t i = 0; i < table_.count; ++i) {
+    const Joint& joint = table_.joints[i];
+    point = turned(joint.direction, sine_cosine(degrees[joint.angle]), point - joint.offset);
+  }
+  Vec3 tool = tool_length * tool_direction_;
+  for (std::size_t i = 0; i < head_.count; ++i) {
+    const Joint& joint = head_.joints[i];
+    tool = turned(joint.direction, sine_cosine(degrees[joint.angle]), tool + joint.offset);
+  }
+  return axes_from_space(point + base_ + tool);
 }
 
 Vec3 Chain::tip_from_machine(const Vec3& machine, const Angles& degrees, double tool_length) const {
-  const Vec3 in_head =
-      head_1_.offset + rotation(head_2_, degrees) * (head_2_.offset + tool_length * tool_direction_);
-  const Vec3 point = machine + (head_1_.offset + head_2_.offset) - rotation(head_1_, degrees) * in_head;
-  const Vec3 on_table =
-      rotation(table_1_, degrees).transpose() * (point - table_2_.offset - table_1_.offset) + table_1_.offset;
-  return rotation(table_2_, degrees).transpose() * on_table + table_2_.offset;
+  Vec3 tool = tool_length * tool_direction_;
+  for (std::size_t i = 0; i < head_.count; ++i) {
+    const Joint& joint = head_.joints[i];
+    tool = turned(joint.direction, sine_cosine(degrees[joint.angle]), tool + joint.offset);
+  }
+  Vec3 point = space_from_axes(machine) - base_ - tool;
+  for (std::size_t i = table_.count; i-- > 0;) {
+    const Joint& joint = table_.joints[i];
+    point = turned_back(joint.direction, sine_cosine(degrees[joint.angle]), point) + joint.offset;
+  }
+  return point;
 }
 
 Vec3 Chain::tool_direction_in_workpiece(const Angles& degrees) const {
-  const Vec3 in_machine = rotation(head_1_, degrees) * (rotation(head_2_, degrees) * tool_direction_);
-  return rotation(table_2_, degrees).transpose() * (rotation(table_1_, degrees).transpose() * in_machine);
+  Vec3 tool = tool_direction_;
+  for (std::size_t i = 0; i < head_.count; ++i)
+    tool = turned(head_.joints[i].direction, sine_cosine(degrees[head_.joints[i].angle]), tool);
+  for (std::size_t i = table_.count; i-- > 0;)
+    tool = turned_back(table_.joints[i].direction, sine_cosine(degrees[table_.joints[i].angle]), tool);
+  return tool;
 }
 
-// The derivative of R(angle) r by the angle is k x (R r); turning axis 1 also carries what axis 2 turned.
+// The derivative of R(angle) r by the angle is k x (R r); an axis further out carries it along.
 Jacobian Chain::jacobian(const Vec3& w, const Angles& degrees, double tool_length) const {
   Jacobian j;
   j.angle.setZero();
-  const Mat3 table_1 = rotation(table_1_, degrees);
-  const Mat3 table_2 = rotation(table_2_, degrees);
-  j.tip = table_1 * table_2;
-  const Vec3 table_arm = table_2 * (w - table_2_.offset);
-  if (table_1_.angle >= 0) {
-    j.angle.col(table_1_.angle) =
-        radians_per_degree * table_1_.direction.cross(table_1 * (table_arm - table_1_.offset));
-  }
-  if (table_2_.angle >= 0) {
-    j.angle.col(table_2_.angle) = radians_per_degree * (table_1 * table_2_.direction.cross(table_arm));
-  }
-  const Mat3 head_1 = rotation(head_1_, degrees);
-  const Vec3 head_arm = rotation(head_2_, degrees) * (head_2_.offset + tool_length * tool_direction_);
-  if (head_1_.angle >= 0) {
-    j.angle.col(head_1_.angle) =
-        radians_per_degree * head_1_.direction.cross(head_1 * (head_1_.offset + head_arm));
-  }
-  if (head_2_.angle >= 0) {
-    j.angle.col(head_2_.angle) = radians_per_degree * (head_1 * head_2_.direction.cross(head_arm));
+  j.further_angle.setZero();
+  j.tip.setIdentity();
+  const auto column = [&](const Joint& joint) {
+    return joint.angle < 3 ? j.angle.col(static_cast<Eigen::Index>(joint.angle))
+                           : j.further_angle.col(static_cast<Eigen::Index>(joint.angle - 3));
+  };
+  const auto side = [&](const Side& s, double sign, Vec3 arm) {
+    for (std::size_t i = 0; i < s.count; ++i) {
+      const Joint& joint = s.joints[i];
+      const auto t = sine_cosine(degrees[joint.angle]);
+      arm = turned(joint.direction, t, arm + sign * joint.offset);
+      for (std::size_t k = 0; k < i; ++k)
+        column(s.joints[k]) = turned(joint.direction, t, column(s.joints[k]));
+      column(joint) = radians_per_degree * joint.direction.cross(arm);
+      if (sign < 0)
+        for (int k = 0; k < 3; ++k) j.tip.col(k) = turned(joint.direction, t, j.tip.col(k));
+    }
+  };
+  side(table_, -1, w);
+  side(head_, 1, tool_length * tool_direction_);
+  if (!perpendicular_) {
+    j.tip = from_space_ * j.tip;
+    j.angle = from_space_ * j.angle;
+    j.further_angle = from_space_ * j.further_angle;
   }
   return j;
 }
 
-bool Chain::turns(std::size_t angle) const {
-  for (const Joint* joint : {&head_1_, &head_2_, &table_1_, &table_2_}) {
-    if (joint->angle >= 0 && static_cast<std::size_t>(joint->angle) == angle) return true;
+// With K the matrix of k x and a_i = R y_i, where y_i are the derivatives of what is turned and w, w', w''
+// those of the angle in radians: K^3 = -K, and by Leibniz
+//   z1 = a1 + w K a0,  z2 = a2 + 2 w K a1 + (w' K + w^2 K^2) a0,
+//   z3 = a3 + 3 w K a2 + 3 (w' K + w^2 K^2) a1 + (w'' K + 3 w w' K^2 - w^3 K) a0.
+std::array<Vec3, 4> Chain::machine_derivatives(const TipMotion& motion, double tool_length) const {
+  const auto turn = [&](const Joint& joint, std::array<Vec3, 4>& y) {
+    const Vec3& k = joint.direction;
+    const auto t = sine_cosine(motion.angles[0][joint.angle]);
+    for (auto& v : y) v = turned(k, t, v);
+    const double w = radians_per_degree * motion.angles[1][joint.angle];
+    const double w1 = radians_per_degree * motion.angles[2][joint.angle];
+    const double w2 = radians_per_degree * motion.angles[3][joint.angle];
+    const Vec3 k0 = k.cross(y[0]), kk0 = k.cross(k0), k1 = k.cross(y[1]), kk1 = k.cross(k1),
+               k2 = k.cross(y[2]);
+    y[3] += 3 * w * k2 + 3 * (w1 * k1 + w * w * kk1) + (w2 - w * w * w) * k0 + 3 * w * w1 * kk0;
+    y[2] += 2 * w * k1 + w1 * k0 + w * w * kk0;
+    y[1] += w * k0;
+  };
+  std::array<Vec3, 4> point = motion.tip;
+  for (std::size_t i = 0; i < table_.count; ++i) {
+    point[0] -= table_.joints[i].offset;
+    turn(table_.joints[i], point);
   }
+  std::array<Vec3, 4> tool{tool_length * tool_direction_, Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
+  for (std::size_t i = 0; i < head_.count; ++i) {
+    tool[0] += head_.joints[i].offset;
+    turn(head_.joints[i], tool);
+  }
+  point[0] += base_;
+  for (std::size_t i = 0; i < 4; ++i) point[i] = axes_from_space(point[i] + tool[i]);
+  return point;
+}
+
+bool Chain::turns(std::size_t angle) const {
+  for (std::size_t i = 0; i < rotary_count(); ++i)
+    if (orienting_axis(i).angle == angle) return true;
   return false;
+}
+
+OrientingAxis Chain::orienting_axis(std::size_t index) const {
+  if (index < table_.count) return {-table_.joints[index].direction, table_.joints[index].angle};
+  const Joint& joint = head_.joints[head_.count - 1 - (index - table_.count)];
+  return {joint.direction, joint.angle};
 }
 
 }  // namespace trunnion::geometry

@@ -1,59 +1,83 @@
-// Kinematic chains of machines with up to two rotary axes in the head and up to two under the workpiece.
+// Kinematic chains of machines: rotary axes in the head and under the workpiece, linear axes between them.
 #pragma once
 
-#include <Eigen/Core>
-#include <array>
-#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <variant>
 
+#include "geometry/types.hpp"
+
 namespace trunnion::geometry {
-
-using Vec3 = Eigen::Vector3d;
-using Mat3 = Eigen::Matrix3d;
-
-/// Positions of the rotary axes A, B, C of a channel in degrees. Entries no rotary axis names are ignored.
-using Angles = std::array<double, 3>;
 
 /// One rotary axis of a head or a table.
 struct RotaryAxis {
   Vec3 direction =
       Vec3::UnitZ();           ///< axis of rotation, signed by the sense of rotation; any length above zero
   Vec3 offset = Vec3::Zero();  ///< mm; of a head: from the tool towards the base, of a table: see Chain
-  std::size_t angle = 0;       ///< which entry of Angles turns it: 0 = A, 1 = B, 2 = C
+  std::size_t angle = 0;       ///< which entry of Angles turns it: 0 = A .. 5 = W
 };
 
-/// Head and table of a machine: axis 1 is next to the base, axis 2 carries the tool or the workpiece. A
-/// machine with one rotary axis on a side uses the second slot of that side. Empty slots do not turn and have
-/// no offset.
+/// Head, table and linear axes of a machine, as parameters 04c400..04c437 have them. Axis 1 is next to the
+/// base, axis 2 carries the tool or the workpiece; a third axis of a side, axis 0, comes before axis 1. A
+/// side with one rotary axis uses slot 2, one with two slots 1 and 2. Empty slots do not turn and have no
+/// offset.
 struct ChainParameters {
   Vec3 tool_direction =
       Vec3::UnitZ();  ///< from the tip to the spindle with every rotary axis at zero; any length
   std::optional<RotaryAxis> head_1, head_2;
   std::optional<RotaryAxis> table_1, table_2;
+  std::optional<RotaryAxis> head_0, table_0;
+  /// Columns: where the tool moves, seen from the workpiece, when X, Y, Z go in the positive direction; any
+  /// length.
+  Mat3 linear_direction = Mat3::Identity();
+  /// mm: the tip minus the origin of the workpiece frame when every axis stands at zero and the tool has no
+  /// length. Zero for a closed chain.
+  Vec3 origin = Vec3::Zero();
 };
 
 enum class ChainError : std::uint8_t {
-  not_finite,      ///< a component of a direction or an offset is infinite or not a number
-  zero_direction,  ///< a direction vector has no length
-  bad_angle,       ///< RotaryAxis::angle is above 2
-  shared_angle,    ///< two rotary axes are turned by the same angle
+  not_finite,             ///< a component of a direction or an offset is infinite or not a number
+  zero_direction,         ///< a direction vector has no length
+  bad_angle,              ///< RotaryAxis::angle is above 5
+  shared_angle,           ///< two rotary axes are turned by the same angle
+  parallel_axes,          ///< no two of several rotary axes have different directions
+  dependent_linear,       ///< the directions of X, Y and Z lie in a plane
+  linear_between_rotary,  ///< a linear axis is carried by a rotary axis of its own side
+  too_many_rotary,        ///< more than three rotary axes on a side
+  linear_missing,         ///< a chain of elements without X, Y or Z, or with one of them twice
 };
+
+/// Rotary axes whose directions enclose less than this (sine of the angle) count as parallel.
+inline constexpr double parallel_sine = 0.01;
 
 /// Derivative of the machine position by everything it depends on.
 struct Jacobian {
-  Mat3 tip;    ///< dX/dw, mm/mm: the rotation of the table
-  Mat3 angle;  ///< column k: dX/d(angle k), mm/degree; zero for angles that turn nothing
+  Mat3 tip;            ///< dX/dw, mm/mm
+  Mat3 angle;          ///< column k: dX/d(angle k), mm/degree, of A B C; zero for angles that turn nothing
+  Mat3 further_angle;  ///< the same of U V W
 };
 
-/// Transformation between tool tip and machine axes. With t0 the tool direction, L the tool length, R1 and R2
-/// the rotations of the two axes and v1, v2 their offsets:
-///   table  P = v2 + v1 + R1 [-v1 + R2 (w - v2)]
-///   head   X = P - (v1 + v2) + R1 [v1 + R2 (v2 + L t0)]
-/// w is the tip in machine coordinates with all rotary axes at zero (so X = w + L t0 there), P the same
-/// workpiece point after the table has turned, X the position of the linear machine axes, all in mm. Pure,
-/// allocation-free and safe to use from any thread. (HNC-8 five-axis parameters 040400..040437.)
+/// Tip and angles with their derivatives by a path parameter or by time: [0] value, [1] .. [3] derivatives.
+struct TipMotion {
+  std::array<Vec3, 4> tip{Vec3::Zero(), Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};  ///< mm
+  std::array<Angles, 4> angles{};                                                   ///< degrees
+};
+
+/// One rotary axis in the order workpiece to tool with its direction as it turns the tool seen from the
+/// workpiece: that of a table axis is the opposite of its parameter.
+struct OrientingAxis {
+  Vec3 direction = Vec3::UnitZ();
+  std::size_t angle = 0;
+};
+
+/// Transformation between tool tip and machine axes. With t0 the tool direction, L the tool length, R0 R1 R2
+/// the rotations of a side's axes and v0 v1 v2 their offsets:
+///   table  P = v2 + v1 + v0 + R0 [-v0 + R1 [-v1 + R2 (w - v2)]]
+///   head   D X = P - (v2 + v1 + v0) + R0 [v0 + R1 [v1 + R2 (v2 + L t0)]] - origin
+/// w is the tip in the workpiece frame: machine coordinates with all rotary axes at zero (so X = w + L t0
+/// there, for D = 1 and no origin), P the same workpiece point after the table has turned, X the position of
+/// the linear machine axes, all in mm; D has the directions of the linear axes as columns. Angles in degrees.
+/// Pure, allocation-free and safe to use from any thread. (HNC-8 five-axis parameters 040400..040437.)
 class Chain {
  public:
   /// Checks and normalizes the parameters.
@@ -71,22 +95,43 @@ class Chain {
   /// Analytic derivative of machine_from_tip at the pose.
   Jacobian jacobian(const Vec3& w, const Angles& degrees, double tool_length) const;
 
+  /// Machine position and its first three derivatives along a path of tip and angles: velocity, acceleration
+  /// and jerk of the linear axes when the path is given by time.
+  std::array<Vec3, 4> machine_derivatives(const TipMotion& motion, double tool_length) const;
+
   /// True when entry `angle` of Angles turns an axis of this machine.
   bool turns(std::size_t angle) const;
+
+  std::size_t rotary_count() const { return table_.count + head_.count; }
+  /// Axis `index` < rotary_count() counted from the workpiece to the tool.
+  OrientingAxis orienting_axis(std::size_t index) const;
+  /// Unit vector from the tip to the spindle with every rotary axis at zero.
+  const Vec3& tool_direction() const { return tool_direction_; }
 
  private:
   struct Joint {
     Vec3 direction = Vec3::UnitZ();
     Vec3 offset = Vec3::Zero();
-    int angle = -1;  // -1: the slot is empty
+    std::size_t angle = 0;
+  };
+  // Axes of one side, [0] next to the workpiece or the tool.
+  struct Side {
+    std::array<Joint, 3> joints;
+    std::size_t count = 0;
+    Vec3 offsets() const;
   };
 
   Chain() = default;
-  static Mat3 rotation(const Joint& joint, const Angles& degrees);
-  static std::optional<ChainError> adopt(const std::optional<RotaryAxis>& axis, Joint& joint);
+  static std::optional<ChainError> adopt(const std::optional<RotaryAxis>& axis, Side& side);
+  std::optional<ChainError> check_rotary() const;
+  Vec3 axes_from_space(const Vec3& x) const { return perpendicular_ ? x : Vec3(from_space_ * x); }
+  Vec3 space_from_axes(const Vec3& x) const { return perpendicular_ ? x : Vec3(to_space_ * x); }
 
   Vec3 tool_direction_ = Vec3::UnitZ();
-  Joint head_1_, head_2_, table_1_, table_2_;
+  Side table_, head_;
+  Vec3 base_ = Vec3::Zero();  // what the formulae add apart from the brackets
+  bool perpendicular_ = true;
+  Mat3 to_space_ = Mat3::Identity(), from_space_ = Mat3::Identity();
 };
 
 }  // namespace trunnion::geometry

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "text/utf8.hpp"
+
 namespace trunnion::language {
 namespace {
 
@@ -9,17 +11,35 @@ bool is_continuation(char c) { return (static_cast<unsigned char>(c) & 0xc0) == 
 
 bool is_number_character(char c) { return (c >= '0' && c <= '9') || c == '.' || c == '+' || c == '-'; }
 
-/// The word at the start of `text`: a letter and its number, or one character.
+/// As much of `text` as a display shows, without cutting a character or showing what is no UTF-8.
+std::string_view head_of(std::string_view text) {
+  text = text.substr(0, text::valid_utf8_prefix(text));
+  std::size_t size = std::min<std::size_t>(text.size(), 64);
+  while (size != 0 && size < text.size() && is_continuation(text[size])) --size;
+  return text.substr(0, size);
+}
+
+bool is_letter(char c) { return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z'); }
+
+/// The word at the start of `text`: a name, a letter and its number, a variable, a number, or one character.
 std::string_view word_at(std::string_view text) {
   if (text.empty()) return text;
+  const auto run = [text](std::size_t from, auto&& belongs) {
+    while (from < text.size() && belongs(text[from])) ++from;
+    return from;
+  };
   std::size_t size = 1;
-  while (size < text.size() && is_continuation(text[size])) ++size;
-  if (size > 1) return text.substr(0, size);
-  std::size_t end = size;
-  while (end < text.size() && (text[end] == ' ' || text[end] == '\t')) ++end;
-  if (end < text.size() && is_number_character(text[end])) {
-    while (end < text.size() && is_number_character(text[end])) ++end;
-    size = end;
+  if (is_letter(text[0])) {
+    size = run(1, is_letter);
+    if (size == 1) {
+      const std::size_t blanks = run(1, [](char c) { return c == ' ' || c == '\t'; });
+      const std::size_t end = run(blanks, is_number_character);
+      if (end != blanks) size = end;
+    }
+  } else if (text[0] == '#' || is_number_character(text[0])) {
+    size = run(1, is_number_character);
+  } else {
+    size = run(1, is_continuation);
   }
   return text.substr(0, std::min<std::size_t>(size, 32));
 }
@@ -41,7 +61,10 @@ Alarm make_alarm(const Fault& fault, std::string_view line_text, std::uint32_t p
   append(alarm_text(fault.number));
   // Bytes that are no UTF-8 or no printable character must not reach a display.
   const bool printable = fault.number != AlarmNumber::not_utf8 && fault.number != AlarmNumber::line_too_long;
-  const auto word = printable ? word_at(line_text.substr(offset)) : std::string_view{};
+  const auto at_fault = line_text.substr(offset);
+  const auto word = !printable                                   ? std::string_view{}
+                    : fault.number == AlarmNumber::program_alarm ? head_of(at_fault)
+                                                                 : word_at(at_fault);
   if (!word.empty()) {
     append(": ");
     for (const char c : word) *out++ = static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? '?' : c;

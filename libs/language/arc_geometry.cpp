@@ -1,12 +1,9 @@
 #include "language/arc_geometry.hpp"
 
 #include <cmath>
-#include <numbers>
 
 namespace trunnion::language {
 namespace {
-
-constexpr double degrees_per_radian = 180.0 / std::numbers::pi;
 
 /// Degrees in (0, 360] from the start's direction to the end's, both seen from the centre.
 double sweep_between(double start_first, double start_second, double end_first, double end_second,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <numbers>
 
 #include "language/alarms.hpp"
 #include "language/canonical.hpp"
@@ -26,6 +27,8 @@ constexpr PlaneAxes plane_axes(Plane plane) {
   }
   return {X, Y, Z};
 }
+
+inline constexpr double degrees_per_radian = 180.0 / std::numbers::pi;
 
 /// Ends of an arc nearer to each other in the plane than this (mm) are one point: a full circle.
 inline constexpr double same_point = 1e-6;

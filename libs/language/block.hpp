@@ -1,4 +1,4 @@
-// A block as a reader hands it to the interpreter: letters and numbers, nothing resolved.
+// A block as a reader hands it to the interpreter: letters and numbers, every expression resolved.
 #pragma once
 
 #include <array>
@@ -7,11 +7,14 @@
 #include <string_view>
 
 #include "language/alarms.hpp"
+#include "language/variables.hpp"
 
 namespace trunnion::language {
 
 inline constexpr std::size_t max_g_codes = 12;
-inline constexpr std::size_t max_m_codes = 4;
+inline constexpr std::size_t max_m_codes = 8;
+/// Letters I J K of one macro call: ten of each.
+inline constexpr std::size_t max_call_centres = 30;
 
 /// One G or M of a block.
 struct CodeWord {
@@ -25,41 +28,88 @@ enum class Head : std::uint8_t {
   program,    ///< %1234 or O1234
 };
 
+/// What a block does beside its words. IF ... GOTO and IF ... THEN with something behind are gone: they are
+/// what is behind them, or an empty block.
+enum class Statement : std::uint8_t {
+  none,
+  assignment,  ///< done by the reader
+  go_to,       ///< label
+  begin_if,    ///< condition
+  else_if,     ///< the condition is at `rest`, not evaluated yet: see Dialect::read_condition
+  else_,
+  end_if,
+  begin_while,  ///< condition; ends with ENDW
+  end_while,
+  begin_do,  ///< condition and label; ends with END and the same label
+  end_do,    ///< label
+};
+
+/// One I, J or K of a macro call, where they may be repeated.
+struct CallCentre {
+  char letter = 'I';
+  std::uint16_t offset = 0;
+  double value = 0;
+};
+
 /// A letter but G and M stands at most once in a block, so words are looked up by letter.
 struct Block {
   Head head = Head::none;
-  bool skip = false;  ///< begins with /
+  bool skipped = false;  ///< begins with / and that level is switched on; nothing else of it was read
+  bool condition = false;
+  Statement statement = Statement::none;
   std::uint8_t g_count = 0;
   std::uint8_t m_count = 0;
+  std::uint8_t centre_count = 0;
+  std::uint16_t at = 0;    ///< byte of the statement
+  std::uint16_t rest = 0;  ///< byte behind the word of the statement
+  std::uint32_t label = 0;
   std::uint32_t program_number = 0;
   std::uint32_t letters = 0;  ///< bit 0 = A .. bit 25 = Z; G and M are not in it
   std::array<double, 26> values{};
   std::array<std::uint16_t, 26> offsets{};
   std::array<CodeWord, max_g_codes> g{};
   std::array<CodeWord, max_m_codes> m{};
+  std::array<CallCentre, max_call_centres> centres{};
 
   static constexpr std::uint32_t bit(char letter) { return 1u << (letter - 'A'); }
   bool has(char letter) const { return (letters & bit(letter)) != 0; }
   double value(char letter) const { return values[static_cast<std::size_t>(letter - 'A')]; }
   std::uint16_t offset(char letter) const { return offsets[static_cast<std::size_t>(letter - 'A')]; }
   bool empty() const { return letters == 0 && g_count == 0 && m_count == 0; }
-  /// Makes the block empty; values of absent letters keep what they had and mean nothing.
+  /// Makes the block empty; what is absent keeps what it had and means nothing.
   void clear() {
     head = Head::none;
-    skip = false;
-    g_count = m_count = 0;
+    skipped = false;
+    statement = Statement::none;
+    g_count = m_count = centre_count = 0;
     letters = 0;
   }
 };
+
+/// What a line is when it is not executed: enough to find labels, heads and the ends of loops and branches.
+struct Outline {
+  Head head = Head::none;
+  Statement statement = Statement::none;
+  std::uint32_t program_number = 0;
+  std::optional<std::uint32_t> sequence_number;  ///< N
+  std::uint32_t label = 0;                       ///< of begin_do and end_do
+};
+
+/// Bit n - 1 for block skip level n: /1 .. /9; a lone / is /1.
+using SkipLevels = std::uint16_t;
 
 /// How one dialect writes blocks. Implementations keep no state.
 class Dialect {
  public:
   virtual ~Dialect() = default;
-  /// Reads one line (without its line end) into `block`.
-  virtual Fault read_block(std::string_view line, Block& block) const = 0;
-  /// The program number if the line begins a program: a quick look, for finding subprograms.
-  virtual std::optional<std::uint32_t> program_head(std::string_view line) const = 0;
+  /// Reads one line (without its line end) into `block`; assignments in it are carried out.
+  virtual Fault read_block(std::string_view line, SkipLevels skip, Variables& variables,
+                           Block& block) const = 0;
+  /// The condition of a Statement::else_if, at `rest` of its line.
+  virtual Fault read_condition(std::string_view line, std::uint16_t rest, const Variables& variables,
+                               bool& condition) const = 0;
+  /// A quick look; never fails, because read_block will see the line when it is executed.
+  virtual Outline outline(std::string_view line, SkipLevels skip) const = 0;
 };
 
 }  // namespace trunnion::language

@@ -4,10 +4,12 @@
 #include <bit>
 #include <cmath>
 
+#include "language/decimal.hpp"
+#include "language/letters.hpp"
+
 namespace trunnion::language {
 namespace {
 
-constexpr std::uint32_t highest_tool = 65535;
 constexpr std::uint32_t highest_repetition = 999999;
 
 bool is_whole(double value, double low, double high) {
@@ -18,30 +20,87 @@ bool is_whole(double value, double low, double high) {
 
 void BlockExecutor::start(const AxisValues& position, const ModalState& modal) {
   modal_ = modal;
-  position_ = position;
-  work_offset_ = environment_.work_offset(modal.work_offset);
+  modal_.cycle = 80;
+  modal_.cutter_side = CutterSide::off;
+  modal_.polar = modal_.scaled = modal_.mirrored = modal_.rotated = false;
+  if (modal_.work_offset >= work_offset_count) modal_.work_offset = 0;
+  tables_.load(environment_);
+  frame_ = ProgramFrame{};
+  frame_.set_work_offset(tables_.work_offset(modal_.work_offset));
+  frame_.set_tilt(modal_.tilt);
+  compensation_.reset();
+  compensation_.configure(environment_.cutter_settings());
   radius_deviation_ = environment_.radius_deviation();
+  diameter_ = environment_.diameter_programming();
   channel_axes_ = environment_.axes();
   sequence_ = 0;
+  intermediate_.reset();
+  needs_position_ = draining_ = parameter_input_ = swing_due_ = false;
+  activity_ = Activity::none;
+  later_ = {};
+  pattern_.clear();
+  hole_.stop();
+  curve_.stop();
+  locate(position);
+}
+
+void BlockExecutor::set_frame(const ProgramFrame& frame) {
+  frame_ = frame;
+  locate(position_);
+}
+
+void BlockExecutor::set_position(const AxisValues& position) {
+  if (compensation_.active()) {
+    compensation_.reset();
+    modal_.cutter_side = CutterSide::off;
+  }
+  needs_position_ = false;
+  locate(position);
+}
+
+AxisValues BlockExecutor::machine_position() const {
+  return modal_.transformation == Transformation::rtcp
+             ? environment_.machine_from_tip(position_, modal_.tool_length)
+             : position_;
+}
+
+AxisValues BlockExecutor::workpiece_position() const {
+  AxisValues tip = position_;
+  tip[Z] -= tool_length_in_z();
+  return frame_.workpiece_from_command(tip);
 }
 
 Fault BlockExecutor::execute(const Block& block, std::uint32_t program, std::uint32_t line, CommandQueue& out,
                              Flow& flow) {
   Codes codes;
   MCodes m;
-  if (const Fault fault = collect_g(block, codes)) return fault;
-  if (const Fault fault = collect_m(block, m)) return fault;
   program_ = program;
   line_ = line;
   used_ = Block::bit('N');
+  if (const Fault fault = check_numbers(block)) return fault;
+  if (const Fault fault = collect_g(block, codes)) return fault;
+  if (const Fault fault = collect_m(block, m)) return fault;
+  if (const Fault fault = check_context(block, codes)) return fault;
 
   const ModalState modal = modal_;
   const AxisValues position = position_;
-  const Fault fault = run(block, codes, m, out, flow);
+  const AxisValues program_position = program_position_;
+  constexpr std::uint32_t frame_groups =
+      1u << static_cast<unsigned>(Group::one_block) | 1u << static_cast<unsigned>(Group::work_offset) |
+      1u << static_cast<unsigned>(Group::scaling) | 1u << static_cast<unsigned>(Group::mirror) |
+      1u << static_cast<unsigned>(Group::rotation);
+  const bool may_change_frame = (codes.present & frame_groups) != 0;
+  std::optional<ProgramFrame> frame;
+  if (may_change_frame) frame = frame_;
+  Fault fault = run(block, codes, m, out, flow);
+  if (!fault && held_too_many_) fault = {AlarmNumber::compensation_look_ahead, 0};
   if (fault) {
-    if (modal_.work_offset != modal.work_offset) work_offset_ = environment_.work_offset(modal.work_offset);
+    if (frame) frame_ = *frame;
     modal_ = modal;
     position_ = position;
+    program_position_ = program_position;
+    held_too_many_ = draining_ = false;
+    activity_ = Activity::none;
     out.clear();
   }
   return fault;
@@ -49,15 +108,22 @@ Fault BlockExecutor::execute(const Block& block, std::uint32_t program, std::uin
 
 Fault BlockExecutor::run(const Block& block, const Codes& codes, const MCodes& m, CommandQueue& out,
                          Flow& flow) {
+  exact_stop_once_ = codes.has(Group::exact_stop);
   if (const Fault fault = set_units_and_feed(block, codes)) return fault;
-  if (const Fault fault = select_spindle_and_tool(block, out)) return fault;
-  auxiliary(m, When::before, out);
-  set_modal_codes(codes);
+  if (const Fault fault = select_spindle_and_tool(block, codes, out)) return fault;
+  if (const Fault fault = auxiliary(m, When::before, out)) return fault;
+  if (const Fault fault = set_modal_codes(block, codes)) return fault;
   if (const Fault fault = set_tool_length(block, codes, out)) return fault;
-  if (const Fault fault = move_or_dwell(block, codes, out)) return fault;
-  auxiliary(m, When::after, out);
+  if (const Fault fault = set_cutter_compensation(block, codes)) return fault;
+  if (const Fault fault = act(block, codes, out)) return fault;
   if (const Fault fault = set_flow(block, m, flow)) return fault;
+  if (const Fault fault = report_unused(block)) return fault;
+  if (activity_ == Activity::none) return finish_block(m, out);
+  later_ = m;
+  return {};
+}
 
+Fault BlockExecutor::report_unused(const Block& block) const {
   const std::uint32_t unused = block.letters & ~used_;
   if (unused == 0) return {};
   std::uint16_t first = UINT16_MAX;
@@ -67,23 +133,261 @@ Fault BlockExecutor::run(const Block& block, const Codes& codes, const MCodes& m
   return {AlarmNumber::unused_word, first};
 }
 
-void BlockExecutor::end_program(std::uint32_t number, std::uint32_t program, std::uint32_t line,
-                                CommandQueue& out) {
+Fault BlockExecutor::finish_block(const MCodes& m, CommandQueue& out) {
+  if (const Fault fault = auxiliary(m, When::after, out)) return fault;
+  return drain_compensation(out);
+}
+
+Fault BlockExecutor::resume(CommandQueue& out) {
+  draining_ = false;
+  Fault fault;
+  if (activity_ == Activity::holes) fault = next_hole_step(out);
+  if (activity_ == Activity::vector) fault = next_vector_piece(out);
+  if (activity_ == Activity::curve) {
+    Vector3 end{};
+    if (curve_.next(end)) {
+      AxisValues target = program_position_;
+      std::copy(end.begin(), end.end(), target.begin());
+      fault = move_straight(CommandKind::line, target, out);
+    } else {
+      activity_ = Activity::none;
+    }
+  }
+  if (fault || activity_ != Activity::none) return fault;
+  const MCodes m = later_;
+  later_ = {};
+  return finish_block(m, out);
+}
+
+// What else a block may mean in its place.
+Fault BlockExecutor::check_context(const Block& block, const Codes& codes) const {
+  const bool swing = codes.is(Group::one_block, 531) || codes.is(Group::one_block, 532);
+  const bool alone = block.g_count == 1 && block.m_count == 0 && (block.letters & ~Block::bit('N')) == 0;
+  std::uint16_t at = block.g_count > 0 ? block.g[0].offset : block.m_count > 0 ? block.m[0].offset : 0;
+  if (block.g_count == 0 && block.m_count == 0) {
+    at = block.offsets[static_cast<std::size_t>(std::countr_zero(block.letters))];
+  }
+  if (swing_due_ && !(swing && alone)) return {AlarmNumber::tilt_swing_missing, at};
+  if (swing && !swing_due_) return {AlarmNumber::tilt_swing_misplaced, codes.offset(Group::one_block)};
+  if (curve_.active() && (block.g_count > 0 || block.m_count > 0)) return {AlarmNumber::curve_incomplete, at};
+  constexpr std::uint32_t parameter_words = letter_bits("NPR");
+  if (parameter_input_ && !codes.is(Group::one_block, 110) &&
+      (block.g_count > 0 || block.m_count > 0 || (block.letters & ~parameter_words) != 0)) {
+    return {AlarmNumber::parameter_line, at};
+  }
+  return {};
+}
+
+// Codes that give axis words a meaning of their own, so that the block moves nothing.
+bool BlockExecutor::takes_axis_words(const Block& block, const Codes& codes, std::uint16_t& at,
+                                     int& takers) const {
+  takers = 0;
+  const auto take = [&](Group group) {
+    at = codes.offset(group);
+    ++takers;
+  };
+  const bool axes = (block.letters & axis_bits) != 0;
+  if (codes.has(Group::one_block) && !codes.is(Group::one_block, 110) && !codes.is(Group::one_block, 921)) {
+    take(Group::one_block);
+  }
+  if (codes.is(Group::scaling, 510)) take(Group::scaling);
+  if (codes.has(Group::mirror) &&
+      (axes || codes.code(Group::mirror) == 511 || codes.code(Group::mirror) == 240)) {
+    take(Group::mirror);
+  }
+  if (codes.has(Group::rotation) && codes.code(Group::rotation) != 690) take(Group::rotation);
+  return takers > 0;
+}
+
+Fault BlockExecutor::act(const Block& block, const Codes& codes, CommandQueue& out) {
+  if (curve_.active()) return continue_curve(block);
+  if (parameter_input_ && !codes.has(Group::one_block)) return change_parameter(block, 'N', out);
+  std::uint16_t at = 0;
+  int takers = 0;
+  const bool taken = takes_axis_words(block, codes, at, takers);
+  if (takers > 1) return {AlarmNumber::codes_compete, at};
+  if (const Fault fault = set_frames(block, codes, out)) return fault;
+  if (codes.has(Group::one_block)) {
+    switch (codes.code(Group::one_block)) {
+      case 40:
+        return dwell(block, codes, out);
+      case 100:
+        return change_table(block, codes, out);
+      case 110:
+        parameter_input_ = false;
+        return {};
+      case 280:
+      case 300:
+        return return_to_reference(block, codes, out);
+      case 290:
+        return return_from_reference(block, codes, out);
+      case 310:
+        return move_until_skip(block, codes, out);
+      case 520:
+        return set_local_offset(block, codes);
+      case 530:
+        return move_in_machine_coordinates(block, codes, out);
+      case 531:
+      case 532:
+        return swing(codes, out);
+      case 533:
+        return move_along_tool(block, codes, out);
+      case 600:
+        return approach_from_one_side(block, codes, out);
+      case 700:
+      case 710:
+      case 780:
+      case 790:
+        return run_pattern(block, codes, out);
+      case 920:
+        return shift_coordinates(block, codes);
+      default:
+        return clear_shift(codes);
+    }
+  }
+  if (taken) return {};
+  if (modal_.cycle != 80) return run_cycle(block, codes, out);
+  if (modal_.motion == 62) return start_curve(block, codes);
+  return move(block, out);
+}
+
+Fault BlockExecutor::end_program(std::uint32_t number, std::uint32_t program, std::uint32_t line,
+                                 CommandQueue& out) {
   program_ = program;
   line_ = line;
+  if (curve_.active()) return {AlarmNumber::curve_incomplete, 0};
+  if (swing_due_) return {AlarmNumber::tilt_swing_missing, 0};
+  if (const Fault fault = push_end(number, out)) return fault;
+  return drain_compensation(out);
+}
+
+// The tool stays where the compensation has brought it: there the position ends too.
+Fault BlockExecutor::push_end(std::uint32_t number, CommandQueue& out) {
+  if (compensation_.active()) {
+    if (const AlarmNumber alarm = compensation_.finish(); alarm != AlarmNumber::none) return {alarm, 0};
+  }
   push(CommandKind::end, out).number = number;
+  return {};
+}
+
+Fault BlockExecutor::message(std::uint32_t number, std::uint32_t program, std::uint32_t line,
+                             CommandQueue& out) {
+  program_ = program;
+  line_ = line;
+  push(CommandKind::message, out).number = number;
+  push(CommandKind::auxiliary, out).number = 0;
+  return settle(out);
+}
+
+Fault BlockExecutor::settle(CommandQueue& out) {
+  if (!held_too_many_) return drain_compensation(out);
+  held_too_many_ = false;
+  return {AlarmNumber::compensation_look_ahead, 0};
 }
 
 Command& BlockExecutor::push(CommandKind kind, CommandQueue& out) {
-  Command& command = out.push();
+  const bool held = compensation_.active();
+  Command* place = held ? compensation_.add_standing() : &out.push();
+  if (place == nullptr) {
+    held_too_many_ = true;
+    place = &scratch_;
+  }
+  Command& command = *place;
   command = Command{};
   command.kind = kind;
   command.program = program_;
   command.line = line_;
-  command.sequence = ++sequence_;
+  command.sequence = held ? 0 : ++sequence_;
   command.target = position_;
   command.modal = modal_;
+  if (exact_stop_once_) command.modal.path_control = PathControl::exact_stop;
   return command;
+}
+
+Fault BlockExecutor::drain_compensation(CommandQueue& out) {
+  if (!compensation_.active()) return {};
+  Command command;
+  for (bool popped = true; popped;) {
+    draining_ = out.crowded();
+    if (draining_) return {};
+    if (const AlarmNumber alarm = compensation_.pop(command, popped); alarm != AlarmNumber::none) {
+      return {alarm, 0};
+    }
+    if (!popped) break;
+    to_command_frame(command);
+    command.sequence = ++sequence_;
+    out.push() = command;
+    if (command.kind == CommandKind::end) {
+      compensation_.reset();
+      modal_.cutter_side = CutterSide::off;
+      locate(command.target);
+      return {};
+    }
+  }
+  return {};
+}
+
+void BlockExecutor::to_command_frame(Command& command) const {
+  if (command.kind == CommandKind::table) return;  // its target is a row of the table
+  command.target = frame_.command_from_contour(command.target);
+  const double z = tool_length_in_z();
+  command.target[Z] += z;
+  if (command.kind != CommandKind::arc) return;
+  Arc& arc = command.arc;
+  const AxisValues centre =
+      frame_.command_from_contour({arc.centre[0], arc.centre[1], arc.centre[2], 0, 0, 0, 0, 0, 0});
+  arc.centre = {centre[X], centre[Y], centre[Z] + z};
+  if (!frame_.tilt().active) return;
+  Vector3 normal{};
+  normal[plane_axes(arc.plane).normal] = 1;
+  arc.normal = frame_.turned_by_tilt(normal);
+}
+
+void BlockExecutor::locate(const AxisValues& position) {
+  position_ = position;
+  AxisValues tip = position;
+  tip[Z] -= tool_length_in_z();
+  program_position_ = frame_.program_from_contour(frame_.contour_from_command(tip));
+}
+
+AxisValues BlockExecutor::command_from_program(const AxisValues& program) const {
+  AxisValues command = program;
+  if (frame_.plain()) {
+    const AxisValues& offset = frame_.total_offset();
+    for (std::size_t axis = 0; axis < axis_count; ++axis) {
+      // An axis that stays keeps its number bit for bit.
+      if (program[axis] == program_position_[axis]) {
+        command[axis] = position_[axis];
+      } else {
+        command[axis] += offset[axis];
+        if (axis == Z) command[axis] += tool_length_in_z();
+      }
+    }
+    return command;
+  }
+  command = frame_.command_from_contour(frame_.contour_from_program(program));
+  command[Z] += tool_length_in_z();
+  return command;
+}
+
+Fault BlockExecutor::check_numbers(const Block& block) const {
+  for (std::uint32_t rest = block.letters; rest != 0; rest &= rest - 1) {
+    const auto letter = static_cast<std::size_t>(std::countr_zero(rest));
+    if (!(std::abs(block.values[letter]) <= largest_number)) {
+      return {AlarmNumber::number_range, block.offsets[letter]};
+    }
+  }
+  return {};
+}
+
+double BlockExecutor::length_word(const Block& block, char letter) {
+  if (!block.has(letter)) return 0;
+  use(letter);
+  return block.value(letter) * length_scale();
+}
+
+Fault BlockExecutor::refuse_in_compensation(std::uint16_t at) const {
+  return compensation_.active() ? Fault{AlarmNumber::compensation_active, at} : Fault{};
 }
 
 Fault BlockExecutor::whole_number(const Block& block, char letter, std::uint32_t low, std::uint32_t high,
@@ -103,11 +407,14 @@ Fault BlockExecutor::collect_g(const Block& block, Codes& codes) const {
     const bool exact = std::abs(word.value * 10 - tenths) < 1e-9 && tenths >= 0 && tenths < 1000;
     const GCode* const code = exact ? g_code(static_cast<std::uint32_t>(tenths)) : nullptr;
     if (code == nullptr) return {AlarmNumber::unknown_g, word.offset};
-    if (!code->available) return {AlarmNumber::unavailable_g, word.offset};
     if (codes.has(code->group)) return {AlarmNumber::group_twice, word.offset};
     codes.present |= 1u << static_cast<unsigned>(code->group);
     codes.tenths[static_cast<std::size_t>(code->group)] = code->tenths;
     codes.offsets[static_cast<std::size_t>(code->group)] = word.offset;
+  }
+  // A cycle takes the place of the motion code.
+  if (codes.has(Group::cycle) && codes.code(Group::cycle) != 800 && codes.has(Group::motion)) {
+    return {AlarmNumber::group_twice, codes.offset(Group::cycle)};
   }
   return {};
 }
@@ -127,101 +434,24 @@ Fault BlockExecutor::collect_m(const Block& block, MCodes& codes) const {
   return {};
 }
 
-Fault BlockExecutor::set_units_and_feed(const Block& block, const Codes& codes) {
-  if (codes.has(Group::units)) modal_.metric = codes.code(Group::units) == 210;
-  if (codes.has(Group::feed_mode)) {
-    const std::uint16_t code = codes.code(Group::feed_mode);
-    const FeedMode mode = code == 930   ? FeedMode::inverse_time
-                          : code == 950 ? FeedMode::per_revolution
-                                        : FeedMode::per_minute;
-    // A number of one mode is nonsense in another.
-    if (mode != modal_.feed_mode) modal_.feed = 0;
-    modal_.feed_mode = mode;
-  }
-  if (block.has('F')) {
-    use('F');
-    const double feed = block.value('F');
-    if (!(feed > 0)) return {AlarmNumber::feed_not_positive, block.offset('F')};
-    modal_.feed = modal_.feed_mode == FeedMode::inverse_time ? feed : feed * length_scale();
-  }
-  return {};
-}
-
-Fault BlockExecutor::select_spindle_and_tool(const Block& block, CommandQueue& out) {
-  if (block.has('S')) {
-    use('S');
-    const double speed = block.value('S');
-    if (speed < 0) return {AlarmNumber::value_range, block.offset('S')};
-    modal_.spindle_speed = speed;
-    push(CommandKind::spindle_speed, out).value = speed;
-  }
-  if (block.has('T')) {
-    std::uint32_t tool = 0;
-    if (const Fault fault = whole_number(block, 'T', 0, highest_tool, tool)) return fault;
-    modal_.selected_tool = static_cast<std::uint16_t>(tool);
-    push(CommandKind::tool, out).number = tool;
-  }
-  return {};
-}
-
-void BlockExecutor::set_modal_codes(const Codes& codes) {
-  if (codes.has(Group::plane)) {
-    const std::uint16_t code = codes.code(Group::plane);
-    modal_.plane = code == 180 ? Plane::zx : code == 190 ? Plane::yz : Plane::xy;
-  }
-  if (codes.has(Group::distance)) modal_.absolute = codes.code(Group::distance) == 900;
-  if (codes.has(Group::path_control)) {
-    const bool stop = codes.code(Group::path_control) == 610;
-    modal_.path_control = stop ? PathControl::exact_stop : PathControl::continuous;
-  }
-  if (codes.has(Group::work_offset)) {
-    modal_.work_offset = static_cast<std::uint8_t>(codes.code(Group::work_offset) / 10 - 54);
-    work_offset_ = environment_.work_offset(modal_.work_offset);
-  }
-  if (codes.has(Group::motion)) modal_.motion = static_cast<std::uint8_t>(codes.code(Group::motion) / 10);
-}
-
-Fault BlockExecutor::set_tool_length(const Block& block, const Codes& codes, CommandQueue& out) {
-  if (!codes.has(Group::tool_length)) return {};
-  const std::uint16_t code = codes.code(Group::tool_length);
-  std::uint32_t h = 0;
-  double length = 0;
-  if (code != 490) {
-    if (!block.has('H')) return {AlarmNumber::missing_word, codes.offset(Group::tool_length)};
-    if (const Fault fault = whole_number(block, 'H', 0, highest_tool, h)) return fault;
-    if (h != 0) {
-      const auto entry = environment_.tool_length(static_cast<std::uint16_t>(h));
-      if (!entry) return {AlarmNumber::tool_length_unknown, block.offset('H')};
-      length = *entry;
-    }
-  }
-  const Transformation transformation = code == 434 ? Transformation::rtcp : Transformation::none;
-  if (transformation == modal_.transformation && h == modal_.length_offset && length == modal_.tool_length) {
-    return {};
-  }
-  // The machine stands still while the coordinates it is described in change.
-  if (modal_.transformation == Transformation::rtcp) {
-    position_ = environment_.machine_from_tip(position_, modal_.tool_length);
-  }
-  if (transformation == Transformation::rtcp) position_ = environment_.tip_from_machine(position_, length);
-  modal_.transformation = transformation;
-  modal_.length_offset = static_cast<std::uint16_t>(h);
-  modal_.tool_length = length;
-  push(CommandKind::transformation, out);
-  return {};
-}
-
-void BlockExecutor::auxiliary(const MCodes& codes, When when, CommandQueue& out) {
+Fault BlockExecutor::auxiliary(const MCodes& codes, When when, CommandQueue& out) {
   for (std::size_t i = 0; i < codes.count; ++i) {
     const MCode& code = codes.codes[i];
     if (code.when != when) continue;
     if (code.action == MAction::tool_change) modal_.tool = modal_.selected_tool;
+    if (code.group == MGroup::spindle) {
+      modal_.spindle_direction = code.number == 3   ? SpindleDirection::cw
+                                 : code.number == 4 ? SpindleDirection::ccw
+                                                    : SpindleDirection::stopped;
+    }
     if (code.action == MAction::auxiliary || code.action == MAction::tool_change) {
       push(CommandKind::auxiliary, out).number = code.number;
     } else if (code.action == MAction::program_end) {
-      push(CommandKind::end, out).number = code.number;
+      if (curve_.active()) return {AlarmNumber::curve_incomplete, codes.offsets[i]};
+      if (const Fault fault = push_end(code.number, out)) return fault;
     }
   }
+  return {};
 }
 
 Fault BlockExecutor::set_flow(const Block& block, const MCodes& codes, Flow& flow) {
@@ -231,7 +461,15 @@ Fault BlockExecutor::set_flow(const Block& block, const MCodes& codes, Flow& flo
     if (action == MAction::auxiliary || action == MAction::tool_change) continue;
     flow.offset = codes.offsets[i];
     if (action == MAction::program_end) flow.kind = Flow::Kind::end;
-    if (action == MAction::go_back) flow.kind = Flow::Kind::go_back;
+    if (action == MAction::go_back) {
+      flow.kind = Flow::Kind::go_back;
+      flow.to_label = block.has('P');
+      if (flow.to_label && (used_ & Block::bit('P')) != 0)
+        return {AlarmNumber::unused_word, block.offset('P')};
+      if (flow.to_label) {
+        if (const Fault fault = whole_number(block, 'P', 0, 99999999, flow.subprogram)) return fault;
+      }
+    }
     if (action != MAction::call) continue;
     flow.kind = Flow::Kind::call;
     if (!block.has('P')) return {AlarmNumber::missing_word, flow.offset};

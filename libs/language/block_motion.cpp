@@ -1,26 +1,19 @@
-// The part of BlockExecutor that makes moves and dwells.
+// The part of BlockExecutor that makes moves: straight lines, arcs and curves.
 #include <bit>
 #include <cmath>
+#include <numbers>
 
 #include "language/arc_geometry.hpp"
 #include "language/block_executor.hpp"
+#include "language/letters.hpp"
 
 namespace trunnion::language {
 namespace {
 
 /// A move shorter than this (mm, degrees) on every axis is rounding, not motion.
 constexpr double no_distance = 1e-9;
-constexpr double longest_dwell = 99999.999;  // seconds
 constexpr std::uint32_t most_turns = 9999;
-
-constexpr std::uint32_t letter_bits(const char* letters) {
-  std::uint32_t bits = 0;
-  for (; *letters != '\0'; ++letters) bits |= Block::bit(*letters);
-  return bits;
-}
-constexpr std::uint32_t axis_bits = letter_bits(axis_letters);
-
-constexpr bool is_rotary(std::size_t axis) { return axis == A || axis == B || axis == C; }
+constexpr double curve_start_tolerance = 0.001;  // mm
 
 }  // namespace
 
@@ -36,103 +29,71 @@ Fault BlockExecutor::find_axes(const Block& block, std::uint32_t& axes) const {
   return {};
 }
 
-AxisValues BlockExecutor::programmed_target(const Block& block, std::uint32_t axes) const {
-  AxisValues target = position_;
+double BlockExecutor::axis_word(const Block& block, std::size_t axis) const {
+  const double word = block.value(axis_letters[axis]);
+  if (is_rotary(axis)) return word;
+  return word * length_scale() * (diameter_ && axis == X ? 0.5 : 1.0);
+}
+
+AxisValues BlockExecutor::programmed_target(const Block& block, std::uint32_t axes) {
+  AxisValues target = program_position_;
   for (std::size_t axis = 0; axis < axis_count; ++axis) {
     if (((axes >> axis) & 1u) == 0) continue;
-    const double word = block.value(axis_letters[axis]) * (is_rotary(axis) ? 1.0 : length_scale());
-    if (!modal_.absolute) {
-      target[axis] += word;
-      continue;
-    }
-    target[axis] = word + work_offset_[axis];
-    if (axis == Z && modal_.transformation == Transformation::none) target[axis] += modal_.tool_length;
+    const double word = axis_word(block, axis);
+    target[axis] = modal_.absolute ? word : target[axis] + word;
   }
+  if (modal_.polar) apply_polar(block, axes, target);
   return target;
 }
 
-Fault BlockExecutor::move_or_dwell(const Block& block, const Codes& codes, CommandQueue& out) {
-  if (!codes.has(Group::one_block)) return move(block, out);
-  switch (codes.code(Group::one_block)) {
-    case 40:
-      return dwell(block, codes, out);
-    case 280:
-      return return_to_reference(block, codes, out);
-    default:
-      return move_in_machine_coordinates(block, codes, out);
+// The radius is about the program's zero, or about the position when it is an incremental word; the angle is
+// in the plane from its first axis, or from the last angle.
+void BlockExecutor::apply_polar(const Block& block, std::uint32_t axes, AxisValues& target) {
+  const PlaneAxes plane = plane_axes(modal_.plane);
+  const bool radius = ((axes >> plane.first) & 1u) != 0;
+  const bool angle = ((axes >> plane.second) & 1u) != 0;
+  if (!radius && !angle) return;
+  if (radius) {
+    polar_radius_ = axis_word(block, plane.first);
+    polar_centre_ = {};
+    if (!modal_.absolute) polar_centre_ = {program_position_[plane.first], program_position_[plane.second]};
   }
-}
-
-Fault BlockExecutor::dwell(const Block& block, const Codes& codes, CommandQueue& out) {
-  double seconds = 0;
-  char found = '\0';
-  for (const char letter : {'P', 'X', 'U'}) {
-    // The first one is the time; a second one is left over and reported as such.
-    if (!block.has(letter) || found != '\0') continue;
-    found = letter;
-    use(letter);
-    seconds = letter == 'P' ? block.value(letter) / 1000 : block.value(letter);
+  if (angle) {
+    const double word = block.value(axis_letters[plane.second]);
+    polar_angle_ = std::fmod(modal_.absolute ? word : polar_angle_ + word, 360.0);
   }
-  if (found == '\0') return {AlarmNumber::missing_word, codes.offset(Group::one_block)};
-  if (seconds < 0 || seconds > longest_dwell) return {AlarmNumber::value_range, block.offset(found)};
-  push(CommandKind::dwell, out).dwell_seconds = seconds;
-  return {};
-}
-
-Fault BlockExecutor::return_to_reference(const Block& block, const Codes& codes, CommandQueue& out) {
-  const std::uint16_t at = codes.offset(Group::one_block);
-  if (modal_.transformation == Transformation::rtcp) return {AlarmNumber::machine_coordinates_rtcp, at};
-  std::uint32_t axes = 0;
-  if (const Fault fault = find_axes(block, axes)) return fault;
-  if (axes == 0) return {AlarmNumber::missing_word, at};
-  used_ |= block.letters & axis_bits;
-  move_straight(CommandKind::rapid, programmed_target(block, axes), out);
-  const AxisValues reference = environment_.reference_position();
-  AxisValues target = position_;
-  for (std::size_t axis = 0; axis < axis_count; ++axis) {
-    if (((axes >> axis) & 1u) != 0) target[axis] = reference[axis];
-  }
-  move_straight(CommandKind::rapid, target, out);
-  return {};
-}
-
-Fault BlockExecutor::move_in_machine_coordinates(const Block& block, const Codes& codes, CommandQueue& out) {
-  const std::uint16_t at = codes.offset(Group::one_block);
-  if (modal_.transformation == Transformation::rtcp) return {AlarmNumber::machine_coordinates_rtcp, at};
-  if (modal_.motion > 1) return {AlarmNumber::machine_coordinates_motion, at};
-  std::uint32_t axes = 0;
-  if (const Fault fault = find_axes(block, axes)) return fault;
-  if (axes == 0) return {AlarmNumber::missing_word, at};
-  used_ |= block.letters & axis_bits;
-  AxisValues target = position_;
-  for (std::size_t axis = 0; axis < axis_count; ++axis) {
-    if (((axes >> axis) & 1u) == 0) continue;
-    target[axis] = block.value(axis_letters[axis]) * (is_rotary(axis) ? 1.0 : length_scale());
-  }
-  if (modal_.motion == 1) {
-    if (const Fault fault = check_feed(block, at)) return fault;
-  }
-  move_straight(modal_.motion == 1 ? CommandKind::line : CommandKind::rapid, target, out);
-  return {};
+  const double radians = polar_angle_ * (std::numbers::pi / 180.0);
+  target[plane.first] = polar_centre_[0] + polar_radius_ * std::cos(radians);
+  target[plane.second] = polar_centre_[1] + polar_radius_ * std::sin(radians);
 }
 
 Fault BlockExecutor::move(const Block& block, CommandQueue& out) {
   constexpr std::uint32_t arc_bits = letter_bits("IJKR");
+  constexpr std::uint32_t vector_bits = letter_bits("IJK");
   const bool arc = modal_.motion == 2 || modal_.motion == 3;
-  const std::uint32_t moving = block.letters & (arc ? axis_bits | arc_bits : axis_bits);
+  const bool vector = modal_.tool_vector && !arc;
+  const std::uint32_t moving =
+      block.letters & (axis_bits | (arc ? arc_bits : 0u) | (vector ? vector_bits : 0u));
   if (moving == 0) return {};
   std::uint32_t axes = 0;
   if (const Fault fault = find_axes(block, axes)) return fault;
   used_ |= block.letters & axis_bits;
   const std::uint16_t at = block.offsets[static_cast<std::size_t>(std::countr_zero(moving))];
-  if (modal_.motion > 3) return {AlarmNumber::motion_missing, at};
   if (modal_.motion != 0) {
     if (const Fault fault = check_feed(block, at)) return fault;
   }
-  const AxisValues target = programmed_target(block, axes);
+  AxisValues target = programmed_target(block, axes);
   if (arc) return move_on_arc(block, target, at, out);
-  move_straight(modal_.motion == 1 ? CommandKind::line : CommandKind::rapid, target, out);
-  return {};
+  if (vector) {
+    std::optional<Vector3> direction;
+    std::uint16_t vector_at = 0;
+    if (const Fault fault = read_tool_vector(block, direction, vector_at)) return fault;
+    if (direction && modal_.motion == 1 && !compensation_.active())
+      return lead_tool(*direction, vector_at, target, out);
+    if (direction)
+      if (const Fault fault = point_tool(*direction, vector_at, target)) return fault;
+  }
+  return move_straight(modal_.motion == 1 ? CommandKind::line : CommandKind::rapid, target, out);
 }
 
 Fault BlockExecutor::check_feed(const Block& block, std::uint16_t at) const {
@@ -140,19 +101,91 @@ Fault BlockExecutor::check_feed(const Block& block, std::uint16_t at) const {
   return given ? Fault{} : Fault{AlarmNumber::feed_missing, at};
 }
 
-void BlockExecutor::move_straight(CommandKind kind, const AxisValues& target, CommandQueue& out) {
-  bool linear = false;
+bool BlockExecutor::moves_to(const AxisValues& command, bool& linear) const {
+  linear = false;
   bool rotary = false;
   for (std::size_t axis = 0; axis < axis_count; ++axis) {
-    const bool moves = std::abs(target[axis] - position_[axis]) > no_distance;
+    const bool moves = std::abs(command[axis] - position_[axis]) > no_distance;
     (is_rotary(axis) ? rotary : linear) |= moves;
   }
-  if (!linear && !rotary) return;
+  return linear || rotary;
+}
+
+Fault BlockExecutor::move_straight(CommandKind kind, const AxisValues& program, CommandQueue& out) {
+  const AxisValues target = command_from_program(program);
+  bool linear = false;
+  const bool moves = moves_to(target, linear);
+  if (compensation_.active()) {
+    if (!moves) {
+      program_position_ = program;
+      return {};
+    }
+    Command command;
+    command.kind = kind;
+    return push_move(command, program);
+  }
+  program_position_ = program;
+  if (!moves) return {};
   position_ = target;
   Command& command = push(kind, out);
-  if (kind == CommandKind::line && !linear && modal_.feed_mode != FeedMode::inverse_time) {
+  if (kind == CommandKind::line) command.chord = curve_.active();
+  if (kind == CommandKind::skip) command.number = skip_input_;
+  if (kind == CommandKind::tap) {
+    command.value = lead_;
+    command.number = tapping_axis_;
+  }
+  if (kind != CommandKind::rapid && !linear && modal_.feed_mode != FeedMode::inverse_time) {
     command.modal.feed /= length_scale();
   }
+  return {};
+}
+
+Fault BlockExecutor::move_straight_in_command_frame(CommandKind kind, const AxisValues& command,
+                                                    CommandQueue& out) {
+  bool linear = false;
+  if (!moves_to(command, linear)) return {};
+  locate(command);
+  Command& made = push(kind, out);
+  if (kind == CommandKind::line && !linear && modal_.feed_mode != FeedMode::inverse_time) {
+    made.modal.feed /= length_scale();
+  }
+  return {};
+}
+
+// Held moves are in contour coordinates until the compensation lets go of them.
+Fault BlockExecutor::push_move(const Command& move, const AxisValues& program) {
+  if (modal_.transformation == Transformation::rtcp) {
+    for (const Axis axis : {A, B, C}) {
+      if (std::abs(program[axis] - program_position_[axis]) > no_distance) {
+        return {AlarmNumber::compensation_rotary, 0};
+      }
+    }
+  }
+  const AxisValues start = frame_.contour_from_program(program_position_);
+  Command command = move;
+  command.program = program_;
+  command.line = line_;
+  command.target = frame_.contour_from_program(program);
+  command.modal = modal_;
+  if (exact_stop_once_) command.modal.path_control = PathControl::exact_stop;
+  position_ = command_from_program(program);
+  program_position_ = program;
+  return {compensation_.add(command, start, frame_.flips(modal_.plane)), 0};
+}
+
+Fault BlockExecutor::set_turns(const Block& block, const AxisValues& target, std::uint16_t at, Arc& arc) {
+  const std::uint8_t normal = plane_axes(arc.plane).normal;
+  const char lead_letter = static_cast<char>('I' + normal);
+  if (!block.has(lead_letter)) return {};
+  // The third centre letter is the lead of a helix: how far it goes in a turn, hence how many turns.
+  const double height = std::abs(target[normal] - program_position_[normal]);
+  if (height < no_distance) return {};
+  const double lead = std::abs(length_word(block, lead_letter));
+  if (block.has('L')) return {};
+  if (!(lead > 0) || height / lead > most_turns) return {AlarmNumber::value_range, at};
+  const double turns = std::round(height / lead - arc.sweep / 360);
+  if (turns > 0) arc.sweep += 360 * turns;
+  return {};
 }
 
 Fault BlockExecutor::move_on_arc(const Block& block, const AxisValues& target, std::uint16_t at,
@@ -161,14 +194,14 @@ Fault BlockExecutor::move_on_arc(const Block& block, const AxisValues& target, s
   arc.plane = modal_.plane;
   arc.clockwise = modal_.motion == 2;
   const PlaneAxes plane = plane_axes(modal_.plane);
+  if (!frame_.keeps_circles(modal_.plane)) return {AlarmNumber::arc_scaled_unequally, at};
   std::array<double, 3> centre_offset{};
   bool centre = false;
   for (const std::uint8_t axis : {plane.first, plane.second}) {
     const char letter = static_cast<char>('I' + axis);
     if (!block.has(letter)) continue;
-    use(letter);
     at = block.offset(letter);
-    centre_offset[axis] = block.value(letter) * length_scale();
+    centre_offset[axis] = length_word(block, letter);
     centre = true;
   }
   std::uint32_t turns = 1;
@@ -177,19 +210,94 @@ Fault BlockExecutor::move_on_arc(const Block& block, const AxisValues& target, s
   }
   AlarmNumber number = AlarmNumber::none;
   if (block.has('R')) {
-    use('R');
     at = block.offset('R');
+    const double radius = length_word(block, 'R');
     if (centre) return {AlarmNumber::arc_centre_and_radius, at};
-    number =
-        arc_from_radius(position_, target, block.value('R') * length_scale(), turns, radius_deviation_, arc);
+    number = arc_from_radius(program_position_, target, radius, turns, radius_deviation_, arc);
   } else {
     if (!centre) return {AlarmNumber::arc_centre_missing, at};
-    number = arc_from_centre(position_, target, centre_offset, turns, radius_deviation_, arc);
+    number = arc_from_centre(program_position_, target, centre_offset, turns, radius_deviation_, arc);
   }
   if (number != AlarmNumber::none) return {number, at};
-  position_ = target;
-  push(CommandKind::arc, out).arc = arc;
+  if (const Fault fault = set_turns(block, target, at, arc)) return fault;
+
+  const AxisValues middle{arc.centre[0], arc.centre[1], arc.centre[2], 0, 0, 0, 0, 0, 0};
+  const AxisValues contour_centre = frame_.contour_from_program(middle);
+  arc.centre = {contour_centre[X], contour_centre[Y], contour_centre[Z]};
+  if (frame_.flips(modal_.plane)) arc.clockwise = !arc.clockwise;
+  Command command;
+  command.kind = CommandKind::arc;
+  command.arc = arc;
+  if (compensation_.active()) return push_move(command, target);
+  const AxisValues end = command_from_program(target);
+  to_command_frame(command);
+  position_ = end;
+  program_position_ = target;
+  push(CommandKind::arc, out).arc = command.arc;
   return {};
+}
+
+Fault BlockExecutor::start_curve(const Block& block, const Codes& codes) {
+  constexpr std::uint32_t curve_words = letter_bits("KR") | axis_bits;
+  const bool named = codes.is(Group::motion, 62);
+  if (!named && (block.letters & curve_words) == 0) return {};
+  const std::uint16_t at =
+      named ? codes.offset(Group::motion)
+            : block.offsets[static_cast<std::size_t>(std::countr_zero(block.letters & curve_words))];
+  if (const Fault fault = refuse_in_compensation(at)) return fault;
+  if (modal_.feed_mode == FeedMode::inverse_time) return {AlarmNumber::cycle_inverse_time, at};
+  if (const Fault fault = check_feed(block, at)) return fault;
+  std::uint32_t order = NurbsCurve::most_order;
+  if (block.has('P')) {
+    if (const Fault fault = whole_number(block, 'P', 2, NurbsCurve::most_order, order)) return fault;
+  }
+  control_point_ = {program_position_[X], program_position_[Y], program_position_[Z]};
+  curve_.start(order, environment_.curve_tolerance());
+  // The curve begins where the tool is, so the first point may be left out.
+  Fault fault = add_curve_block(block);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const bool here = std::abs(control_point_[axis] - program_position_[axis]) <= curve_start_tolerance;
+    if (!fault && !here) fault = {AlarmNumber::curve_start, at};
+  }
+  if (fault) curve_.stop();
+  return fault;
+}
+
+Fault BlockExecutor::continue_curve(const Block& block) {
+  if (const Fault fault = add_curve_block(block)) {
+    curve_.stop();
+    return fault;
+  }
+  activity_ = Activity::curve;
+  return {};
+}
+
+Fault BlockExecutor::add_curve_block(const Block& block) {
+  const std::uint16_t at =
+      block.offsets[static_cast<std::size_t>(std::countr_zero(block.letters | 1u << 25))];
+  if (!block.has('K')) return {AlarmNumber::curve_words, at};
+  use('K');
+  const double knot = block.value('K');
+  constexpr std::uint32_t other_axes = letter_bits("ABCUVW");
+  if ((block.letters & other_axes) != 0) return {AlarmNumber::curve_words, at};
+  std::uint32_t axes = 0;
+  if (const Fault fault = find_axes(block, axes)) return fault;
+  const bool first = activity_ == Activity::none && !curve_.has_points();
+  if (axes == 0 && !block.has('R') && !first) return {curve_.add(knot), block.offset('K')};
+  NurbsCurve::ControlPoint point;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (((axes >> axis) & 1u) == 0) continue;
+    const double word = axis_word(block, axis);
+    control_point_[axis] = modal_.absolute ? word : control_point_[axis] + word;
+  }
+  used_ |= block.letters & axis_bits;
+  point.point = control_point_;
+  if (block.has('R')) {
+    use('R');
+    point.weight = block.value('R');
+    if (!(point.weight > 0)) return {AlarmNumber::value_range, block.offset('R')};
+  }
+  return {curve_.add(knot, point), block.offset('K')};
 }
 
 }  // namespace trunnion::language

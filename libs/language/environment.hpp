@@ -10,17 +10,107 @@
 
 namespace trunnion::language {
 
+/// An entry of the tool table.
+struct ToolOffset {
+  double length = 0;             ///< mm
+  double length_wear = 0;        ///< mm, added to the length
+  std::optional<double> radius;  ///< mm; nothing when the table has no radii
+  double radius_wear = 0;        ///< mm, added to the radius, or subtracted (CutterSettings::wear_sign)
+};
+
+/// How canned cycles move where no word says it.
+struct CycleSettings {
+  double retract = 1;    ///< mm, between two pecks of G73 and of tapping
+  double clearance = 1;  ///< mm above the last depth, where G83 goes back to feed
+  int shift_axis = 1;    ///< Q of G76 and G87 along the plane's axis 1 or 2, negative against it
+};
+
+/// How cutter radius compensation works: parameters 010044..010047.
+struct CutterSettings {
+  bool feed_at_contour = true;     ///< F of arcs holds at the contour and not at the tool centre (010044)
+  int wear_sign = 1;               ///< radius = radius +- wear (010045)
+  bool interference_check = true;  ///< alarm where the tool would cut into a contour nearby (010046)
+  unsigned check_blocks = 2;       ///< how many moves ahead and behind that looks, at most 6 (010047)
+};
+
+/// Which of several solutions the rotary axes take: P of G68.1..G68.3, or those that follow a path of
+/// directions best (G43.5).
+enum class RotaryChoice : std::uint8_t { shortest, positive, negative, continuous };
+
+/// How the rotary axes go from one tool direction to another over the great circle between them (G43.5).
+struct VectorWay {
+  enum class Fault : std::uint8_t {
+    none,
+    opposite,   ///< the directions are opposite: there is no shortest way
+    end,        ///< no rotary angles give the direction at the end
+    on_the_way  ///< out of reach or of travel, or too near to a pole, on the way
+  };
+  Fault fault = Fault::none;
+  bool turns_first = false;  ///< at a pole: an axis must turn before the direction can change
+  std::uint32_t pieces = 1;  ///< in so many pieces the axes may go in proportion
+};
+
+inline constexpr std::uint8_t work_offset_count = 54;
+
 /// Everything a program's meaning depends on besides its text. The answers must not change between start()
 /// and the end of the program, so that interpreting it again up to a command gives that command again.
 class Environment {
  public:
   virtual ~Environment() = default;
-  /// Machine coordinates of the zero of work offset `index`: 0 = G54 .. 5 = G59; mm and degrees.
+  /// Machine coordinates of the zero of work offset `index`: 0 = G54 .. 5 = G59, 6 = G54.1 P1 .. 53 = G54.1
+  /// P48; mm and degrees.
   virtual AxisValues work_offset(std::uint8_t index) const = 0;
   /// Tool length of table entry `h` (from 1) in mm, or nothing when there is no such entry.
   virtual std::optional<double> tool_length(std::uint16_t h) const = 0;
+  /// The whole entry `number` of the tool table, from 1, or nothing when there is none.
+  virtual std::optional<ToolOffset> tool_offset(std::uint16_t number) const {
+    const auto length = tool_length(number);
+    return length ? std::optional(ToolOffset{*length, 0, std::nullopt, 0}) : std::nullopt;
+  }
   /// Machine coordinates of the reference position of each axis (G28); mm and degrees.
   virtual AxisValues reference_position() const = 0;
+  /// The same of reference position `number` 2..4 (G30 P), or nothing when it is not defined.
+  virtual std::optional<AxisValues> numbered_reference(std::uint8_t number) const {
+    static_cast<void>(number);
+    return std::nullopt;
+  }
+  /// The signed way each axis makes last in single-direction positioning (G60), mm or degrees; 0 = straight
+  /// there.
+  virtual AxisValues approach() const { return {}; }
+  /// X words are diameters (parameter 040032).
+  virtual bool diameter_programming() const { return false; }
+  /// Feed of a swing to a tilted plane before any F (parameter 040030), mm/min or degrees/min.
+  virtual double default_feed() const { return 1000; }
+  /// Largest distance of a chord from its curve in mm (parameter 000010).
+  virtual double curve_tolerance() const { return 0.005; }
+  virtual CycleSettings cycle_settings() const { return {}; }
+  virtual CutterSettings cutter_settings() const { return {}; }
+  /// Origin, a point on +X and a point with positive Y of stored tilted plane `index` 1..20 (G68.1 Q), mm in
+  /// the workpiece frame; nothing when it is not defined.
+  virtual std::optional<std::array<Vector3, 3>> plane_points(std::uint8_t index) const {
+    static_cast<void>(index);
+    return std::nullopt;
+  }
+  /// Machine coordinates with the rotary axes of `current` turned so that the tool points along `direction`
+  /// (unit vector from the tip to the spindle in the workpiece frame); nothing when the machine cannot.
+  virtual std::optional<AxisValues> orient(const Vector3& direction, const AxisValues& current,
+                                           RotaryChoice choice) const {
+    static_cast<void>(direction);
+    static_cast<void>(current);
+    static_cast<void>(choice);
+    return std::nullopt;
+  }
+  /// The way of the tool from its direction at the rotary axes of `current` to `direction` (as orient()).
+  virtual VectorWay vector_way(const AxisValues& current, const Vector3& direction) const {
+    VectorWay way;
+    if (!orient(direction, current, RotaryChoice::continuous)) way.fault = VectorWay::Fault::end;
+    return way;
+  }
+  /// The rotary axes at share `s` (0..1) of a way without fault; the linear ones of `current`.
+  virtual AxisValues on_vector_way(const AxisValues& current, const Vector3& direction, double s) const {
+    static_cast<void>(s);
+    return orient(direction, current, RotaryChoice::continuous).value_or(current);
+  }
   /// Machine coordinates of the control point to the frame of Transformation::rtcp: the linear axes change,
   /// the rotary ones stay. `tool_length` in mm along the tool axis.
   virtual AxisValues tip_from_machine(const AxisValues& machine, double tool_length) const = 0;
@@ -31,9 +121,14 @@ class Environment {
   /// Largest difference of an arc's radii at its start and its end in mm (parameter 000011, default 0.1).
   virtual double radius_deviation() const = 0;
   /// The text of a subprogram that is not in the calling text, or nullptr. `name` is O and at least four
-  /// digits
-  /// ("O0012"). The text must live until the program's end; it may be pending at first or fail later.
+  /// digits ("O0012"), or "USERDEF.CYC" for the file of canned cycles. The text must live until the program's
+  /// end; it may be pending at first or fail later.
   virtual TextSource* subprogram(std::string_view name) = 0;
+  /// The M code that calls canned cycle G1007 + `index`, index 0 to 7, or 0 (parameters 010170 .. 010177).
+  virtual std::uint16_t cycle_m_code(std::size_t index) const {
+    (void)index;
+    return 0;
+  }
 };
 
 }  // namespace trunnion::language

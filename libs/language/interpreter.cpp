@@ -1,6 +1,5 @@
 #include "language/interpreter.hpp"
 
-#include <charconv>
 #include <string_view>
 
 namespace trunnion::language {
@@ -8,23 +7,6 @@ namespace {
 
 /// Lines read in one call of next() before it gives the thread back.
 constexpr int lines_per_call = 1000;
-
-/// "O" and at least four digits.
-class ProgramName {
- public:
-  explicit ProgramName(std::uint32_t number) {
-    char digits[10] = {};
-    const auto end = std::to_chars(digits, digits + sizeof digits, number).ptr;
-    text_[size_++] = 'O';
-    for (auto missing = 4 - (end - digits); missing > 0; --missing) text_[size_++] = '0';
-    for (const char* digit = digits; digit != end; ++digit) text_[size_++] = *digit;
-  }
-  std::string_view view() const { return {text_, size_}; }
-
- private:
-  char text_[16] = {};
-  std::size_t size_ = 0;
-};
 
 }  // namespace
 
@@ -34,15 +16,27 @@ const Dialect& Interpreter::iso_dialect() {
 }
 
 Interpreter::Interpreter(Environment& environment, InterpreterOptions options, const Dialect& dialect)
-    : environment_(environment), dialect_(dialect), options_(options), executor_(environment) {}
+    : environment_(environment),
+      dialect_(dialect),
+      options_(options),
+      executor_(environment),
+      control_(environment, executor_),
+      variables_(control_) {}
 
-void Interpreter::start(TextSource& text, const AxisValues& position, const ModalState& initial) {
+void Interpreter::start(TextSource& text, const AxisValues& position, const ModalState& initial,
+                        const VariableStore& variables) {
   executor_.start(position, initial);
+  control_.start();
+  variables_.start(variables);
+  for (std::size_t i = 0; i < cycle_m_codes_.size(); ++i) cycle_m_codes_[i] = environment_.cycle_m_code(i);
   queue_.clear();
   alarm_ = Alarm{};
   depth_ = 0;
   found_.fill({});
   next_found_ = 0;
+  jumps_.clear();
+  blocks_ = 0;
+  else_if_due_ = modal_call_active_ = in_modal_call_ = false;
   frames_[0] = Frame{};
   frames_[0].source = &text;
   reader_.reset();
@@ -52,6 +46,13 @@ void Interpreter::start(TextSource& text, const AxisValues& position, const Moda
 
 Step Interpreter::next(Command& command) {
   for (int lines = 0; queue_.empty(); ++lines) {
+    if (state_ != State::failed && executor_.busy()) {
+      queue_.clear();
+      if (const Fault fault = executor_.resume(queue_)) state_ = fail(fault, {});
+      if (lines == lines_per_call) return Step::working;
+      continue;
+    }
+    if (executor_.needs_position()) return Step::position;
     if (state_ == State::done) return Step::end;
     if (state_ == State::failed) return Step::alarm;
     if (lines == lines_per_call) return Step::working;
@@ -72,16 +73,27 @@ Interpreter::State Interpreter::report_line_status(LineReader::Status status, St
   return state_;
 }
 
+Alarm Interpreter::located(const Fault& fault, std::string_view line) const {
+  Alarm alarm = make_alarm(fault, line, frames_[depth_].program, line_);
+  alarm.calls = static_cast<std::uint8_t>(depth_);
+  for (std::size_t i = 0; i < depth_; ++i) alarm.chain[i] = {frames_[i].program, frames_[i + 1].call_line};
+  return alarm;
+}
+
 Interpreter::State Interpreter::fail(const Fault& fault, std::string_view line) {
-  alarm_ = make_alarm(fault, line, frames_[depth_].program, line_);
+  return fail(located(fault, line));
+}
+
+Interpreter::State Interpreter::fail(const Alarm& alarm) {
+  alarm_ = alarm;
   return State::failed;
 }
 
 Interpreter::State Interpreter::run_line(Step& step) {
-  const std::uint32_t number = reader_.position().line;
+  position_ = reader_.position();
   std::string_view line;
   const LineReader::Status status = reader_.next(line);
-  line_ = number;
+  line_ = position_.line;
   if (status == LineReader::Status::line) return execute(line);
   if (status == LineReader::Status::end) return end_of_text();
   return report_line_status(status, step);
@@ -89,16 +101,40 @@ Interpreter::State Interpreter::run_line(Step& step) {
 
 Interpreter::State Interpreter::execute(std::string_view line) {
   Frame& frame = frames_[depth_];
-  if (const Fault fault = dialect_.read_block(line, block_)) return fail(fault, line);
-  if (block_.skip && options_.block_skip) return State::running;
+  if (const Fault fault = dialect_.read_block(line, options_.block_skip, variables_, block_))
+    return fail(fault, line);
+  if (block_.skipped) return State::running;
   if (block_.head != Head::none && frame.begun) return end_of_text();
-  if (block_.head == Head::program) frame.begun = true;
+  if (block_.head == Head::program) {
+    frame.begun = true;
+    control_.set_program_number(block_.program_number);
+  }
+  if (block_.statement != Statement::none || !block_.empty()) ++blocks_;
+  if (block_.has('N')) control_.set_sequence_number(block_.value('N'));
+  if (block_.statement != Statement::none) {
+    frame.begun = true;
+    return run_statement(line);
+  }
   if (block_.empty()) return State::running;
   frame.begun = true;
+  return execute_words(line);
+}
+
+Interpreter::State Interpreter::execute_words(std::string_view line) {
+  Call call;
+  if (find_call(block_, cycle_m_codes_, call)) return call_macro(call, line);
   Flow flow;
-  if (const Fault fault = executor_.execute(block_, frame.program, line_, queue_, flow))
+  if (!modal_call_active_ || in_modal_call_) {
+    if (const Fault fault = executor_.execute(block_, frames_[depth_].program, line_, queue_, flow))
+      return fail(fault, line);
+    return go(flow, line);
+  }
+  const AxisValues before = executor_.position();
+  if (const Fault fault = executor_.execute(block_, frames_[depth_].program, line_, queue_, flow))
     return fail(fault, line);
-  return go(flow, line);
+  if (flow.kind != Flow::Kind::next || executor_.position() == before) return go(flow, line);
+  arguments_ = modal_arguments_;
+  return this->call(modal_call_, line);
 }
 
 Interpreter::State Interpreter::go(const Flow& flow, std::string_view line) {
@@ -108,73 +144,38 @@ Interpreter::State Interpreter::go(const Flow& flow, std::string_view line) {
     case Flow::Kind::end:
       return State::done;
     case Flow::Kind::go_back:
-      return return_from_subprogram();
+      return return_from_subprogram(flow, line);
     case Flow::Kind::call:
       break;
   }
-  if (depth_ == max_nesting) return fail({AlarmNumber::nesting_too_deep, flow.offset}, line);
-  call_ = flow;
-  after_call_ = reader_.position();
-  for (const Found& known : found_) {
-    if (known.caller == frames_[depth_].source && known.number == flow.subprogram) return enter(known);
-  }
-  not_found_ =
-      make_alarm({AlarmNumber::subprogram_missing, block_.offset('P')}, line, frames_[depth_].program, line_);
-  reader_.seek(*frames_[depth_].source, {});
-  return State::searching;
+  Call subprogram;
+  subprogram.number = flow.subprogram;
+  subprogram.repetitions = flow.repetitions;
+  subprogram.offset = flow.offset;
+  subprogram.program_offset = block_.offset('P');
+  return call(subprogram, line);
 }
 
-Interpreter::State Interpreter::search_line(Step& step) {
-  const TextPosition position = reader_.position();
-  TextSource& source = *frames_[depth_].source;
-  std::string_view line;
-  const LineReader::Status status = reader_.next(line);
-  if (status == LineReader::Status::line) {
-    if (dialect_.program_head(line) != call_.subprogram) return State::searching;
-    return found(source, frames_[depth_].program, position);
-  }
-  if (status != LineReader::Status::end) return report_line_status(status, step);
-  TextSource* const other = environment_.subprogram(ProgramName(call_.subprogram).view());
-  if (other != nullptr) return found(*other, call_.subprogram, {});
-  alarm_ = not_found_;
-  return State::failed;
+void Interpreter::set_position(const AxisValues& position) {
+  const bool skipped = executor_.needs_position();
+  executor_.set_position(position);
+  if (skipped) control_.set_skip_position(executor_.workpiece_position());
 }
 
-Interpreter::State Interpreter::found(TextSource& source, std::uint32_t program, TextPosition top) {
-  Found& entry = found_[next_found_];
-  next_found_ = (next_found_ + 1) % found_.size();
-  entry = {frames_[depth_].source, call_.subprogram, &source, program, top};
-  return enter(entry);
-}
-
-Interpreter::State Interpreter::enter(const Found& target) {
-  frames_[depth_].resume = after_call_;
-  Frame& frame = frames_[++depth_];
-  frame = Frame{};
-  frame.source = target.source;
-  frame.program = target.program;
-  frame.top = target.top;
-  frame.remaining = call_.repetitions - 1;
-  reader_.seek(*frame.source, frame.top);
-  return State::running;
-}
-
-Interpreter::State Interpreter::return_from_subprogram() {
-  Frame& frame = frames_[depth_];
-  if (depth_ == 0 || frame.remaining > 0) {
-    if (depth_ != 0) --frame.remaining;
-    frame.begun = false;
-    reader_.seek(*frame.source, frame.top);
-    return State::running;
-  }
-  --depth_;
-  reader_.seek(*frames_[depth_].source, frames_[depth_].resume);
-  return State::running;
+AxisValues Interpreter::workpiece(const Command& command) const {
+  AxisValues tip = command.target;
+  if (command.modal.transformation == Transformation::none) tip[Z] -= command.modal.tool_length;
+  return executor_.frame().workpiece_from_command(tip);
 }
 
 Interpreter::State Interpreter::end_of_text() {
+  const OpenStructures& open = frames_[depth_].open;
+  if (open.size() != 0) {
+    line_ = open.top().begin.line;
+    return fail({AlarmNumber::begin_without_end, 0}, {});
+  }
   if (depth_ != 0) return fail({AlarmNumber::subprogram_without_end, 0}, {});
-  executor_.end_program(0, frames_[0].program, line_, queue_);
+  if (const Fault fault = executor_.end_program(0, frames_[0].program, line_, queue_)) return fail(fault, {});
   return State::done;
 }
 

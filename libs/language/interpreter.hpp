@@ -5,42 +5,56 @@
 #include <cstdint>
 
 #include "language/block_executor.hpp"
+#include "language/control_variables.hpp"
 #include "language/iso_dialect.hpp"
+#include "language/jump_cache.hpp"
 #include "language/line_reader.hpp"
+#include "language/macro_call.hpp"
+#include "language/structure.hpp"
 
 namespace trunnion::language {
 
 enum class Step : std::uint8_t {
-  command,  ///< a command was written
-  working,  ///< a bounded number of blocks was read without a command: call again when convenient
-  pending,  ///< the text source has to deliver first: call again later
-  end,      ///< the end command was taken before
-  alarm,    ///< see alarm(); stays so until start()
+  command,   ///< a command was written
+  working,   ///< a bounded number of blocks was read without a command: call again when convenient
+  pending,   ///< the text source has to deliver first: call again later
+  end,       ///< the end command was taken before
+  alarm,     ///< see alarm(); stays so until start()
+  position,  ///< the command before was a skip move: set_position() must tell where it ended, for what the
+             ///< program does next depends on it
 };
 
 struct InterpreterOptions {
-  bool block_skip = false;  ///< leave out blocks that begin with /
+  SkipLevels block_skip = 0;  ///< leave out blocks that begin with / (level 1) or /n of a level in it
+  bool repeat = true;         ///< M99 in the main program begins it again, else it ends it
 };
 
-/// Subprograms below the main program.
-inline constexpr std::size_t max_nesting = 8;
+/// Variables of a control that has never run a program.
+inline constexpr VariableStore no_variables{};
 
 /// Interprets a program, pulled by its user. The commands are a function of the texts, the environment, the
-/// options and the arguments of start() alone, whatever the sizes and delays of the source's chunks; so the
-/// k-th command can be found again by taking k commands. Allocates in its constructor only.
+/// options, the arguments of start() and the times of set_time() alone, whatever the sizes and delays of the
+/// source's chunks; so the k-th command can be found again by taking k commands. Allocates in its constructor
+/// only.
 ///
-/// M98 P1234 calls the program that begins with O1234 or %1234 in the same text, else the text
-/// Environment::subprogram finds for "O1234". A main program ends with M2, M30, its text, a lone % or the
-/// head of the next program; M99 there starts it again from its top. A subprogram must end with M99.
+/// M98 P1234 and G65 P1234 call the program that begins with O1234 or %1234 in the same text, else the text
+/// Environment::subprogram finds for "O1234"; G1007 calls %1007 of the text "USERDEF.CYC". A main program
+/// ends with M2, M30, its text, a lone % or the head of the next program; M99 there starts it again from its
+/// top. A subprogram must end with M99. GOTO and M99 P look for N forward, then from the top of the program.
+/// While G66 is active, each block that moves, but for those of the called macro itself, is followed by the
+/// call.
 class Interpreter {
  public:
   /// `environment` and `dialect` must outlive the interpreter.
   explicit Interpreter(Environment& environment, InterpreterOptions options = {},
                        const Dialect& dialect = iso_dialect());
+  Interpreter(const Interpreter&) = delete;
+  Interpreter& operator=(const Interpreter&) = delete;
 
   /// Begins `text`, a program or an MDI line, at `position` (in the frame of `initial.transformation`) with
-  /// the modal state of the control at power-on or of the program before.
-  void start(TextSource& text, const AxisValues& position, const ModalState& initial);
+  /// the modal state of the control at power-on or of the program before, and its variables.
+  void start(TextSource& text, const AxisValues& position, const ModalState& initial,
+             const VariableStore& variables = no_variables);
 
   /// The next command. Before start() there is only the end.
   Step next(Command& command);
@@ -51,11 +65,23 @@ class Interpreter {
   /// Tells where the machine really is, in the frame of modal().transformation, for the blocks not read yet:
   /// after a move that ended elsewhere than commanded. Only sensible when next() has nothing prepared: after
   /// Step::end, or the command of a block's end.
-  void set_position(const AxisValues& position) { executor_.set_position(position); }
+  void set_position(const AxisValues& position);
+
+  /// What the variables of time show from now on; before the first call they show zero.
+  void set_time(const ControlTime& time) { control_.set_time(time); }
 
   /// The state after the last block that was read.
   const ModalState& modal() const { return executor_.modal(); }
   const AxisValues& position() const { return executor_.position(); }
+  /// Where the last command that next() gave ends in the workpiece: without offsets and, but for tool tip
+  /// control, the tool length.
+  AxisValues workpiece(const Command& command) const;
+  /// Blocks executed since start(), a loop's each time.
+  std::uint64_t blocks() const { return blocks_; }
+  const VariableStore& variables() const { return variables_.store(); }
+
+  /// Positions, frames and tables as the program has left them, for system variables.
+  const BlockExecutor& executor() const { return executor_; }
 
   static const Dialect& iso_dialect();
 
@@ -65,46 +91,100 @@ class Interpreter {
     std::uint32_t program = 0;
     TextPosition top;             // first line of the program
     TextPosition resume;          // where the caller goes on
+    std::uint32_t call_line = 0;  // of the caller
     std::uint32_t remaining = 0;  // repetitions after this one
     bool begun = false;           // a head or a word has been read
+    bool own_variables = false;
+    bool modal = false;  // called by G66
+    OpenStructures open;
   };
   /// Where a call from one text leads, so that a long text is searched once and not at every call.
   struct Found {
     const TextSource* caller = nullptr;
     std::uint32_t number = 0;
+    bool cycle = false;
     TextSource* source = nullptr;
     std::uint32_t program = 0;
     TextPosition top;
   };
   enum class State : std::uint8_t { running, searching, done, failed };
+  enum class Purpose : std::uint8_t {
+    program,  ///< the head of a program
+    label,    ///< a sequence number
+    branch,   ///< ELSEIF, ELSE or ENDIF of the innermost IF
+    end,      ///< the end of the innermost structure
+  };
+  struct Search {
+    Purpose purpose = Purpose::program;
+    TextSource* source = nullptr;
+    std::uint32_t wanted = 0;
+    TextPosition from;      // of the line that jumps
+    bool from_top = false;  // second half of the search for a label
+    std::size_t depth = 0;  // structures open at the jump
+    OpenStructures open;
+  };
 
   State run_line(Step& step);
-  State search_line(Step& step);
   State execute(std::string_view line);
+  State execute_words(std::string_view line);
   State go(const Flow& flow, std::string_view line);
   State end_of_text();
+  State fail(const Fault& fault, std::string_view line);
+  State fail(const Alarm& alarm);
+  State report_line_status(LineReader::Status status, Step& step);
+  Alarm located(const Fault& fault, std::string_view line) const;
+
+  State run_statement(std::string_view line);
+  State branch(bool condition, std::string_view line);
+  State jump(Purpose purpose, std::uint32_t wanted, TextPosition from, const Fault& in_vain,
+             std::string_view line);
+  State search(Purpose purpose, std::uint32_t wanted, TextPosition from);
+  State arrive(const JumpCache::Target& target);
+  State search_line(Step& step);
+  State label_found(TextPosition position);
+  bool structure_found(Statement statement) const;
+  State search_ended();
+  static std::uint64_t key(Purpose purpose, std::uint32_t wanted) {
+    return (std::uint64_t{wanted} << 2) | static_cast<std::uint64_t>(purpose);
+  }
+
+  State call_macro(Call& call, std::string_view line);
+  State call(const Call& call, std::string_view line);
   State found(TextSource& source, std::uint32_t program, TextPosition top);
   State enter(const Found& target);
-  State return_from_subprogram();
-  State fail(const Fault& fault, std::string_view line);
-  State report_line_status(LineReader::Status status, Step& step);
+  State return_from_subprogram(const Flow& flow, std::string_view line);
 
   Environment& environment_;
   const Dialect& dialect_;
   InterpreterOptions options_;
   BlockExecutor executor_;
+  ControlVariables control_;
+  Variables variables_;
   LineReader reader_;
   CommandQueue queue_;
   Block block_;
+  CycleMCodes cycle_m_codes_{};
   std::array<Frame, max_nesting + 1> frames_{};
   std::size_t depth_ = 0;
   State state_ = State::done;
   Alarm alarm_;
   std::uint32_t line_ = 0;  // of the block being executed
-  // A call that looks for its program: what was called, where to come back, and the alarm if it is in vain.
-  Flow call_;
-  TextPosition after_call_;
+  std::uint64_t blocks_ = 0;
+  TextPosition position_;     // of that line
+  bool else_if_due_ = false;  // the next line is an ELSEIF whose condition decides
+  // A jump that looks for its target, and the alarms if it is in vain or not allowed.
+  Search search_;
+  JumpCache jumps_;
   Alarm not_found_;
+  Alarm not_allowed_;
+  // A call that looks for its program: what was called and where to come back.
+  Call call_;
+  Arguments arguments_;
+  TextPosition after_call_;
+  bool modal_call_active_ = false;
+  bool in_modal_call_ = false;
+  Call modal_call_;
+  Arguments modal_arguments_;
   std::array<Found, 16> found_{};
   std::size_t next_found_ = 0;  // the entry the next search replaces
 };

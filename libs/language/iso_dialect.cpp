@@ -2,131 +2,387 @@
 
 #include <cmath>
 
-#include "language/decimal.hpp"
+#include "language/expression.hpp"
+#include "language/scanner.hpp"
 #include "text/utf8.hpp"
 
 namespace trunnion::language {
 namespace {
 
-bool is_blank(char c) { return c == ' ' || c == '\t'; }
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
+constexpr std::uint32_t highest_label = 99999999;
 
-/// One line from left to right.
-class Scanner {
- public:
-  explicit Scanner(std::string_view line) : begin_(line.data()), p_(begin_), end_(begin_ + line.size()) {}
-
-  bool at_end() const { return p_ == end_; }
-  char peek() const { return *p_; }
-  void advance() { ++p_; }
-  void skip_blanks() {
-    while (p_ != end_ && is_blank(*p_)) ++p_;
-  }
-  std::uint16_t offset() const { return static_cast<std::uint16_t>(p_ - begin_); }
-  Decimal number() {
-    const Decimal decimal = read_decimal(p_, end_);
-    p_ = decimal.end;
-    return decimal;
-  }
-  /// Past the closing bracket; false when there is none.
-  bool skip_comment() {
-    while (p_ != end_ && *p_ != ')') ++p_;
-    if (p_ == end_) return false;
-    ++p_;
-    return true;
-  }
-
- private:
-  const char* begin_;
-  const char* p_;
-  const char* end_;
-};
-
-Fault read_head(Scanner& scanner, Block& block) {
+Fault read_head(Scanner& scanner, Head& head, std::uint32_t& number) {
   const std::uint16_t at = scanner.offset();
   const bool percent = scanner.peek() == '%';
   scanner.advance();
   scanner.skip_blanks();
   if (scanner.at_end() || !is_digit(scanner.peek())) {
     if (!percent) return {AlarmNumber::number_missing, at};
-    block.head = Head::tape_mark;
+    head = Head::tape_mark;
     return {};
   }
   const Decimal decimal = scanner.number();
   if (decimal.status == DecimalStatus::too_large) return {AlarmNumber::number_range, at};
   if (decimal.value != std::floor(decimal.value)) return {AlarmNumber::not_an_integer, at};
-  block.head = Head::program;
-  block.program_number = static_cast<std::uint32_t>(decimal.value);
+  head = Head::program;
+  number = static_cast<std::uint32_t>(decimal.value);
   return {};
 }
 
-Fault read_word(Scanner& scanner, char letter, Block& block) {
-  const std::uint16_t at = scanner.offset();
+/// Takes / and its level; whether the block is to be skipped.
+bool read_skip(Scanner& scanner, SkipLevels skip) {
+  unsigned level = 1;
   scanner.advance();
-  scanner.skip_blanks();
-  const Decimal decimal = scanner.number();
-  if (decimal.status == DecimalStatus::missing) return {AlarmNumber::number_missing, at};
-  if (decimal.status == DecimalStatus::too_large) return {AlarmNumber::number_range, at};
-  if (letter == 'G') {
-    if (block.g_count == max_g_codes) return {AlarmNumber::too_many_codes, at};
-    block.g[block.g_count++] = {decimal.value, at};
-  } else if (letter == 'M') {
-    if (block.m_count == max_m_codes) return {AlarmNumber::too_many_codes, at};
-    block.m[block.m_count++] = {decimal.value, at};
-  } else {
-    if (letter == 'O') return {AlarmNumber::misplaced_head, at};
-    if (block.has(letter)) return {AlarmNumber::letter_twice, at};
-    const auto index = static_cast<std::size_t>(letter - 'A');
-    block.letters |= Block::bit(letter);
-    block.values[index] = decimal.value;
-    block.offsets[index] = at;
+  if (!scanner.at_end() && scanner.peek() >= '1' && scanner.peek() <= '9') {
+    level = static_cast<unsigned>(scanner.peek() - '0');
+    scanner.advance();
   }
-  return {};
+  scanner.skip_blanks();
+  return ((skip >> (level - 1)) & 1u) != 0;
+}
+
+bool starts_head(char c) { return c == '%' || letter(c) == 'O'; }
+
+class BlockReader {
+ public:
+  BlockReader(std::string_view line, SkipLevels skip, Variables& variables, Block& block)
+      : line_(line), skip_(skip), scanner_(line), variables_(variables), block_(block) {}
+
+  Fault read() {
+    block_.clear();
+    if (!scanner_.more() || scanner_.peek() == '*') return {};
+    if (scanner_.peek() == '/' && read_skip(scanner_, skip_)) {
+      block_.skipped = true;
+      return {};
+    }
+    if (!scanner_.at_end() && starts_head(scanner_.peek())) {
+      if (const Fault fault = read_head(scanner_, block_.head, block_.program_number)) return fault;
+    }
+    while (scanner_.more()) {
+      bool done = false;
+      if (const Fault fault = item(done)) return fault;
+      if (done) return {};
+    }
+    return {};
+  }
+
+ private:
+  bool only_number() const {
+    return block_.head == Head::none && block_.g_count == 0 && block_.m_count == 0 &&
+           (block_.letters & ~Block::bit('N')) == 0;
+  }
+
+  Fault item(bool& done) {
+    const char c = scanner_.peek();
+    const char upper = letter(c);
+    const std::uint16_t at = scanner_.offset();
+    if (upper != '\0') {
+      if (letter(scanner_.peek(1)) == '\0') return word(upper);
+      return instruction(done);
+    }
+    if (c == '(') return scanner_.skip_comment() ? Fault{} : Fault{AlarmNumber::open_comment, at};
+    if (c == ';') {
+      done = true;
+      return {};
+    }
+    if (c == '#') {
+      if (!only_number()) return {AlarmNumber::statement_not_first, at};
+      done = true;
+      return assignments();
+    }
+    if (c == '/' && block_.letters == Block::bit('N') && only_number()) {
+      done = block_.skipped = read_skip(scanner_, skip_);
+      return {};
+    }
+    if (c == '%' || c == '/') return {AlarmNumber::misplaced_head, at};
+    const bool broken = text::valid_utf8_prefix(line_.substr(at, 4)) == 0;
+    return {broken ? AlarmNumber::not_utf8 : AlarmNumber::unknown_character, at};
+  }
+
+  /// The number behind a letter, literal or computed; N is literal, because jumps look for it in the text.
+  Fault number(std::uint16_t at, bool may_be_computed, Value& value) {
+    scanner_.skip_blanks();
+    const char first = scanner_.peek(0);
+    std::size_t ahead = first == '-' || first == '+' ? 1 : 0;
+    while (ahead != 0 && is_blank(scanner_.peek(ahead))) ++ahead;
+    const char c = scanner_.peek(ahead);
+    if (!may_be_computed || (c != '#' && c != '[')) {
+      const Decimal decimal = scanner_.number();
+      if (decimal.status == DecimalStatus::missing) return {AlarmNumber::number_missing, at};
+      if (decimal.status == DecimalStatus::too_large) return {AlarmNumber::number_range, at};
+      value = Value::of(decimal.value);
+      return {};
+    }
+    if (const Fault fault = ExpressionReader(scanner_, variables_).operand(value)) return fault;
+    value.number = nearly_whole(value.number);
+    if (std::abs(value.number) > largest_number) return {AlarmNumber::number_range, at};
+    return {};
+  }
+
+  Fault word(char name) {
+    const std::uint16_t at = scanner_.offset();
+    scanner_.advance();
+    Value value;
+    if (const Fault fault = number(at, name != 'N', value)) return fault;
+    if (name == 'O') return {AlarmNumber::misplaced_head, at};
+    if (!value.given) return {};
+    if (name == 'G') {
+      if (block_.g_count == max_g_codes) return {AlarmNumber::too_many_codes, at};
+      block_.g[block_.g_count++] = {value.number, at};
+      calls_macro_ = calls_macro_ || value.number == 65 || value.number == 66;
+      return {};
+    }
+    if (name == 'M') {
+      if (block_.m_count == max_m_codes) return {AlarmNumber::too_many_codes, at};
+      block_.m[block_.m_count++] = {value.number, at};
+      return {};
+    }
+    const bool centre = calls_macro_ && name >= 'I' && name <= 'K';
+    if (centre) {
+      if (block_.centre_count == max_call_centres) return {AlarmNumber::too_many_centres, at};
+      block_.centres[block_.centre_count++] = {name, at, value.number};
+    } else if (block_.has(name)) {
+      return {AlarmNumber::letter_twice, at};
+    }
+    const auto index = static_cast<std::size_t>(name - 'A');
+    block_.letters |= Block::bit(name);
+    block_.values[index] = value.number;
+    block_.offsets[index] = at;
+    return {};
+  }
+
+  Fault assignments() {
+    while (scanner_.more() && scanner_.peek() == '#') {
+      const std::uint16_t at = scanner_.offset();
+      block_.at = at;
+      scanner_.advance();
+      ExpressionReader reader(scanner_, variables_);
+      double number = 0;
+      Value value;
+      if (const Fault fault = reader.variable_number(number)) return fault;
+      if (!scanner_.take('=')) return {AlarmNumber::operand_missing, scanner_.offset()};
+      if (const Fault fault = reader.expression(value)) return fault;
+      if (const AlarmNumber alarm = variables_.write(number, value); alarm != AlarmNumber::none)
+        return {alarm, at};
+      // What a system variable asks for is carried out before anything else.
+      if (is_system_variable(number)) break;
+    }
+    return state(Statement::assignment);
+  }
+
+  /// Only comments may follow.
+  Fault end_of_statement() {
+    while (scanner_.more() && scanner_.peek() == '(') {
+      const std::uint16_t at = scanner_.offset();
+      if (!scanner_.skip_comment()) return {AlarmNumber::open_comment, at};
+    }
+    if (scanner_.at_end() || scanner_.peek() == ';') return {};
+    return {AlarmNumber::text_behind_statement, scanner_.offset()};
+  }
+
+  Fault read_condition(bool& result) {
+    Value value;
+    if (const Fault fault = ExpressionReader(scanner_, variables_).expression(value)) return fault;
+    result = value.number != 0;
+    return {};
+  }
+
+  Fault label(std::uint32_t& result) {
+    scanner_.skip_blanks();
+    const std::uint16_t at = scanner_.offset();
+    Value value;
+    if (const Fault fault = ExpressionReader(scanner_, variables_).operand(value)) return fault;
+    const double whole = nearly_whole(value.number);
+    if (!value.given || whole != std::floor(whole)) return {AlarmNumber::not_an_integer, at};
+    if (whole < 0 || whole > highest_label) return {AlarmNumber::value_range, at};
+    result = static_cast<std::uint32_t>(whole);
+    return {};
+  }
+
+  Fault state(Statement statement) {
+    block_.statement = statement;
+    return end_of_statement();
+  }
+
+  Fault instruction(bool& done) {
+    const std::uint16_t at = scanner_.offset();
+    block_.at = at;
+    const bool first = only_number();
+    done = true;
+    Fault fault;
+    if (scanner_.take_word("IF")) {
+      fault = branch(done);
+    } else if (scanner_.take_word("GOTO")) {
+      fault = go_to();
+    } else if (scanner_.take_word("WHILE")) {
+      fault = loop();
+    } else if (scanner_.take_word("DO")) {
+      block_.condition = true;
+      fault = labelled(Statement::begin_do);
+    } else if (scanner_.take_word("ENDW")) {
+      fault = state(Statement::end_while);
+    } else if (scanner_.take_word("ENDIF")) {
+      fault = state(Statement::end_if);
+    } else if (scanner_.take_word("END")) {
+      fault = labelled(Statement::end_do);
+    } else if (scanner_.take_word("ELSEIF")) {
+      block_.statement = Statement::else_if;
+      block_.rest = scanner_.offset();
+    } else if (scanner_.take_word("ELSE")) {
+      fault = state(Statement::else_);
+    } else {
+      return {AlarmNumber::unknown_instruction, at};
+    }
+    if (!first) return {AlarmNumber::statement_not_first, at};
+    return fault;
+  }
+
+  Fault go_to() {
+    if (const Fault fault = label(block_.label)) return fault;
+    return state(Statement::go_to);
+  }
+
+  Fault labelled(Statement statement) {
+    if (const Fault fault = label(block_.label)) return fault;
+    return state(statement);
+  }
+
+  /// IF condition, alone or before GOTO or THEN, whose rest counts only when the condition holds.
+  Fault branch(bool& done) {
+    if (const Fault fault = read_condition(block_.condition)) return fault;
+    if (scanner_.more() && scanner_.looking_at("GOTO")) {
+      if (!block_.condition) return {};
+      scanner_.take_word("GOTO");
+      return go_to();
+    }
+    if (scanner_.more() && scanner_.take_word("THEN")) {
+      const Scanner behind = scanner_;
+      if (end_of_statement().number == AlarmNumber::text_behind_statement) {
+        scanner_ = behind;
+        done = !block_.condition;
+        return {};
+      }
+      scanner_ = behind;
+    }
+    return state(Statement::begin_if);
+  }
+
+  Fault loop() {
+    if (const Fault fault = read_condition(block_.condition)) return fault;
+    if (scanner_.more() && scanner_.take_word("DO") && scanner_.more() && is_digit(scanner_.peek())) {
+      return labelled(Statement::begin_do);
+    }
+    return state(Statement::begin_while);
+  }
+
+  std::string_view line_;
+  SkipLevels skip_;
+  Scanner scanner_;
+  Variables& variables_;
+  Block& block_;
+  bool calls_macro_ = false;
+};
+
+std::uint32_t plain_number(Scanner& scanner) {
+  std::uint32_t number = 0;
+  for (scanner.skip_blanks(); !scanner.at_end() && is_digit(scanner.peek()); scanner.advance()) {
+    number = number > highest_label ? number : number * 10 + static_cast<unsigned>(scanner.peek() - '0');
+  }
+  return number;
+}
+
+/// Whether `word` stands somewhere in the rest of the line outside a comment; the scanner is then behind it.
+bool find_word(Scanner& scanner, std::string_view word) {
+  while (!scanner.at_end() && scanner.peek() != ';') {
+    if (scanner.take_word(word)) return true;
+    if (scanner.peek() != '(') {
+      scanner.advance();
+    } else if (!scanner.skip_comment()) {
+      return false;
+    }
+  }
+  return false;
+}
+
+/// Whether only comments are left.
+bool nothing_follows(Scanner scanner) {
+  while (scanner.more() && scanner.peek() == '(') {
+    if (!scanner.skip_comment()) return true;
+  }
+  return scanner.at_end() || scanner.peek() == ';';
+}
+
+Statement outline_statement(Scanner scanner, std::uint32_t& label) {
+  if (scanner.take_word("IF")) {
+    Scanner rest = scanner;
+    if (find_word(rest, "GOTO")) return Statement::none;
+    rest = scanner;
+    if (find_word(rest, "THEN") && !nothing_follows(rest)) return Statement::none;
+    return Statement::begin_if;
+  }
+  if (scanner.take_word("WHILE")) {
+    if (!find_word(scanner, "DO") || !scanner.more() || !is_digit(scanner.peek()))
+      return Statement::begin_while;
+    label = plain_number(scanner);
+    return Statement::begin_do;
+  }
+  if (scanner.take_word("DO")) {
+    label = plain_number(scanner);
+    return Statement::begin_do;
+  }
+  if (scanner.take_word("ENDW")) return Statement::end_while;
+  if (scanner.take_word("ENDIF")) return Statement::end_if;
+  if (scanner.take_word("END")) {
+    label = plain_number(scanner);
+    return Statement::end_do;
+  }
+  if (scanner.take_word("ELSEIF")) return Statement::else_if;
+  if (scanner.take_word("ELSE")) return Statement::else_;
+  return Statement::none;
 }
 
 }  // namespace
 
-Fault IsoDialect::read_block(std::string_view line, Block& block) const {
-  block.clear();
-  if (const std::size_t valid = text::valid_utf8_prefix(line); valid != line.size()) {
-    return {AlarmNumber::not_utf8, static_cast<std::uint16_t>(valid)};
-  }
-  Scanner scanner(line);
-  scanner.skip_blanks();
-  if (!scanner.at_end() && scanner.peek() == '/') {
-    block.skip = true;
-    scanner.advance();
-    scanner.skip_blanks();
-  }
-  if (!scanner.at_end() && (scanner.peek() == '%' || scanner.peek() == 'O' || scanner.peek() == 'o')) {
-    if (const Fault fault = read_head(scanner, block)) return fault;
-  }
-  for (scanner.skip_blanks(); !scanner.at_end(); scanner.skip_blanks()) {
-    const char c = scanner.peek();
-    const char upper = c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
-    if (upper >= 'A' && upper <= 'Z') {
-      if (const Fault fault = read_word(scanner, upper, block)) return fault;
-    } else if (c == '(') {
-      const std::uint16_t at = scanner.offset();
-      if (!scanner.skip_comment()) return {AlarmNumber::open_comment, at};
-    } else if (c == ';') {
-      break;
-    } else {
-      const bool misplaced = c == '%' || c == '/';
-      return {misplaced ? AlarmNumber::misplaced_head : AlarmNumber::unknown_character, scanner.offset()};
-    }
-  }
+Fault IsoDialect::read_block(std::string_view line, SkipLevels skip, Variables& variables,
+                             Block& block) const {
+  return BlockReader(line, skip, variables, block).read();
+}
+
+Fault IsoDialect::read_condition(std::string_view line, std::uint16_t rest, const Variables& variables,
+                                 bool& condition) const {
+  Scanner scanner(line, rest);
+  Value value;
+  if (const Fault fault = ExpressionReader(scanner, variables).expression(value)) return fault;
+  condition = value.number != 0;
+  if (scanner.more()) scanner.take_word("THEN");
+  if (!nothing_follows(scanner)) return {AlarmNumber::text_behind_statement, scanner.offset()};
   return {};
 }
 
-std::optional<std::uint32_t> IsoDialect::program_head(std::string_view line) const {
+Outline IsoDialect::outline(std::string_view line, SkipLevels skip) const {
+  Outline outline;
   Scanner scanner(line);
-  scanner.skip_blanks();
-  if (scanner.at_end()) return std::nullopt;
-  if (scanner.peek() != '%' && scanner.peek() != 'O' && scanner.peek() != 'o') return std::nullopt;
-  Block block;
-  if (read_head(scanner, block) || block.head != Head::program) return std::nullopt;
-  return block.program_number;
+  if (!scanner.more() || scanner.peek() == '*') return outline;
+  if (scanner.peek() == '/' && read_skip(scanner, skip)) return outline;
+  if (scanner.at_end()) return outline;
+  if (starts_head(scanner.peek())) {
+    if (read_head(scanner, outline.head, outline.program_number)) outline.head = Head::none;
+    if (!scanner.more()) return outline;
+  }
+  if (letter(scanner.peek()) == 'N') {
+    scanner.advance();
+    scanner.skip_blanks();
+    const Decimal number = scanner.number();
+    if (number.status != DecimalStatus::ok) return outline;
+    if (scanner.more() && scanner.peek() == '/' && read_skip(scanner, skip)) return outline;
+    if (number.value >= 0 && number.value == std::floor(number.value)) {
+      outline.sequence_number = static_cast<std::uint32_t>(number.value);
+    }
+  }
+  if (!scanner.at_end() && letter(scanner.peek()) != '\0' && letter(scanner.peek(1)) != '\0') {
+    outline.statement = outline_statement(scanner, outline.label);
+  }
+  return outline;
 }
 
 }  // namespace trunnion::language

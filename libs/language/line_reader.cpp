@@ -6,7 +6,12 @@
 namespace trunnion::language {
 namespace {
 
-constexpr std::size_t window = 16384;
+// A line that is not complete, what was passed before it, and room for the next bytes.
+constexpr std::size_t history = 16384;
+constexpr std::size_t most_at_once = 32768;
+constexpr std::size_t window = history + max_line_length + most_at_once;
+// A jump to another place reads little at first: a short subprogram is soon left again.
+constexpr std::size_t least_at_once = 2048;
 
 std::size_t find(const char* begin, std::size_t size, char c) {
   const void* const at = size == 0 ? nullptr : std::memchr(begin, c, size);
@@ -26,18 +31,24 @@ void LineReader::seek(TextSource& source, TextPosition position) {
   source_ = &source;
   base_ = position.offset;
   begin_ = end_ = 0;
+  chunk_ = least_at_once;
   at_end_ = false;
 }
 
 ReadStatus LineReader::refill() {
-  std::memmove(buffer_.data(), buffer_.data() + begin_, end_ - begin_);
-  base_ += begin_;
-  end_ -= begin_;
-  begin_ = 0;
-  const ReadResult result = source_->read(base_ + end_, buffer_.data() + end_, buffer_.size() - end_);
+  if (buffer_.size() - end_ < chunk_ && begin_ > history) {
+    const std::size_t drop = begin_ - history;
+    std::memmove(buffer_.data(), buffer_.data() + drop, end_ - drop);
+    base_ += drop;
+    end_ -= drop;
+    begin_ -= drop;
+  }
+  const std::size_t asked = std::min(chunk_, buffer_.size() - end_);
+  chunk_ = std::min(2 * chunk_, most_at_once);
+  const ReadResult result = source_->read(base_ + end_, buffer_.data() + end_, asked);
   // No bytes are no progress: asking again at once could go on for ever.
   if (result.status == ReadStatus::bytes && result.size == 0) return ReadStatus::pending;
-  if (result.status == ReadStatus::bytes) end_ += std::min(result.size, buffer_.size() - end_);
+  if (result.status == ReadStatus::bytes) end_ += std::min(result.size, asked);
   if (result.status == ReadStatus::end) at_end_ = true;
   return result.status;
 }

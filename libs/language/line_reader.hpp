@@ -9,8 +9,9 @@
 
 namespace trunnion::language {
 
-/// Longest line in bytes, without its line end.
-inline constexpr std::size_t max_line_length = 1024;
+/// Longest line in bytes, without its line end: beyond the comments with which posts describe a whole set-up,
+/// and little enough that a file that is no program is refused at once.
+inline constexpr std::size_t max_line_length = 16384;
 
 /// The beginning of a line in a text.
 struct TextPosition {
@@ -30,7 +31,7 @@ class LineReader {
   void reset() { source_ = nullptr; }
 
   /// Continues at `position` of `source`, which must outlive the reading. Bytes already here are not read
-  /// again.
+  /// again; some of those that were passed stay, so that a loop reads the source once.
   void seek(TextSource& source, TextPosition position);
 
   /// The next line. After pending, ask again; after failed or too_long the position has not moved. `line` is
@@ -45,6 +46,7 @@ class LineReader {
 
   TextSource* source_ = nullptr;
   std::vector<char> buffer_;
+  std::size_t chunk_ = 0;   // bytes the next refill asks for
   std::uint64_t base_ = 0;  // offset of buffer_[0] in the source
   std::size_t begin_ = 0;   // the next line
   std::size_t end_ = 0;     // bytes in the buffer

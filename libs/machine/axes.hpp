@@ -1,4 +1,4 @@
-// Which axes a machine has and how a channel's kinematic chain is built from parameters.
+// Which axes a machine and its channels have.
 #pragma once
 
 #include <array>
@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "geometry/chain.hpp"
+#include "machine/kinematics.hpp"
 #include "machine/parameters.hpp"
 
 namespace trunnion::machine {
@@ -35,8 +35,5 @@ struct ChannelAxes {
 
 /// Axes of a channel in the order X Y Z A B C U V W (parameters 04c001..04c009).
 ChannelAxes channel_axes(const Parameters& parameters, std::uint16_t channel);
-
-/// Parameters 04c400..04c437. Throws std::runtime_error naming the parameter that makes no chain.
-geometry::Chain make_chain(const Parameters& parameters, std::uint16_t channel);
 
 }  // namespace trunnion::machine

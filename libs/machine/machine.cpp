@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "machine/chain_section.hpp"
+#include "machine/kinematics.hpp"
 #include "machine/yaml.hpp"
 
 namespace trunnion::machine {
@@ -37,7 +39,7 @@ MachineConfig parse_machine(const std::string& text, const std::string& director
                             const std::string& vendor_override) {
   const std::string file = directory + "/machine.yaml";
   const auto document = parse_yaml(text, file);
-  check_keys(file, document, {"name", "title", "domain", "port", "time", "vendor", "services"});
+  check_keys(file, document, {"name", "title", "domain", "port", "time", "vendor", "services", "chains"});
   MachineConfig config;
   config.directory = directory;
   config.name = value<std::string>(file, document, "name", "");
@@ -54,6 +56,8 @@ MachineConfig parse_machine(const std::string& text, const std::string& director
     throw std::runtime_error(at(file, document["time"]) + "time must be 'real' or 'virtual'");
   config.virtual_time = time == "virtual";
   const auto default_vendor = value<std::string>(file, document, "vendor", "cyclonedds");
+
+  config.chain_parameters = read_chain_parameters(document["chains"], file);
 
   const auto services = document["services"];
   if (!services || !services.IsSequence())
@@ -102,6 +106,21 @@ MachineConfig parse_machine(const std::string& text, const std::string& director
 
 MachineConfig load_machine(const std::string& directory, const std::string& vendor_override) {
   return parse_machine(read_text(directory + "/machine.yaml"), directory, vendor_override);
+}
+
+std::map<std::uint32_t, ParameterValue> machine_parameters(const MachineConfig& config) {
+  auto values = read_parameter_file(config.parameters_file());
+  for (const auto& [number, value] : config.chain_parameters) {
+    // All of a channel's numbers, also those its chain leaves at their defaults.
+    const auto first = number / 1000 * 1000;
+    const auto twice = std::find_if(values.lower_bound(first), values.lower_bound(first + 1000),
+                                    [](const auto& entry) { return is_chain_parameter(entry.first); });
+    if (twice != values.lower_bound(first + 1000))
+      throw std::runtime_error(config.parameters_file() + ": error: parameter " + number_text(twice->first) +
+                               " belongs to the kinematic chain of the channel, which machine.yaml has");
+  }
+  values.insert(config.chain_parameters.begin(), config.chain_parameters.end());
+  return values;
 }
 
 }  // namespace trunnion::machine

@@ -2,8 +2,11 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
+
+#include "machine/parameters.hpp"
 
 namespace trunnion::machine {
 
@@ -26,6 +29,7 @@ struct MachineConfig {
   bool virtual_time = false;
   std::uint32_t channels = 1;
   std::vector<ServiceEntry> services;
+  std::map<std::uint32_t, ParameterValue> chain_parameters;  ///< what the section `chains` comes to
 
   std::string parameters_file() const { return directory + "/parameters.yaml"; }
   std::string programs_directory() const { return directory + "/programs"; }
@@ -38,5 +42,10 @@ MachineConfig parse_machine(const std::string& text, const std::string& director
                             const std::string& vendor_override = "");
 /// The same from the file; throws std::runtime_error also when it cannot be read.
 MachineConfig load_machine(const std::string& directory, const std::string& vendor_override = "");
+
+/// parameters.yaml and the chains of machine.yaml together. A parameter of a kinematic chain that stands in
+/// parameters.yaml of a channel with a chain in machine.yaml is an error: there would be two truths. Throws
+/// std::runtime_error.
+std::map<std::uint32_t, ParameterValue> machine_parameters(const MachineConfig& config);
 
 }  // namespace trunnion::machine

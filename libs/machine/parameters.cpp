@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <fstream>
+#include <iomanip>
 #include <sstream>
 #include <stdexcept>
 
@@ -125,7 +126,8 @@ std::string Catalogue::check(std::uint32_t number, double value, const std::stri
   }
   if (!text.empty()) return who + ": expected a number, got '" + text + "'";
   std::ostringstream limits;
-  limits << who << ": " << value << " is outside " << d->minimum << " .. " << d->maximum;
+  limits << std::setprecision(15) << who << ": " << value << " is outside " << d->minimum << " .. "
+         << d->maximum;
   if (!d->unit.empty()) limits << " " << d->unit;
   if (!(value >= d->minimum && value <= d->maximum)) return limits.str();
   if (d->type == ParameterType::integer && value != std::floor(value)) {
@@ -147,6 +149,19 @@ double Parameters::get(const std::string& name, std::uint32_t unit, std::uint32_
 
 int Parameters::integer(const std::string& name, std::uint32_t unit, std::uint32_t index) const {
   return static_cast<int>(get(name, unit, index));
+}
+
+std::string unit_of(std::uint32_t number, const std::map<std::uint32_t, ParameterValue>& values) {
+  const auto& catalogue = Catalogue::instance();
+  const auto* d = catalogue.find(number);
+  if (d == nullptr) return "";
+  const auto bar = d->unit.find('|');
+  if (bar == std::string::npos) return d->unit;
+  const auto type_number = catalogue.by_name("axis_type").number((number - d->base) / 1000);
+  const auto found = values.find(type_number);
+  const double type = found != values.end() ? found->second.value : catalogue.default_of(type_number);
+  constexpr double linear = 1;
+  return type == linear ? d->unit.substr(0, bar) : d->unit.substr(bar + 1);
 }
 
 std::string Parameters::text(const std::string& name, std::uint32_t unit) const {
@@ -213,7 +228,8 @@ std::string write_parameter_text(const std::map<std::uint32_t, ParameterValue>& 
       out << YAML::Dump(YAML::Node(value.text));
     else
       out << value.value;
-    out << "  # " << definition->name << (definition->unit.empty() ? "" : ", " + definition->unit) << "\n";
+    out << "  # " << definition->name << (definition->unit.empty() ? "" : ", " + unit_of(number, values))
+        << "\n";
   }
   return out.str();
 }

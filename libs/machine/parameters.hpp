@@ -72,6 +72,10 @@ struct ParameterValue {
   bool operator==(const ParameterValue&) const = default;
 };
 
+/// The catalogue's unit of parameter `number` of a machine with these values: of "mm|deg" the one its axis is
+/// measured in.
+std::string unit_of(std::uint32_t number, const std::map<std::uint32_t, ParameterValue>& values);
+
 /// Values that differ from the defaults, by number, with access by name.
 class Parameters {
  public:

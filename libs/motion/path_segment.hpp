@@ -52,15 +52,25 @@ class PathSegment {
   double curvature() const { return curvature_; }
 
  private:
+  static PathSegment tilted_arc(const AxisValues& start, const AxisValues& target, const language::Arc& arc);
+
   AxisValues start_{}, target_{}, slope_{};  // slope: change of the proportional part per unit of length
   double length_ = 0, feed_scale_ = 1;
   double curvature_ = 0;
   LengthUnit unit_ = LengthUnit::millimetre;
   bool is_arc_ = false;
+  bool is_tilted_ = false;  // the circle lies in the plane of first_ and second_, about hub_
+  language::Vector3 first_{}, second_{}, hub_{};
   std::array<std::size_t, 2> plane_{0, 1};
   std::array<double, 2> centre_{};
   double radius_ = 0, radius_slope_ = 0;  // mm, mm per mm
   double angle_ = 0, angle_slope_ = 0;    // rad, rad per mm
 };
+
+/// Sweep in degrees that is left of `arc` from `position` on to `target`, when about `fraction` (0..1) of it
+/// is done: the angle between the two, with the turns that come nearest. Not above 0 when the target is
+/// passed.
+double remaining_sweep(const AxisValues& position, const AxisValues& target, const language::Arc& arc,
+                       double fraction);
 
 }  // namespace trunnion::motion

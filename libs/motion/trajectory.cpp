@@ -126,8 +126,8 @@ bool Trajectory::push_move(const Command& command, double fraction) {
   if (!is_finite(command.target)) return false;
   if (command.kind == CommandKind::arc) {
     language::Arc arc = command.arc;
-    arc.sweep *= 1 - fraction;
     if (!(arc.sweep >= 0) || !std::isfinite(arc.sweep)) return false;
+    if (fraction > 0) arc.sweep = remaining_sweep(end_, command.target, arc, fraction);
     if (!std::all_of(arc.centre.begin(), arc.centre.end(), [](double v) { return std::isfinite(v); }))
       return false;
     block.path =

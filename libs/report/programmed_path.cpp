@@ -5,7 +5,7 @@
 
 #include "language/interpreter.hpp"
 #include "motion/path_segment.hpp"
-#include "report/table_environment.hpp"
+#include "setup/channel_setup.hpp"
 
 namespace trunnion::report {
 namespace {
@@ -18,7 +18,8 @@ constexpr int most_halvings = 16;
 // Appends one command as chords.
 class Tracer {
  public:
-  Tracer(const TableEnvironment& environment, ProgrammedPath& out) : environment_(environment), out_(out) {}
+  Tracer(const setup::ChannelSetup& environment, ProgrammedPath& out)
+      : environment_(environment), out_(out) {}
 
   void trace(const AxisValues& from, const language::Command& command) {
     const bool arc = command.kind == language::CommandKind::arc;
@@ -70,7 +71,7 @@ class Tracer {
     out_.path.add(piece_);
   }
 
-  const TableEnvironment& environment_;
+  const setup::ChannelSetup& environment_;
   ProgrammedPath& out_;
   Piece piece_;
 };
@@ -80,7 +81,7 @@ class Tracer {
 ProgrammedPath programmed_path(const std::string& text, const MachineTables& tables,
                                const AxisValues& position) {
   ProgrammedPath result;
-  TableEnvironment environment(tables);
+  setup::ChannelSetup environment(tables);
   language::StringSource source(text);
   language::Interpreter interpreter(environment);
   interpreter.start(source, position, {});

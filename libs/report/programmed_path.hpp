@@ -5,20 +5,13 @@
 #include <set>
 #include <string>
 
-#include "contracts/types.hpp"
 #include "language/canonical.hpp"
-#include "machine/parameters.hpp"
 #include "report/polyline.hpp"
+#include "setup/machine_tables.hpp"
 
 namespace trunnion::report {
 
-/// The machine a program is interpreted for.
-struct MachineTables {
-  machine::Parameters parameters;
-  idl::parameters::ToolTable tools;
-  idl::parameters::WorkOffsets offsets;
-  std::uint16_t channel = 0;
-};
+using setup::MachineTables;
 
 struct ProgrammedPath {
   Polyline path;                       ///< mm, machine coordinates of the tip with the rotary axes at zero

@@ -84,7 +84,8 @@ class Evaluation {
   AxisValues machine_position(const PathRow& row) const {
     AxisValues p = row.position;
     if (row.rtcp) {
-      const Vec3 at = chain_.machine_from_tip({p[0], p[1], p[2]}, {p[3], p[4], p[5]}, row.tool_length);
+      const Vec3 at =
+          chain_.machine_from_tip({p[0], p[1], p[2]}, geometry::angles_of(p.data()), row.tool_length);
       std::copy_n(at.data(), 3, p.begin());
     }
     return p;
@@ -156,7 +157,7 @@ class Evaluation {
   Vec3 tip_of_row(const PathRow& row) const {
     const auto& p = row.position;
     if (row.rtcp) return {p[0], p[1], p[2]};
-    return chain_.tip_from_machine({p[0], p[1], p[2]}, {p[3], p[4], p[5]}, row.tool_length);
+    return chain_.tip_from_machine({p[0], p[1], p[2]}, geometry::angles_of(p.data()), row.tool_length);
   }
 
   // Axes without a column stand at zero, as in the frames.
@@ -164,7 +165,7 @@ class Evaluation {
     AxisValues p{};
     for (std::size_t i = 0; i < columns.size(); ++i)
       if (columns[i] >= 0) p[axes_.index[i]] = joints[columns[i]];
-    return chain_.tip_from_machine({p[0], p[1], p[2]}, {p[3], p[4], p[5]}, row.tool_length);
+    return chain_.tip_from_machine({p[0], p[1], p[2]}, geometry::angles_of(p.data()), row.tool_length);
   }
 
   static Latency latency(std::string from, std::string to, std::vector<double>& seconds) {

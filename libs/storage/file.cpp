@@ -74,4 +74,19 @@ void rename_over(const std::string& from, const std::string& to) {
 
 void sync_directory(const std::string& directory) { File(directory, O_RDONLY | O_DIRECTORY).sync(); }
 
+void replace_file(const std::string& path, const std::string& text) {
+  const std::string fresh = path + ".new";
+  try {
+    File out(fresh, O_WRONLY | O_CREAT | O_TRUNC);
+    out.append(0, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+    out.sync();
+  } catch (const StorageError&) {
+    unlink(fresh.c_str());
+    throw;
+  }
+  rename_over(fresh, path);
+  const auto slash = path.rfind('/');
+  sync_directory(slash == std::string::npos ? "." : path.substr(0, slash));
+}
+
 }  // namespace trunnion::storage

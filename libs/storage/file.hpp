@@ -42,6 +42,10 @@ class File {
 /// synchronized. Throws StorageError.
 void rename_over(const std::string& from, const std::string& to);
 
+/// Makes `text` the content of the file: after a crash it is the old or the new, and nothing is left beside
+/// it. Throws StorageError.
+void replace_file(const std::string& path, const std::string& text);
+
 /// Returns when the names in the directory are on the disk. Throws StorageError.
 void sync_directory(const std::string& directory);
 

@@ -4,6 +4,7 @@
 #include <functional>
 #include <map>
 
+#include "machine/kinematics.hpp"
 #include "node/node.hpp"
 #include "node/parameter_client.hpp"
 #include "stream/frame_window.hpp"
@@ -173,7 +174,7 @@ class StageService : public node::Service {
       fault_.clear();
     } catch (const std::exception& e) {
       fault_ = e.what();
-      node_.alarms().raise("kinematics_invalid", channel, e.what());
+      node_.alarms().raise(machine::alarm_of(e), channel, e.what());
       return false;
     }
     lane.core->load(state);

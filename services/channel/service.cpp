@@ -1,6 +1,12 @@
 #include "service.hpp"
 
+#include <cstdio>
+#include <fstream>
+#include <sstream>
+
+#include "storage/file.hpp"
 #include "stream/stage_service.hpp"
+#include "variable_text.hpp"
 
 namespace trunnion::channel {
 namespace {
@@ -13,6 +19,7 @@ ChannelService::ChannelService(node::Node& node)
       core_(static_cast<std::uint16_t>(node.options().channel), node.options().virtual_time),
       requests_(node.bus(), topics::channel_request, topics::channel_reply),
       program_client_(node.bus(), topics::program_request, topics::program_reply),
+      table_client_(node.bus(), topics::parameter_request, topics::parameter_reply),
       tools_(node.bus().reader(topics::tool_table)),
       offsets_(node.bus().reader(topics::work_offsets)),
       programs_(node.bus().reader(topics::program_list)),
@@ -22,7 +29,49 @@ ChannelService::ChannelService(node::Node& node)
       cluster_reader_(node.bus().reader(topics::cluster)),
       state_writer_(node.bus().writer(topics::channel_state)),
       auxiliary_writer_(node.bus().writer(topics::auxiliary_request)),
-      stream_writer_(node.bus().writer(topics::stream_request)) {}
+      stream_writer_(node.bus().writer(topics::stream_request)),
+      variables_file_(node.options().state_directory + "/channel-" + std::to_string(node.options().channel) +
+                      ".variables") {
+  std::ifstream boot(node.options().state_directory + "/cluster.boot");
+  std::getline(boot, boot_);
+  read_variables();
+}
+
+// A file that cannot be read is put aside and named by an alarm: vacant variables are safer than wrong ones.
+void ChannelService::read_variables() {
+  std::ifstream in(variables_file_, std::ios::binary);
+  if (!in) return;
+  std::ostringstream text;
+  text << in.rdbuf();
+  auto variables = std::make_unique<language::VariableStore>();
+  try {
+    channel::read_variables(text.str(), variables_file_, boot_, *variables);
+    core_.set_variables(*variables);
+  } catch (const std::exception& e) {
+    node_.alarms().raise("storage_failed", static_cast<std::uint32_t>(node_.options().channel), e.what());
+    std::rename(variables_file_.c_str(), (variables_file_ + ".damaged").c_str());
+  }
+}
+
+void ChannelService::save_variables() {
+  const auto* variables = core_.take_variables();
+  if (variables == nullptr) return;
+  const auto channel = static_cast<std::uint32_t>(node_.options().channel);
+  try {
+    const auto text = write_variables(*variables, boot_);
+    if (text == saved_variables_) return;
+    storage::replace_file(variables_file_, text);
+    saved_variables_ = text;
+    node_.alarms().release("storage_failed", channel);
+  } catch (const storage::StorageError& e) {
+    node_.alarms().raise("storage_failed", channel, e.what());
+  }
+}
+
+void ChannelService::change_tables() {
+  if (auto reply = table_client_.poll()) core_.on_table_changed(reply->accepted ? "" : reply->reason);
+  if (auto order = core_.take_table_order()) table_client_.send(std::move(*order));
+}
 
 void ChannelService::start_stream() {
   const auto& p = *parameters_.newest();
@@ -124,6 +173,8 @@ void ChannelService::pump() {
     ++frames_out_;
   }
   if (const auto auxiliary = core_.take_auxiliary()) auxiliary_writer_.write(*auxiliary);
+  change_tables();
+  save_variables();
   for (const auto& event : core_.take_events()) {
     const auto channel = static_cast<std::uint32_t>(node_.options().channel);
     if (event.number != 0 && event.alarm.empty()) {

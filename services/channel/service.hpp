@@ -22,6 +22,9 @@ class ChannelService : public node::Service {
   void drain();
   void answer_requests();
   void fetch_text();
+  void change_tables();
+  void read_variables();
+  void save_variables();
   void watch_alarms();
   void publish();
 
@@ -30,6 +33,7 @@ class ChannelService : public node::Service {
   ChannelCore core_;
   node::RequestServer<idl::channel::ChannelRequest, idl::channel::ChannelReply> requests_;
   node::RequestClient<idl::program::ProgramRequest, idl::program::ProgramReply> program_client_;
+  node::RequestClient<idl::parameters::ParameterRequest, idl::parameters::ParameterReply> table_client_;
   bus::Reader<idl::parameters::ToolTable> tools_;
   bus::Reader<idl::parameters::WorkOffsets> offsets_;
   bus::Reader<idl::program::ProgramList> programs_;
@@ -45,6 +49,7 @@ class ChannelService : public node::Service {
 
   using AlarmKey = std::array<std::uint32_t, 3>;
   std::map<AlarmKey, std::string> holding_alarms_;
+  std::string variables_file_, saved_variables_, boot_;
   bool plc_hold_ = false;
   bool have_tools_ = false, have_offsets_ = false, have_programs_ = false;
   idl::stream::PathFrame frame_;

@@ -10,13 +10,13 @@ namespace {
 
 MachineDefaults defaults_of(const machine::MachineConfig& machine) {
   MachineDefaults defaults;
-  defaults.values = machine::read_parameter_file(machine.parameters_file());
+  defaults.values = machine::machine_parameters(machine);
   FileStorage files(machine.directory);
   std::uint64_t revision = 0;
-  if (const auto text = files.read(tools_file))
-    defaults.tools = read_tools(*text, machine.directory + "/" + tools_file, revision);
-  if (const auto text = files.read(offsets_file))
-    defaults.offsets = read_offsets(*text, machine.directory + "/" + offsets_file, revision);
+  if (const auto text = files.read(setup::tools_file))
+    defaults.tools = setup::read_tools(*text, machine.directory + "/" + setup::tools_file, revision);
+  if (const auto text = files.read(setup::offsets_file))
+    defaults.offsets = setup::read_offsets(*text, machine.directory + "/" + setup::offsets_file, revision);
   return defaults;
 }
 

@@ -1,4 +1,4 @@
-execute_process(COMMAND ${PYTHON} ${GENERATOR} --output ${OUTPUT} RESULT_VARIABLE status)
+execute_process(COMMAND ${PYTHON} -B ${GENERATOR} --machine ${MACHINE} --output ${OUTPUT} RESULT_VARIABLE status)
 if(NOT status EQUAL 0)
   message(FATAL_ERROR "${GENERATOR} failed: ${status}")
 endif()

@@ -11,14 +11,15 @@ of 80 mm (thickness 80 * 63.5 / 254 = 20 mm) with the same slope of 15 deg, whic
 that the tool never passes the vertical. Cutting data from the same section: end mill of 20 mm, 400 m/min, 0.05 to
 0.10 mm per tooth (here four teeth, 0.08 mm).
 
-Machine. Trunnion table, A about -X under C about -Z: a positive angle turns the workpiece about the negative axis, so
-the workpiece sees the tool at (sin A sin C, -sin A cos C, cos A). A stays positive (slope - tilt .. slope + tilt) and C
-turns continuously through one revolution and a little more; negative A with C turned by 180 deg would be the mirror image.
-G54 is the centre of the base plate on the table.
+Machine. The swing (A or B) stays positive, slope - tilt .. slope + tilt, and C turns continuously through one revolution
+and a little more; a negative swing with C turned by 180 deg would be the mirror image. G54 is the centre of the base
+plate on the table.
 """
 import argparse
 import math
 import sys
+
+from five_axis import MACHINES, add, direction, follow, linear, rotary
 
 SIZES = {  # base diameter mm, thickness mm, slope deg, tilt deg, height of the base under the cone's centre mm
     "standard": (80.0, 20.0, 15.0, 10.0, 40.0),
@@ -33,23 +34,6 @@ CHORD_ERROR = 0.002      # mm, at most
 LARGEST_STEP = 0.5       # degrees of turn in one block
 CUTTING_SPEED = 400.0    # m/min
 FEED_PER_TOOTH, TEETH = 0.08, 4
-
-
-def add(a, b, factor=1.0):
-    return tuple(x + factor * y for x, y in zip(a, b))
-
-
-def rotate(axis, degrees, v):
-    """Rodrigues' formula, as libs/geometry turns a table."""
-    c, s = math.cos(math.radians(degrees)), math.sin(math.radians(degrees))
-    dot = sum(x * y for x, y in zip(axis, v))
-    cross = (axis[1] * v[2] - axis[2] * v[1], axis[2] * v[0] - axis[0] * v[2], axis[0] * v[1] - axis[1] * v[0])
-    return tuple(c * v[i] + s * cross[i] + (1 - c) * dot * axis[i] for i in range(3))
-
-
-def tool_in_workpiece(a, c):
-    """What libs/geometry calls tool_direction_in_workpiece for A(-1,0,0), C(0,0,-1): R2^T R1^T z."""
-    return rotate((0.0, 0.0, -1.0), -c, rotate((-1.0, 0.0, 0.0), -a, (0.0, 0.0, 1.0)))
 
 
 class Cone:
@@ -80,29 +64,22 @@ class Cone:
 
 
 def poses(cone):
-    """(tip, A, C) of every block end; C goes on without jumps."""
+    """(tip, tool vector) of every block end."""
     first, last = -APPROACH, 360.0 + OVERLAP + APPROACH
     count = math.ceil((last - first) / cone.step())
     # Where the cut begins the tool leans most, so that C turns slowest there.
     begin = 90.0
     # Clockwise about the piece: climb milling with M3.
-    previous_c = None
     for k in range(count + 1):
         turn = first + (last - first) * k / count
         off = max(0.0, -turn, turn - 360.0 - OVERLAP) / APPROACH
         # The gap closes with the square of the way left, which meets the side tangentially.
-        tip, tool = cone.pose(begin - turn, CLEARANCE * off * off)
-        a = math.degrees(math.acos(tool[2]))
-        c = math.degrees(math.atan2(tool[0], -tool[1]))
-        if previous_c is not None:
-            c += 360.0 * round((previous_c - c) / 360.0)
-        previous_c = c
-        yield tip, a, c, tool
+        yield cone.pose(begin - turn, CLEARANCE * off * off)
 
 
-def check(cone, path):
+def check(machine, cone, path):
     """The numbers a wrong sign or a wrong unwrapping would break."""
-    largest = max(math.dist(tool_in_workpiece(a, c), tool) for _, a, c, tool in path)
+    largest = max(math.dist(direction(machine, a, c), tool) for _, a, c, tool in path)
     assert largest < 1e-12, f"rotary angles miss the tool vector by {largest}"
     assert all(cone.slope - cone.tilt - 1e-9 <= a <= cone.slope + cone.tilt + 1e-9 for _, a, _, _ in path)
     # The milled part turns C by one revolution and the ends; no step may be anything like a jump.
@@ -119,19 +96,11 @@ def check(cone, path):
             assert abs((rho - (cone.radius - h * math.tan(s))) * math.cos(s) - TOOL_RADIUS) < 1e-9
 
 
-def word(letter, value):
-    text = f"{value:.5f}".rstrip("0").rstrip(".")
-    return letter + ("0" if text in ("-0", "") else text)
-
-
-def linear(point):
-    return " ".join(word(letter, value) for letter, value in zip("XYZ", point))
-
-
-def program(size):
+def program(machine, size):
     cone = Cone(size)
-    path = list(poses(cone))
-    check(cone, path)
+    tips = list(poses(cone))
+    path = [(tip, *pair, tool) for (tip, tool), pair in zip(tips, follow(machine, [tool for _, tool in tips]))]
+    check(machine, cone, path)
     speed = round(CUTTING_SPEED * 1000 / (math.pi * 2 * TOOL_RADIUS))
     feed = round(speed * FEED_PER_TOOTH * TEETH)
     tip, a, c, tool = path[0]
@@ -145,12 +114,12 @@ def program(size):
     yield "T1 M6"
     yield f"S{speed} M3"
     yield "G53 G0 Z0"
-    yield f"G0 {word('A', a)} {word('C', c)}"
+    yield f"G0 {rotary(machine, (a, c))}"
     yield "G43.4 H1"
     yield f"G0 {linear(add(tip, tool, RETRACT))}"
     yield f"G1 {linear(tip)} F{feed}"
     for tip, a, c, tool in path[1:]:
-        yield f"G1 {linear(tip)} {word('A', a)} {word('C', c)}"
+        yield f"G1 {linear(tip)} {rotary(machine, (a, c))}"
     yield f"G1 {linear(add(tip, tool, RETRACT))}"
     yield "G49"
     yield "G53 G0 Z0"
@@ -162,9 +131,10 @@ def program(size):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--size", choices=sorted(SIZES), default="standard", help="size of the test piece")
+    parser.add_argument("--machine", choices=sorted(MACHINES), default="ac-table", help="machine the program is for")
     parser.add_argument("--output", help="file to write (default: standard output)")
     options = parser.parse_args()
-    text = "\n".join(program(options.size)) + "\n"
+    text = "\n".join(program(options.machine, options.size)) + "\n"
     if options.output:
         with open(options.output, "w", encoding="ascii", newline="\n") as file:
             file.write(text)

@@ -5,60 +5,11 @@
 #include <cmath>
 #include <limits>
 #include <random>
-#include <vector>
+
+#include "machines.hpp"
 
 namespace trunnion::geometry {
 namespace {
-
-Chain make(const ChainParameters& p) { return std::get<Chain>(Chain::make(p)); }
-
-ChainParameters ac_table() {
-  ChainParameters p;
-  p.table_1 = RotaryAxis{Vec3(-1, 0, 0), Vec3(0, 0.1028, 0), 0};
-  p.table_2 = RotaryAxis{Vec3(0, 0, -1), Vec3(-200.3605, -190.1897, -516.0118), 2};
-  return p;
-}
-
-ChainParameters cb_head() {
-  ChainParameters p;
-  p.head_1 = RotaryAxis{Vec3(0, 0, 1), Vec3(1.5, -2.5, 0), 2};
-  p.head_2 = RotaryAxis{Vec3(0, 1, 0), Vec3(0.2, 0, 251.3), 1};
-  return p;
-}
-
-ChainParameters b_head_c_table() {
-  ChainParameters p;
-  p.head_2 = RotaryAxis{Vec3(0, 1, 0), Vec3(0.3, 0, 180), 1};
-  p.table_2 = RotaryAxis{Vec3(0, 0, -1), Vec3(10, 20, 0), 2};
-  return p;
-}
-
-ChainParameters a_table() {
-  ChainParameters p;
-  p.table_2 = RotaryAxis{Vec3(-1, 0, 0), Vec3(0, 5, -300), 0};
-  return p;
-}
-
-ChainParameters skewed_ac_table() {  // the directions a calibration finds on a real machine
-  ChainParameters p = ac_table();
-  p.table_1->direction = Vec3(-1, 0, 9.3e-5);
-  p.table_2->direction = Vec3(2e-4, 1e-5, -1);
-  return p;
-}
-
-struct Machine {
-  const char* name;
-  ChainParameters parameters;
-};
-
-const std::vector<Machine>& machines() {
-  static const std::vector<Machine> all{{"AC table", ac_table()},
-                                        {"CB head", cb_head()},
-                                        {"B head C table", b_head_c_table()},
-                                        {"A table", a_table()},
-                                        {"skewed AC table", skewed_ac_table()}};
-  return all;
-}
 
 // A turns about -X, so A90 turns about +X by -90: (x, y, z) -> (x, z, -y). With both offsets zero the point
 // (1, 2, 3) goes to (1, 3, -2), and the tool of 100 stands above it at z = 98.
@@ -110,8 +61,10 @@ TEST(Chain, tool_direction_as_the_workpiece_sees_it) {
 
 TEST(Chain, at_zero_angles_the_machine_stands_one_tool_length_above_the_tip) {
   for (const Machine& m : machines()) {
-    const Vec3 x = make(m.parameters).machine_from_tip(Vec3(7, -8, 9), {0, 0, 0}, 123);
-    EXPECT_LT((x - Vec3(7, -8, 132)).norm(), 1e-12) << m.name;
+    const ChainParameters& p = m.parameters;
+    const Vec3 x = make(p).machine_from_tip(Vec3(7, -8, 9), {}, 123);
+    const Vec3 expected = Vec3(7, -8, 9) + 123 * p.tool_direction.normalized() - p.origin;
+    EXPECT_LT((p.linear_direction * x - expected).norm(), 1e-12) << m.name;
   }
 }
 
@@ -128,7 +81,8 @@ TEST(Chain, inverse_returns_the_tip_within_1e_10_mm_over_random_poses) {
     const Chain chain = make(m.parameters);
     for (int i = 0; i < 20000; ++i) {
       const Vec3 w(position(random), position(random), position(random));
-      const Angles a{angle(random), angle(random), angle(random)};
+      const Angles a{angle(random), angle(random), angle(random),
+                     angle(random), angle(random), angle(random)};
       const double l = length(random);
       ASSERT_LT((chain.tip_from_machine(chain.machine_from_tip(w, a, l), a, l) - w).norm(), 1e-10) << m.name;
     }
@@ -145,9 +99,11 @@ TEST(Chain, moves_are_rigid_and_the_tool_acts_along_its_direction) {
     for (int i = 0; i < 5000; ++i) {
       const Vec3 w1(position(random), position(random), position(random));
       const Vec3 w2(position(random), position(random), position(random));
-      const Angles a{angle(random), angle(random), angle(random)};
+      const Angles a{angle(random), angle(random), angle(random),
+                     angle(random), angle(random), angle(random)};
       const Vec3 x1 = chain.machine_from_tip(w1, a, 100);
-      ASSERT_NEAR((x1 - chain.machine_from_tip(w2, a, 100)).norm(), (w1 - w2).norm(), 1e-9) << m.name;
+      const Vec3 x2 = chain.machine_from_tip(w2, a, 100);
+      ASSERT_NEAR((m.parameters.linear_direction * (x1 - x2)).norm(), (w1 - w2).norm(), 1e-9) << m.name;
       const Vec3 along = chain.tip_from_machine(x1, a, 90);
       ASSERT_LT((along - (w1 + 10 * chain.tool_direction_in_workpiece(a))).norm(), 1e-9) << m.name;
     }
@@ -164,15 +120,18 @@ TEST(Chain, jacobian_agrees_with_central_differences) {
     const Chain chain = make(m.parameters);
     for (int i = 0; i < 2000; ++i) {
       const Vec3 w(position(random), position(random), position(random));
-      const Angles a{angle(random), angle(random), angle(random)};
+      const Angles a{angle(random), angle(random), angle(random),
+                     angle(random), angle(random), angle(random)};
       const Jacobian j = chain.jacobian(w, a, 150);
-      for (int k = 0; k < 3; ++k) {
+      for (int k = 0; k < 6; ++k) {
         Angles up = a, down = a;
         up[static_cast<std::size_t>(k)] += h;
         down[static_cast<std::size_t>(k)] -= h;
         const Vec3 by_angle =
             (chain.machine_from_tip(w, up, 150) - chain.machine_from_tip(w, down, 150)) / (2 * h);
-        ASSERT_LT((by_angle - j.angle.col(k)).norm(), 1e-8) << m.name << " angle " << k;
+        const Vec3 column = k < 3 ? j.angle.col(k) : j.further_angle.col(k - 3);
+        ASSERT_LT((by_angle - column).norm(), 1e-8) << m.name << " angle " << k;
+        if (k > 2) continue;
         const Vec3 step = h * Vec3::Unit(k);
         const Vec3 by_tip =
             (chain.machine_from_tip(w + step, a, 150) - chain.machine_from_tip(w - step, a, 150)) / (2 * h);
@@ -214,11 +173,93 @@ TEST(Chain, refuses_parameters_that_describe_no_machine) {
   p.head_1->direction.x() = std::numeric_limits<double>::infinity();
   EXPECT_EQ(error(p), ChainError::not_finite);
   p = cb_head();
-  p.head_1->angle = 3;
+  p.head_1->angle = 6;
   EXPECT_EQ(error(p), ChainError::bad_angle);
   p = cb_head();
   p.head_1->angle = p.head_2->angle;
   EXPECT_EQ(error(p), ChainError::shared_angle);
+  p = cb_head();
+  p.head_1->direction = Vec3(0, -1, 0.009);
+  EXPECT_EQ(error(p), ChainError::parallel_axes);
+  p = cb_head();
+  p.linear_direction.col(2) = Vec3(1, 1, 0);
+  EXPECT_EQ(error(p), ChainError::dependent_linear);
+  p = cb_head();
+  p.linear_direction.col(1).setZero();
+  EXPECT_EQ(error(p), ChainError::zero_direction);
+  p = cb_head();
+  p.origin.x() = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(error(p), ChainError::not_finite);
+}
+
+TEST(Chain, a_redundant_axis_may_be_parallel_to_another) {
+  ChainParameters p = b_head_c_table();
+  p.head_1 = RotaryAxis{Vec3(0, 0, 1), Vec3::Zero(), 3};
+  EXPECT_EQ(make(p).rotary_count(), 3u);
+}
+
+// Central differences of the next lower derivative along a path with known derivatives: tip and angles are
+// cubic in t, so their derivatives are exact. Step h = 1e-4: truncation h^2/6 times the third derivative of
+// the differenced one, below 2e-9 * 1e4, and rounding 1e-12 / 1e-4, relative to values up to 1e4.
+TEST(Chain, path_derivatives_of_order_one_to_three_agree_with_central_differences) {
+  std::mt19937_64 random(5);
+  std::uniform_real_distribution<double> position(-300, 300), angle(-180, 180), rate(-60, 60);
+  for (const Machine& m : machines()) {
+    const Chain chain = make(m.parameters);
+    for (int i = 0; i < 500; ++i) {
+      TipMotion at_zero;
+      for (auto& v : at_zero.tip) v = Vec3(position(random), position(random), position(random));
+      for (std::size_t k = 0; k < angle_count; ++k) {
+        at_zero.angles[0][k] = angle(random);
+        for (std::size_t n = 1; n < 4; ++n) at_zero.angles[n][k] = rate(random);
+      }
+      const auto at = [&](double t) {
+        TipMotion motion;
+        const auto cubic = [&](const auto& d, auto& out) {
+          out[0] = d[0] + t * (d[1] + t / 2 * (d[2] + t / 3 * d[3]));
+          out[1] = d[1] + t * (d[2] + t / 2 * d[3]);
+          out[2] = d[2] + t * d[3];
+          out[3] = d[3];
+        };
+        cubic(at_zero.tip, motion.tip);
+        for (std::size_t k = 0; k < angle_count; ++k) {
+          std::array<double, 4> d, out;
+          for (std::size_t n = 0; n < 4; ++n) d[n] = at_zero.angles[n][k];
+          cubic(d, out);
+          for (std::size_t n = 0; n < 4; ++n) motion.angles[n][k] = out[n];
+        }
+        return chain.machine_derivatives(motion, 120);
+      };
+      const double h = 1e-4;
+      const auto low = at(-h), here = at(0), high = at(h);
+      ASSERT_LT((here[0] - chain.machine_from_tip(at_zero.tip[0], at_zero.angles[0], 120)).norm(), 1e-11);
+      for (std::size_t n = 1; n < 4; ++n) {
+        const Vec3 difference = (high[n - 1] - low[n - 1]) / (2 * h);
+        ASSERT_LT((difference - here[n]).norm(), 1e-6 * (1 + here[n].norm())) << m.name << " order " << n;
+      }
+    }
+  }
+}
+
+// The first derivative is what the Jacobian says.
+TEST(Chain, path_derivative_of_order_one_is_the_jacobian_times_the_rates) {
+  std::mt19937_64 random(6);
+  std::uniform_real_distribution<double> value(-150, 150);
+  for (const Machine& m : machines()) {
+    const Chain chain = make(m.parameters);
+    for (int i = 0; i < 500; ++i) {
+      TipMotion motion;
+      for (std::size_t n = 0; n < 2; ++n) {
+        motion.tip[n] = Vec3(value(random), value(random), value(random));
+        for (double& a : motion.angles[n]) a = value(random);
+      }
+      const Jacobian j = chain.jacobian(motion.tip[0], motion.angles[0], 90);
+      const auto& a = motion.angles[1];
+      const Vec3 rate =
+          j.tip * motion.tip[1] + j.angle * Vec3(a[0], a[1], a[2]) + j.further_angle * Vec3(a[3], a[4], a[5]);
+      ASSERT_LT((chain.machine_derivatives(motion, 90)[1] - rate).norm(), 1e-9) << m.name;
+    }
+  }
 }
 
 }  // namespace

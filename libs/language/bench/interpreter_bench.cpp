@@ -16,6 +16,7 @@ constexpr int blocks = 200000;
 struct PlainMachine : Environment {
   AxisValues work_offset(std::uint8_t) const override { return {10, 20, 30}; }
   std::optional<double> tool_length(std::uint16_t) const override { return 100; }
+  std::optional<ToolOffset> tool_offset(std::uint16_t) const override { return ToolOffset{100, 0, 5, 0}; }
   AxisValues reference_position() const override { return {}; }
   AxisValues tip_from_machine(const AxisValues& machine, double) const override { return machine; }
   AxisValues machine_from_tip(const AxisValues& tip, double) const override { return tip; }
@@ -24,7 +25,7 @@ struct PlainMachine : Environment {
   TextSource* subprogram(std::string_view) override { return nullptr; }
 };
 
-void interpret(benchmark::State& state, const std::string& text) {
+void interpret(benchmark::State& state, const std::string& text, int lines = blocks) {
   PlainMachine machine;
   Interpreter interpreter(machine);
   while (state.KeepRunning()) {
@@ -38,7 +39,7 @@ void interpret(benchmark::State& state, const std::string& text) {
     if (step == Step::alarm) state.SkipWithError(interpreter.alarm().text.data());
     benchmark::DoNotOptimize(sum);
   }
-  state.SetItemsProcessed(state.iterations() * blocks);
+  state.SetItemsProcessed(state.iterations() * lines);
   state.SetBytesProcessed(state.iterations() * static_cast<std::int64_t>(text.size()));
 }
 
@@ -68,12 +69,73 @@ void BM_FiveAxisLines(benchmark::State& state) {
 }
 BENCHMARK(BM_FiveAxisLines)->Unit(benchmark::kMillisecond);
 
+/// A square, compensated on its inside, again and again: a corner in every block.
+void BM_CompensatedContour(benchmark::State& state) {
+  std::string text = "%1\nF2000 G41 D1 G1 X10 Y0\n";
+  for (int i = 0; i < blocks / 4; ++i) text += "X90\nY90\nX10\nY10\n";
+  interpret(state, text + "G40 X0 Y0\nM30\n");
+}
+BENCHMARK(BM_CompensatedContour)->Unit(benchmark::kMillisecond);
+
+void BM_TurnedLines(benchmark::State& state) {
+  std::string text = "%1\nG51 X0 Y0 Z0 P2\nG68 X5 Y5 R30\nG91 G1 F2000\n";
+  for (int i = 0; i < blocks; ++i) text += i % 2 == 0 ? "X10. Y5.\n" : "X-10. Y-5.\n";
+  interpret(state, text + "M30\n");
+}
+BENCHMARK(BM_TurnedLines)->Unit(benchmark::kMillisecond);
+
 void BM_Arcs(benchmark::State& state) {
   std::string text = "%1\nG91 G17 F2000\n";
   for (int i = 0; i < blocks; ++i) text += i % 2 == 0 ? "G3 X-10. Y10. I-10. J0\n" : "G2 X10. Y-10. R10.\n";
   interpret(state, text + "M30\n");
 }
 BENCHMARK(BM_Arcs)->Unit(benchmark::kMillisecond);
+
+/// A spiral computed block by block: nine lines a turn.
+void BM_MacroLoop(benchmark::State& state) {
+  constexpr int turns = 20000;
+  const std::string text =
+      "%1\nG90 G54 G1 F2000\n#1=0\n#2=0\n"
+      "WHILE [#1 LT " +
+      std::to_string(turns) +
+      "] DO1\n"
+      "#3=10+#1*0.001\n"
+      "#4=#3*COS[#2]\n"
+      "#5=#3*SIN[#2]\n"
+      "G1 X#4 Y#5 Z[-#1/1000]\n"
+      "#2=#2+1.5\n"
+      "IF [#2 LT 360] GOTO 10\n"
+      "#2=#2-360\n"
+      "N10 #1=#1+1\n"
+      "END1\nM30\n";
+  // WHILE, 7 lines, N10 and END a turn; the line behind GOTO only once in 240.
+  interpret(state, text, turns * 9);
+}
+BENCHMARK(BM_MacroLoop)->Unit(benchmark::kMillisecond);
+
+/// The same with the branches and loops of HNC.
+void BM_MacroBranches(benchmark::State& state) {
+  constexpr int turns = 20000;
+  const std::string text =
+      "%1\nG90 G54 G1 F2000\n#1=0\n"
+      "WHILE #1 LT " +
+      std::to_string(turns) +
+      "\n"
+      "#2=#1 MOD 3\n"
+      "IF #2 EQ 0\n"
+      "G1 X#1\n"
+      "ELSEIF #2 EQ 1\n"
+      "G1 Y#1\n"
+      "ELSE\n"
+      "G1 Z#1\n"
+      "ENDIF\n"
+      "#1=#1+1\n"
+      "ENDW\nM30\n";
+  // Run are WHILE, MOD, IF, G1, #1, ENDW and of the other branches' beginnings and ENDIF two of three on
+  // average.
+  interpret(state, text, turns * 8);
+}
+BENCHMARK(BM_MacroBranches)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace trunnion::language

@@ -45,6 +45,27 @@ TEST(Allocation, NoneFromStartToEndWithCallsArcsAndTransformations) {
   EXPECT_EQ(commands, 3u + 2000u * 4 + 100 + 3);
 }
 
+TEST(Allocation, NoneWithFramesCyclesCurvesAndCompensation) {
+  TestMachine machine;
+  machine.tools[1] = {100, 0, 2, 0};
+  std::string text = "G43 H1 F100 S100 M3\n";
+  for (int i = 0; i < 200; ++i) {
+    text += "G51 X0 Y0 Z0 P2\nG68 X0 Y0 R30\nG51.1 X5\nG52 X1\nG10 L2 P1 X0\nG10 L11 P1 R0.1\n";
+    text += "G41 D1 G1 X50\nX100 M8\nY50\nG3 X50 Y100 R60\nG1 X0\nG40 X-50 Y-50\nG50 G69 G50.1\n";
+    text += "G83 X0 Z-10 R1 Q1\nG70 X0 Y0 I10 J0 K6\nG80\n";
+    text += "G0 X0 Y0 Z0\nG6.2 P3 K0 F100\nK0 X5 Y5\nK0 X10 Y0\nK1\nK1\nK1\nG0 X0\n";
+  }
+  StringSource source(text);
+  Interpreter interpreter(machine);
+  Command command;
+  const std::size_t before = allocations;
+  interpreter.start(source, {}, {});
+  Step step = Step::command;
+  while (step == Step::command || step == Step::working) step = interpreter.next(command);
+  EXPECT_EQ(allocations, before);
+  EXPECT_EQ(step, Step::end) << interpreter.alarm().line << interpreter.alarm().text.data();
+}
+
 TEST(Allocation, NoneForAnAlarm) {
   TestMachine machine;
   StringSource source("G0 X1\nG77\n");

@@ -35,18 +35,23 @@ void check(const Command& command) {
 }
 
 struct Stepper {
-  Stepper(Environment& machine, std::string_view text, std::size_t chunk)
-      : source(text, chunk), interpreter(machine) {
+  Stepper(Environment& machine, std::string_view text, std::size_t chunk, InterpreterOptions options)
+      : source(text, chunk), interpreter(machine, options) {
     interpreter.start(source, {}, {});
   }
   /// The next command, end or alarm; working when the program goes on without one.
   Step next(Command& command) {
     Step step = Step::pending;
-    while (step == Step::pending) step = interpreter.next(command);
+    while (step == Step::pending || step == Step::position) {
+      step = interpreter.next(command);
+      if (step == Step::position) interpreter.set_position(skip);
+    }
+    if (step == Step::command && command.kind == CommandKind::skip) skip = command.target;
     return step;
   }
   ChunkedSource source;
   Interpreter interpreter;
+  AxisValues skip{};
 };
 
 }  // namespace
@@ -59,11 +64,20 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::string_view text(reinterpret_cast<const char*>(data) + 1, size - 1);
   TestMachine machine;
   machine.lengths = {{1, 100.0}, {2, 55.5}};
+  machine.tools = {{3, {10, 0, 4, 0.1}}, {1, {100, 0, 5, 0}}};
+  machine.further_references[2] = {1, 2, 3};
+  machine.planes[1] = {{{0, 0, 0}, {1, 0, 0}, {0, 1, 1}}};
+  machine.last_way = {0.5, 0.5};
   machine.offsets[1] = {10, 20, 30, 0, 0, 45, 0, 0, 0};
   machine.axis_mask = 0b000111111;
-  machine.programs["O0009"] = std::make_unique<StringSource>("G91 X1\nM99\n");
-  Stepper whole(machine, text, 0);
-  Stepper pieces(machine, text, 1 + data[0]);
+  machine.programs["O0009"] = std::make_unique<StringSource>("G91 X1\n#100=#100+1\nM99\n");
+  machine.programs["USERDEF.CYC"] = std::make_unique<StringSource>(
+      "%1007\nWHILE #1 LT #0\n#1=#1+1\nX#1\nENDW\nM99\n%1010\nIF AR[#7] EQ 0\nM99 P5\nENDIF\nG1007 "
+      "A[#7]\nM99\n");
+  machine.cycle_m_codes[3] = 130;
+  const InterpreterOptions options{static_cast<SkipLevels>(data[0] >> 6), true};
+  Stepper whole(machine, text, 0, options);
+  Stepper pieces(machine, text, 1 + (data[0] & 63u), options);
   for (int i = 0; i < most_steps; ++i) {
     Command a;
     Command b;
@@ -84,8 +98,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       require(whole.interpreter.alarm().line == pieces.interpreter.alarm().line);
       require(whole.interpreter.alarm().column == pieces.interpreter.alarm().column);
       require(whole.interpreter.alarm().text == pieces.interpreter.alarm().text);
+      require(whole.interpreter.alarm().calls == pieces.interpreter.alarm().calls);
     }
     break;
+  }
+  for (const Value& value : whole.interpreter.variables().common) {
+    require(std::isfinite(value.number) && (value.given || value.number == 0));
   }
   return 0;
 }

@@ -26,28 +26,63 @@ TEST(LineReader, EveryLineEndIsOne) {
   EXPECT_THAT(lines(""), ElementsAre());
 }
 
-TEST(LineReader, LineEndsAcrossTheWindow) {
-  // The window is 16384 bytes: one line end is put at every place around its edge.
-  for (std::size_t size = 16380; size < 16390; ++size) {
-    std::string text;
-    while (text.size() + 1001 < size) text += std::string(1000, 'x') + "\n";
-    text += std::string(size - text.size(), 'y') + "\r\nz";
-    const auto result = lines(text);
-    ASSERT_EQ(result.size(), 18u) << size;  // 16 lines of 1001 bytes = 16016, the y, the z
-    EXPECT_EQ(result[17], "z");
+TEST(LineReader, LineEndsAcrossAnyEdge) {
+  // Reads ask for 2048, 4096 .. 32768 bytes: a line end is put at every place around each edge, 2048 * (2^n -
+  // 1).
+  for (const std::size_t edge : {2048u, 6144u, 14336u, 30720u, 63488u, 96256u, 129024u}) {
+    for (std::size_t size = edge - 4; size < edge + 4; ++size) {
+      std::string text;
+      std::size_t count = 2;
+      for (; text.size() + 1001 < size; ++count) text += std::string(1000, 'x') + "\n";
+      text += std::string(size - text.size(), 'y') + "\r\nz";
+      const auto result = lines(text);
+      ASSERT_EQ(result.size(), count) << size;
+      EXPECT_EQ(result.back(), "z");
+    }
   }
 }
 
 TEST(LineReader, LongestLine) {
-  EXPECT_THAT(lines(std::string(1024, 'x') + "\na"), ElementsAre(std::string(1024, 'x'), "a"));
-  EXPECT_THAT(lines(std::string(1024, 'x')), ElementsAre(std::string(1024, 'x')));
-  StringSource source("\n");
-  const std::string text = std::string(1025, 'x') + "\na";
-  StringSource longer(text);
+  const std::string longest(max_line_length, 'x');
+  EXPECT_THAT(lines(longest + "\na"), ElementsAre(longest, "a"));
+  EXPECT_THAT(lines("\n" + longest), ElementsAre("", longest));
+  for (const std::size_t size : {max_line_length + 1, std::size_t{1} << 20}) {
+    const std::string text = "a\n" + std::string(size, 'x') + "\na";
+    StringSource source(text);
+    LineReader reader;
+    reader.seek(source, {});
+    std::string_view line;
+    EXPECT_EQ(reader.next(line), LineReader::Status::line);
+    EXPECT_EQ(reader.next(line), LineReader::Status::too_long);
+    EXPECT_EQ(reader.position().line, 2u);
+  }
+}
+
+TEST(LineReader, LoopOfManyLinesReadsItsSourceOnce) {
+  struct Counting : TextSource {
+    explicit Counting(std::string_view text) : whole(text) {}
+    ReadResult read(std::uint64_t offset, char* buffer, std::size_t capacity) override {
+      const ReadResult result = whole.read(offset, buffer, capacity);
+      bytes += result.size;
+      return result;
+    }
+    StringSource whole;
+    std::size_t bytes = 0;
+  };
+  std::string text;
+  for (int i = 0; i < 20000; ++i) text += "G1 X1\n";
+  Counting source(text);
   LineReader reader;
-  reader.seek(longer, {});
+  reader.seek(source, {});
   std::string_view line;
-  EXPECT_EQ(reader.next(line), LineReader::Status::too_long);
+  for (int i = 0; i < 10000; ++i) ASSERT_EQ(reader.next(line), LineReader::Status::line);
+  const TextPosition begin = reader.position();
+  for (int turn = 0; turn < 100; ++turn) {
+    reader.seek(source, begin);
+    for (int i = 0; i < 2000; ++i) ASSERT_EQ(reader.next(line), LineReader::Status::line);  // 12 kB
+  }
+  // Everything up to the loop's end and one read ahead, and no more.
+  EXPECT_LE(source.bytes, 12000u * 6 + 32768);
 }
 
 struct EmptySource : TextSource {

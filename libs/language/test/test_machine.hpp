@@ -1,6 +1,7 @@
 // A small machine for the language tests: tables, an AC rotary table, and texts in memory.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <memory>
@@ -20,13 +21,80 @@ struct TestMachine : Environment {
   std::array<AxisValues, 6> offsets{};
   std::map<int, double> lengths;
   AxisValues reference{};
+  std::map<int, AxisValues> further_references;  // G30 P
+  std::map<int, ToolOffset> tools;               // beside lengths
+  std::map<int, std::array<Vector3, 3>> planes;  // G68.1 Q
+  std::map<int, AxisValues> more_offsets;        // G54.1 P
+  AxisValues last_way{};
+  bool diameter = false;
+  CutterSettings cutter;
+  CycleSettings cycles;
   std::uint16_t axis_mask = 0b111111111;
   double deviation = 0.1;
   double off_y = 0.1028;
   std::array<double, 3> centre = {-200.3605, -190.1897, -516.0118};
   std::map<std::string, std::unique_ptr<TextSource>, std::less<>> programs;
+  std::array<std::uint16_t, 8> cycle_m_codes{};
 
-  AxisValues work_offset(std::uint8_t index) const override { return offsets.at(index); }
+  AxisValues work_offset(std::uint8_t index) const override {
+    if (index < offsets.size()) return offsets.at(index);
+    const auto found = more_offsets.find(index - 5);
+    return found == more_offsets.end() ? AxisValues{} : found->second;
+  }
+  std::optional<ToolOffset> tool_offset(std::uint16_t number) const override {
+    const auto found = tools.find(number);
+    return found == tools.end() ? Environment::tool_offset(number) : std::optional(found->second);
+  }
+  std::optional<AxisValues> numbered_reference(std::uint8_t number) const override {
+    const auto found = further_references.find(number);
+    return found == further_references.end() ? std::nullopt : std::optional(found->second);
+  }
+  std::optional<std::array<Vector3, 3>> plane_points(std::uint8_t index) const override {
+    const auto found = planes.find(index);
+    return found == planes.end() ? std::nullopt : std::optional(found->second);
+  }
+  AxisValues approach() const override { return last_way; }
+  bool diameter_programming() const override { return diameter; }
+  CutterSettings cutter_settings() const override { return cutter; }
+  CycleSettings cycle_settings() const override { return cycles; }
+  /// The table turns a direction d of the part to R1 R2 d, which must be +Z: A -(tilt), C so that d points to
+  /// -Y or +Y of the machine; of the two solutions the one with the smaller way of C, or C as chosen.
+  std::optional<AxisValues> orient(const Vector3& d, const AxisValues& current,
+                                   RotaryChoice choice) const override {
+    const double to_degrees = 180 / std::numbers::pi;
+    const double tilt = std::acos(std::clamp(d[2], -1.0, 1.0)) * to_degrees;
+    if (tilt > 100) return std::nullopt;
+    AxisValues best = current;
+    double least = 1e9;
+    for (const double side : {1.0, -1.0}) {
+      AxisValues turned = current;
+      turned[A] = -side * tilt;
+      if (tilt > 1e-9) {
+        // C turns about -Z: the table point at angle f comes to f - C, which must be -90 or +90.
+        const double angle = std::atan2(d[1], d[0]) * to_degrees;
+        turned[C] = angle - side * 90;
+        while (turned[C] > current[C] + 180) turned[C] -= 360;
+        while (turned[C] <= current[C] - 180) turned[C] += 360;
+        if (choice == RotaryChoice::positive && turned[C] < current[C]) turned[C] += 360;
+        if (choice == RotaryChoice::negative && turned[C] > current[C]) turned[C] -= 360;
+      }
+      const double way = std::abs(turned[C] - current[C]) + 1e-3 * std::abs(turned[A] - current[A]);
+      if (way >= least) continue;
+      least = way;
+      best = turned;
+    }
+    return best;
+  }
+  /// Straight there, when that is within 93 degrees of upright and not opposite.
+  VectorWay vector_way(const AxisValues& current, const Vector3& direction) const override {
+    VectorWay way = Environment::vector_way(current, direction);
+    const AxisValues tip = tip_from_machine(current, 1), gauge = tip_from_machine(current, 0);
+    double cosine = 0;
+    for (std::size_t i = 0; i < 3; ++i) cosine += (gauge[i] - tip[i]) * direction[i];
+    if (way.fault == VectorWay::Fault::none && direction[2] < -0.05) way.fault = VectorWay::Fault::on_the_way;
+    if (cosine < -0.999999) way.fault = VectorWay::Fault::opposite;
+    return way;
+  }
   std::optional<double> tool_length(std::uint16_t h) const override {
     const auto found = lengths.find(h);
     return found == lengths.end() ? std::nullopt : std::optional(found->second);
@@ -38,6 +106,7 @@ struct TestMachine : Environment {
     const auto found = programs.find(name);
     return found == programs.end() ? nullptr : found->second.get();
   }
+  std::uint16_t cycle_m_code(std::size_t index) const override { return cycle_m_codes.at(index); }
 
   AxisValues machine_from_tip(const AxisValues& tip, double tool_length) const override {
     const double a = -tip[A] * std::numbers::pi / 180;
@@ -86,6 +155,7 @@ inline Interpretation run(Environment& machine, TextSource& text, const AxisValu
   do {
     result.last = interpreter.next(command);
     if (result.last == Step::command) result.commands.push_back(command);
+    if (result.last == Step::position) interpreter.set_position(result.commands.back().target);
   } while (result.last != Step::end && result.last != Step::alarm && result.commands.size() < most);
   result.alarm = interpreter.alarm();
   result.modal = interpreter.modal();
@@ -101,7 +171,8 @@ inline Interpretation run(Environment& machine, std::string_view text, const Axi
 
 /// One command in a short form, for comparing streams: kind, the axes that are not 0, and what the kind adds.
 inline std::string brief(const Command& command) {
-  static constexpr const char* kinds[] = {"rapid", "line", "arc", "dwell", "T", "S", "M", "frame", "end"};
+  static constexpr const char* kinds[] = {"rapid", "line", "arc",  "dwell", "T",     "S",      "M",
+                                          "frame", "end",  "skip", "tap",   "table", "message"};
   const auto number = [](double value) {
     char text[40];
     std::snprintf(text, sizeof text, "%.10g", std::abs(value) < 1e-12 ? 0.0 : value);
@@ -110,7 +181,7 @@ inline std::string brief(const Command& command) {
   std::string text = kinds[static_cast<std::size_t>(command.kind)];
   const auto values = [&] {
     for (std::size_t axis = 0; axis < axis_count; ++axis) {
-      if (command.target[axis] != 0)
+      if (std::abs(command.target[axis]) > 1e-9)
         text += std::string(" ") + axis_letters[axis] + number(command.target[axis]);
     }
   };
@@ -143,6 +214,25 @@ inline std::string brief(const Command& command) {
       text += " L" + number(command.modal.tool_length);
       values();
       break;
+    case CommandKind::skip:
+      text += std::to_string(command.number);
+      values();
+      text += " F" + number(command.modal.feed);
+      break;
+    case CommandKind::tap:
+      values();
+      text += " lead" + number(command.value);
+      if (command.number != 0) text += " axis" + std::to_string(command.number);
+      break;
+    case CommandKind::table:
+      text += std::to_string(static_cast<int>(command.table)) + " " + std::to_string(command.number);
+      if (command.table == Table::work_offset) {
+        values();
+      } else {
+        text += " " + number(command.value);
+      }
+      break;
+    case CommandKind::message:
     case CommandKind::end:
       text += " " + std::to_string(command.number);
       break;

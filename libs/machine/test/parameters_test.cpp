@@ -90,5 +90,21 @@ TEST(Alarms, NumbersAndNamesAreUnique) {
   }
 }
 
+TEST(Catalogue, AnAxisParameterIsInTheUnitOfItsAxis) {
+  // 10a006 is the positive travel limit; axis 3 is a rotary axis (10a001 = 3), axis 0 a linear one by
+  // default.
+  const std::map<std::uint32_t, ParameterValue> values{{103001, {3, ""}}};
+  EXPECT_EQ(unit_of(100006, values), "mm");
+  EXPECT_EQ(unit_of(103006, values), "deg");
+  EXPECT_EQ(unit_of(103034, values), "deg/min");
+  EXPECT_EQ(unit_of(1, values), "us");
+}
+
+TEST(Catalogue, LimitsAreWrittenInFull) {
+  const auto& d = Catalogue::instance().by_name("maximum_feed");
+  EXPECT_NE(Catalogue::instance().check(d.number(0), -1, "").find("1 .. 1000000 "), std::string::npos)
+      << Catalogue::instance().check(d.number(0), -1, "");
+}
+
 }  // namespace
 }  // namespace trunnion::machine

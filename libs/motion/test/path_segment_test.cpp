@@ -56,6 +56,32 @@ TEST(PathSegment, planes_turn_as_iso_6983_says) {
   EXPECT_LT(clockwise.position(clockwise.length() / 2)[0], 0);  // passes the lower left at -135 degrees
 }
 
+// A plane given by its normal is the plane: with +Y, G18 itself; and a circle about (1, 0, 1) through (0, 10,
+// 0) turns counterclockwise to the point at right angles to both, (-10 / sqrt 2, 0, 10 / sqrt 2).
+TEST(PathSegment, tilted_arcs_turn_about_their_normal) {
+  Arc zx{Plane::zx, false, {0, 0, 0}, 90};
+  const PathSegment plain = PathSegment::arc({0, 0, 5}, {5, 2, 0}, zx);
+  zx.normal = {0, 1, 0};
+  const PathSegment same = PathSegment::arc({0, 0, 5}, {5, 2, 0}, zx);
+  EXPECT_NEAR(same.length(), plain.length(), 1e-12);
+  EXPECT_NEAR(same.curvature(), plain.curvature(), 1e-12);
+  for (int k = 0; k <= 10; ++k) {
+    const double s = plain.length() * k / 10;
+    for (std::size_t i = 0; i < language::axis_count; ++i) {
+      EXPECT_NEAR(same.position(s)[i], plain.position(s)[i], 1e-12);
+      EXPECT_NEAR(same.derivative(s)[i], plain.derivative(s)[i], 1e-12);
+    }
+  }
+  const double half = 1 / std::sqrt(2);
+  Arc arc{Plane::xy, false, {0, 0, 0}, 90, {half, 0, half}};
+  const PathSegment tilted = PathSegment::arc({0, 10, 0}, {-10 * half, 0, 10 * half}, arc);
+  EXPECT_NEAR(tilted.length(), 5 * std::numbers::pi, 1e-12);
+  const AxisValues middle = tilted.position(tilted.length() / 2);
+  EXPECT_NEAR(middle[0], -10 * half * half, 1e-12);
+  EXPECT_NEAR(middle[1], 10 * half, 1e-12);
+  EXPECT_NEAR(middle[2], 10 * half * half, 1e-12);
+}
+
 TEST(PathSegment, several_turns_stay_on_the_radius) {
   const PathSegment arc =
       PathSegment::arc({10, 0, 0}, {0, 10, 3}, {Plane::xy, false, {0, 0, 0}, 360 * 3 + 90});
@@ -101,6 +127,27 @@ TEST(PathSegment, arc_around_its_own_start_falls_back_to_a_line) {
   const PathSegment arc = PathSegment::arc({1, 2}, {4, 6}, {Plane::xy, false, {1, 2, 0}, 90});
   EXPECT_DOUBLE_EQ(arc.length(), 5);
   EXPECT_EQ(arc.curvature(), 0);
+}
+
+TEST(RemainingSweep, IsTheAngleToTheTargetWhateverTheFractionSaysButForWholeTurns) {
+  language::Arc arc;
+  arc.sweep = 270 + 720;
+  arc.clockwise = true;
+  // Clockwise about the origin from 0 deg, two turns and 270 deg to 90 deg. At -45 deg of the second turn 405
+  // of 990 deg are done and 585 are left; a fraction that is 3 % off names the same turn.
+  const AxisValues target{0, 10}, at{10 * std::sqrt(0.5), -10 * std::sqrt(0.5)};
+  for (const double error : {-0.03, 0.0, 0.03})
+    EXPECT_NEAR(remaining_sweep(at, target, arc, 405.0 / 990 + error), 585, 1e-9) << error;
+  // The same helix on its way, in a plane that is named by its normal.
+  arc.normal = {0, 0, 1};
+  AxisValues higher = at;
+  higher[2] = 7;
+  EXPECT_NEAR(remaining_sweep(higher, target, arc, 405.0 / 990), 585, 1e-9);
+  arc.normal = {};
+  // Past the target by a tenth of a degree.
+  const AxisValues past{10 * std::sin(0.1 * std::numbers::pi / 180),
+                        10 * std::cos(0.1 * std::numbers::pi / 180)};
+  EXPECT_NEAR(remaining_sweep(past, target, arc, 1), -0.1, 1e-9);
 }
 
 }  // namespace

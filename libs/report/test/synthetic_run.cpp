@@ -12,7 +12,7 @@
 #include "motion/trajectory.hpp"
 #include "recording/file_stream.hpp"
 #include "recording/mcap_writer.hpp"
-#include "report/table_environment.hpp"
+#include "setup/channel_setup.hpp"
 
 namespace trunnion::report::test {
 namespace {
@@ -28,7 +28,7 @@ struct Row {
 
 // What the channel does, without a bus: commands into motion, motion into rows.
 std::vector<Row> rows_of(const std::string& program, const MachineTables& tables) {
-  TableEnvironment environment(tables);
+  setup::ChannelSetup environment(tables);
   const auto chain = machine::make_chain(tables.parameters, 0);
   motion::Limits limits;
   const auto axes = machine::channel_axes(tables.parameters, 0);
@@ -165,7 +165,7 @@ std::uint64_t record_run(const RunOptions& options) {
       path.setpoints.insert(path.setpoints.end(), p.begin(), p.end());
       path.lines.push_back(rows[i].line);
       if (rtcp) {
-        const Vec3 at = chain.machine_from_tip({p[0], p[1], p[2]}, {p[3], p[4], p[5]}, path.tool_length);
+        const Vec3 at = chain.machine_from_tip({p[0], p[1], p[2]}, geometry::angles_of(p.data()), path.tool_length);
         std::copy_n(at.data(), 3, p.begin());
       }
       std::array<double, 5> command{p[0], p[1], p[2], p[3], p[5]};

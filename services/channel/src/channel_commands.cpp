@@ -4,6 +4,7 @@
 
 #include "channel_core.hpp"
 #include "machine/alarms.hpp"
+#include "modal_codes.hpp"
 
 namespace trunnion::channel {
 
@@ -143,7 +144,7 @@ Answer ChannelCore::start_program(const RestartPoint& restart) {
   frame_ = modal.transformation;
   frame_tool_length_ = 0;
   trajectory_->start(machine_start_, frame_, 0);
-  flow_.start(*text_, program_start_, modal, restart);
+  flow_.start(*text_, program_start_, modal, *variables_, restart);
   restart_ = restart.sequence != 0 ? std::optional(restart) : std::nullopt;
   activity_ = Activity::program;
   run_ = RunState::RUNNING;
@@ -166,7 +167,7 @@ Answer ChannelCore::start_mdi(const std::string& line) {
   modal_.tool = static_cast<std::uint16_t>(tool_);
   const auto position = frame_position(modal_);
   trajectory_->start(position, frame_, frame_tool_length_);
-  flow_.start(*mdi_source_, position, modal_);
+  flow_.start(*mdi_source_, position, modal_, *variables_);
   activity_ = Activity::mdi;
   run_ = RunState::RUNNING;
   hold_ = aborting_ = false;
@@ -259,20 +260,7 @@ const idl::channel::ChannelState& ChannelCore::state() {
   s.progress = selected_.lines > 0 ? std::min(1.0, static_cast<double>(shown_.line) / selected_.lines) : 0;
   const auto& modal =
       activity_ == Activity::program || activity_ == Activity::mdi ? flow_.executing() : modal_;
-  s.modal = {"G" + std::to_string(modal.motion),
-             modal.plane == language::Plane::xy   ? "G17"
-             : modal.plane == language::Plane::zx ? "G18"
-                                                  : "G19",
-             modal.metric ? "G21" : "G20",
-             modal.absolute ? "G90" : "G91",
-             modal.feed_mode == language::FeedMode::per_minute     ? "G94"
-             : modal.feed_mode == language::FeedMode::inverse_time ? "G93"
-                                                                   : "G95",
-             modal.path_control == language::PathControl::exact_stop ? "G61" : "G64",
-             "G" + std::to_string(54 + modal.work_offset),
-             modal.transformation == language::Transformation::rtcp ? "G43.4"
-             : modal.length_offset != 0                             ? "G43"
-                                                                    : "G49"};
+  s.modal = modal_codes(modal);
   const bool moving = link_.state() == LinkState::active || link_.state() == LinkState::ending;
   s.feed = moving ? shown_.feed * 60 : 0;
   s.programmed_feed = modal.feed;

@@ -1,5 +1,7 @@
 #include "channel_core.hpp"
 
+#include "table_order.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -66,11 +68,13 @@ void ChannelCore::apply_parameters() {
   try {
     machine_.configure(*next_parameters_);
   } catch (const std::exception& e) {
-    event("kinematics_invalid", e.what());
+    event(machine::alarm_of(e), e.what());
     next_parameters_.reset();
     return;
   }
   parameters_ = std::exchange(next_parameters_, nullptr);
+  for (const auto& line : machine::kinematics_warnings(*parameters_, number_))
+    event("direction_not_unit", line);
   trajectory_owner_ =
       std::make_unique<motion::Trajectory>(machine_.limits(), &machine_.chain(), machine_.cycle_seconds());
   trajectory_ = trajectory_owner_.get();
@@ -79,7 +83,10 @@ void ChannelCore::apply_parameters() {
   trajectory_->start(machine_start_, frame_, 0);
 }
 
-void ChannelCore::set_tools(const idl::parameters::ToolTable& tools) { machine_.set_tools(tools); }
+void ChannelCore::set_tools(const idl::parameters::ToolTable& tools) {
+  tool_table_ = tools;
+  machine_.set_tools(tools);
+}
 void ChannelCore::set_offsets(const idl::parameters::WorkOffsets& offsets) { machine_.set_offsets(offsets); }
 
 void ChannelCore::set_programs(const idl::program::ProgramList& programs) {
@@ -209,6 +216,26 @@ void ChannelCore::on_auxiliary_done(const idl::plc::AuxiliaryDone& done) {
   hold_ = false;
 }
 
+void ChannelCore::on_table_changed(const std::string& reason) {
+  if (!table_open_) return;
+  table_open_ = false;
+  if (!reason.empty()) {
+    event("table_refused", selected_.name + ":" + std::to_string(flow_.pending().line) + ": " + reason);
+    stop_activity();
+    return;
+  }
+  flow_.finish_pending();
+  run_ = hold_ || !external_hold_.empty() ? RunState::HELD : RunState::RUNNING;
+  hold_ = false;
+}
+
+// What the program has read ahead counts: a variable is not taken back when the motion behind it is stopped.
+void ChannelCore::keep_variables() {
+  if (activity_ != Activity::program && activity_ != Activity::mdi) return;
+  *variables_ = flow_.variables();
+  variables_news_ = true;
+}
+
 std::optional<idl::channel::AuxiliaryRequest> ChannelCore::take_auxiliary() {
   return std::exchange(outgoing_auxiliary_, std::nullopt);
 }
@@ -247,9 +274,10 @@ void ChannelCore::stop_activity() {
   if (link_.state() == LinkState::active || link_.state() == LinkState::ending ||
       link_.state() == LinkState::requested)
     link_.leave();
+  keep_variables();
   activity_ = Activity::none;
   run_ = RunState::IDLE;
-  hold_ = aborting_ = false;
+  hold_ = aborting_ = table_open_ = false;
   restart_.reset();
   if (auxiliary_open_) {
     auxiliary_open_ = false;
@@ -266,6 +294,7 @@ void ChannelCore::finish(bool program_end) {
     modal_.tool = static_cast<std::uint16_t>(tool_);
   }
   if (program_end && activity_ == Activity::program) shown_ = {};
+  keep_variables();
   activity_ = Activity::none;
   run_ = RunState::IDLE;
   hold_ = aborting_ = false;
@@ -275,6 +304,7 @@ void ChannelCore::finish(bool program_end) {
 
 FlowState ChannelCore::fill() {
   if (activity_ == Activity::jog || aborting_) return FlowState::full;
+  flow_.set_cycle(link_.next());
   return flow_.fill(single_block_ && activity_ == Activity::program);
 }
 
@@ -309,6 +339,18 @@ void ChannelCore::run_pending(FlowState flow) {
       frame_tool_length_ = command.modal.tool_length;
       trajectory_->start(command.target, frame_, frame_tool_length_);
       flow_.finish_pending();
+      return;
+    case CommandKind::table:
+      table_order_ = table_order(command, number_, tool_table_);
+      table_open_ = true;
+      run_ = RunState::WAITING;
+      return;
+    case CommandKind::message:
+      event("program_message", (activity_ == Activity::program ? selected_.name : "MDI") + ":" +
+                                   std::to_string(command.line) + ": message " +
+                                   std::to_string(command.number) + ", see the comment of the line");
+      flow_.finish_pending();
+      run_ = RunState::HELD;
       return;
     case CommandKind::tool:
       begin_auxiliary(3, command.number, 0);

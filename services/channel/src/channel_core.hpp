@@ -8,10 +8,10 @@
 #include <utility>
 #include <vector>
 
-#include "channel_machine.hpp"
 #include "contracts/types.hpp"
 #include "program_flow.hpp"
 #include "program_text.hpp"
+#include "setup/channel_setup.hpp"
 #include "stream_link.hpp"
 
 namespace trunnion::channel {
@@ -40,6 +40,8 @@ class ChannelCore {
   void set_parameters(std::shared_ptr<const machine::Parameters> parameters);
   void set_tools(const idl::parameters::ToolTable& tools);
   void set_offsets(const idl::parameters::WorkOffsets& offsets);
+  /// The kept variables of the last time.
+  void set_variables(const language::VariableStore& variables) { *variables_ = variables; }
   void set_programs(const idl::program::ProgramList& programs);
   void on_feedback(const idl::stream::FeedbackFrame& feedback);
   /// A process that has just begun may find that one before it died in the middle of a program. Call it once
@@ -47,6 +49,8 @@ class ChannelCore {
   void recover();
   bool recovered() const { return recovered_; }
   void on_auxiliary_done(const idl::plc::AuxiliaryDone& done);
+  /// The answer to the request of take_table_order(); `reason` is empty when the table was changed.
+  void on_table_changed(const std::string& reason);
   /// Alarms that stop motion, or the PLC's feed hold: `why` is empty when there is none.
   void set_hold(const std::string& why);
   void set_ready(bool ready) { ready_ = ready; }
@@ -60,11 +64,18 @@ class ChannelCore {
   bool produce(idl::stream::PathFrame& frame);
   std::optional<idl::stream::StreamRequest> take_stream_request() { return link_.take_request(); }
   std::optional<idl::channel::AuxiliaryRequest> take_auxiliary();
+  std::optional<idl::parameters::ParameterRequest> take_table_order() {
+    return std::exchange(table_order_, std::nullopt);
+  }
+  /// The variables, when a program or an MDI line has ended since the last time.
+  const language::VariableStore* take_variables() {
+    return std::exchange(variables_news_, false) ? variables_.get() : nullptr;
+  }
   std::vector<ChannelEvent> take_events() { return std::exchange(events_, {}); }
   const idl::channel::ChannelState& state();
 
   RunState run_state() const { return run_; }
-  const ChannelMachine& machine() const { return machine_; }
+  const setup::ChannelSetup& machine() const { return machine_; }
   const StreamLink& link() const { return link_; }
   bool configured() const { return trajectory_owner_ != nullptr; }
 
@@ -83,6 +94,7 @@ class ChannelCore {
   void hold();
   void stop_activity();
   void finish(bool program_end);
+  void keep_variables();
   void interrupt(const std::string& why);
   void apply_parameters();
   void adopt_position();
@@ -94,11 +106,13 @@ class ChannelCore {
   language::ModalState power_on_modal() const;
   AxisValues machine_position() const;
   AxisValues frame_position(const language::ModalState& modal) const;
-  void event(const char* alarm, std::string text) { events_.push_back({alarm, 0, std::move(text)}); }
+  void event(std::string alarm, std::string text) {
+    events_.push_back({std::move(alarm), 0, std::move(text)});
+  }
 
   std::uint16_t number_;
   bool virtual_time_;
-  ChannelMachine machine_;
+  setup::ChannelSetup machine_;
   StreamLink link_;
   std::unique_ptr<motion::Trajectory> trajectory_owner_;
   motion::Trajectory* trajectory_ = nullptr;
@@ -132,6 +146,12 @@ class ChannelCore {
   bool auxiliary_open_ = false;
   std::uint32_t auxiliary_number_ = 0;
   idl::channel::AuxiliaryRequest auxiliary_;
+  idl::parameters::ToolTable tool_table_;
+  std::optional<idl::parameters::ParameterRequest> table_order_;
+  bool table_open_ = false;  // the owner of the tables has not answered yet
+  // As they were when the program began: a restart interprets it again with the same.
+  std::unique_ptr<language::VariableStore> variables_ = std::make_unique<language::VariableStore>();
+  bool variables_news_ = false;
   std::optional<idl::channel::AuxiliaryRequest> outgoing_auxiliary_;
   std::uint32_t tool_ = 0;
   double spindle_programmed_ = 0;

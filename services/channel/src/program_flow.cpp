@@ -4,9 +4,21 @@ namespace trunnion::channel {
 
 using language::CommandKind;
 
+namespace {
+
+/// A line of the started program, or of another text with its name.
+std::string place(std::uint32_t program, std::uint32_t line) {
+  std::string name;
+  if (program != 0) name = std::string(language::ProgramName(program).view()) + ":";
+  return name + std::to_string(line);
+}
+
+}  // namespace
+
 void ProgramFlow::start(language::TextSource& text, const AxisValues& position,
-                        const language::ModalState& initial, const RestartPoint& restart) {
-  interpreter_.start(text, position, initial);
+                        const language::ModalState& initial, const language::VariableStore& variables,
+                        const RestartPoint& restart) {
+  interpreter_.start(text, position, initial, variables);
   have_command_ = false;
   block_line_ = 0;
   restart_ = restart;
@@ -54,15 +66,17 @@ FlowState ProgramFlow::fill(bool single_block) {
         case language::Step::working:
           continue;
         case language::Step::pending:
+        case language::Step::position:
           return FlowState::waiting;
         case language::Step::end:
           return FlowState::end;
         case language::Step::alarm: {
           const auto& alarm = interpreter_.alarm();
           alarm_number_ = static_cast<std::uint32_t>(alarm.number);
-          alarm_text_ = (alarm.program != 0 ? "O" + std::to_string(alarm.program) + ":" : std::string()) +
-                        std::to_string(alarm.line) + ":" + std::to_string(alarm.column) + ": " +
+          alarm_text_ = place(alarm.program, alarm.line) + ":" + std::to_string(alarm.column) + ": " +
                         alarm.text.data();
+          for (std::size_t k = alarm.calls; k-- > 0;)
+            alarm_text_ += ", called from " + place(alarm.chain[k].program, alarm.chain[k].line);
           trajectory_->finish();
           return FlowState::alarm;
         }
@@ -83,6 +97,14 @@ FlowState ProgramFlow::fill(bool single_block) {
       return FlowState::block_end;
     }
     block_line_ = command_.line;
+    if (command_.kind == CommandKind::skip || command_.kind == CommandKind::tap) {
+      // Neither may be passed over: the tool would not be where the program thinks.
+      alarm_number_ = static_cast<std::uint32_t>(language::AlarmNumber::move_not_available);
+      alarm_text_ = std::to_string(command_.line) + ": " +
+                    std::string(language::alarm_text(language::AlarmNumber::move_not_available));
+      trajectory_->finish();
+      return FlowState::alarm;
+    }
     if (!move) {
       trajectory_->finish();
       return command_.kind == CommandKind::end && command_.number == 0 ? FlowState::end : FlowState::command;

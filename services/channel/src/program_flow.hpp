@@ -4,11 +4,13 @@
 
 #include <optional>
 
-#include "channel_machine.hpp"
 #include "language/interpreter.hpp"
 #include "motion/trajectory.hpp"
+#include "setup/channel_setup.hpp"
 
 namespace trunnion::channel {
+
+using language::AxisValues;
 
 enum class FlowState {
   full,       ///< motion has as much ahead as it can hold: go on stepping
@@ -28,12 +30,13 @@ struct RestartPoint {
 
 class ProgramFlow {
  public:
-  ProgramFlow(ChannelMachine& machine, motion::Trajectory*& trajectory)
+  ProgramFlow(setup::ChannelSetup& machine, motion::Trajectory*& trajectory)
       : machine_(machine), trajectory_(trajectory), interpreter_(machine) {}
 
-  /// `position` in the frame of `initial`. The trajectory must be at rest there.
+  /// `position` in the frame of `initial`. The trajectory must be at rest there. A restart needs the
+  /// variables the program began with, for it interprets it again.
   void start(language::TextSource& text, const AxisValues& position, const language::ModalState& initial,
-             const RestartPoint& restart = {});
+             const language::VariableStore& variables, const RestartPoint& restart = {});
   FlowState fill(bool single_block);
   /// The command fill() stopped at, and done with it.
   const language::Command& pending() const { return command_; }
@@ -42,6 +45,13 @@ class ProgramFlow {
   void next_block() { block_line_ = 0; }
 
   const language::ModalState& modal() const { return interpreter_.modal(); }
+  /// The variables as the program has left them.
+  const language::VariableStore& variables() const { return interpreter_.variables(); }
+  /// What the program's clocks show from now on, in cycles of the stream.
+  void set_cycle(std::uint64_t cycle) {
+    const double milliseconds = static_cast<double>(cycle) * machine_.cycle_seconds() * 1000;
+    interpreter_.set_time({milliseconds, milliseconds / 3.6e6, 0, 0});
+  }
   /// Of the newest command handed to motion.
   const language::ModalState& executing() const { return executing_; }
   std::uint32_t alarm_number() const { return alarm_number_; }
@@ -51,7 +61,7 @@ class ProgramFlow {
 
  private:
   FlowState push_move();
-  ChannelMachine& machine_;
+  setup::ChannelSetup& machine_;
   motion::Trajectory*& trajectory_;
   language::Interpreter interpreter_;
   language::Command command_;

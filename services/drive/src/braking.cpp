@@ -1,4 +1,12 @@
 // Leaving the path and coming back to it: braking, holding, resuming.
+//
+// Acceleration. With A' = acceleration * dt^2 the largest second difference the path uses itself, and a rate
+// that goes from r1 to r2 between two periods, the second difference of an axis is
+//   [y(s + r2) - y(s)] - [y(s) - y(s - r1)] = {y(s + r2) - 2 y(s) + y(s - r2)} + {y(s - r1) - y(s - r2)}.
+// Between cycles the path is linear, so the first brace is a sum of the path's second differences weighted by
+// a tent of half width r2 around s, which at whole distances adds up to at most r2 for r2 <= 1: at most A'
+// r2. The second is |r1 - r2| times a velocity, which rate_step() keeps at A'. Leaving or joining the path
+// therefore asks at most twice the limit of an axis, and that only where the path uses all of the limit.
 #include <algorithm>
 #include <cmath>
 
@@ -7,13 +15,34 @@
 namespace trunnion::drive {
 
 void DriveCore::begin_braking() {
-  const auto s = supply();
-  const double periods = std::max(2.0, stop_periods(std::min(s.cycles, lead_)));
-  rate_step_ = 1 / periods;
-  if (reserve_ == 0 && mode_ == Mode::following && phase_ == 0 && s.cycles == 0) rate_ = 0;  // standing still
+  rate_step_ = rate_step();
+  dip_periods_ = 0;
+  if (reserve_ == 0 && mode_ == Mode::following && phase_ == 0 && supply().cycles == 0)
+    rate_ = 0;  // standing still
   if (mode_ == Mode::returning) rate_ = 0;
   mode_ = Mode::braking;
   resume_ = false;
+}
+
+// The change of rate that accelerates the fastest axis of the setpoints at hand by its limit.
+double DriveCore::rate_step() { return 1 / std::max(2.0, stop_periods(std::min(supply().cycles, lead_))); }
+
+// At full rate but between two cycles: falls back by what is too much, with a dip of the rate that changes it
+// by s in every period down to 1 - m s and back, which takes s m^2 of a cycle.
+void DriveCore::return_to_whole_cycles() {
+  if (dip_periods_ == 0) {
+    dip_depth_ = static_cast<std::uint32_t>(std::max(1.0, std::ceil(std::sqrt(phase_ / rate_step()))));
+    dip_step_ = phase_ / (static_cast<double>(dip_depth_) * dip_depth_);
+    dip_periods_ = 2 * dip_depth_ - 1;
+  }
+  --dip_periods_;
+  if (dip_periods_ == 0) {  // what is left of the phase is this period's loss, but for rounding
+    rate_ = 1, phase_ = 0;
+    advance(1);
+    return;
+  }
+  rate_ = 1 - dip_step_ * std::min(dip_periods_ + 1, 2 * dip_depth_ - 1 - dip_periods_);
+  advance(rate_);
 }
 
 // Another part of the controller has found a reason to stop: along the path, as for a missing setpoint.
@@ -57,7 +86,6 @@ void DriveCore::resume() {
     return;
   }
   rate_ = 0;
-  rate_step_ = 1 / std::max(2.0, stop_periods(std::min(supply().cycles, lead_)));
   mode_ = Mode::following;
 }
 
@@ -88,7 +116,6 @@ void DriveCore::step_return() {
   target_ = return_to_;
   mode_ = Mode::following;
   rate_ = phase_ == 0 && rate_ == 1 ? 1 : 0;
-  if (rate_ == 0) rate_step_ = 1 / std::max(2.0, stop_periods(std::min(supply().cycles, lead_)));
 }
 
 }  // namespace trunnion::drive

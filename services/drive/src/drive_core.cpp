@@ -188,12 +188,12 @@ void DriveCore::target_of(std::uint64_t cycle, std::vector<double>& out) {
 // acceleration.
 double DriveCore::stop_periods(std::uint64_t cycles) {
   double periods = 0;
-  auto before = target_;
+  before_ = target_;
   for (std::uint64_t c = next_; c < next_ + cycles; ++c) {
     target_of(c, scratch_);
     for (std::size_t i = 0; i < axes_.size(); ++i)
-      periods = std::max(periods, std::abs(scratch_[i] - before[i]) / (limits_[i].acceleration * dt_ * dt_));
-    before = scratch_;
+      periods = std::max(periods, std::abs(scratch_[i] - before_[i]) / (limits_[i].acceleration * dt_ * dt_));
+    std::swap(before_, scratch_);
   }
   return periods;
 }
@@ -358,17 +358,17 @@ void DriveCore::follow() {
     }
     if (!pass_cycle()) return;
     command_ = target_;
-  } else if (rate_ < 1) {
-    rate_ = std::min(1.0, rate_ + rate_step_);
+  } else if (rate_ < 1 && dip_periods_ == 0) {
+    rate_ = std::min(1.0, rate_ + rate_step());
     advance(rate_);
-  } else {  // back at full rate: come back to whole cycles over the next ones
-    const double lag = std::min(phase_, 1.0 / 32);
-    advance(1 - lag);
-    if (phase_ < 1e-9) phase_ = 0;
+  } else {
+    return_to_whole_cycles();
   }
   double moving = 0;
   for (std::size_t i = 0; i < axes_.size(); ++i)
     moving = std::max(moving, std::abs(velocity_[i]) / (limits_[i].acceleration * dt_ * dt_));
+  // The stop leads through the next setpoints, where another axis may be the fastest.
+  moving = std::max(moving, stop_periods(std::min(supply().cycles, lead_ / 2)));
   reserve_ = std::min<std::uint64_t>(static_cast<std::uint64_t>(std::ceil(moving / 2)), lead_ / 2);
   if (!any_active()) {
     settle_ = virtual_time_ ? settling : 0;

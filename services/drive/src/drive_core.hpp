@@ -115,6 +115,8 @@ class DriveCore {
   void move_axes();
   void supervise();
   void stopped();
+  double rate_step();
+  void return_to_whole_cycles();
   void leave(Channel& channel);
   void raise(const char* alarm, std::uint32_t part, std::string text);
 
@@ -134,10 +136,12 @@ class DriveCore {
   std::vector<double> command_;   // what the servos are told in this period
   std::vector<double> target_;    // setpoint of cycle next_ - 1: a point of the path
   std::vector<double> velocity_;  // of the path at target_, per cycle
-  std::vector<double> scratch_;
+  std::vector<double> scratch_, before_;
 
   // Braking and resuming: `rate_` cycles pass in one period, `phase_` is how far the next cycle has begun.
   double rate_ = 1, rate_step_ = 0, phase_ = 0;
+  double dip_step_ = 0;
+  std::uint32_t dip_depth_ = 0, dip_periods_ = 0;
   bool off_path_ = false;  // braking went on along the tangent, so the axes are not on the path
   bool resume_ = false;
   std::uint64_t reserve_ = 0;  // cycles it takes to stop within the axes' limits

@@ -19,7 +19,7 @@ bool KinematicsCore::process(const idl::stream::PathFrame& in, const stream::Fee
     std::copy_n(&in.setpoints[row * width], width, position);
     if (in.transformation == 1) {
       const auto machine = chain_->machine_from_tip({position[0], position[1], position[2]},
-                                                    {position[3], position[4], position[5]}, in.tool_length);
+                                                    geometry::angles_of(position), in.tool_length);
       position[0] = machine[0], position[1] = machine[1], position[2] = machine[2];
     }
     for (const auto index : axes_.index) *to++ = position[index];

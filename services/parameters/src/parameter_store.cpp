@@ -60,10 +60,10 @@ ParameterStore::ParameterStore(Storage& storage, MachineDefaults defaults, const
   state_.offsets = defaults_.offsets;
   if (const auto text = storage_.read(parameters_file))
     state_.overrides = machine::read_parameter_text(*text, parameters_file);
-  if (const auto text = storage_.read(tools_file))
-    state_.tools = read_tools(*text, tools_file, state_.tools_revision);
-  if (const auto text = storage_.read(offsets_file))
-    state_.offsets = read_offsets(*text, offsets_file, state_.offsets_revision);
+  if (const auto text = storage_.read(setup::tools_file))
+    state_.tools = setup::read_tools(*text, setup::tools_file, state_.tools_revision);
+  if (const auto text = storage_.read(setup::offsets_file))
+    state_.offsets = setup::read_offsets(*text, setup::offsets_file, state_.offsets_revision);
   // A torn last line of the journal ends here, so that the next entry has a line of its own.
   if (const auto text = storage_.read(journal_file); text && !text->empty() && text->back() != '\n')
     storage_.truncate(journal_file, text->rfind('\n') == std::string::npos ? 0 : text->rfind('\n') + 1);
@@ -171,7 +171,7 @@ std::string ParameterStore::change(State& next, const ParameterRequest& request,
         journal.push_back(line(time, who, "tool", tool.number, before, nlohmann::json()));
         continue;
       }
-      if (auto error = check_tool(tool); !error.empty()) return error;
+      if (auto error = setup::check_tool(tool); !error.empty()) return error;
       if (found != next.tools.end() && found->second == tool) continue;
       next.tools[tool.number] = tool;
       journal.push_back(line(time, who, "tool", tool.number, before, json_of(tool)));
@@ -181,7 +181,7 @@ std::string ParameterStore::change(State& next, const ParameterRequest& request,
   if (offsets) {
     for (auto offset : request.offsets) {
       if (offset.values.size() < 9) offset.values.resize(9, 0.0);
-      if (auto error = check_offset(offset); !error.empty()) return error;
+      if (auto error = setup::check_offset(offset); !error.empty()) return error;
       auto& entry = next.offsets[{offset.channel, offset.index}];
       if (entry.values == offset.values) continue;
       journal.push_back(line(
@@ -204,9 +204,9 @@ void ParameterStore::commit(const State& next, const ActiveSet& active,
     files.push_back({parameters_file, "# Saved values; all others are the machine's defaults.\n" +
                                           machine::write_parameter_text(next.overrides)});
   if (next.tools_revision != state_.tools_revision)
-    files.push_back({tools_file, write_tools(next.tools, next.tools_revision)});
+    files.push_back({setup::tools_file, setup::write_tools(next.tools, next.tools_revision)});
   if (next.offsets_revision != state_.offsets_revision)
-    files.push_back({offsets_file, write_offsets(next.offsets, next.offsets_revision)});
+    files.push_back({setup::offsets_file, setup::write_offsets(next.offsets, next.offsets_revision)});
   const auto text = write_active(active);
   if (storage_.read(active_file).value_or("") != text) files.push_back({active_file, text});
 

@@ -5,16 +5,17 @@
 
 #include "active_set.hpp"
 #include "contracts/types.hpp"
+#include "setup/machine_tables.hpp"
+#include "setup/tables.hpp"
 #include "storage.hpp"
-#include "tables.hpp"
 
 namespace trunnion::parameters {
 
 /// What the machine builder delivers: the values a saved value is an exception from.
 struct MachineDefaults {
   Values values;
-  Tools tools;
-  Offsets offsets;
+  setup::Tools tools;
+  setup::Offsets offsets;
 };
 
 /// Which published topics have news.
@@ -46,8 +47,8 @@ class ParameterStore {
  private:
   struct State {
     Values overrides;  ///< stored values that differ from the machine's defaults
-    Tools tools;
-    Offsets offsets;
+    setup::Tools tools;
+    setup::Offsets offsets;
     std::uint64_t tools_revision = 1, offsets_revision = 1;
   };
   machine::ParameterValue machine_default(std::uint32_t number) const;
@@ -70,8 +71,6 @@ class ParameterStore {
 std::vector<std::string> read_journal(const std::string& text);
 
 inline constexpr const char* parameters_file = "parameters.yaml";
-inline constexpr const char* tools_file = "tools.yaml";
-inline constexpr const char* offsets_file = "work_offsets.yaml";
 inline constexpr const char* active_file = "active.yaml";
 inline constexpr const char* journal_file = "journal.jsonl";
 

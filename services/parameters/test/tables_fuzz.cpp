@@ -3,7 +3,7 @@
 #include <cstdlib>
 
 #include "active_set.hpp"
-#include "tables.hpp"
+#include "setup/tables.hpp"
 #include "testing_support/refusal.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -12,14 +12,16 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::string text(reinterpret_cast<const char*>(data), size);
   testing_support::taken_or_refused("tools.yaml", [&] {
     std::uint64_t revision = 0, again = 0;
-    const auto tools = read_tools(text, "tools.yaml", revision);
-    if (read_tools(write_tools(tools, revision), "written", again) != tools || again != revision)
+    const auto tools = setup::read_tools(text, "tools.yaml", revision);
+    if (setup::read_tools(setup::write_tools(tools, revision), "written", again) != tools ||
+        again != revision)
       std::abort();
   });
   testing_support::taken_or_refused("work_offsets.yaml", [&] {
     std::uint64_t revision = 0, again = 0;
-    const auto offsets = read_offsets(text, "work_offsets.yaml", revision);
-    if (read_offsets(write_offsets(offsets, revision), "written", again) != offsets || again != revision)
+    const auto offsets = setup::read_offsets(text, "work_offsets.yaml", revision);
+    if (setup::read_offsets(setup::write_offsets(offsets, revision), "written", again) != offsets ||
+        again != revision)
       std::abort();
   });
   testing_support::taken_or_refused("active.yaml", [&] {

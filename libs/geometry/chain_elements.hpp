@@ -1,0 +1,40 @@
+// A kinematic chain as data: named elements in the order in which they stand from the workpiece to the tool.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "geometry/chain.hpp"
+
+namespace trunnion::geometry {
+
+enum class ElementKind : std::uint8_t {
+  offset,      ///< a fixed vector of the machine's design
+  correction,  ///< a fixed vector that a measurement of the kinematics writes; counts like an offset
+  linear,      ///< X, Y or Z
+  rotary,      ///< A, B, C, U, V or W; before the first linear axis it carries the workpiece, else the tool
+};
+
+struct ChainElement {
+  std::string name;
+  ElementKind kind = ElementKind::offset;
+  /// Offset and correction: mm, towards the tool, machine coordinates with every axis at zero. Linear: where
+  /// the tool moves seen from the workpiece when the axis goes in the positive direction. Rotary: axis of
+  /// rotation, signed by the sense in which a positive angle turns what the axis carries.
+  Vec3 vector = Vec3::Zero();
+  std::size_t axis = 0;  ///< linear: 0 = X .. 2 = Z; rotary: 0 = A .. 5 = W
+};
+
+struct ChainDescription {
+  Vec3 tool_direction = Vec3::UnitZ();  ///< as in ChainParameters
+  std::vector<ChainElement> elements;
+  /// A closed chain ends where it began: tip = machine position when everything stands at zero and the tool
+  /// has no length, whatever the vectors sum up to. An open one ends where its vectors say.
+  bool closed = true;
+};
+
+/// The same machine in the form of the parameters: neighbouring offsets and corrections are added up. Errors:
+/// those of the order (linear_between_rotary, too_many_rotary, linear_missing); Chain::make finds the others.
+std::variant<ChainParameters, ChainError> parameters_of(const ChainDescription& description);
+
+}  // namespace trunnion::geometry

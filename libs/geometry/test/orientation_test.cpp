@@ -1,0 +1,282 @@
+#include "geometry/orientation.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+#include <vector>
+
+#include "geometry/angle.hpp"
+#include "machines.hpp"
+
+namespace trunnion::geometry {
+namespace {
+
+const double half = 0.5, root_half = std::sqrt(0.5), root_three_quarters = std::sqrt(0.75);
+constexpr std::size_t a = 0, b = 1, c = 2;
+
+OrientationRequest towards(const Vec3& direction) {
+  OrientationRequest request;
+  request.direction = direction;
+  return request;
+}
+
+std::vector<Orientation> every(const ChainParameters& p, const OrientationRequest& request) {
+  const OrientationSolver solver(make(p));
+  std::vector<Orientation> out(OrientationSolver::most_solutions);
+  OrientationAnswer answer;
+  out.resize(solver.all(request, out, answer));
+  return out;
+}
+
+OrientationAnswer best(const ChainParameters& p, const OrientationRequest& request) {
+  return OrientationSolver(make(p)).best(request);
+}
+
+// A turns the table about -X: the tool leans to (0, -sin A, cos A). The other solution leans the other way
+// and turns the table by half a turn. C of this machine is endless, so each stands there once.
+TEST(Orientation, ac_table_has_two_solutions_and_prefers_the_shorter_way_of_c) {
+  const auto solutions = every(ac_table(), towards(Vec3(0, -half, root_three_quarters)));
+  ASSERT_EQ(solutions.size(), 2u);
+  EXPECT_NEAR(solutions[0].angles[a], 30, 1e-12);
+  EXPECT_NEAR(solutions[0].angles[c], 0, 1e-12);
+  EXPECT_NEAR(solutions[1].angles[a], -30, 1e-12);
+  EXPECT_NEAR(std::abs(solutions[1].angles[c]), 180, 1e-12);
+  EXPECT_NEAR(solutions[0].regularity, half, 1e-12) << "sin 30";
+}
+
+// B30 with C0 or a full turn away; B-30 with C half a turn to either side. All of B's ways are 30.
+TEST(Orientation, full_turns_within_the_travel_are_solutions_of_their_own) {
+  auto request = towards(Vec3(half, 0, root_three_quarters));
+  request.travel[b] = {-110, 110};
+  request.travel[c] = {-380, 380};
+  const auto solutions = every(cb_head(), request);
+  const double expected[][2] = {{30, 0}, {-30, 180}, {-30, -180}, {30, 360}, {30, -360}};
+  ASSERT_EQ(solutions.size(), 5u);
+  for (std::size_t i = 0; i < 5; ++i) {
+    EXPECT_NEAR(solutions[i].angles[b], expected[i][0], 1e-12) << i;
+    EXPECT_NEAR(solutions[i].angles[c], expected[i][1], 1e-12) << i;
+  }
+}
+
+TEST(Orientation, p1_and_p2_turn_the_axis_nearest_the_tool_only_one_way) {
+  auto request = towards(Vec3(0, -half, root_three_quarters));
+  request.present[a] = -10;
+  EXPECT_NEAR(best(ac_table(), request).best.angles[a], -30, 1e-12) << "20 degrees instead of 40";
+  request.way = WayChoice::positive;
+  EXPECT_NEAR(best(ac_table(), request).best.angles[a], 30, 1e-12);
+  request.way = WayChoice::negative;
+  EXPECT_NEAR(best(ac_table(), request).best.angles[a], -30, 1e-12);
+  request.travel[a] = {-20, 110};
+  EXPECT_EQ(best(ac_table(), request).status, OrientationStatus::outside_travel);
+  request.way = WayChoice::shortest;
+  EXPECT_NEAR(best(ac_table(), request).best.angles[a], 30, 1e-12) << "all that the travel leaves";
+}
+
+// From A-5 C0 to the direction of A2 C100, which is also that of A-2 C-80: 7 + 100 or 3 + 80 degrees. From A5
+// C90: 3 + 10 or 7 + 170.
+TEST(Orientation, continuity_keeps_the_branch_the_rotary_axes_are_on) {
+  auto request = towards(make(ac_table()).tool_direction_in_workpiece({2, 0, 100}));
+  request.way = WayChoice::continuous;
+  request.present = {-5, 0, 0};
+  EXPECT_NEAR(best(ac_table(), request).best.angles[c], -80, 1e-9);
+  request.present = {5, 0, 90};
+  EXPECT_NEAR(best(ac_table(), request).best.angles[c], 100, 1e-9);
+  request.present = {5, 0, 3690};
+  EXPECT_NEAR(best(ac_table(), request).best.angles[c], 3700, 1e-9) << "ten turns on, still near";
+}
+
+TEST(Orientation, at_the_pole_the_axis_under_the_workpiece_stays_where_it_is) {
+  auto request = towards(Vec3(0, 0, 1));
+  request.present = {25, 0, 123};
+  const auto answer = best(ac_table(), request);
+  ASSERT_EQ(answer.status, OrientationStatus::found);
+  EXPECT_NEAR(answer.best.angles[a], 0, 1e-12);
+  EXPECT_EQ(answer.best.angles[c], 123);
+  EXPECT_EQ(answer.best.regularity, 0);
+  EXPECT_EQ(every(ac_table(), request).size(), 1u);
+}
+
+// One degree of direction across needs at most 1/regularity degrees of an axis: compared with the solution
+// for a direction 1e-6 degrees away in the worst of many senses.
+TEST(Orientation, regularity_bounds_how_far_the_axes_turn) {
+  std::mt19937_64 random(21);
+  std::uniform_real_distribution<double> lean(5, 85), turn(-180, 180);
+  for (const auto& p : {ac_table(), cb_head(), nutating_b_head_c_table(), skewed_head()}) {
+    const Chain chain = make(p);
+    const OrientationSolver solver(chain);
+    for (int i = 0; i < 200; ++i) {
+      OrientationRequest request;
+      request.way = WayChoice::continuous;
+      for (auto& angle : request.present) angle = lean(random);
+      const Vec3 u = chain.tool_direction_in_workpiece(request.present);
+      const auto here = solver.best(towards(u)), same = solver.best([&] {
+        auto r = request;
+        r.direction = u;
+        return r;
+      }());
+      ASSERT_EQ(here.status, OrientationStatus::found);
+      const double eps = 1e-6 * radians_per_degree;
+      for (int k = 0; k < 8; ++k) {
+        Vec3 across = u.cross(Vec3(std::cos(k), std::sin(k), 0.3 * k));
+        request.direction = u + eps * across.normalized();
+        const auto there = solver.best(request);
+        for (std::size_t n = 0; n < angle_count; ++n)
+          ASSERT_LE(std::abs(there.best.angles[n] - same.best.angles[n]),
+                    1.01e-6 / same.best.regularity + 1e-12);
+      }
+    }
+  }
+}
+
+// About (0, 1, 1) by 90 degrees: k x z + (k.z) k = (sqrt 1/2, 0, 0) + (0, 1/2, 1/2). By 180: 2 (k.z) k - z =
+// (0, 1, 0). It reaches no lower than that: straight down the nearest is horizontal.
+TEST(Orientation, nutating_head_by_hand) {
+  auto request = towards(Vec3(root_half, half, half));
+  request.travel[b] = {-1, 181};
+  auto answer = best(nutating_b_head_c_table(), request);
+  ASSERT_EQ(answer.status, OrientationStatus::found);
+  EXPECT_NEAR(answer.best.angles[b], 90, 1e-12);
+  EXPECT_NEAR(answer.best.angles[c], 0, 1e-12);
+  request.direction = Vec3(0, 1, 0);
+  answer = best(nutating_b_head_c_table(), request);
+  EXPECT_NEAR(answer.best.angles[b], 180, 1e-6) << "the border: B turns with the root of the direction";
+  EXPECT_NEAR(answer.best.angles[c], 0, 1e-6);
+  request.direction = Vec3(1e-3, 0, -1);
+  answer = best(nutating_b_head_c_table(), request);
+  EXPECT_EQ(answer.status, OrientationStatus::unreachable);
+  EXPECT_NEAR((answer.nearest - Vec3(1, 0, 0)).norm(), 0, 1e-12);
+}
+
+// A four-axis machine reaches only directions across its axis: of (0.6, -0.4, 0.6928) the part across X,
+// whose lean is atan(0.4 / 0.6928) = 30 degrees.
+TEST(Orientation, one_rotary_axis_reaches_a_circle_and_names_the_nearest_on_it) {
+  const double w = 0.4 * std::sqrt(3.0);
+  auto answer = best(a_table(), towards(Vec3(0, -0.4, w)));
+  ASSERT_EQ(answer.status, OrientationStatus::found);
+  EXPECT_NEAR(answer.best.angles[a], 30, 1e-12);
+  answer = best(a_table(), towards(Vec3(0.6, -0.4, w)));
+  EXPECT_EQ(answer.status, OrientationStatus::unreachable);
+  EXPECT_LT((answer.nearest - Vec3(0, -half, root_three_quarters)).norm(), 1e-12);
+}
+
+TEST(Orientation, a_machine_without_rotary_axes_has_one_direction) {
+  EXPECT_EQ(best({}, towards(Vec3(0, 0, 3))).status, OrientationStatus::found);
+  const auto answer = best({}, towards(Vec3(0, 1, 1)));
+  EXPECT_EQ(answer.status, OrientationStatus::unreachable);
+  EXPECT_EQ(answer.nearest, Vec3(0, 0, 1));
+}
+
+// C and A under the workpiece, B in the head: A and B are the pair nearest the tool. With B shut, C and B
+// come next and cannot, then C and A lean the tool to +X as A30 with C turned: the tool leans to (sin A sin
+// C, -sin A cos C, cos A), so C90.
+TEST(Orientation, redundant_axes_stay_and_the_pair_nearest_the_tool_moves) {
+  auto request = towards(Vec3(half, 0, root_three_quarters));
+  auto answer = best(ac_table_with_b_head(), request);
+  ASSERT_EQ(answer.status, OrientationStatus::found);
+  EXPECT_NEAR(answer.best.angles[a], 0, 1e-12);
+  EXPECT_NEAR(answer.best.angles[b], 30, 1e-12);
+  EXPECT_EQ(answer.best.angles[c], 0);
+  request.travel[b] = {-10, 10};
+  answer = best(ac_table_with_b_head(), request);
+  ASSERT_EQ(answer.status, OrientationStatus::found);
+  EXPECT_NEAR(answer.best.angles[a], 30, 1e-12);
+  EXPECT_EQ(answer.best.angles[b], 0);
+  EXPECT_NEAR(answer.best.angles[c], 90, 1e-12);
+}
+
+TEST(Orientation, refuses_what_is_no_direction) {
+  const double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
+  for (const Vec3& d : {Vec3(0, 0, 0), Vec3(nan, 0, 1), Vec3(0, inf, 1), Vec3(-inf, inf, nan)})
+    EXPECT_EQ(best(ac_table(), towards(d)).status, OrientationStatus::not_a_direction);
+  EXPECT_EQ(best(ac_table(), towards(Vec3(0, 0, 1e-300))).status, OrientationStatus::found);
+  EXPECT_EQ(best(ac_table(), towards(Vec3(0, 1e300, 1e300))).status, OrientationStatus::found);
+}
+
+// On the machine whose axes are as a calibration found them, the direction of the C axis itself is out of
+// reach by the 1e-4 by which A and the tool are not perpendicular to it: an orientation tolerance closes
+// that.
+TEST(Orientation, a_tolerance_accepts_the_nearest_direction) {
+  auto request = towards(Vec3(-2e-4, -1e-5, 1));
+  EXPECT_EQ(best(skewed_ac_table(), request).status, OrientationStatus::unreachable);
+  request.tolerance = 0.05;
+  const auto answer = best(skewed_ac_table(), request);
+  ASSERT_EQ(answer.status, OrientationStatus::found);
+  const Vec3 reached = make(skewed_ac_table()).tool_direction_in_workpiece(answer.best.angles);
+  EXPECT_LT(angle_between(reached, request.direction), 0.05 * radians_per_degree);
+}
+
+// Every solution lies within the travel, has the direction, comes in order of its way, differs from the
+// others, and the first is best(); the position the direction was made from is among them.
+TEST(Orientation, lists_hold_what_they_promise_over_random_poses) {
+  std::mt19937_64 random(22);
+  std::uniform_real_distribution<double> any(-400, 400), width(30, 800);
+  for (const Machine& m : machines()) {
+    const Chain chain = make(m.parameters);
+    if (chain.rotary_count() > 2) continue;
+    const OrientationSolver solver(chain);
+    const auto leading = chain.orienting_axis(chain.rotary_count() - 1).angle;
+    std::vector<Orientation> list(OrientationSolver::most_solutions);
+    for (int i = 0; i < 3000; ++i) {
+      OrientationRequest request;
+      Angles target{};
+      for (std::size_t n = 0; n < angle_count; ++n) {
+        const double low = any(random), high = low + width(random);
+        request.travel[n] = {low, high};
+        target[n] = std::uniform_real_distribution<double>(low, high)(random);
+        request.present[n] = std::uniform_real_distribution<double>(low, high)(random);
+      }
+      request.direction = chain.tool_direction_in_workpiece(target);
+      OrientationAnswer answer;
+      const auto count = solver.all(request, list, answer);
+      ASSERT_EQ(answer.status, OrientationStatus::found) << m.name;
+      bool target_there = false;
+      for (std::size_t k = 0; k < count; ++k) {
+        bool same = true;
+        for (std::size_t n = 0; n < chain.rotary_count(); ++n) {
+          const auto axis = chain.orienting_axis(n).angle;
+          ASSERT_GE(list[k].angles[axis], request.travel[axis].negative - 1e-8);
+          ASSERT_LE(list[k].angles[axis], request.travel[axis].positive + 1e-8);
+          same = same && std::abs(list[k].angles[axis] - target[axis]) < 1e-5;
+        }
+        target_there = target_there || same;
+        ASSERT_LT((chain.tool_direction_in_workpiece(list[k].angles) - request.direction).norm(), 1e-12);
+        if (k > 0) {
+          ASSERT_GE(std::abs(list[k].angles[leading] - request.present[leading]) -
+                        std::abs(list[k - 1].angles[leading] - request.present[leading]),
+                    -1e-6);
+        }
+      }
+      ASSERT_TRUE(target_there) << m.name;
+      const auto first = solver.best(request);
+      for (std::size_t n = 0; n < angle_count; ++n)
+        ASSERT_NEAR(first.best.angles[n], list[0].angles[n], 1e-9) << m.name;
+    }
+  }
+}
+
+TEST(Angle, sine_and_cosine_are_those_of_the_c_library_and_exact_at_quarter_turns) {
+  std::mt19937_64 random(23);
+  std::uniform_real_distribution<double> angle(-360, 360);
+  for (int i = 0; i < 100000; ++i) {
+    const double degrees = angle(random);
+    const auto t = sine_cosine(degrees);
+    const long double radians = static_cast<long double>(degrees) * std::numbers::pi_v<long double> / 180;
+    // Half a unit of the result and what rounding the radians to 53 bits costs.
+    ASSERT_NEAR(static_cast<double>(t.sine - std::sin(radians)), 0, 3e-16) << degrees;
+    ASSERT_NEAR(static_cast<double>(t.cosine - std::cos(radians)), 0, 3e-16) << degrees;
+  }
+  const double sine[] = {0, 1, 0, -1}, cosine[] = {1, 0, -1, 0};
+  for (int k = -4000; k <= 4000; ++k) {
+    const auto t = sine_cosine(90.0 * k);
+    ASSERT_EQ(t.sine, sine[k & 3]);
+    ASSERT_EQ(t.cosine, cosine[k & 3]);
+  }
+  EXPECT_TRUE(std::isnan(sine_cosine(std::numeric_limits<double>::infinity()).sine));
+  EXPECT_TRUE(std::isnan(sine_cosine(std::numeric_limits<double>::quiet_NaN()).cosine));
+  EXPECT_EQ(sine_cosine(360.0 * 1e15).cosine, 1);
+}
+
+}  // namespace
+}  // namespace trunnion::geometry

@@ -1,0 +1,97 @@
+// The part of Interpreter that calls subprograms, macros and cycles and comes back from them.
+#include "language/interpreter.hpp"
+
+namespace trunnion::language {
+
+Interpreter::State Interpreter::call_macro(Call& call, std::string_view line) {
+  if (const Fault fault = read_call(block_, call)) return fail(fault, line);
+  if (call.kind == CallKind::modal_cancel || call.kind == CallKind::modal_macro) {
+    modal_call_active_ = call.kind == CallKind::modal_macro;
+    control_.set_modal_macro(modal_call_active_);
+    modal_call_ = call;
+    modal_call_.offset = modal_call_.program_offset = 0;  // it will be called from other lines
+    if (modal_call_active_) read_arguments(block_, call.kind, executor_.modal().absolute, modal_arguments_);
+    return State::running;
+  }
+  read_arguments(block_, call.kind, executor_.modal().absolute, arguments_);
+  return this->call(call, line);
+}
+
+Interpreter::State Interpreter::call(const Call& call, std::string_view line) {
+  if (depth_ == max_nesting) return fail({AlarmNumber::nesting_too_deep, call.offset}, line);
+  call_ = call;
+  after_call_ = reader_.position();
+  const bool cycle = call.kind == CallKind::cycle;
+  TextSource* const caller = frames_[depth_].source;
+  for (const Found& known : found_) {
+    if (known.caller == caller && known.number == call.number && known.cycle == cycle) return enter(known);
+  }
+  not_found_ = located({AlarmNumber::subprogram_missing, call.program_offset}, line);
+  search_.purpose = Purpose::program;
+  search_.wanted = call.number;
+  search_.source = cycle ? environment_.subprogram(ProgramName(cycle_file).view()) : caller;
+  if (search_.source == nullptr) return fail(not_found_);
+  reader_.seek(*search_.source, {});
+  return State::searching;
+}
+
+Interpreter::State Interpreter::found(TextSource& source, std::uint32_t program, TextPosition top) {
+  Found& entry = found_[next_found_];
+  next_found_ = (next_found_ + 1) % found_.size();
+  entry = {frames_[depth_].source, call_.number, call_.kind == CallKind::cycle, &source, program, top};
+  return enter(entry);
+}
+
+Interpreter::State Interpreter::enter(const Found& target) {
+  frames_[depth_].resume = after_call_;
+  Frame& frame = frames_[++depth_];
+  frame.source = target.source;
+  frame.program = target.program;
+  frame.top = target.top;
+  frame.call_line = line_;
+  frame.remaining = call_.repetitions - 1;
+  frame.begun = false;
+  frame.own_variables = call_.kind != CallKind::subprogram;
+  frame.modal = call_.kind == CallKind::modal_macro;
+  frame.open.clear();
+  if (frame.own_variables) variables_.enter(arguments_);
+  if (frame.modal) in_modal_call_ = true;
+  reader_.seek(*frame.source, frame.top);
+  return State::running;
+}
+
+Interpreter::State Interpreter::return_from_subprogram(const Flow& flow, std::string_view line) {
+  Frame& frame = frames_[depth_];
+  if (depth_ == 0 && flow.to_label) {
+    return jump(Purpose::label, flow.subprogram, position_, {AlarmNumber::label_missing, block_.offset('P')},
+                line);
+  }
+  if (depth_ == 0 && !options_.repeat) {
+    if (const Fault fault = executor_.end_program(0, frame.program, line_, queue_)) return fail(fault, line);
+    return State::done;
+  }
+  if (depth_ == 0 || frame.remaining > 0) {
+    if (depth_ != 0) --frame.remaining;
+    frame.begun = false;
+    frame.open.clear();
+    if (frame.own_variables) variables_.repeat();
+    reader_.seek(*frame.source, frame.top);
+    return State::running;
+  }
+  if (frame.own_variables) variables_.leave();
+  if (frame.modal) in_modal_call_ = false;
+  // The alarm of a label that is not there belongs to the M99 that names it.
+  if (flow.to_label) {
+    not_found_ = located({AlarmNumber::label_missing, block_.offset('P')}, line);
+    not_allowed_ = located({AlarmNumber::jump_into_structure, block_.offset('P')}, line);
+  }
+  --depth_;
+  const Frame& caller = frames_[depth_];
+  reader_.seek(*caller.source, caller.resume);
+  if (!flow.to_label) return State::running;
+  const auto* const known =
+      jumps_.find(caller.source, caller.resume.offset, key(Purpose::label, flow.subprogram));
+  return known != nullptr ? arrive(*known) : search(Purpose::label, flow.subprogram, caller.resume);
+}
+
+}  // namespace trunnion::language

@@ -1,0 +1,159 @@
+// The part of Interpreter that branches, loops and jumps.
+#include "language/interpreter.hpp"
+
+namespace trunnion::language {
+
+Interpreter::State Interpreter::run_statement(std::string_view line) {
+  Frame& frame = frames_[depth_];
+  const Fault in_vain{AlarmNumber::begin_without_end, block_.at};
+  const Statement statement = block_.statement;
+  switch (statement) {
+    case Statement::none:
+      return State::running;
+    case Statement::assignment:
+      if (Fault fault = control_.carry_out(frame.program, line_, queue_)) {
+        fault.offset = block_.at;
+        return fail(fault, line);
+      }
+      return State::running;
+    case Statement::go_to:
+      return jump(Purpose::label, block_.label, position_, {AlarmNumber::label_missing, block_.at}, line);
+    default:
+      break;
+  }
+  const TextPosition begin = frame.open.size() != 0 ? frame.open.top().begin : TextPosition{};
+  const AlarmNumber alarm = frame.open.pass(statement, block_.label, position_);
+  if (alarm != AlarmNumber::none) return fail({alarm, block_.at}, line);
+  switch (statement) {
+    case Statement::begin_if:
+      return branch(block_.condition, line);
+    case Statement::else_if: {
+      const bool due = else_if_due_;
+      else_if_due_ = false;
+      if (!due) return jump(Purpose::end, 0, position_, in_vain, line);
+      bool condition = false;
+      if (const Fault fault = dialect_.read_condition(line, block_.rest, variables_, condition))
+        return fail(fault, line);
+      return branch(condition, line);
+    }
+    case Statement::else_:
+      return jump(Purpose::end, 0, position_, in_vain, line);
+    case Statement::begin_while:
+    case Statement::begin_do:
+      return block_.condition ? State::running : jump(Purpose::end, 0, position_, in_vain, line);
+    case Statement::end_while:
+    case Statement::end_do:
+      // The beginning is read again: its condition decides.
+      reader_.seek(*frame.source, begin);
+      return State::running;
+    default:
+      return State::running;
+  }
+}
+
+Interpreter::State Interpreter::branch(bool condition, std::string_view line) {
+  if (condition) return State::running;
+  return jump(Purpose::branch, 0, position_, {AlarmNumber::begin_without_end, block_.at}, line);
+}
+
+Interpreter::State Interpreter::jump(Purpose purpose, std::uint32_t wanted, TextPosition from,
+                                     const Fault& in_vain, std::string_view line) {
+  const JumpCache::Target* const known =
+      jumps_.find(frames_[depth_].source, from.offset, key(purpose, wanted));
+  if (known != nullptr) return arrive(*known);
+  not_found_ = located(in_vain, line);
+  not_allowed_ = located({AlarmNumber::jump_into_structure, in_vain.offset}, line);
+  return search(purpose, wanted, from);
+}
+
+Interpreter::State Interpreter::search(Purpose purpose, std::uint32_t wanted, TextPosition from) {
+  const Frame& frame = frames_[depth_];
+  search_.purpose = purpose;
+  search_.source = frame.source;
+  search_.wanted = wanted;
+  search_.from = from;
+  search_.from_top = false;
+  search_.depth = frame.open.size();
+  search_.open = frame.open;
+  return State::searching;
+}
+
+Interpreter::State Interpreter::arrive(const JumpCache::Target& target) {
+  Frame& frame = frames_[depth_];
+  frame.open.cut(target.open);
+  else_if_due_ = target.at_else_if;
+  reader_.seek(*frame.source, target.position);
+  return State::running;
+}
+
+Interpreter::State Interpreter::search_line(Step& step) {
+  const TextPosition position = reader_.position();
+  std::string_view line;
+  const LineReader::Status status = reader_.next(line);
+  if (status == LineReader::Status::end) return search_ended();
+  if (status != LineReader::Status::line) return report_line_status(status, step);
+  const Outline outline = dialect_.outline(line, options_.block_skip);
+  if (search_.purpose == Purpose::program) {
+    if (outline.head != Head::program || outline.program_number != search_.wanted) return State::searching;
+    const bool cycle = call_.kind == CallKind::cycle;
+    return found(*search_.source, cycle ? cycle_file : frames_[depth_].program, position);
+  }
+  if (search_.purpose == Purpose::label) {
+    // What lies between the top and the jump is this program, its head included.
+    if (search_.from_top ? position.offset > search_.from.offset : outline.head != Head::none)
+      return search_ended();
+    if (outline.sequence_number == search_.wanted) return label_found(position);
+  } else {
+    if (outline.head != Head::none) return search_ended();
+    if (search_.open.size() == search_.depth && structure_found(outline.statement)) {
+      JumpCache::Target target{reader_.position(), search_.depth - 1, false};
+      if (outline.statement == Statement::else_) target.open = search_.depth;
+      if (outline.statement == Statement::else_if) target = {position, search_.depth, true};
+      jumps_.store(search_.source, search_.from.offset, key(search_.purpose, search_.wanted), target);
+      return arrive(target);
+    }
+  }
+  const AlarmNumber alarm = search_.open.pass(outline.statement, outline.label, position);
+  if (alarm == AlarmNumber::none) return State::searching;
+  line_ = position.line;
+  return fail({alarm, 0}, {});
+}
+
+bool Interpreter::structure_found(Statement statement) const {
+  const Statement begin = search_.open.top().kind;
+  switch (statement) {
+    case Statement::else_if:
+    case Statement::else_:
+      return search_.purpose == Purpose::branch && begin == Statement::begin_if;
+    case Statement::end_if:
+      return begin == Statement::begin_if;
+    case Statement::end_while:
+      return begin == Statement::begin_while;
+    case Statement::end_do:
+      return begin == Statement::begin_do;
+    default:
+      return false;
+  }
+}
+
+Interpreter::State Interpreter::label_found(TextPosition position) {
+  const std::size_t common = frames_[depth_].open.common(search_.open);
+  if (common != search_.open.size()) return fail(not_allowed_);
+  const JumpCache::Target target{position, common, false};
+  jumps_.store(search_.source, search_.from.offset, key(search_.purpose, search_.wanted), target);
+  return arrive(target);
+}
+
+Interpreter::State Interpreter::search_ended() {
+  if (search_.purpose == Purpose::program && call_.kind != CallKind::cycle) {
+    TextSource* const other = environment_.subprogram(ProgramName(call_.number).view());
+    if (other != nullptr) return found(*other, call_.number, {});
+  }
+  if (search_.purpose != Purpose::label || search_.from_top) return fail(not_found_);
+  search_.from_top = true;
+  search_.open.clear();
+  reader_.seek(*search_.source, frames_[depth_].top);
+  return State::searching;
+}
+
+}  // namespace trunnion::language

@@ -1,0 +1,123 @@
+#include "language/macro_call.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+namespace trunnion::language {
+namespace {
+
+constexpr double highest_program = 99999999;
+constexpr double highest_repetition = 999999;
+constexpr std::uint32_t first_m_cycle = 1007;
+
+Fault whole_word(const Block& block, char name, double lowest, double highest, std::uint32_t& result) {
+  const double value = block.value(name);
+  if (value != std::floor(value)) return {AlarmNumber::not_an_integer, block.offset(name)};
+  if (value < lowest || value > highest) return {AlarmNumber::value_range, block.offset(name)};
+  result = static_cast<std::uint32_t>(value);
+  return {};
+}
+
+/// List I and II in the order they were written: of a variable named by both, the later counts.
+void fanuc_arguments(const Block& block, Arguments& arguments) {
+  std::array<std::uint16_t, local_variables> written{};
+  const auto set = [&](std::size_t variable, double value, std::uint16_t offset) {
+    if (arguments.values[variable].given && written[variable] > offset) return;
+    arguments.values[variable] = Value::of(value);
+    written[variable] = offset;
+  };
+  for (const ArgumentLetter& argument : argument_letters) {
+    const bool centre = argument.letter >= 'I' && argument.letter <= 'K';
+    if (!centre && argument.letter != 'M' && block.has(argument.letter)) {
+      set(argument.variable, block.value(argument.letter), block.offset(argument.letter));
+    }
+  }
+  if (block.m_count != 0) set(13, block.m[0].value, block.m[0].offset);
+  // A letter that does not go on from I to K begins the next of ten sets: I J K J K is two of them.
+  std::size_t first = 4;
+  char last = '\0';
+  for (std::size_t i = 0; i < block.centre_count; ++i) {
+    const CallCentre& centre = block.centres[i];
+    if (centre.letter <= last) first += 3;
+    last = centre.letter;
+    const std::size_t variable = first + static_cast<std::size_t>(centre.letter - 'I');
+    if (variable < local_variables) set(variable, centre.value, centre.offset);
+  }
+}
+
+}  // namespace
+
+ProgramName::ProgramName(std::uint32_t program) {
+  const auto append = [this](std::string_view part) {
+    std::copy(part.begin(), part.end(), text_.begin() + static_cast<std::ptrdiff_t>(size_));
+    size_ += part.size();
+  };
+  if (program == cycle_file) {
+    append("USERDEF.CYC");
+    return;
+  }
+  std::array<char, 10> digits{};
+  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), program).ptr;
+  const auto count = static_cast<std::size_t>(end - digits.data());
+  append("O");
+  append(std::string_view("0000").substr(std::min<std::size_t>(count, 4)));
+  append({digits.data(), count});
+}
+
+bool find_call(const Block& block, const CycleMCodes& cycle_m_codes, Call& call) {
+  for (std::size_t i = 0; i < block.g_count; ++i) {
+    const double code = block.g[i].value;
+    if (code < call_codes[0].first) continue;
+    for (const CallCode& entry : call_codes) {
+      if (code < entry.first || code > entry.last || code != std::floor(code)) continue;
+      call = Call{};
+      call.kind = entry.kind;
+      call.offset = call.program_offset = block.g[i].offset;
+      if (entry.kind == CallKind::cycle) call.number = static_cast<std::uint32_t>(code);
+      return true;
+    }
+  }
+  for (std::size_t i = 0; i < block.m_count; ++i) {
+    const double code = block.m[i].value;
+    for (std::uint32_t k = 0; k < cycle_m_codes.size(); ++k) {
+      if (cycle_m_codes[k] == 0 || code != cycle_m_codes[k]) continue;
+      call = Call{};
+      call.kind = CallKind::cycle;
+      call.number = first_m_cycle + k;
+      call.offset = call.program_offset = block.m[i].offset;
+      return true;
+    }
+  }
+  return false;
+}
+
+Fault read_call(const Block& block, Call& call) {
+  const bool fanuc = call.kind == CallKind::macro || call.kind == CallKind::modal_macro;
+  // In a Fanuc call M is an argument; otherwise the code of the call is the only one.
+  const std::size_t codes = std::size_t{block.g_count} + block.m_count;
+  if (block.g_count > 1 || codes > (fanuc ? 2u : 1u)) return {AlarmNumber::call_not_alone, call.offset};
+  if (call.kind == CallKind::cycle) return {};
+  if (call.kind == CallKind::modal_cancel) {
+    return (block.letters & ~Block::bit('N')) == 0 ? Fault{}
+                                                   : Fault{AlarmNumber::call_not_alone, call.offset};
+  }
+  if (!block.has('P')) return {AlarmNumber::missing_word, call.offset};
+  call.program_offset = block.offset('P');
+  if (const Fault fault = whole_word(block, 'P', 1, highest_program, call.number)) return fault;
+  if (!block.has('L')) return {};
+  return whole_word(block, 'L', 1, highest_repetition, call.repetitions);
+}
+
+void read_arguments(const Block& block, CallKind kind, bool absolute, Arguments& arguments) {
+  arguments.clear();
+  arguments.absolute = absolute;
+  if (kind != CallKind::cycle) return fanuc_arguments(block, arguments);
+  for (char name = 'A'; name <= 'Z'; ++name) {
+    if (name != 'N' && block.has(name)) {
+      arguments.values[static_cast<std::size_t>(name - 'A')] = Value::of(block.value(name));
+    }
+  }
+}
+
+}  // namespace trunnion::language

@@ -1,0 +1,91 @@
+// Calls of macros and cycles: what is called, and the variables its letters become.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+
+#include "language/block.hpp"
+#include "language/codes.hpp"
+
+namespace trunnion::language {
+
+/// The program a Command, an alarm or a call names: 0 the started one, n the text O000n, and this one the
+/// file of canned cycles.
+inline constexpr std::uint32_t cycle_file = 1000000000;
+
+/// "O" and at least four digits, or "USERDEF.CYC".
+class ProgramName {
+ public:
+  explicit ProgramName(std::uint32_t program);
+  std::string_view view() const { return {text_.data(), size_}; }
+
+ private:
+  std::array<char, 16> text_{};
+  std::size_t size_ = 0;
+};
+
+enum class CallKind : std::uint8_t {
+  subprogram,    ///< M98: shares the variables of its caller
+  macro,         ///< G65: a level of its own, letters after Fanuc's argument lists I and II
+  modal_macro,   ///< G66: as macro, after each motion until G67
+  modal_cancel,  ///< G67
+  cycle,         ///< G1000..G1999 or a user M code: a level of its own, letter A is #0 .. Z is #25
+};
+
+/// G codes that call programs; they stand alone among the codes of their block.
+struct CallCode {
+  std::uint16_t first;
+  std::uint16_t last;
+  CallKind kind;
+  const char* meaning;
+  Origin origin;
+  const char* since;    ///< version of Trunnion
+  const char* example;  ///< a program that shows the code
+};
+inline constexpr std::array call_codes = {
+    CallCode{65, 65, CallKind::macro, "macro call: P program, L repetitions, letters as arguments",
+             Origin::fanuc, "0.2", "G65 P9010 A5\nM30\nO9010\nM99"},
+    CallCode{66, 66, CallKind::modal_macro, "macro call as G65 behind each block that moves, until G67",
+             Origin::fanuc, "0.2", "G66 P9010 A5\nG0 X1\nG67\nM30\nO9010\nM99"},
+    CallCode{67, 67, CallKind::modal_cancel, "end of the modal macro call", Origin::fanuc, "0.2", "G67"},
+    CallCode{1000, 1999, CallKind::cycle,
+             "user cycle: the program of that number in USERDEF.CYC, letters as arguments", Origin::hnc,
+             "0.2", "G1007 X1"},
+};
+
+struct Call {
+  CallKind kind = CallKind::subprogram;
+  std::uint32_t number = 0;  ///< of the program
+  std::uint32_t repetitions = 1;
+  std::uint16_t offset = 0;          ///< of the code in its line
+  std::uint16_t program_offset = 0;  ///< of the word that names the program
+};
+
+/// The M codes that call G1007 .. G1014, 0 for none (parameters 010170 .. 010177).
+using CycleMCodes = std::array<std::uint16_t, 8>;
+
+/// Whether `block` calls a macro or a cycle.
+bool find_call(const Block& block, const CycleMCodes& cycle_m_codes, Call& call);
+
+/// Completes a call that find_call has found: P, L and that nothing else is in the block.
+Fault read_call(const Block& block, Call& call);
+
+/// The letters of the block as variables.
+void read_arguments(const Block& block, CallKind kind, bool absolute, Arguments& arguments);
+
+/// Fanuc's argument list I: the variable each letter becomes; letters that are no arguments are not in it.
+struct ArgumentLetter {
+  char letter;
+  std::uint8_t variable;
+};
+inline constexpr std::array argument_letters = {
+    ArgumentLetter{'A', 1},  ArgumentLetter{'B', 2},  ArgumentLetter{'C', 3},  ArgumentLetter{'D', 7},
+    ArgumentLetter{'E', 8},  ArgumentLetter{'F', 9},  ArgumentLetter{'H', 11}, ArgumentLetter{'I', 4},
+    ArgumentLetter{'J', 5},  ArgumentLetter{'K', 6},  ArgumentLetter{'M', 13}, ArgumentLetter{'Q', 17},
+    ArgumentLetter{'R', 18}, ArgumentLetter{'S', 19}, ArgumentLetter{'T', 20}, ArgumentLetter{'U', 21},
+    ArgumentLetter{'V', 22}, ArgumentLetter{'W', 23}, ArgumentLetter{'X', 24}, ArgumentLetter{'Y', 25},
+    ArgumentLetter{'Z', 26},
+};
+
+}  // namespace trunnion::language

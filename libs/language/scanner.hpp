@@ -1,0 +1,84 @@
+// One line of program text from left to right.
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+#include "language/decimal.hpp"
+
+namespace trunnion::language {
+
+constexpr bool is_blank(char c) { return c == ' ' || c == '\t'; }
+constexpr bool is_digit(char c) { return c >= '0' && c <= '9'; }
+/// A to Z for a letter of either case, else 0.
+constexpr char letter(char c) {
+  if (c >= 'a' && c <= 'z') return static_cast<char>(c - 'a' + 'A');
+  return c >= 'A' && c <= 'Z' ? c : '\0';
+}
+
+class Scanner {
+ public:
+  explicit Scanner(std::string_view line, std::size_t from = 0)
+      : begin_(line.data()), p_(begin_ + from), end_(begin_ + line.size()) {}
+
+  bool at_end() const { return p_ == end_; }
+  char peek() const { return *p_; }
+  /// The byte `ahead` of the next one, or 0 behind the end.
+  char peek(std::size_t ahead) const {
+    return ahead < static_cast<std::size_t>(end_ - p_) ? p_[ahead] : '\0';
+  }
+  void advance(std::size_t bytes = 1) { p_ += bytes; }
+  void skip_blanks() {
+    while (p_ != end_ && is_blank(*p_)) ++p_;
+  }
+  /// Skips blanks; whether something is there.
+  bool more() {
+    skip_blanks();
+    return p_ != end_;
+  }
+  /// Skips blanks and takes `c` if it is next.
+  bool take(char c) {
+    if (!more() || *p_ != c) return false;
+    ++p_;
+    return true;
+  }
+  /// Letters in sequence from here on.
+  std::size_t letters() const {
+    std::size_t count = 0;
+    while (p_ + count != end_ && letter(p_[count]) != '\0') ++count;
+    return count;
+  }
+  /// Whether `word`, in capitals, comes next in either case.
+  bool looking_at(std::string_view word) const {
+    if (static_cast<std::size_t>(end_ - p_) < word.size()) return false;
+    for (std::size_t i = 0; i < word.size(); ++i) {
+      if (letter(p_[i]) != word[i]) return false;
+    }
+    return true;
+  }
+  bool take_word(std::string_view word) {
+    if (!looking_at(word)) return false;
+    p_ += word.size();
+    return true;
+  }
+  std::uint16_t offset() const { return static_cast<std::uint16_t>(p_ - begin_); }
+  Decimal number() {
+    const Decimal decimal = read_decimal(p_, end_);
+    p_ = decimal.end;
+    return decimal;
+  }
+  /// Past the closing parenthesis; false when there is none.
+  bool skip_comment() {
+    while (p_ != end_ && *p_ != ')') ++p_;
+    if (p_ == end_) return false;
+    ++p_;
+    return true;
+  }
+
+ private:
+  const char* begin_;
+  const char* p_;
+  const char* end_;
+};
+
+}  // namespace trunnion::language

@@ -1,0 +1,111 @@
+// Programs that are wrong in their motion, and the alarm each of them gives.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "test_machine.hpp"
+
+namespace trunnion::language::test {
+
+struct WrongMotion {
+  AlarmNumber number;
+  std::string program;
+  unsigned line;
+  unsigned column;
+  std::string word;  ///< as the text ends
+};
+
+inline std::vector<WrongMotion> wrong_motion() {
+  using enum AlarmNumber;
+  std::string many_tools;
+  for (int i = 1; i <= 201; ++i) many_tools += "G10 L10 P" + std::to_string(i) + " R1\n";
+  std::string standing = "G41 D1 G1 X10 F1\nX30\n";
+  for (int i = 0; i < 64; ++i) standing += "M8\n";
+  const std::string tilt = "G43.4 H1\nG68.2 X0 Y0 Z0 I0 J10 K0\n";
+  return {
+      {codes_compete, "G52 X1 G51 P2", 1, 8, ": G51"},
+      {codes_compete, "G28 G51.1 X0", 1, 5, ": G51.1"},
+      {surface_speed_missing, "G96", 1, 1, ": G96"},
+      {surface_speed_missing, "G96 S0", 1, 1, ": G96"},
+      {tool_vector_zero, "G43.5 H1\nG1 F1 I0 J0 K0", 2, 13, ": K0"},
+      {orientation_impossible, "G43.5 H1\nG0 K-1", 2, 4, ": K-1"},
+      {orientation_impossible, "G43.5 H1\nG1 F1 I0.1 K-1", 2, 12, ": K-1"},
+      {tool_vector_opposite, "G43.5 H1\nG1 F1 I1\nI-1", 3, 1, ": I-1"},
+      {tool_vector_way, "G43.5 H1\nG1 F1 J1\nI1 K-0.1", 3, 4, ": K-0.1"},
+      {tool_vector_needed, "G43.5 H1\nG0 A1", 2, 4, ": A1"},
+      {parameter_line, "G10 L50\nG0 X1", 2, 1, ": G0"},
+      {parameter_line, "G10 L50\nN1", 2, 1, ": N1"},
+      {arc_scaled_unequally, "G51 X0 Y0 Z0 I2\nG2 X1 R1 F1", 2, 7, ": R1"},
+      {curve_incomplete, "G6.2 P2 K0 F1\nG0 X1", 2, 1, ": G0"},
+      {curve_incomplete, "G6.2 P2 K0 F1\nK0 X1", 3, 1, ""},
+      {curve_start, "G6.2 P2 K0 X5 F1", 1, 1, ": G6.2"},
+      {curve_knots, "G6.2 P2 K0 F1\nK1 X1", 2, 1, ": K1"},
+      {curve_knots, "G6.2 P2 K0 F1\nK0 X1\nK-1 X2", 3, 1, ": K-1"},
+      {curve_words, "G6.2 P2 K0 F1\nX1", 2, 1, ": X1"},
+      {curve_control_points, "G6.2 P3 K0 F1\nK0", 2, 1, ": K0"},
+      {value_range, "G6.2 P5 K0 F1", 1, 6, ": P5"},
+      {value_range, "G6.2 P2 K0 R0 F1", 1, 12, ": R0"},
+      {reference_undefined, "G30 P3 X1", 1, 5, ": P3"},
+      {intermediate_missing, "G29 X1", 1, 1, ": G29"},
+      {tool_undefined, "G10 L11 P77 R1", 1, 9, ": P77"},
+      {too_many_tools_changed, many_tools, 201, 9, ": P201"},
+      {tip_control_needed, "G68.2 X0 Y0 Z0 I0 J0 K0", 1, 1, ": G68.2"},
+      {tip_control_needed, "G53.3 L1 F1", 1, 1, ": G53.3"},
+      {cycle_depth_missing, "G81 X1 Z-1 F1", 1, 1, ": G81"},
+      {cycle_depth_missing, "G81 X1 R1 F1", 1, 1, ": G81"},
+      {cycle_peck_missing, "G83 X1 Z-1 R1 F1", 1, 1, ": G83"},
+      {cycle_peck_missing, "G83 X1 Z-1 R1 Q0 F1", 1, 15, ": Q0"},
+      {cycle_inverse_time, "G93 G81 X1 Z-1 R1 F1", 1, 5, ": G81"},
+      {cycle_lead_missing, "G84 X1 Z-1 R1 F1", 1, 1, ": G84"},
+      {cycle_lead_missing, "S100 G84 X1 Z-1 R1", 1, 6, ": G84"},
+      {feed_missing, "G81 X1 Z-1 R1", 1, 1, ": G81"},
+      {cycle_repeats, "G81 X1 Z-1 R1 K2 L2 F1", 1, 18, ": L2"},
+      {cycle_repeats, "G16 G81 Z-1 R1 L0 F1\nG91 X1 Y10 L2", 2, 5, ": X1"},
+      {cycle_return_level, "G99 G87 X1 Z-1 R-5 Q1 F1", 1, 5, ": G87"},
+      {cycle_shift_missing, "G76 X1 Z-1 R1 F1", 1, 1, ": G76"},
+      {pattern_without_cycle, "G70 X0 Y0 I1 J0 K4", 1, 1, ": G70"},
+      {value_range, "G81 Z-1 R1 L0 F1\nG78 X0 Y0 I1 J0 K-4", 2, 17, ": K-4"},
+      {value_range, "G81 Z-1 R1 L0 F1\nG70 X0 Y0 I1 J0 K0", 2, 17, ": K0"},
+      {missing_word, "G81 Z-1 R1 L0 F1\nG71 X0 Y0 I1 J0 K4", 2, 1, ": G71"},
+      {radius_undefined, "G41 D7", 1, 5, ": D7"},
+      {compensation_start, "G41 D1\nG2 X10 R10 F1", 2, 1, ": G2"},
+      {compensation_radius, "G41 D1 G1 X10 F1\nG3 X14 I2", 2, 1, ": G3"},
+      // The step of 3 between two left turns is shorter than the tool of radius 5 is wide.
+      {compensation_unresolved, "G41 D1 G1 X10 F1\nX30\nY3\nX0", 4, 1, ": X0"},
+      {compensation_interference, "G41 D1 G1 X1 F1\nX30\nY20\nX1 Y1\nG40 X-20", 4, 1, ": X1"},
+      {compensation_look_ahead, standing, 66, 1, ": M8"},
+      {compensation_active, "G41 D1\nG28 X1", 2, 1, ": G28"},
+      {compensation_active, "G41 D1\nG18", 2, 1, ": G18"},
+      {compensation_active, "G41 D1\nG55", 2, 1, ": G55"},
+      {compensation_active, "G41 D1\nG43 H1", 2, 1, ": G43"},
+      {compensation_active, "G41 D1\nG81 X1 Z-1 R1 F1", 2, 1, ": G81"},
+      {compensation_active, "G41 D1\nG92 X1", 2, 1, ": G92"},
+      {compensation_rotary, "G43.4 H1\nG41 D1 G1 X10 F1 A5", 2, 1, ": G41"},
+      {factor_range, "G51 P0", 1, 5, ": P0"},
+      {factor_range, "G51 I2 J0", 1, 8, ": J0"},
+      {missing_word, "G51 X1", 1, 1, ": G51"},
+      {missing_word, "G68 X1 Y1", 1, 1, ": G68"},
+      {frame_plane, "G68 X0 Y0 R10\nG18", 2, 1, ": G18"},
+      {frame_shift, "G68 X0 Y0 R10\nG92 X0", 2, 1, ": G92"},
+      {tilt_points, "G43.4 H1\nG68.1 Q5", 2, 7, ": Q5"},
+      {missing_word, "G43.4 H1\nG68.2 X0 Y0 Z0 I0 J0", 2, 1, ": G68.2"},
+      {tilt_swing_missing, tilt + "G0 X1", 3, 1, ": G0"},
+      {tilt_swing_missing, tilt + "G53.1 X1", 3, 1, ": G53.1"},
+      {tilt_swing_missing, tilt + "M30", 3, 1, ": M30"},
+      {tilt_swing_missing, tilt, 3, 1, ""},
+      {tilt_swing_misplaced, "G53.1", 1, 1, ": G53.1"},
+      {tilt_swing_misplaced, "G43.4 H1\nG53.2", 2, 1, ": G53.2"},
+      {tilt_active, tilt + "G53.2\nG49", 4, 1, ": G49"},
+      {value_range, "G54.1 P49", 1, 7, ": P49"},
+      {missing_word, "G54.1", 1, 1, ": G54.1"},
+      {value_range, "G10 L2 P7 X1", 1, 8, ": P7"},
+      {value_range, "G10 L30 P1 R1", 1, 5, ": L30"},
+      {value_range, "G5.1 Q3", 1, 6, ": Q3"},
+      {missing_word, "G92", 1, 1, ": G92"},
+      {group_twice, "G54 G55", 1, 5, ": G55"},
+      {group_twice, "G41 G40", 1, 5, ": G40"},
+  };
+}
+
+}  // namespace trunnion::language::test

@@ -1,0 +1,70 @@
+// Any line: no crash, words within their range, and a look at a line agrees with reading it.
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <string_view>
+
+#include "language/decimal.hpp"
+#include "language/interpreter.hpp"
+
+namespace trunnion::language {
+namespace {
+
+void require(bool condition) {
+  if (!condition) std::abort();
+}
+
+struct NoSystem : SystemVariables {
+  AlarmNumber read(const VariableRange&, std::uint32_t index, Value& value) const override {
+    value = Value::of(index);
+    return AlarmNumber::none;
+  }
+  AlarmNumber write(const VariableRange&, std::uint32_t, Value) override { return AlarmNumber::none; }
+};
+
+bool is_structure(Statement statement) {
+  return statement != Statement::none && statement != Statement::assignment && statement != Statement::go_to;
+}
+
+void check(std::string_view line, SkipLevels skip, Variables& variables, Block& block) {
+  const IsoDialect dialect;
+  const Outline outline = dialect.outline(line, skip);
+  if (const Fault fault = dialect.read_block(line, skip, variables, block)) {
+    require(fault.offset <= line.size());
+    const Alarm alarm = make_alarm(fault, line, 0, 1);
+    require(alarm.text.back() == '\0');
+    return;
+  }
+  for (std::size_t i = 0; i < 26; ++i) {
+    if (((block.letters >> i) & 1u) != 0) require(std::abs(block.values[i]) <= largest_number);
+  }
+  require(block.g_count <= max_g_codes && block.m_count <= max_m_codes &&
+          block.centre_count <= max_call_centres);
+  if (block.head == Head::none) {
+    require(is_structure(block.statement) ? outline.statement == block.statement
+                                          : outline.statement == Statement::none);
+  }
+  if (block.statement == Statement::else_if) {
+    bool condition = false;
+    static_cast<void>(dialect.read_condition(line, block.rest, variables, condition));
+  }
+}
+
+}  // namespace
+}  // namespace trunnion::language
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace trunnion::language;
+  static NoSystem system;
+  static Variables variables(system);
+  static Block block;
+  variables.start(no_variables);
+  std::string_view text(reinterpret_cast<const char*>(data), size);
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    if (end <= max_line_length) check(text.substr(0, end), 0b10, variables, block);
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return 0;
+}

@@ -1,0 +1,71 @@
+#include "language/variables.hpp"
+
+namespace trunnion::language {
+namespace {
+
+const VariableRange* system_range(double number) {
+  for (const VariableRange& range : variable_ranges) {
+    if (number >= range.first && number <= range.last) return &range;
+  }
+  return nullptr;
+}
+
+}  // namespace
+
+void Variables::start(const VariableStore& store) {
+  store_ = store;
+  level_ = 0;
+  levels_[0].arguments.clear();
+  levels_[0].values.fill({});
+}
+
+void Variables::enter(const Arguments& arguments) {
+  Level& level = levels_[++level_];
+  level.arguments = arguments;
+  level.values = arguments.values;
+}
+
+const Value* Variables::stored(double number) const {
+  const auto in = [number](std::uint32_t first, const auto& values) -> const Value* {
+    if (number < first || number >= first + values.size()) return nullptr;
+    return &values[static_cast<std::size_t>(number) - first];
+  };
+  if (const Value* const value = in(50, store_.common)) return value;
+  if (const Value* const value = in(500, store_.kept)) return value;
+  return in(50000, store_.user);
+}
+
+AlarmNumber Variables::read_common(double number, Value& value) const {
+  if (const Value* const found = stored(number)) {
+    value = *found;
+    return AlarmNumber::none;
+  }
+  const VariableRange* const range = system_range(number);
+  if (range == nullptr) return AlarmNumber::variable_unknown;
+  return system_.read(*range, static_cast<std::uint32_t>(number) - range->first, value);
+}
+
+AlarmNumber Variables::write(double number, Value value) {
+  if (number < local_variables) {
+    levels_[level_].values[static_cast<std::size_t>(number)] = value;
+    return AlarmNumber::none;
+  }
+  if (const Value* const found = stored(number)) {
+    *const_cast<Value*>(found) = value;  // our own store_, found through a const member
+    return AlarmNumber::none;
+  }
+  const VariableRange* const range = system_range(number);
+  if (range == nullptr) return AlarmNumber::variable_unknown;
+  if (!range->writable) return AlarmNumber::variable_read_only;
+  return system_.write(*range, static_cast<std::uint32_t>(number) - range->first, value);
+}
+
+AlarmNumber Variables::argument(double number, Value& value) const {
+  if (number >= local_variables) return AlarmNumber::variable_unknown;
+  const Arguments& arguments = levels_[level_].arguments;
+  const bool given = arguments.values[static_cast<std::size_t>(number)].given;
+  value = Value::of(!given ? 0 : arguments.absolute ? 90 : 91);
+  return AlarmNumber::none;
+}
+
+}  // namespace trunnion::language

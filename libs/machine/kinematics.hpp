@@ -1,0 +1,50 @@
+// The kinematic chain of a channel: from its parameters, and from a chain of elements into parameters.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "geometry/chain_elements.hpp"
+#include "geometry/orientation.hpp"
+#include "machine/parameters.hpp"
+
+namespace trunnion::machine {
+
+/// Parameters that make no chain. what() names the channel, the parameters and what is wrong.
+class KinematicsError : public std::runtime_error {
+ public:
+  KinematicsError(std::string alarm, const std::string& text)
+      : std::runtime_error(text), alarm_(std::move(alarm)) {}
+  /// Name of the alarm in alarms.yaml.
+  const std::string& alarm() const { return alarm_; }
+
+ private:
+  std::string alarm_;
+};
+
+/// Name of the alarm about an error of configuring a channel's kinematics.
+std::string alarm_of(const std::exception& error);
+
+/// Parameters 04c400..04c437 and 04c920..04c943. Throws KinematicsError.
+geometry::Chain make_chain(const Parameters& parameters, std::uint16_t channel);
+
+/// One line for each direction vector that is used and not one long (beyond 1e-4): it is normalized.
+std::vector<std::string> kinematics_warnings(const Parameters& parameters, std::uint16_t channel);
+
+/// Travel limits of the rotary axes A B C U V W of a channel; those it does not have are endless.
+geometry::AngleTravels rotary_travels(const Parameters& parameters, std::uint16_t channel);
+
+/// The parameters that describe the same chain: the form in which services get it. Throws KinematicsError.
+std::map<std::uint32_t, ParameterValue> parameters_of_chain(const geometry::ChainDescription& description,
+                                                            std::uint16_t channel);
+
+/// True for the numbers parameters_of_chain() may return, of any channel.
+bool is_chain_parameter(std::uint32_t number);
+
+/// What `error` says of a chain, in words.
+std::string to_string(geometry::ChainError error);
+
+}  // namespace trunnion::machine

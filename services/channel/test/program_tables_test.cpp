@@ -1,0 +1,99 @@
+// What a program leaves behind: kept variables, changed tables, and the codes an operator reads.
+#include <gmock/gmock.h>
+
+#include <limits>
+
+#include "modal_codes.hpp"
+#include "table_order.hpp"
+#include "variable_text.hpp"
+
+namespace trunnion::channel {
+namespace {
+
+using language::Value;
+
+TEST(VariableText, BringsVariablesBackBitForBitAndVacantOnesStayVacant) {
+  auto before = std::make_unique<language::VariableStore>();
+  before->kept[0] = Value::of(0.1);
+  before->kept[499] = Value::of(-1.0 / 3);
+  before->user[4999] = Value::of(std::numeric_limits<double>::denorm_min());
+  before->common[5] = Value::of(7);
+  auto after = std::make_unique<language::VariableStore>();
+  read_variables(write_variables(*before, "12 ab"), "f", "12 ab", *after);
+  EXPECT_EQ(after->kept[0].number, 0.1);
+  EXPECT_EQ(after->kept[499].number, -1.0 / 3);
+  EXPECT_EQ(after->user[4999].number, std::numeric_limits<double>::denorm_min());
+  EXPECT_FALSE(after->kept[1].given);
+  EXPECT_EQ(after->common[5].number, 7);
+}
+
+TEST(VariableText, CommonVariablesAreForgottenAtPowerOff) {
+  auto before = std::make_unique<language::VariableStore>(),
+       after = std::make_unique<language::VariableStore>();
+  before->kept[3] = Value::of(3);
+  before->common[5] = Value::of(7);
+  read_variables(write_variables(*before, "12"), "f", "13", *after);
+  EXPECT_EQ(after->kept[3].number, 3);
+  EXPECT_FALSE(after->common[5].given);
+}
+
+TEST(VariableText, AWrongLineIsNamed) {
+  auto variables = std::make_unique<language::VariableStore>();
+  for (const char* bad :
+       {"#500: 1\n500: 2\n", "#500: 1\n#49: 2\n", "#500: 1\n#501: x\n", "#500: 1\n#501: inf\n",
+        "#500: 1\n#501: 1 2\n", "#500: 1\n\n", "#500: 1\n#501:\n", "boot 1\nboot 1\n"}) {
+    std::string message;
+    try {
+      read_variables(bad, "channel-0.variables", "1", *variables);
+    } catch (const std::runtime_error& e) {
+      message = e.what();
+    }
+    EXPECT_THAT(message, testing::StartsWith("channel-0.variables:2: ")) << bad;
+  }
+}
+
+TEST(TableOrder, ChangesOneFieldOfAToolAndKeepsTheOthers) {
+  idl::parameters::ToolTable tools;
+  tools.tools = {{3, 100, 0.1, 5, 0.2, "End mill"}};
+  language::Command command;
+  command.kind = language::CommandKind::table;
+  command.table = language::Table::tool_radius_wear;
+  command.number = 3;
+  command.value = -0.05;
+  const auto order = table_order(command, 0, tools);
+  EXPECT_EQ(order.operation, idl::parameters::Operation::SET_TOOL);
+  ASSERT_EQ(order.tools.size(), 1u);
+  EXPECT_EQ(order.tools[0].radius_wear, -0.05);
+  EXPECT_EQ(order.tools[0].length, 100);
+  EXPECT_EQ(order.tools[0].name, "End mill");
+}
+
+TEST(TableOrder, NamesTheWorkOffsetAndItsChannel) {
+  language::Command command;
+  command.kind = language::CommandKind::table;
+  command.table = language::Table::work_offset;
+  command.number = 7;
+  command.target = {1, 2, 3};
+  const auto order = table_order(command, 1, {});
+  ASSERT_EQ(order.offsets.size(), 1u);
+  EXPECT_EQ(order.offsets[0].channel, 1);
+  EXPECT_EQ(order.offsets[0].index, 7);
+  EXPECT_EQ(order.offsets[0].values, (std::vector<double>{1, 2, 3, 0, 0, 0, 0, 0, 0}));
+}
+
+TEST(ModalCodes, ShowOneCodeOfEachGroupAndWhatIsSwitchedOn) {
+  language::ModalState modal;
+  EXPECT_THAT(modal_codes(modal), testing::ElementsAre("G0", "G17", "G21", "G90", "G94", "G64", "G54", "G40",
+                                                       "G49", "G97", "G98"));
+  modal.cycle = 83;
+  modal.work_offset = 6;
+  modal.cutter_side = language::CutterSide::left;
+  modal.transformation = language::Transformation::rtcp;
+  modal.tool_vector = true;
+  modal.tilt.active = modal.rotated = true;
+  EXPECT_THAT(modal_codes(modal), testing::ElementsAre("G83", "G17", "G21", "G90", "G94", "G64", "G54.1 P1",
+                                                       "G41", "G43.5", "G97", "G98", "G68.2"));
+}
+
+}  // namespace
+}  // namespace trunnion::channel
