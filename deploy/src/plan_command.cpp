@@ -44,7 +44,8 @@ void apply(const std::string& setting, machine::Parameters& parameters) {
 void write_row(std::FILE* file, const planning::PlannedCycle& cycle, const machine::ChannelAxes& axes) {
   std::fprintf(file, "%llu,%u", static_cast<unsigned long long>(cycle.cycle), cycle.setpoint->line);
   for (const auto index : axes.index) std::fprintf(file, ",%.17g", cycle.machine[index]);
-  std::fprintf(file, ",%.17g,%.17g,%.17g,%.6f\n", cycle.tip[0], cycle.tip[1], cycle.tip[2], cycle.setpoint->feed * 60);
+  std::fprintf(file, ",%.17g,%.17g,%.17g,%.6f\n", cycle.tip[0], cycle.tip[1], cycle.tip[2],
+               cycle.setpoint->feed * 60);
 }
 
 int run_plan(const Plan& order) {
@@ -76,13 +77,16 @@ int run_plan(const Plan& order) {
   const auto timed = planning::run_program(text, machine, machine.reference_position(), {}, {});
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 
-  std::printf("{\"motion_time\": %.6f, \"bound_time\": %.6f, \"time_to_bound\": %.4f, \"cycles\": %llu, \"blocks\": %llu, "
-              "\"blocks_per_second\": %.0f, \"contour_deviation\": %.6f, \"orientation_deviation\": %.6f, \"axes\": {",
-              report.motion_time, report.bound, report.bound > 0 ? report.motion_time / report.bound : 0.0,
-              static_cast<unsigned long long>(report.result.cycles),
-              static_cast<unsigned long long>(report.result.blocks),
-              seconds > 0 ? static_cast<double>(timed.blocks) / seconds : 0.0, report.deviation.contour,
-              report.deviation.orientation);
+  std::printf(
+      "{\"motion_time\": %.6f, \"bound_time\": %.6f, \"time_to_bound\": %.4f, \"cycles\": %llu, \"blocks\": "
+      "%llu, "
+      "\"blocks_per_second\": %.0f, \"contour_deviation\": %.6f, \"orientation_deviation\": %.6f, \"axes\": "
+      "{",
+      report.motion_time, report.bound, report.bound > 0 ? report.motion_time / report.bound : 0.0,
+      static_cast<unsigned long long>(report.result.cycles),
+      static_cast<unsigned long long>(report.result.blocks),
+      seconds > 0 ? static_cast<double>(timed.blocks) / seconds : 0.0, report.deviation.contour,
+      report.deviation.orientation);
   for (std::size_t k = 0; k < axes.index.size(); ++k) {
     const auto& r = report.axes[axes.index[k]];
     std::printf("%s\"%c\": {\"velocity\": %.6f, \"acceleration\": %.6f, \"jerk\": %.6f}", k > 0 ? ", " : "",
@@ -98,13 +102,15 @@ int run_plan(const Plan& order) {
 
 void add_plan_command(CLI::App& app, Common& common) {
   auto order = std::make_shared<Plan>();
-  auto* command = add_command(app, common, "plan",
-                              "Plan a program's motion without a cluster and say what it asks of the axes, as JSON",
-                              [order] { return run_plan(*order); });
+  auto* command =
+      add_command(app, common, "plan",
+                  "Plan a program's motion without a cluster and say what it asks of the axes, as JSON",
+                  [order] { return run_plan(*order); });
   command->add_option("program", order->program, "The program's file")->required();
   command->add_option("--machine", order->machine, "Folder or name of the machine")->required();
   command->add_option("--csv", order->csv, "File for one row per cycle");
-  command->add_option("--set", order->settings, "NUMBER=VALUE instead of the machine's parameter; may be repeated");
+  command->add_option("--set", order->settings,
+                      "NUMBER=VALUE instead of the machine's parameter; may be repeated");
 }
 
 }  // namespace trunnion::deploy

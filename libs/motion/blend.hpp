@@ -2,10 +2,10 @@
 //
 // A path whose direction jumps by D at 0 becomes twice continuously differentiable when
 //   D (w - |x|)^3 / (6 w^2)
-// is added within the reach w: its slope jumps by -D, its second derivative is D (w - |x|) / w^2 (nothing at +-w),
-// its third D / w^2. It is the path averaged with a triangular window of half width w. A jump C of the second
-// derivative is removed by the odd function with g'' = -C/2 sign(x) (1 - 3y + 2y^2), y = |x| / w, whose slope and
-// value vanish at +-w as well.
+// is added within the reach w: its slope jumps by -D, its second derivative is D (w - |x|) / w^2 (nothing at
+// +-w), its third D / w^2. It is the path averaged with a triangular window of half width w. A jump C of the
+// second derivative is removed by the odd function with g'' = -C/2 sign(x) (1 - 3y + 2y^2), y = |x| / w,
+// whose slope and value vanish at +-w as well.
 #pragma once
 
 #include <array>

@@ -64,20 +64,22 @@ double BlendedPath::stretch_end(std::uint64_t index) const {
   return k < pushed_ ? (*this)[k].at : end();
 }
 
-// Share of the tolerance that all joins around `index` take there when they all reach `reach`. Between two joins
-// the sum is convex, so it is largest at a join.
+// Share of the tolerance that all joins around `index` take there when they all reach `reach`. Between two
+// joins the sum is convex, so it is largest at a join.
 double BlendedPath::usage(std::uint64_t index, double reach) const {
   const double at = (*this)[index].at;
   double sum = 0;
   const auto add = [&](const PathBlock& join) {
     const double rest = reach - std::abs(join.at - at);
     sum += join.weight * rest * rest * rest;
-    if (join.bend_weight > 0) sum += join.bend_weight * 6 * curvature_blend_height * reach * reach * reach * reach;
+    if (join.bend_weight > 0)
+      sum += join.bend_weight * 6 * curvature_blend_height * reach * reach * reach * reach;
   };
   add((*this)[index]);
   for (std::uint64_t k = index + 1; k < pushed_ && !(*this)[k].stop && (*this)[k].at - at < reach; ++k)
     add((*this)[k]);
-  for (std::uint64_t k = index; k-- > oldest() && !(*this)[k].stop && at - (*this)[k].at < reach;) add((*this)[k]);
+  for (std::uint64_t k = index; k-- > oldest() && !(*this)[k].stop && at - (*this)[k].at < reach;)
+    add((*this)[k]);
   return sum / (6 * reach * reach);
 }
 
@@ -100,7 +102,8 @@ double BlendedPath::widest_reach(std::uint64_t index) const {
   // The usage grows faster than the reach, so scaling the reach down by the usage is always enough.
   double reach = std::min(most, last_widest_);
   double used = usage(index, reach);
-  for (int step = 0; step < 6 && (used > tolerance_share || (used < 0.8 * tolerance_share && reach < most)); ++step) {
+  for (int step = 0; step < 6 && (used > tolerance_share || (used < 0.8 * tolerance_share && reach < most));
+       ++step) {
     const double factor = used > 0 ? std::sqrt(0.92 * tolerance_share / used) : 4;
     const double next = std::min(most, reach * std::clamp(factor, 0.2, 4.0));
     const double next_used = usage(index, next);

@@ -18,16 +18,16 @@ struct BlendRules {
 /// One programmed segment and the join at its start. Lengths are in the unit of its PathSegment.
 struct PathBlock {
   PathSegment path;
-  double at = 0;          ///< path coordinate of the start
-  AxisValues turn{};      ///< jump of the first derivative at the start
-  AxisValues bend{};      ///< jump of the second
-  double weight = 0;      ///< size of turn by the tolerances: a reach of 6 / weight uses the tolerance up
-  double bend_weight = 0; ///< size of bend by the tolerances
-  double widest = 0;      ///< reach the tolerance would allow here alone
-  double reach = 0;       ///< half length of the rounding
-  bool stop = true;       ///< motion stands at the start: no rounding across it
-  bool overlap = false;   ///< the stop may be rounded in time instead
-  int wait_cycles = 0;    ///< standstill before the segment starts
+  double at = 0;           ///< path coordinate of the start
+  AxisValues turn{};       ///< jump of the first derivative at the start
+  AxisValues bend{};       ///< jump of the second
+  double weight = 0;       ///< size of turn by the tolerances: a reach of 6 / weight uses the tolerance up
+  double bend_weight = 0;  ///< size of bend by the tolerances
+  double widest = 0;       ///< reach the tolerance would allow here alone
+  double reach = 0;        ///< half length of the rounding
+  bool stop = true;        ///< motion stands at the start: no rounding across it
+  bool overlap = false;    ///< the stop may be rounded in time instead
+  int wait_cycles = 0;     ///< standstill before the segment starts
   std::uint32_t line = 0, sequence = 0;
   double fraction_offset = 0;  ///< part of the command that lay before this segment, 0..1
   bool rapid = false;
@@ -76,7 +76,8 @@ class BlendedPath {
   /// same stretch between two ends of roundings.
   std::array<AxisValues, 3> derivatives(std::uint64_t index, double s, double inside) const;
 
-  /// The next place behind `s` on block `index` where a rounding begins, turns or ends; at most the block's end.
+  /// The next place behind `s` on block `index` where a rounding begins, turns or ends; at most the block's
+  /// end.
   double next_knot(std::uint64_t index, double s) const;
 
  private:

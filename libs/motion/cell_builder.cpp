@@ -51,8 +51,7 @@ void limit_cell(LimitCell& cell, const CellRates& rates, const Limits& limits) {
     }
     for (std::size_t i = 0; i < axis_count; ++i) {
       if (rates.first[i] <= 0) continue;
-      const double rest =
-          limits.axes[i].jerk - rates.third[i] * v * v * v - 3 * rates.second[i] * v * a;
+      const double rest = limits.axes[i].jerk - rates.third[i] * v * v * v - 3 * rates.second[i] * v * a;
       j = std::min(j, rest / rates.first[i]);
     }
     cell.ramps[k] = {a, j};
@@ -100,14 +99,14 @@ LimitCell CellBuilder::make(const BlendedPath& path, double from, double to) con
   cell.rapid = block.rapid;
   cell.block = block_;
   const double middle = (from + to) / 2, length = to - from;
-  const PathRates begins = rates_at(path, block_, from, middle),
-                  ends = rates_at(path, block_, to, middle);
+  const PathRates begins = rates_at(path, block_, from, middle), ends = rates_at(path, block_, to, middle);
   CellRates rates;
   for (std::size_t i = 0; i < axis_count; ++i) {
     rates.third[i] = std::max(std::abs(begins[2][i]), std::abs(ends[2][i]));
     rates.second[i] = std::max(std::abs(begins[1][i]), std::abs(ends[1][i]));
     // A function strays from the chord of its ends by at most f'' l^2 / 8.
-    rates.first[i] = std::max(std::abs(begins[0][i]), std::abs(ends[0][i])) + rates.third[i] * length * length / 8;
+    rates.first[i] =
+        std::max(std::abs(begins[0][i]), std::abs(ends[0][i])) + rates.third[i] * length * length / 8;
   }
   if (limits_.centripetal_acceleration > 0) {
     const PathRates a = path.derivatives(block_, from, middle), b = path.derivatives(block_, to, middle);
@@ -117,11 +116,13 @@ LimitCell CellBuilder::make(const BlendedPath& path, double from, double to) con
   return cell;
 }
 
-// How long before the end of one stretch the next may begin. At the same time t after its own start and before the
-// other's end, the second has gone at most j t^3 / 6 and the first has that much left, and the path is left by no
-// more than the smaller of the two. The axes have to stand both motions at once.
-double CellBuilder::overlap_time(const BlendedPath& path, const LimitCell& before, const LimitCell& after) const {
-  if (!before.uniform || !after.uniform || path[before.block].path.unit() != path[after.block].path.unit()) return 0;
+// How long before the end of one stretch the next may begin. At the same time t after its own start and
+// before the other's end, the second has gone at most j t^3 / 6 and the first has that much left, and the
+// path is left by no more than the smaller of the two. The axes have to stand both motions at once.
+double CellBuilder::overlap_time(const BlendedPath& path, const LimitCell& before,
+                                 const LimitCell& after) const {
+  if (!before.uniform || !after.uniform || path[before.block].path.unit() != path[after.block].path.unit())
+    return 0;
   const PathRates first = rates_at(path, before.block, before.end, (before.at + before.end) / 2);
   const PathRates second = rates_at(path, after.block, after.at, (after.at + after.end) / 2);
   const RampLimits a = before.ramps[0], b = after.ramps[0];
@@ -138,7 +139,8 @@ double CellBuilder::overlap_time(const BlendedPath& path, const LimitCell& befor
   if (rotary > 0) deviation = std::min(deviation, limits_.orientation_tolerance / (1.8 * rotary));
   deviation *= 0.98;
   const double time = std::cbrt(6 * deviation / a.jerk) + std::cbrt(6 * deviation / b.jerk);
-  const double longest = std::min(std::cbrt(6 * (before.end - before.at) / a.jerk), std::cbrt(6 * (after.end - after.at) / b.jerk));
+  const double longest = std::min(std::cbrt(6 * (before.end - before.at) / a.jerk),
+                                  std::cbrt(6 * (after.end - after.at) / b.jerk));
   return std::min(time, longest);
 }
 

@@ -16,8 +16,8 @@ struct CellRates {
   double curvature = 0;  ///< of the X Y Z curve in the frame of the command, 1/length
 };
 
-/// Speed, acceleration and jerk along the path that keep every axis within its limits: with v, a, j along the path
-/// an axis has q'v, q''v^2 + q'a, q'''v^3 + 3q''va + q'j. `feed` caps the speed at the highest override.
+/// Speed, acceleration and jerk along the path that keep every axis within its limits: with v, a, j along the
+/// path an axis has q'v, q''v^2 + q'a, q'''v^3 + 3q''va + q'j. `feed` caps the speed at the highest override.
 void limit_cell(LimitCell& cell, const CellRates& rates, const Limits& limits);
 
 /// Path speed at which a rounding with these third derivatives keeps the jerk of the axes.
@@ -28,7 +28,8 @@ class CellBuilder {
   /// `chain` may be nullptr and must outlive the builder.
   void start(const Limits& limits, const geometry::Chain* chain, double tool_length);
 
-  /// Appends cells for all of the path that is settled and fits into the ring, which keeps cells from `keep` on.
+  /// Appends cells for all of the path that is settled and fits into the ring, which keeps cells from `keep`
+  /// on.
   void extend(const BlendedPath& path, CellRing& cells, std::uint64_t keep);
 
   /// Coordinate up to which there are cells.

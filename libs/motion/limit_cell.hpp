@@ -9,17 +9,17 @@
 
 namespace trunnion::motion {
 
-/// Every axis keeps its limits on the cell for any motion with 0 <= v <= speeds[k], |a| and |j| within ramps[k].
-/// Level 0 is the fastest; slower levels leave more to acceleration and jerk.
+/// Every axis keeps its limits on the cell for any motion with 0 <= v <= speeds[k], |a| and |j| within
+/// ramps[k]. Level 0 is the fastest; slower levels leave more to acceleration and jerk.
 struct LimitCell {
   static constexpr std::size_t levels = 4;
   /// Speeds of the levels as shares of the first.
   static constexpr std::array<double, levels> shares{1, 0.85, 0.65, 0.4};
 
-  double at = 0;    ///< path coordinate of the start
-  double end = 0;   ///< and of the end
-  double speed = 0; ///< never exceeded, whatever the override
-  double feed = 0;  ///< programmed speed at override 1
+  double at = 0;     ///< path coordinate of the start
+  double end = 0;    ///< and of the end
+  double speed = 0;  ///< never exceeded, whatever the override
+  double feed = 0;   ///< programmed speed at override 1
   std::array<RampLimits, levels> ramps{};
   bool rapid = false;
   bool uniform = false;  ///< all levels are the same

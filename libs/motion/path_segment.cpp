@@ -28,7 +28,8 @@ PathSegment PathSegment::line(const AxisValues& start, const AxisValues& target)
   // A path coordinate that hardly grows while an axis travels far would be all rounding.
   const bool scaled = counted < 1e-3 * longest;
   segment.length_ = scaled ? longest : counted;
-  const bool by_rotary = scaled ? rotary >= std::max(main, secondary) : !(main > trace) && !(secondary > 1e-6 * rotary);
+  const bool by_rotary =
+      scaled ? rotary >= std::max(main, secondary) : !(main > trace) && !(secondary > 1e-6 * rotary);
   segment.unit_ = by_rotary && rotary > 0 ? LengthUnit::degree : LengthUnit::millimetre;
   segment.feed_scale_ = counted > 0 ? segment.length_ / counted : 1;
   for (double& slope : segment.slope_) slope = segment.length_ > 0 ? slope / segment.length_ : 0;
@@ -166,7 +167,8 @@ std::array<AxisValues, 3> PathSegment::derivatives(double s) const {
   const std::array<double, 2> e{std::cos(angle), std::sin(angle)}, n{-e[1], e[0]};
   if (is_tilted_) {
     for (std::size_t i = 0; i < 3; ++i) {
-      const double along = e[0] * first_[i] + e[1] * second_[i], across = e[0] * second_[i] - e[1] * first_[i];
+      const double along = e[0] * first_[i] + e[1] * second_[i],
+                   across = e[0] * second_[i] - e[1] * first_[i];
       d[0][i] += dr * along + r * w * across;
       d[1][i] = 2 * dr * w * across - r * w * w * along;
       d[2][i] = -3 * dr * w * w * along - r * w * w * w * across;

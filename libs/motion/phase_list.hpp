@@ -20,8 +20,8 @@ class PhaseList {
   const JerkPhase& operator[](std::size_t index) const { return phases_[index]; }
   /// False when there is no room.
   bool add(const JerkPhase& phase);
-  /// The first `time` seconds of a transition, all of it when that is shorter, followed by rest or cruise of what
-  /// is left of a finite `time`.
+  /// The first `time` seconds of a transition, all of it when that is shorter, followed by rest or cruise of
+  /// what is left of a finite `time`.
   bool add(const Transition& transition, double time);
   bool add(const Transition& transition);
 
@@ -35,9 +35,10 @@ class PhaseList {
   std::size_t count_ = 0;
 };
 
-/// True when the motion from `state` on cell `cell` keeps speed, acceleration and jerk of every cell it runs over
-/// and ends on the path known before the next stop. Speeds and accelerations are bounded over short slices of time
-/// and compared with all cells a slice touches, so nothing between two samples is missed. Moves `cell` along.
+/// True when the motion from `state` on cell `cell` keeps speed, acceleration and jerk of every cell it runs
+/// over and ends on the path known before the next stop. Speeds and accelerations are bounded over short
+/// slices of time and compared with all cells a slice touches, so nothing between two samples is missed.
+/// Moves `cell` along.
 bool keeps_limits(const PhaseList& phases, PathState state, const CellRing& cells, std::uint64_t& cell);
 
 }  // namespace trunnion::motion

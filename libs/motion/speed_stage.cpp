@@ -9,7 +9,8 @@
 namespace trunnion::motion {
 namespace {
 
-// Rounding that is not worth a reaction: of path coordinates in mm, and of speeds and accelerations as a share.
+// Rounding that is not worth a reaction: of path coordinates in mm, and of speeds and accelerations as a
+// share.
 constexpr double rounding_distance = 1e-9;
 constexpr double rounding = 1e-7;
 // How many stopping distances ahead weak places are taken into account before they have to be.
@@ -37,7 +38,8 @@ void SpeedStage::extended() {
 
 bool SpeedStage::at_end() const {
   if (cells_.size() == 0) return true;
-  return entered_ && wait_ == 0 && standing() && current_ + 1 == cells_.size() && state_.s == cells_[current_].end;
+  return entered_ && wait_ == 0 && standing() && current_ + 1 == cells_.size() &&
+         state_.s == cells_[current_].end;
 }
 
 std::optional<Tail> SpeedStage::take_tail() { return std::exchange(tail_, std::nullopt); }
@@ -49,7 +51,8 @@ double SpeedStage::speed_of(const LimitCell& cell, const Look& look) const {
 
 RampLimits SpeedStage::local_ramp(double speed, double reach) const {
   RampLimits ramp = cells_[current_].ramp(speed);
-  for (std::uint64_t k = current_ + 1; k < cells_.size() && cells_[k].at < state_.s + reach && !cells_[k].stop; ++k) {
+  for (std::uint64_t k = current_ + 1;
+       k < cells_.size() && cells_[k].at < state_.s + reach && !cells_[k].stop; ++k) {
     const RampLimits& next = cells_[k].ramp(speed);
     ramp.acceleration = std::min(ramp.acceleration, next.acceleration);
     ramp.jerk = std::min(ramp.jerk, next.jerk);
@@ -68,10 +71,11 @@ Transition SpeedStage::wish(const Look& look, bool hold) const {
   return Transition(state_.v, state_.a, target, ramp);
 }
 
-// Looks along the cells in legs: a leg leads from the state, or from a slower cell at its speed, to the next slower
-// cell. What is ahead of a slower cell only has to be reachable from its speed; when it is not, the cell has to be
-// entered at less.
-SpeedStage::Obstacle SpeedStage::obstacle_ahead(const PathState& state, std::uint64_t cell, const Look& look) const {
+// Looks along the cells in legs: a leg leads from the state, or from a slower cell at its speed, to the next
+// slower cell. What is ahead of a slower cell only has to be reachable from its speed; when it is not, the
+// cell has to be entered at less.
+SpeedStage::Obstacle SpeedStage::obstacle_ahead(const PathState& state, std::uint64_t cell,
+                                                const Look& look) const {
   PathState from = state;
   double highest = std::max(from.v, settled_speed(from.v, from.a, cells_[cell].ramp(from.v).jerk));
   RampLimits ramp = cells_[cell].ramp(highest);
@@ -102,7 +106,8 @@ SpeedStage::Obstacle SpeedStage::obstacle_ahead(const PathState& state, std::uin
     const bool slower = highest > speed * (1 + rounding);
     // A cycle is left between the end of the braking and the slower cell, since cycles do not end at cells.
     const double margin = first.found ? 0 : speed * cycle_;
-    if (slower && braking_distance(from.v, from.a, speed, ramp) + margin > distance) return report(speed, k, false);
+    if (slower && braking_distance(from.v, from.a, speed, ramp) + margin > distance)
+      return report(speed, k, false);
     if (!first.found) {
       const RampLimits& own = next.ramp(highest);
       const double excess = std::abs(state.a) - own.acceleration * (1 + rounding);
@@ -110,7 +115,12 @@ SpeedStage::Obstacle SpeedStage::obstacle_ahead(const PathState& state, std::uin
         const double jerk = state.a > 0 ? -ramp.jerk : ramp.jerk;
         const PathState reduced = integrate({0, state.v, state.a}, jerk, excess / ramp.jerk);
         if (reduced.s + std::min(speed, std::max(0.0, reduced.v)) * cycle_ > distance)
-          return {true, state.a > 0 ? settled_speed(state.v, state.a, ramp.jerk) : state.v, {own.acceleration, ramp.jerk}, k, false, true};
+          return {true,
+                  state.a > 0 ? settled_speed(state.v, state.a, ramp.jerk) : state.v,
+                  {own.acceleration, ramp.jerk},
+                  k,
+                  false,
+                  true};
       }
     }
     if (slower) {
@@ -152,8 +162,8 @@ SpeedStage::Outcome SpeedStage::judge(const PathState& state, const Look& look) 
   return outcome;
 }
 
-// A way to a standstill from `state`: braking with what all cells on the way allow; where a slower cell would be
-// entered too fast, down to its speed first and on from there.
+// A way to a standstill from `state`: braking with what all cells on the way allow; where a slower cell would
+// be entered too fast, down to its speed first and on from there.
 bool SpeedStage::find_stop(const PathState& state, std::uint64_t cell, PhaseList& stop) const {
   stop.clear();
   PathState at = state;
@@ -215,8 +225,9 @@ bool SpeedStage::accept(const PhaseList& action) {
   return true;
 }
 
-// Follows the transition for as long a part of the cycle as the obstacle it leads to allows, and brakes for that
-// obstacle for the rest. When even braking at once is not enough for another one, that braking is what is followed.
+// Follows the transition for as long a part of the cycle as the obstacle it leads to allows, and brakes for
+// that obstacle for the rest. When even braking at once is not enough for another one, that braking is what
+// is followed.
 bool SpeedStage::follow(const Transition& wished, const Look& look, int depth) {
   PhaseList action;
   const Outcome whole = judge(wished.after(state_, cycle_), look);
@@ -235,10 +246,11 @@ bool SpeedStage::follow(const Transition& wished, const Look& look, int depth) {
     const Outcome at_once = part(0, look);
     if (at_once.obstacle.found) {
       if (depth >= 6) return false;
-      // The ramp an obstacle asks for is the least on the way to it; stronger braking is possible as long as the
-      // cells right ahead stand it.
+      // The ramp an obstacle asks for is the least on the way to it; stronger braking is possible as long as
+      // the cells right ahead stand it.
       const bool same = at_once.obstacle.cell == obstacle.cell && at_once.obstacle.speed == obstacle.speed;
-      const RampLimits ramp = same ? local_ramp(state_.v, (state_.v + 1) * cycle_ * 1.5) : at_once.obstacle.ramp;
+      const RampLimits ramp =
+          same ? local_ramp(state_.v, (state_.v + 1) * cycle_ * 1.5) : at_once.obstacle.ramp;
       return follow(Transition(state_.v, state_.a, same ? 0 : at_once.obstacle.speed, ramp), look, depth + 1);
     }
     // The rounding allowed is kept for the cycles that follow.
@@ -266,8 +278,8 @@ bool SpeedStage::follow(const Transition& wished, const Look& look, int depth) {
   return false;
 }
 
-// Programmed speeds, and weak places far ahead, are wishes as well: when they turn up too late to be met, they are
-// approached within the limits.
+// Programmed speeds, and weak places far ahead, are wishes as well: when they turn up too late to be met,
+// they are approached within the limits.
 void SpeedStage::move(const Transition& wished, const Look& look) {
   if (follow(wished, look, 0)) return;
   Look hard = look;
@@ -275,14 +287,15 @@ void SpeedStage::move(const Transition& wished, const Look& look) {
   const Outcome ahead = judge(wished.after(state_, cycle_), look);
   const RampLimits ramp = local_ramp(state_.v, (state_.v + 1) * cycle_ * 1.5);
   braking_for_.reset();
-  const bool found = ahead.obstacle.found &&
-                     follow(Transition(state_.v, state_.a, ahead.obstacle.speed, ramp), hard, 0);
+  const bool found =
+      ahead.obstacle.found && follow(Transition(state_.v, state_.a, ahead.obstacle.speed, ramp), hard, 0);
   braking_for_.reset();
   if (found) return;
   ++stopping_;
   state_ = stop_.advance(state_, cycle_);
   if (stop_.size() == 0) state_.v = state_.a = 0;
-  while (current_ + 1 < cells_.size() && !cells_[current_ + 1].stop && state_.s > cells_[current_].end) ++current_;
+  while (current_ + 1 < cells_.size() && !cells_[current_ + 1].stop && state_.s > cells_[current_].end)
+    ++current_;
 }
 
 // At a stop, or the end of the path, once the motion has settled there.

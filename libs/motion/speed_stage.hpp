@@ -1,11 +1,11 @@
 // The speed stage: path speed, acceleration and jerk of every cycle, as fast as the cells ahead allow.
 //
-// Each cycle follows the wish (towards the programmed speed under the overrides, or to a standstill when held) for as
-// long a part of the cycle as leaves every obstacle ahead (a slower cell, a stop, the end of what is known) reachable
-// by the closed-form transition to its speed, and brakes for the rest. A cycle is only taken when it keeps the limits
-// of every cell it runs over and a way to a standstill behind it has been proved to keep them too; otherwise the way
-// that was proved a cycle ago is followed. So limits hold whatever the overrides do, and never depend on the choice
-// of the wish being right.
+// Each cycle follows the wish (towards the programmed speed under the overrides, or to a standstill when
+// held) for as long a part of the cycle as leaves every obstacle ahead (a slower cell, a stop, the end of
+// what is known) reachable by the closed-form transition to its speed, and brakes for the rest. A cycle is
+// only taken when it keeps the limits of every cell it runs over and a way to a standstill behind it has been
+// proved to keep them too; otherwise the way that was proved a cycle ago is followed. So limits hold whatever
+// the overrides do, and never depend on the choice of the wish being right.
 #pragma once
 
 #include <cstdint>

@@ -87,12 +87,14 @@ bool Trajectory::movable(const AxisValues& from, const AxisValues& to) const {
   for (std::size_t i = 0; i < axis_count; ++i) {
     if (from[i] == to[i] && (active_chain_ == nullptr || i > language::Z)) continue;
     const AxisLimits& axis = limits_.axes[i];
-    if (!(axis.velocity > 0 && axis.rapid_velocity > 0 && axis.acceleration > 0 && axis.jerk > 0)) return false;
+    if (!(axis.velocity > 0 && axis.rapid_velocity > 0 && axis.acceleration > 0 && axis.jerk > 0))
+      return false;
   }
   return true;
 }
 
-// A move that is lost in the tolerance is left to the next one: short segments have no direction worth keeping.
+// A move that is lost in the tolerance is left to the next one: short segments have no direction worth
+// keeping.
 bool Trajectory::joins_to_last(const PathSegment& segment) const {
   if (segment.is_arc() || path_.size() == 0) return false;
   double linear = 0, rotary = 0;
@@ -101,7 +103,8 @@ bool Trajectory::joins_to_last(const PathSegment& segment) const {
     double& part = i >= language::A && i <= language::C ? rotary : linear;
     part = std::max(part, travel);
   }
-  return linear <= merge_share * limits_.contour_tolerance && rotary <= merge_share * limits_.orientation_tolerance;
+  return linear <= merge_share * limits_.contour_tolerance &&
+         rotary <= merge_share * limits_.orientation_tolerance;
 }
 
 bool Trajectory::push_move(const Command& command, double fraction) {
@@ -230,7 +233,8 @@ Setpoint Trajectory::step(double feed_override, double rapid_override, bool hold
     if (tail_) {
       const std::uint64_t last = speed_.cells()[tail_->cell].block;
       const double rest = tail_->jerk * tail_->time * tail_->time * tail_->time / 6;
-      const AxisValues near = path_.position(last, tail_->end - rest), corner = path_.position(last, tail_->end);
+      const AxisValues near = path_.position(last, tail_->end - rest),
+                       corner = path_.position(last, tail_->end);
       for (std::size_t i = 0; i < axis_count; ++i) output_[i] += near[i] - corner[i];
     }
     line_ = block.line;

@@ -18,17 +18,18 @@ struct Setpoint {
   AxisValues distance_to_go{};  ///< to the end of the command, per axis
   std::uint32_t line = 0;       ///< of the command being executed, 0 before the first
   std::uint32_t sequence = 0;
-  double fraction = 0;  ///< of that command completed, 0..1
-  double feed = 0;      ///< speed of X Y Z in that frame, mm/s
+  double fraction = 0;    ///< of that command completed, 0..1
+  double feed = 0;        ///< speed of X Y Z in that frame, mm/s
   double path_speed = 0;  ///< mm/s (deg/s when only rotary axes move)
   bool rapid = false;
   bool dwelling = false;  ///< standing between segments: dwell or exact stop
   bool at_rest = true;    ///< everything pushed is done
 };
 
-/// One channel's motion: geometry, speed and interpolation in a row (docs/motion.md). Every machine axis keeps its
-/// limits of velocity, acceleration and jerk under any overrides, and the path its tolerances. Deterministic: the
-/// setpoints depend only on the calls and the cycle in which they were made. After construction nothing allocates.
+/// One channel's motion: geometry, speed and interpolation in a row (docs/motion.md). Every machine axis
+/// keeps its limits of velocity, acceleration and jerk under any overrides, and the path its tolerances.
+/// Deterministic: the setpoints depend only on the calls and the cycle in which they were made. After
+/// construction nothing allocates.
 class Trajectory {
  public:
   /// `chain` is what Transformation::rtcp goes through; it must outlive the trajectory. nullptr: no

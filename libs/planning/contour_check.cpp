@@ -29,7 +29,8 @@ void ContourCheck::add(const language::Command& command) {
   piece.arc = command.arc;
   piece.is_arc = command.kind == CommandKind::arc;
   piece.sequence = command.sequence;
-  piece.size = std::max(distance(end_, command.target, language::X), distance(end_, command.target, language::A));
+  piece.size =
+      std::max(distance(end_, command.target, language::X), distance(end_, command.target, language::A));
   if (piece.is_arc) {
     const double radius = std::hypot(end_[0] - command.arc.centre[0], end_[1] - command.arc.centre[1],
                                      end_[2] - command.arc.centre[2]);
@@ -64,8 +65,8 @@ double ContourCheck::weigh(const Piece& piece, double f, const AxisValues& posit
   return std::max(deviation.contour / contour_tolerance_, deviation.orientation / orientation_tolerance_);
 }
 
-// Both distances are convex along a line, so thirds find the least of the larger one; an arc is cut into parts
-// of a few degrees first.
+// Both distances are convex along a line, so thirds find the least of the larger one; an arc is cut into
+// parts of a few degrees first.
 double ContourCheck::search(const Piece& piece, const AxisValues& position, Deviation& deviation) const {
   double low = 0, high = 1;
   Deviation ignored;
@@ -95,13 +96,16 @@ Deviation ContourCheck::of(const AxisValues& position, std::uint32_t sequence, d
   if (pieces_.empty()) return best;
   const auto found = std::lower_bound(pieces_.begin(), pieces_.end(), sequence,
                                       [](const Piece& p, std::uint32_t s) { return p.sequence < s; });
-  const auto centre = std::min<std::ptrdiff_t>(found - pieces_.begin(), static_cast<std::ptrdiff_t>(pieces_.size()) - 1);
+  const auto centre =
+      std::min<std::ptrdiff_t>(found - pieces_.begin(), static_cast<std::ptrdiff_t>(pieces_.size()) - 1);
   double least = 1e300;
   const auto look = [&](std::ptrdiff_t k) {
     Deviation deviation;
     const Piece& piece = pieces_[static_cast<std::size_t>(k)];
     // A piece that is farther away than the best found cannot be nearer.
-    if (!piece.is_arc && (distance(piece.start, position, language::X) - piece.size) / contour_tolerance_ > least) return;
+    if (!piece.is_arc &&
+        (distance(piece.start, position, language::X) - piece.size) / contour_tolerance_ > least)
+      return;
     const double w = search(piece, position, deviation);
     if (w < least) least = w, best = deviation;
   };

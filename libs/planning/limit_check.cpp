@@ -14,7 +14,8 @@ void LimitCheck::add(const AxisValues& machine, bool rapid) {
   for (std::size_t i = 0; i < language::axis_count; ++i) {
     const motion::AxisLimits& limit = limits_.axes[i];
     const double q0 = machine[i], q1 = before_[0][i], q2 = before_[1][i], q3 = before_[2][i];
-    const double velocity = rapid || was_rapid_ ? std::max(limit.velocity, limit.rapid_velocity) : limit.velocity;
+    const double velocity =
+        rapid || was_rapid_ ? std::max(limit.velocity, limit.rapid_velocity) : limit.velocity;
     AxisRatios& r = axes_[i];
     r.velocity = std::max(r.velocity, std::abs(q0 - q1) / dt / velocity);
     r.acceleration = std::max(r.acceleration, std::abs(q0 - 2 * q1 + q2) / (dt * dt) / limit.acceleration);

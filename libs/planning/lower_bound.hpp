@@ -11,9 +11,9 @@ using language::AxisValues;
 
 /// A place of a path: machine positions of the axes at the path length `s`, and the speed allowed there.
 struct PathSample {
-  double s = 0;           ///< strictly growing
-  AxisValues machine{};   ///< after the transformation
-  double speed = 1e9;     ///< programmed, per second
+  double s = 0;          ///< strictly growing
+  AxisValues machine{};  ///< after the transformation
+  double speed = 1e9;    ///< programmed, per second
 };
 
 /// Time-optimal sweep: with x = (ds/dt)^2 every axis demands |q' x' / 2 + q'' x| <= a and |q'| sqrt(x) <= v;

@@ -82,7 +82,8 @@ double command_bound(const MachineModel& machine, const AxisValues& start,
     const int parts = std::max(1, static_cast<int>(std::ceil(length / step - 1e-6)));
     for (int k = 1; k <= parts; ++k) {
       samples.push_back({s + length * k / parts,
-                         motion::machine_axes(segment.position(length * k / parts), active, tool_length), feed});
+                         motion::machine_axes(segment.position(length * k / parts), active, tool_length),
+                         feed});
     }
     s += length;
   }

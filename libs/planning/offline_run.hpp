@@ -23,7 +23,7 @@ struct MachineModel {
 using OverrideHistory = std::function<motion::Overrides(std::size_t cycle)>;
 
 struct RunReport {
-  bool stopped = false;  ///< came to rest by itself on the last point
+  bool stopped = false;    ///< came to rest by itself on the last point
   double motion_time = 0;  ///< s, from the first to the last change of any axis
   std::size_t cycles = 0;
   std::array<AxisRatios, language::axis_count> axes{};
@@ -34,9 +34,8 @@ struct RunReport {
 /// Runs `program` (moves and dwells of one frame) from `start` under `overrides` for at most `most_cycles`.
 RunReport run_commands(const MachineModel& machine, const AxisValues& start,
                        language::Transformation transformation, double tool_length,
-                       const std::vector<language::Command>& program,
-                       const OverrideHistory& overrides = {}, std::size_t most_cycles = 10000000,
-                       bool check_contour = true);
+                       const std::vector<language::Command>& program, const OverrideHistory& overrides = {},
+                       std::size_t most_cycles = 10000000, bool check_contour = true);
 
 /// Bound of acceleration_bound() for the same program, sampled every `step` mm (or degrees) or closer; rapids
 /// and feeds as programmed at override 1.

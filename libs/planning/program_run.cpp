@@ -89,7 +89,8 @@ class Runner {
     while (!trajectory_.can_accept()) {
       if (!step()) return false;
     }
-    if (!trajectory_.push(move)) return fail("feed must be above zero (per revolution: with the spindle turning)");
+    if (!trajectory_.push(move))
+      return fail("feed must be above zero (per revolution: with the spindle turning)");
     ++result_.blocks;
     if (moves_) moves_(move, frame_);
     return true;
@@ -134,7 +135,8 @@ class Runner {
       cycle.setpoint = &setpoint;
       cycle.position = setpoint.position;
       const bool rtcp = frame_.transformation == language::Transformation::rtcp;
-      cycle.machine = rtcp ? machine_.machine_from_tip(setpoint.position, frame_.tool_length) : setpoint.position;
+      cycle.machine =
+          rtcp ? machine_.machine_from_tip(setpoint.position, frame_.tool_length) : setpoint.position;
       cycle.tip = rtcp ? setpoint.position : machine_.tip_from_machine(setpoint.position, frame_.tool_length);
       sink_(cycle);
     }
@@ -174,7 +176,8 @@ PlanReport plan_program(language::TextSource& text, setup::ChannelSetup& machine
   group.start = start;
   const auto close = [&](const FrameMoves& next) {
     if (!group.commands.empty())
-      report.bound += command_bound(model, group.start, group.transformation, group.tool_length, group.commands);
+      report.bound +=
+          command_bound(model, group.start, group.transformation, group.tool_length, group.commands);
     group = next;
     group.commands.clear();
     contour.jump(next.start);

@@ -14,9 +14,9 @@ namespace trunnion::planning {
 /// What would be sent in one cycle.
 struct PlannedCycle {
   std::uint64_t cycle = 0;
-  AxisValues machine{};  ///< axes after the transformation
-  AxisValues tip{};      ///< X Y Z of the tool tip, rotary axes
-  AxisValues position{}; ///< in the frame of the commands
+  AxisValues machine{};   ///< axes after the transformation
+  AxisValues tip{};       ///< X Y Z of the tool tip, rotary axes
+  AxisValues position{};  ///< in the frame of the commands
   const motion::Setpoint* setpoint = nullptr;
 };
 
@@ -29,14 +29,14 @@ struct FrameMoves {
 };
 
 struct ProgramResult {
-  bool good = false;        ///< ended without an alarm
-  std::string alarm;        ///< one line, empty when good
-  std::uint64_t blocks = 0; ///< moves and dwells planned
+  bool good = false;         ///< ended without an alarm
+  std::string alarm;         ///< one line, empty when good
+  std::uint64_t blocks = 0;  ///< moves and dwells planned
   std::uint64_t cycles = 0;
 };
 
-/// Runs `text` from the machine position `start`: every cycle goes to `sink`, every stretch of moves to `frames`,
-/// before its cycles; both may be empty. `most_cycles` ends a program that does not.
+/// Runs `text` from the machine position `start`: every cycle goes to `sink`, every stretch of moves to
+/// `frames`, before its cycles; both may be empty. `most_cycles` ends a program that does not.
 ProgramResult run_program(language::TextSource& text, setup::ChannelSetup& machine, const AxisValues& start,
                           const std::function<void(const PlannedCycle&)>& sink,
                           const std::function<void(const language::Command&, const FrameMoves&)>& moves,

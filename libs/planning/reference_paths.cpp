@@ -33,7 +33,8 @@ struct Place {
   double x, y, z, slope_x, slope_y;
 };
 
-// The cap z = -r^2 / 160 with waves of 0.4 mm every 24 mm, along the winding line (20 + 8 sin 3f)(cos f, sin f).
+// The cap z = -r^2 / 160 with waves of 0.4 mm every 24 mm, along the winding line (20 + 8 sin 3f)(cos f, sin
+// f).
 Place cap(double f) {
   const double r = 20 + 8 * std::sin(3 * f);
   const double x = r * std::cos(f), y = r * std::sin(f);

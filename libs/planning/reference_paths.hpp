@@ -28,9 +28,9 @@ ReferencePath single_line();
 ReferencePath corner(double tolerance);
 /// A full circle of R 10 mm at `feed` mm/s.
 ReferencePath circle(double feed);
-/// A wavy cap milled along a winding line: `length` mm in steps of 0.1 mm at F2000 on a trunnion table, the tool
-/// normal to the surface, so that both rotary axes move all along. Coordinates are rounded to 0.0001 as a
-/// post-processor writes them.
+/// A wavy cap milled along a winding line: `length` mm in steps of 0.1 mm at F2000 on a trunnion table, the
+/// tool normal to the surface, so that both rotary axes move all along. Coordinates are rounded to 0.0001 as
+/// a post-processor writes them.
 ReferencePath wavy_cap(double length = 300);
 /// The same line without rotary axes.
 ReferencePath dense_three_axis(double length = 300);

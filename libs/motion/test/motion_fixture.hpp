@@ -80,7 +80,8 @@ inline Motion run(
 }
 
 struct Ratios {
-  double velocity = 0, acceleration = 0, jerk = 0;  // largest finite difference of a machine axis by its limit
+  double velocity = 0, acceleration = 0,
+         jerk = 0;  // largest finite difference of a machine axis by its limit
 };
 
 /// Finite differences of the machine axes over a run that began at rest at `start`.

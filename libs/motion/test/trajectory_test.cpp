@@ -262,7 +262,8 @@ TEST(Trajectory, abort_stops_on_the_path_within_the_braking_distance_and_drops_t
   EXPECT_FALSE(t.can_accept());
   int cycles = 0;
   while (!t.step(1, 1, false).at_rest) ASSERT_LT(++cycles, 200);
-  // The acceleration of 1000 builds up in 20 cycles, so j = 50000: v / 2 (v / a + a / j) = 50 (0.1 + 0.02) = 6 mm.
+  // The acceleration of 1000 builds up in 20 cycles, so j = 50000: v / 2 (v / a + a / j) = 50 (0.1 + 0.02) =
+  // 6 mm.
   EXPECT_NEAR(t.position()[0] - at, 6, 0.11);
   EXPECT_EQ(t.end_position(), t.position());
   const AxisValues where = t.position();

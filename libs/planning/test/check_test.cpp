@@ -70,8 +70,8 @@ TEST(LowerBound, a_line_takes_the_time_of_its_trapezoid) {
   EXPECT_NEAR(acceleration_bound(path, limits_of(500, 3000, 6e4)), 0.36667, 2e-4);
 }
 
-// A circle of R 10 with 3000 mm/s^2 on each axis cannot be run faster than sqrt(a R) = 173.2 mm/s for long; the
-// bound of two revolutions is close to that and not above (at 45 degrees the axes together allow more).
+// A circle of R 10 with 3000 mm/s^2 on each axis cannot be run faster than sqrt(a R) = 173.2 mm/s for long;
+// the bound of two revolutions is close to that and not above (at 45 degrees the axes together allow more).
 TEST(LowerBound, a_circle_is_bound_by_the_centripetal_acceleration) {
   std::vector<PathSample> path;
   const double length = 40 * std::numbers::pi;
