@@ -17,6 +17,7 @@ int main(int argc, char** argv) {
   add_topic_commands(app, common);
   add_kins_command(app, common);
   add_check_command(app, common);
+  add_plan_command(app, common);
   add_completion_command(app, common);
   try {
     app.parse(argc, argv);

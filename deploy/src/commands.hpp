@@ -26,6 +26,7 @@ void add_parameter_commands(CLI::App& app, Common& common);  // param
 void add_topic_commands(CLI::App& app, Common& common);      // topic, record
 void add_kins_command(CLI::App& app, Common& common);        // kins
 void add_check_command(CLI::App& app, Common& common);       // check
+void add_plan_command(CLI::App& app, Common& common);        // plan
 void add_completion_command(CLI::App& app, Common& common);  // completion
 
 /// --json and --domain.

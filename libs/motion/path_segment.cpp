@@ -21,10 +21,17 @@ PathSegment PathSegment::line(const AxisValues& start, const AxisValues& target)
   segment.target_ = target;
   for (std::size_t i = 0; i < axis_count; ++i) segment.slope_[i] = target[i] - start[i];
   const double rotary = norm3(segment.slope_, language::A);
-  double linear = norm3(segment.slope_, language::X);
-  if (linear <= 1e-6 * rotary) linear = norm3(segment.slope_, language::U);
-  segment.unit_ = linear > 1e-6 * rotary ? LengthUnit::millimetre : LengthUnit::degree;
-  segment.length_ = segment.unit_ == LengthUnit::millimetre ? linear : rotary;
+  const double main = norm3(segment.slope_, language::X), secondary = norm3(segment.slope_, language::U);
+  const double trace = 1e-6 * std::max(rotary, secondary);
+  const double counted = main > trace ? main : secondary > 1e-6 * rotary ? secondary : rotary;
+  const double longest = std::max({main, secondary, rotary});
+  // A path coordinate that hardly grows while an axis travels far would be all rounding.
+  const bool scaled = counted < 1e-3 * longest;
+  segment.length_ = scaled ? longest : counted;
+  const bool by_rotary =
+      scaled ? rotary >= std::max(main, secondary) : !(main > trace) && !(secondary > 1e-6 * rotary);
+  segment.unit_ = by_rotary && rotary > 0 ? LengthUnit::degree : LengthUnit::millimetre;
+  segment.feed_scale_ = counted > 0 ? segment.length_ / counted : 1;
   for (double& slope : segment.slope_) slope = segment.length_ > 0 ? slope / segment.length_ : 0;
   return segment;
 }
@@ -148,6 +155,32 @@ AxisValues PathSegment::derivative(double s) const {
     derivative[plane_[1]] += radius_slope_ * sine + radius * angle_slope_ * cosine;
   }
   return derivative;
+}
+
+// In polar coordinates with a radius and an angle that grow linearly, e radial and n along the arc:
+// P' = r' e + r w n, P'' = 2 r' w n - r w^2 e, P''' = -3 r' w^2 e - r w^3 n.
+std::array<AxisValues, 3> PathSegment::derivatives(double s) const {
+  std::array<AxisValues, 3> d{slope_, AxisValues{}, AxisValues{}};
+  if (!is_arc_) return d;
+  const double r = radius_ + radius_slope_ * s, w = angle_slope_, dr = radius_slope_;
+  const double angle = angle_ + angle_slope_ * s;
+  const std::array<double, 2> e{std::cos(angle), std::sin(angle)}, n{-e[1], e[0]};
+  if (is_tilted_) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double along = e[0] * first_[i] + e[1] * second_[i],
+                   across = e[0] * second_[i] - e[1] * first_[i];
+      d[0][i] += dr * along + r * w * across;
+      d[1][i] = 2 * dr * w * across - r * w * w * along;
+      d[2][i] = -3 * dr * w * w * along - r * w * w * w * across;
+    }
+    return d;
+  }
+  for (std::size_t k = 0; k < 2; ++k) {
+    d[0][plane_[k]] += dr * e[k] + r * w * n[k];
+    d[1][plane_[k]] = 2 * dr * w * n[k] - r * w * w * e[k];
+    d[2][plane_[k]] = -3 * dr * w * w * e[k] - r * w * w * w * n[k];
+  }
+  return d;
 }
 
 double remaining_sweep(const AxisValues& position, const AxisValues& target, const language::Arc& arc,

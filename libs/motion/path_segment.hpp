@@ -21,7 +21,8 @@ class PathSegment {
  public:
   PathSegment() = default;
 
-  /// Straight line. Linear travel below a millionth of the rotary travel (mm per degree) counts as none.
+  /// Straight line. A feed counts the travel of X Y Z; of U V W or the rotary axes when the former is below a
+  /// millionth of theirs. The length is that travel, or the longest when that is a thousand times longer.
   static PathSegment line(const AxisValues& start, const AxisValues& target);
 
   /// Arc by centre and sweep (degrees, above 0). Where start and target lie at different radii the radius
@@ -30,6 +31,8 @@ class PathSegment {
   static PathSegment arc(const AxisValues& start, const AxisValues& target, const language::Arc& arc);
 
   double length() const { return length_; }
+  /// Path length per unit of travel that a feed counts, 1 or more.
+  double feed_scale() const { return feed_scale_; }
   LengthUnit unit() const { return unit_; }
   const AxisValues& target() const { return target_; }
 
@@ -39,6 +42,12 @@ class PathSegment {
   /// Derivative of the position by s, unit per mm (or per degree, see unit()).
   AxisValues derivative(double s) const;
 
+  /// First, second and third derivative of the position by s.
+  std::array<AxisValues, 3> derivatives(double s) const;
+
+  bool is_arc() const { return is_arc_; }
+  const AxisValues& start() const { return start_; }
+
   /// Largest curvature of the X Y Z curve, 1/mm; 0 for lines.
   double curvature() const { return curvature_; }
 
@@ -46,7 +55,7 @@ class PathSegment {
   static PathSegment tilted_arc(const AxisValues& start, const AxisValues& target, const language::Arc& arc);
 
   AxisValues start_{}, target_{}, slope_{};  // slope: change of the proportional part per unit of length
-  double length_ = 0;
+  double length_ = 0, feed_scale_ = 1;
   double curvature_ = 0;
   LengthUnit unit_ = LengthUnit::millimetre;
   bool is_arc_ = false;

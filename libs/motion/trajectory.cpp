@@ -3,40 +3,43 @@
 #include <algorithm>
 #include <cmath>
 
+#include "motion/join_policy.hpp"
+
 namespace trunnion::motion {
 namespace {
 
+using language::axis_count;
 using language::Command;
 using language::CommandKind;
 
-// Through a chain the rates of the axes change between their samples and within a smoothing window, which the
-// corner rules see only to first order. The shares leave room for that.
-constexpr double chained_velocity_share = 0.995;
-constexpr double chained_acceleration_share = 0.95;
 constexpr double longest_dwell_cycles = 1e9;
-
-CornerRules make_rules(const Limits& limits, double cycle) {
-  CornerRules rules;
-  rules.limits = limits;
-  rules.limits.smoothing_cycles = std::clamp(limits.smoothing_cycles, 1, max_smoothing_cycles);
-  rules.window = rules.limits.smoothing_cycles * cycle;
-  rules.reach_window = rules.window + cycle;
-  rules.contour_window = rules.limits.smoothing_cycles > 1 ? (rules.limits.smoothing_cycles + 2) * cycle : 0;
-  return rules;
-}
+// Blocks kept behind the current one, since roundings reach back.
+constexpr std::uint64_t blocks_behind = 2 * BlendedPath::most_joins + 8;
+// Moves shorter than this share of the tolerance are joined to the next one.
+constexpr double merge_share = 0.05;
 
 bool is_finite(const AxisValues& values) {
   return std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
+}
+
+Limits effective(Limits limits, double cycle) {
+  const int cycles = std::clamp(limits.smoothing_cycles, 1, max_smoothing_cycles);
+  for (AxisLimits& axis : limits.axes) axis.jerk = std::min(axis.jerk, axis.acceleration / (cycles * cycle));
+  return limits;
+}
+
+BlendRules blend_rules(const Limits& limits) {
+  return {std::max(0.0, limits.contour_tolerance), std::max(0.0, limits.orientation_tolerance)};
 }
 
 }  // namespace
 
 Trajectory::Trajectory(const Limits& limits, const geometry::Chain* chain, double cycle_seconds)
     : cycle_(cycle_seconds),
+      limits_(effective(limits, cycle_seconds)),
       chain_(chain),
-      rules_(make_rules(limits, cycle_seconds)),
-      planner_(rules_, cycle_seconds),
-      interpolator_(rules_.limits.smoothing_cycles) {
+      path_(blend_rules(limits_)),
+      speed_(cycle_seconds) {
   start({}, language::Transformation::none, 0);
 }
 
@@ -44,15 +47,33 @@ void Trajectory::start(const AxisValues& position, language::Transformation tran
                        double tool_length) {
   active_chain_ = transformation == language::Transformation::rtcp ? chain_ : nullptr;
   tool_length_ = tool_length;
-  rules_.velocity_share = active_chain_ != nullptr ? chained_velocity_share : 1;
-  rules_.acceleration_share = active_chain_ != nullptr ? chained_acceleration_share : 1;
-  planner_.restart(rules_);
-  interpolator_.reset(position);
-  end_ = path_ = output_ = position;
+  end_ = joined_ = output_ = position;
   line_ = sequence_ = 0;
   fraction_ = 0;
-  stop_next_ = false;
-  settled_cycles_ = interpolator_.cycles();
+  restart_path();
+}
+
+void Trajectory::restart_path() {
+  path_.clear(blend_rules(limits_));
+  builder_.start(limits_, active_chain_, tool_length_);
+  speed_.clear();
+  pending_.reset();
+  tail_.reset();
+  stop_next_ = exact_next_ = true;
+  aborting_ = false;
+}
+
+std::uint64_t Trajectory::oldest_cell() const {
+  const std::uint64_t current = speed_.current_cell();
+  return current > 4 ? current - 4 : 0;
+}
+
+bool Trajectory::can_accept() const {
+  if (aborting_) return false;
+  if (path_.size() == 0) return true;
+  const std::uint64_t current =
+      speed_.cells().size() > 0 ? speed_.cells()[speed_.current_cell()].block : path_.oldest();
+  return path_.size() - current + 2 + blocks_behind < BlendedPath::capacity;
 }
 
 bool Trajectory::push(const Command& command) { return push_move(command, 0); }
@@ -61,20 +82,48 @@ bool Trajectory::push_from(const Command& command, double fraction) {
   return fraction >= 0 && fraction <= 1 && push_move(command, fraction);
 }
 
+// Every axis that has to move needs limits above zero; through a chain any move may move X Y Z.
+bool Trajectory::movable(const AxisValues& from, const AxisValues& to) const {
+  for (std::size_t i = 0; i < axis_count; ++i) {
+    if (from[i] == to[i] && (active_chain_ == nullptr || i > language::Z)) continue;
+    const AxisLimits& axis = limits_.axes[i];
+    if (!(axis.velocity > 0 && axis.rapid_velocity > 0 && axis.acceleration > 0 && axis.jerk > 0))
+      return false;
+  }
+  return true;
+}
+
+// A move that is lost in the tolerance is left to the next one: short segments have no direction worth
+// keeping.
+bool Trajectory::joins_to_last(const PathSegment& segment) const {
+  if (segment.is_arc() || path_.size() == 0) return false;
+  double linear = 0, rotary = 0;
+  for (std::size_t i = 0; i < axis_count; ++i) {
+    const double travel = std::abs(segment.target()[i] - segment.start()[i]);
+    double& part = i >= language::A && i <= language::C ? rotary : linear;
+    part = std::max(part, travel);
+  }
+  return linear <= merge_share * limits_.contour_tolerance &&
+         rotary <= merge_share * limits_.orientation_tolerance;
+}
+
 bool Trajectory::push_move(const Command& command, double fraction) {
   if (!can_accept()) return false;
-  PlannedSegment segment;
-  segment.line = command.line;
-  segment.sequence = command.sequence;
-  segment.fraction_offset = fraction;
+  PathBlock block;
+  block.line = command.line;
+  block.sequence = command.sequence;
+  block.fraction_offset = fraction;
   const bool fresh = at_rest();
   if (command.kind == CommandKind::dwell) {
     const double cycles = std::ceil(command.dwell_seconds * (1 - fraction) / cycle_ - 1e-9);
     if (!(cycles >= 0) || cycles > longest_dwell_cycles) return false;
-    if (fresh) planner_.clear();
-    segment.path = PathSegment::line(end_, end_);
-    planner_.push(segment, true, static_cast<int>(cycles) + 1);
-    settled_cycles_ = 0;
+    if (fresh) restart_path();
+    flush();
+    block.path = PathSegment::line(end_, end_);
+    block.wait_cycles = static_cast<int>(cycles);
+    stop_next_ = exact_next_ = true;
+    append(block);
+    stop_next_ = exact_next_ = true;
     return true;
   }
   if (!is_finite(command.target)) return false;
@@ -84,66 +133,138 @@ bool Trajectory::push_move(const Command& command, double fraction) {
     if (fraction > 0) arc.sweep = remaining_sweep(end_, command.target, arc, fraction);
     if (!std::all_of(arc.centre.begin(), arc.centre.end(), [](double v) { return std::isfinite(v); }))
       return false;
-    segment.path =
+    block.path =
         arc.sweep > 0 ? PathSegment::arc(end_, command.target, arc) : PathSegment::line(end_, command.target);
   } else if (command.kind == CommandKind::line || command.kind == CommandKind::rapid) {
-    segment.path = PathSegment::line(end_, command.target);
+    block.path = PathSegment::line(end_, command.target);
   } else {
     return false;
   }
-  segment.rapid = command.kind == CommandKind::rapid;
+  block.rapid = command.kind == CommandKind::rapid;
   const bool inverse = command.modal.feed_mode == language::FeedMode::inverse_time;
+  const double length = block.path.length();
   // Inverse time is the feed of the whole command: what is left of it takes its share of the time.
-  const double whole = fraction < 1 ? segment.path.length() / (1 - fraction) : segment.path.length();
-  segment.feed = command.modal.feed / 60 * (inverse ? whole : 1);
-  const double length = segment.path.length();
+  const double whole = fraction < 1 ? length / (1 - fraction) : length;
+  block.feed = command.modal.feed / 60 * (inverse ? whole : block.path.feed_scale());
   if (!std::isfinite(length)) return false;
-  if (length > 0 && !segment.rapid && !(segment.feed > 0 && std::isfinite(segment.feed))) return false;
+  if (length > 0 && !block.rapid && !(block.feed > 0 && std::isfinite(block.feed))) return false;
+  if (!movable(end_, command.target)) return false;
   if (length > 0) {
-    if (fresh) planner_.clear();
-    segment.rates = sample_rates(segment.path, active_chain_, tool_length_);
-    planner_.push(segment, stop_next_, 0);
-    stop_next_ = false;
-    settled_cycles_ = 0;
+    if (fresh) restart_path();
+    if (pending_ && block.path.is_arc()) flush();
+    if (pending_) block.path = PathSegment::line(joined_, command.target);
     end_ = command.target;
+    if (!(block.path.length() > 0)) {
+      pending_.reset();  // the moves led back to where they began
+    } else if (!stop_next_ && joins_to_last(block.path)) {
+      pending_ = block;
+    } else {
+      pending_.reset();
+      append(block);
+    }
   }
-  if (command.modal.path_control == language::PathControl::exact_stop) stop_next_ = true;
+  if (command.modal.path_control == language::PathControl::exact_stop) {
+    flush();
+    stop_next_ = exact_next_ = true;
+  }
   return true;
 }
 
-bool Trajectory::at_rest() const { return planner_.done() && settled_cycles_ >= interpolator_.cycles(); }
+void Trajectory::flush() {
+  if (!pending_) return;
+  PathBlock block = *pending_;
+  pending_.reset();
+  append(block);
+}
+
+void Trajectory::append(PathBlock block) {
+  path_.rate_join(block);
+  block.stop = stop_next_ || path_.size() == 0 || stops_at_join(path_[path_.size() - 1], block, limits_);
+  block.overlap = block.stop && !exact_next_ && limits_.contour_tolerance > 0;
+  joined_ = block.path.target();
+  path_.push(block);
+  stop_next_ = exact_next_ = false;
+  speed_.set_finished(false);
+  plan();
+}
+
+void Trajectory::plan() {
+  path_.update(speed_.finished());
+  builder_.extend(path_, speed_.cells(), oldest_cell());
+  speed_.extended();
+}
+
+void Trajectory::finish() {
+  if (path_.size() == 0) return;
+  flush();
+  speed_.set_finished(true);
+  stop_next_ = exact_next_ = true;
+  plan();
+}
+
+void Trajectory::abort() {
+  if (!at_rest()) aborting_ = true;
+}
+
+bool Trajectory::at_rest() const {
+  return path_.size() == 0 || (speed_.finished() && !pending_ && builder_.next_block() == path_.size() &&
+                               speed_.at_end() && !tail_);
+}
 
 Setpoint Trajectory::step(double feed_override, double rapid_override, bool hold) {
-  planner_.step({feed_override, rapid_override, hold});
+  // A ring that is full of blocks none of which is known well enough becomes a path of its own.
+  if (path_.size() > 0 && !can_accept() && !aborting_ && path_.settled_blocks() == 0) finish();
+  if (builder_.next_block() < path_.settled_blocks()) plan();
+  if (tail_) {
+    tail_->time -= cycle_;
+    if (tail_->time <= 0) tail_.reset();
+  }
+  speed_.allow_overlap(!tail_ && !aborting_);
+  speed_.step({feed_override, rapid_override, hold || aborting_});
+  if (const auto tail = speed_.take_tail()) tail_ = tail;
+
+  const AxisValues before = output_;
   Setpoint setpoint;
-  if (!planner_.empty()) {
-    const PlannedSegment& segment = planner_.current();
-    if (planner_.started()) path_ = segment.path.position(planner_.travelled());
-    line_ = segment.line;
-    sequence_ = segment.sequence;
-    const double length = segment.path.length();
-    const double done = length > 0 ? planner_.travelled() / length : (planner_.waiting() ? 0 : 1);
-    setpoint.fraction = segment.fraction_offset + (1 - segment.fraction_offset) * done;
-    setpoint.rapid = segment.rapid;
-    setpoint.dwelling = planner_.waiting();
-    for (std::size_t i = 0; i < language::axis_count; ++i) {
-      setpoint.distance_to_go[i] = segment.path.target()[i];
+  if (path_.size() > 0 && speed_.cells().size() > 0) {
+    const LimitCell& cell = speed_.cells()[speed_.current_cell()];
+    const PathBlock& block = path_[cell.block];
+    const double s = speed_.state().s;
+    if (speed_.started()) output_ = path_.position(cell.block, s);
+    if (tail_) {
+      const std::uint64_t last = speed_.cells()[tail_->cell].block;
+      const double rest = tail_->jerk * tail_->time * tail_->time * tail_->time / 6;
+      const AxisValues near = path_.position(last, tail_->end - rest),
+                       corner = path_.position(last, tail_->end);
+      for (std::size_t i = 0; i < axis_count; ++i) output_[i] += near[i] - corner[i];
+    }
+    line_ = block.line;
+    sequence_ = block.sequence;
+    const double length = block.path.length();
+    const double done = s >= block.end() ? (speed_.waiting() ? 0 : 1) : (s - block.at) / length;
+    setpoint.fraction = block.fraction_offset + (1 - block.fraction_offset) * done;
+    setpoint.rapid = block.rapid;
+    setpoint.dwelling = speed_.waiting();
+    setpoint.distance_to_go = block.path.target();
+    if (aborting_ && speed_.standing() && !tail_) {
+      restart_path();
+      end_ = joined_ = output_;
+      setpoint.distance_to_go = output_;
     }
   } else {
-    end_ = path_;  // an abort drops the rest of the path
-    setpoint.distance_to_go = path_;
+    if (aborting_) {
+      restart_path();
+      end_ = joined_ = output_;
+    }
+    setpoint.distance_to_go = output_;
     setpoint.fraction = fraction_;
   }
   fraction_ = setpoint.fraction;
-  const AxisValues before = output_;
-  output_ = interpolator_.step(path_);
-  settled_cycles_ = planner_.done() ? std::min(settled_cycles_ + 1, interpolator_.cycles()) : 0;
   setpoint.position = output_;
-  for (std::size_t i = 0; i < language::axis_count; ++i) setpoint.distance_to_go[i] -= output_[i];
+  for (std::size_t i = 0; i < axis_count; ++i) setpoint.distance_to_go[i] -= output_[i];
   setpoint.line = line_;
   setpoint.sequence = sequence_;
   setpoint.feed = std::hypot(output_[0] - before[0], output_[1] - before[1], output_[2] - before[2]) / cycle_;
-  setpoint.path_speed = planner_.speed();
+  setpoint.path_speed = path_.size() > 0 ? speed_.state().v : 0;
   setpoint.at_rest = at_rest();
   return setpoint;
 }

@@ -1,11 +1,14 @@
 // Canonical commands in, one setpoint per cycle out.
 #pragma once
 
+#include <optional>
+
 #include "geometry/chain.hpp"
 #include "language/canonical.hpp"
-#include "motion/interpolator.hpp"
+#include "motion/blended_path.hpp"
+#include "motion/cell_builder.hpp"
 #include "motion/limits.hpp"
-#include "motion/speed_planner.hpp"
+#include "motion/speed_stage.hpp"
 
 namespace trunnion::motion {
 
@@ -15,17 +18,18 @@ struct Setpoint {
   AxisValues distance_to_go{};  ///< to the end of the command, per axis
   std::uint32_t line = 0;       ///< of the command being executed, 0 before the first
   std::uint32_t sequence = 0;
-  double fraction = 0;  ///< of that command completed by the path point, 0..1; T/2 ahead of `position`
-  double feed = 0;      ///< speed of X Y Z in that frame, mm/s
-  double path_speed =
-      0;  ///< speed of the path point before smoothing, mm/s (deg/s when only rotary axes move)
+  double fraction = 0;    ///< of that command completed, 0..1
+  double feed = 0;        ///< speed of X Y Z in that frame, mm/s
+  double path_speed = 0;  ///< mm/s (deg/s when only rotary axes move)
   bool rapid = false;
   bool dwelling = false;  ///< standing between segments: dwell or exact stop
-  bool at_rest = true;    ///< everything pushed is done and the smoothing has settled
+  bool at_rest = true;    ///< everything pushed is done
 };
 
-/// One channel's motion: geometry, speed and interpolation in a row. Deterministic: the setpoints depend only
-/// on the calls and the cycle in which they were made. After construction nothing allocates.
+/// One channel's motion: geometry, speed and interpolation in a row (docs/motion.md). Every machine axis
+/// keeps its limits of velocity, acceleration and jerk under any overrides, and the path its tolerances.
+/// Deterministic: the setpoints depend only on the calls and the cycle in which they were made. After
+/// construction nothing allocates.
 class Trajectory {
  public:
   /// `chain` is what Transformation::rtcp goes through; it must outlive the trajectory. nullptr: no
@@ -38,12 +42,12 @@ class Trajectory {
   void start(const AxisValues& position, language::Transformation transformation, double tool_length);
 
   /// Room for at least one more command.
-  bool can_accept() const { return planner_.can_accept(); }
+  bool can_accept() const;
 
   /// Appends a rapid, line, arc or dwell in the frame given to start(). Motion begins as soon as enough is
   /// known. False, and nothing changed, when there is no room, the kind is another, or the numbers make no
-  /// move (not finite, feed or sweep not above 0). A move without length is accepted and does nothing.
-  /// per_revolution feeds must have been converted to mm/min.
+  /// move (not finite, feed or sweep not above 0, an axis without limits above 0). A move without length is
+  /// accepted and does nothing. per_revolution feeds must have been converted to mm/min.
   bool push(const language::Command& command);
 
   /// Appends what is left of a command of which `fraction` (0..1) is done, from the end of what was pushed: a
@@ -52,10 +56,10 @@ class Trajectory {
 
   /// Nothing follows yet: lets the motion run to the end of the last command and stop there. Commands may
   /// be pushed afterwards; they start behind that stop.
-  void finish() { planner_.finish(); }
+  void finish();
 
   /// Brakes on the path and drops what is left. When at_rest, position() is where it stopped.
-  void abort() { planner_.abort(); }
+  void abort();
 
   /// The next cycle. Overrides 0..1.5 (rapid 0..1), 0 or `hold` brake to a standstill on the path.
   Setpoint step(double feed_override, double rapid_override, bool hold);
@@ -65,24 +69,33 @@ class Trajectory {
   const AxisValues& position() const { return output_; }
   /// End of everything pushed.
   const AxisValues& end_position() const { return end_; }
-  /// Path point before smoothing, where an abort would be measured from.
-  const AxisValues& path_position() const { return path_; }
+  /// See SpeedStage::stopping_cycles.
+  std::uint64_t stopping_cycles() const { return speed_.stopping_cycles(); }
 
  private:
   bool push_move(const language::Command& command, double fraction);
+  bool movable(const AxisValues& from, const AxisValues& to) const;
+  bool joins_to_last(const PathSegment& segment) const;
+  void append(PathBlock block);
+  void flush();
+  void plan();
+  void restart_path();
+  std::uint64_t oldest_cell() const;
 
   double cycle_;
+  Limits limits_;
   const geometry::Chain* chain_;
   const geometry::Chain* active_chain_ = nullptr;
   double tool_length_ = 0;
-  CornerRules rules_;
-  SpeedPlanner planner_;
-  Interpolator interpolator_;
-  AxisValues end_{}, path_{}, output_{};
+  BlendedPath path_;
+  CellBuilder builder_;
+  SpeedStage speed_;
+  AxisValues end_{}, joined_{}, output_{};
+  std::optional<PathBlock> pending_;  ///< a move too short to be worth a segment, until more follows
+  std::optional<Tail> tail_;
   std::uint32_t line_ = 0, sequence_ = 0;
-  bool stop_next_ = false;
-  int settled_cycles_ = 0;
   double fraction_ = 0;
+  bool stop_next_ = true, exact_next_ = true, aborting_ = false;
 };
 
 }  // namespace trunnion::motion

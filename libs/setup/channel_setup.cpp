@@ -34,7 +34,7 @@ void ChannelSetup::configure(const machine::Parameters& p) {
     columns_.push_back(machine::column_of(drive, a));
     mask_ = static_cast<std::uint16_t>(mask_ | (1u << index));
     limits_.axes[index] = {p.get("maximum_feed", a) / 60, p.get("rapid_feed", a) / 60,
-                           p.get("maximum_acceleration", a)};
+                           p.get("maximum_acceleration", a), p.get("maximum_jerk", a)};
     travel_[index] = {p.get("negative_limit", a), p.get("positive_limit", a)};
     reference_[index] = p.get("reference_coordinate", a);
     jog_feed_[index] = p.get("jog_feed", a);
@@ -60,6 +60,8 @@ void ChannelSetup::configure(const machine::Parameters& p) {
   limits_.smoothing_cycles = p.integer("smoothing_cycles", channel_);
   limits_.contour_tolerance = p.get("contour_tolerance", channel_);
   limits_.arc_tolerance = p.get("arc_tolerance");
+  limits_.smooth_corner_angle = p.get("smooth_corner_angle", channel_);
+  limits_.centripetal_acceleration = p.get("centripetal_acceleration", channel_);
   limits_.orientation_tolerance = p.get("orientation_tolerance", channel_);
   radius_deviation_ = p.get("radius_deviation");
   cycle_seconds_ = p.get("interpolation_cycle") * 1e-6;

@@ -29,6 +29,7 @@ void expect_within(const Motion& run, const AxisValues& start, const Limits& lim
   const Ratios ratios = axis_ratios(run, start, limits, chain, tool_length);
   EXPECT_LE(ratios.velocity, allowed_ratio);
   EXPECT_LE(ratios.acceleration, allowed_ratio);
+  EXPECT_LE(ratios.jerk, allowed_ratio);
 }
 
 class Zigzag : public testing::TestWithParam<std::tuple<int, double, double>> {};

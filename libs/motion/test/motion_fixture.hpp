@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "geometry/chain.hpp"
-#include "motion/axis_rates.hpp"
+#include "motion/axis_motion.hpp"
 #include "motion/trajectory.hpp"
 
 namespace trunnion::motion::test {
@@ -19,7 +19,7 @@ inline constexpr double cycle = 0.001;
 
 inline Limits uniform_limits(double velocity, double acceleration, int cycles) {
   Limits limits;
-  limits.axes.fill({velocity, 2 * velocity, acceleration});
+  limits.axes.fill({velocity, 2 * velocity, acceleration, 60000});
   limits.smoothing_cycles = cycles;
   return limits;
 }
@@ -80,7 +80,8 @@ inline Motion run(
 }
 
 struct Ratios {
-  double velocity = 0, acceleration = 0;  // largest finite difference of a machine axis by its limit
+  double velocity = 0, acceleration = 0,
+         jerk = 0;  // largest finite difference of a machine axis by its limit
 };
 
 /// Finite differences of the machine axes over a run that began at rest at `start`.
@@ -88,7 +89,8 @@ inline Ratios axis_ratios(const Motion& run, const AxisValues& start, const Limi
                           const geometry::Chain* chain, double tool_length, bool rapid = false) {
   Ratios ratios;
   AxisValues q2 = machine_axes(start, chain, tool_length);
-  AxisValues q1 = q2;
+  AxisValues q1 = q2, q3 = q2;
+  const double build_up = std::clamp(limits.smoothing_cycles, 1, max_smoothing_cycles) * cycle;
   for (const Setpoint& s : run.setpoints) {
     const AxisValues q = machine_axes(s.position, chain, tool_length);
     for (std::size_t i = 0; i < q.size(); ++i) {
@@ -97,7 +99,10 @@ inline Ratios axis_ratios(const Motion& run, const AxisValues& start, const Limi
       const double acceleration = std::abs(q[i] - 2 * q1[i] + q2[i]) / (cycle * cycle);
       ratios.velocity = std::max(ratios.velocity, velocity / (rapid ? axis.rapid_velocity : axis.velocity));
       ratios.acceleration = std::max(ratios.acceleration, acceleration / axis.acceleration);
+      const double jerk = std::abs(q[i] - 3 * q1[i] + 3 * q2[i] - q3[i]) / (cycle * cycle * cycle);
+      ratios.jerk = std::max(ratios.jerk, jerk / std::min(axis.jerk, axis.acceleration / build_up));
     }
+    q3 = q2;
     q2 = q1;
     q1 = q;
   }

@@ -100,6 +100,7 @@ TEST_P(RandomProgram, ends_on_its_target_within_every_limit_and_the_tolerance) {
   const Ratios ratios = axis_ratios(result, {}, s.limits, used, 80);
   EXPECT_LE(ratios.velocity, 1.001);
   EXPECT_LE(ratios.acceleration, 1.001);
+  EXPECT_LE(ratios.jerk, 1.001);
   if (!s.arcs) {
     EXPECT_LE(contour_error(result, s.points), s.limits.contour_tolerance);
   }

@@ -10,6 +10,9 @@
 
 namespace trunnion::channel {
 namespace {
+// A hold has ended in a standstill when the setpoints have been the same this long: a rounding at a stop may still run
+// out after the path speed is 0.
+constexpr int standstill_cycles = 3;
 // Meaning of the channel's entry in the stream's states, from which a restarted process goes on.
 enum StateIndex {
   s_running,
@@ -428,11 +431,11 @@ bool ChannelCore::produce(idl::stream::PathFrame& frame) {
     frame.lines.push_back(setpoint.line);
     auto& written = written_[(link_.next() + frame.count) % history];
     written = {link_.next() + frame.count, setpoint.line, setpoint.feed, setpoint.distance_to_go};
-    points_[point_++ % points_.size()] = {setpoint.sequence, setpoint.line, setpoint.fraction};
+    point_ = {setpoint.sequence, setpoint.line, setpoint.fraction};
     ++frame.count;
     standing_ = setpoint.path_speed == 0 && setpoint.position == last_position_ ? standing_ + 1 : 0;
     last_position_ = setpoint.position;
-    frame.ends = setpoint.at_rest || (hold_ && standing_ > machine_.limits().smoothing_cycles + 1);
+    frame.ends = setpoint.at_rest || (hold_ && standing_ > standstill_cycles);
   }
   if (frame.count == 0) return false;
   frame.channel = number_;
@@ -454,9 +457,7 @@ bool ChannelCore::produce(idl::stream::PathFrame& frame) {
 
 std::vector<double> ChannelCore::stage_state(FlowState flow) {
   std::vector<double> v(s_size, 0.0);
-  // The smoothed setpoint lies half the window behind the path point that motion has reached.
-  const std::size_t behind = static_cast<std::size_t>(machine_.limits().smoothing_cycles) / 2;
-  const auto& point = points_[(point_ + points_.size() - 1 - std::min(behind, point_ - 1)) % points_.size()];
+  const auto& point = point_;
   const bool last = flow == FlowState::end ||
                     (flow == FlowState::command && flow_.pending().kind == language::CommandKind::end);
   v[s_running] = activity_ == Activity::program && !aborting_ && !(last && trajectory_->at_rest()) ? 1 : 0;

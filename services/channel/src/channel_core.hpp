@@ -170,8 +170,7 @@ class ChannelCore {
     std::uint32_t sequence = 0, line = 0;
     double fraction = 0;
   };
-  std::array<PathPoint, 128> points_{};
-  std::size_t point_ = 0;
+  PathPoint point_;  // that the newest setpoint has reached
   Written shown_;
   std::vector<ChannelEvent> events_;
   idl::channel::ChannelState state_;

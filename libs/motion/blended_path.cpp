@@ -1,0 +1,249 @@
+#include "motion/blended_path.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "motion/blend.hpp"
+
+namespace trunnion::motion {
+namespace {
+
+using language::axis_count;
+
+// Part of the tolerance that is used; the rest covers rounding.
+constexpr double tolerance_share = 0.98;
+
+// Size of a change, linear and rotary apart, by the tolerances.
+double weigh(const AxisValues& change, const BlendRules& rules) {
+  double linear = 0, rotary = 0;
+  for (std::size_t i = 0; i < axis_count; ++i) {
+    (i >= language::A && i <= language::C ? rotary : linear) += change[i] * change[i];
+  }
+  const auto part = [](double square, double tolerance) {
+    if (square <= 0) return 0.0;
+    return tolerance > 0 ? std::sqrt(square) / tolerance : 1e300;
+  };
+  return std::max(part(linear, rules.contour_tolerance), part(rotary, rules.orientation_tolerance));
+}
+
+}  // namespace
+
+void BlendedPath::clear(const BlendRules& rules) {
+  rules_ = rules;
+  pushed_ = rated_ = reached_ = settled_blocks_ = 0;
+  settled_ = 0;
+  last_widest_ = 1;
+}
+
+void BlendedPath::rate_join(PathBlock& block) const {
+  block.turn = block.bend = {};
+  block.weight = block.bend_weight = 0;
+  if (pushed_ == 0) return;
+  const PathBlock& before = (*this)[pushed_ - 1];
+  const auto ends = before.path.derivatives(before.path.length());
+  const auto begins = block.path.derivatives(0);
+  for (std::size_t i = 0; i < axis_count; ++i) {
+    block.turn[i] = begins[0][i] - ends[0][i];
+    block.bend[i] = begins[1][i] - ends[1][i];
+  }
+  block.weight = weigh(block.turn, rules_);
+  block.bend_weight = before.path.is_arc() || block.path.is_arc() ? weigh(block.bend, rules_) : 0;
+}
+
+void BlendedPath::push(PathBlock block) {
+  block.at = end();
+  if (pushed_ == 0) block.stop = true;
+  block.reach = block.widest = 0;
+  (*this)[pushed_++] = block;
+}
+
+// End of the stretch between two stops that block `index` belongs to, as far as it is known.
+double BlendedPath::stretch_end(std::uint64_t index) const {
+  std::uint64_t k = index + 1;
+  while (k < pushed_ && !(*this)[k].stop && (*this)[k].at - (*this)[index].at < longest_reach) ++k;
+  return k < pushed_ ? (*this)[k].at : end();
+}
+
+// Share of the tolerance that all joins around `index` take there when they all reach `reach`. Between two
+// joins the sum is convex, so it is largest at a join.
+double BlendedPath::usage(std::uint64_t index, double reach) const {
+  const double at = (*this)[index].at;
+  double sum = 0;
+  const auto add = [&](const PathBlock& join) {
+    const double rest = reach - std::abs(join.at - at);
+    sum += join.weight * rest * rest * rest;
+    if (join.bend_weight > 0)
+      sum += join.bend_weight * 6 * curvature_blend_height * reach * reach * reach * reach;
+  };
+  add((*this)[index]);
+  for (std::uint64_t k = index + 1; k < pushed_ && !(*this)[k].stop && (*this)[k].at - at < reach; ++k)
+    add((*this)[k]);
+  for (std::uint64_t k = index; k-- > oldest() && !(*this)[k].stop && at - (*this)[k].at < reach;)
+    add((*this)[k]);
+  return sum / (6 * reach * reach);
+}
+
+double BlendedPath::widest_reach(std::uint64_t index) const {
+  const double at = (*this)[index].at;
+  double most = longest_reach;
+  // Not across a stop, and not over more joins than a setpoint shall have to sum.
+  int joins = 0;
+  std::uint64_t k = index + 1;
+  for (; k < pushed_ && !(*this)[k].stop && (*this)[k].at - at < most; ++k) {
+    if (++joins == most_joins) most = (*this)[k].at - at;
+  }
+  if (k < pushed_ && (*this)[k].stop) most = std::min(most, (*this)[k].at - at);
+  if (k == pushed_) most = std::min(most, end() - at);
+  joins = 0;
+  for (k = index; k-- > oldest() && at - (*this)[k].at < most;) {
+    if ((*this)[k].stop || ++joins == most_joins) most = at - (*this)[k].at;
+  }
+  if (!(most > 0)) return 0;
+  // The usage grows faster than the reach, so scaling the reach down by the usage is always enough.
+  double reach = std::min(most, last_widest_);
+  double used = usage(index, reach);
+  for (int step = 0; step < 6 && (used > tolerance_share || (used < 0.8 * tolerance_share && reach < most));
+       ++step) {
+    const double factor = used > 0 ? std::sqrt(0.92 * tolerance_share / used) : 4;
+    const double next = std::min(most, reach * std::clamp(factor, 0.2, 4.0));
+    const double next_used = usage(index, next);
+    reach = next;
+    used = next_used;
+  }
+  if (used > tolerance_share) reach *= tolerance_share / used;
+  return reach;
+}
+
+// A join may not reach farther than the tolerance allows at any join it touches.
+double BlendedPath::final_reach(std::uint64_t index) const {
+  const double at = (*this)[index].at;
+  double reach = (*this)[index].widest;
+  for (std::uint64_t k = index + 1; k < pushed_ && !(*this)[k].stop; ++k) {
+    const double distance = (*this)[k].at - at;
+    if (distance >= reach) break;
+    if ((*this)[k].widest < reach) reach = std::max((*this)[k].widest, distance);
+  }
+  for (std::uint64_t k = index; k-- > oldest() && !(*this)[k].stop;) {
+    const double distance = at - (*this)[k].at;
+    if (distance >= reach) break;
+    if ((*this)[k].widest < reach) reach = std::max((*this)[k].widest, distance);
+  }
+  return reach;
+}
+
+void BlendedPath::update(bool ends) {
+  const double known = end();
+  // `horizon` is how far ahead of a join the path must be known: its longest reach, a stop, or enough joins.
+  const auto is_known = [&](std::uint64_t index, std::uint64_t upto) {
+    if (ends && upto == pushed_) return true;
+    if (upto > index + most_joins) return true;
+    const double limit = upto < pushed_ ? (*this)[upto].at : known;
+    if (limit - (*this)[index].at >= longest_reach) return true;
+    for (std::uint64_t k = index + 1; k < pushed_ && k <= upto; ++k) {
+      if ((*this)[k].stop) return true;
+    }
+    return false;
+  };
+  while (rated_ < pushed_ && is_known(rated_, pushed_)) {
+    PathBlock& block = (*this)[rated_];
+    if (!block.stop && (block.weight > 0 || block.bend_weight > 0)) {
+      block.widest = widest_reach(rated_);
+      last_widest_ = std::max(block.widest, 1e-9);
+    } else {
+      block.widest = longest_reach;
+    }
+    ++rated_;
+  }
+  while (reached_ < rated_ && is_known(reached_, rated_)) {
+    PathBlock& block = (*this)[reached_];
+    block.reach = !block.stop && (block.weight > 0 || block.bend_weight > 0) ? final_reach(reached_) : 0;
+    ++reached_;
+  }
+  // A block is settled when no join at its end or behind it can reach into it any more.
+  const auto is_settled = [&](std::uint64_t index) {
+    if (ends && reached_ == pushed_) return true;
+    if (index + 1 < pushed_ && (*this)[index + 1].stop) return true;
+    return index + 1 < reached_ && is_known(index + 1, reached_);
+  };
+  while (settled_blocks_ < reached_ && is_settled(settled_blocks_)) ++settled_blocks_;
+  if (settled_blocks_ > 0) settled_ = (*this)[settled_blocks_ - 1].end();
+}
+
+template <typename Visit>
+void BlendedPath::for_joins(std::uint64_t index, double s, Visit visit) const {
+  int joins = 0;
+  for (std::uint64_t k = index;; --k) {
+    const PathBlock& join = (*this)[k];
+    if (join.stop || s - join.at >= longest_reach || joins++ > most_joins) break;
+    if (join.reach > 0 && s - join.at < join.reach) visit(join);
+    if (k == oldest()) break;
+  }
+  joins = 0;
+  for (std::uint64_t k = index + 1; k < pushed_; ++k) {
+    const PathBlock& join = (*this)[k];
+    if (join.stop || join.at - s >= longest_reach || joins++ > most_joins) break;
+    if (join.reach > 0 && join.at - s < join.reach) visit(join);
+  }
+}
+
+AxisValues BlendedPath::position(std::uint64_t index, double s) const {
+  const PathBlock& block = (*this)[index];
+  AxisValues p = s >= block.end() ? block.path.target() : block.path.position(s - block.at);
+  for_joins(index, s, [&](const PathBlock& join) {
+    const double x = s - join.at;
+    const double turn = direction_blend(x, 0, join.reach)[0];
+    for (std::size_t i = 0; i < axis_count; ++i) p[i] += turn * join.turn[i];
+    if (join.bend_weight <= 0) return;
+    const double bend = curvature_blend(x, x < 0 ? -1 : 1, join.reach)[0];
+    for (std::size_t i = 0; i < axis_count; ++i) p[i] += bend * join.bend[i];
+  });
+  return p;
+}
+
+std::array<AxisValues, 3> BlendedPath::derivatives(std::uint64_t index, double s, double inside) const {
+  const PathBlock& block = (*this)[index];
+  auto d = block.path.derivatives(s - block.at);
+  for_joins(index, inside, [&](const PathBlock& join) {
+    const double x = s - join.at, side = inside < join.at ? -1 : 1;
+    const BlendTerms turn = direction_blend(x, side, join.reach);
+    for (std::size_t i = 0; i < axis_count; ++i) {
+      d[0][i] += turn[1] * join.turn[i];
+      d[1][i] += turn[2] * join.turn[i];
+      d[2][i] += turn[3] * join.turn[i];
+    }
+    if (join.bend_weight <= 0) return;
+    const BlendTerms bend = curvature_blend(x, side, join.reach);
+    for (std::size_t i = 0; i < axis_count; ++i) {
+      d[0][i] += bend[1] * join.bend[i];
+      d[1][i] += bend[2] * join.bend[i];
+      d[2][i] += bend[3] * join.bend[i];
+    }
+  });
+  return d;
+}
+
+double BlendedPath::next_knot(std::uint64_t index, double s) const {
+  double next = (*this)[index].end();
+  const double least = s + 1e-9;
+  const auto look = [&](const PathBlock& join) {
+    for (const double knot : {join.at - join.reach, join.at + join.reach}) {
+      if (knot > least && knot < next) next = knot;
+    }
+  };
+  int joins = 0;
+  for (std::uint64_t k = index;; --k) {
+    const PathBlock& join = (*this)[k];
+    if (join.stop || s - join.at >= longest_reach || joins++ > most_joins) break;
+    look(join);
+    if (k == oldest()) break;
+  }
+  joins = 0;
+  for (std::uint64_t k = index + 1; k < pushed_; ++k) {
+    const PathBlock& join = (*this)[k];
+    if (join.stop || join.at - next >= longest_reach || joins++ > most_joins) break;
+    look(join);
+  }
+  return next;
+}
+
+}  // namespace trunnion::motion

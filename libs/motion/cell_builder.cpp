@@ -1,0 +1,183 @@
+#include "motion/cell_builder.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace trunnion::motion {
+namespace {
+
+using language::axis_count;
+
+// What of an axis' limits the path's own curvature may take at the highest speed; the rest accelerates.
+constexpr double normal_share = 0.72;
+constexpr double bend_share = 0.6;
+// Of the jerk left, what the product of curvature, speed and acceleration may take.
+constexpr double mixed_share = 0.4;
+// Through a chain the derivatives vary between the ends of a cell, which are all that is looked at.
+constexpr double chained_share = 0.995;
+constexpr double fastest = 1e5;
+
+}  // namespace
+
+void limit_cell(LimitCell& cell, const CellRates& rates, const Limits& limits) {
+  double speed = cell.rapid ? fastest : std::min(fastest, cell.feed * highest_override);
+  bool curved = false;
+  for (std::size_t i = 0; i < axis_count; ++i) {
+    const AxisLimits& axis = limits.axes[i];
+    const double velocity = cell.rapid ? axis.rapid_velocity : axis.velocity;
+    if (rates.first[i] > 0) speed = std::min(speed, velocity / rates.first[i]);
+    if (rates.second[i] > 0) {
+      speed = std::min(speed, std::sqrt(normal_share * axis.acceleration / rates.second[i]));
+      curved = true;
+    }
+    if (rates.third[i] > 0) {
+      speed = std::min(speed, std::cbrt(bend_share * axis.jerk / rates.third[i]));
+      curved = true;
+    }
+  }
+  if (rates.curvature > 0 && limits.centripetal_acceleration > 0)
+    speed = std::min(speed, std::sqrt(limits.centripetal_acceleration / rates.curvature));
+  cell.speed = speed;
+  cell.uniform = !curved;
+  const std::size_t count = curved ? LimitCell::levels : 1;
+  for (std::size_t k = 0; k < count; ++k) {
+    const double v = speed * LimitCell::shares[k];
+    double a = 1e9, j = 1e12;
+    for (std::size_t i = 0; i < axis_count; ++i) {
+      const AxisLimits& axis = limits.axes[i];
+      const double rest = axis.jerk - rates.third[i] * v * v * v;
+      if (rates.first[i] > 0) a = std::min(a, (axis.acceleration - rates.second[i] * v * v) / rates.first[i]);
+      if (rates.second[i] > 0) a = std::min(a, mixed_share * rest / (3 * rates.second[i] * v));
+    }
+    for (std::size_t i = 0; i < axis_count; ++i) {
+      if (rates.first[i] <= 0) continue;
+      const double rest = limits.axes[i].jerk - rates.third[i] * v * v * v - 3 * rates.second[i] * v * a;
+      j = std::min(j, rest / rates.first[i]);
+    }
+    cell.ramps[k] = {a, j};
+  }
+  for (std::size_t k = count; k < LimitCell::levels; ++k) cell.ramps[k] = cell.ramps[0];
+}
+
+double join_speed(const AxisValues& turn, double reach, const Limits& limits) {
+  double speed = fastest;
+  for (std::size_t i = 0; i < axis_count; ++i) {
+    if (turn[i] == 0) continue;
+    speed = std::min(speed, std::cbrt(bend_share * limits.axes[i].jerk * reach * reach / std::abs(turn[i])));
+  }
+  return speed;
+}
+
+void CellBuilder::start(const Limits& limits, const geometry::Chain* chain, double tool_length) {
+  limits_ = limits;
+  for (AxisLimits& axis : limits_.axes) {
+    const double share = chain != nullptr ? chained_share : 1;
+    axis.velocity *= share;
+    axis.rapid_velocity *= share;
+    axis.acceleration *= share;
+    axis.jerk *= share;
+  }
+  chain_ = chain;
+  tool_length_ = tool_length;
+  block_ = 0;
+  at_ = 0;
+  fresh_ = true;
+}
+
+PathRates CellBuilder::rates_at(const BlendedPath& path, std::uint64_t block, double s, double inside) const {
+  const PathRates rates = path.derivatives(block, s, inside);
+  if (chain_ == nullptr) return rates;
+  return machine_rates(path.position(block, s), rates, chain_, tool_length_);
+}
+
+LimitCell CellBuilder::make(const BlendedPath& path, double from, double to) const {
+  const PathBlock& block = path[block_];
+  LimitCell cell;
+  cell.at = from;
+  cell.end = to;
+  cell.feed = block.feed;
+  cell.rapid = block.rapid;
+  cell.block = block_;
+  const double middle = (from + to) / 2, length = to - from;
+  const PathRates begins = rates_at(path, block_, from, middle), ends = rates_at(path, block_, to, middle);
+  CellRates rates;
+  for (std::size_t i = 0; i < axis_count; ++i) {
+    rates.third[i] = std::max(std::abs(begins[2][i]), std::abs(ends[2][i]));
+    rates.second[i] = std::max(std::abs(begins[1][i]), std::abs(ends[1][i]));
+    // A function strays from the chord of its ends by at most f'' l^2 / 8.
+    rates.first[i] =
+        std::max(std::abs(begins[0][i]), std::abs(ends[0][i])) + rates.third[i] * length * length / 8;
+  }
+  if (limits_.centripetal_acceleration > 0) {
+    const PathRates a = path.derivatives(block_, from, middle), b = path.derivatives(block_, to, middle);
+    rates.curvature = std::max(std::hypot(a[1][0], a[1][1], a[1][2]), std::hypot(b[1][0], b[1][1], b[1][2]));
+  }
+  limit_cell(cell, rates, limits_);
+  return cell;
+}
+
+// How long before the end of one stretch the next may begin. At the same time t after its own start and
+// before the other's end, the second has gone at most j t^3 / 6 and the first has that much left, and the
+// path is left by no more than the smaller of the two. The axes have to stand both motions at once.
+double CellBuilder::overlap_time(const BlendedPath& path, const LimitCell& before,
+                                 const LimitCell& after) const {
+  if (!before.uniform || !after.uniform || path[before.block].path.unit() != path[after.block].path.unit())
+    return 0;
+  const PathRates first = rates_at(path, before.block, before.end, (before.at + before.end) / 2);
+  const PathRates second = rates_at(path, after.block, after.at, (after.at + after.end) / 2);
+  const RampLimits a = before.ramps[0], b = after.ramps[0];
+  double rotary = 0, linear = 1e-9;
+  for (std::size_t i = 0; i < axis_count; ++i) {
+    const double q1 = std::abs(first[0][i]), q2 = std::abs(second[0][i]);
+    if (q1 * a.acceleration + q2 * b.acceleration > limits_.axes[i].acceleration * (1 + 1e-9)) return 0;
+    if (q1 * a.jerk + q2 * b.jerk > limits_.axes[i].jerk * (1 + 1e-9)) return 0;
+    double& part = i >= language::A && i <= language::C ? rotary : linear;
+    part = std::max({part, q1, q2});
+  }
+  if (path[after.block].path.unit() == LengthUnit::degree) linear = 1e-9;
+  double deviation = limits_.contour_tolerance / std::max(1.0, linear);
+  if (rotary > 0) deviation = std::min(deviation, limits_.orientation_tolerance / (1.8 * rotary));
+  deviation *= 0.98;
+  const double time = std::cbrt(6 * deviation / a.jerk) + std::cbrt(6 * deviation / b.jerk);
+  const double longest = std::min(std::cbrt(6 * (before.end - before.at) / a.jerk),
+                                  std::cbrt(6 * (after.end - after.at) / b.jerk));
+  return std::min(time, longest);
+}
+
+// Longest cell at s: arcs by 6 degrees, turns of the rotary axes by 2 degrees through a chain.
+double CellBuilder::longest(const BlendedPath& path, double) const {
+  const PathBlock& block = path[block_];
+  double most = 1e9;
+  if (block.path.is_arc() && block.path.curvature() > 0) most = 0.1 / block.path.curvature();
+  if (chain_ != nullptr) {
+    const auto d = block.path.derivatives(0);
+    const double turn = std::hypot(d[0][language::A], d[0][language::B], d[0][language::C]);
+    if (turn > 0) most = std::min(most, 2 / turn);
+  }
+  return most;
+}
+
+void CellBuilder::extend(const BlendedPath& path, CellRing& cells, std::uint64_t keep) {
+  while (block_ < path.settled_blocks() && cells.size() - keep < CellRing::capacity - 64) {
+    const PathBlock& block = path[block_];
+    if (fresh_) {
+      at_ = block.at;
+      fresh_ = false;
+    }
+    const bool first = at_ == block.at;
+    const double knot = path.next_knot(block_, at_);
+    const double most = longest(path, at_);
+    double to = knot;
+    if (knot - at_ > most) to = at_ + (knot - at_) / std::ceil((knot - at_) / most);
+    LimitCell cell = make(path, at_, to);
+    cell.stop = first && block.stop;
+    cell.wait_cycles = cell.stop ? block.wait_cycles : 0;
+    if (cell.stop && block.overlap && cells.size() > 0)
+      cell.overlap = overlap_time(path, cells[cells.size() - 1], cell);
+    cells.push(cell);
+    at_ = to;
+    if (to >= block.end()) ++block_;
+  }
+}
+
+}  // namespace trunnion::motion

@@ -1,0 +1,53 @@
+// Cuts the curve of the geometry stage into cells and derives their limits from those of the machine axes.
+#pragma once
+
+#include "motion/axis_motion.hpp"
+#include "motion/blended_path.hpp"
+#include "motion/limit_cell.hpp"
+#include "motion/limits.hpp"
+
+namespace trunnion::motion {
+
+inline constexpr double highest_override = 1.5;
+
+/// Largest absolute derivatives of the machine axes on a cell.
+struct CellRates {
+  AxisValues first{}, second{}, third{};
+  double curvature = 0;  ///< of the X Y Z curve in the frame of the command, 1/length
+};
+
+/// Speed, acceleration and jerk along the path that keep every axis within its limits: with v, a, j along the
+/// path an axis has q'v, q''v^2 + q'a, q'''v^3 + 3q''va + q'j. `feed` caps the speed at the highest override.
+void limit_cell(LimitCell& cell, const CellRates& rates, const Limits& limits);
+
+/// Path speed at which a rounding with these third derivatives keeps the jerk of the axes.
+double join_speed(const AxisValues& turn, double reach, const Limits& limits);
+
+class CellBuilder {
+ public:
+  /// `chain` may be nullptr and must outlive the builder.
+  void start(const Limits& limits, const geometry::Chain* chain, double tool_length);
+
+  /// Appends cells for all of the path that is settled and fits into the ring, which keeps cells from `keep`
+  /// on.
+  void extend(const BlendedPath& path, CellRing& cells, std::uint64_t keep);
+
+  /// Coordinate up to which there are cells.
+  double built() const { return at_; }
+  std::uint64_t next_block() const { return block_; }
+
+ private:
+  PathRates rates_at(const BlendedPath& path, std::uint64_t block, double s, double inside) const;
+  double overlap_time(const BlendedPath& path, const LimitCell& before, const LimitCell& after) const;
+  LimitCell make(const BlendedPath& path, double from, double to) const;
+  double longest(const BlendedPath& path, double s) const;
+
+  Limits limits_;
+  const geometry::Chain* chain_ = nullptr;
+  double tool_length_ = 0;
+  std::uint64_t block_ = 0;
+  double at_ = 0;
+  bool fresh_ = true;
+};
+
+}  // namespace trunnion::motion

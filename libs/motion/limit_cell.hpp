@@ -1,0 +1,61 @@
+// A stretch of the path with what path speed, acceleration and jerk may be on it.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "motion/transition.hpp"
+
+namespace trunnion::motion {
+
+/// Every axis keeps its limits on the cell for any motion with 0 <= v <= speeds[k], |a| and |j| within
+/// ramps[k]. Level 0 is the fastest; slower levels leave more to acceleration and jerk.
+struct LimitCell {
+  static constexpr std::size_t levels = 4;
+  /// Speeds of the levels as shares of the first.
+  static constexpr std::array<double, levels> shares{1, 0.85, 0.65, 0.4};
+
+  double at = 0;     ///< path coordinate of the start
+  double end = 0;    ///< and of the end
+  double speed = 0;  ///< never exceeded, whatever the override
+  double feed = 0;   ///< programmed speed at override 1
+  std::array<RampLimits, levels> ramps{};
+  bool rapid = false;
+  bool uniform = false;  ///< all levels are the same
+  bool stop = false;     ///< motion stands at the start
+  int wait_cycles = 0;   ///< standstill there
+  double overlap = 0;    ///< s; motion may leave the start this long before it has been reached
+  std::uint64_t block = 0;
+
+  /// Ramp limits up to the speed v.
+  const RampLimits& ramp(double v) const {
+    std::size_t k = levels - 1;
+    while (k > 0 && v > shares[k] * speed) --k;
+    return ramps[k];
+  }
+  /// Speed of the slowest level that reaches v.
+  double level_speed(double v) const {
+    std::size_t k = levels - 1;
+    while (k > 0 && v >= shares[k] * speed * (1 - 1e-9)) --k;
+    return shares[k] * speed;
+  }
+};
+
+/// Ring of cells addressed by a counter that never wraps.
+class CellRing {
+ public:
+  static constexpr std::uint64_t capacity = 32768;
+  CellRing() : cells_(capacity) {}
+  LimitCell& operator[](std::uint64_t index) { return cells_[index % capacity]; }
+  const LimitCell& operator[](std::uint64_t index) const { return cells_[index % capacity]; }
+  std::uint64_t size() const { return pushed_; }
+  void clear() { pushed_ = 0; }
+  void push(const LimitCell& cell) { (*this)[pushed_++] = cell; }
+
+ private:
+  std::vector<LimitCell> cells_;
+  std::uint64_t pushed_ = 0;
+};
+
+}  // namespace trunnion::motion

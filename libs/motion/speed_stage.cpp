@@ -1,0 +1,365 @@
+#include "motion/speed_stage.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "motion/cell_builder.hpp"
+
+namespace trunnion::motion {
+namespace {
+
+// Rounding that is not worth a reaction: of path coordinates in mm, and of speeds and accelerations as a
+// share.
+constexpr double rounding_distance = 1e-9;
+constexpr double rounding = 1e-7;
+// How many stopping distances ahead weak places are taken into account before they have to be.
+constexpr double far_sight = 3;
+// A rest this small in front of a stop is rounding.
+constexpr double arrival_distance = 1e-8;
+
+}  // namespace
+
+void SpeedStage::clear() {
+  cells_.clear();
+  state_ = {};
+  stop_.clear();
+  current_ = 0;
+  entered_ = finished_ = false;
+  wait_ = 0;
+  braking_for_.reset();
+  tail_.reset();
+  overlap_allowed_ = true;
+}
+
+void SpeedStage::extended() {
+  if (braking_for_ && braking_for_->end) braking_for_.reset();
+}
+
+bool SpeedStage::at_end() const {
+  if (cells_.size() == 0) return true;
+  return entered_ && wait_ == 0 && standing() && current_ + 1 == cells_.size() &&
+         state_.s == cells_[current_].end;
+}
+
+std::optional<Tail> SpeedStage::take_tail() { return std::exchange(tail_, std::nullopt); }
+
+double SpeedStage::speed_of(const LimitCell& cell, const Look& look) const {
+  if (!look.soft) return cell.speed;
+  return cell.rapid ? cell.speed * look.rapid : std::min(cell.speed, cell.feed * look.feed);
+}
+
+RampLimits SpeedStage::local_ramp(double speed, double reach) const {
+  RampLimits ramp = cells_[current_].ramp(speed);
+  for (std::uint64_t k = current_ + 1;
+       k < cells_.size() && cells_[k].at < state_.s + reach && !cells_[k].stop; ++k) {
+    const RampLimits& next = cells_[k].ramp(speed);
+    ramp.acceleration = std::min(ramp.acceleration, next.acceleration);
+    ramp.jerk = std::min(ramp.jerk, next.jerk);
+  }
+  return ramp;
+}
+
+Transition SpeedStage::wish(const Look& look, bool hold) const {
+  const LimitCell& cell = cells_[current_];
+  double target = hold ? 0 : speed_of(cell, look);
+  const double v = std::max(state_.v, settled_speed(state_.v, state_.a, cell.ramp(state_.v).jerk));
+  // Where faster levels leave less to acceleration, speed is gained level by level.
+  if (!cell.uniform && target > v) target = std::min(target, cell.level_speed(v));
+  const double fastest = std::max(v, target);
+  const RampLimits ramp = local_ramp(fastest, (fastest + 1) * cycle_ * 1.5);
+  return Transition(state_.v, state_.a, target, ramp);
+}
+
+// Looks along the cells in legs: a leg leads from the state, or from a slower cell at its speed, to the next
+// slower cell. What is ahead of a slower cell only has to be reachable from its speed; when it is not, the
+// cell has to be entered at less.
+SpeedStage::Obstacle SpeedStage::obstacle_ahead(const PathState& state, std::uint64_t cell,
+                                                const Look& look) const {
+  PathState from = state;
+  double highest = std::max(from.v, settled_speed(from.v, from.a, cells_[cell].ramp(from.v).jerk));
+  RampLimits ramp = cells_[cell].ramp(highest);
+  double stop = braking_distance(from.v, from.a, 0, ramp);
+  Obstacle first;  // the slower cell the first leg ended at
+  const auto report = [&](double speed, std::uint64_t k, bool end) -> Obstacle {
+    if (!first.found) return {true, speed, ramp, k, end};
+    const double distance = (end ? cells_[k - 1].end : cells_[k].at) - from.s;
+    double low = std::min(speed, first.speed), high = first.speed;
+    for (int n = 0; n < 12; ++n) {
+      const double middle = 0.5 * (low + high);
+      (middle > speed && braking_distance(middle, 0, speed, ramp) > distance ? high : low) = middle;
+    }
+    Obstacle obstacle = first;
+    obstacle.speed = low;
+    obstacle.end = end;
+    if (braking_distance(state.v, state.a, low, first.ramp) + low * cycle_ <= cells_[first.cell].at - state.s)
+      obstacle.found = false;
+    return obstacle;
+  };
+  for (std::uint64_t k = cell + 1;; ++k) {
+    const bool end = k >= cells_.size();
+    const double distance = (end ? cells_[k - 1].end : cells_[k].at) - from.s + look.rounding;
+    if (distance >= (look.soft ? far_sight : 1) * stop) return {};
+    if (end || cells_[k].stop) return distance >= stop ? Obstacle{} : report(0, k, end);
+    const LimitCell& next = cells_[k];
+    const double speed = speed_of(next, look);
+    const bool slower = highest > speed * (1 + rounding);
+    // A cycle is left between the end of the braking and the slower cell, since cycles do not end at cells.
+    const double margin = first.found ? 0 : speed * cycle_;
+    if (slower && braking_distance(from.v, from.a, speed, ramp) + margin > distance)
+      return report(speed, k, false);
+    if (!first.found) {
+      const RampLimits& own = next.ramp(highest);
+      const double excess = std::abs(state.a) - own.acceleration * (1 + rounding);
+      if (excess > 0) {
+        const double jerk = state.a > 0 ? -ramp.jerk : ramp.jerk;
+        const PathState reduced = integrate({0, state.v, state.a}, jerk, excess / ramp.jerk);
+        if (reduced.s + std::min(speed, std::max(0.0, reduced.v)) * cycle_ > distance)
+          return {true,
+                  state.a > 0 ? settled_speed(state.v, state.a, ramp.jerk) : state.v,
+                  {own.acceleration, ramp.jerk},
+                  k,
+                  false,
+                  true};
+      }
+    }
+    if (slower) {
+      if (!first.found) first = {true, speed, ramp, k, false};
+      from = {next.at, speed, 0};
+      highest = speed;
+      ramp = next.ramp(speed);
+      stop = braking_distance(speed, 0, 0, ramp);
+      continue;
+    }
+    const RampLimits& own = next.ramp(highest);
+    if (own.acceleration < ramp.acceleration || own.jerk < ramp.jerk) {
+      ramp.acceleration = std::min(ramp.acceleration, own.acceleration);
+      ramp.jerk = std::min(ramp.jerk, own.jerk);
+      stop = braking_distance(from.v, from.a, 0, ramp);
+    }
+  }
+}
+
+SpeedStage::Outcome SpeedStage::judge(const PathState& state, const Look& look) const {
+  Outcome outcome{state, current_, {}};
+  const double fastest = std::max(state_.v, state.v);
+  while (state.s > cells_[outcome.cell].end + (outcome.cell + 1 >= cells_.size() ? 1 : 0) * look.rounding) {
+    const std::uint64_t next = outcome.cell + 1;
+    const bool end = next >= cells_.size() || cells_[next].stop;
+    if (end) {
+      if (state.s > cells_[outcome.cell].end + 2 * look.rounding || state.v > 1e-3)
+        outcome.obstacle = {true, 0, local_ramp(fastest, fastest * cycle_), next, next >= cells_.size()};
+      return outcome;
+    }
+    const double speed = speed_of(cells_[next], look);
+    if (fastest > speed * (1 + rounding)) {
+      outcome.obstacle = {true, speed, local_ramp(fastest, fastest * cycle_), next, false};
+      return outcome;
+    }
+    outcome.cell = next;
+  }
+  outcome.obstacle = obstacle_ahead(state, outcome.cell, look);
+  return outcome;
+}
+
+// A way to a standstill from `state`: braking with what all cells on the way allow; where a slower cell would
+// be entered too fast, down to its speed first and on from there.
+bool SpeedStage::find_stop(const PathState& state, std::uint64_t cell, PhaseList& stop) const {
+  stop.clear();
+  PathState at = state;
+  std::uint64_t here = cell;
+  for (int leg = 0; leg < 8; ++leg) {
+    if (at.v <= 0 && at.a == 0) return true;
+    // The least ramp limits over the distance that braking with them takes.
+    RampLimits ramp = cells_[here].ramp(at.v);
+    Obstacle slower;
+    double distance_needed = braking_distance(at.v, at.a, 0, ramp);
+    for (std::uint64_t k = here + 1; k < cells_.size() && !cells_[k].stop; ++k) {
+      const double distance = cells_[k].at - at.s;
+      if (distance > distance_needed) break;
+      if (!slower.found && at.v > cells_[k].speed * (1 + rounding))
+        slower = {true, cells_[k].speed, ramp, k, false};
+      const RampLimits& own = cells_[k].ramp(at.v);
+      if (own.acceleration < ramp.acceleration || own.jerk < ramp.jerk) {
+        ramp.acceleration = std::min(ramp.acceleration, own.acceleration);
+        ramp.jerk = std::min(ramp.jerk, own.jerk);
+        distance_needed = braking_distance(at.v, at.a, 0, ramp);
+      }
+    }
+    PhaseList whole;
+    whole.add(Transition(at.v, at.a, 0, ramp));
+    std::uint64_t end = here;
+    if (keeps_limits(whole, at, cells_, end)) {
+      for (std::size_t k = 0; k < whole.size(); ++k) {
+        if (!stop.add(whole[k])) return false;
+      }
+      return true;
+    }
+    if (!slower.found) return false;
+    PhaseList part;
+    part.add(Transition(at.v, at.a, slower.speed, slower.ramp));
+    end = here;
+    if (part.size() == 0 || !keeps_limits(part, at, cells_, end)) return false;
+    for (std::size_t k = 0; k < part.size(); ++k) {
+      if (!stop.add(part[k])) return false;
+    }
+    at = part.after(at);
+    at.v = slower.speed;
+    at.a = 0;
+    here = end;
+  }
+  return false;
+}
+
+// Takes a cycle when it keeps the limits and leaves a way to stop.
+bool SpeedStage::accept(const PhaseList& action) {
+  std::uint64_t cell = current_;
+  if (!keeps_limits(action, state_, cells_, cell)) return false;
+  PathState next = action.after(state_);
+  if (std::abs(next.v) < 1e-9 && std::abs(next.a) < 1e-6) next.v = next.a = 0;
+  PhaseList stop;
+  if (!find_stop(next, cell, stop)) return false;
+  state_ = next;
+  current_ = cell;
+  stop_ = stop;
+  return true;
+}
+
+// Follows the transition for as long a part of the cycle as the obstacle it leads to allows, and brakes for
+// that obstacle for the rest. When even braking at once is not enough for another one, that braking is what
+// is followed.
+bool SpeedStage::follow(const Transition& wished, const Look& look, int depth) {
+  PhaseList action;
+  const Outcome whole = judge(wished.after(state_, cycle_), look);
+  Obstacle obstacle = whole.obstacle;
+  double low = cycle_ / 2;
+  if (!obstacle.found) {
+    action.add(wished, cycle_);
+    if (accept(action)) return true;
+    // No stop was found behind it: as much of it as leaves one, braking for the rest.
+    obstacle = {true, 0, local_ramp(state_.v, (state_.v + 1) * cycle_ * 1.5), current_, true};
+  } else {
+    const auto part = [&](double time, const Look& how) {
+      const PathState at = wished.after(state_, time);
+      return judge(Transition(at.v, at.a, obstacle.speed, obstacle.ramp).after(at, cycle_ - time), how);
+    };
+    const Outcome at_once = part(0, look);
+    if (at_once.obstacle.found) {
+      if (depth >= 6) return false;
+      // The ramp an obstacle asks for is the least on the way to it; stronger braking is possible as long as
+      // the cells right ahead stand it.
+      const bool same = at_once.obstacle.cell == obstacle.cell && at_once.obstacle.speed == obstacle.speed;
+      const RampLimits ramp =
+          same ? local_ramp(state_.v, (state_.v + 1) * cycle_ * 1.5) : at_once.obstacle.ramp;
+      return follow(Transition(state_.v, state_.a, same ? 0 : at_once.obstacle.speed, ramp), look, depth + 1);
+    }
+    // The rounding allowed is kept for the cycles that follow.
+    Look strict = look;
+    strict.rounding = 0;
+    low = 0;
+    double high = cycle_;
+    for (int k = 0; k < 50; ++k) {
+      const double middle = 0.5 * (low + high);
+      (part(middle, strict).obstacle.found ? high : low) = middle;
+    }
+  }
+  const int attempts = standing() ? 30 : 5;
+  for (int k = 0; k <= attempts; ++k) {
+    const double time = k < attempts ? std::ldexp(low, -k) : 0;
+    action.clear();
+    action.add(wished, time);
+    const PathState at = wished.after(state_, time);
+    action.add(Transition(at.v, at.a, obstacle.speed, obstacle.ramp), cycle_ - time);
+    if (!accept(action)) continue;
+    braking_for_.reset();
+    if (whole.obstacle.found && !obstacle.momentary && k == 0) braking_for_ = obstacle;
+    return true;
+  }
+  return false;
+}
+
+// Programmed speeds, and weak places far ahead, are wishes as well: when they turn up too late to be met,
+// they are approached within the limits.
+void SpeedStage::move(const Transition& wished, const Look& look) {
+  if (follow(wished, look, 0)) return;
+  Look hard = look;
+  hard.soft = false;
+  const Outcome ahead = judge(wished.after(state_, cycle_), look);
+  const RampLimits ramp = local_ramp(state_.v, (state_.v + 1) * cycle_ * 1.5);
+  braking_for_.reset();
+  const bool found =
+      ahead.obstacle.found && follow(Transition(state_.v, state_.a, ahead.obstacle.speed, ramp), hard, 0);
+  braking_for_.reset();
+  if (found) return;
+  ++stopping_;
+  state_ = stop_.advance(state_, cycle_);
+  if (stop_.size() == 0) state_.v = state_.a = 0;
+  while (current_ + 1 < cells_.size() && !cells_[current_ + 1].stop && state_.s > cells_[current_].end)
+    ++current_;
+}
+
+// At a stop, or the end of the path, once the motion has settled there.
+void SpeedStage::arrive() {
+  if (!standing()) return;
+  const bool last = current_ + 1 >= cells_.size();
+  if (last ? !finished_ : !cells_[current_ + 1].stop) return;
+  if (cells_[current_].end - state_.s > arrival_distance) return;
+  state_.s = cells_[current_].end;
+  braking_for_.reset();
+}
+
+void SpeedStage::begin_tail() {
+  if (!overlap_allowed_ || !braking_for_ || braking_for_->speed != 0 || state_.a >= 0) return;
+  const std::uint64_t next = braking_for_->cell;
+  if (next != current_ + 1 || next >= cells_.size() || !(cells_[next].overlap > 0)) return;
+  const double jerk = braking_for_->ramp.jerk, time = -state_.a / jerk;
+  if (time > cells_[next].overlap) return;
+  // Only the last phase of the braking, which nothing can change any more.
+  if (std::abs(state_.v - jerk * time * time / 2) > 1e-6 * (state_.v + 1e-3)) return;
+  if (std::abs(cells_[current_].end - state_.s - jerk * time * time * time / 6) > 1e-8) return;
+  tail_ = Tail{cells_[current_].end, time, jerk, current_};
+  state_ = {cells_[next].at, 0, 0};
+  stop_.clear();
+  current_ = next;
+  braking_for_.reset();
+}
+
+void SpeedStage::step(const Overrides& overrides) {
+  tail_.reset();
+  if (cells_.size() == 0) return;
+  Overrides now{std::clamp(overrides.feed, 0.0, highest_override), std::clamp(overrides.rapid, 0.0, 1.0),
+                overrides.hold};
+  if (now.feed != last_.feed || now.rapid != last_.rapid || now.hold != last_.hold) braking_for_.reset();
+  last_ = now;
+  if (!entered_) {
+    entered_ = true;
+    state_ = {cells_[0].at, 0, 0};
+    wait_ = cells_[0].wait_cycles;
+  } else if (standing() && state_.s == cells_[current_].end && current_ + 1 < cells_.size() &&
+             cells_[current_ + 1].stop && wait_ == 0) {
+    ++current_;
+    wait_ = cells_[current_].wait_cycles;
+  }
+  if (wait_ > 0) {
+    if (!now.hold) --wait_;
+    return;
+  }
+  const LimitCell& cell = cells_[current_];
+  const bool hold = now.hold || (cell.rapid ? now.rapid <= 0 : now.feed <= 0);
+  if (hold && standing()) return;
+  Look look{!hold, now.feed, now.rapid, rounding_distance};
+  if (now.feed <= 0) look.feed = 1e-3;  // what follows a rapid that goes on is approached slowly
+  if (now.rapid <= 0) look.rapid = 1e-3;
+  if (braking_for_ && !hold) {
+    const Transition transition(state_.v, state_.a, braking_for_->speed, braking_for_->ramp);
+    const bool over = transition.duration() <= cycle_;
+    move(transition, look);
+    if (over) braking_for_.reset();
+  } else {
+    move(wish(look, hold), look);
+  }
+  begin_tail();
+  arrive();
+}
+
+}  // namespace trunnion::motion

@@ -1,0 +1,117 @@
+// The speed stage: path speed, acceleration and jerk of every cycle, as fast as the cells ahead allow.
+//
+// Each cycle follows the wish (towards the programmed speed under the overrides, or to a standstill when
+// held) for as long a part of the cycle as leaves every obstacle ahead (a slower cell, a stop, the end of
+// what is known) reachable by the closed-form transition to its speed, and brakes for the rest. A cycle is
+// only taken when it keeps the limits of every cell it runs over and a way to a standstill behind it has been
+// proved to keep them too; otherwise the way that was proved a cycle ago is followed. So limits hold whatever
+// the overrides do, and never depend on the choice of the wish being right.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "motion/limit_cell.hpp"
+#include "motion/phase_list.hpp"
+#include "motion/transition.hpp"
+
+namespace trunnion::motion {
+
+/// Overrides of one cycle: 1 is as programmed. Values are clamped to 0..1.5 (rapid: 0..1); 0 holds.
+struct Overrides {
+  double feed = 1;
+  double rapid = 1;
+  bool hold = false;  ///< brake to a standstill on the path and stay there
+};
+
+/// The rest of a motion into a stop that the next stretch does not wait for: t seconds before its end it is
+/// jerk t^3 / 6 away from it.
+struct Tail {
+  double end = 0;   ///< path coordinate of the stop
+  double time = 0;  ///< s until it is reached
+  double jerk = 0;
+  std::uint64_t cell = 0;  ///< last cell of the stretch that ends
+};
+
+/// Deterministic and free of allocation in step().
+class SpeedStage {
+ public:
+  explicit SpeedStage(double cycle_seconds) : cycle_(cycle_seconds) {}
+
+  /// Forgets all cells; the next one starts at rest at the path coordinate 0.
+  void clear();
+
+  CellRing& cells() { return cells_; }
+  const CellRing& cells() const { return cells_; }
+  /// Cells were appended.
+  void extended();
+  /// The end of the cells is the end of the path.
+  void set_finished(bool finished) { finished_ = finished; }
+  bool finished() const { return finished_; }
+
+  void step(const Overrides& overrides);
+
+  const PathState& state() const { return state_; }
+  bool standing() const { return state_.v == 0 && state_.a == 0; }
+  std::uint64_t current_cell() const { return current_; }
+  /// The first cell has been entered.
+  bool started() const { return entered_; }
+  /// Standing at a stop until its wait is over.
+  bool waiting() const { return wait_ > 0; }
+  /// At the end of the cells.
+  bool at_end() const;
+  /// A stop may overlap with the next stretch only while the one before is over.
+  void allow_overlap(bool allowed) { overlap_allowed_ = allowed; }
+  /// The tail that began in the last cycle, if any.
+  std::optional<Tail> take_tail();
+  /// Cycles in which nothing better was found than the stop that had been proved before.
+  std::uint64_t stopping_cycles() const { return stopping_; }
+
+ private:
+  /// The first thing ahead that a state would not be slow enough for.
+  struct Obstacle {
+    bool found = false;
+    double speed = 0;
+    RampLimits ramp;
+    std::uint64_t cell = 0;
+    bool end = false;        // of what is known of the path
+    bool momentary = false;  // only the acceleration has to be taken back
+  };
+  struct Look {
+    bool soft = true;  // programmed speeds count, not only limits
+    double feed = 1, rapid = 1;
+    double rounding = 0;  // mm by which a distance may be too short
+  };
+  struct Outcome {
+    PathState state;
+    std::uint64_t cell = 0;
+    Obstacle obstacle;
+  };
+
+  double speed_of(const LimitCell& cell, const Look& look) const;
+  RampLimits local_ramp(double speed, double reach) const;
+  Transition wish(const Look& look, bool hold) const;
+  Obstacle obstacle_ahead(const PathState& state, std::uint64_t cell, const Look& look) const;
+  Outcome judge(const PathState& state, const Look& look) const;
+  bool follow(const Transition& wished, const Look& look, int depth);
+  void move(const Transition& wished, const Look& look);
+  bool accept(const PhaseList& action);
+  bool find_stop(const PathState& state, std::uint64_t cell, PhaseList& stop) const;
+  void arrive();
+  void begin_tail();
+
+  double cycle_;
+  CellRing cells_;
+  PathState state_;
+  std::uint64_t current_ = 0;
+  bool entered_ = false, finished_ = false;
+  int wait_ = 0;
+  PhaseList stop_;  // the way to a standstill that is known to keep all limits
+  std::optional<Obstacle> braking_for_;
+  Overrides last_;
+  bool overlap_allowed_ = true;
+  std::optional<Tail> tail_;
+  std::uint64_t stopping_ = 0;
+};
+
+}  // namespace trunnion::motion

@@ -1,0 +1,25 @@
+// The least time any motion along a path can take when axes are limited in velocity and acceleration only.
+#pragma once
+
+#include <vector>
+
+#include "motion/limits.hpp"
+
+namespace trunnion::planning {
+
+using language::AxisValues;
+
+/// A place of a path: machine positions of the axes at the path length `s`, and the speed allowed there.
+struct PathSample {
+  double s = 0;          ///< strictly growing
+  AxisValues machine{};  ///< after the transformation
+  double speed = 1e9;    ///< programmed, per second
+};
+
+/// Time-optimal sweep: with x = (ds/dt)^2 every axis demands |q' x' / 2 + q'' x| <= a and |q'| sqrt(x) <= v;
+/// the largest x that keeps this forwards from rest and backwards from rest is the bound. Derivatives are
+/// central differences of the samples, so a corner between samples counts as rounded over their distance.
+/// Seconds. Needs at least two samples.
+double acceleration_bound(const std::vector<PathSample>& path, const motion::Limits& limits);
+
+}  // namespace trunnion::planning
