@@ -24,6 +24,9 @@ void add_run_command(CLI::App& app, Common& common);         // run
 void add_operator_commands(CLI::App& app, Common& common);   // mdi, alarms, estop
 void add_parameter_commands(CLI::App& app, Common& common);  // param
 void add_topic_commands(CLI::App& app, Common& common);      // topic, record
+void add_recording_commands(CLI::App& app, Common& common);  // info, diff, export
+void add_verify_command(CLI::App& app, Common& common);      // verify
+void add_replay_command(CLI::App& app, Common& common);      // replay
 void add_completion_command(CLI::App& app, Common& common);  // completion
 
 /// --json and --domain.
