@@ -16,6 +16,7 @@ int main(int argc, char** argv) {
   add_parameter_commands(app, common);
   add_topic_commands(app, common);
   add_recording_commands(app, common);
+  add_verify_command(app, common);
   add_completion_command(app, common);
   try {
     app.parse(argc, argv);
