@@ -10,7 +10,9 @@
 #include "bus/bus.hpp"
 #include "child_process.hpp"
 #include "cluster_files.hpp"
+#include "contracts/topics.hpp"
 #include "node/node.hpp"
+#include "replay/answers.hpp"
 #include "replay/verify_plan.hpp"
 
 namespace trunnion::deploy {
@@ -47,10 +49,20 @@ class Place {
 
 class Feeding {
  public:
-  Feeding(const VerifyOptions& options, const replay::VerifyPlan& plan, bus::Bus& bus, ChildProcess& process)
-      : options_(options), plan_(plan), bus_(bus), process_(process) {
+  Feeding(const VerifyOptions& options, const replay::StoredRecording& recording,
+          const replay::VerifyPlan& plan, bus::Bus& bus, ChildProcess& process)
+      : options_(options),
+        plan_(plan),
+        bus_(bus),
+        process_(process),
+        answers_(recording),
+        states_(bus.reader(topics::service_state)) {
     for (const auto& handle : plan.topics) read(handle);
-    if (!plan.topics.contains("alarm")) read("alarm");
+    read("alarm");
+    if (options.service == "channel") {
+      read("program_request");
+      writer(*bus::find_topic("program_reply"));
+    }
     // Made before the service is heard of, so that it finds them all at once.
     for (const auto& step : plan.steps) writer(*step.message->topic);
   }
@@ -83,9 +95,10 @@ class Feeding {
 
  private:
   void read(const std::string& handle) {
+    // As the recorder does, keeping all: of a state the service changes twice in a row both count.
     const auto* topic = bus::find_topic(handle);
-    readers_.emplace_back(
-        topic, bus_.backend().reader(topic->description, bus::reader_qos(topic->qos), &bus_.signal()));
+    const bus::EndpointQos qos{bus::reader_qos(topic->qos).transient_local, 0};
+    readers_.emplace_back(topic, bus_.backend().reader(topic->description, qos, &bus_.signal()));
   }
   bus::RawWriter& writer(const bus::TopicEntry& topic) {
     auto& writer = writers_[&topic];
@@ -101,6 +114,8 @@ class Feeding {
       while (reader->take(bytes_, info)) {
         any = true;
         produced_.push_back({topic, static_cast<std::uint64_t>(info.source_timestamp), 0, bytes_});
+        if (const auto answer = answers_.answer(produced_.back()))
+          writer(*bus::find_topic("program_reply")).write(*answer);
         progress_.observe(produced_.back());
       }
     return any;
@@ -122,11 +137,22 @@ class Feeding {
     return true;
   }
 
+  // What is not kept for late readers must not be sent before the service reads it and is ready to act on it.
   bool await_reader(bus::RawWriter& to) {
     const double until = node::monotonic_seconds() + match_patience;
-    while (to.matched() == 0 && node::monotonic_seconds() < until && process_.ended().empty())
+    while ((to.matched() == 0 || !active()) && node::monotonic_seconds() < until &&
+           process_.ended().empty()) {
+      drain();
       std::this_thread::sleep_for(apart_time);
+    }
     return to.matched() > 0;
+  }
+  bool active() {
+    idl::service::ServiceState state;
+    while (states_.take(state))
+      active_ =
+          active_ || (state.instance == plan_.instance && state.lifecycle == idl::service::Lifecycle::ACTIVE);
+    return active_;
   }
 
   std::string missing(const std::vector<replay::Mark>& needs) {
@@ -148,6 +174,9 @@ class Feeding {
   std::map<const bus::TopicEntry*, std::unique_ptr<bus::RawWriter>> writers_;
   std::vector<replay::StoredMessage> produced_;
   replay::Progress progress_;
+  replay::Answers answers_;
+  bus::Reader<idl::service::ServiceState> states_;
+  bool active_ = false;
   bus::Bytes bytes_;
   double began_ = 0, ended_ = 0;
 };
@@ -195,7 +224,7 @@ VerifyResult verify(const VerifyOptions& options) {
     if (plan.virtual_time) arguments.emplace_back("--virtual-time");
     bus::Bus bus(bus::Vendor::cyclonedds, {place.domain()}, {stream_frames});
     ChildProcess process(std::move(arguments), place.log());
-    Feeding feeding(options, plan, bus, process);
+    Feeding feeding(options, recording, plan, bus, process);
     result.problem = feeding.run();
     result.seconds = feeding.seconds();
     produced = std::move(feeding.produced());
