@@ -239,6 +239,7 @@ VerifyResult verify(const VerifyOptions& options) {
   result.unrecorded = plan.drop_unrecorded(produced);
   auto comparison = options.comparison;
   comparison.topics = plan.topics;
+  comparison.ignored.insert(plan.ignored.begin(), plan.ignored.end());
   result.difference = replay::difference(plan.expected, produced, comparison);
   return result;
 }

@@ -176,6 +176,7 @@ class Comparison {
     const auto& left = cache_a_.fields(a);
     const auto& right = cache_b_.fields(b);
     const auto differs = [&](const std::string& name, double off) {
+      if (options_.ignored.contains(d.topic + "." + name)) return;
       auto& field = d.fields[name];
       if (field.count++ == 0) field.first_index = a.index;
       field.first_index = std::min(field.first_index, a.index);

@@ -18,6 +18,8 @@ struct DiffOptions {
   /// Largest difference of numbers that still counts as equal, by the beginning of the field's name; the
   /// longest that fits holds. Without one, numbers must be the same bits.
   std::map<std::string, double> tolerances;
+  /// Fields that do not count, as topic.field.
+  std::set<std::string> ignored;
   /// Compare only what both have: cycles, and as many messages as the shorter of two has.
   bool common = false;
 };

@@ -6,10 +6,38 @@
 
 namespace trunnion::replay {
 
+template <class T, class PlaceOf>
+bool Progress::numbered(const StoredMessage& message, const char* handle, T& value, PlaceOf place_of,
+                        Mark& mark) {
+  if (message.topic->handle != handle || !bus::decode(message.cdr, value)) return false;
+  mark.track.channel = value.channel;
+  mark.place = place_of(value);
+  return true;
+}
+
 std::pair<Mark, bool> Progress::observe(const StoredMessage& message) {
   Mark mark{{message.topic, 0}, {}};
   if (!is_cyclic(*message.topic)) {
-    mark.place.minor = at(mark.track).minor + 1;
+    // A state that was there before the recording began is written again, so counting would not do.
+    if (!numbered(
+            message, "auxiliary_done", auxiliary_done_,
+            [](const auto& v) {
+              return Place{0, v.number};
+            },
+            mark) &&
+        !numbered(
+            message, "auxiliary_request", auxiliary_request_,
+            [](const auto& v) {
+              return Place{v.number, v.kind == 0 ? 1u : 0u};
+            },
+            mark) &&
+        !numbered(
+            message, "stream_request", stream_request_,
+            [](const auto& v) {
+              return Place{0, v.request};
+            },
+            mark))
+      mark.place.minor = at(mark.track).minor + 1;
   } else if (message.topic->handle == "feedback_frame") {
     if (!bus::decode(message.cdr, feedback_)) return {mark, false};
     mark.place = {feedback_.first + feedback_.count, feedback_.tick};

@@ -17,8 +17,8 @@ struct Track {
   auto operator<=>(const Track&) const = default;
 };
 
-/// Of frames: epoch and the cycle after the last. Of the drive's feedback: executed cycles and tick.
-/// Otherwise: 0 and the number of messages.
+/// Of frames: epoch and the cycle after the last. Of the drive's feedback: executed cycles and tick. Of what
+/// is numbered: the number. Otherwise: 0 and how many messages there were.
 struct Place {
   std::uint64_t major = 0, minor = 0;
   auto operator<=>(const Place&) const = default;
@@ -38,9 +38,14 @@ class Progress {
   Place at(const Track& track) const;
 
  private:
+  template <class T, class PlaceOf>
+  bool numbered(const StoredMessage& message, const char* handle, T& value, PlaceOf place_of, Mark& mark);
   std::map<Track, Place> places_;
   MessageRows rows_;
   idl::stream::FeedbackFrame feedback_;
+  idl::stream::StreamRequest stream_request_;
+  idl::channel::AuxiliaryRequest auxiliary_request_;
+  idl::plc::AuxiliaryDone auxiliary_done_;
 };
 
 }  // namespace trunnion::replay

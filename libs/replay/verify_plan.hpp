@@ -22,7 +22,9 @@ struct VerifyPlan {
   std::vector<Mark> end;                ///< reached when every recorded output has come
   std::vector<StoredMessage> expected;  ///< outputs to compare with
   std::set<std::string> topics;         ///< handles of the outputs that are compared
-  std::uint64_t cycles = 0;             ///< of the stream, in `expected`
+  /// Outputs that say when a service noticed something, which is not decided by its inputs alone.
+  std::set<std::string> ignored;
+  std::uint64_t cycles = 0;  ///< of the stream, in `expected`
   double cycle_seconds = 0.001;
   bool virtual_time = true;
   std::uint32_t instance = 0;  ///< of the service in the recording
