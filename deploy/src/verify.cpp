@@ -19,10 +19,10 @@ namespace trunnion::deploy {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr int stream_frames = 4096;   // that a writer of the stream keeps
-constexpr double match_patience = 5;  // s for a reader that must not miss the first message
-constexpr auto apart_time = std::chrono::milliseconds(1);
-constexpr double last_words = 0.05;  // s for what a service writes beyond what is recorded
+constexpr int stream_frames = 4096;       // that a writer of the stream keeps
+constexpr double match_patience = 5;      // s for a reader that must not miss the first message
+constexpr double answer_patience = 0.01;  // s that a service is given to take what it may not answer
+constexpr double last_words = 0.05;       // s for what a service writes beyond what is recorded
 
 // A domain and a directory that nobody else has while this lives.
 class Place {
@@ -76,10 +76,9 @@ class Feeding {
         return process_.ended().empty() ? "the service does not read " + step.message->topic->handle
                                         : process_.ended();
       if (began_ == 0 && replay::is_cyclic(*step.message->topic)) began_ = node::monotonic_seconds();
-      if (step.apart) std::this_thread::sleep_for(apart_time);
-      to.write(step.message->cdr);
-      if (step.apart) std::this_thread::sleep_for(apart_time);
       drain();
+      to.write(step.message->cdr);
+      if (step.apart) await_answer();
     }
     if (!wait_for(plan_.end)) return missing(plan_.end);
     ended_ = node::monotonic_seconds();
@@ -107,18 +106,28 @@ class Feeding {
     return *writer;
   }
 
+  // True when something came that brings the service further than it was.
   bool drain() {
-    bool any = false;
+    bool further = false;
     bus::SampleInfo info;
     for (auto& [topic, reader] : readers_)
       while (reader->take(bytes_, info)) {
-        any = true;
         produced_.push_back({topic, static_cast<std::uint64_t>(info.source_timestamp), 0, bytes_});
         if (const auto answer = answers_.answer(produced_.back()))
           writer(*bus::find_topic("program_reply")).write(*answer);
-        progress_.observe(produced_.back());
+        further = progress_.observe(produced_.back()).second || further;
       }
-    return any;
+    return further;
+  }
+
+  // Topics have no common order on the way, so what the order matters for is sent one by one.
+  void await_answer() {
+    const auto before = produced_.size();
+    const double until = node::monotonic_seconds() + answer_patience;
+    while (produced_.size() == before && node::monotonic_seconds() < until) {
+      bus_.signal().wait(answer_patience);
+      drain();
+    }
   }
 
   bool wait_for(const std::vector<replay::Mark>& needs) {
@@ -143,7 +152,7 @@ class Feeding {
     while ((to.matched() == 0 || !active()) && node::monotonic_seconds() < until &&
            process_.ended().empty()) {
       drain();
-      std::this_thread::sleep_for(apart_time);
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
     return to.matched() > 0;
   }

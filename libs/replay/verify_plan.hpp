@@ -41,6 +41,8 @@ struct VerifyPlan {
 /// Throws std::runtime_error when the recording does not have what it takes.
 VerifyPlan plan_verification(const StoredRecording& recording, const std::string& service,
                              std::uint16_t channel);
+VerifyPlan plan_verification(StoredRecording&&, const std::string&,
+                             std::uint16_t) = delete;  // steps point into it
 
 /// Alarms that `service` raises in `messages`: number, part and text of the first.
 std::map<std::pair<std::uint32_t, std::uint32_t>, std::string> raised_alarms(
