@@ -16,12 +16,15 @@ for machine in "${machines[@]}"; do
   [ -d "$directory" ] || continue
   "$trunnion" run "$root/configs/machines/$machine" "$directory"/*.nc --record "$work/golden.mcap" --report "$work/report" > "$work/log" 2>&1 ||
     { cat "$work/log"; exit 1; }
+  programs=("$directory"/*.nc)
   for service in parameters program plc drive gantry compensation kinematics; do
-    "$trunnion" verify --service $service --recording "$work/golden.mcap" > "$work/log" || { cat "$work/log"; exit 1; }
+    # Two channels' requests and the drive's ticks reach the PLC in an order that no message tells.
+    [ $service != plc ] || [ ${#programs[@]} -eq 1 ] || continue
+    timeout 60 "$trunnion" verify --service $service --recording "$work/golden.mcap" > "$work/log" || { cat "$work/log"; exit 1; }
   done
   channel=0
   for program in "$directory"/*.nc; do
-    "$trunnion" verify --service channel --channel $channel --recording "$work/golden.mcap" > "$work/log" || { cat "$work/log"; exit 1; }
+    timeout 60 "$trunnion" verify --service channel --channel $channel --recording "$work/golden.mcap" > "$work/log" || { cat "$work/log"; exit 1; }
     channel=$((channel + 1))
   done
   mv "$work/golden.mcap" "$directory/golden.mcap"

@@ -96,10 +96,11 @@ TEST(StagePlan, AStageIsNeverFedMoreThanAWindowAhead) {
         progress.observe(
             stored(topics::kinematics_frame, axis_frame(need.place.minor - frame_cycles, false, false), 0));
     ASSERT_TRUE(rows.load(*step.message->topic, step.message->cdr));
-    if (step.message->topic->handle == "path_frame")
+    if (step.message->topic->handle == "path_frame") {
       EXPECT_LE(rows.span().first + rows.span().count,
                 progress.at({bus::find_topic("kinematics_frame"), 0}).minor + 512)
           << "half of the 1024 cycles that a stage keeps";
+    }
   }
 }
 
