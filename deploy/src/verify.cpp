@@ -72,7 +72,7 @@ class Feeding {
     for (const auto& step : plan_.steps) {
       if (!wait_for(step.needs)) return missing(step.needs);
       auto& to = writer(*step.message->topic);
-      if (step.message->topic->qos == bus::QosKind::event && !await_reader(to))
+      if (is_request(*step.message->topic) && !await_reader(to))
         return process_.ended().empty() ? "the service does not read " + step.message->topic->handle
                                         : process_.ended();
       if (began_ == 0 && replay::is_cyclic(*step.message->topic)) began_ = node::monotonic_seconds();
@@ -146,7 +146,10 @@ class Feeding {
     return true;
   }
 
-  // What is not kept for late readers must not be sent before the service reads it and is ready to act on it.
+  // A request must not be sent before the service reads it and is ready to act on it.
+  static bool is_request(const bus::TopicEntry& topic) {
+    return topic.qos == bus::QosKind::event || topic.handle.ends_with("_request");
+  }
   bool await_reader(bus::RawWriter& to) {
     const double until = node::monotonic_seconds() + match_patience;
     while ((to.matched() == 0 || !active()) && node::monotonic_seconds() < until &&
