@@ -44,6 +44,7 @@ struct Lane {
   std::vector<FrameSpan> done;  // recorded outputs that follow from them, ascending
   std::size_t next = 0;
   std::uint64_t joins_at = 0;  // executed cycles from which a stage can begin in the middle of a motion
+  bool joined = false;         // its first output is waited for
 };
 
 class StagePlan {
@@ -192,7 +193,14 @@ class StagePlan {
         feed_frame(best_channel, *best);
       } else if (any) {
         executed = feedback_[fed].executed;
-        plan_.steps.push_back({feedback_[fed++].message, {}, false});
+        Step step{feedback_[fed++].message, {}, false};
+        // With newer feedback at hand it would join at a later cut than the one chosen.
+        for (auto& [channel, lane] : lanes_)
+          if (lane.joins_at > 0 && lane.next > 0 && !lane.done.empty() && !lane.joined) {
+            step.needs.push_back(mark_of(channel, lane.done.front()));
+            lane.joined = true;
+          }
+        plan_.steps.push_back(std::move(step));
       } else {
         break;
       }
