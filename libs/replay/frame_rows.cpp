@@ -12,7 +12,8 @@ constexpr std::size_t path_width = std::size(path_letters);
 
 void flatten(const std::string& name, const bus::Json& value, std::vector<Field>& out) {
   if (value.is_object()) {
-    for (const auto& [key, child] : value.items()) flatten(name.empty() ? key : name + "." + key, child, out);
+    const std::string prefix = name.empty() ? "" : name + ".";
+    for (const auto& [key, child] : value.items()) flatten(std::string(prefix).append(key), child, out);
   } else if (value.is_array()) {
     out.push_back({name + ".size", value.size()});
     for (std::size_t i = 0; i < value.size(); ++i)

@@ -14,14 +14,15 @@ namespace trunnion::replay {
 struct Track {
   const bus::TopicEntry* topic = nullptr;
   std::uint16_t channel = 0;
-  auto operator<=>(const Track&) const = default;
+  auto operator<=>(const Track&) const =
+      default;  // NOLINT(modernize-use-nullptr): a false alarm of clang-tidy 14
 };
 
 /// Of frames: epoch and the cycle after the last. Of the drive's feedback: executed cycles and tick. Of what
 /// is numbered: the number. Otherwise: 0 and how many messages there were.
 struct Place {
   std::uint64_t major = 0, minor = 0;
-  auto operator<=>(const Place&) const = default;
+  auto operator<=>(const Place&) const = default;  // NOLINT(modernize-use-nullptr)
 };
 
 struct Mark {

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <map>
+#include <optional>
 
 #include "node/node.hpp"
 #include "node/parameter_client.hpp"
@@ -98,6 +99,7 @@ class StageService : public node::Service {
     FrameWindow<In> window;
     std::unique_ptr<StageCore<In>> core;
     std::uint64_t revision = 0;
+    std::optional<StateValues> cut;  // to go on from; a core cannot take it before it is configured
     bool in_step = false;
     double gap_since = 0;
   };
@@ -147,7 +149,7 @@ class StageService : public node::Service {
     if (state == nullptr) return;
     lane.window.set_next(cut->epoch, state->cycle + 1);
     if (!lane.window.has_next()) return;
-    lane.core->load(state->values);
+    lane.cut = state->values;
     lane.revision = 0;
     lane.in_step = true;
   }
@@ -167,7 +169,10 @@ class StageService : public node::Service {
     unknown_since_ = 0;
     node_.alarms().clear("revision_unknown", channel);
     StateValues state;
-    lane.core->save(state);
+    if (lane.cut)
+      state = *lane.cut;
+    else
+      lane.core->save(state);
     try {
       lane.core->configure(*parameters, channel);
       fault_.clear();
@@ -177,6 +182,7 @@ class StageService : public node::Service {
       return false;
     }
     lane.core->load(state);
+    lane.cut.reset();
     lane.revision = revision;
     return true;
   }
