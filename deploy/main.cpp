@@ -18,6 +18,9 @@ int main(int argc, char** argv) {
   add_kins_command(app, common);
   add_check_command(app, common);
   add_plan_command(app, common);
+  add_recording_commands(app, common);
+  add_verify_command(app, common);
+  add_replay_command(app, common);
   add_completion_command(app, common);
   try {
     app.parse(argc, argv);

@@ -156,6 +156,9 @@ def schema(t, scope):
     return "\n".join(out) + "\n"
 
 
+def quoted(names): return ", ".join(f'"{n}"' for n in names)
+
+
 def digest(text, n=8): return hashlib.sha256(text.encode()).hexdigest()[:n]
 
 
@@ -209,7 +212,7 @@ def generate(args):
         text = schema(kind, scope)
         wire = t["type"] if t.get("frozen") else f"{t['type']}_{digest(text)}"
         handles.append(f'inline constexpr bus::Topic<{cpp_name(kind)}> {t["handle"]}{{"{t["name"]}", "{wire}", bus::QosKind::{t["qos"]}}};')
-        registry.append(f'    typed_entry(topics::{t["handle"]}, "{t["handle"]}", R"idl({text})idl", "{t["about"]}"),')
+        registry.append(f'    typed_entry(topics::{t["handle"]}, "{t["handle"]}", R"idl({text})idl", "{t["about"]}", {{{quoted(t["writers"])}}}, {{{quoted(t["readers"])}}}),')
         doc.append(f"| `{t['name']}` | `{t['type']}` | {t['qos']} | {', '.join(t['writers'])} | {', '.join(t['readers'])} | {t['about']} |")
     handles.append("}")
     registry += ["  };", "  return entries;", "}", "}"]

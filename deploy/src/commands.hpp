@@ -27,6 +27,9 @@ void add_topic_commands(CLI::App& app, Common& common);      // topic, record
 void add_kins_command(CLI::App& app, Common& common);        // kins
 void add_check_command(CLI::App& app, Common& common);       // check
 void add_plan_command(CLI::App& app, Common& common);        // plan
+void add_recording_commands(CLI::App& app, Common& common);  // info, diff, export
+void add_verify_command(CLI::App& app, Common& common);      // verify
+void add_replay_command(CLI::App& app, Common& common);      // replay
 void add_completion_command(CLI::App& app, Common& common);  // completion
 
 /// --json and --domain.

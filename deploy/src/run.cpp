@@ -126,6 +126,15 @@ std::string place_program(Client& client, const machine::MachineConfig& machine,
                            " has none of this name");
 }
 
+// Requests are not kept for late readers: the recorder must know of our writers before the first one, or the
+// recording has answers to questions that nobody asked.
+void await_recorder(Client& client) {
+  const auto programs = client.bus().backend().writer(bus::describe(topics::program_request), {false, 1});
+  const auto channels = client.bus().backend().writer(bus::describe(topics::channel_request), {false, 1});
+  for (int i = 0; i < 2000 && (programs->matched() < 2 || channels->matched() < 2); ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+}
+
 // The list with a new program may reach the channel after the store's answer has reached us.
 void select(Client& client, std::uint16_t channel, const std::string& name) {
   for (int i = 0;; ++i) {
@@ -233,6 +242,7 @@ RunResult run_programs(const RunOptions& options) {
     // The recorder has found the stream's writers before the program is in its place.
     Recorder recorder(options.recording, cluster.get());
     Client client(cluster.get().run.domain);
+    await_recorder(client);
     for (std::uint16_t c = 0; c < options.programs.size(); ++c) {
       names.push_back(place_program(client, machine, options.programs[c]));
       texts.push_back(client.download(names.back()));

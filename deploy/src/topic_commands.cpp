@@ -88,8 +88,9 @@ int rate(const Common& common, const std::string& name, double seconds) {
 
 int record(const Common& common, const std::string& file, const std::string& topics, double duration) {
   const auto cluster = find_cluster(common.domain);
-  std::vector<std::string> args{binary_directory() + "/trunnion-recorder", "--output", file, "--domain",
-                                std::to_string(cluster.run.domain)};
+  std::vector<std::string> args{
+      binary_directory() + "/trunnion-recorder", "--output", file, "--machine", cluster.machine, "--domain",
+      std::to_string(cluster.run.domain)};
   if (!topics.empty()) args.insert(args.end(), {"--topics", topics});
   if (duration > 0) args.insert(args.end(), {"--duration", std::to_string(duration)});
   if (common.json) args.emplace_back("--json");

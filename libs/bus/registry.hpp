@@ -16,6 +16,7 @@ struct TopicEntry {
   std::string type;    ///< IDL type name without hash
   std::string schema;  ///< self-contained IDL of the type
   std::string about;
+  std::vector<std::string> writers, readers;  ///< services as in topics.yaml; "all" = every one
   /// Throws CdrError when the bytes are not of the type.
   Json (*to_json)(std::span<const std::uint8_t> cdr);
 };

@@ -14,8 +14,10 @@ Json sample_to_json(std::span<const std::uint8_t> cdr) {
 }
 
 template <class T>
-TopicEntry typed_entry(const Topic<T>& topic, const char* handle, const char* schema, const char* about) {
-  return {describe(topic), topic.qos, handle, Fields<T>::name, schema, about, &sample_to_json<T>};
+TopicEntry typed_entry(const Topic<T>& topic, const char* handle, const char* schema, const char* about,
+                       std::vector<std::string> writers, std::vector<std::string> readers) {
+  return {describe(topic),    topic.qos,         handle, Fields<T>::name, schema, about, std::move(writers),
+          std::move(readers), &sample_to_json<T>};
 }
 
 }  // namespace trunnion::bus

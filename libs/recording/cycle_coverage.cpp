@@ -38,11 +38,18 @@ std::uint64_t CycleCoverage::covered() const {
 
 std::uint64_t CycleCoverage::lost() const {
   std::uint64_t sum = 0;
-  for (auto at = runs_.begin(); at != runs_.end() && std::next(at) != runs_.end(); ++at) {
-    const auto& [next_first, next] = *std::next(at);
-    if (!(at->second.ends && next.starts)) sum += next_first - at->second.end;
-  }
+  for (const auto& gap : gaps(runs_.size())) sum += gap.count;
   return sum;
+}
+
+std::vector<CycleRange> CycleCoverage::gaps(std::size_t most) const {
+  std::vector<CycleRange> result;
+  for (auto at = runs_.begin(); at != runs_.end() && std::next(at) != runs_.end() && result.size() < most;
+       ++at) {
+    const auto& [next_first, next] = *std::next(at);
+    if (!(at->second.ends && next.starts)) result.push_back({at->second.end, next_first - at->second.end});
+  }
+  return result;
 }
 
 }  // namespace trunnion::recording

@@ -3,8 +3,14 @@
 
 #include <cstdint>
 #include <map>
+#include <vector>
 
 namespace trunnion::recording {
+
+struct CycleRange {
+  std::uint64_t first = 0, count = 0;
+  bool operator==(const CycleRange&) const = default;
+};
 
 /// The cycles of one channel, epoch and stage, in whatever order and however often they come: copies of a
 /// stage write each frame twice.
@@ -18,6 +24,11 @@ class CycleCoverage {
   std::uint64_t covered() const;
   /// Cycles between the first and the last that no frame covers although the channel was not idle.
   std::uint64_t lost() const;
+  /// The same as ranges, ascending, at most `most` of them.
+  std::vector<CycleRange> gaps(std::size_t most) const;
+  /// The first cycle and the one after the last; 0 and 0 when there is none.
+  std::uint64_t begin() const { return runs_.empty() ? 0 : runs_.begin()->first; }
+  std::uint64_t end() const { return runs_.empty() ? 0 : runs_.rbegin()->second.end; }
   /// The first frame says that nothing was before it.
   bool begins_at_a_start() const { return runs_.empty() || runs_.begin()->second.starts; }
   /// Frames that brought nothing new.

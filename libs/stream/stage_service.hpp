@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <map>
+#include <optional>
 
 #include "machine/kinematics.hpp"
 #include "node/node.hpp"
@@ -99,6 +100,7 @@ class StageService : public node::Service {
     FrameWindow<In> window;
     std::unique_ptr<StageCore<In>> core;
     std::uint64_t revision = 0;
+    std::optional<StateValues> cut;  // to go on from; a core cannot take it before it is configured
     bool in_step = false;
     double gap_since = 0;
   };
@@ -148,7 +150,7 @@ class StageService : public node::Service {
     if (state == nullptr) return;
     lane.window.set_next(cut->epoch, state->cycle + 1);
     if (!lane.window.has_next()) return;
-    lane.core->load(state->values);
+    lane.cut = state->values;
     lane.revision = 0;
     lane.in_step = true;
   }
@@ -168,7 +170,10 @@ class StageService : public node::Service {
     unknown_since_ = 0;
     node_.alarms().clear("revision_unknown", channel);
     StateValues state;
-    lane.core->save(state);
+    if (lane.cut)
+      state = *lane.cut;
+    else
+      lane.core->save(state);
     try {
       lane.core->configure(*parameters, channel);
       fault_.clear();
@@ -178,6 +183,7 @@ class StageService : public node::Service {
       return false;
     }
     lane.core->load(state);
+    lane.cut.reset();
     lane.revision = revision;
     return true;
   }

@@ -19,7 +19,7 @@
 #include "node/node.hpp"
 #include "recording/file_stream.hpp"
 #include "recording/mcap_writer.hpp"
-#include "stream_tally.hpp"
+#include "replay/stream_tally.hpp"
 
 namespace trunnion::recorder {
 namespace {
@@ -83,7 +83,7 @@ class FileThread {
     if (thread_.joinable()) thread_.join();
   }
   /// After join().
-  const StreamTally& tally() const { return tally_; }
+  const replay::StreamTally& tally() const { return tally_; }
   std::uint64_t bytes() const { return writer_.bytes(); }
   std::uint64_t unwritten() const { return unwritten_; }
   const std::string& problem() const { return sink_.problem(); }
@@ -121,7 +121,7 @@ class FileThread {
   recording::Writer writer_;
   const std::vector<const bus::TopicEntry*>& topics_;
   MessageQueue& queue_;
-  StreamTally tally_;
+  replay::StreamTally tally_;
   std::uint64_t unwritten_ = 0;
   bool reported_ = false;
   std::thread thread_;
@@ -188,7 +188,7 @@ void print_summary(const Options& options, const FileThread& file, std::uint64_t
                          {"problem", file.problem()}};
     for (const auto& [handle, count] : tally.messages_by_topic())
       summary["topics"][handle]["messages"] = count;
-    for (const auto& handle : StreamTally::cyclic()) {
+    for (const auto& handle : replay::StreamTally::cyclic()) {
       if (tally.cycles(handle) == 0) continue;
       summary["topics"][handle]["cycles"] = tally.cycles(handle);
       summary["topics"][handle]["lost_cycles"] = tally.lost(handle);
@@ -197,7 +197,7 @@ void print_summary(const Options& options, const FileThread& file, std::uint64_t
     return;
   }
   std::cout << options.output << ": " << tally.messages() << " messages, " << file.bytes() << " bytes\n";
-  for (const auto& handle : StreamTally::cyclic())
+  for (const auto& handle : replay::StreamTally::cyclic())
     if (tally.cycles(handle) != 0)
       std::cout << "  " << handle << ": " << tally.cycles(handle) << " cycles, " << tally.lost(handle)
                 << " lost\n";

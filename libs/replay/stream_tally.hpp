@@ -9,7 +9,7 @@
 #include "bus/registry.hpp"
 #include "recording/cycle_coverage.hpp"
 
-namespace trunnion::recorder {
+namespace trunnion::replay {
 
 class StreamTally {
  public:
@@ -25,9 +25,11 @@ class StreamTally {
   /// The topics whose messages carry cycles.
   static const std::vector<std::string>& cyclic();
 
- private:
-  // The drive's feedback is one stream, the frames are one for each channel and epoch.
+  /// Topic handle, channel and epoch; the drive's feedback is one stream, its channel and epoch are 0.
   using Key = std::tuple<std::string, std::uint16_t, std::uint32_t>;
+  const std::map<Key, recording::CycleCoverage>& streams() const { return coverage_; }
+
+ private:
   template <class Frame>
   void add_frame(const std::string& handle, std::span<const std::uint8_t> cdr, Frame& frame);
 
@@ -36,4 +38,4 @@ class StreamTally {
   std::map<Key, recording::CycleCoverage> coverage_;
 };
 
-}  // namespace trunnion::recorder
+}  // namespace trunnion::replay

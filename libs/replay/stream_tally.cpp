@@ -1,9 +1,9 @@
-#include "stream_tally.hpp"
+#include "replay/stream_tally.hpp"
 
 #include "bus/cdr.hpp"
 #include "contracts/types.hpp"
 
-namespace trunnion::recorder {
+namespace trunnion::replay {
 
 const std::vector<std::string>& StreamTally::cyclic() {
   static const std::vector<std::string> handles = {"path_frame", "kinematics_frame", "compensation_frame",
@@ -46,4 +46,4 @@ std::uint64_t StreamTally::cycles(const std::string& handle) const {
   return sum;
 }
 
-}  // namespace trunnion::recorder
+}  // namespace trunnion::replay

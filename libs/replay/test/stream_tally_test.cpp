@@ -1,11 +1,11 @@
-#include "stream_tally.hpp"
+#include "replay/stream_tally.hpp"
 
 #include <gtest/gtest.h>
 
 #include "bus/cdr.hpp"
 #include "contracts/types.hpp"
 
-namespace trunnion::recorder {
+namespace trunnion::replay {
 namespace {
 
 template <class T>
@@ -76,4 +76,4 @@ TEST(StreamTally, BytesThatAreNoFrameAreCountedAndNothingElse) {
 }
 
 }  // namespace
-}  // namespace trunnion::recorder
+}  // namespace trunnion::replay

@@ -1,0 +1,56 @@
+#include "child_process.hpp"
+
+#include <fcntl.h>
+#include <signal.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <stdexcept>
+#include <thread>
+
+#include "launcher.hpp"
+
+namespace trunnion::deploy {
+
+ChildProcess::ChildProcess(std::vector<std::string> arguments, std::string log)
+    : name_(arguments.at(0)), log_(std::move(log)) {
+  if (access(name_.c_str(), X_OK) != 0) throw std::runtime_error(name_ + ": cannot be started");
+  std::vector<char*> argv;
+  for (auto& argument : arguments) argv.push_back(argument.data());
+  argv.push_back(nullptr);
+  pid_ = fork();
+  if (pid_ < 0) throw std::runtime_error(name_ + ": no process");
+  if (pid_ == 0) {
+    prctl(PR_SET_PDEATHSIG, SIGTERM);
+    const int out = open(log_.c_str(), O_WRONLY | O_CREAT | O_APPEND, 0644);
+    const int null = open("/dev/null", O_RDONLY);
+    dup2(null, 0), dup2(out, 1), dup2(out, 2);
+    for (int fd = 3; fd < 256; ++fd) close(fd);
+    execv(argv[0], argv.data());
+    _exit(127);
+  }
+}
+
+ChildProcess::~ChildProcess() {
+  if (!ended().empty()) return;
+  kill(pid_, SIGTERM);
+  for (int i = 0; i < 300 && ended().empty(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  if (how_.empty()) {
+    kill(pid_, SIGKILL);
+    waitpid(pid_, nullptr, 0);
+  }
+}
+
+std::string ChildProcess::ended() {
+  int status = 0;
+  if (how_.empty() && waitpid(pid_, &status, WNOHANG) == pid_) {
+    how_ = name_ + (WIFSIGNALED(status) ? " was ended by signal " + std::to_string(WTERMSIG(status))
+                                        : " ended with status " + std::to_string(WEXITSTATUS(status)));
+    if (const auto line = last_line(log_); !line.empty()) how_ += ": " + line;
+  }
+  return how_;
+}
+
+}  // namespace trunnion::deploy

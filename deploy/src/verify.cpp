@@ -1,0 +1,259 @@
+#include "verify.hpp"
+
+#include <unistd.h>
+
+#include <filesystem>
+#include <map>
+#include <stdexcept>
+#include <thread>
+
+#include "bus/bus.hpp"
+#include "child_process.hpp"
+#include "cluster_files.hpp"
+#include "contracts/topics.hpp"
+#include "node/node.hpp"
+#include "replay/answers.hpp"
+#include "replay/verify_plan.hpp"
+
+namespace trunnion::deploy {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr int stream_frames = 4096;       // that a writer of the stream keeps
+constexpr double match_patience = 5;      // s for a reader that must not miss the first message
+constexpr double answer_patience = 0.01;  // s that a service is given to take what it may not answer
+constexpr double last_words = 0.05;       // s for what a service writes beyond what is recorded
+
+// A domain and a directory that nobody else has while this lives.
+class Place {
+ public:
+  explicit Place(std::optional<std::uint32_t> domain) : run_{domain ? *domain : free_domain()} {
+    directory_ = run_.path() + "/verify-" + std::to_string(getpid());
+    fs::create_directories(directory_ + "/state");
+  }
+  ~Place() {
+    std::error_code ignored;
+    fs::remove_all(directory_, ignored);
+    if (fs::is_empty(run_.path(), ignored)) run_.remove();
+  }
+  Place(const Place&) = delete;
+  Place& operator=(const Place&) = delete;
+  std::uint32_t domain() const { return run_.domain; }
+  std::string state() const { return directory_ + "/state"; }
+  std::string log() const { return directory_ + "/service.log"; }
+
+ private:
+  RunDirectory run_;
+  std::string directory_;
+};
+
+class Feeding {
+ public:
+  Feeding(const VerifyOptions& options, const replay::StoredRecording& recording,
+          const replay::VerifyPlan& plan, bus::Bus& bus, ChildProcess& process)
+      : options_(options),
+        plan_(plan),
+        bus_(bus),
+        process_(process),
+        answers_(recording),
+        states_(bus.reader(topics::service_state)) {
+    for (const auto& handle : plan.topics) read(handle);
+    read("alarm");
+    if (options.service == "channel") {
+      read("program_request");
+      writer(*bus::find_topic("program_reply"));
+    }
+    // Made before the service is heard of, so that it finds them all at once.
+    for (const auto& step : plan.steps) writer(*step.message->topic);
+  }
+
+  // Empty when everything came, else what did not.
+  std::string run() {
+    for (const auto& step : plan_.steps) {
+      if (!wait_for(step.needs)) return missing(step.needs);
+      auto& to = writer(*step.message->topic);
+      if (is_request(*step.message->topic) && !await_reader(to))
+        return process_.ended().empty() ? "the service does not read " + step.message->topic->handle
+                                        : process_.ended();
+      if (began_ == 0 && replay::is_cyclic(*step.message->topic)) began_ = node::monotonic_seconds();
+      drain();
+      to.write(step.message->cdr);
+      if (step.apart) await_answer();
+    }
+    if (!wait_for(plan_.end)) return missing(plan_.end);
+    ended_ = node::monotonic_seconds();
+    while (node::monotonic_seconds() - ended_ < last_words) {
+      bus_.signal().wait(last_words / 5);
+      drain();
+    }
+    return process_.ended();
+  }
+
+  double seconds() const { return began_ == 0 || ended_ == 0 ? 0 : ended_ - began_; }
+  std::vector<replay::StoredMessage>& produced() { return produced_; }
+
+ private:
+  void read(const std::string& handle) {
+    // As the recorder does, keeping all: of a state the service changes twice in a row both count.
+    const auto* topic = bus::find_topic(handle);
+    const bus::EndpointQos qos{bus::reader_qos(topic->qos).transient_local, 0};
+    readers_.emplace_back(topic, bus_.backend().reader(topic->description, qos, &bus_.signal()));
+  }
+  bus::RawWriter& writer(const bus::TopicEntry& topic) {
+    auto& writer = writers_[&topic];
+    if (!writer)
+      writer = bus_.backend().writer(topic.description, bus::writer_qos(topic.qos, {stream_frames}));
+    return *writer;
+  }
+
+  // True when something came that brings the service further than it was.
+  bool drain() {
+    bool further = false;
+    bus::SampleInfo info;
+    for (auto& [topic, reader] : readers_)
+      while (reader->take(bytes_, info)) {
+        produced_.push_back({topic, static_cast<std::uint64_t>(info.source_timestamp), 0, bytes_});
+        if (const auto answer = answers_.answer(produced_.back()))
+          writer(*bus::find_topic("program_reply")).write(*answer);
+        further = progress_.observe(produced_.back()).second || further;
+      }
+    return further;
+  }
+
+  // Topics have no common order on the way, so what the order matters for is sent one by one.
+  void await_answer() {
+    const auto before = produced_.size();
+    const double until = node::monotonic_seconds() + answer_patience;
+    while (produced_.size() == before && node::monotonic_seconds() < until) {
+      bus_.signal().wait(answer_patience);
+      drain();
+    }
+  }
+
+  bool wait_for(const std::vector<replay::Mark>& needs) {
+    double heard = node::monotonic_seconds();
+    while (!progress_.reached(needs)) {
+      if (drain()) {
+        heard = node::monotonic_seconds();
+        continue;
+      }
+      bus_.signal().wait(0.02);
+      if (!process_.ended().empty() || node::monotonic_seconds() - heard > options_.patience) {
+        drain();
+        return progress_.reached(needs);
+      }
+    }
+    return true;
+  }
+
+  // A request must not be sent before the service reads it and is ready to act on it.
+  static bool is_request(const bus::TopicEntry& topic) {
+    return topic.qos == bus::QosKind::event || topic.handle.ends_with("_request");
+  }
+  bool await_reader(bus::RawWriter& to) {
+    const double until = node::monotonic_seconds() + match_patience;
+    while ((to.matched() == 0 || !active()) && node::monotonic_seconds() < until &&
+           process_.ended().empty()) {
+      drain();
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    return to.matched() > 0;
+  }
+  bool active() {
+    idl::service::ServiceState state;
+    while (states_.take(state))
+      active_ =
+          active_ || (state.instance == plan_.instance && state.lifecycle == idl::service::Lifecycle::ACTIVE);
+    return active_;
+  }
+
+  std::string missing(const std::vector<replay::Mark>& needs) {
+    if (const auto end = process_.ended(); !end.empty()) return end;
+    for (const auto& need : needs) {
+      if (progress_.reached(need)) continue;
+      const auto at = progress_.at(need.track);
+      return "the service wrote nothing more of " + need.track.topic->handle + " after " +
+             std::to_string(at.minor) + ", the recording has it up to " + std::to_string(need.place.minor);
+    }
+    return "";
+  }
+
+  const VerifyOptions& options_;
+  const replay::VerifyPlan& plan_;
+  bus::Bus& bus_;
+  ChildProcess& process_;
+  std::vector<std::pair<const bus::TopicEntry*, std::unique_ptr<bus::RawReader>>> readers_;
+  std::map<const bus::TopicEntry*, std::unique_ptr<bus::RawWriter>> writers_;
+  std::vector<replay::StoredMessage> produced_;
+  replay::Progress progress_;
+  replay::Answers answers_;
+  bus::Reader<idl::service::ServiceState> states_;
+  bool active_ = false;
+  bus::Bytes bytes_;
+  double began_ = 0, ended_ = 0;
+};
+
+std::string unexpected_alarm(const std::vector<replay::StoredMessage>& recorded,
+                             const std::vector<replay::StoredMessage>& produced, const std::string& service) {
+  const auto known = replay::raised_alarms(recorded, service);
+  for (const auto& [key, text] : replay::raised_alarms(produced, service))
+    if (!known.contains(key))
+      return "alarm " + std::to_string(key.first) + ", which the recording does not have: " + text;
+  return "";
+}
+
+}  // namespace
+
+VerifyResult verify(const VerifyOptions& options) {
+  const auto recording = replay::load_recording(options.recording);
+  const auto plan = replay::plan_verification(recording, options.service, options.channel);
+  std::string machine = options.machine;
+  if (const auto name = recording.metadata.find("machine");
+      machine.empty() && name != recording.metadata.end())
+    machine = name->second;
+  if (machine.empty())
+    throw std::runtime_error(options.recording + ": it names no machine: say which with --machine");
+
+  VerifyResult result;
+  std::vector<replay::StoredMessage> produced;
+  {
+    const Place place(options.domain);
+    std::vector<std::string> arguments{
+        options.executable.empty() ? binary_directory() + "/trunnion-" + options.service : options.executable,
+        "--machine",
+        find_machine(machine),
+        "--state",
+        place.state(),
+        "--instance",
+        std::to_string(plan.instance),
+        "--channel",
+        std::to_string(options.channel),
+        "--domain",
+        std::to_string(place.domain()),
+        "--vendor",
+        options.vendor.empty() ? "cyclonedds" : options.vendor,
+        "--parent-bound"};
+    if (plan.virtual_time) arguments.emplace_back("--virtual-time");
+    bus::Bus bus(bus::Vendor::cyclonedds, {place.domain()}, {stream_frames});
+    ChildProcess process(std::move(arguments), place.log());
+    Feeding feeding(options, recording, plan, bus, process);
+    result.problem = feeding.run();
+    result.seconds = feeding.seconds();
+    produced = std::move(feeding.produced());
+  }
+  result.inputs = plan.steps.size();
+  result.outputs = produced.size();
+  result.cycles = plan.cycles;
+  if (result.seconds > 0)
+    result.times_real_time = static_cast<double>(plan.cycles) * plan.cycle_seconds / result.seconds;
+  if (result.problem.empty())
+    result.problem = unexpected_alarm(recording.messages, produced, options.service);
+  result.unrecorded = plan.drop_unrecorded(produced);
+  auto comparison = options.comparison;
+  comparison.topics = plan.topics;
+  comparison.ignored.insert(plan.ignored.begin(), plan.ignored.end());
+  result.difference = replay::difference(plan.expected, produced, comparison);
+  return result;
+}
+
+}  // namespace trunnion::deploy

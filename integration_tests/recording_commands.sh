@@ -1,0 +1,35 @@
+#!/usr/bin/env bash
+# recording_commands.sh BIN MACHINES DOMAIN: the commands for recordings on the golden ones, as a user calls them.
+set -euo pipefail
+trunnion=$1/trunnion
+golden=$2/gantry-cb-head/recordings/golden.mcap
+work=$(mktemp -d)
+trap 'rm -rf "$work"; kill $(jobs -p) 2> /dev/null || true' EXIT
+fail() { echo "$1"; exit 1; }
+
+# What is replayed and recorded again is the same, every message of it.
+"$1/trunnion-recorder" --output "$work/again.mcap" --machine gantry-cb-head --domain "$3" --duration 30 > "$work/log" &
+recorder=$!
+"$trunnion" replay "$golden" --domain "$3" --wait --linger 1 > "$work/replay"
+kill -TERM $recorder
+wait $recorder || fail "the recorder lost something: $(cat "$work/log")"
+"$trunnion" diff "$golden" "$work/again.mcap" > "$work/diff" || fail "$(cat "$work/diff")"
+[ "$("$trunnion" info "$golden" | grep ^messages | cut -d' ' -f2-3)" = "$("$trunnion" info "$work/again.mcap" | grep ^messages | cut -d' ' -f2-3)" ] ||
+  fail "another number of messages"
+
+# Recordings that differ are a status of 1 and the first difference.
+status=0
+"$trunnion" diff "$golden" "$2/ac-table/recordings/golden.mcap" > "$work/diff" || status=$?
+[ $status = 1 ] && grep -q "^first difference: " "$work/diff" || fail "two machines are not the same"
+
+# A line for every cycle and the header.
+cycles=$("$trunnion" info "$golden" | awk '$1 == "feedback_frame" && $2 == 0 {print $5}')
+[ "$("$trunnion" export "$golden" --csv feedback_frame | wc -l)" = $((cycles + 1)) ] || fail "not a line for every cycle"
+
+# What is cut off is read, and said to be; what is no recording is one line.
+head -c $(($(stat -c %s "$golden") - 30000)) "$golden" > "$work/cut.mcap"
+"$trunnion" info "$work/cut.mcap" | grep -q "^cut off " || fail "a file that is cut off"
+echo nonsense > "$work/nonsense.mcap"
+status=0
+said=$("$trunnion" info "$work/nonsense.mcap" 2>&1) || status=$?
+[ $status = 1 ] && [ "$said" = "trunnion: $work/nonsense.mcap: not an MCAP file: it begins otherwise" ] || fail "$said"

@@ -1,0 +1,19 @@
+#include "compensation_core.hpp"
+#include "one_bit.hpp"
+
+namespace trunnion::variants {
+
+using Core = OneBitOff<compensation::CompensationCore, idl::stream::AxisFrame>;
+
+class Service : public stream::StageService<idl::stream::AxisFrame> {
+ public:
+  explicit Service(node::Node& node)
+      : StageService(node, stream::stage_compensation, topics::kinematics_frame, topics::compensation_frame,
+                     [] { return std::make_unique<Core>(); }) {}
+};
+
+}  // namespace trunnion::variants
+
+int main(int argc, char** argv) {
+  return trunnion::node::service_main<trunnion::variants::Service>(argc, argv, "compensation");
+}

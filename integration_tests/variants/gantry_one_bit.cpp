@@ -1,0 +1,22 @@
+#include "gantry_core.hpp"
+#include "one_bit.hpp"
+
+namespace trunnion::variants {
+
+using Core = OneBitOff<gantry::GantryCore, idl::stream::AxisFrame>;
+
+class Service : public stream::StageService<idl::stream::AxisFrame> {
+ public:
+  explicit Service(node::Node& node)
+      : StageService(node, stream::stage_gantry, topics::compensation_frame, topics::gantry_frame,
+                     [] { return std::make_unique<Core>(); }) {}
+
+ protected:
+  bool needs_feedback() const override { return true; }
+};
+
+}  // namespace trunnion::variants
+
+int main(int argc, char** argv) {
+  return trunnion::node::service_main<trunnion::variants::Service>(argc, argv, "gantry");
+}

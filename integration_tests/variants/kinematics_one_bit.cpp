@@ -1,0 +1,19 @@
+#include "kinematics_core.hpp"
+#include "one_bit.hpp"
+
+namespace trunnion::variants {
+
+using Core = OneBitOff<kinematics::KinematicsCore, idl::stream::PathFrame>;
+
+class Service : public stream::StageService<idl::stream::PathFrame> {
+ public:
+  explicit Service(node::Node& node)
+      : StageService(node, stream::stage_kinematics, topics::path_frame, topics::kinematics_frame,
+                     [] { return std::make_unique<Core>(); }) {}
+};
+
+}  // namespace trunnion::variants
+
+int main(int argc, char** argv) {
+  return trunnion::node::service_main<trunnion::variants::Service>(argc, argv, "kinematics");
+}

@@ -1,0 +1,93 @@
+// Services alone against the golden recordings: as recorded, on either vendor; and not when one bit is wrong.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "cluster_files.hpp"
+#include "verify.hpp"
+
+namespace trunnion::integration {
+namespace {
+
+namespace fs = std::filesystem;
+using deploy::VerifyOptions;
+
+constexpr std::uint64_t wrong_cycle = 700;  // as in variants/one_bit.hpp
+
+VerifyOptions golden(const std::string& machine, const std::string& service) {
+  VerifyOptions options;
+  options.recording = deploy::find_machine(machine) + "/recordings/golden.mcap";
+  options.service = service;
+  options.patience = 20;
+  return options;
+}
+
+class Stage : public testing::TestWithParam<std::string> {};
+
+TEST_P(Stage, OneWrongBitIsFoundAtItsCycleAndField) {
+  auto options = golden("gantry-cb-head", GetParam());
+  options.executable = deploy::binary_directory() + "/" + GetParam() + "_one_bit";
+  const auto result = deploy::verify(options);
+  EXPECT_EQ(result.problem, "") << "it answers everything";
+  ASSERT_TRUE(result.difference.first.has_value());
+  EXPECT_EQ(result.difference.first->topic, GetParam() + "_frame");
+  EXPECT_EQ(result.difference.first->index, wrong_cycle);
+  EXPECT_EQ(result.difference.first->field, "setpoint.axis0");
+  ASSERT_EQ(result.difference.topics.size(), 1u);
+  ASSERT_EQ(result.difference.topics[0].fields.size(), 1u);
+  EXPECT_EQ(result.difference.topics[0].fields.begin()->second.count, 1u);
+  EXPECT_FALSE(result.equal());
+}
+
+TEST_P(Stage, IsAsRecordedOnTheOtherVendorToo) {
+  auto options = golden("gantry-cb-head", GetParam());
+  options.vendor = "fastdds";
+  const auto result = deploy::verify(options);
+  EXPECT_TRUE(result.equal()) << result.problem << text_of(result.difference, "recorded", "written now");
+  EXPECT_GT(result.cycles, 500u);
+}
+
+INSTANTIATE_TEST_SUITE_P(Stages, Stage, testing::Values("kinematics", "compensation", "gantry"),
+                         [](const auto& it) { return it.param; });
+
+TEST(Verify, AServiceThatEndsAtOnceIsAProblemAndNotAWait) {
+  auto options = golden("ac-table", "kinematics");
+  options.executable = "/bin/false";
+  const auto result = deploy::verify(options);
+  EXPECT_EQ(result.problem, "/bin/false ended with status 1");
+  EXPECT_FALSE(result.equal());
+}
+
+TEST(Verify, AServiceThatAnswersNothingIsAProblemAfterItsPatience) {
+  const auto script = fs::temp_directory_path() / ("trunnion-silent-" + std::to_string(getpid()));
+  std::ofstream(script) << "#!/bin/sh\nexec sleep 60\n";
+  fs::permissions(script, fs::perms::owner_all);
+  auto options = golden("ac-table", "compensation");
+  options.executable = script.string();
+  options.patience = 0.5;
+  const auto result = deploy::verify(options);
+  fs::remove(script);
+  EXPECT_NE(result.problem.find("wrote nothing more of compensation_frame"), std::string::npos)
+      << result.problem;
+  EXPECT_FALSE(result.equal());
+}
+
+TEST(Verify, ACutOffRecordingIsVerifiedAsFarAsItGoes) {
+  auto options = golden("ac-table", "kinematics");
+  const auto part = fs::temp_directory_path() / ("trunnion-part-" + std::to_string(getpid()) + ".mcap");
+  fs::copy_file(options.recording, part);
+  fs::resize_file(part, fs::file_size(part) * 3 / 4);
+  options.recording = part.string();
+  try {
+    const auto result = deploy::verify(options);
+    EXPECT_TRUE(result.equal()) << result.problem;
+  } catch (const std::runtime_error& e) {
+    // One chunk, and it is not whole.
+    EXPECT_NE(std::string(e.what()).find("the recording has no"), std::string::npos) << e.what();
+  }
+  fs::remove(part);
+}
+
+}  // namespace
+}  // namespace trunnion::integration

@@ -1,0 +1,66 @@
+#include "replay/progress.hpp"
+
+#include <algorithm>
+
+#include "bus/cdr.hpp"
+
+namespace trunnion::replay {
+
+template <class T, class PlaceOf>
+bool Progress::numbered(const StoredMessage& message, const char* handle, T& value, PlaceOf place_of,
+                        Mark& mark) {
+  if (message.topic->handle != handle || !bus::decode(message.cdr, value)) return false;
+  mark.track.channel = value.channel;
+  mark.place = place_of(value);
+  return true;
+}
+
+std::pair<Mark, bool> Progress::observe(const StoredMessage& message) {
+  Mark mark{{message.topic, 0}, {}};
+  if (!is_cyclic(*message.topic)) {
+    // A state that was there before the recording began is written again, so counting would not do.
+    if (!numbered(
+            message, "auxiliary_done", auxiliary_done_,
+            [](const auto& v) {
+              return Place{0, v.number};
+            },
+            mark) &&
+        !numbered(
+            message, "auxiliary_request", auxiliary_request_,
+            [](const auto& v) {
+              return Place{v.number, v.kind == 0 ? 1u : 0u};
+            },
+            mark) &&
+        !numbered(
+            message, "stream_request", stream_request_,
+            [](const auto& v) {
+              return Place{0, v.request};
+            },
+            mark))
+      mark.place.minor = at(mark.track).minor + 1;
+  } else if (message.topic->handle == "feedback_frame") {
+    if (!bus::decode(message.cdr, feedback_)) return {mark, false};
+    mark.place = {feedback_.first + feedback_.count, feedback_.tick};
+  } else {
+    if (!rows_.load(*message.topic, message.cdr)) return {mark, false};
+    mark.track.channel = rows_.span().channel;
+    mark.place = {rows_.span().epoch, rows_.span().first + rows_.span().count};
+  }
+  auto& place = places_[mark.track];
+  const bool further = mark.place > place;
+  place = std::max(place, mark.place);
+  return {mark, further};
+}
+
+Place Progress::at(const Track& track) const {
+  const auto found = places_.find(track);
+  return found == places_.end() ? Place{} : found->second;
+}
+
+bool Progress::reached(const Mark& mark) const { return at(mark.track) >= mark.place; }
+
+bool Progress::reached(const std::vector<Mark>& marks) const {
+  return std::all_of(marks.begin(), marks.end(), [this](const Mark& mark) { return reached(mark); });
+}
+
+}  // namespace trunnion::replay
