@@ -165,7 +165,8 @@ std::uint64_t record_run(const RunOptions& options) {
       path.setpoints.insert(path.setpoints.end(), p.begin(), p.end());
       path.lines.push_back(rows[i].line);
       if (rtcp) {
-        const Vec3 at = chain.machine_from_tip({p[0], p[1], p[2]}, geometry::angles_of(p.data()), path.tool_length);
+        const Vec3 at =
+            chain.machine_from_tip({p[0], p[1], p[2]}, geometry::angles_of(p.data()), path.tool_length);
         std::copy_n(at.data(), 3, p.begin());
       }
       std::array<double, 5> command{p[0], p[1], p[2], p[3], p[5]};

@@ -10,8 +10,8 @@
 
 namespace trunnion::channel {
 namespace {
-// A hold has ended in a standstill when the setpoints have been the same this long: a rounding at a stop may still run
-// out after the path speed is 0.
+// A hold has ended in a standstill when the setpoints have been the same this long: a rounding at a stop may
+// still run out after the path speed is 0.
 constexpr int standstill_cycles = 3;
 // Meaning of the channel's entry in the stream's states, from which a restarted process goes on.
 enum StateIndex {
