@@ -1,7 +1,5 @@
 #include "channel_core.hpp"
 
-#include "table_order.hpp"
-
 #include <algorithm>
 #include <cmath>
 
@@ -186,65 +184,11 @@ void ChannelCore::hold() {
   run_ = RunState::HOLDING;
 }
 
-void ChannelCore::on_auxiliary_done(const idl::plc::AuxiliaryDone& done) {
-  if (!auxiliary_open_ || done.number != auxiliary_.number) return;
-  auxiliary_open_ = false;
-  if (done.failed) {
-    event("auxiliary_refused",
-          selected_.name + ":" + std::to_string(flow_.pending().line) + ": the PLC could not carry it out");
-    auxiliary_.kind = 0;
-    outgoing_auxiliary_ = auxiliary_;
-    stop_activity();
-    return;
-  }
-  const auto command = flow_.pending();
-  flow_.finish_pending();
-  auxiliary_.kind = 0;
-  outgoing_auxiliary_ = auxiliary_;
-  if (command.kind == language::CommandKind::tool) {
-    // The tool is selected; M6 puts it into the spindle.
-  } else if (command.kind == language::CommandKind::auxiliary && command.number == 6) {
-    tool_ = command.modal.tool;
-  }
-  if (command.kind == language::CommandKind::end) {
-    finish(true);
-    return;
-  }
-  const bool stop =
-      command.kind == language::CommandKind::auxiliary && (command.number == 0 || command.number == 1);
-  run_ = stop || hold_ || !external_hold_.empty() ? RunState::HELD : RunState::RUNNING;
-  hold_ = false;
-}
-
-void ChannelCore::on_table_changed(const std::string& reason) {
-  if (!table_open_) return;
-  table_open_ = false;
-  if (!reason.empty()) {
-    event("table_refused", selected_.name + ":" + std::to_string(flow_.pending().line) + ": " + reason);
-    stop_activity();
-    return;
-  }
-  flow_.finish_pending();
-  run_ = hold_ || !external_hold_.empty() ? RunState::HELD : RunState::RUNNING;
-  hold_ = false;
-}
-
 // What the program has read ahead counts: a variable is not taken back when the motion behind it is stopped.
 void ChannelCore::keep_variables() {
   if (activity_ != Activity::program && activity_ != Activity::mdi) return;
   *variables_ = flow_.variables();
   variables_news_ = true;
-}
-
-std::optional<idl::channel::AuxiliaryRequest> ChannelCore::take_auxiliary() {
-  return std::exchange(outgoing_auxiliary_, std::nullopt);
-}
-
-void ChannelCore::begin_auxiliary(std::uint8_t kind, std::uint32_t code, double value) {
-  auxiliary_ = {number_, ++auxiliary_number_, kind, code, value, link_.executed()};
-  outgoing_auxiliary_ = auxiliary_;
-  auxiliary_open_ = true;
-  run_ = RunState::WAITING;
 }
 
 AxisValues ChannelCore::machine_position() const {
@@ -306,72 +250,6 @@ FlowState ChannelCore::fill() {
   if (activity_ == Activity::jog || aborting_) return FlowState::full;
   flow_.set_cycle(link_.next());
   return flow_.fill(single_block_ && activity_ == Activity::program);
-}
-
-// The axes stand and the drive has executed everything: what stopped the flow is dealt with now.
-void ChannelCore::run_pending(FlowState flow) {
-  using language::CommandKind;
-  switch (flow) {
-    case FlowState::alarm:
-      events_.push_back(
-          {flow_.alarm_number() < 1000 ? "travel_limit" : "", flow_.alarm_number(),
-           (activity_ == Activity::program ? selected_.name : "MDI") + ":" + flow_.alarm_text()});
-      finish(false);
-      return;
-    case FlowState::end:
-      finish(true);
-      return;
-    case FlowState::block_end:
-      flow_.next_block();
-      run_ = RunState::HELD;
-      return;
-    case FlowState::full:
-    case FlowState::waiting:
-      return;
-    case FlowState::command:
-      break;
-  }
-  const auto& command = flow_.pending();
-  switch (command.kind) {
-    case CommandKind::transformation:
-      machine_start_ = machine_position();
-      frame_ = command.modal.transformation;
-      frame_tool_length_ = command.modal.tool_length;
-      trajectory_->start(command.target, frame_, frame_tool_length_);
-      flow_.finish_pending();
-      return;
-    case CommandKind::table:
-      table_order_ = table_order(command, number_, tool_table_);
-      table_open_ = true;
-      run_ = RunState::WAITING;
-      return;
-    case CommandKind::message:
-      event("program_message", (activity_ == Activity::program ? selected_.name : "MDI") + ":" +
-                                   std::to_string(command.line) + ": message " +
-                                   std::to_string(command.number) + ", see the comment of the line");
-      flow_.finish_pending();
-      return;
-    case CommandKind::tool:
-      begin_auxiliary(3, command.number, 0);
-      return;
-    case CommandKind::spindle_speed:
-      spindle_programmed_ = command.value;
-      begin_auxiliary(2, 0, command.value);
-      return;
-    case CommandKind::auxiliary:
-      if (command.number == 1 && !optional_stop_) {
-        flow_.finish_pending();
-        return;
-      }
-      begin_auxiliary(1, command.number, 0);
-      return;
-    case CommandKind::end:
-      begin_auxiliary(1, command.number, 0);
-      return;
-    default:
-      flow_.finish_pending();
-      return;
-  }
 }
 
 void ChannelCore::advance() {
