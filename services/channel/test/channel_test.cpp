@@ -92,6 +92,16 @@ struct Channel : ::testing::Test {
         break;
     }
   }
+  void start_and_go_on_after_a_restart_of_the_drive() {
+    cycles_per_round = 8;
+    ask(CommandKind::CYCLE_START);
+    for (int i = 0; i < 20; ++i) round();
+    drive.forget();
+    round();
+    EXPECT_EQ(core->run_state(), RunState::INTERRUPTED);
+    ASSERT_TRUE(ask(CommandKind::CYCLE_START).accepted);
+    run();
+  }
 };
 
 TEST_F(Channel, RunsAProgramToItsEndAndLandsOnTheLastPointBitForBit) {
@@ -263,14 +273,7 @@ TEST_F(Channel, AFreshProcessGoesOnWhereTheKilledOneWas) {
 
 TEST_F(Channel, ARestartedDriveIsNoticedAndTheProgramGoesOnFromTheCut) {
   load("G90\nG1 X100 F6000\nM30\n");
-  cycles_per_round = 8;
-  ask(CommandKind::CYCLE_START);
-  for (int i = 0; i < 20; ++i) round();
-  drive.forget();
-  round();
-  EXPECT_EQ(core->run_state(), RunState::INTERRUPTED);
-  ASSERT_TRUE(ask(CommandKind::CYCLE_START).accepted);
-  run();
+  start_and_go_on_after_a_restart_of_the_drive();
   EXPECT_EQ(core->run_state(), RunState::IDLE);
   EXPECT_EQ(drive.rows.back()[0], 100);
 }
@@ -301,14 +304,7 @@ TEST_F(Channel, MacroVariablesGoFromLineToProgramToProgram) {
 
 TEST_F(Channel, ARestartInterpretsTheProgramWithTheVariablesItBeganWith) {
   load("G90\n#100=#100+1\nG1 X[#100*60] F6000\nY[#100]\nM30\n");
-  cycles_per_round = 8;
-  ask(CommandKind::CYCLE_START);
-  for (int i = 0; i < 20; ++i) round();
-  drive.forget();
-  round();
-  EXPECT_EQ(core->run_state(), RunState::INTERRUPTED);
-  ASSERT_TRUE(ask(CommandKind::CYCLE_START).accepted);
-  run();
+  start_and_go_on_after_a_restart_of_the_drive();
   EXPECT_EQ(drive.rows.back()[0], 60);
   EXPECT_EQ(drive.rows.back()[1], 1);
 }
