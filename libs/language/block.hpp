@@ -44,6 +44,9 @@ enum class Statement : std::uint8_t {
   end_do,    ///< label
 };
 
+/// Whether the statement opens, divides or closes a structure of several blocks.
+constexpr bool is_structure(Statement statement) { return statement >= Statement::begin_if; }
+
 /// One I, J or K of a macro call, where they may be repeated.
 struct CallCentre {
   char letter = 'I';

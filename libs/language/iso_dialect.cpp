@@ -235,7 +235,9 @@ class BlockReader {
     } else {
       return {AlarmNumber::unknown_instruction, at};
     }
-    if (!first) return {AlarmNumber::statement_not_first, at};
+    if (!first || (behind_then_ && is_structure(block_.statement))) {
+      return {AlarmNumber::statement_not_first, at};
+    }
     return fault;
   }
 
@@ -263,6 +265,7 @@ class BlockReader {
       const Scanner behind = scanner_;
       if (end_of_statement().number == AlarmNumber::text_behind_statement) {
         scanner_ = behind;
+        behind_then_ = true;
         done = !block_.condition;
         return {};
       }
@@ -287,6 +290,8 @@ class BlockReader {
   bool calls_macro_ = false;
   bool skip_is_read_ = false;
   bool word_is_read_ = false;
+  /// Behind IF ... THEN on one line: nothing that opens or closes a structure may stand here.
+  bool behind_then_ = false;
 };
 
 std::uint32_t plain_number(Scanner& scanner) {
@@ -310,12 +315,17 @@ bool find_word(Scanner& scanner, std::string_view word) {
   return false;
 }
 
+/// Past blanks and comments; false at an open comment.
+bool skip_comments(Scanner& scanner) {
+  while (scanner.more() && scanner.peek() == '(') {
+    if (!scanner.skip_comment()) return false;
+  }
+  return true;
+}
+
 /// Whether only comments are left.
 bool nothing_follows(Scanner scanner) {
-  while (scanner.more() && scanner.peek() == '(') {
-    if (!scanner.skip_comment()) return true;
-  }
-  return scanner.at_end() || scanner.peek() == ';';
+  return !skip_comments(scanner) || scanner.at_end() || scanner.peek() == ';';
 }
 
 Statement outline_statement(Scanner scanner, std::uint32_t& label) {
@@ -369,21 +379,26 @@ Outline IsoDialect::outline(std::string_view line, SkipLevels skip) const {
   Outline outline;
   Scanner scanner(line);
   if (!scanner.more() || scanner.peek() == '*') return outline;
-  if (scanner.peek() == '/' && read_skip(scanner, skip)) return outline;
+  const bool skip_is_read = scanner.peek() == '/';
+  if (skip_is_read && read_skip(scanner, skip)) return outline;
   if (scanner.at_end()) return outline;
   if (starts_head(scanner.peek())) {
     if (read_head(scanner, outline.head, outline.program_number)) outline.head = Head::none;
-    if (!scanner.more()) return outline;
   }
+  if (!skip_comments(scanner) || scanner.at_end()) return outline;
   if (letter(scanner.peek()) == 'N') {
     scanner.advance();
     scanner.skip_blanks();
     const Decimal number = scanner.number();
     if (number.status != DecimalStatus::ok) return outline;
-    if (scanner.more() && scanner.peek() == '/' && read_skip(scanner, skip)) return outline;
+    if (!skip_comments(scanner)) return outline;
+    if (!skip_is_read && !scanner.at_end() && scanner.peek() == '/' && read_skip(scanner, skip)) {
+      return outline;
+    }
     if (number.value >= 0 && number.value == std::floor(number.value)) {
       outline.sequence_number = static_cast<std::uint32_t>(number.value);
     }
+    if (!skip_comments(scanner)) return outline;
   }
   if (!scanner.at_end() && letter(scanner.peek()) != '\0' && letter(scanner.peek(1)) != '\0') {
     outline.statement = outline_statement(scanner, outline.label);

@@ -23,10 +23,6 @@ struct NoSystem : SystemVariables {
   AlarmNumber write(const VariableRange&, std::uint32_t, Value) override { return AlarmNumber::none; }
 };
 
-bool is_structure(Statement statement) {
-  return statement != Statement::none && statement != Statement::assignment && statement != Statement::go_to;
-}
-
 void check(std::string_view line, SkipLevels skip, Variables& variables, Block& block) {
   const IsoDialect dialect;
   const Outline outline = dialect.outline(line, skip);

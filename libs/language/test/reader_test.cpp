@@ -168,6 +168,10 @@ TEST(IsoDialect, OutlineSeesWhatABlockWillBe) {
                                                {"DO 12", begin_do, 12u},
                                                {"END12", end_do, 12u},
                                                {"/ENDW", end_while, 0u},
+                                               {"(rest) IF [#1 EQ 2]", begin_if, 0u},
+                                               {"(a) N5 (b) ENDIF", end_if, 0u},
+                                               {"N5 (b) /2 DO3", begin_do, 3u},
+                                               {"IF[1]THEN IF[0]GOTO 7", none, 0u},
                                                {"D1 E2", none, 0u},
                                                {"G1 X1", none, 0u}}) {
     const Outline outline = dialect.outline(line, 0);
@@ -185,6 +189,17 @@ TEST(IsoDialect, OutlineSeesWhatABlockWillBe) {
   EXPECT_EQ(dialect.outline(" /2 n 10 G1", 0).sequence_number, 10u);
   EXPECT_EQ(dialect.outline("N10.5 G1", 0).sequence_number, std::nullopt);
   EXPECT_EQ(dialect.outline("/N10", 1).sequence_number, std::nullopt);
+  EXPECT_EQ(dialect.outline("(a) N10", 1).sequence_number, 10u);
+  EXPECT_EQ(dialect.outline("(a N10", 1).sequence_number, std::nullopt);
+}
+
+TEST(IsoDialect, NoStructureBehindThenOnOneLine) {
+  // A search for ENDIF decides by the text alone; a structure that opens only when a condition holds could
+  // not be found again.
+  for (const auto* line :
+       {"IF[1]THEN IF[1]THEN", "IF[1]THEN IF[0]", "IF[1]THEN WHILE[0]DO1", "IF[1]THEN ENDIF"}) {
+    EXPECT_EQ(Reading()(line).number, AlarmNumber::statement_not_first) << line;
+  }
 }
 
 TEST(Codes, EveryCodeIsFoundByItsNumberAndHasAMeaning) {
