@@ -4,8 +4,6 @@
 #include <cmath>
 #include <cstdio>
 
-#include "motion/path_segment.hpp"
-
 namespace trunnion::setup {
 namespace {
 
@@ -48,6 +46,8 @@ void ChannelSetup::configure(const machine::Parameters& p) {
   pole_range_ = p.get("pole_range", channel_);
   diameter_programming_ = p.integer("diameter_programming", channel_) != 0;
   default_feed_ = p.get("default_feed", channel_);
+  dry_run_feed_ = p.get("dry_run_feed", channel_);
+  handwheel_share_ = p.get("handwheel_share", channel_);
   cycles_ = {p.get("cycle_retract", channel_), p.get("cycle_clearance", channel_),
              p.integer("cycle_shift_axis", channel_)};
   cutter_ = {p.integer("cutter_feed_at_contour") != 0, p.integer("cutter_wear_sign") != 0 ? 1 : -1,
@@ -201,24 +201,23 @@ AxisValues ChannelSetup::machine_from_tip(const AxisValues& tip, double tool_len
 
 std::string ChannelSetup::travel_error(const AxisValues& from, const language::Command& move) const {
   const bool rtcp = move.modal.transformation == language::Transformation::rtcp;
-  const auto path = move.kind == language::CommandKind::arc
-                        ? motion::PathSegment::arc(from, move.target, move.arc)
-                        : motion::PathSegment::line(from, move.target);
-  // A line without transformation is farthest at its end; everything else is looked at along the way.
-  const int places = rtcp || move.kind == language::CommandKind::arc ? 16 : 1;
-  for (int k = 1; k <= places; ++k) {
-    const AxisValues at = k == places ? move.target : path.position(path.length() * k / places);
-    const AxisValues machine = rtcp ? machine_from_tip(at, move.modal.tool_length) : at;
-    for (const auto index : channel_axes_.index) {
-      if (machine[index] >= travel_[index].negative - 1e-6 &&
-          machine[index] <= travel_[index].positive + 1e-6)
-        continue;
-      char text[160];
-      std::snprintf(text, sizeof text, "%u: %c would go to %.4f, its travel is %.4f .. %.4f", move.line,
-                    language::axis_letters[index], machine[index], travel_[index].negative,
-                    travel_[index].positive);
-      return text;
-    }
+  const auto start = rtcp ? machine_from_tip(from, move.modal.tool_length) : from;
+  return travel_error(extent_of(from, move, *chain_), start, {}, move.line);
+}
+
+std::string ChannelSetup::travel_error(const AxisBox& extent, const AxisValues& outside,
+                                       const AxisValues& offset, std::uint32_t line) const {
+  constexpr double rounding = 1e-6;
+  for (const auto index : channel_axes_.index) {
+    const double low = extent.low[index] + offset[index], high = extent.high[index] + offset[index];
+    const double before = outside[index] + offset[index];
+    const bool too_low = low < std::min(travel_[index].negative, before) - rounding;
+    if (!too_low && !(high > std::max(travel_[index].positive, before) + rounding)) continue;
+    char text[160];
+    std::snprintf(text, sizeof text, "%u: %c would go to %.4f, its travel is %.4f .. %.4f", line,
+                  language::axis_letters[index], too_low ? low : high, travel_[index].negative,
+                  travel_[index].positive);
+    return text;
   }
   return "";
 }

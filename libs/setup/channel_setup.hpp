@@ -13,15 +13,11 @@
 #include "machine/axes.hpp"
 #include "motion/limits.hpp"
 #include "setup/machine_tables.hpp"
+#include "setup/travel.hpp"
 
 namespace trunnion::setup {
 
 using language::AxisValues;
-
-/// Travel of an axis of the channel.
-struct Travel {
-  double negative = 0, positive = 0;
-};
 
 class ChannelSetup : public language::Environment {
  public:
@@ -67,9 +63,13 @@ class ChannelSetup : public language::Environment {
     return resolve ? resolve(name) : nullptr;
   }
 
-  /// Empty, or one line about the first axis that would leave its travel on the way from `from` to the end of
-  /// `move`.
+  /// Empty, or one line about the first axis that would leave its travel anywhere on the way from `from` to
+  /// the end of `move`. An axis that stands outside already may move, but not farther out.
   std::string travel_error(const AxisValues& from, const language::Command& move) const;
+  /// The same of a way that is known as the box its axes stay in, `extent`, with `offset` added in machine
+  /// coordinates; `outside` is the axes' position before it.
+  std::string travel_error(const AxisBox& extent, const AxisValues& outside, const AxisValues& offset,
+                           std::uint32_t line) const;
 
   const machine::ChannelAxes& channel_axes() const { return channel_axes_; }
   const std::vector<int>& columns() const { return columns_; }
@@ -78,6 +78,10 @@ class ChannelSetup : public language::Environment {
   bool configured() const { return chain_.has_value(); }
   const Travel& travel(std::uint8_t axis) const { return travel_[axis]; }
   double jog_feed(std::uint8_t axis) const { return jog_feed_[axis]; }
+  /// Feed of a dry run in mm/min (deg/min where only rotary axes move).
+  double dry_run_feed() const { return dry_run_feed_; }
+  /// Share of every limit of the axes that a handwheel offset may take.
+  double handwheel_share() const { return handwheel_share_; }
   double reference_feed(std::uint8_t axis) const { return reference_feed_[axis]; }
   double cycle_seconds() const { return cycle_seconds_; }
   std::uint64_t lead() const { return lead_; }
@@ -102,7 +106,7 @@ class ChannelSetup : public language::Environment {
   AxisValues reference_{}, approach_{};
   std::array<AxisValues, 3> numbered_references_{};
   bool diameter_programming_ = false;
-  double default_feed_ = 1000;
+  double default_feed_ = 1000, dry_run_feed_ = 2000, handwheel_share_ = 0.2;
   language::CycleSettings cycles_;
   language::CutterSettings cutter_;
   std::array<std::array<language::Vector3, 3>, 20> planes_{};
