@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
 #include "motion/axis_motion.hpp"
 #include "motion/path_segment.hpp"
@@ -12,7 +11,7 @@ namespace {
 
 constexpr double arc_step = 10, rotary_step = 2;  // degrees between two samples
 constexpr double smallest_turn = 0.05;            // degrees: less of a swing is 0.1 um at 1 m from the axis
-constexpr int most_samples = 720;
+constexpr double most_samples = 720;
 constexpr int refinements = 20;
 constexpr double golden = 0.6180339887498949;
 
@@ -37,26 +36,33 @@ class Way {
 
 /// Shares of the way to look at. Next to both ends there is one more, so that an extreme in the first or the
 /// last step shows between its neighbours.
-std::vector<double> places_on(const AxisValues& from, const language::Command& move) {
-  double turn = 0, parts = 1;
-  if (move.kind == language::CommandKind::arc) {
-    turn = move.arc.sweep;
-    parts = turn / arc_step;
-  }
-  if (move.modal.transformation == language::Transformation::rtcp)
-    for (const auto axis : {language::A, language::B, language::C}) {
-      turn = std::max(turn, std::abs(move.target[axis] - from[axis]));
-      parts = std::max(parts, std::abs(move.target[axis] - from[axis]) / rotary_step);
+class Places {
+ public:
+  Places(const AxisValues& from, const language::Command& move) {
+    double turn = 0, parts = 1;
+    if (move.kind == language::CommandKind::arc) {
+      turn = move.arc.sweep;
+      parts = turn / arc_step;
     }
-  if (!(turn > smallest_turn)) return {0, 1};
-  const int samples = static_cast<int>(std::ceil(std::min<double>(parts, most_samples)));
-  const double edge = 1e-3 / samples;
-  std::vector<double> places{0, edge};
-  for (int k = 1; k < samples; ++k) places.push_back(static_cast<double>(k) / samples);
-  places.push_back(1 - edge);
-  places.push_back(1);
-  return places;
-}
+    if (move.modal.transformation == language::Transformation::rtcp)
+      for (const auto axis : {language::A, language::B, language::C}) {
+        turn = std::max(turn, std::abs(move.target[axis] - from[axis]));
+        parts = std::max(parts, std::abs(move.target[axis] - from[axis]) / rotary_step);
+      }
+    if (turn > smallest_turn)
+      samples_ = static_cast<std::size_t>(std::ceil(std::clamp<double>(parts, 1, most_samples)));
+  }
+  std::size_t size() const { return samples_ == 0 ? 2 : samples_ + 3; }
+  double operator[](std::size_t k) const {
+    if (k == 0) return 0;
+    if (k + 1 == size()) return 1;
+    const auto samples = static_cast<double>(samples_), edge = 1e-3 / samples;
+    return k == 1 ? edge : k == samples_ + 1 ? 1 - edge : static_cast<double>(k - 1) / samples;
+  }
+
+ private:
+  std::size_t samples_ = 0;
+};
 
 /// The largest value of an axis, times `sign`, between two places with one hill between them: golden section.
 double hilltop(const Way& way, std::size_t axis, double sign, double low, double high) {
@@ -87,7 +93,7 @@ void AxisBox::include(const AxisBox& other) {
 
 AxisBox extent_of(const AxisValues& from, const language::Command& move, const geometry::Chain& chain) {
   const Way way(from, move, chain);
-  const auto places = places_on(from, move);
+  const Places places(from, move);
   AxisValues before = way.at(0), here = before;
   AxisBox box = AxisBox::of(here);
   for (std::size_t k = 1; k < places.size(); ++k) {
