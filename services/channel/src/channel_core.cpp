@@ -160,8 +160,7 @@ void ChannelCore::offer_interrupted() {
 }
 
 RunningProgram ChannelCore::running_program() const {
-  const bool under_way = activity_ == Activity::program || suspended_;
-  if (!under_way || lock_.any()) return interrupted_;
+  if (!program_under_way()) return interrupted_;
   return {selected_.name, selected_.revision, selected_.crc32, std::max<std::uint32_t>(shown_.line, 1)};
 }
 

@@ -14,6 +14,7 @@
 #include "handwheel.hpp"
 #include "preparation.hpp"
 #include "program_flow.hpp"
+#include "program_record.hpp"
 #include "program_shelf.hpp"
 #include "setup/channel_setup.hpp"
 #include "stream_link.hpp"
@@ -34,15 +35,6 @@ struct ChannelEvent {
   std::string alarm;
   std::uint32_t number = 0;
   std::string text;
-};
-
-/// The program that a power failure, or the end of the control, would interrupt now.
-struct RunningProgram {
-  std::string name;
-  std::uint64_t revision = 0;
-  std::uint32_t crc = 0;
-  std::uint32_t line = 0;  ///< newest that was executed; 0 = no program is under way
-  bool operator==(const RunningProgram&) const = default;
 };
 
 class ChannelCore {
@@ -89,6 +81,9 @@ class ChannelCore {
   std::vector<ChannelEvent> take_events() { return std::exchange(events_, {}); }
   const idl::channel::ChannelState& state();
   RunningProgram running_program() const;
+  bool program_under_way() const {
+    return !lock_.any() && (activity_ == Activity::program || suspended_.has_value());
+  }
   /// Motion, or the search for a line, cannot go on before a part of the program's text has arrived.
   bool waits_for_text() const { return run_ == RunState::RUNNING && text_missing_; }
 
