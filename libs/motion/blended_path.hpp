@@ -40,7 +40,7 @@ struct PathBlock {
 /// them is known, and stay readable for a while after they have been executed.
 class BlendedPath {
  public:
-  static constexpr std::uint64_t capacity = 8192;
+  static constexpr std::uint64_t capacity = 16384;
   /// No join reaches farther than this, mm or degrees, or over more than this number of joins.
   static constexpr double longest_reach = 5;
   static constexpr int most_joins = 24;

@@ -54,6 +54,8 @@ class SpeedStage {
   const PathState& state() const { return state_; }
   bool standing() const { return state_.v == 0 && state_.a == 0; }
   std::uint64_t current_cell() const { return current_; }
+  /// Cells before this one will not be looked at again.
+  std::uint64_t oldest_needed() const { return current_ > 4 ? current_ - 4 : 0; }
   /// The first cell has been entered.
   bool started() const { return entered_; }
   /// Standing at a stop until its wait is over.
