@@ -76,6 +76,9 @@ class BlendedPath {
   /// same stretch between two ends of roundings.
   std::array<AxisValues, 3> derivatives(std::uint64_t index, double s, double inside) const;
 
+  /// A jump of curvature is rounded at s: the curve there is no polynomial of the third degree.
+  bool bends(std::uint64_t index, double s) const;
+
   /// The next place behind `s` on block `index` where a rounding begins, turns or ends; at most the block's
   /// end.
   double next_knot(std::uint64_t index, double s) const;

@@ -102,7 +102,24 @@ LimitCell CellBuilder::make(const BlendedPath& path, double from, double to) con
   cell.rapid = block.rapid;
   cell.block = block_;
   const double middle = (from + to) / 2, length = to - from;
-  const PathRates begins = rates_at(path, block_, from, middle), ends = rates_at(path, block_, to, middle);
+  PathRates begins = path.derivatives(block_, from, middle), ends;
+  if (block.path.is_arc() || path.bends(block_, middle)) {
+    ends = path.derivatives(block_, to, middle);
+  } else {  // a polynomial of the third degree
+    ends[2] = begins[2];
+    for (std::size_t i = 0; i < axis_count; ++i) {
+      ends[1][i] = begins[1][i] + begins[2][i] * length;
+      ends[0][i] = begins[0][i] + length * (begins[1][i] + begins[2][i] * (length / 2));
+    }
+  }
+  double bend = 0;
+  if (limits_.centripetal_acceleration > 0)
+    bend = std::max(std::hypot(begins[1][0], begins[1][1], begins[1][2]),
+                    std::hypot(ends[1][0], ends[1][1], ends[1][2]));
+  if (chain_ != nullptr) {
+    begins = machine_rates(path.position(block_, from), begins, chain_, tool_length_);
+    ends = machine_rates(path.position(block_, to), ends, chain_, tool_length_);
+  }
   CellRates rates;
   for (std::size_t i = 0; i < axis_count; ++i) {
     rates.third[i] = std::max(std::abs(begins[2][i]), std::abs(ends[2][i]));
@@ -111,10 +128,7 @@ LimitCell CellBuilder::make(const BlendedPath& path, double from, double to) con
     rates.first[i] =
         std::max(std::abs(begins[0][i]), std::abs(ends[0][i])) + rates.third[i] * length * length / 8;
   }
-  if (limits_.centripetal_acceleration > 0) {
-    const PathRates a = path.derivatives(block_, from, middle), b = path.derivatives(block_, to, middle);
-    rates.curvature = std::max(std::hypot(a[1][0], a[1][1], a[1][2]), std::hypot(b[1][0], b[1][1], b[1][2]));
-  }
+  rates.curvature = bend;
   limit_cell(cell, rates, limits_);
   return cell;
 }
