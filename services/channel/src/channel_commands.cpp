@@ -117,7 +117,8 @@ Answer ChannelCore::cycle_start() {
       return start_program({});
     case RunState::HELD:
       if (suspended_ && activity_ == Activity::none) return go_on_after_suspension();
-      hold_ = false;
+      retracing_ = hold_ = false;
+      trajectory_->retrace(false);
       run_ = RunState::RUNNING;
       return {};
     case RunState::INTERRUPTED:

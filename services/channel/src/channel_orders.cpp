@@ -4,18 +4,6 @@
 #include "table_order.hpp"
 
 namespace trunnion::channel {
-namespace {
-
-/// Under the lock of M S T: all of them but those that steer the program's flow (M0, M1, M2, M30).
-bool passed_over(const language::Command& command) {
-  using language::CommandKind;
-  if (command.kind == CommandKind::tool || command.kind == CommandKind::spindle_speed) return true;
-  return command.kind == CommandKind::auxiliary &&
-         language::m_code(static_cast<std::uint16_t>(command.number)).group != language::MGroup::flow;
-}
-
-}  // namespace
-
 // The axes stand and the drive has executed everything: what stopped the flow is dealt with now.
 void ChannelCore::run_pending(FlowState state) {
   using language::CommandKind;
@@ -40,7 +28,7 @@ void ChannelCore::run_pending(FlowState state) {
       break;
   }
   const auto& command = flow().pending();
-  if (auxiliary_lock_ && passed_over(command)) {
+  if (auxiliary_lock_ && language::changes_machine(command)) {
     flow().finish_pending();
     return;
   }
@@ -117,6 +105,9 @@ void ChannelCore::on_auxiliary_done(const idl::plc::AuxiliaryDone& done) {
   const auto command = flow().pending();
   flow().finish_pending();
   if (suspended_) suspended_->by_hand.pass(command);
+  // What the PLC has done is not undone by going back: the path begins anew behind it.
+  if (language::changes_machine(command))
+    trajectory_->start(trajectory_->position(), frame_, frame_tool_length_);
   if (command.kind == language::CommandKind::tool) {
     // The tool is selected; M6 puts it into the spindle.
   } else if (command.kind == language::CommandKind::auxiliary && command.number == 6) {

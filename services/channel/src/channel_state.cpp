@@ -16,6 +16,8 @@ std::string ChannelCore::detail() const {
   if (running && preparing_motion_) return "approaching the program";
   if (running && interpreting() && (shown_.rapid ? rapid_override_ : feed_override_) == 0)
     return shown_.rapid ? "the rapid override is 0 %" : "the feed override is 0 %";
+  if (retracing_ && run_ == RunState::HELD)
+    return "gone back as far as the path is kept; cycle start: forwards";
   if (suspended_) return "the program is held in line " + std::to_string(suspended_->shown.line);
   if (!external_hold_.empty() && run_ == RunState::HELD) return external_hold_;
   return "";

@@ -86,6 +86,7 @@ void ChannelCore::step_cycle(idl::stream::PathFrame& frame) {
   } else {
     setpoint = trajectory_->step(feed_override_, rapid_override_, hold_);
     point_ = {setpoint.sequence, setpoint.line, setpoint.fraction};
+    if (retracing_ && run_ == RunState::RUNNING && trajectory_->retraced_to_start()) hold();
   }
   const std::uint64_t cycle = link_.next() + frame.count;
   auto& written = written_[cycle % history];

@@ -126,9 +126,28 @@ Answer ChannelCore::turn_handwheel(const ChannelRequest& request) {
   return {};
 }
 
+// Off only stops: the way forwards is the program's, and begins with cycle start.
 Answer ChannelCore::retrace(bool on) {
-  static_cast<void>(on);
-  return refuse("request_invalid", "The path cannot be executed backwards here");
+  if (on == retracing_) return {};
+  if (!on) {
+    retracing_ = false;
+    if (run_ == RunState::RUNNING) hold();
+    return {};
+  }
+  const bool program = activity_ == Activity::program && !preparation_ && !restart_ && !aborting_ &&
+                       !program_flow_.searching();
+  if (!program || (run_ != RunState::RUNNING && run_ != RunState::HELD))
+    return refuse("request_invalid", "Only a program that runs or is held can be retraced");
+  if (auto answer = startable(); !answer.accepted) return answer;
+  trajectory_->retrace(true);
+  if (trajectory_->at_rest()) {
+    trajectory_->retrace(false);
+    return refuse("request_invalid", "No path is behind the program that it could go back over");
+  }
+  retracing_ = true;
+  hold_ = false;
+  run_ = RunState::RUNNING;
+  return {};
 }
 
 }  // namespace trunnion::channel
