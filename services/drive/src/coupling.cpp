@@ -22,7 +22,8 @@ void DriveCore::couple_spindles() {
       release_spindle(channel);
       continue;
     }
-    if (channel.spindle < 0) channel.spindle = machine::column_of(spindle_axes_, channel.window.peek()->spindle_axis);
+    if (channel.spindle < 0)
+      channel.spindle = machine::column_of(spindle_axes_, channel.window.peek()->spindle_axis);
     if (channel.spindle >= 0) spindles_[static_cast<std::size_t>(channel.spindle)].couple(*revolutions);
   }
 }
