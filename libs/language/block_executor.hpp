@@ -200,6 +200,7 @@ class BlockExecutor {
   Fault check_cycle(std::uint16_t at) const;
   Fault run_pattern(const Block& block, const Codes& codes, CommandQueue& out);
   Fault begin_holes(CommandQueue& out);
+  void turn_spindle_again(const MCodes& codes, CommandQueue& out);
   Fault next_hole_step(CommandQueue& out);
   Fault hole_step(const HoleStep& step, CommandQueue& out);
 
@@ -263,6 +264,7 @@ class BlockExecutor {
   std::array<double, 2> shift_{};  // of G76 and G87, mm in the plane
   double lead_ = 0;                // mm, of tapping, positive right-hand
   std::uint32_t tapping_axis_ = 0;
+  SpindleDirection parked_ = SpindleDirection::stopped;  // how it turned before tapping stopped it
   HolePattern pattern_;
   HoleCycle hole_;
   HolePattern::Point hole_place_{};

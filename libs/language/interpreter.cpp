@@ -156,10 +156,12 @@ Interpreter::State Interpreter::go(const Flow& flow, std::string_view line) {
   return call(subprogram, line);
 }
 
-void Interpreter::set_position(const AxisValues& position) {
-  const bool skipped = executor_.needs_position();
+void Interpreter::set_position(const AxisValues& position, const AxisValues& touched) {
+  if (executor_.needs_position()) {
+    executor_.set_position(touched);
+    control_.set_skip_position(executor_.workpiece_position());
+  }
   executor_.set_position(position);
-  if (skipped) control_.set_skip_position(executor_.workpiece_position());
 }
 
 AxisValues Interpreter::workpiece(const Command& command) const {

@@ -42,6 +42,12 @@ void ChannelSetup::configure(const machine::Parameters& p) {
     approach_[index] = p.get("single_direction_approach", a);
     for (std::uint32_t k = 0; k < 3; ++k) numbered_references_[k][index] = p.get("numbered_reference", a, k);
   }
+  tapping_spindle_ = {};
+  const int wanted_spindle = p.integer("tapping_spindle", channel_);
+  for (const auto& spindle : machine::spindles(p)) {
+    if (tapping_spindle_.axis || (wanted_spindle >= 0 && spindle.number != wanted_spindle)) continue;
+    tapping_spindle_ = {spindle.number, p.get("maximum_acceleration", spindle.number)};
+  }
   solver_.emplace(*chain_);
   rotary_travel_ = machine::rotary_travels(p, channel_);
   avoid_poles_ = p.integer("pole_handling", channel_) != 0;

@@ -18,6 +18,12 @@ namespace trunnion::setup {
 
 using language::AxisValues;
 
+/// The spindle that rigid tapping couples; `axis` is its logical number, nothing when the machine has none.
+struct TappingSpindle {
+  std::optional<std::uint16_t> axis;
+  double acceleration = 0;  ///< degrees/s^2
+};
+
 /// Travel of an axis of the channel.
 struct Travel {
   double negative = 0, positive = 0;
@@ -76,6 +82,7 @@ class ChannelSetup : public language::Environment {
   const motion::Limits& limits() const { return limits_; }
   const geometry::Chain& chain() const { return *chain_; }
   bool configured() const { return chain_.has_value(); }
+  const TappingSpindle& tapping_spindle() const { return tapping_spindle_; }
   const Travel& travel(std::uint8_t axis) const { return travel_[axis]; }
   double jog_feed(std::uint8_t axis) const { return jog_feed_[axis]; }
   double reference_feed(std::uint8_t axis) const { return reference_feed_[axis]; }
@@ -107,6 +114,7 @@ class ChannelSetup : public language::Environment {
   language::CutterSettings cutter_;
   std::array<std::array<language::Vector3, 3>, 20> planes_{};
   std::array<std::uint16_t, 8> cycle_m_codes_{};
+  TappingSpindle tapping_spindle_;
   std::array<Travel, language::axis_count> travel_{};
   AxisValues jog_feed_{}, reference_feed_{};
   std::uint16_t mask_ = 0;
