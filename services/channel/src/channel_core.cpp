@@ -67,6 +67,7 @@ void ChannelCore::build_trajectories() {
       axis.acceleration *= 1 - share;
       axis.jerk *= 1 - share;
     }
+  path_limits_ = limits;
   program_owner_ = std::make_unique<motion::Trajectory>(limits, &machine_.chain(), cycle);
   manual_owner_ = std::make_unique<motion::Trajectory>(limits, &machine_.chain(), cycle);
   program_trajectory_ = program_owner_.get();
@@ -91,11 +92,12 @@ void ChannelCore::set_programs(const idl::program::ProgramList& programs) {
 
 void ChannelCore::on_feedback(const idl::stream::FeedbackFrame& feedback) {
   const bool first = !link_.has_feedback();
+  const bool was_off = link_.drive_mode() == DriveMode::off;
   link_.on_feedback(feedback);
+  skip_.on_feedback(feedback, machine_.channel_axes(), machine_.columns());
   remember_executed();
   if (first) auxiliary_number_ = (link_.epoch() + 1) * 4096;
   const auto mode = link_.drive_mode();
-  if (suspended_ && mode == DriveMode::off) must_reset_ = true;
   const bool streaming = link_.state() == LinkState::active || link_.state() == LinkState::ending;
   if (link_.state() == LinkState::lost)
     interrupt("The drive was restarted");
@@ -104,6 +106,8 @@ void ChannelCore::on_feedback(const idl::stream::FeedbackFrame& feedback) {
   else if (streaming && (mode == DriveMode::held || mode == DriveMode::off) && !link_.resuming() &&
            run_ != RunState::INTERRUPTED)
     interrupt(mode == DriveMode::off ? "The drives were switched off" : "The drive stopped on the path");
+  else if (mode == DriveMode::off && !first && !was_off && !link_.drive_restarted() && !must_reset_)
+    interrupt("The drives were switched off");  // while the program was held or waited
 }
 
 void ChannelCore::recover() {
@@ -131,6 +135,7 @@ void ChannelCore::recover() {
     return;
   }
   program_start_ = own->start;
+  program_flow_.set_skips(own->skips);
   dry_run_ = own->dry_run, auxiliary_lock_ = own->auxiliary_lock, block_skip_ = own->block_skip;
   restart_ = RestartPoint{own->sequence, own->fraction, own->position};
   mode_ = Mode::AUTO;
@@ -166,7 +171,7 @@ RunningProgram ChannelCore::running_program() const {
 
 void ChannelCore::interrupt(const std::string& why) {
   must_reset_ = must_reset_ || (link_.drive_mode() == DriveMode::off && link_.state() != LinkState::lost &&
-                                activity_ != Activity::none);
+                                (activity_ != Activity::none || suspended_));
   if (link_.state() == LinkState::lost || link_.state() == LinkState::refused) {
     // What was written is void: go on from the newest consistent cut, if there is a program to go on with.
     const bool was_lost = link_.state() == LinkState::lost;
@@ -239,6 +244,8 @@ void ChannelCore::adopt_position() {
 }
 
 void ChannelCore::stop_activity() {
+  skip_.end();
+  finish_tapping();
   if (link_.state() == LinkState::active || link_.state() == LinkState::ending ||
       link_.state() == LinkState::requested)
     link_.leave();
@@ -261,6 +268,8 @@ void ChannelCore::stop_activity() {
 }
 
 void ChannelCore::finish(bool program_end) {
+  skip_.end();
+  finish_tapping();
   machine_start_ = machine_position();
   wheel_.start({});
   if (activity_ == Activity::mdi) {

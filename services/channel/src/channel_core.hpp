@@ -61,6 +61,9 @@ class ChannelCore {
   /// Alarms that stop motion, or the PLC's feed hold: `why` is empty when there is none.
   void set_hold(const std::string& why);
   void set_ready(bool ready) { ready_ = ready; }
+  /// A motion may start: the copies of every stage are in step. `floor` is the cycle the slowest of them
+  /// computes next; nothing is written farther than two leads beyond it.
+  void set_copies(bool may_start, std::uint64_t floor) { may_start_ = may_start, floor_ = floor; }
   Answer handle(const idl::channel::ChannelRequest& request);
   std::optional<ChunkWanted> wanted() const;
   void deliver(const std::string& name, std::uint64_t offset, std::vector<std::uint8_t> data);
@@ -101,7 +104,8 @@ class ChannelCore {
     std::uint32_t line = 0;
     double feed = 0;
     AxisValues distance_to_go{};
-    AxisValues machine{};  // of the program, when an axis is locked
+    AxisValues position{};  // of the path, in its frame
+    AxisValues machine{};   // the same in machine coordinates, when an axis is locked
     bool rapid = false;
   };
   struct PathPoint {
@@ -148,7 +152,7 @@ class ChannelCore {
   Answer start_move(std::uint8_t axis, double target, double feed);
   void begin_manual(Activity activity);
   void prepare_entry();
-  void run_preparation();
+  bool run_preparation();
   void suspend();
   Answer go_on_after_suspension();
 
@@ -166,10 +170,19 @@ class ChannelCore {
   void run_pending(FlowState state);
   void begin_auxiliary(const AuxiliaryOrder& order);
 
+  // channel_cycles.cpp: moves that a skip input ends, and those a spindle follows.
+  void begin_skip();
+  void finish_skip();
+  void begin_tapping();
+  void finish_tapping();
+  bool holding() const { return hold_ && !tapping_.active(); }
+
   // channel_stream.cpp: setpoints.
   void hold();
   FlowState fill();
+  void start_stream();
   void step_cycle(idl::stream::PathFrame& frame);
+  bool copies_follow(std::uint32_t count);
   AxisValues machine_of(const AxisValues& path) const;
   bool in_machine_coordinates() const { return lock_.any() || offset_on_; }
   void remember_executed();
@@ -197,6 +210,7 @@ class ChannelCore {
   motion::Trajectory* program_trajectory_ = nullptr;
   motion::Trajectory* manual_trajectory_ = nullptr;
   motion::Trajectory* trajectory_ = nullptr;  // one of the two
+  motion::Limits path_limits_;                // what a handwheel offset leaves of the axes' limits
   ProgramFlow program_flow_, mdi_flow_;
   ProgramShelf program_shelf_, mdi_shelf_;
   std::shared_ptr<const machine::Parameters> parameters_, next_parameters_;
@@ -208,6 +222,8 @@ class ChannelCore {
   bool ready_ = false, recovered_ = false, hold_ = false, aborting_ = false, text_missing_ = false,
        must_reset_ =
            false;  // the drives were off: spindle and coolant are, so the program must not just go on
+  bool may_start_ = true;
+  std::uint64_t floor_ = ~0ull, motion_start_ = 0;
   std::string external_hold_;
   int standing_ = 0;
   AxisValues last_position_{};
@@ -244,6 +260,8 @@ class ChannelCore {
   std::unique_ptr<language::VariableStore> variables_ = std::make_unique<language::VariableStore>();
   bool variables_news_ = false;
   std::optional<idl::channel::AuxiliaryRequest> outgoing_auxiliary_;
+  SkipMove skip_;
+  Tapping tapping_;
   std::uint32_t tool_ = 0;
   double spindle_programmed_ = 0;
   std::uint32_t reset_count_ = 0;

@@ -7,6 +7,10 @@ namespace trunnion::channel {
 // The axes stand and the drive has executed everything: what stopped the flow is dealt with now.
 void ChannelCore::run_pending(FlowState state) {
   using language::CommandKind;
+  if (tapping_.active() && state != FlowState::block_end) {
+    finish_tapping();
+    return;
+  }
   switch (state) {
     case FlowState::alarm:
       events_.push_back(
@@ -39,6 +43,12 @@ void ChannelCore::run_pending(FlowState state) {
       frame_tool_length_ = command.modal.tool_length;
       trajectory_->start(command.target, frame_, frame_tool_length_);
       flow().finish_pending();
+      return;
+    case CommandKind::skip:
+      begin_skip();
+      return;
+    case CommandKind::tap:
+      begin_tapping();
       return;
     case CommandKind::table:
       table_order_ = table_order(command, number_, tool_table_);

@@ -23,11 +23,12 @@ enum Index {
   dry_run = offset + 9,
   auxiliary_lock,
   block_skip,
-  size
+  size  // then the results of the skip moves
 };
+constexpr std::size_t skip_values = 18, most_skips = 24;  // of the 512 values a state may have
 }  // namespace
 
-void store(const ChannelSnapshot& s, std::vector<double>& v) {
+void store(const ChannelSnapshot& s, const std::vector<SkipResult>& skips, std::vector<double>& v) {
   v.resize(size);
   v[running] = s.running ? 1 : 0;
   v[crc] = s.crc;
@@ -45,11 +46,16 @@ void store(const ChannelSnapshot& s, std::vector<double>& v) {
   v[dry_run] = s.dry_run ? 1 : 0;
   v[auxiliary_lock] = s.auxiliary_lock ? 1 : 0;
   v[block_skip] = s.block_skip;
+  if (skips.size() > most_skips) return;
+  for (const auto& skip : skips) {
+    v.insert(v.end(), skip.stopped.begin(), skip.stopped.end());
+    v.insert(v.end(), skip.touched.begin(), skip.touched.end());
+  }
 }
 
 std::optional<ChannelSnapshot> snapshot_of(const std::vector<idl::stream::StageState>& states) {
   const auto* own = stream::find_state(states, stream::stage_channel);
-  if (own == nullptr || own->values.size() != size) return std::nullopt;
+  if (own == nullptr || own->values.size() < size) return std::nullopt;
   const auto& v = own->values;
   ChannelSnapshot s;
   s.running = v[running] != 0;
@@ -68,6 +74,13 @@ std::optional<ChannelSnapshot> snapshot_of(const std::vector<idl::stream::StageS
   s.dry_run = v[dry_run] != 0;
   s.auxiliary_lock = v[auxiliary_lock] != 0;
   s.block_skip = static_cast<std::uint16_t>(v[block_skip]);
+  s.skips.resize((v.size() - size) / skip_values);
+  auto from = v.begin() + size;
+  for (auto& skip : s.skips) {
+    std::copy_n(from, 9, skip.stopped.begin());
+    std::copy_n(from + 9, 9, skip.touched.begin());
+    from += skip_values;
+  }
   return s;
 }
 

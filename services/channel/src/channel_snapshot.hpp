@@ -6,11 +6,9 @@
 #include <vector>
 
 #include "contracts/types.hpp"
-#include "language/canonical.hpp"
+#include "skip_move.hpp"
 
 namespace trunnion::channel {
-
-using language::AxisValues;
 
 struct ChannelSnapshot {
   bool running = false;  ///< a program is under way that can be gone on with
@@ -27,10 +25,13 @@ struct ChannelSnapshot {
   AxisValues offset{};  ///< of the handwheel, added to the path in machine coordinates
   bool dry_run = false, auxiliary_lock = false;
   std::uint16_t block_skip = 0;
+  std::vector<SkipResult> skips;  ///< results of the program's skip moves so far
 };
 
-/// Writes into `values`, which keeps its memory.
-void store(const ChannelSnapshot& snapshot, std::vector<double>& values);
+/// Writes into `values`, which keeps its memory; `skips` take the place of the snapshot's. More of them than
+/// the state has room for are left out: the program is then not resumable.
+void store(const ChannelSnapshot& snapshot, const std::vector<SkipResult>& skips,
+           std::vector<double>& values);
 /// Nothing when the states have none of a channel.
 std::optional<ChannelSnapshot> snapshot_of(const std::vector<idl::stream::StageState>& states);
 

@@ -28,6 +28,8 @@ Answer ChannelCore::start_program(const Entry& entry) {
     }
   apply_parameters();
   adopt_position();
+  skip_.end();
+  finish_tapping();
   auto& text = program_shelf_.open(selected_);
   const auto modal = power_on_modal();
   if (restart.sequence == 0) program_start_ = machine_start_;
@@ -37,7 +39,7 @@ Answer ChannelCore::start_program(const Entry& entry) {
   trajectory_->start(machine_start_, frame_, 0);
   program_flow_.set_block_skip(block_skip_);
   program_flow_.set_dry_run_feed(dry_run_ ? machine_.dry_run_feed() : 0);
-  program_flow_.set_offset(offset_.target());
+  program_flow_.set_offset(offset_on_ ? std::optional(offset_.target()) : std::nullopt);
   program_flow_.start(text, program_start_, modal, *variables_, entry);
   restart_ = restart.sequence != 0 ? std::optional(restart) : std::nullopt;
   preparation_.reset();
@@ -101,18 +103,19 @@ void ChannelCore::prepare_entry() {
   run_ = RunState::HELD;
 }
 
-// One step of the preparation: an order, the approach, or the end of it, after which the program moves.
-void ChannelCore::run_preparation() {
+// One step of the preparation: an order, the approach, or the end of it, after which the program moves. False
+// when something has to happen before the next step.
+bool ChannelCore::run_preparation() {
   if (!external_hold_.empty()) {
     run_ = RunState::HELD;
-    return;
+    return false;
   }
   auto& orders = preparation_->orders;
   if (!orders.empty()) {
     const auto order = orders.front();
     orders.erase(orders.begin());
     if (!auxiliary_lock_) begin_auxiliary(order);
-    return;
+    return run_ == RunState::RUNNING;
   }
   if (!preparing_motion_) {
     preparing_motion_ = true;
@@ -124,9 +127,8 @@ void ChannelCore::run_preparation() {
     trajectory_->finish();
   }
   if (!trajectory_->at_rest() || !offset_.at_rest()) {
-    standing_ = 0;
-    link_.request_start();
-    return;
+    start_stream();
+    return false;
   }
   machine_start_ = machine_position();
   preparation_.reset();
@@ -139,13 +141,14 @@ void ChannelCore::run_preparation() {
     shown_ = suspended_->shown;
     modal_ = suspended_->mdi_modal;
     suspended_.reset();
-    return;
+    return true;
   }
   const auto& modal = program_flow_.executing();
   frame_ = modal.transformation;
   frame_tool_length_ = modal.tool_length;
   if (!restart_) trajectory_->start(program_flow_.position(), frame_, frame_tool_length_);
   restart_.reset();
+  return true;
 }
 
 // The program is held and stays planned; MDI and jog have a motion of their own.
@@ -207,7 +210,7 @@ Answer ChannelCore::start_mdi(const std::string& line) {
   trajectory_->start(position, frame_, frame_tool_length_);
   mdi_flow_.set_block_skip(block_skip_);
   mdi_flow_.set_dry_run_feed(dry_run_ ? machine_.dry_run_feed() : 0);
-  mdi_flow_.set_offset(offset_.target());
+  mdi_flow_.set_offset(offset_on_ ? std::optional(offset_.target()) : std::nullopt);
   mdi_flow_.start(*mdi_source_, position, modal_, suspended_ ? program_flow_.variables() : *variables_);
   // What is wrong with the line is the answer to whoever typed it.
   const auto state = mdi_flow_.fill(false);

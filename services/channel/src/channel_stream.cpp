@@ -26,7 +26,7 @@ void ChannelCore::hold() {
 }
 
 FlowState ChannelCore::fill() {
-  if (!interpreting() || aborting_ || preparation_ || retracing_) return FlowState::full;
+  if (!interpreting() || aborting_ || preparation_ || retracing_ || skip_.active()) return FlowState::full;
   flow().set_cycle(link_.next());
   const auto state = flow().fill(single_block_ && activity_ == Activity::program);
   text_missing_ = state == FlowState::waiting;
@@ -47,13 +47,13 @@ void ChannelCore::advance() {
   }
   for (int i = 0; i < 1000 && run_ == RunState::RUNNING && activity_ != Activity::none; ++i) {
     if (preparation_) {
-      run_preparation();
-      if (link_.state() != LinkState::idle) return;
+      if (!run_preparation()) return;
       continue;
     }
     const auto state = fill();
     if (state == FlowState::waiting) return;
-    if (state == FlowState::found || (restart_ && activity_ == Activity::program)) {
+    const bool found = restart_ && activity_ == Activity::program && !program_flow_.searching();
+    if (state == FlowState::found || found) {
       prepare_entry();
       continue;
     }
@@ -64,36 +64,57 @@ void ChannelCore::advance() {
         run_ = RunState::HELD;
         return;
       }
-      standing_ = 0;
-      link_.request_start();
+      start_stream();
       return;
     }
     if (!interpreting() || aborting_) {
       finish(false);
       return;
     }
+    if (skip_.active()) {
+      finish_skip();
+      continue;
+    }
     run_pending(state);
   }
 }
 
+// Not before every copy of a stage is in step.
+void ChannelCore::start_stream() {
+  if (!may_start_) return;
+  standing_ = 0;
+  link_.request_start();
+}
+
+// The slowest copy of a stage is near enough for `count` setpoints more. It may not have heard of this
+// motion.
+bool ChannelCore::copies_follow(std::uint32_t count) {
+  if (link_.starts()) motion_start_ = link_.next();
+  const auto end = link_.next() + count, distance = 2 * machine_.lead();
+  return end <= distance || end - distance <= std::max(floor_, motion_start_);
+}
+
 // One cycle: the path, or the handwheel in its place; then what is added to it and which axes stand.
 void ChannelCore::step_cycle(idl::stream::PathFrame& frame) {
+  const std::uint64_t cycle = link_.next() + frame.count;
+  if (skip_.active()) skip_.moves_from(cycle);
+  if (skip_.active() && skip_.brakes_in(cycle, machine_.lead())) trajectory_->abort();
   motion::Setpoint setpoint;
   if (activity_ == Activity::handwheel) {
     wheel_.step();
     setpoint.position = machine_position();
     setpoint.at_rest = wheel_.at_rest();
   } else {
-    setpoint = trajectory_->step(feed_override_, rapid_override_, hold_);
+    setpoint = trajectory_->step(tapping_.active() ? 1 : feed_override_, rapid_override_, holding());
     point_ = {setpoint.sequence, setpoint.line, setpoint.fraction};
     if (retracing_ && run_ == RunState::RUNNING && trajectory_->retraced_to_start()) hold();
   }
-  const std::uint64_t cycle = link_.next() + frame.count;
   auto& written = written_[cycle % history];
   written = {cycle,
              suspended_ ? suspended_->shown.line : setpoint.line,
              setpoint.feed,
              setpoint.distance_to_go,
+             setpoint.position,
              {},
              setpoint.rapid};
   auto out = setpoint.position;
@@ -105,23 +126,25 @@ void ChannelCore::step_cycle(idl::stream::PathFrame& frame) {
   }
   frame.setpoints.insert(frame.setpoints.end(), out.begin(), out.end());
   frame.lines.push_back(setpoint.line);
+  if (tapping_.active()) frame.spindle.push_back(tapping_.revolutions(setpoint.position));
   ++frame.count;
   standing_ = setpoint.path_speed == 0 && out == last_position_ ? standing_ + 1 : 0;
   last_position_ = out;
-  frame.ends = offset_.at_rest() && (setpoint.at_rest || (hold_ && standing_ > standstill_cycles));
+  frame.ends = offset_.at_rest() && (setpoint.at_rest || (holding() && standing_ > standstill_cycles));
 }
 
 bool ChannelCore::produce(idl::stream::PathFrame& frame) {
   if (link_.state() != LinkState::active) return false;
   const std::uint32_t count = machine_.frame_cycles(virtual_time_);
-  if (!link_.credit(count, machine_.lead())) return false;
+  if (!link_.credit(count, machine_.lead()) || !copies_follow(count)) return false;
   frame.setpoints.clear();
   frame.lines.clear();
+  frame.spindle.clear();
   frame.ends = false;
   frame.count = 0;
   auto flow = FlowState::full;
   while (frame.count < count && !frame.ends) {
-    if (!hold_ && !aborting_) {
+    if (!holding() && !aborting_) {
       flow = fill();
       if (flow == FlowState::waiting) break;
     }
@@ -137,6 +160,7 @@ bool ChannelCore::produce(idl::stream::PathFrame& frame) {
   const bool rtcp = frame_ == language::Transformation::rtcp && !in_machine_coordinates();
   frame.transformation = rtcp ? 1 : 0;
   frame.tool_length = in_machine_coordinates() ? 0 : frame_tool_length_;
+  frame.spindle_axis = machine_.tapping_spindle().axis.value_or(0);
   frame.states.clear();
   if (frame.starts) frame.states = link_.states();
   auto& own = stream::state_of(frame.states, stream::stage_channel);
@@ -175,7 +199,7 @@ void ChannelCore::store_state(FlowState state, std::vector<double>& values) cons
     s.position = restart_->position;
   }
   s.sequence = point.sequence, s.line = point.line, s.fraction = point.fraction;
-  store(s, values);
+  store(s, program_flow_.skips(), values);
 }
 
 void ChannelCore::remember_executed() {

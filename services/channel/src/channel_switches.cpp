@@ -95,7 +95,8 @@ Answer ChannelCore::turn_handwheel(const ChannelRequest& request) {
   if (!by_hand && !offset_on_)
     return refuse("request_invalid", "The handwheel needs mode JOG, or its offset switched on");
   const bool turning = activity_ == Activity::handwheel;
-  const bool in_motion = !by_hand && interpreting() && run_ == RunState::RUNNING && !aborting_;
+  const bool in_motion = !by_hand && interpreting() && run_ == RunState::RUNNING && !aborting_ &&
+                         !tapping_.active() && !skip_.active();
   if (activity_ != Activity::none && !turning && !in_motion)
     return refuse("request_invalid",
                   "The channel is busy: the handwheel waits for its motion to end or go on");
@@ -135,7 +136,7 @@ Answer ChannelCore::retrace(bool on) {
     return {};
   }
   const bool program = activity_ == Activity::program && !preparation_ && !restart_ && !aborting_ &&
-                       !program_flow_.searching();
+                       !program_flow_.searching() && !tapping_.active() && !skip_.active();
   if (!program || (run_ != RunState::RUNNING && run_ != RunState::HELD))
     return refuse("request_invalid", "Only a program that runs or is held can be retraced");
   if (auto answer = startable(); !answer.accepted) return answer;

@@ -15,7 +15,7 @@ std::string place(std::uint32_t program, std::uint32_t line) {
   return name + std::to_string(line);
 }
 
-bool is_move(CommandKind kind) {
+bool is_path(CommandKind kind) {
   return kind == CommandKind::rapid || kind == CommandKind::line || kind == CommandKind::arc;
 }
 
@@ -30,6 +30,9 @@ void ProgramFlow::start(language::TextSource& text, const AxisValues& position,
   block_line_ = 0;
   entry_ = entry;
   search_ = entry.restart.sequence > 0 ? Search::restart : entry.line > 0 ? Search::line : Search::none;
+  if (entry.restart.sequence == 0) skips_.clear();
+  skips_read_ = 0;
+  tapping_ = in_hole_ = refused_ = false;
   executing_ = initial;
   auxiliaries_.clear();
   const bool rtcp = initial.transformation == language::Transformation::rtcp;
@@ -53,16 +56,20 @@ FlowState ProgramFlow::fail_search(const std::string& why) {
 
 FlowState ProgramFlow::push_move() {
   const auto& from = trajectory_->end_position();
-  if (is_move(command_.kind)) {
-    const bool rtcp = command_.modal.transformation == language::Transformation::rtcp;
-    const auto start = rtcp ? machine_.machine_from_tip(from, command_.modal.tool_length) : from;
-    const auto extent = setup::extent_of(from, command_, machine_.chain());
-    const auto error = machine_.travel_error(extent, start, offset_, command_.line);
+  if (command_.kind != CommandKind::dwell) {
+    std::string error;
+    if (offset_) {
+      const auto extent = setup::extent_of(from, command_, machine_.chain());
+      error = machine_.travel_error(extent, *offset_, command_.line);
+      if (error.empty()) extent_.include(extent);
+    } else {
+      error = machine_.travel_error(from, command_);
+    }
     if (!error.empty()) return fail("travel_limit", error);
-    extent_.include(extent);
   }
-  auto move = command_;
-  if (dry_run_feed_ > 0) {
+  auto move = command_.kind == CommandKind::tap ? Tapping::line(command_) : command_;
+  if (move.kind == CommandKind::skip) move.kind = CommandKind::line;
+  if (dry_run_feed_ > 0 && command_.kind != CommandKind::tap && command_.kind != CommandKind::skip) {
     move.modal.feed = dry_run_feed_;
     move.modal.feed_mode = language::FeedMode::per_minute;
   } else if (move.modal.feed_mode == language::FeedMode::per_revolution) {
@@ -79,6 +86,37 @@ FlowState ProgramFlow::push_move() {
   }
   executing_ = command_.modal;
   have_command_ = false;
+  return FlowState::full;
+}
+
+FlowState ProgramFlow::push_pending() {
+  const auto state = push_move();
+  refused_ = state == FlowState::alarm;
+  trajectory_->finish();
+  return state;
+}
+
+void ProgramFlow::refuse_pending(language::AlarmNumber number) {
+  fail(number);
+  refused_ = true;
+}
+
+FlowState ProgramFlow::fail(language::AlarmNumber number) {
+  alarm_number_ = static_cast<std::uint32_t>(number);
+  alarm_name_.clear();
+  alarm_text_ = place(command_.program, command_.line) + ": " + std::string(language::alarm_text(number));
+  trajectory_->finish();
+  return FlowState::alarm;
+}
+
+// A skip move has ended, now or before the restart: the interpreter is told where.
+FlowState ProgramFlow::go_on_from_skip() {
+  if (search_ == Search::line)
+    return fail_search("line " + std::to_string(command_.line) +
+                       " measures (G31), and what follows depends on it");
+  if (skips_read_ == skips_.size()) return fail(language::AlarmNumber::not_resumable);
+  interpreter_.set_position(skips_[skips_read_].stopped, skips_[skips_read_].touched);
+  ++skips_read_;
   return FlowState::full;
 }
 
@@ -106,10 +144,7 @@ FlowState ProgramFlow::take_step(language::Step step) {
     case language::Step::pending:
       return FlowState::waiting;
     case language::Step::position:
-      if (search_ == Search::line)
-        return fail_search("line " + std::to_string(command_.line) +
-                           " measures (G31), and what follows depends on it");
-      return FlowState::waiting;
+      return go_on_from_skip();
     case language::Step::line:
       return arrive_at_line();
     case language::Step::end:
@@ -130,6 +165,7 @@ FlowState ProgramFlow::take_step(language::Step step) {
 }
 
 FlowState ProgramFlow::fill(bool single_block) {
+  if (refused_) return FlowState::alarm;
   constexpr int most_commands = 4096;  // a long search for the restart point must not keep the channel deaf
   for (int i = 0; i < most_commands; ++i) {
     if (!searching() && !trajectory_->can_accept()) return FlowState::full;
@@ -137,29 +173,31 @@ FlowState ProgramFlow::fill(bool single_block) {
       const auto step = interpreter_.next(command_);
       if (step == language::Step::working) continue;
       if (const auto state = take_step(step); state != FlowState::full) return state;
+      if (!have_command_) continue;
     }
     if (searching()) {
+      const bool drilling =
+          command_.kind == CommandKind::tap || (in_hole_ && command_.kind == CommandKind::dwell);
       if (search_ == Search::line || command_.sequence < entry_.restart.sequence) {
+        in_hole_ = drilling;
         finish_pending();
         continue;
       }
+      // The spindle has lost its place in the thread.
+      if (drilling) return fail(language::AlarmNumber::not_resumable);
       search_ = Search::none;
       trajectory_->start(entry_.restart.position, command_.modal.transformation, command_.modal.tool_length);
     }
+    const bool stroke =
+        command_.kind == CommandKind::tap || (tapping_ && command_.kind == CommandKind::dwell);
+    const bool move = is_path(command_.kind) || command_.kind == CommandKind::dwell || stroke;
     if (single_block && block_line_ != 0 && command_.line != block_line_) {
       trajectory_->finish();
       return FlowState::block_end;
     }
     block_line_ = command_.line;
-    if (command_.kind == CommandKind::skip || command_.kind == CommandKind::tap) {
-      // Neither may be passed over: the tool would not be where the program thinks.
-      alarm_number_ = static_cast<std::uint32_t>(language::AlarmNumber::move_not_available);
-      alarm_text_ = std::to_string(command_.line) + ": " +
-                    std::string(language::alarm_text(language::AlarmNumber::move_not_available));
-      trajectory_->finish();
-      return FlowState::alarm;
-    }
-    if (!is_move(command_.kind) && command_.kind != CommandKind::dwell) {
+    if (!move || stroke != tapping_) {
+      if (command_.kind == CommandKind::skip || stroke) executing_ = command_.modal;
       trajectory_->finish();
       return command_.kind == CommandKind::end && command_.number == 0 ? FlowState::end : FlowState::command;
     }

@@ -8,6 +8,8 @@
 #include "language/interpreter.hpp"
 #include "motion/trajectory.hpp"
 #include "setup/channel_setup.hpp"
+#include "skip_move.hpp"
+#include "tapping.hpp"
 
 namespace trunnion::channel {
 
@@ -45,8 +47,9 @@ class ProgramFlow {
   void set_block_skip(language::SkipLevels levels) { interpreter_.set_block_skip(levels); }
   /// Feeds of the program are replaced by this one, mm/min; 0 = they are not.
   void set_dry_run_feed(double feed) { dry_run_feed_ = feed; }
-  /// Machine coordinates that are added to the path: travel is looked at with them.
-  void set_offset(const AxisValues& offset) { offset_ = offset; }
+  /// Machine coordinates that are added to the path, or may be: travel is looked at with them, and extent()
+  /// is kept. Nothing when there are none.
+  void set_offset(const std::optional<AxisValues>& offset) { offset_ = offset; }
 
   /// `position` in the frame of `initial`. The trajectory must be at rest there. A restart needs the
   /// variables the program began with, for it interprets it again.
@@ -62,6 +65,19 @@ class ProgramFlow {
   /// Single block: the next block may begin.
   void next_block() { block_line_ = 0; }
 
+  /// Hands the pending move to motion, whose last it is. FlowState::alarm, or full.
+  FlowState push_pending();
+  /// The pending command cannot be carried out: fill() gives FlowState::alarm from now on.
+  void refuse_pending(language::AlarmNumber number);
+  /// Rigid tapping has been begun or ended: strokes and the dwells between them are moves meanwhile.
+  void set_tapping(bool tapping) { tapping_ = tapping; }
+  /// Where the pending skip move ended; the interpreter goes on from there. A restart of the program reads
+  /// the results again.
+  void skip_ended(const SkipResult& result) { skips_.push_back(result); }
+  const std::vector<SkipResult>& skips() const { return skips_; }
+  /// The results a program had before this process; after start().
+  void set_skips(std::vector<SkipResult> skips) { skips_ = std::move(skips); }
+
   const language::ModalState& modal() const { return interpreter_.modal(); }
   /// Where the blocks read so far end, in the frame of modal().
   const AxisValues& position() const { return interpreter_.position(); }
@@ -76,7 +92,7 @@ class ProgramFlow {
   const language::ModalState& executing() const { return executing_; }
   /// What the commands that are done, or were skipped, have asked of spindle and coolant.
   const AuxiliaryMemory& auxiliaries() const { return auxiliaries_; }
-  /// Machine coordinates the moves handed to motion have gone through since the start.
+  /// Machine coordinates the moves handed to motion go through, since the start with an offset.
   const setup::AxisBox& extent() const { return extent_; }
   /// Number of the alarm, and its name when it is none of the NC language, else empty.
   std::uint32_t alarm_number() const { return alarm_number_; }
@@ -91,7 +107,9 @@ class ProgramFlow {
   FlowState take_step(language::Step step);
   FlowState arrive_at_line();
   FlowState fail(const char* alarm, const std::string& text);
+  FlowState fail(language::AlarmNumber number);
   FlowState fail_search(const std::string& why);
+  FlowState go_on_from_skip();
   setup::ChannelSetup& machine_;
   motion::Trajectory*& trajectory_;
   language::Interpreter interpreter_;
@@ -99,12 +117,15 @@ class ProgramFlow {
   language::ModalState executing_;
   AuxiliaryMemory auxiliaries_;
   setup::AxisBox extent_;
-  AxisValues offset_{};
+  std::optional<AxisValues> offset_;
   double dry_run_feed_ = 0;
   bool have_command_ = false;
   std::uint32_t block_line_ = 0;
   Entry entry_;
   Search search_ = Search::none;
+  bool tapping_ = false, in_hole_ = false, refused_ = false;
+  std::vector<SkipResult> skips_;
+  std::size_t skips_read_ = 0;
 
   std::uint32_t alarm_number_ = 0;
   std::string alarm_name_, alarm_text_;

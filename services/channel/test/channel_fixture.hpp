@@ -1,12 +1,9 @@
-// What every test of the channel begins with.
+// One channel core, its program, a drive and a PLC, for its unit tests.
 #pragma once
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <memory>
-#include <string>
-#include <vector>
 
 #include "fake_drive.hpp"
 
@@ -15,6 +12,7 @@ namespace trunnion::channel::testing {
 using idl::channel::ChannelRequest;
 using idl::channel::CommandKind;
 
+/// X Y Z of 400 mm to either side.
 inline std::shared_ptr<machine::Parameters> three_axes(std::uint64_t revision = 1) {
   auto p = std::make_shared<machine::Parameters>();
   p->revision = revision;
@@ -27,7 +25,7 @@ inline std::shared_ptr<machine::Parameters> three_axes(std::uint64_t revision = 
   return p;
 }
 
-/// A channel of three axes with its drive, its PLC and one stored program.
+/// A channel with the fake drive and a PLC that answers at once.
 struct Channel : ::testing::Test {
   FakeDrive drive{3};
   std::unique_ptr<ChannelCore> core;
@@ -36,11 +34,12 @@ struct Channel : ::testing::Test {
   std::vector<idl::channel::AuxiliaryRequest> auxiliaries;
   bool answer_plc = true;
   std::uint64_t cycles_per_round = ~0ull;
+  std::shared_ptr<machine::Parameters> parameters = three_axes();
 
   void SetUp() override { begin(); }
   void begin() {
     core = std::make_unique<ChannelCore>(0, true);
-    core->set_parameters(three_axes());
+    core->set_parameters(parameters);
     idl::parameters::ToolTable tools;
     tools.tools.resize(1);
     tools.tools[0].number = 1, tools.tools[0].length = 50;

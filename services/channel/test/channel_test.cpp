@@ -7,8 +7,8 @@
 namespace trunnion::channel {
 namespace {
 
+using idl::channel::CommandKind;
 using testing::Channel;
-using testing::CommandKind;
 using testing::FakeDrive;
 using testing::three_axes;
 

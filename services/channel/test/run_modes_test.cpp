@@ -18,7 +18,7 @@ TEST_F(Channel, ADryRunMovesAtTheFeedOfItsParameterWhateverTheProgramSays) {
   double fastest = 0;
   for (std::size_t i = 1; i < drive.rows.size(); ++i)
     fastest = std::max(fastest, std::abs(drive.rows[i][0] - drive.rows[i - 1][0]));
-  EXPECT_NEAR(fastest, 2000.0 / 60 * 0.001, 1e-9) << "parameter 04c913 is 2000 mm/min, a cycle 1 ms";
+  EXPECT_NEAR(fastest, 2000.0 / 60 * 0.001, 1e-9) << "parameter 04c914 is 2000 mm/min, a cycle 1 ms";
   // 200 mm at 2000 mm/min take 6 s; 100 mm at F100 alone would take 60 s.
   EXPECT_LT(drive.rows.size(), 7000u);
 }

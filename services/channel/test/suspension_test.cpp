@@ -52,7 +52,9 @@ TEST_F(Suspension, JogAwayAndCycleStartComesBackToThePointAndGoesOn) {
       at_point = i;
   ASSERT_GT(at_point, 0u);
   for (std::size_t i = at_point; i < drive.rows.size(); ++i)
-    if (drive.lines[i] == 4) ASSERT_NEAR(drive.rows[i][1], drive.rows[i][0] / 2, 1e-9);
+    if (drive.lines[i] == 4) {
+      ASSERT_NEAR(drive.rows[i][1], drive.rows[i][0] / 2, 1e-9);
+    }
 }
 
 TEST_F(Suspension, MdiInBetweenChangesNeitherTheModesNorTheVariablesOfTheProgram) {

@@ -113,7 +113,7 @@ export function Functions() {
       <FromLine offered={one.restart_line} />
       <h3>Program</h3>
       <div class="row">
-        <Switch title="Dry run" about="Feed of parameter 04c913 in place of the program's" verb="dry-run" on={one.dry_run} />
+        <Switch title="Dry run" about="Feed of parameter 04c914 in place of the program's" verb="dry-run" on={one.dry_run} />
         <Switch title="M S T lock" about="Functions are passed over" verb="auxiliary-lock" on={one.auxiliary_lock} />
         <Switch title="Retrace" about="Backwards along the path; again: forwards" verb="retrace" on={one.retracing} />
       </div>

@@ -1,20 +1,12 @@
 // Where the axes of a machine go on the way of one command.
 #pragma once
 
-#include <array>
-#include <string>
-
 #include "geometry/chain.hpp"
 #include "language/canonical.hpp"
 
 namespace trunnion::setup {
 
 using language::AxisValues;
-
-/// Travel of an axis of the channel.
-struct Travel {
-  double negative = 0, positive = 0;
-};
 
 /// The smallest and the largest machine coordinate of every axis, mm and degrees.
 struct AxisBox {

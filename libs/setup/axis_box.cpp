@@ -1,4 +1,4 @@
-#include "setup/travel.hpp"
+#include "setup/axis_box.hpp"
 
 #include <algorithm>
 #include <cmath>
