@@ -105,6 +105,7 @@ void Launcher::start(Process& process) {
   process.pid = pid;
   process.started = process.heard = node::monotonic_seconds();
   process.lifecycle = idl::service::Lifecycle::UNCONFIGURED;
+  process.in_step = false;
 }
 
 bool Launcher::has_live_twin(const Process& process) const {
@@ -158,6 +159,7 @@ void Launcher::listen() {
         process.heard = now;
         process.lifecycle = state.lifecycle;
         process.detail = state.detail;
+        process.in_step = state.in_step;
       }
   idl::service::Announcement announcement;
   while (announcements_.take(announcement)) {
@@ -186,8 +188,9 @@ void Launcher::watch() {
     if (process.lost && process.lifecycle == idl::service::Lifecycle::ACTIVE) {
       process.lost = false;
       alarms_.release("service_lost", process.entry.instance);
-      alarms_.release("redundancy_lost", process.entry.instance);
     }
+    // Nobody needs to acknowledge that there are two again.
+    if (!process.lost && process.in_step) alarms_.clear("redundancy_lost", process.entry.instance);
   }
 }
 

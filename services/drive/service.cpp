@@ -67,12 +67,11 @@ void DriveService::drain() {
         continue;
       }
     }
-    const auto channel = frame_.channel;
-    const auto first = frame_.first;
     applied(Input::GANTRY_FRAME, identity(*frames_));
-    if (!core_.put(frame_))
-      node_.alarms().raise("copies_differ", channel,
-                           "Copies of the gantry stage differ at cycle " + std::to_string(first), first);
+    if (!core_.put(frame_)) {
+      stream::raise_difference(node_.alarms(), *core_.copy_of(frame_), frame_);
+      core_.stop();
+    }
   }
   idl::stream::StreamRequest request;
   while (requests_->take(request)) {

@@ -297,6 +297,7 @@ void ChannelCore::advance() {
         run_ = RunState::HELD;
         return;
       }
+      if (!may_start_) return;
       standing_ = 0;
       link_.request_start();
       return;
@@ -313,10 +314,18 @@ void ChannelCore::advance() {
   }
 }
 
+// The slowest copy of a stage is near enough for `count` setpoints more. It may not have heard of this
+// motion.
+bool ChannelCore::copies_follow(std::uint32_t count) {
+  if (link_.starts()) motion_start_ = link_.next();
+  const auto end = link_.next() + count, distance = 2 * machine_.lead();
+  return end <= distance || end - distance <= std::max(floor_, motion_start_);
+}
+
 bool ChannelCore::produce(idl::stream::PathFrame& frame) {
   if (link_.state() != LinkState::active) return false;
   const std::uint32_t count = machine_.frame_cycles(virtual_time_);
-  if (!link_.credit(count, machine_.lead())) return false;
+  if (!link_.credit(count, machine_.lead()) || !copies_follow(count)) return false;
   frame.setpoints.clear();
   frame.lines.clear();
   frame.spindle.clear();
