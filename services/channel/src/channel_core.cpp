@@ -108,6 +108,7 @@ void ChannelCore::set_programs(const idl::program::ProgramList& programs) {
 
 void ChannelCore::on_feedback(const idl::stream::FeedbackFrame& feedback) {
   const bool first = !link_.has_feedback();
+  const bool was_off = link_.drive_mode() == DriveMode::off;
   link_.on_feedback(feedback);
   skip_.on_feedback(feedback, machine_.channel_axes(), machine_.columns());
   remember_executed();
@@ -121,6 +122,8 @@ void ChannelCore::on_feedback(const idl::stream::FeedbackFrame& feedback) {
   else if (streaming && (mode == DriveMode::held || mode == DriveMode::off) && !link_.resuming() &&
            run_ != RunState::INTERRUPTED)
     interrupt(mode == DriveMode::off ? "The drives were switched off" : "The drive stopped on the path");
+  else if (mode == DriveMode::off && !first && !was_off && !link_.drive_restarted() && !must_reset_)
+    interrupt("The drives were switched off");  // while the program was held or waited
 }
 
 void ChannelCore::recover() {
