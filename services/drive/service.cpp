@@ -6,6 +6,7 @@ namespace trunnion::drive {
 namespace {
 constexpr double patience = 1.0;           // s of wall time that virtual time waits for a missing setpoint
 constexpr double plc_patience = 1.5;       // s without a sign of the PLC until the drive stops
+constexpr double own_pause = 0.5;          // s the drive itself may not run and still judge the PLC
 constexpr double idle_feedback = 0.1;      // s between two feedback frames while nothing moves
 constexpr std::size_t most_applied = 256;  // inputs that one feedback frame can name
 
@@ -67,12 +68,11 @@ void DriveService::drain() {
         continue;
       }
     }
-    const auto channel = frame_.channel;
-    const auto first = frame_.first;
     applied(Input::GANTRY_FRAME, identity(*frames_));
-    if (!core_.put(frame_))
-      node_.alarms().raise("copies_differ", channel,
-                           "Copies of the gantry stage differ at cycle " + std::to_string(first), first);
+    if (!core_.put(frame_)) {
+      stream::raise_difference(node_.alarms(), *core_.copy_of(frame_), frame_);
+      core_.stop();
+    }
   }
   idl::stream::StreamRequest request;
   while (requests_->take(request)) {
@@ -98,6 +98,9 @@ void DriveService::drain() {
       applied(Input::ALARM, identity(*alarms_));
       core_.stop();
     }
+  // A process that was suspended has not heard what was said meanwhile.
+  if (now - last_drain_ > own_pause) plc_seen_ = now;
+  last_drain_ = now;
   // An emergency stop is also the drive's own reaction to the silence of the one who could order it.
   if (have_plc_ && now - plc_seen_ > plc_patience) {
     node_.alarms().raise("plc_absent", 0, "No sign of the PLC for " + std::to_string(plc_patience) + " s",

@@ -45,7 +45,7 @@ class DriveService : public node::Service {
   double plc_seen_ = 0;
   std::uint64_t frames_in_ = 0, frames_out_ = 0, revision_ = 0;
   std::uint32_t frame_cycles_ = 4;
-  double next_tick_ = 0, waiting_since_ = 0, last_sent_ = 0;
+  double next_tick_ = 0, waiting_since_ = 0, last_sent_ = 0, last_drain_ = 0;
   bool changed_ = false;
 };
 

@@ -51,8 +51,9 @@ std::vector<AuxiliaryOrder> AuxiliaryMemory::orders() const { return orders(true
 
 // M9 ends both coolants, so that one of them cannot be brought back without ending the other first.
 std::vector<AuxiliaryOrder> AuxiliaryMemory::orders_touched_by(const AuxiliaryMemory& other) const {
-  auto list = orders(other.has_speed_, other.has_spindle_, other.has_coolant_);
+  const auto list = orders(other.has_speed_, other.has_spindle_, other.has_coolant_);
   std::vector<AuxiliaryOrder> undo;
+  undo.reserve(list.size() + 2);
   if (other.has_spindle_ && !has_spindle_) undo.push_back({1, 5, 0});
   if (other.has_coolant_ && (!has_coolant_ || (other.mist_ && !mist_) || (other.flood_ && !flood_)))
     undo.push_back({1, 9, 0});

@@ -108,6 +108,7 @@ void ChannelCore::on_auxiliary_done(const idl::plc::AuxiliaryDone& done) {
   auxiliary_.kind = 0;
   outgoing_auxiliary_ = auxiliary_;
   if (preparation_) {
+    if (must_reset_) return;
     run_ = hold_ || !external_hold_.empty() ? RunState::HELD : RunState::RUNNING;
     hold_ = false;
     return;
@@ -129,6 +130,7 @@ void ChannelCore::on_auxiliary_done(const idl::plc::AuxiliaryDone& done) {
   }
   const bool stop =
       command.kind == language::CommandKind::auxiliary && (command.number == 0 || command.number == 1);
+  if (must_reset_) return;  // the drives were switched off meanwhile
   run_ = stop || hold_ || !external_hold_.empty() ? RunState::HELD : RunState::RUNNING;
   hold_ = false;
 }
@@ -142,6 +144,7 @@ void ChannelCore::on_table_changed(const std::string& reason) {
     return;
   }
   flow().finish_pending();
+  if (must_reset_) return;
   run_ = hold_ || !external_hold_.empty() ? RunState::HELD : RunState::RUNNING;
   hold_ = false;
 }
