@@ -85,7 +85,8 @@ Answer ChannelCore::handle(const ChannelRequest& request) {
 
 // A program that is held may be left for MDI and jog; its way back is part of cycle start in AUTO.
 Answer ChannelCore::set_mode(Mode mode) {
-  const bool held_program = activity_ == Activity::program && run_ == RunState::HELD && !preparation_;
+  const bool held_program = activity_ == Activity::program && run_ == RunState::HELD && !preparation_ &&
+                            !retracing_ && !tapping_.active() && !skip_.active();
   if (activity_ != Activity::none && !held_program && mode != mode_)
     return refuse("request_invalid",
                   "The mode cannot change while the channel is busy: stop or reset it first");

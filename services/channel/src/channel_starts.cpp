@@ -141,6 +141,7 @@ bool ChannelCore::run_preparation() {
     shown_ = suspended_->shown;
     modal_ = suspended_->mdi_modal;
     suspended_.reset();
+    trajectory_->retrace(false);
     return true;
   }
   const auto& modal = program_flow_.executing();
