@@ -13,6 +13,7 @@ int main(int argc, char** argv) {
   add_cluster_commands(app, common);
   add_run_command(app, common);
   add_operator_commands(app, common);
+  add_channel_command(app, common);
   add_parameter_commands(app, common);
   add_topic_commands(app, common);
   add_kins_command(app, common);

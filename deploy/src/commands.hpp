@@ -22,6 +22,7 @@ struct Common {
 void add_cluster_commands(CLI::App& app, Common& common);    // up, down, status
 void add_run_command(CLI::App& app, Common& common);         // run
 void add_operator_commands(CLI::App& app, Common& common);   // mdi, alarms, estop
+void add_channel_command(CLI::App& app, Common& common);     // channel
 void add_parameter_commands(CLI::App& app, Common& common);  // param
 void add_topic_commands(CLI::App& app, Common& common);      // topic, record
 void add_kins_command(CLI::App& app, Common& common);        // kins
