@@ -184,6 +184,19 @@ class Cluster {
                  seconds) &&
            state(channel) == RunState::IDLE;
   }
+  /// After a stop: resets what can be reset and starts again, until the channel runs.
+  bool go_on(std::uint16_t channel = 0) {
+    return until([&] {
+             try {
+               reset_alarms();
+               client_->channel(channel, CommandKind::CYCLE_START);
+               return true;
+             } catch (const std::exception&) {
+               return false;
+             }
+           }) &&
+           until([&] { return state(channel) == RunState::RUNNING; });
+  }
   void reset_alarms() { resets_->write({1, ++resets_sent_, 65535}); }
 
   std::map<std::uint16_t, idl::channel::ChannelState> channels;

@@ -25,8 +25,8 @@ class Comparison {
   template <class Value>
   void value(const std::string& what, std::uint64_t cycle, Value a, Value b) {
     if (found_ || a == b) return;
-    found_ = {cycle, head_ + " in cycle " + std::to_string(cycle) + ", " + what + ": " + number(a) + " and " +
-                         number(b)};
+    const auto values = what + ": " + number(a) + " and " + number(b);
+    found_ = {cycle, values, head_ + " in cycle " + std::to_string(cycle) + ", " + values};
   }
   template <class Value>
   void list(const std::string& what, std::uint64_t cycle, const std::vector<Value>& a,

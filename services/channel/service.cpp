@@ -30,6 +30,8 @@ ChannelService::ChannelService(node::Node& node)
       state_writer_(node.bus().writer(topics::channel_state)),
       auxiliary_writer_(node.bus().writer(topics::auxiliary_request)),
       stream_writer_(node.bus().writer(topics::stream_request)),
+      hand_over_file_(node.options().state_directory + "/channel-" + std::to_string(node.options().channel) +
+                      ".handover"),
       variables_file_(node.options().state_directory + "/channel-" + std::to_string(node.options().channel) +
                       ".variables") {
   copies_ = stream::CopyWatch(node.options().machine.services, node::monotonic_seconds());
@@ -37,6 +39,34 @@ ChannelService::ChannelService(node::Node& node)
   std::ifstream boot(node.options().state_directory + "/cluster.boot");
   std::getline(boot, boot_);
   read_variables();
+  read_hand_over();
+}
+
+// It is good for one process only: one that is killed leaves none, and what then holds is in the drive's cut.
+void ChannelService::read_hand_over() {
+  std::ifstream in(hand_over_file_, std::ios::binary);
+  if (!in) return;
+  std::ostringstream text;
+  text << in.rdbuf();
+  std::remove(hand_over_file_.c_str());
+  HandOver from;
+  try {
+    if (channel::read_hand_over(text.str(), hand_over_file_, boot_, from)) hand_over_ = std::move(from);
+  } catch (const std::exception& e) {
+    node_.alarms().raise("storage_failed", static_cast<std::uint32_t>(node_.options().channel), e.what());
+    node_.alarms().release("storage_failed", static_cast<std::uint32_t>(node_.options().channel));
+  }
+}
+
+void ChannelService::end() {
+  if (!core_.recovered()) return;
+  const auto left = core_.hand_over();
+  if (!left) return;
+  try {
+    storage::replace_file(hand_over_file_, write_hand_over(*left, boot_));
+  } catch (const storage::StorageError& e) {
+    std::fprintf(stderr, "%s\n", e.what());
+  }
 }
 
 // A file that cannot be read is put aside and named by an alarm: vacant variables are safer than wrong ones.
@@ -186,7 +216,11 @@ void ChannelService::pump() {
   if (!core_.recovered() && core_.link().has_feedback()) {
     const double now = node::monotonic_seconds();
     if (first_feedback_ == 0) first_feedback_ = now;
-    if (now - first_feedback_ > history_seconds) core_.recover();
+    if (now - first_feedback_ > history_seconds) {
+      if (hand_over_) core_.take_over(*hand_over_);
+      hand_over_.reset();
+      core_.recover();
+    }
   }
   watch_copies();
   answer_requests();

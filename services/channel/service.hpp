@@ -17,6 +17,7 @@ class ChannelService : public node::Service {
   void pump() override;
   double period() const override { return 0.02; }
   node::Health health() const override;
+  void end() override;
 
  private:
   void start_stream();
@@ -26,6 +27,7 @@ class ChannelService : public node::Service {
   void change_tables();
   void read_variables();
   void save_variables();
+  void read_hand_over();
   void watch_alarms();
   void watch_copies();
   void publish();
@@ -53,6 +55,8 @@ class ChannelService : public node::Service {
 
   using AlarmKey = std::array<std::uint32_t, 3>;
   std::map<AlarmKey, std::string> holding_alarms_;
+  std::string hand_over_file_;
+  std::optional<HandOver> hand_over_;  ///< from the process before
   std::string variables_file_, saved_variables_, boot_;
   bool plc_hold_ = false;
   bool have_tools_ = false, have_offsets_ = false, have_programs_ = false;
