@@ -17,8 +17,6 @@ std::string sweep(int rounds) {
   return text + "X0 Y0 A0 C0\nG49\nM30\n";
 }
 
-using Rows = std::vector<std::vector<double>>;
-
 Rows undisturbed(const std::string& program) {
   Cluster cluster("ac-table");
   cluster.keep_rows = true;
@@ -28,9 +26,7 @@ Rows undisturbed(const std::string& program) {
 }
 
 void expect_same(const Rows& expected, Cluster& cluster) {
-  EXPECT_EQ(cluster.lost_frames, 0u) << "of the feedback, by this test";
-  EXPECT_EQ(cluster.rows.size(), expected.size());
-  EXPECT_TRUE(cluster.rows == expected) << "the same bits";
+  EXPECT_EQ(first_difference(cluster.rows, expected), "");
 }
 
 // Both the launcher and the channel have all copies again.
@@ -90,7 +86,6 @@ Rows reference(const std::string& program, std::size_t count) {
   cluster.keep_rows = true;
   cluster.start_text(program);
   EXPECT_TRUE(cluster.until([&] { return cluster.rows.size() >= count; }, 100)) << cluster.told();
-  EXPECT_EQ(cluster.lost_frames, 0u);
   cluster.rows.resize(count);
   return cluster.rows;
 }
@@ -111,7 +106,6 @@ void expect_no_bit_changed(Time time, const std::string& second, const std::vect
     ASSERT_TRUE(cluster.until([&] { return cluster.expected_cycle > after; })) << cluster.told();
     EXPECT_EQ(cluster.state(), RunState::RUNNING) << "seed " << seed << " " << cluster.told();
     EXPECT_EQ(cluster.feedback.starved, 0u) << "seed " << seed;
-    EXPECT_EQ(cluster.lost_frames, 0u) << "of the feedback, by this test";
     longest = std::max(longest, cluster.rows.size());
     disturbed.push_back(std::move(cluster.rows));
   }
@@ -119,7 +113,9 @@ void expect_no_bit_changed(Time time, const std::string& second, const std::vect
   ASSERT_EQ(expected.size(), longest);
   for (std::size_t i = 0; i < seeds.size(); ++i) {
     const auto& rows = disturbed[i];
-    EXPECT_TRUE(std::equal(rows.begin(), rows.end(), expected.begin())) << "seed " << seeds[i];
+    EXPECT_EQ(first_difference(rows, {expected.begin(), expected.begin() + static_cast<long>(rows.size())}),
+              "")
+        << "seed " << seeds[i];
     std::printf("seed %u: %d copies killed within %zu cycles, the same bits\n", seeds[i], 3 * turns,
                 rows.size());
   }
