@@ -9,10 +9,10 @@
 namespace trunnion::integration {
 namespace {
 
-// 20 rounds of 0.2 m with both rotary axes at 100 mm/s, or the axes' fastest.
+// Three rounds of 0.3 m with both rotary axes at 100 mm/s, or the axes' fastest: about 10 s.
 std::string sweep() {
   std::string text = "G21 G17 G90 G54\nG0 X0 Y0 A0 C0\nG43.4 H1\nG1 X0 Y0 Z80 F6000\n";
-  for (int i = 0; i < 20; ++i) text += "X60 Y30 A20 C40 F6000\nX-60 Y-30 A-10 C-20\n";
+  for (int i = 0; i < 3; ++i) text += "X60 Y30 A20 C40 F6000\nX-60 Y-30 A-10 C-20\n";
   return text + "X0 Y0 A0 C0\nG49\nM30\n";
 }
 
@@ -66,10 +66,14 @@ TEST_P(StageLost, StopsOnThePathWithinTheLeadAndTheWorkpieceDoesNotShowIt) {
     std::erase_if(undisturbed, [](const auto& row) { return row.empty(); });
   }
   const std::string victim = GetParam();
-  Cluster cluster("ac-table");
+  // In real time the drive brakes at once; in virtual time it would wait for the stage to come back.
+  Cluster cluster("ac-table", Time::real);
   cluster.keep_rows = true;
   cluster.start_text(sweep());
   ASSERT_TRUE(cluster.until([&] { return cluster.channels[0].line >= 8; }));
+  ASSERT_EQ(cluster.state(), RunState::RUNNING) << cluster.told();
+  cluster.history.clear();
+  const auto killed = cluster.expected_cycle;
   ASSERT_EQ(kill(cluster.service(victim)->pid, SIGKILL), 0);
   ASSERT_TRUE(cluster.until([&] { return cluster.has_alarm(110); })) << cluster.told();
   constexpr int held = 2;
@@ -89,16 +93,21 @@ TEST_P(StageLost, StopsOnThePathWithinTheLeadAndTheWorkpieceDoesNotShowIt) {
   constexpr std::uint64_t lead = 32;  // parameter 000900; the drive keeps at most half of it to stop with
   std::printf(
       "%s killed: the last setpoint is of cycle %llu, braking began at %llu with %llu at hand (%llu needed), "
-      "stood at %llu: %llu cycles of the path after the lack was seen\n",
+      "stood at %llu: %llu cycles after the lack was seen, %llu after the kill\n",
       victim.c_str(), missing - 1, begun, at_hand, needed, static_cast<unsigned long long>(stood),
-      static_cast<unsigned long long>(stood) - begun);
+      static_cast<unsigned long long>(stood) - begun, static_cast<unsigned long long>(stood - killed));
   EXPECT_LE(at_hand, lead) << "by the credits nothing farther than the lead can be on its way";
   EXPECT_LE(stood - begun, at_hand) << "it stood before the setpoints ended: on the path";
   EXPECT_LE(stood - begun, lead / 2);
 
   ASSERT_TRUE(cluster.until([&] { return cluster.ready(); }));
-  ASSERT_TRUE(cluster.go_on()) << cluster.told();
-  ASSERT_TRUE(cluster.finish()) << cluster.told();
+  // A busy machine may stop once more: that, too, leaves the path as it is.
+  bool finished = false;
+  for (int i = 0; i < 5 && !finished; ++i) {
+    ASSERT_TRUE(cluster.go_on()) << cluster.told();
+    finished = cluster.finish();
+  }
+  ASSERT_TRUE(finished) << cluster.told();
   // Where the channel held while the service was away it has rounded its corners at another speed, within the
   // path tolerance of the machine (parameter 040901, 0.01 mm or deg), once on each side of a corner.
   const double off = deviation(cluster.rows, undisturbed);
