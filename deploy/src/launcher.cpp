@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr double start_patience = 15;  // s until a cluster that is not ready has failed
-constexpr double beat_patience = 2.0;  // s without a heartbeat until a process counts as hung
+constexpr double own_pause = 0.5;      // s the launcher itself may not run and still judge others
 volatile std::sig_atomic_t stop_requested = 0;
 void request_stop(int) { stop_requested = 1; }
 
@@ -61,6 +61,13 @@ bool Launcher::has_live_twin(const ServiceProcess& process) const {
   });
 }
 
+void Launcher::lose(ServiceProcess& process, const std::string& how) {
+  process.lost = true;
+  process.lifecycle = idl::service::Lifecycle::UNCONFIGURED;
+  alarms_.raise(has_live_twin(process) ? "redundancy_lost" : "service_lost", process.entry.instance,
+                "Service " + process.name() + " " + how);
+}
+
 // Collects dead children; before the first readiness a death is a failed start.
 bool Launcher::reap(std::string& failure) {
   int status = 0;
@@ -70,6 +77,7 @@ bool Launcher::reap(std::string& failure) {
       if (process.pid != pid) continue;
       process.pid = 0;
       process.lifecycle = idl::service::Lifecycle::UNCONFIGURED;
+      process.policy.ended(node::monotonic_seconds());
       if (process.retiring) continue;
       const auto& e = process.entry;
       const std::string how = WIFSIGNALED(status)
@@ -80,12 +88,12 @@ bool Launcher::reap(std::string& failure) {
         failure = line.empty() ? e.service + " " + how : line;
         return false;
       }
-      process.lost = true;
-      alarms_.raise(has_live_twin(process) ? "redundancy_lost" : "service_lost", e.instance,
-                    "Service " + process.name() + " " + how);
-      const double lived = node::monotonic_seconds() - process.started;
-      process.start_again_at = node::monotonic_seconds() +
-                               (lived > 5 ? 0 : std::min(2.0, 0.1 * (1u << std::min(process.restarts, 5u))));
+      lose(process, how);
+      if (process.policy.gave_up())
+        alarms_.raise("service_not_staying", e.instance,
+                      "Service " + process.name() + " does not stay up: it ended " +
+                          std::to_string(process.policy.short_lives()) +
+                          " times in a row. A reset of the alarms starts it again");
       ++process.restarts;
     }
   }
@@ -112,23 +120,34 @@ void Launcher::listen() {
       alarms_.clear("contract_mismatch", announcement.instance);
   }
   idl::service::AlarmReset reset;
-  while (resets_.take(reset)) alarms_.reset();
+  while (resets_.take(reset)) {
+    for (auto& process : processes_) process.policy.retry();
+    alarms_.reset();
+  }
 }
 
 void Launcher::watch() {
   const double now = node::monotonic_seconds();
+  // Who was suspended itself has not heard anybody.
+  const bool judge = now - last_watch_ < own_pause;
+  last_watch_ = now;
   for (auto& process : processes_) {
     if (process.retiring) continue;
     if (process.pid == 0) {
-      if (now >= process.start_again_at) process.start(options_, false);
-    } else if (now - process.heard > beat_patience && now - process.started > start_patience / 2) {
-      // A process that does not beat hangs; it is replaced like one that died.
-      kill(process.pid, SIGKILL);
-      process.heard = now;
+      if (process.policy.due(now)) process.start(options_, false);
+      continue;
+    }
+    if (!judge) process.policy.wait(now);
+    const auto pulse = process.policy.pulse(now);
+    if (pulse != Pulse::beating && !process.lost && was_ready_) lose(process, "gives no sign of life");
+    if (pulse == Pulse::hung) {
+      kill(process.pid, SIGKILL);  // replaced like one that died
+      process.policy.wait(now);
     }
     if (process.lost && process.lifecycle == idl::service::Lifecycle::ACTIVE) {
       process.lost = false;
       alarms_.release("service_lost", process.entry.instance);
+      alarms_.release("service_not_staying", process.entry.instance);
     }
     // Nobody needs to acknowledge that there are two again.
     if (!process.lost && process.in_step) alarms_.clear("redundancy_lost", process.entry.instance);

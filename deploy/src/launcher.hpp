@@ -38,6 +38,7 @@ class Launcher {
  private:
   void stop_all();
   bool reap(std::string& failure);
+  void lose(ServiceProcess& process, const std::string& how);
   void listen();
   void watch();
   bool all_ready() const;
@@ -59,7 +60,7 @@ class Launcher {
   idl::service::SwapRequest swap_request_;
   std::uint32_t next_instance_ = launcher_instance + 1;  // of processes that machine.yaml does not number
   bool ready_ = false, was_ready_ = false;
-  double last_published_ = 0;
+  double last_published_ = 0, last_watch_ = 0;
 };
 
 }  // namespace trunnion::deploy

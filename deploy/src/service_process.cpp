@@ -62,14 +62,14 @@ void ServiceProcess::start(const LaunchOptions& options, bool shadow) {
     _exit(127);
   }
   pid = child;
-  started = heard = node::monotonic_seconds();
+  policy.started(node::monotonic_seconds());
   lifecycle = idl::service::Lifecycle::UNCONFIGURED;
   in_step = false;
 }
 
 bool ServiceProcess::hear(const idl::service::ServiceState& state, double now) {
   if (entry.instance != state.instance || pid != state.pid || pid == 0) return false;
-  heard = now;
+  policy.beat(now);
   lifecycle = state.lifecycle;
   detail = state.detail;
   in_step = state.in_step;

@@ -5,6 +5,7 @@
 
 #include "contracts/types.hpp"
 #include "machine/machine.hpp"
+#include "restart_policy.hpp"
 
 namespace trunnion::deploy {
 
@@ -16,7 +17,7 @@ struct ServiceProcess {
   std::string log;
   int pid = 0;
   std::uint32_t restarts = 0;
-  double started = 0, start_again_at = 0, heard = 0;
+  RestartPolicy policy;
   idl::service::Lifecycle lifecycle = idl::service::Lifecycle::UNCONFIGURED;
   std::string detail;
   bool in_step = false;   ///< of the process that runs now

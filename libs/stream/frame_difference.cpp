@@ -73,7 +73,8 @@ void compare_shape(Comparison& comparison, const Frame& a, const Frame& b) {
 
 bool same_values(const idl::stream::AxisFrame& a, const idl::stream::AxisFrame& b) {
   return a.count == b.count && a.revision == b.revision && a.ends == b.ends && a.axes == b.axes &&
-         a.setpoints == b.setpoints && a.states == b.states;
+         a.spindle_axis == b.spindle_axis && a.spindle == b.spindle && a.setpoints == b.setpoints &&
+         a.states == b.states;
 }
 
 bool same_values(const idl::stream::PathFrame& a, const idl::stream::PathFrame& b) {
@@ -86,6 +87,8 @@ std::optional<FrameDifference> difference(const idl::stream::AxisFrame& a, const
   Comparison comparison(a.stage, a.copy, b.copy, a.first);
   compare_shape(comparison, a, b);
   comparison.list("axis", a.first, a.axes, b.axes);
+  comparison.value("spindle axis", a.first, std::uint64_t{a.spindle_axis}, std::uint64_t{b.spindle_axis});
+  comparison.list("spindle", a.first, a.spindle, b.spindle);
   comparison.rows(a.setpoints, b.setpoints, a.axes.size());
   comparison.states(a.states, b.states);
   return comparison.take();

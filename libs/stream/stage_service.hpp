@@ -265,6 +265,8 @@ class StageService : public node::Service {
       out_.epoch = in->epoch, out_.first = in->first, out_.count = in->count, out_.revision = in->revision;
       out_.starts = in->starts, out_.ends = in->ends;
       out_.lines = in->lines;
+      out_.spindle_axis = in->spindle_axis;
+      out_.spindle = in->spindle;
       out_.states = in->states;
       auto& own = state_of(out_.states, stage_);
       own.cycle = in->first + in->count - 1;

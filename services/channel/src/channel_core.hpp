@@ -107,6 +107,11 @@ class ChannelCore {
   void apply_parameters();
   void adopt_position();
   void run_pending(FlowState flow);
+  void begin_skip();
+  void finish_skip();
+  void begin_tapping();
+  void finish_tapping();
+  bool holding() const { return hold_ && !tapping_.active(); }
   void begin_auxiliary(std::uint8_t kind, std::uint32_t code, double value);
   FlowState fill();
   bool copies_follow(std::uint32_t count);
@@ -164,6 +169,8 @@ class ChannelCore {
   std::unique_ptr<language::VariableStore> variables_ = std::make_unique<language::VariableStore>();
   bool variables_news_ = false;
   std::optional<idl::channel::AuxiliaryRequest> outgoing_auxiliary_;
+  SkipMove skip_;
+  Tapping tapping_;
   std::uint32_t tool_ = 0;
   double spindle_programmed_ = 0;
   std::uint32_t reset_count_ = 0;
@@ -174,6 +181,7 @@ class ChannelCore {
     std::uint32_t line = 0;
     double feed = 0;
     AxisValues distance_to_go{};
+    AxisValues position{};
   };
   static constexpr std::size_t history = 2048;
   std::vector<Written> written_;
