@@ -29,7 +29,7 @@ int swap(const Common& common, idl::service::SwapRequest request, double timeout
     throw std::runtime_error("the launcher gave no answer within " +
                              std::to_string(static_cast<int>(timeout)) + " s");
   if (common.json) {
-    std::cout << bus::to_json(*reply).dump() << "\n";
+    std::cout << bus::text_of(bus::to_json(*reply)) << "\n";
     return reply->accepted ? 0 : 1;
   }
   if (!reply->accepted)

@@ -4,9 +4,9 @@
 
 #include <cstdio>
 #include <fstream>
-#include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "bus/json.hpp"
 #include "storage/crc32.hpp"
 #include "storage/file.hpp"
 
@@ -22,7 +22,7 @@ std::string checksum(const std::string& file) {
   return text;
 }
 
-nlohmann::json json_of(const SwapSide& side) {
+bus::Json json_of(const SwapSide& side) {
   return {{"executable", side.executable},
           {"build", side.version},
           {"crc32", checksum(side.executable)},
@@ -34,17 +34,16 @@ nlohmann::json json_of(const SwapSide& side) {
 
 std::string swap_line(const idl::service::SwapRequest& request, const idl::service::SwapReply& reply,
                       const SwapSide& before, const SwapSide& after) {
-  return nlohmann::json{{"cycle", reply.cycle},
-                        {"service", request.service},
-                        {"copy", request.copy},
-                        {"channel", request.channel},
-                        {"compared_cycles", reply.compared},
-                        {"seconds", reply.seconds},
-                        {"gap_seconds", reply.gap},
-                        {"old", json_of(before)},
-                        {"new", json_of(after)}}
-             .dump() +
-         "\n";
+  const bus::Json line{{"cycle", reply.cycle},
+                       {"service", request.service},
+                       {"copy", request.copy},
+                       {"channel", request.channel},
+                       {"compared_cycles", reply.compared},
+                       {"seconds", reply.seconds},
+                       {"gap_seconds", reply.gap},
+                       {"old", json_of(before)},
+                       {"new", json_of(after)}};
+  return bus::text_of(line) + "\n";
 }
 
 void append_swap(const std::string& state_directory, const std::string& line) {

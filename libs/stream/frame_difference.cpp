@@ -80,7 +80,8 @@ bool same_values(const idl::stream::AxisFrame& a, const idl::stream::AxisFrame& 
 bool same_values(const idl::stream::PathFrame& a, const idl::stream::PathFrame& b) {
   return a.count == b.count && a.revision == b.revision && a.ends == b.ends &&
          a.transformation == b.transformation && a.tool_length == b.tool_length &&
-         a.setpoints == b.setpoints && a.states == b.states;
+         a.spindle_axis == b.spindle_axis && a.spindle == b.spindle && a.setpoints == b.setpoints &&
+         a.states == b.states;
 }
 
 std::optional<FrameDifference> difference(const idl::stream::AxisFrame& a, const idl::stream::AxisFrame& b) {
@@ -100,6 +101,8 @@ std::optional<FrameDifference> difference(const idl::stream::PathFrame& a, const
   comparison.value("transformation", a.first, std::uint64_t{a.transformation},
                    std::uint64_t{b.transformation});
   comparison.value("tool length", a.first, a.tool_length, b.tool_length);
+  comparison.value("spindle axis", a.first, std::uint64_t{a.spindle_axis}, std::uint64_t{b.spindle_axis});
+  comparison.list("spindle", a.first, a.spindle, b.spindle);
   comparison.rows(a.setpoints, b.setpoints, 9);
   comparison.states(a.states, b.states);
   return comparison.take();
