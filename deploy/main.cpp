@@ -22,6 +22,7 @@ int main(int argc, char** argv) {
   add_recording_commands(app, common);
   add_verify_command(app, common);
   add_replay_command(app, common);
+  add_swap_command(app, common);
   add_completion_command(app, common);
   try {
     app.parse(argc, argv);

@@ -32,6 +32,8 @@ ChannelService::ChannelService(node::Node& node)
       state_writer_(node.bus().writer(topics::channel_state)),
       auxiliary_writer_(node.bus().writer(topics::auxiliary_request)),
       stream_writer_(node.bus().writer(topics::stream_request)),
+      hand_over_file_(node.options().state_directory + "/channel-" + std::to_string(node.options().channel) +
+                      ".handover"),
       variables_file_(node.options().state_directory + "/channel-" + std::to_string(node.options().channel) +
                       ".variables"),
       record_file_(node.options().state_directory + "/channel-" + std::to_string(node.options().channel) +
@@ -43,6 +45,7 @@ ChannelService::ChannelService(node::Node& node)
   std::getline(boot, boot_);
   read_variables();
   read_record();
+  read_hand_over();
 }
 
 // A record that cannot be read says nothing about the program: it is put aside and named.
@@ -89,6 +92,33 @@ void ChannelService::watch_text() {
   } else if (text_missing_since_ > 0 && now - text_missing_since_ > text_patience) {
     node_.alarms().raise("text_late", channel, "The program's text does not arrive: see the program service");
     text_missing_since_ = -1;  // told
+  }
+}
+
+// It is good for one process only: one that is killed leaves none, and what then holds is in the drive's cut.
+void ChannelService::read_hand_over() {
+  std::ifstream in(hand_over_file_, std::ios::binary);
+  if (!in) return;
+  std::ostringstream text;
+  text << in.rdbuf();
+  std::remove(hand_over_file_.c_str());
+  HandOver from;
+  try {
+    if (channel::read_hand_over(text.str(), hand_over_file_, boot_, from)) hand_over_ = std::move(from);
+  } catch (const std::exception& e) {
+    node_.alarms().raise("storage_failed", static_cast<std::uint32_t>(node_.options().channel), e.what());
+    node_.alarms().release("storage_failed", static_cast<std::uint32_t>(node_.options().channel));
+  }
+}
+
+void ChannelService::end() {
+  if (!core_.recovered()) return;
+  const auto left = core_.hand_over();
+  if (!left) return;
+  try {
+    storage::replace_file(hand_over_file_, write_hand_over(*left, boot_));
+  } catch (const storage::StorageError& e) {
+    std::fprintf(stderr, "%s\n", e.what());
   }
 }
 
@@ -239,7 +269,11 @@ void ChannelService::pump() {
   if (!core_.recovered() && core_.link().has_feedback()) {
     const double now = node::monotonic_seconds();
     if (first_feedback_ == 0) first_feedback_ = now;
-    if (now - first_feedback_ > history_seconds) core_.recover();
+    if (now - first_feedback_ > history_seconds) {
+      if (hand_over_) core_.take_over(*hand_over_);
+      hand_over_.reset();
+      core_.recover();
+    }
   }
   watch_copies();
   answer_requests();

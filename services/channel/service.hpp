@@ -18,6 +18,7 @@ class ChannelService : public node::Service {
   void pump() override;
   double period() const override { return 0.02; }
   node::Health health() const override;
+  void end() override;
 
  private:
   void start_stream();
@@ -30,6 +31,7 @@ class ChannelService : public node::Service {
   void read_record();
   void keep_record();
   void watch_text();
+  void read_hand_over();
   void watch_alarms();
   void watch_copies();
   void publish();
@@ -57,6 +59,8 @@ class ChannelService : public node::Service {
 
   using AlarmKey = std::array<std::uint32_t, 3>;
   std::map<AlarmKey, std::string> holding_alarms_;
+  std::string hand_over_file_;
+  std::optional<HandOver> hand_over_;  ///< from the process before
   std::string variables_file_, saved_variables_, boot_;
   std::string record_file_;
   RecordKeeper record_;

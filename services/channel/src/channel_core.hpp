@@ -13,6 +13,7 @@
 #include "contracts/types.hpp"
 #include "handwheel.hpp"
 #include "preparation.hpp"
+#include "hand_over.hpp"
 #include "program_flow.hpp"
 #include "program_record.hpp"
 #include "program_shelf.hpp"
@@ -45,6 +46,10 @@ class ChannelCore {
   void set_parameters(std::shared_ptr<const machine::Parameters> parameters);
   void set_tools(const idl::parameters::ToolTable& tools);
   void set_offsets(const idl::parameters::WorkOffsets& offsets);
+  /// For the process that takes this one's place; nothing while the channel moves.
+  std::optional<HandOver> hand_over() const;
+  /// From the process before. Call it before recover(), once the programs are known.
+  void take_over(const HandOver& hand_over);
   /// The kept variables of the last time.
   void set_variables(const language::VariableStore& variables) { *variables_ = variables; }
   /// The program under way when the control was switched off: its line is offered to start from.
