@@ -133,7 +133,8 @@ TEST(LiveControl, TheHandwheelMovesAnAxisAndShiftsAProgram) {
   cluster.client().channel(0, CommandKind::RESET);
   cluster.cycle_start();
   ASSERT_TRUE(cluster.finish()) << cluster.told();
-  // What the drive is commanded is compensated: the pitch table differs between the two places by micrometres.
+  // What the drive is commanded is compensated: the pitch table differs between the two places by
+  // micrometres.
   EXPECT_NEAR(with_offset - cluster.rows.back()[2], 3, 0.005);
 }
 
