@@ -244,6 +244,10 @@ void ChannelCore::adopt_position() {
 }
 
 void ChannelCore::stop_activity() {
+  // A motion that was held stands where its path was left, and no new epoch will say so.
+  const bool moved = !preparation_ || preparing_motion_;
+  if (activity_ != Activity::none && link_.state() == LinkState::idle && !link_.needs_epoch() && moved)
+    machine_start_ = machine_position();
   skip_.end();
   finish_tapping();
   if (link_.state() == LinkState::active || link_.state() == LinkState::ending ||

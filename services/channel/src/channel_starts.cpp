@@ -71,9 +71,13 @@ Answer ChannelCore::start_from_line(double line) {
 void ChannelCore::prepare_entry() {
   const bool by_line = !restart_;
   const auto& modal = program_flow_.executing();
-  frame_ = modal.transformation;
-  frame_tool_length_ = modal.tool_length;
-  const auto target = machine_of(by_line ? program_flow_.position() : restart_->position);
+  const auto& place_on_path = by_line ? program_flow_.position() : restart_->position;
+  const bool rtcp = modal.transformation == language::Transformation::rtcp;
+  const auto target = rtcp ? machine_.machine_from_tip(place_on_path, modal.tool_length) : place_on_path;
+  const auto give_up = [this, stands = machine_start_] {
+    finish(false);
+    machine_start_ = stands;
+  };
   const auto line = shown_.line;
   Preparation preparation;
   if (by_line) preparation.orders = program_flow_.auxiliaries().orders();
@@ -85,12 +89,12 @@ void ChannelCore::prepare_entry() {
   if (by_line && modal.tool != tool_) {
     event("search_failed", place + "needs tool T" + std::to_string(modal.tool) + ", T" +
                                std::to_string(tool_) + " is in the spindle: change it by MDI first");
-    finish(false);
+    give_up();
     return;
   }
   if (!error.empty()) {
     event("travel_limit", selected_.name + ":" + error);
-    finish(false);
+    give_up();
     return;
   }
   preparation_ = std::move(preparation);
