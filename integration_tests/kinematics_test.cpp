@@ -255,6 +255,9 @@ TEST(KinsCommand, AnswersLineByLineAndStopsAtABadLine) {
   said = kins("ac-table orient --set 040426=0 --set 040428=1", "0 0 1\\n");
   EXPECT_EQ(said.out, "trunnion: channel 0, parameters 040400 .. 040437: the rotary axes are parallel\n");
   EXPECT_EQ(said.status, 1);
+  said = kins("ac-table inverse --tool-length nan", "1 2 3 0 0\\n");
+  EXPECT_EQ(said.out, "trunnion: --tool-length: not a number\n");
+  EXPECT_EQ(said.status, 1);
   said = kins("ac-table orient --set CORR_C=0,0,1", "0 0 1\\n");
   EXPECT_EQ(said.out.substr(0, 10), "trunnion: ") << "no correction of that name, and no number";
   EXPECT_EQ(said.status, 1);

@@ -1,5 +1,6 @@
 // kins: positions through the kinematics of a machine, without a cluster
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -37,7 +38,7 @@ bool apply_correction(machine::Parameters& parameters, std::uint16_t channel, co
     char comma[2];
     if (!(in >> v[0] >> comma[0] >> v[1] >> comma[1] >> v[2]) || comma[0] != ',' || comma[1] != ',' ||
         in >> comma[0])
-      throw std::runtime_error("--set " + name + "=" + text + ": expected NAME=X,Y,Z");
+      throw std::runtime_error("--set " + name + ": expected NAME=X,Y,Z");
     for (std::uint32_t i = 0; i < 3; ++i) {
       const double value = element.sign * v[i];
       const auto refused = machine::Catalogue::instance().check(element.number + i, value, "");
@@ -63,6 +64,7 @@ void apply(machine::Parameters& parameters, std::uint16_t channel, const std::st
 }
 
 int kins(const KinsOptions& options) {
+  if (!std::isfinite(options.tool_length)) throw std::runtime_error("--tool-length: not a number");
   machine::Parameters parameters;
   parameters.values = machine::machine_parameters(machine::load_machine(directory_of(options.machine)));
   for (const auto& setting : options.set) apply(parameters, options.channel, setting);
