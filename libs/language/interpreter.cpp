@@ -36,6 +36,7 @@ void Interpreter::start(TextSource& text, const AxisValues& position, const Moda
   next_found_ = 0;
   jumps_.clear();
   blocks_ = 0;
+  stop_line_ = 0;
   else_if_due_ = modal_call_active_ = in_modal_call_ = false;
   frames_[0] = Frame{};
   frames_[0].source = &text;
@@ -59,7 +60,7 @@ Step Interpreter::next(Command& command) {
     queue_.clear();
     Step step = Step::working;
     state_ = state_ == State::searching ? search_line(step) : run_line(step);
-    if (step == Step::pending) return step;
+    if (step == Step::pending || step == Step::line) return step;
   }
   command = queue_.pop();
   return Step::command;
@@ -74,7 +75,7 @@ Interpreter::State Interpreter::report_line_status(LineReader::Status status, St
 }
 
 Alarm Interpreter::located(const Fault& fault, std::string_view line) const {
-  Alarm alarm = make_alarm(fault, line, frames_[depth_].program, line_);
+  Alarm alarm = make_alarm(fault, line, frames_[depth_].program, line_, executor_.fault_detail(fault.number));
   alarm.calls = static_cast<std::uint8_t>(depth_);
   for (std::size_t i = 0; i < depth_; ++i) alarm.chain[i] = {frames_[i].program, frames_[i + 1].call_line};
   return alarm;
@@ -94,7 +95,15 @@ Interpreter::State Interpreter::run_line(Step& step) {
   std::string_view line;
   const LineReader::Status status = reader_.next(line);
   line_ = position_.line;
-  if (status == LineReader::Status::line) return execute(line);
+  if (status == LineReader::Status::line) {
+    if (line_ == stop_line_ && frames_[depth_].program == 0) {
+      stop_line_ = 0;
+      reader_.seek(*frames_[depth_].source, position_);
+      step = Step::line;
+      return state_;
+    }
+    return execute(line);
+  }
   if (status == LineReader::Status::end) return end_of_text();
   return report_line_status(status, step);
 }
@@ -156,10 +165,12 @@ Interpreter::State Interpreter::go(const Flow& flow, std::string_view line) {
   return call(subprogram, line);
 }
 
-void Interpreter::set_position(const AxisValues& position) {
-  const bool skipped = executor_.needs_position();
+void Interpreter::set_position(const AxisValues& position, const AxisValues& touched) {
+  if (executor_.needs_position()) {
+    executor_.set_position(touched);
+    control_.set_skip_position(executor_.workpiece_position());
+  }
   executor_.set_position(position);
-  if (skipped) control_.set_skip_position(executor_.workpiece_position());
 }
 
 AxisValues Interpreter::workpiece(const Command& command) const {

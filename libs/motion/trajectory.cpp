@@ -56,6 +56,8 @@ void Trajectory::start(const AxisValues& position, language::Transformation tran
   restart_path();
 }
 
+void Trajectory::set_limits(const Limits& limits) { limits_ = effective(limits, cycle_); }
+
 void Trajectory::restart_path() {
   path_.clear(blend_rules(limits_));
   builder_.start(limits_, active_chain_, tool_length_);

@@ -44,6 +44,9 @@ class Trajectory {
   /// new frame.
   void start(const AxisValues& position, language::Transformation transformation, double tool_length);
 
+  /// Other limits, from the next start() on.
+  void set_limits(const Limits& limits);
+
   /// Room for at least one more command.
   bool can_accept() const;
 
