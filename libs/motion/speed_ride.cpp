@@ -182,7 +182,7 @@ bool SpeedStage::ride(const Look& look, bool hold) {
   PathState best;
   std::uint64_t best_cell = 0;
   PhaseList best_stop;
-  int tries = why == Braked::beyond ? 44 : standing() ? 30 : 10;
+  int tries = why == Braked::beyond ? 34 : standing() ? 30 : 10;
   for (int k = 0; k <= tries; ++k) {
     const double time = k == 0 ? 0 : 0.5 * (low + high);
     action.clear();
@@ -211,7 +211,7 @@ bool SpeedStage::ride(const Look& look, bool hold) {
       }
     } else {
       high = time;
-      if (reason == Braked::beyond && tries < 44) tries = 44;
+      if (reason == Braked::beyond && tries < 34) tries = 34;
       if (k == 0) break;
     }
   }
