@@ -103,12 +103,16 @@ void add_run_command(CLI::App& app, Common& common) {
        program = std::make_shared<std::string>("nas979_cone");
   auto rounds = std::make_shared<int>(3);
   auto real_time = std::make_shared<bool>(false);
+  auto subject = std::make_shared<std::string>("stream");
   command = add_command(app, common, "bench",
                         "Measure the stream: the speed of a program in virtual time over the DDS vendors, or "
-                        "starved cycles in real time",
-                        [&common, machine, program, rounds, real_time] {
+                        "starved cycles in real time; or the planner: the reference motions and its speed",
+                        [&common, machine, program, rounds, real_time, subject] {
+                          if (*subject == "motion") return bench_motion(common, *machine);
                           return bench(common, *machine, *program, *rounds, *real_time);
                         });
+  command->add_option("subject", *subject, "stream (default) or motion")
+      ->check(CLI::IsMember({"stream", "motion"}));
   command->add_option("--machine", *machine, "Machine (default ac-table)");
   command->add_option("--program", *program, "Program (default nas979_cone)");
   command->add_option("--rounds", *rounds, "Rounds over the vendors")->check(CLI::Range(1, 1000));
