@@ -146,6 +146,7 @@ Answer ChannelCore::start_program(const RestartPoint& restart) {
   frame_ = modal.transformation;
   frame_tool_length_ = 0;
   trajectory_->start(machine_start_, frame_, 0);
+  frames_kept_ = false;
   flow_.start(*text_, program_start_, modal, *variables_, restart);
   restart_ = restart.sequence != 0 ? std::optional(restart) : std::nullopt;
   activity_ = Activity::program;
@@ -169,7 +170,8 @@ Answer ChannelCore::start_mdi(const std::string& line) {
   modal_.tool = static_cast<std::uint16_t>(tool_);
   const auto position = frame_position(modal_);
   trajectory_->start(position, frame_, frame_tool_length_);
-  flow_.start(*mdi_source_, position, modal_, *variables_);
+  flow_.start(*mdi_source_, position, modal_, *variables_, {},
+              frames_kept_ ? language::Beginning::line : language::Beginning::program);
   activity_ = Activity::mdi;
   run_ = RunState::RUNNING;
   hold_ = aborting_ = false;
@@ -232,6 +234,7 @@ void ChannelCore::reset() {
   ++reset_count_;
   must_reset_ = false;
   modal_ = power_on_modal();
+  frames_kept_ = false;
   if (activity_ == Activity::none) {
     apply_parameters();
     return;

@@ -253,6 +253,7 @@ void ChannelCore::finish(bool program_end) {
   machine_start_ = machine_position();
   if (activity_ == Activity::mdi) {
     modal_ = flow_.modal();
+    frames_kept_ = true;
     modal_.tool = static_cast<std::uint16_t>(tool_);
   }
   if (program_end && activity_ == Activity::program) shown_ = {};

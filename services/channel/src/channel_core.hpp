@@ -142,7 +142,8 @@ class ChannelCore {
   std::vector<std::unique_ptr<ProgramText>> subprograms_;
   std::string mdi_line_;
   std::optional<language::StringSource> mdi_source_;
-  language::ModalState modal_;                                       // of MDI, kept from line to line
+  language::ModalState modal_;  // of MDI, kept from line to line
+  bool frames_kept_ = false;    // the interpreter still has those of the MDI line before
   language::Transformation frame_ = language::Transformation::none;  // of the trajectory
   double frame_tool_length_ = 0;
   AxisValues machine_start_{};  // machine coordinates at rest

@@ -17,8 +17,8 @@ std::string place(std::uint32_t program, std::uint32_t line) {
 
 void ProgramFlow::start(language::TextSource& text, const AxisValues& position,
                         const language::ModalState& initial, const language::VariableStore& variables,
-                        const RestartPoint& restart) {
-  interpreter_.start(text, position, initial, variables);
+                        const RestartPoint& restart, language::Beginning beginning) {
+  interpreter_.start(text, position, initial, variables, beginning);
   have_command_ = false;
   block_line_ = 0;
   restart_ = restart;
