@@ -58,12 +58,13 @@ inline std::string http_status(std::uint16_t port, const std::string& path) {
 class Cluster {
  public:
   explicit Cluster(const std::string& machine, Time time = Time::virtual_, const std::string& vendor = "",
-                   bool gateway = false) {
+                   bool gateway = false, std::optional<std::uint32_t> domain = std::nullopt) {
     deploy::UpOptions up;
     up.machine = machine;
     up.vendor = vendor;
     up.state_directory = "temporary";
-    up.own_domain = true;
+    up.own_domain = !domain;
+    up.domain = domain;
     up.virtual_time = time == Time::virtual_;
     up.with_gateway = gateway;
     up.port = free_port();

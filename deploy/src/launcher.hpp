@@ -11,6 +11,7 @@
 #include "contracts/topics.hpp"
 #include "machine/machine.hpp"
 #include "node/alarm_board.hpp"
+#include "restart_policy.hpp"
 
 namespace trunnion::deploy {
 
@@ -35,15 +36,17 @@ class Launcher {
     machine::ServiceEntry entry;
     int pid = 0;
     std::uint32_t restarts = 0;
-    double started = 0, start_again_at = 0, heard = 0;
+    RestartPolicy policy;
     idl::service::Lifecycle lifecycle = idl::service::Lifecycle::UNCONFIGURED;
     std::string detail;
     bool lost = false;
+    bool in_step = false;  ///< of the process that runs now
     std::string log;
   };
   void start(Process& process);
   void stop_all();
   bool reap(std::string& failure);
+  void lose(Process& process, const std::string& how);
   void listen();
   void watch();
   bool all_ready() const;
@@ -60,7 +63,7 @@ class Launcher {
   std::vector<Process> processes_;
   std::string start_failure_;
   bool ready_ = false, was_ready_ = false;
-  double last_published_ = 0;
+  double last_published_ = 0, last_watch_ = 0;
 };
 
 /// The last line a service wrote before it ended.

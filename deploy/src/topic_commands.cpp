@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <array>
 #include <cstdio>
 #include <iostream>
 #include <memory>
@@ -86,13 +87,31 @@ int rate(const Common& common, const std::string& name, double seconds) {
   return 0;
 }
 
-int record(const Common& common, const std::string& file, const std::string& topics, double duration) {
+// What the recorder itself understands and checks: passed on as it was written.
+struct RecorderOption {
+  const char* name;
+  const char* help;
+};
+constexpr std::array recorder_options{
+    RecorderOption{"--topics", "Handles, separated by commas (default: all)"},
+    RecorderOption{"--duration", "Seconds, 0 = until Ctrl-C"},
+    RecorderOption{"--part-size",
+                   "MiB after which a new part begins: FILE-0001 and so on, each whole in itself"},
+    RecorderOption{"--part-time", "Seconds after which a new part begins"},
+    RecorderOption{"--parts", "Newest parts to keep (default: all)"},
+    RecorderOption{"--last", "Flight recorder: keep these seconds in memory, save them when an alarm fires"},
+    RecorderOption{"--after", "Seconds to save of what follows the alarm (default: 1)"},
+    RecorderOption{"--severity", "Least that saves: hint, warning (default), error or emergency"},
+    RecorderOption{"--memory", "MiB the flight recorder may keep (default: 256)"}};
+using RecorderValues = std::array<std::string, recorder_options.size()>;
+
+int record(const Common& common, const std::string& file, const RecorderValues& values) {
   const auto cluster = find_cluster(common.domain);
   std::vector<std::string> args{
       binary_directory() + "/trunnion-recorder", "--output", file, "--machine", cluster.machine, "--domain",
       std::to_string(cluster.run.domain)};
-  if (!topics.empty()) args.insert(args.end(), {"--topics", topics});
-  if (duration > 0) args.insert(args.end(), {"--duration", std::to_string(duration)});
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if (!values[i].empty()) args.insert(args.end(), {recorder_options[i].name, values[i]});
   if (common.json) args.emplace_back("--json");
   std::vector<char*> argv;
   for (auto& arg : args) argv.push_back(arg.data());
@@ -121,13 +140,12 @@ void add_topic_commands(CLI::App& app, Common& common) {
                         [&common, name, window] { return rate(common, *name, *window); });
   command->add_option("topic", *name, "Name or handle")->required();
   command->add_option("--seconds", *window, "How long to count");
-  auto topics = std::make_shared<std::string>();
-  command =
-      add_command(app, common, "record", "Record the cluster into an MCAP file until Ctrl-C",
-                  [&common, name, topics, seconds] { return record(common, *name, *topics, *seconds); });
+  auto values = std::make_shared<RecorderValues>();
+  command = add_command(app, common, "record", "Record the cluster into an MCAP file until Ctrl-C",
+                        [&common, name, values] { return record(common, *name, *values); });
   command->add_option("file", *name, "File to write")->required();
-  command->add_option("--topics", *topics, "Handles, separated by commas (default: all)");
-  command->add_option("--duration", *seconds, "Seconds, 0 = until Ctrl-C");
+  for (std::size_t i = 0; i < recorder_options.size(); ++i)
+    command->add_option(recorder_options[i].name, (*values)[i], recorder_options[i].help);
 }
 
 }  // namespace trunnion::deploy

@@ -57,6 +57,7 @@ Fault BlockExecutor::execute(const Block& block, std::uint32_t program, std::uin
   line_ = line;
   used_ = Block::bit('N');
   moves_ = false;
+  detail_number_ = AlarmNumber::none;
   if (const Fault fault = check_numbers(block)) return fault;
   if (const Fault fault = collect_g(block, codes)) return fault;
   if (const Fault fault = collect_m(block, m)) return fault;

@@ -77,7 +77,7 @@ Interpreter::State Interpreter::report_line_status(LineReader::Status status, St
 }
 
 Alarm Interpreter::located(const Fault& fault, std::string_view line) const {
-  Alarm alarm = make_alarm(fault, line, frames_[depth_].program, line_);
+  Alarm alarm = make_alarm(fault, line, frames_[depth_].program, line_, executor_.fault_detail(fault.number));
   alarm.calls = static_cast<std::uint8_t>(depth_);
   for (std::size_t i = 0; i < depth_; ++i) alarm.chain[i] = {frames_[i].program, frames_[i + 1].call_line};
   return alarm;

@@ -1,7 +1,14 @@
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <iostream>
+#include <vector>
 
 #include "service.hpp"
+
+namespace {
+// In the order of trunnion::service::Severity.
+const std::vector<std::string> severities{"hint", "warning", "error", "emergency"};
+}  // namespace
 
 int main(int argc, char** argv) {
   using namespace trunnion;
@@ -21,9 +28,40 @@ int main(int argc, char** argv) {
   app.add_option("--queue", options.queue_mebibytes,
                  "MiB that may wait for the disk before messages are dropped")
       ->check(CLI::Range(1, 65536));
+  double part_mebibytes = 0;
+  auto* part_size = app.add_option("--part-size", part_mebibytes,
+                                   "MiB after which a new part begins, numbered FILE-0001 and so on")
+                        ->check(CLI::PositiveNumber);
+  auto* part_time =
+      app.add_option("--part-time", options.parts.seconds, "Seconds after which a new part begins")
+          ->check(CLI::PositiveNumber);
+  app.add_option("--parts", options.parts.keep, "Newest parts to keep (default: all)")
+      ->check(CLI::PositiveNumber);
+  auto* last =
+      app.add_option("--last", options.last,
+                     "Flight recorder: keep this many seconds in memory, and save them when an alarm fires")
+          ->check(CLI::PositiveNumber)
+          ->excludes(part_size)
+          ->excludes(part_time);
+  app.add_option("--after", options.after, "Seconds to save of what follows the alarm")
+      ->check(CLI::NonNegativeNumber)
+      ->needs(last);
+  app.add_option_function<std::string>(
+         "--severity",
+         [&options](const std::string& name) {
+           options.severity = static_cast<idl::service::Severity>(
+               std::find(severities.begin(), severities.end(), name) - severities.begin());
+         },
+         "Least severity that saves: hint, warning, error or emergency (default: warning)")
+      ->check(CLI::IsMember(severities))
+      ->needs(last);
+  app.add_option("--memory", options.memory_mebibytes, "MiB the flight recorder may keep")
+      ->check(CLI::Range(1, 65536))
+      ->needs(last);
   app.add_flag("--json", options.json, "Summary as JSON");
   app.add_flag("--parent-bound", options.parent_bound, "Stop when the parent process is gone");
   CLI11_PARSE(app, argc, argv);
+  options.parts.bytes = static_cast<std::uint64_t>(part_mebibytes * (1 << 20));
   try {
     return recorder::record(options);
   } catch (const std::exception& e) {

@@ -15,16 +15,15 @@
 #include "bus/bus.hpp"
 #include "bus/registry.hpp"
 #include "contracts/topics.hpp"
+#include "flight_recorder.hpp"
 #include "message_queue.hpp"
 #include "node/node.hpp"
-#include "recording/file_stream.hpp"
-#include "recording/mcap_writer.hpp"
+#include "part_files.hpp"
 #include "replay/stream_tally.hpp"
 
 namespace trunnion::recorder {
 namespace {
 
-constexpr double flush_seconds = 1.0;    // what a crash of the recorder may cost
 constexpr double match_seconds = 1.0;    // how long to wait for the writers of the stream
 constexpr double cluster_seconds = 5.0;  // the same when a launcher says which services there are
 constexpr int priority = -10;            // of the threads that take samples; they use little
@@ -55,6 +54,12 @@ std::vector<const bus::TopicEntry*> chosen_topics(const std::vector<std::string>
   return result;
 }
 
+std::int64_t nanoseconds_since_epoch() {
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(
+             std::chrono::system_clock::now().time_since_epoch())
+      .count();
+}
+
 struct Topic {
   const bus::TopicEntry* entry = nullptr;
   std::unique_ptr<bus::RawReader> reader;
@@ -64,14 +69,16 @@ struct Topic {
 // The thread that compresses and writes. It reads what it has to know of the stream from the bytes it writes.
 class FileThread {
  public:
-  FileThread(const Options& options, const std::vector<const bus::TopicEntry*>& topics, MessageQueue& queue)
-      : sink_(options.output), writer_(sink_), topics_(topics), queue_(queue) {
-    writer_.metadata("trunnion", {{"machine", options.machine},
-                                  {"domain", std::to_string(options.network.domain)},
-                                  {"contract", topics::contract_hash},
-                                  {"version", TRUNNION_VERSION}});
-    for (const auto* entry : topics_)
-      writer_.add_channel(entry->description.name, entry->type, entry->schema, {{"handle", entry->handle}});
+  FileThread(const Options& options, const FileHeader& header, MessageQueue& queue)
+      : json_(options.json), topics_(header.topics), queue_(queue) {
+    if (options.last > 0)
+      destination_ = std::make_unique<FlightRecorder>(
+          options.output, header,
+          FlightLimits{options.last, options.after, options.memory_mebibytes << 20, options.severity},
+          nanoseconds_since_epoch());
+    else
+      destination_ =
+          std::make_unique<PartFiles>(options.output, header, options.parts, node::monotonic_seconds());
     thread_ = std::thread([this] { run(); });
   }
   ~FileThread() { join(); }
@@ -84,45 +91,45 @@ class FileThread {
   }
   /// After join().
   const replay::StreamTally& tally() const { return tally_; }
-  std::uint64_t bytes() const { return writer_.bytes(); }
-  std::uint64_t unwritten() const { return unwritten_; }
-  const std::string& problem() const { return sink_.problem(); }
+  const Destination& destination() const { return *destination_; }
 
  private:
   void run() {
     std::vector<Message> messages;
-    double flushed = node::monotonic_seconds();
     while (queue_.pop_all(messages, 0.2)) {
-      for (const auto& message : messages) {
-        if (writer_.write(message.topic, message.sequence, static_cast<std::uint64_t>(message.source_time),
-                          message.cdr))
-          tally_.add(topics_[message.topic]->handle, message.cdr);
-        else
-          ++unwritten_;
+      const double now = node::monotonic_seconds();
+      for (auto& message : messages) {
+        tally_.add(topics_[message.topic]->handle, message.cdr);
+        destination_->take(message, now);
       }
-      if (const double now = node::monotonic_seconds(); now - flushed > flush_seconds) {
-        writer_.flush();
-        flushed = now;
-      }
-      report_failure();
+      destination_->idle(now);
+      tell();
     }
-    if (writer_.finish()) sink_.sync();
-    report_failure();
+    destination_->finish(node::monotonic_seconds());
+    tell();
   }
 
-  void report_failure() {
-    if (reported_ || sink_.problem().empty()) return;
+  void tell() {
+    for (; told_ < destination_->files().size(); ++told_) {
+      const auto& file = destination_->files()[told_];
+      if (file.why.empty()) continue;
+      if (json_)
+        std::cout << bus::Json{{"saved", file.path}, {"bytes", file.bytes}, {"because", file.why}}.dump()
+                  << std::endl;
+      else
+        std::cout << "saved " << file.path << ": " << file.why << std::endl;
+    }
+    if (reported_ || destination_->problem().empty()) return;
     reported_ = true;
-    std::cerr << "trunnion-recorder: error: "
-              << sink_.problem() + "; the file ends at byte " + std::to_string(writer_.bytes()) + "\n";
+    std::cerr << "trunnion-recorder: error: " + destination_->problem() + "\n";
   }
 
-  recording::FileSink sink_;
-  recording::Writer writer_;
+  bool json_;
   const std::vector<const bus::TopicEntry*>& topics_;
   MessageQueue& queue_;
+  std::unique_ptr<Destination> destination_;
   replay::StreamTally tally_;
-  std::uint64_t unwritten_ = 0;
+  std::size_t told_ = 0;
   bool reported_ = false;
   std::thread thread_;
 };
@@ -177,15 +184,23 @@ void wait_for_writers(bus::Bus& bus, const std::vector<Topic>& topics, Drain&& d
   }
 }
 
-void print_summary(const Options& options, const FileThread& file, std::uint64_t dropped) {
-  const auto& tally = file.tally();
+void print_summary(const Options& options, const FileThread& thread, std::uint64_t dropped) {
+  const auto& tally = thread.tally();
+  const auto& destination = thread.destination();
+  const auto& files = destination.files();
+  std::uint64_t bytes = 0;
+  for (const auto& file : files) bytes += file.bytes;
   if (options.json) {
     bus::Json summary = {{"file", options.output},
-                         {"bytes", file.bytes()},
+                         {"bytes", bytes},
                          {"messages", tally.messages()},
                          {"dropped_messages", dropped},
-                         {"unwritten_messages", file.unwritten()},
-                         {"problem", file.problem()}};
+                         {"unwritten_messages", destination.unwritten()},
+                         {"problem", destination.problem()},
+                         {"files", bus::Json::array()}};
+    for (const auto& file : files)
+      summary["files"].push_back(
+          {{"file", file.path}, {"bytes", file.bytes}, {"messages", file.messages}, {"because", file.why}});
     for (const auto& [handle, count] : tally.messages_by_topic())
       summary["topics"][handle]["messages"] = count;
     for (const auto& handle : replay::StreamTally::cyclic()) {
@@ -196,15 +211,23 @@ void print_summary(const Options& options, const FileThread& file, std::uint64_t
     std::cout << summary.dump() << std::endl;
     return;
   }
-  std::cout << options.output << ": " << tally.messages() << " messages, " << file.bytes() << " bytes\n";
+  std::cout << options.output << ": " << tally.messages() << " messages, ";
+  if (options.last > 0)
+    std::cout << (files.empty() ? std::string("no alarm, nothing saved")
+                                : std::to_string(files.size()) + " saved")
+              << "\n";
+  else
+    std::cout << bytes << " bytes"
+              << (options.parts.any() ? " in " + std::to_string(files.size()) + " parts" : "") << "\n";
   for (const auto& handle : replay::StreamTally::cyclic())
     if (tally.cycles(handle) != 0)
       std::cout << "  " << handle << ": " << tally.cycles(handle) << " cycles, " << tally.lost(handle)
                 << " lost\n";
   if (dropped != 0)
     std::cout << "  " << dropped << " messages dropped: the disk was slower than the stream\n";
-  if (file.unwritten() != 0)
-    std::cout << "  " << file.unwritten() << " messages not written: " << file.problem() << "\n";
+  if (destination.unwritten() != 0)
+    std::cout << "  " << destination.unwritten() << " messages not written: " << destination.problem()
+              << "\n";
   std::cout << std::flush;
 }
 
@@ -214,7 +237,12 @@ int record(const Options& options) {
   catch_signals(options.parent_bound);
   const auto entries = chosen_topics(options.topics);
   MessageQueue queue(options.queue_mebibytes << 20);
-  FileThread file(options, entries, queue);
+  const FileHeader header{entries,
+                          {{"machine", options.machine},
+                           {"domain", std::to_string(options.network.domain)},
+                           {"contract", topics::contract_hash},
+                           {"version", TRUNNION_VERSION}}};
+  FileThread file(options, header, queue);
   // A stream faster than real time keeps only some milliseconds for whoever is late, so the threads that take
   // samples go first where that is allowed; the one that compresses has begun before and stays as it is.
   setpriority(PRIO_PROCESS, 0, priority);
@@ -248,7 +276,7 @@ int record(const Options& options) {
   topics.clear();
   file.join();
   print_summary(options, file, queue.dropped());
-  return queue.dropped() == 0 && file.problem().empty() ? 0 : 1;
+  return queue.dropped() == 0 && file.destination().problem().empty() ? 0 : 1;
 }
 
 }  // namespace trunnion::recorder

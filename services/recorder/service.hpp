@@ -5,6 +5,8 @@
 #include <vector>
 
 #include "bus/endpoint.hpp"
+#include "contracts/types.hpp"
+#include "part_files.hpp"
 
 namespace trunnion::recorder {
 
@@ -16,6 +18,11 @@ struct Options {
   bus::NetworkSettings network;
   double duration = 0;  ///< s; 0 = until a signal
   std::size_t queue_mebibytes = 256;
+  PartLimits parts;
+  double last = 0;   ///< s; above 0: a flight recorder, which saves so much from before an alarm
+  double after = 1;  ///< s saved of what follows the alarm
+  idl::service::Severity severity = idl::service::Severity::WARNING;  ///< the least that saves
+  std::size_t memory_mebibytes = 256;                                 ///< of the flight recorder
   bool json = false;
   bool parent_bound = false;
 };

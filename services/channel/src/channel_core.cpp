@@ -108,6 +108,7 @@ void ChannelCore::set_programs(const idl::program::ProgramList& programs) {
 
 void ChannelCore::on_feedback(const idl::stream::FeedbackFrame& feedback) {
   const bool first = !link_.has_feedback();
+  const bool was_off = link_.drive_mode() == DriveMode::off;
   link_.on_feedback(feedback);
   skip_.on_feedback(feedback, machine_.channel_axes(), machine_.columns());
   remember_executed();
@@ -121,6 +122,8 @@ void ChannelCore::on_feedback(const idl::stream::FeedbackFrame& feedback) {
   else if (streaming && (mode == DriveMode::held || mode == DriveMode::off) && !link_.resuming() &&
            run_ != RunState::INTERRUPTED)
     interrupt(mode == DriveMode::off ? "The drives were switched off" : "The drive stopped on the path");
+  else if (mode == DriveMode::off && !first && !was_off && !link_.drive_restarted() && !must_reset_)
+    interrupt("The drives were switched off");  // while the program was held or waited
 }
 
 void ChannelCore::recover() {
@@ -298,6 +301,7 @@ void ChannelCore::advance() {
         run_ = RunState::HELD;
         return;
       }
+      if (!may_start_) return;
       standing_ = 0;
       link_.request_start();
       return;
@@ -314,10 +318,18 @@ void ChannelCore::advance() {
   }
 }
 
+// The slowest copy of a stage is near enough for `count` setpoints more. It may not have heard of this
+// motion.
+bool ChannelCore::copies_follow(std::uint32_t count) {
+  if (link_.starts()) motion_start_ = link_.next();
+  const auto end = link_.next() + count, distance = 2 * machine_.lead();
+  return end <= distance || end - distance <= std::max(floor_, motion_start_);
+}
+
 bool ChannelCore::produce(idl::stream::PathFrame& frame) {
   if (link_.state() != LinkState::active) return false;
   const std::uint32_t count = machine_.frame_cycles(virtual_time_);
-  if (!link_.credit(count, machine_.lead())) return false;
+  if (!link_.credit(count, machine_.lead()) || !copies_follow(count)) return false;
   frame.setpoints.clear();
   frame.lines.clear();
   frame.spindle.clear();

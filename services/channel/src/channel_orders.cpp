@@ -117,6 +117,7 @@ void ChannelCore::on_auxiliary_done(const idl::plc::AuxiliaryDone& done) {
   }
   const bool stop =
       command.kind == language::CommandKind::auxiliary && (command.number == 0 || command.number == 1);
+  if (must_reset_) return;  // the drives were switched off meanwhile
   run_ = stop || hold_ || !external_hold_.empty() ? RunState::HELD : RunState::RUNNING;
   hold_ = false;
 }
@@ -130,6 +131,7 @@ void ChannelCore::on_table_changed(const std::string& reason) {
     return;
   }
   flow_.finish_pending();
+  if (must_reset_) return;
   run_ = hold_ || !external_hold_.empty() ? RunState::HELD : RunState::RUNNING;
   hold_ = false;
 }

@@ -186,6 +186,44 @@ TEST_F(Channel, ARestartedDriveIsNoticedAndTheProgramGoesOnFromTheCut) {
   EXPECT_EQ(drive.rows.back()[0], 100);
 }
 
+TEST_F(Channel, ADriveThatWasRestartedWhileTheProgramWasHeldTakesItAgainWithTheFirstCycleStart) {
+  load("G90\nG1 X100 F6000\nM30\n");
+  cycles_per_round = 8;
+  ask(CommandKind::CYCLE_START);
+  for (int i = 0; i < 20; ++i) round();
+  ask(CommandKind::FEED_HOLD);
+  run();
+  ASSERT_EQ(core->run_state(), RunState::HELD);
+  drive.forget();
+  drive.mode = 4;  // its drives are off until the PLC's enables have arrived
+  core->on_feedback(drive.run(0));
+  drive.mode = 0;
+  core->on_feedback(drive.run(0));
+  ASSERT_EQ(core->run_state(), RunState::HELD);
+  ASSERT_TRUE(ask(CommandKind::CYCLE_START).accepted);
+  run();
+  EXPECT_EQ(core->run_state(), RunState::IDLE);
+  EXPECT_EQ(drive.rows.back()[0], 100);
+}
+
+TEST_F(Channel, DrivesThatWereOffWhileTheProgramWasHeldMakeItBeginAgain) {
+  load("G90\nG1 X100 F6000\nM30\n");
+  cycles_per_round = 8;
+  ask(CommandKind::CYCLE_START);
+  for (int i = 0; i < 20; ++i) round();
+  ask(CommandKind::FEED_HOLD);
+  run();
+  ASSERT_EQ(core->run_state(), RunState::HELD);
+  drive.mode = 4;
+  core->on_feedback(drive.run(0));
+  drive.mode = 0;
+  core->on_feedback(drive.run(0));
+  EXPECT_EQ(core->run_state(), RunState::INTERRUPTED);
+  EXPECT_FALSE(ask(CommandKind::CYCLE_START).accepted) << "the spindle may stand";
+  ask(CommandKind::RESET);
+  EXPECT_TRUE(ask(CommandKind::CYCLE_START).accepted);
+}
+
 TEST_F(Channel, AnMdiLineRunsAndKeepsItsModalStateForTheNext) {
   ask(CommandKind::SET_MODE, "", 0, 0, Mode::MDI);
   ASSERT_TRUE(ask(CommandKind::MDI_LINE, "G91 G1 X5 F2000").accepted);

@@ -160,7 +160,7 @@ TEST_F(Tap, AMachineWithoutASpindleRefusesItBeforeTheToolIsInTheHole) {
   start("G90 G94 S400 G0 Z5\nG99 G84 X0 Y0 Z-10 R2 F500\nM30\n");
   run();
   ASSERT_FALSE(events.empty());
-  EXPECT_EQ(events.back().number, 1122u);
+  EXPECT_EQ(events.back().number, 1125u);
   EXPECT_EQ(drive.rows.back()[2], 2);
 }
 

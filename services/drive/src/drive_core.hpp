@@ -48,6 +48,10 @@ class DriveCore {
 
   /// A frame of the gantry stage; swapped away. False when a copy differs from what is here.
   bool put(idl::stream::AxisFrame& frame);
+  /// What is here of the same channel, epoch and first cycle; null when nothing is.
+  const idl::stream::AxisFrame* copy_of(const idl::stream::AxisFrame& frame) {
+    return channels_[frame.channel].window.copy_of(frame);
+  }
   void request(const idl::stream::StreamRequest& request);
   void set_enables(const std::vector<std::uint8_t>& enable, bool emergency_stop);
   void set_spindle_speed(const std::vector<double>& speed) {

@@ -1,0 +1,35 @@
+// Where the recorder's messages go. All of it runs in the thread that writes files.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "message_queue.hpp"
+
+namespace trunnion::recorder {
+
+/// A file that is whole, or the one that was being written when the recorder ended.
+struct FileReport {
+  std::string path;
+  std::uint64_t bytes = 0;
+  std::uint64_t messages = 0;
+  std::string why;  ///< the alarm that made a flight recorder save it, else empty
+};
+
+class Destination {
+ public:
+  virtual ~Destination() = default;
+  /// Takes the message, at `now` seconds of a clock that never goes back. It may take its bytes away.
+  virtual void take(Message& message, double now) = 0;
+  /// Called several times a second.
+  virtual void idle(double now) = 0;
+  virtual void finish(double now) = 0;
+
+  /// Files so far, the oldest first; those that were removed again to make room are not there.
+  virtual const std::vector<FileReport>& files() const = 0;
+  /// Messages that could not be written, and why: one line, empty when all are well.
+  virtual std::uint64_t unwritten() const = 0;
+  virtual const std::string& problem() const = 0;
+};
+
+}  // namespace trunnion::recorder
