@@ -116,7 +116,7 @@ def macros():
     out = ["# Macros", "", f"The tables are generated from `{variables}`, `{functions}` and `{calls}` by `tools/generate_docs.py`.", "",
            "## Variables", "",
            "A variable nobody has written to is vacant: it counts as 0 in a computation, `EQ` and `NE` tell it from 0, and a word whose number is a vacant",
-           "variable is left out. Where Fanuc and HNC-8 number variables differently, this table is what counts. Lengths of system variables are mm or inch as",
+           "variable is left out. Where Fanuc and HNC-8 number variables differently, this table is what counts. HNC-8's own system variables from #1000 on are in none of the manuals at hand and do not exist. Lengths of system variables are mm or inch as",
            "G21 or G20 is active. `#[expression]` names a variable by a computed number.", ""]
     out += table(("variables", "may be written", "meaning"), [(f"#{a}" + (f" .. #{b}" if b != a else ""), "yes" if w else "no", text) for a, b, w, text in v])
     out += ["", "## Expressions", "",

@@ -173,3 +173,10 @@ G41 D1 G1 X10 F100
 X30
 Y20
 G40 X0
+(=== a slot narrower than the tool cannot be resolved)
+(Walking round the inside of a slot 4 wide with radius 5: beside the short wall the tool would go back.)
+G41 D1 G1 X10 F100
+X30
+Y4
+X10
+G40 X0

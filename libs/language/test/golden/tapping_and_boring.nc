@@ -29,3 +29,5 @@ G99 G76 X0 Z-5 R2 I0.3 J-0.4 F100
 (=== back boring)
 G0 Z10
 M3 G87 X0 Z-5 R-20 Q0.5 F100
+(=== the shift takes the letters of the plane: K and I in ZX)
+G18 G99 G76 Y-5 R2 K0.25 I0.5 F100
