@@ -1,10 +1,10 @@
-// Cutter radius compensation: golden streams of its corners, and the tool at its radius from the contour.
+// Cutter radius compensation: what waits at a corner, and where an MDI line ends.
 #include <gtest/gtest.h>
 
 #include <random>
 
-#include "golden.hpp"
 #include "language/planar_piece.hpp"
+#include "test_machine.hpp"
 
 namespace trunnion::language::test {
 namespace {

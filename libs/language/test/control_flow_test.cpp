@@ -8,7 +8,6 @@ namespace trunnion::language::test {
 namespace {
 
 using testing::ElementsAre;
-using testing::ElementsAreArray;
 
 TEST(ControlFlow, SkippedLinesAreNoPartOfTheStructure) {
   const char* program = "G0\n/IF 0\nX1\n/2 ENDIF\n/ENDIF\nX2\n/3 GOTO 9\nX3\nN9 M30\n";

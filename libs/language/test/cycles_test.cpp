@@ -1,7 +1,7 @@
 // Canned cycles and hole patterns.
 #include <gtest/gtest.h>
 
-#include "golden.hpp"
+#include "test_machine.hpp"
 
 namespace trunnion::language::test {
 namespace {

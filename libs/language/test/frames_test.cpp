@@ -1,10 +1,10 @@
-// Frames: offsets, mirror, scaling, rotation, polar words, diameters, and the order they act in.
+// Frames can be undone, and their properties.
 #include <gtest/gtest.h>
 
 #include <random>
 
-#include "golden.hpp"
 #include "language/program_frame.hpp"
+#include "test_machine.hpp"
 
 namespace trunnion::language::test {
 namespace {

@@ -1,4 +1,4 @@
-// Canonical streams per feature, worked out by hand from the meaning of the words.
+// Counting, modal state, restarts and every code of the table.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -6,8 +6,6 @@
 
 namespace trunnion::language::test {
 namespace {
-
-using testing::ElementsAreArray;
 
 TestMachine three_offsets() {
   TestMachine machine;

@@ -8,7 +8,6 @@ namespace trunnion::language::test {
 namespace {
 
 using testing::ElementsAre;
-using testing::ElementsAreArray;
 
 TestMachine machine_with_cycles() {
   TestMachine machine;

@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "golden.hpp"
 #include "language/nurbs_curve.hpp"
+#include "test_machine.hpp"
 
 namespace trunnion::language::test {
 namespace {

@@ -1,7 +1,7 @@
 // Positioning codes, modal values that are passed on, spindle modes, helices and skip moves.
 #include <gtest/gtest.h>
 
-#include "golden.hpp"
+#include "test_machine.hpp"
 
 namespace trunnion::language::test {
 namespace {
