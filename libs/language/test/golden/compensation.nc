@@ -174,7 +174,8 @@ X30
 Y20
 G40 X0
 (=== a slot narrower than the tool cannot be resolved)
-(Walking round the inside of a slot 4 wide with radius 5: beside the short wall the tool would go back.)
+(Walking round the inside of a slot 4 wide with radius 5: beside the short wall the tool would go back. The)
+(move to X30 is not out yet, for the interference check looks two moves ahead of it.)
 G41 D1 G1 X10 F100
 X30
 Y4

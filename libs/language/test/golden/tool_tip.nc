@@ -8,6 +8,6 @@ G49
 G43.4 H1
 G0 A30 C-20
 (=== G43 and G44 put the length along Z)
-(80.5 - 50 when it is added, then 80.5 + 50 + 50 down: -50.)
+(Z0 of the tool is 80.5 with its length added, and -50 with the length of the other one subtracted.)
 G43 H2 G0 Z0
 G44 H1 Z0
