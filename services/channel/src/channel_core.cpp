@@ -254,7 +254,7 @@ void ChannelCore::finish(bool program_end) {
   skip_.end();
   finish_tapping();
   machine_start_ = machine_position();
-  if (activity_ == Activity::mdi) {
+  if (activity_ == Activity::mdi && !aborting_) {  // a reset has its own modal state
     modal_ = flow_.modal();
     frames_kept_ = true;
     modal_.tool = static_cast<std::uint16_t>(tool_);

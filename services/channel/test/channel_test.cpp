@@ -276,6 +276,13 @@ TEST_F(MdiLines, AResetAndAProgramEndTheFramesOfTheLines) {
   after({"G90 G52 X10"});
   ask(CommandKind::RESET);
   EXPECT_EQ(after({"G90 G0 X5"}).back().first, 5);
+  after({"G52 X50"});
+  cycles_per_round = 8;
+  ask(CommandKind::MDI_LINE, "G1 X100 F6000");
+  for (int i = 0; i < 20; ++i) round();
+  ask(CommandKind::RESET);
+  run();
+  EXPECT_EQ(after({"G90 G0 X5"}).back().first, 5) << "also a reset while a line moves";
   after({"G52 X10", "G68 X0 Y0 R90"});
   load("G90 G0 X7 Y3\nG52 X100\nM30\n");
   ask(CommandKind::CYCLE_START);
