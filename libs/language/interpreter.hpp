@@ -63,7 +63,8 @@ class Interpreter {
   void set_block_skip(SkipLevels levels) { options_.block_skip = levels; }
 
   /// Once, before `line` (from 1) of the started text is executed for the first time, next() gives
-  /// Step::line: modal() and position() are then the state in which it begins. 0 = nowhere. Ends with start().
+  /// Step::line: modal() and position() are then the state in which it begins. 0 = nowhere. Ends with
+  /// start().
   void stop_before_line(std::uint32_t line) { stop_line_ = line; }
 
   /// The next command. Before start() there is only the end.
