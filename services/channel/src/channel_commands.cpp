@@ -194,6 +194,7 @@ void ChannelCore::reset() {
                       run_ != RunState::INTERRUPTED && run_ != RunState::HELD;
   suspended_.reset();
   modal_ = power_on_modal();
+  frames_kept_ = false;
   if (moving) {
     aborting_ = true;
     reset_due_ = true;

@@ -276,8 +276,9 @@ void ChannelCore::finish(bool program_end) {
   finish_tapping();
   machine_start_ = machine_position();
   wheel_.start({});
-  if (activity_ == Activity::mdi) {
+  if (activity_ == Activity::mdi && !reset_due_) {  // a reset has its own modal state
     modal_ = mdi_flow_.modal();
+    frames_kept_ = true;
     modal_.tool = static_cast<std::uint16_t>(tool_);
   }
   if (program_end && activity_ == Activity::program) shown_ = {};
