@@ -35,10 +35,7 @@ FaultRig::FaultRig(const std::string& layout, bool gateway, std::optional<std::u
   cluster_.keep_rows = true;
 }
 
-FaultRig::~FaultRig() {
-  stop_recorder();
-  std::filesystem::remove(recording_);
-}
+FaultRig::~FaultRig() { drop_recorder(); }
 
 void FaultRig::watch() {
   idl::channel::ChannelState state;
@@ -54,7 +51,8 @@ void FaultRig::wait_for_news(const std::function<void()>& order) {
   EXPECT_TRUE(cluster_.until([&] { return cluster_.state_count[0] >= before + 2; }));
 }
 
-void FaultRig::store_keepsakes() {
+void FaultRig::store_keepsakes(int rounds) {
+  part_ = part_program(rounds);
   auto& client = cluster_.client();
   using idl::parameters::Operation;
   idl::parameters::ParameterRequest request;
@@ -70,7 +68,7 @@ void FaultRig::store_keepsakes() {
   request.offsets = {{0, 1, {12.5, -3, -400, 0, 0, 0, 0, 0, 0}}};
   client.parameter(request);
   client.upload(kept_program, kept_text);
-  client.upload(part_name, part_program(15));
+  client.upload(part_name, part_);
   mdi("#" + std::to_string(kept_number) + "=" + std::to_string(kept_value));
   cluster_.until([] { return false; }, 0.1);  // what was published last arrives
   parameters_ = client.newest(topics::parameter_set);
@@ -86,7 +84,7 @@ void FaultRig::check_keepsakes() {
   EXPECT_TRUE(client.newest(topics::tool_table) == tools_) << "tools";
   EXPECT_TRUE(client.newest(topics::work_offsets) == offsets_) << "work offsets";
   EXPECT_EQ(client.download(kept_program), kept_text);
-  EXPECT_EQ(client.download(part_name), part_program(15));
+  EXPECT_EQ(client.download(part_name), part_);
   EXPECT_EQ(kept_variable(kept_number), kept_value);
 }
 
@@ -291,8 +289,6 @@ void FaultRig::start_recorder() {
   EXPECT_EQ(line.rfind("recording", 0), 0u) << line;
 }
 
-bool FaultRig::recorder_lives() const { return recorder_ > 0 && waitpid(recorder_, nullptr, WNOHANG) == 0; }
-
 std::uint64_t FaultRig::recorded_messages() const {
   recording::FileSource source(recording_);
   recording::Reader reader(source);
@@ -300,6 +296,14 @@ std::uint64_t FaultRig::recorded_messages() const {
   std::uint64_t messages = 0;
   while (reader.next(message)) ++messages;
   return messages;
+}
+
+void FaultRig::drop_recorder() {
+  if (recorder_ > 0) {
+    kill(recorder_, SIGKILL);
+    waitpid(std::exchange(recorder_, 0), nullptr, 0);
+  }
+  std::filesystem::remove(recording_);
 }
 
 std::uint64_t FaultRig::stop_recorder() {

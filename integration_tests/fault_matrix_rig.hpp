@@ -35,8 +35,8 @@ class FaultRig {
 
   Cluster& cluster() { return cluster_; }
 
-  /// Stores one of everything that must survive.
-  void store_keepsakes();
+  /// Stores one of everything that must survive, and the program with so many rounds.
+  void store_keepsakes(int rounds = 15);
   /// Compares all of it; every difference is a failure of the test.
   void check_keepsakes();
   /// Value of a kept variable in the channel's file; nothing when it is vacant.
@@ -66,7 +66,8 @@ class FaultRig {
   /// Ends it in order when it runs; returns the messages in its file.
   std::uint64_t stop_recorder();
   std::uint64_t recorded_messages() const;
-  bool recorder_lives() const;
+  /// Ends it however it is and removes its file.
+  void drop_recorder();
 
  private:
   int pid_of(const std::string& service) const;
@@ -76,7 +77,7 @@ class FaultRig {
   bool replaced(const std::string& service) const;
   void restart_loop(const std::string& service);
   Cluster cluster_;
-  std::string recording_;
+  std::string recording_, part_;
   int recorder_ = 0;
   std::map<std::string, int> pids_;
   std::map<std::string, std::uint32_t> restarts_;
