@@ -110,6 +110,7 @@ void Launcher::start(Process& process) {
   process.pid = pid;
   process.policy.started(node::monotonic_seconds());
   process.lifecycle = idl::service::Lifecycle::UNCONFIGURED;
+  process.in_step = false;
 }
 
 bool Launcher::has_live_twin(const Process& process) const {
@@ -166,6 +167,7 @@ void Launcher::listen() {
         process.policy.beat(now);
         process.lifecycle = state.lifecycle;
         process.detail = state.detail;
+        process.in_step = state.in_step;
       }
   idl::service::Announcement announcement;
   while (announcements_.take(announcement)) {
@@ -205,8 +207,9 @@ void Launcher::watch() {
       process.lost = false;
       alarms_.release("service_lost", process.entry.instance);
       alarms_.release("service_not_staying", process.entry.instance);
-      alarms_.release("redundancy_lost", process.entry.instance);
     }
+    // Nobody needs to acknowledge that there are two again.
+    if (!process.lost && process.in_step) alarms_.clear("redundancy_lost", process.entry.instance);
   }
 }
 

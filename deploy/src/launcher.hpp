@@ -40,6 +40,7 @@ class Launcher {
     idl::service::Lifecycle lifecycle = idl::service::Lifecycle::UNCONFIGURED;
     std::string detail;
     bool lost = false;
+    bool in_step = false;  ///< of the process that runs now
     std::string log;
   };
   void start(Process& process);

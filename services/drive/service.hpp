@@ -23,6 +23,8 @@ class DriveService : public node::Service {
   void run_virtual();
   void run_real();
   void send();
+  void applied(idl::stream::Input input, std::uint64_t identity);
+  void configure(const machine::Parameters& parameters);
 
   node::Node& node_;
   node::ParameterClient parameters_;
@@ -37,6 +39,7 @@ class DriveService : public node::Service {
   std::optional<bus::Writer<idl::stream::FeedbackFrame>> writer_;
   idl::stream::AxisFrame frame_;
   idl::stream::FeedbackFrame feedback_;
+  std::vector<idl::stream::AppliedInput> applied_;  // not told yet
   idl::plc::Outputs plc_;
   bool have_plc_ = false;
   double plc_seen_ = 0;
