@@ -115,7 +115,8 @@ Answer ChannelCore::cycle_start() {
       if (must_reset_)
         return refuse("not_ready", "The drives were switched off in the program: reset the channel");
       if (restart_) {  // the stream was lost: begin anew at the newest point that was executed
-        const auto point = *restart_;
+        // What was on its way through the stages may have been executed since.
+        const auto point = executed_point().value_or(*restart_);
         return start_program(point);
       }
       link_.request_resume();

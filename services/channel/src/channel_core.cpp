@@ -161,6 +161,18 @@ void ChannelCore::recover() {
         "Program " + selected_.name + " was interrupted in line " + std::to_string(shown_.line));
 }
 
+std::optional<RestartPoint> ChannelCore::executed_point() const {
+  const auto* own = stream::find_state(link_.states(), stream::stage_channel);
+  if (own == nullptr || own->values.size() < s_size || own->values[s_running] == 0 ||
+      static_cast<std::uint32_t>(own->values[s_crc]) != selected_.crc32)
+    return std::nullopt;
+  RestartPoint point;
+  point.sequence = static_cast<std::uint32_t>(own->values[s_sequence]);
+  point.fraction = own->values[s_fraction];
+  std::copy_n(&own->values[s_position], 9, point.position.begin());
+  return point;
+}
+
 void ChannelCore::interrupt(const std::string& why) {
   must_reset_ = must_reset_ || (link_.drive_mode() == DriveMode::off && link_.state() != LinkState::lost &&
                                 activity_ != Activity::none);
@@ -169,17 +181,10 @@ void ChannelCore::interrupt(const std::string& why) {
     const bool was_lost = link_.state() == LinkState::lost;
     link_.acknowledge();
     if (activity_ == Activity::program) {
-      const auto* own = stream::find_state(link_.states(), stream::stage_channel);
-      RestartPoint point;
-      if (own != nullptr && own->values.size() >= s_size && own->values[s_running] != 0 &&
-          static_cast<std::uint32_t>(own->values[s_crc]) == selected_.crc32) {
-        point.sequence = static_cast<std::uint32_t>(own->values[s_sequence]);
-        point.fraction = own->values[s_fraction];
-        std::copy_n(&own->values[s_position], 9, point.position.begin());
+      if (const auto point = executed_point())
         restart_ = point;
-      } else if (!was_lost) {
+      else if (!was_lost)
         restart_ = RestartPoint{};
-      }
     } else if (activity_ != Activity::none) {
       stop_activity();
       event("interrupted", why);
@@ -401,7 +406,7 @@ std::vector<double> ChannelCore::stage_state(FlowState flow) {
 }
 
 void ChannelCore::remember_executed() {
-  if (link_.executed() == 0) return;
+  if (link_.executed() == 0 || activity_ == Activity::none) return;
   const auto& written = written_[(link_.executed() - 1) % history];
   if (written.cycle == link_.executed() - 1 && (written.line != 0 || activity_ != Activity::program))
     shown_ = written;

@@ -99,6 +99,8 @@ class ChannelCore {
   void finish(bool program_end);
   void keep_variables();
   void interrupt(const std::string& why);
+  /// The newest point of the selected program that was executed, by the consistent cut.
+  std::optional<RestartPoint> executed_point() const;
   void apply_parameters();
   void adopt_position();
   void run_pending(FlowState flow);
