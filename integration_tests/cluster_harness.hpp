@@ -111,6 +111,7 @@ class Cluster {
       }
       feedback = frame;
       if (on_frame) on_frame(frame);
+      for (std::uint32_t i = 0; i < frame.count && keep_rows; ++i) row_cycles.push_back(frame.first + i);
       for (std::uint32_t i = 0; i < frame.count && keep_rows; ++i)
         rows.emplace_back(frame.commanded.begin() + i * frame.axis_count,
                           frame.commanded.begin() + (i + 1) * frame.axis_count);
@@ -194,6 +195,7 @@ class Cluster {
   std::vector<idl::service::Alarm> history;
   idl::stream::FeedbackFrame feedback;
   std::vector<std::vector<double>> rows;
+  std::vector<std::uint64_t> row_cycles;  ///< of each row
   bool keep_rows = false;
   std::function<void(const idl::stream::FeedbackFrame&)> on_frame;  ///< sees every frame
   std::uint64_t expected_cycle = 0, lost_frames = 0;

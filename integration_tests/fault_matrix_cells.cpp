@@ -43,8 +43,9 @@ const char* text_of(Way way) {
 std::string bound(const std::string& service, const Expectation& e) {
   if (e.machine == Machine::goes_on) return "0";
   if (service == "drive") return "0: the simulated axes stand where they are";
-  if (is_stage(service) || service == "channel") return "the setpoints at hand, at most lead (32)";
-  return "lead (32), two frames (32) and 0.1 s of braking";
+  if (is_stage(service) || service == "channel")
+    return "the setpoints at hand (lead, 32), or the channel's hold";
+  return "the channel's hold";
 }
 
 }  // namespace

@@ -52,6 +52,10 @@ class FaultRig {
   /// Rows since begin().
   const Rows& rows() { return cluster_.rows; }
   std::uint64_t lost_rows() const { return cluster_.lost_frames; }
+  Judgement judge(const Rows& reference, bool whole) const;
+  /// An undisturbed run of which every row was seen; empty when the observer is too slow for that. Counts in
+  /// `runs`.
+  Rows undisturbed(double& runs);
 
   /// Remembers every process, then strikes. Returns when the struck process has had its fault.
   void strike(const std::string& service, Fault fault);
@@ -72,6 +76,7 @@ class FaultRig {
  private:
   int pid_of(const std::string& service) const;
   bool stands();
+  void settle();
   void watch();
   void wait_for_news(const std::function<void()>& order);
   bool replaced(const std::string& service) const;
@@ -84,6 +89,7 @@ class FaultRig {
   std::size_t history_ = 0;
   std::optional<bus::Reader<idl::channel::ChannelState>> every_state_;
   std::optional<std::uint64_t> hold_began_;
+  std::uint64_t first_cycle_ = 0;
   idl::parameters::ToolTable tools_;
   idl::parameters::WorkOffsets offsets_;
   idl::parameters::ParameterSet parameters_;

@@ -10,17 +10,22 @@ ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 
 
 def cells(program):
-    """Names in the order of the table, so that neighbours in a run are different vendors and situations of one fault."""
+    """Names, every fault of every service once before any with another layout: a run that is cut short has seen all of them."""
     listed = subprocess.run([program, "--gtest_list_tests"], capture_output=True, text=True, check=True).stdout
-    found = [line.split()[0] for line in listed.splitlines() if line.startswith("  Cell/")]
-    return [name.split("/", 1)[1] for name in found]
+    found = [line.split()[0].split("/", 1)[1] for line in listed.splitlines() if line.startswith("  Cell/")]
+    groups = {}  # by service, fault and situation, each with its layouts
+    for name in found:
+        service, fault, layout, situation = name.split("_", 3)
+        groups.setdefault((service, fault, situation), []).append(name)
+    rows = list(groups.values())
+    return [row[(i + turn) % len(row)] for turn in range(len(rows[0])) for i, row in enumerate(rows)]
 
 
 def measured(path):
     """What a cell recorded beside its verdict."""
     with open(path, encoding="utf-8") as f: suites = json.load(f)["testsuites"]
     test = suites[0]["testsuite"][0]
-    return {k: int(v) for k, v in test.items() if k in ("cycles_of_hold", "cycles_of_braking", "largest_deviation_nm", "cycles_gone_back", "lost_rows")}
+    return {k: int(v) for k, v in test.items() if k in ("cycles_of_hold", "cycles_of_braking", "largest_deviation_nm", "cycles_gone_back", "unseen_cycles")}
 
 
 class Run:
@@ -42,9 +47,9 @@ class Run:
             with open(log, "w", encoding="utf-8") as out:
                 try:
                     status = subprocess.run([self.options.program, "--gtest_filter=*/" + name, "--gtest_output=json:" + part],
-                                            stdout=out, stderr=subprocess.STDOUT, env=environment, timeout=180).returncode
+                                            stdout=out, stderr=subprocess.STDOUT, env=environment, timeout=900).returncode
                 except subprocess.TimeoutExpired:
-                    status = "no end in 180 s"
+                    status = "no end in 900 s"
             with self.lock:
                 self.done += 1
                 if status == 0:
