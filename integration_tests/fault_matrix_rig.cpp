@@ -128,15 +128,12 @@ void FaultRig::settle() {
 void FaultRig::begin() {
   settle();
   cluster_.rows.clear();
-  cluster_.row_cycles.clear();
-  first_cycle_ = cluster_.feedback.first + cluster_.feedback.count;
   cluster_.lost_frames = 0;
   cluster_.start(part_name);
 }
 
 Judgement FaultRig::judge(const Rows& reference, bool whole) const {
-  return integration::judge(cluster_.rows, cluster_.row_cycles, first_cycle_, reference, path_tolerance,
-                            whole);
+  return integration::judge(cluster_.rows, reference, path_tolerance, whole);
 }
 
 Rows FaultRig::undisturbed(double& runs) {

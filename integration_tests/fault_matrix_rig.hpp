@@ -89,7 +89,6 @@ class FaultRig {
   std::size_t history_ = 0;
   std::optional<bus::Reader<idl::channel::ChannelState>> every_state_;
   std::optional<std::uint64_t> hold_began_;
-  std::uint64_t first_cycle_ = 0;
   idl::parameters::ToolTable tools_;
   idl::parameters::WorkOffsets offsets_;
   idl::parameters::ParameterSet parameters_;

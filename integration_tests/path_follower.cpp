@@ -60,21 +60,22 @@ bool PathFollower::arrived(double tolerance) const {
   return true;
 }
 
-Judgement judge(const Rows& rows, const std::vector<std::uint64_t>& cycles, std::uint64_t first,
-                const Rows& reference, double tolerance, bool whole) {
+Judgement judge(const Rows& rows, const Rows& reference, double tolerance, bool whole) {
   constexpr std::size_t ahead = 64;
   Judgement judgement;
   PathFollower follower(reference);
-  std::uint64_t expected = first;
+  std::size_t unseen = 0;
   for (std::size_t r = 0; r < rows.size() && judgement.problem.empty(); ++r) {
-    const std::uint64_t unseen = cycles[r] > expected ? cycles[r] - expected : 0;
-    expected = cycles[r] + 1;
-    judgement.unseen += unseen;
+    if (rows[r].empty()) {
+      ++unseen, ++judgement.unseen;
+      continue;
+    }
     if (!follower.follow(rows[r], tolerance, ahead + unseen))
       judgement.problem = "row " + std::to_string(r) + " of " + std::to_string(rows.size()) + ", after " +
                           std::to_string(unseen) + " unseen, is not on the path near cycle " +
                           std::to_string(follower.place()) + " of " + std::to_string(reference.size()) +
                           ": " + text_of(rows[r]) + " instead of " + text_of(reference[follower.place()]);
+    unseen = 0;
   }
   if (judgement.problem.empty() && whole && !follower.arrived(tolerance))
     judgement.problem = "only cycle " + std::to_string(follower.place()) + " of " +

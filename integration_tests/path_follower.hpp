@@ -44,10 +44,9 @@ struct Judgement {
   std::uint64_t unseen = 0;  ///< cycles the observer missed: they are not judged, but what follows them is
 };
 
-/// `cycles` are those of the rows, `first` the one the run began at. With `whole` it must also arrive at the
-/// end.
-Judgement judge(const Rows& rows, const std::vector<std::uint64_t>& cycles, std::uint64_t first,
-                const Rows& reference, double tolerance, bool whole);
+/// `rows` is one for each cycle, empty where the observer has missed it. With `whole` it must also arrive at
+/// the end.
+Judgement judge(const Rows& rows, const Rows& reference, double tolerance, bool whole);
 
 /// Both executed the same cycles: equal numbers of rows, no value farther off than `tolerance`.
 bool same_rows(const Rows& a, const Rows& b, double tolerance);
