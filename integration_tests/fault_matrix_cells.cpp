@@ -105,8 +105,8 @@ Expectation expectation(const std::string& service, Fault fault, bool in_motion)
   if (is_stage(service)) {
     e.may = {110, 144};
   } else if (service == "channel") {
-    e.must.insert(144);
-    e.may = {110};
+    e.may = {110, 144};
+    if (fault != Fault::suspended) e.must.insert(144);
   } else if (service == "drive") {
     if (fault == Fault::suspended)
       e.may = {144};
