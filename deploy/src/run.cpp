@@ -314,7 +314,7 @@ RecordingCost measure_recording(const RunOptions& options, int rounds) {
     if (record) recorder.emplace(options.recording, cluster.get());
     const auto before = client.newest(topics::channel_state).cycle;
     const double began = node::monotonic_seconds();
-    if (const auto alarm = execute(client, 1, options.timeout, false); !alarm.empty())
+    if (const auto alarm = execute(client, 1, options, false); !alarm.empty())
       throw std::runtime_error(alarm);
     const double seconds = node::monotonic_seconds() - began;
     recorder.reset();
