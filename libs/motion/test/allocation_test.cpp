@@ -1,26 +1,13 @@
 // The planner allocates when it is made and never again, whatever it is asked for.
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <new>
-
 #include "motion_fixture.hpp"
-
-namespace {
-std::size_t allocations = 0;
-}
-
-// Kept out of line: inlined, malloc and delete look mismatched to the compiler.
-[[gnu::noinline]] void* operator new(std::size_t size) {
-  ++allocations;
-  if (void* const memory = std::malloc(size == 0 ? 1 : size)) return memory;
-  throw std::bad_alloc();
-}
-[[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
-[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+#include "testing_support/allocation_count.hpp"
 
 namespace trunnion::motion::test {
 namespace {
+
+using testing_support::allocations;
 
 TEST(Allocation, none_while_planning_stepping_holding_going_back_and_aborting) {
   const geometry::Chain chain = ac_table();
