@@ -257,7 +257,8 @@ std::optional<SwapReply> Swap::step(double now) {
       if (fresh_.lifecycle != Lifecycle::ACTIVE || !fresh_.in_step) {
         active_at_ = now;
         if (now - entered_ > promote_patience)
-          return keep("The new " + old_.entry.service + " does not take part");
+          return keep("The new " + old_.entry.service + " does not take part" +
+                      (fresh_.detail.empty() ? "" : ": " + fresh_.detail));
       } else if (now - active_at_ > overlap) {
         retire(now);
       }
