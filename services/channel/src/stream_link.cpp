@@ -9,11 +9,10 @@ void StreamLink::on_feedback(const idl::stream::FeedbackFrame& feedback) {
   mode_ = static_cast<DriveMode>(feedback.mode);
   executed_ = std::max(executed_, feedback.first + feedback.count);
   positions_ = feedback.position;
-  // A drive that has lived through no period is off because it has only just begun.
-  drive_restarted_ = feedback.tick == 0 &&
-                     std::any_of(feedback.applied.begin(), feedback.applied.end(), [](const auto& input) {
-                       return input.input == idl::stream::Input::PARAMETER_SET;
-                     });
+  // The first word of a drive that has just begun names its parameters, and nobody who could have switched it
+  // off.
+  drive_restarted_ =
+      feedback.applied.size() == 1 && feedback.applied[0].input == idl::stream::Input::PARAMETER_SET;
   for (const auto& echo : feedback.channels) {
     if (echo.channel != channel_) continue;
     echo_active_ = echo.active;
