@@ -55,8 +55,7 @@ TEST_P(Zigzag, random_corners_keep_tolerance_velocity_and_acceleration) {
 }
 
 INSTANTIATE_TEST_SUITE_P(sizes, Zigzag,
-                         testing::Combine(testing::Values(1, 2, 20, 64),
-                                          testing::Values(0.05, 0.5, 5.0),
+                         testing::Combine(testing::Values(1, 2, 20, 64), testing::Values(0.05, 0.5, 5.0),
                                           testing::Values(0.002, 0.02, 0.5)));
 
 class DenseCircle : public testing::TestWithParam<std::tuple<double, double, int>> {};
