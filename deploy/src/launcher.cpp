@@ -12,17 +12,25 @@
 #include <random>
 #include <thread>
 
+#include "node/network.hpp"
 #include "node/node.hpp"
 
 namespace trunnion::deploy {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr std::uint32_t launcher_instance = 1000;
-constexpr double start_patience = 15;  // s until a cluster that is not ready has failed
-constexpr double beat_patience = 2.0;  // s without a heartbeat until a process counts as hung
+constexpr std::uint32_t launcher_instance = 1000;  // and one more for each host after the first
+constexpr double start_patience = 15;              // s until a cluster that is not ready has failed
+constexpr double beat_patience = 2.0;              // s without a heartbeat until a process counts as hung
 volatile std::sig_atomic_t stop_requested = 0;
 void request_stop(int) { stop_requested = 1; }
+
+std::uint32_t instance_on(const LaunchOptions& options) {
+  const auto& hosts = options.machine.hosts;
+  const auto here =
+      std::find_if(hosts.begin(), hosts.end(), [&](const auto& host) { return host.name == options.host; });
+  return launcher_instance + static_cast<std::uint32_t>(here == hosts.end() ? 0 : here - hosts.begin());
+}
 
 }  // namespace
 
@@ -36,8 +44,8 @@ std::string last_line(const std::string& path) {
 
 Launcher::Launcher(LaunchOptions options)
     : options_(std::move(options)),
-      bus_(bus::Vendor::cyclonedds, {options_.machine.domain}),
-      alarms_(bus_, launcher_instance, "launcher"),
+      bus_(bus::Vendor::cyclonedds, options_.network),
+      alarms_(bus_, instance_on(options_), "launcher"),
       states_(bus_.reader(topics::service_state)),
       announcements_(bus_.reader(topics::announcement)),
       resets_(bus_.reader(topics::alarm_reset)),
@@ -54,6 +62,7 @@ Launcher::Launcher(LaunchOptions options)
   for (const auto& entry : options_.machine.services) {
     Process process;
     process.entry = entry;
+    process.local = entry.host == options_.host;
     process.log = options_.run.log_file(
         entry.service + "-" + std::to_string(entry.service == "channel" ? entry.channel : entry.copy));
     processes_.push_back(std::move(process));
@@ -80,6 +89,7 @@ void Launcher::start(Process& process) {
                                 "--vendor",
                                 e.vendor,
                                 "--parent-bound"};
+  for (auto& argument : node::network_arguments(options_.network)) args.push_back(std::move(argument));
   if (options_.virtual_time) args.emplace_back("--virtual-time");
   if (e.service == "gateway") {
     args.insert(args.end(), {"--port", std::to_string(options_.port)});
@@ -120,7 +130,7 @@ bool Launcher::reap(std::string& failure) {
   int status = 0;
   for (int pid; (pid = waitpid(-1, &status, WNOHANG)) > 0;) {
     for (auto& process : processes_) {
-      if (process.pid != pid) continue;
+      if (!process.local || process.pid != pid) continue;
       process.pid = 0;
       process.lifecycle = idl::service::Lifecycle::UNCONFIGURED;
       const auto& e = process.entry;
@@ -149,16 +159,45 @@ bool Launcher::reap(std::string& failure) {
   return true;
 }
 
+void Launcher::hear(Process& process, const idl::service::ServiceState& state, double now) {
+  if (state.service != process.entry.service) {
+    alarms_.raise("machine_differs", state.instance,
+                  "Instance " + std::to_string(state.instance) + " is " + process.entry.service +
+                      " in this host's machine.yaml, a service " + state.service +
+                      " has this number elsewhere");
+    return;
+  }
+  if (!process.local && process.pid != state.pid) {
+    if (process.started > 0) ++process.restarts;
+    process.pid = state.pid;
+    process.started = now;
+  }
+  if (process.pid != state.pid) return;
+  process.heard = now;
+  process.lifecycle = state.lifecycle;
+  process.detail = state.detail;
+}
+
+// Silence is all that can be seen of another host. Its own launcher tells of a process that died; the first
+// host's tells of the others' silence, and they of the first host's.
+void Launcher::watch_remote(Process& process, double now) {
+  if (process.pid == 0 || now - process.heard <= beat_patience) return;
+  process.pid = 0;
+  process.lifecycle = idl::service::Lifecycle::UNCONFIGURED;
+  process.detail = "host " + process.entry.host + " is silent";
+  const auto& first = options_.machine.hosts.front().name;
+  if (!was_ready_ || (!is_first_host() && process.entry.host != first)) return;
+  process.lost = true;
+  alarms_.raise(has_live_twin(process) ? "redundancy_lost" : "service_lost", process.entry.instance,
+                "Service " + process.entry.service + " on host " + process.entry.host + " is silent");
+}
+
 void Launcher::listen() {
   const double now = node::monotonic_seconds();
   idl::service::ServiceState state;
   while (states_.take(state))
     for (auto& process : processes_)
-      if (process.entry.instance == state.instance && process.pid == state.pid) {
-        process.heard = now;
-        process.lifecycle = state.lifecycle;
-        process.detail = state.detail;
-      }
+      if (process.entry.instance == state.instance) hear(process, state, now);
   idl::service::Announcement announcement;
   while (announcements_.take(announcement)) {
     if (announcement.contract != topics::contract_hash)
@@ -176,7 +215,9 @@ void Launcher::listen() {
 void Launcher::watch() {
   const double now = node::monotonic_seconds();
   for (auto& process : processes_) {
-    if (process.pid == 0) {
+    if (!process.local) {
+      watch_remote(process, now);
+    } else if (process.pid == 0) {
       if (now >= process.start_again_at) start(process);
     } else if (now - process.heard > beat_patience && now - process.started > start_patience / 2) {
       // A process that does not beat hangs; it is replaced like one that died.
@@ -197,6 +238,18 @@ bool Launcher::all_ready() const {
   });
 }
 
+bool Launcher::is_first_host() const {
+  return options_.machine.hosts.empty() || options_.machine.hosts.front().name == options_.host;
+}
+
+// What `up` waits for: the whole cluster; of several hosts, which start in any order, that the processes of
+// this one are alive.
+bool Launcher::begun() const {
+  if (options_.machine.hosts.empty()) return ready_;
+  return std::all_of(processes_.begin(), processes_.end(),
+                     [](const Process& p) { return !p.local || (p.pid != 0 && p.heard > p.started); });
+}
+
 void Launcher::publish() {
   const double now = node::monotonic_seconds();
   const bool ready = all_ready();
@@ -212,13 +265,14 @@ void Launcher::publish() {
     cluster.services.push_back({p.entry.instance, p.entry.service, static_cast<std::uint8_t>(p.entry.copy),
                                 p.entry.vendor, p.pid, p.restarts,
                                 p.pid != 0 && p.lifecycle == idl::service::Lifecycle::ACTIVE});
-  cluster_writer_.write(cluster);
+  if (is_first_host()) cluster_writer_.write(cluster);
 }
 
 int Launcher::run(void (*report)(const std::string&)) {
   std::ofstream(options_.run.pid_file()) << getpid() << "\n";
   const double began = node::monotonic_seconds();
-  for (auto& process : processes_) start(process);
+  for (auto& process : processes_)
+    if (process.local) start(process);
   std::string failure;
   while (stop_requested == 0) {
     bus_.signal().wait(0.02);
@@ -226,18 +280,21 @@ int Launcher::run(void (*report)(const std::string&)) {
     listen();
     watch();
     publish();
-    if (ready_ && !was_ready_) {
+    notifier_.alive(node::monotonic_seconds());
+    if (!was_ready_ && begun()) {
       was_ready_ = true;
       report("");
+      notifier_.ready();
     }
     if (!was_ready_ && node::monotonic_seconds() - began > start_patience) {
       for (const auto& p : processes_)
-        if (p.lifecycle != idl::service::Lifecycle::ACTIVE)
+        if (p.local && p.lifecycle != idl::service::Lifecycle::ACTIVE)
           failure += (failure.empty() ? "not ready: " : "; ") + p.entry.service +
                      (p.detail.empty() ? "" : " (" + p.detail + ")");
       break;
     }
   }
+  notifier_.stopping();
   stop_all();
   if (!failure.empty()) report(failure);
   options_.run.remove();
@@ -246,19 +303,20 @@ int Launcher::run(void (*report)(const std::string&)) {
 
 void Launcher::stop_all() {
   for (auto it = processes_.rbegin(); it != processes_.rend(); ++it)
-    if (it->pid > 0) kill(it->pid, SIGTERM);
+    if (it->local && it->pid > 0) kill(it->pid, SIGTERM);
   const double until = node::monotonic_seconds() + 2;
   const auto alive = [&] {
     int status = 0;
     for (int pid; (pid = waitpid(-1, &status, WNOHANG)) > 0;)
       for (auto& p : processes_)
-        if (p.pid == pid) p.pid = 0;
-    return std::any_of(processes_.begin(), processes_.end(), [](const Process& p) { return p.pid > 0; });
+        if (p.local && p.pid == pid) p.pid = 0;
+    return std::any_of(processes_.begin(), processes_.end(),
+                       [](const Process& p) { return p.local && p.pid > 0; });
   };
   while (alive() && node::monotonic_seconds() < until)
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   for (auto& p : processes_)
-    if (p.pid > 0) {
+    if (p.local && p.pid > 0) {
       kill(p.pid, SIGKILL);
       waitpid(p.pid, nullptr, 0);
       p.pid = 0;

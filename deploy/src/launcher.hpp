@@ -11,6 +11,7 @@
 #include "contracts/topics.hpp"
 #include "machine/machine.hpp"
 #include "node/alarm_board.hpp"
+#include "node/notify.hpp"
 
 namespace trunnion::deploy {
 
@@ -20,6 +21,8 @@ struct LaunchOptions {
   bool virtual_time = false;
   std::uint16_t port = 8080;
   RunDirectory run;
+  std::string host;  ///< which of the machine's hosts this is; empty when it has none
+  bus::NetworkSettings network;
 };
 
 /// Runs in a process of its own. `report` is called once: with "" when the cluster is ready, with one line
@@ -40,13 +43,18 @@ class Launcher {
     std::string detail;
     bool lost = false;
     std::string log;
+    bool local = true;  ///< on this host; of the others only their heartbeats are known
   };
   void start(Process& process);
   void stop_all();
   bool reap(std::string& failure);
   void listen();
   void watch();
+  void hear(Process& process, const idl::service::ServiceState& state, double now);
+  void watch_remote(Process& process, double now);
   bool all_ready() const;
+  bool is_first_host() const;
+  bool begun() const;
   void publish();
   bool has_live_twin(const Process& process) const;
 
@@ -57,6 +65,7 @@ class Launcher {
   bus::Reader<idl::service::Announcement> announcements_;
   bus::Reader<idl::service::AlarmReset> resets_;
   bus::Writer<idl::service::Cluster> cluster_writer_;
+  node::Notifier notifier_;
   std::vector<Process> processes_;
   std::string start_failure_;
   bool ready_ = false, was_ready_ = false;

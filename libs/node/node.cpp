@@ -79,6 +79,7 @@ void Node::beat(const Service& service) {
   state_.uptime = now - started_;
   ++state_.beats;
   state_writer_.write(state_);
+  if (health.lifecycle == idl::service::Lifecycle::ACTIVE) notifier_.ready();
   last_beat_ = now;
   last_frames_ = health.frames_out;
 }
@@ -97,6 +98,7 @@ int Node::run(Service& service) {
       alarms_.reset();
     }
     service.pump();
+    notifier_.alive(monotonic_seconds());
     if (const double now = monotonic_seconds(); now - last_beat_ >= beat_period) {
       beat(service);
     } else if (now - last_beat_ >= 0.02 && service.health().lifecycle != last_lifecycle) {
@@ -104,6 +106,7 @@ int Node::run(Service& service) {
       beat(service);  // a change of lifecycle is news: start-up waits for it
     }
   }
+  notifier_.stopping();
   return 0;
 }
 

@@ -1,0 +1,87 @@
+#!/usr/bin/env bash
+# Network namespaces as the hosts of one machine, on one computer, for tests; needs root.
+#   namespaces.sh up PREFIX HOST=ADDRESS...     one namespace PREFIX-HOST each, joined by the bridge PREFIX-br (24-bit network)
+#   namespaces.sh bare PREFIX HOST=ADDRESS...   the same without the bridge: a program attaches a TAP device `cable` to each
+#   namespaces.sh address PREFIX HOST=ADDRESS...  gives those devices their addresses
+#   namespaces.sh exec PREFIX HOST COMMAND...   runs a command on a host; each host has run files of clusters of its own
+#   namespaces.sh loss PREFIX PERCENT           every host drops that share of the UDP packets it gets, at random; 0 = none
+#   namespaces.sh cut PREFIX HOST SECONDS       the cable of a host is out for so long (bridge only)
+#   namespaces.sh down PREFIX                   removes all of it
+set -euo pipefail
+
+fail() { echo "namespaces.sh: $*" >&2; exit 1; }
+[ "$(id -u)" -eq 0 ] || fail "needs root"
+[ $# -ge 2 ] || fail "see the head of this file"
+verb=$1
+prefix=$2
+shift 2
+[[ $prefix =~ ^[a-z0-9]{1,6}$ ]] || fail "PREFIX has 1 .. 6 small letters and digits"
+
+hosts() { ip netns list | awk -v p="$prefix-" 'index($1, p) == 1 { print substr($1, length(p) + 1) }'; }
+# The outer end of a host's cable; interface names have 15 characters at most.
+port() { echo "$prefix-${1:0:8}"; }
+runs() { echo "/run/trunnion-namespaces/$prefix/$1"; }
+
+make_host() {
+  ip netns add "$prefix-$1"
+  ip -n "$prefix-$1" link set lo up
+  mkdir -p "$(runs "$1")"
+}
+
+give_address() { # HOST ADDRESS
+  ip -n "$prefix-$1" address add "$2/24" dev cable
+  ip -n "$prefix-$1" link set cable up
+  ip -n "$prefix-$1" route add default dev cable # multicast goes this way too
+}
+
+case $verb in
+  up)
+    ip link add "$prefix-br" type bridge
+    ip link set "$prefix-br" up
+    for pair in "$@"; do
+      host=${pair%%=*}
+      make_host "$host"
+      ip link add "$(port "$host")" type veth peer name cable netns "$prefix-$host"
+      ip link set "$(port "$host")" master "$prefix-br" up
+      give_address "$host" "${pair#*=}"
+    done
+    ;;
+  bare)
+    for pair in "$@"; do make_host "${pair%%=*}"; done
+    ;;
+  address)
+    for pair in "$@"; do give_address "${pair%%=*}" "${pair#*=}"; done
+    ;;
+  exec)
+    [ $# -ge 2 ] || fail "exec PREFIX HOST COMMAND..."
+    host=$1
+    shift
+    # Launchers of one user and domain would take each other for the same cluster by their run files.
+    mkdir -p /tmp/trunnion-0
+    exec ip netns exec "$prefix-$host" unshare --mount --uts bash -c \
+      'hostname "$1"; mount --bind "$2" /tmp/trunnion-0; shift 2; exec "$@"' exec "$host" "$(runs "$host")" "$@"
+    ;;
+  loss)
+    [ $# -eq 1 ] || fail "loss PREFIX PERCENT"
+    for host in $(hosts); do
+      ip netns exec "$prefix-$host" iptables -F INPUT
+      [ "$1" = 0 ] || ip netns exec "$prefix-$host" iptables -A INPUT -i cable -p udp \
+        -m statistic --mode random --probability "$(awk -v p="$1" 'BEGIN { printf "%.6f", p / 100 }')" -j DROP
+    done
+    ;;
+  cut)
+    [ $# -eq 2 ] || fail "cut PREFIX HOST SECONDS"
+    ip link set "$(port "$1")" down
+    sleep "$2"
+    ip link set "$(port "$1")" up
+    ;;
+  down)
+    for host in $(hosts); do
+      ip netns pids "$prefix-$host" | xargs -r kill -9 2>/dev/null || true
+      ip netns del "$prefix-$host"
+    done
+    if ip link show "$prefix-br" >/dev/null 2>&1; then ip link del "$prefix-br"; fi
+    rm -rf "/run/trunnion-namespaces/$prefix"
+    ;;
+  *) fail "unknown verb '$verb'" ;;
+esac

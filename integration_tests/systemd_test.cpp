@@ -1,0 +1,159 @@
+// Plays systemd: the socket of Type=notify and the watchdog, for the launcher and for a service.
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/socket.h>
+#include <sys/un.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+
+#include "cluster_files.hpp"
+#include "node/node.hpp"
+
+namespace trunnion::integration {
+namespace {
+
+constexpr double watchdog = 0.4;  // s, what WATCHDOG_USEC says; a ping is due twice in it
+
+/// A process with a service manager's environment, and what it tells the manager.
+class Unit {
+ public:
+  explicit Unit(std::vector<std::string> arguments)
+      : path_(std::filesystem::temp_directory_path() / ("trunnion-notify-" + std::to_string(getpid()))) {
+    std::filesystem::remove(path_);
+    socket_ = socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+    sockaddr_un address{};
+    address.sun_family = AF_UNIX;
+    std::strncpy(address.sun_path, path_.c_str(), sizeof address.sun_path - 1);
+    EXPECT_EQ(bind(socket_, reinterpret_cast<const sockaddr*>(&address), sizeof address), 0);
+    std::vector<char*> argv;
+    for (auto& argument : arguments) argv.push_back(argument.data());
+    argv.push_back(nullptr);
+    pid_ = fork();
+    if (pid_ == 0) {
+      setenv("NOTIFY_SOCKET", path_.c_str(), 1);
+      setenv("WATCHDOG_USEC", std::to_string(static_cast<int>(watchdog * 1e6)).c_str(), 1);
+      setenv("WATCHDOG_PID", std::to_string(getpid()).c_str(), 1);
+      const int null = open("/dev/null", O_RDWR);
+      dup2(null, 0), dup2(null, 1), dup2(null, 2);
+      execv(argv[0], argv.data());
+      _exit(127);
+    }
+  }
+  ~Unit() {
+    kill(pid_, SIGCONT);
+    stop();
+    close(socket_);
+    std::filesystem::remove(path_);
+  }
+  int pid() const { return pid_; }
+  int stop() {
+    if (pid_ <= 0) return -1;
+    kill(pid_, SIGTERM);
+    int status = 0;
+    waitpid(pid_, &status, 0);
+    pid_ = 0;
+    return status;
+  }
+  /// Messages that arrive within `seconds`, until one is `wanted` (when it is not empty).
+  std::vector<std::string> messages(double seconds, const std::string& wanted = "") {
+    std::vector<std::string> all;
+    const double until = node::monotonic_seconds() + seconds;
+    for (double left = 0; (left = until - node::monotonic_seconds()) > 0;) {
+      timeval timeout{static_cast<time_t>(left),
+                      static_cast<suseconds_t>((left - static_cast<long>(left)) * 1e6)};
+      if (timeout.tv_sec == 0 && timeout.tv_usec == 0) break;
+      setsockopt(socket_, SOL_SOCKET, SO_RCVTIMEO, &timeout, sizeof timeout);
+      std::array<char, 512> buffer;
+      const auto n = recv(socket_, buffer.data(), buffer.size(), 0);
+      if (n <= 0) break;
+      all.emplace_back(buffer.data(), static_cast<std::size_t>(n));
+      if (!wanted.empty() && all.back() == wanted) break;
+    }
+    return all;
+  }
+  bool told(const std::string& wanted, double seconds) {
+    const auto all = messages(seconds, wanted);
+    return !all.empty() && all.back() == wanted;
+  }
+
+ private:
+  std::string path_;
+  int socket_ = -1, pid_ = 0;
+};
+
+void expect_pings_until_it_hangs(Unit& unit) {
+  ASSERT_TRUE(unit.told("WATCHDOG=1", 10));
+  EXPECT_TRUE(unit.told("WATCHDOG=1", 10)) << "again and again";
+  ASSERT_EQ(kill(unit.pid(), SIGSTOP), 0);
+  unit.messages(0.1);  // what was on its way
+  EXPECT_TRUE(unit.messages(3 * watchdog).empty())
+      << "a process that hangs does not ping: systemd would kill it";
+  ASSERT_EQ(kill(unit.pid(), SIGCONT), 0);
+  EXPECT_TRUE(unit.told("WATCHDOG=1", 10));
+}
+
+TEST(Systemd, TheLauncherSaysReadyOncePingsStopsWhenItHangsAndSaysThatItStops) {
+  const std::string domain = "91";
+  const auto directory =
+      std::filesystem::temp_directory_path() / ("trunnion-systemd-" + std::to_string(getpid()));
+  Unit unit({deploy::binary_directory() + "/trunnion", "up", "ac-table", "--foreground", "--time", "virtual",
+             "--domain", domain, "--port", "18491", "--state", directory.string()});
+  const auto start = unit.messages(30, "READY=1");
+  ASSERT_FALSE(start.empty());
+  ASSERT_EQ(start.back(), "READY=1");
+  // The services must not speak for the launcher: exactly one READY in a time in which all of them are
+  // active.
+  const auto later = unit.messages(2 * watchdog);
+  EXPECT_EQ(std::count(later.begin(), later.end(), "READY=1"), 0);
+  expect_pings_until_it_hangs(unit);
+  kill(unit.pid(), SIGTERM);
+  EXPECT_TRUE(unit.told("STOPPING=1", 10));
+  EXPECT_EQ(unit.stop(), 0) << "a stop that was asked for is no failure";
+  std::filesystem::remove_all(directory);
+}
+
+TEST(Systemd, AServiceStartedAloneSaysReadyWhenItIsActiveAndPings) {
+  const auto directory =
+      std::filesystem::temp_directory_path() / ("trunnion-systemd-" + std::to_string(getpid()));
+  Unit unit({deploy::binary_directory() + "/trunnion-parameters", "--machine",
+             deploy::find_machine("ac-table"), "--state", directory.string(), "--domain", "92"});
+  EXPECT_TRUE(unit.told("READY=1", 20));
+  expect_pings_until_it_hangs(unit);
+  kill(unit.pid(), SIGTERM);
+  EXPECT_TRUE(unit.told("STOPPING=1", 10));
+  EXPECT_EQ(unit.stop(), 0);
+  std::filesystem::remove_all(directory);
+}
+
+// systemd-analyze ends with status 0 whatever it finds, so any output is a finding.
+TEST(Systemd, TheUnitIsOneThatSystemdUnderstands) {
+  if (std::system("command -v systemd-analyze >/dev/null") != 0) GTEST_SKIP() << "no systemd-analyze here";
+  const auto directory =
+      std::filesystem::temp_directory_path() / ("trunnion-unit-" + std::to_string(getpid()));
+  std::filesystem::create_directories(directory);
+  std::ifstream in(TRUNNION_UNITS "/trunnion@.service");
+  std::string text((std::istreambuf_iterator<char>(in)), {});
+  const std::string installed = "/usr/bin/trunnion";
+  ASSERT_NE(text.find(installed), std::string::npos);
+  text.replace(text.find(installed), installed.size(), deploy::binary_directory() + "/trunnion");
+  std::ofstream(directory / "trunnion@.service") << text;
+  FILE* pipe =
+      popen(("systemd-analyze verify " + (directory / "trunnion@.service").string() + " 2>&1").c_str(), "r");
+  std::string found;
+  std::array<char, 512> buffer;
+  while (const auto n = fread(buffer.data(), 1, buffer.size(), pipe)) found.append(buffer.data(), n);
+  pclose(pipe);
+  EXPECT_EQ(found, "");
+  std::filesystem::remove_all(directory);
+}
+
+}  // namespace
+}  // namespace trunnion::integration
