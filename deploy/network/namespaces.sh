@@ -31,6 +31,8 @@ make_host() {
 give_address() { # HOST ADDRESS
   ip -n "$prefix-$1" address add "$2/24" dev cable
   ip -n "$prefix-$1" link set cable up
+  # A carrier that was lost empties the table of neighbours, and a question lost with it is repeated after 1 s only.
+  ip netns exec "$prefix-$1" sysctl -qw net.ipv4.neigh.cable.retrans_time_ms=20
   ip -n "$prefix-$1" route add default dev cable # multicast goes this way too
 }
 

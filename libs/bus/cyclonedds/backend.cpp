@@ -348,6 +348,12 @@ void print_log(void*, const dds_log_data_t* data) {
     std::fwrite(line.data(), 1, line.size(), stderr);
 }
 
+// The domain's threads would go on encrypting while OpenSSL, loaded with the security plugins, clears up at the
+// end of the process. What is registered later is called earlier.
+void end_before_openssl() {
+  [[maybe_unused]] static const int once = std::atexit([] { dds_delete(DDS_CYCLONEDDS_HANDLE); });
+}
+
 class CycloneBackend : public Backend {
  public:
   explicit CycloneBackend(const NetworkSettings& network) {
@@ -356,6 +362,7 @@ class CycloneBackend : public Backend {
     dds_create_domain(network.domain, configuration(network).c_str());
     participant_ = dds_create_participant(network.domain, participant_qos(network).get(), nullptr);
     if (participant_ < 0) fail("participant in domain " + std::to_string(network.domain), participant_);
+    if (!network.security.empty()) end_before_openssl();
   }
   ~CycloneBackend() override { dds_delete(participant_); }
   std::unique_ptr<RawWriter> writer(const TopicDescription& topic, const EndpointQos& qos) override {
