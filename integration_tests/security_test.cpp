@@ -179,7 +179,8 @@ TEST_P(SecureCluster, RunsAProgramWhileARogueNeitherReadsNorWritesSetpoints) {
     const auto domain = cluster.running().run.domain;
     const std::string vendor = GetParam(), rogue_vendor = vendor == "mixed" ? "cyclonedds" : vendor;
     auto spy = start({rogue_vendor, "", ""}, "read", domain, 4, "gantry_frame");
-    auto rogue = start({rogue_vendor, "", ""}, "write", domain, 4, "gantry_frame");
+    // Not the same topic: the two would talk to each other.
+    auto rogue = start({rogue_vendor, "", ""}, "write", domain, 4, "path_frame");
     std::string text = "G21 G17 G90 G54\nG0 X0 Y0 A0 C0\nG43.4 H1\nG1 X0 Y0 Z80 F6000\n";
     for (int i = 0; i < 20; ++i) text += "X60 Y30 A20 C40 F6000\nX-60 Y-30 A-10 C-20\n";
     cluster.start_text(text + "X0 Y0 A0 C0\nG49\nM30\n");

@@ -345,11 +345,13 @@ std::unique_ptr<dds_qos_t, QosDeleter> participant_qos(const NetworkSettings& ne
 void print_log(void*, const dds_log_data_t* data) {
   const std::string_view line(data->message, data->size);
   if (line.find("ddsi_udp_conn_write") == std::string_view::npos)
-    std::fwrite(line.data(), 1, line.size(), stderr);
+
+    std::fwrite(data->message - data->hdrsize, 1, data->hdrsize + data->size + 1,
+                stderr);  // and the new line
 }
 
-// The domain's threads would go on encrypting while OpenSSL, loaded with the security plugins, clears up at the
-// end of the process. What is registered later is called earlier.
+// The domain's threads would go on encrypting while OpenSSL, loaded with the security plugins, clears up at
+// the end of the process. What is registered later is called earlier.
 void end_before_openssl() {
   [[maybe_unused]] static const int once = std::atexit([] { dds_delete(DDS_CYCLONEDDS_HANDLE); });
 }
