@@ -17,6 +17,7 @@ int main(int argc, char** argv) {
   if (const int status = node::parse_options(app, argc, argv, options); status >= 0) return status;
   try {
     node::Node node(options);
+    if (!node.stand_by()) return 0;
     gateway::GatewayService service(node, own);
     return node.run(service);
   } catch (const std::exception& e) {

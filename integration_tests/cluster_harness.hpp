@@ -58,12 +58,13 @@ inline std::string http_status(std::uint16_t port, const std::string& path) {
 class Cluster {
  public:
   explicit Cluster(const std::string& machine, Time time = Time::virtual_, const std::string& vendor = "",
-                   bool gateway = false) {
+                   bool gateway = false, std::optional<std::uint32_t> domain = std::nullopt) {
     deploy::UpOptions up;
     up.machine = machine;
     up.vendor = vendor;
     up.state_directory = "temporary";
-    up.own_domain = true;
+    up.own_domain = !domain;
+    up.domain = domain;
     up.virtual_time = time == Time::virtual_;
     up.with_gateway = gateway;
     up.port = free_port();
@@ -106,6 +107,7 @@ class Cluster {
         expected_cycle = frame.first + frame.count;
       }
       feedback = frame;
+      if (on_frame) on_frame(frame);
       for (std::uint32_t i = 0; i < frame.count && keep_rows; ++i)
         rows.emplace_back(frame.commanded.begin() + i * frame.axis_count,
                           frame.commanded.begin() + (i + 1) * frame.axis_count);
@@ -190,6 +192,7 @@ class Cluster {
   idl::stream::FeedbackFrame feedback;
   std::vector<std::vector<double>> rows;
   bool keep_rows = false;
+  std::function<void(const idl::stream::FeedbackFrame&)> on_frame;  ///< sees every frame
   std::uint64_t expected_cycle = 0, lost_frames = 0;
 
  private:

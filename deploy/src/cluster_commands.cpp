@@ -9,6 +9,9 @@
 #include "client.hpp"
 #include "cluster.hpp"
 #include "commands.hpp"
+#include "machine/alarms.hpp"
+#include "stream/copy_watch.hpp"
+#include "stream/stage_names.hpp"
 
 namespace trunnion::deploy {
 using bus::Json;
@@ -79,6 +82,20 @@ std::string remark(const Json& row) {
   return (host.empty() ? "" : "on " + host + "  ") + row["detail"].get<std::string>();
 }
 
+// Of a copy of a stage: in step, joining, or dropped by a channel; empty for other services.
+std::string standing(const idl::service::ClusterService& service, bool in_step,
+                     const std::map<std::array<std::uint32_t, 3>, idl::service::Alarm>& alarms) {
+  const auto stage = stream::stage_of(service.service);
+  if (stage == 0 || service.pid == 0) return "";
+  const auto part = stream::copy_part(stage, service.copy);
+  const auto number = machine::alarm_definition("redundancy_lost").number;
+  for (const auto& [key, alarm] : alarms)
+    if (alarm.active && alarm.number == number && alarm.part == part &&
+        alarm.source == stream::stage_name(stream::stage_channel))
+      return "dropped";
+  return in_step ? "in step" : "joining";
+}
+
 int status(const Common& common) {
   const auto cluster = find_cluster(common.domain);
   Client client(cluster.run.domain);
@@ -115,7 +132,8 @@ int status(const Common& common) {
     row["uptime_seconds"] = s != state.end() ? s->second.uptime : 0;
     row["frames_per_second"] = s != state.end() ? s->second.frames_per_second : 0;
     row["frames_lost"] = s != state.end() ? s->second.frames_lost : 0;
-    row["in_step"] = s != state.end() && s->second.in_step;
+    row["in_step"] = s != state.end() && s->second.pid == service.pid && s->second.in_step;
+    row["standing"] = standing(service, row["in_step"].get<bool>(), alarm);
     row["contract_matches"] = a != announced.end() && a->second.contract == topics::contract_hash;
     if (a != announced.end() && a->second.contract != topics::contract_hash)
       row["state"] = "CONTRACT " + a->second.contract + ", expected " + topics::contract_hash;
@@ -134,14 +152,15 @@ int status(const Common& common) {
   } else {
     std::printf("%s, domain %u, %s time, %s\n\n", list.machine.c_str(), cluster.run.domain,
                 list.virtual_time ? "virtual" : "real", list.ready ? "ready" : "NOT READY");
-    std::printf("%-14s %-4s %-11s %8s %-14s %10s %10s %8s  %s\n", "service", "copy", "vendor", "pid", "state",
-                "uptime s", "frames/s", "restarts", "");
+    std::printf("%-14s %-4s %-11s %8s %-14s %-8s %10s %10s %8s  %s\n", "service", "copy", "vendor", "pid",
+                "state", "standing", "uptime s", "frames/s", "restarts", "");
     for (const auto& row : services)
-      std::printf("%-14s %-4d %-11s %8d %-14s %10.1f %10.1f %8d  %s\n",
+      std::printf("%-14s %-4d %-11s %8d %-14s %-8s %10.1f %10.1f %8d  %s\n",
                   row["service"].get<std::string>().c_str(), row["copy"].get<int>(),
                   row["vendor"].get<std::string>().c_str(), row["pid"].get<int>(),
-                  row["state"].get<std::string>().c_str(), row["uptime_seconds"].get<double>(),
-                  row["frames_per_second"].get<double>(), row["restarts"].get<int>(), remark(row).c_str());
+                  row["state"].get<std::string>().c_str(), row["standing"].get<std::string>().c_str(),
+                  row["uptime_seconds"].get<double>(), row["frames_per_second"].get<double>(),
+                  row["restarts"].get<int>(), remark(row).c_str());
     if (!active.empty()) std::printf("\nalarms\n");
     for (const auto& a : active)
       std::printf("  %u %s (%s): %s\n", a["number"].get<unsigned>(), a["severity"].get<std::string>().c_str(),

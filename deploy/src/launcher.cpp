@@ -21,9 +21,14 @@ namespace {
 
 constexpr std::uint32_t launcher_instance = 1000;  // and one more for each host after the first
 constexpr double start_patience = 15;              // s until a cluster that is not ready has failed
-constexpr double beat_patience = 2.0;              // s without a heartbeat until a process counts as hung
+constexpr double own_pause = 0.5;                  // s the launcher itself may not run and still judge others
 volatile std::sig_atomic_t stop_requested = 0;
 void request_stop(int) { stop_requested = 1; }
+
+std::string name_of(const machine::ServiceEntry& e) {
+  if (e.service == "channel") return e.service + " " + std::to_string(e.channel);
+  return e.copy > 0 ? e.service + " (copy " + std::to_string(e.copy) + ")" : e.service;
+}
 
 std::uint32_t instance_on(const LaunchOptions& options) {
   const auto& hosts = options.machine.hosts;
@@ -113,8 +118,10 @@ void Launcher::start(Process& process) {
     _exit(127);
   }
   process.pid = pid;
-  process.started = process.heard = node::monotonic_seconds();
+  process.policy.started(node::monotonic_seconds());
   process.lifecycle = idl::service::Lifecycle::UNCONFIGURED;
+  process.in_step = false;
+  process.alive = false;
 }
 
 bool Launcher::has_live_twin(const Process& process) const {
@@ -125,6 +132,13 @@ bool Launcher::has_live_twin(const Process& process) const {
   });
 }
 
+void Launcher::lose(Process& process, const std::string& how) {
+  process.lost = true;
+  process.lifecycle = idl::service::Lifecycle::UNCONFIGURED;
+  alarms_.raise(has_live_twin(process) ? "redundancy_lost" : "service_lost", process.entry.instance,
+                "Service " + name_of(process.entry) + " " + how);
+}
+
 // Collects dead children; before the first readiness a death is a failed start.
 bool Launcher::reap(std::string& failure) {
   int status = 0;
@@ -133,6 +147,7 @@ bool Launcher::reap(std::string& failure) {
       if (!process.local || process.pid != pid) continue;
       process.pid = 0;
       process.lifecycle = idl::service::Lifecycle::UNCONFIGURED;
+      process.policy.ended(node::monotonic_seconds());
       const auto& e = process.entry;
       const std::string how = WIFSIGNALED(status)
                                   ? "was ended by signal " + std::to_string(WTERMSIG(status))
@@ -142,17 +157,12 @@ bool Launcher::reap(std::string& failure) {
         failure = line.empty() ? e.service + " " + how : line;
         return false;
       }
-      const auto what = e.service +
-                        (e.service == "channel" ? " " + std::to_string(e.channel)
-                         : e.copy > 0           ? " (copy " + std::to_string(e.copy) + ")"
-                                                : "") +
-                        " " + how;
-      process.lost = true;
-      alarms_.raise(has_live_twin(process) ? "redundancy_lost" : "service_lost", e.instance,
-                    "Service " + what);
-      const double lived = node::monotonic_seconds() - process.started;
-      process.start_again_at = node::monotonic_seconds() +
-                               (lived > 5 ? 0 : std::min(2.0, 0.1 * (1u << std::min(process.restarts, 5u))));
+      lose(process, how);
+      if (process.policy.gave_up())
+        alarms_.raise("service_not_staying", e.instance,
+                      "Service " + name_of(e) + " does not stay up: it ended " +
+                          std::to_string(process.policy.short_lives()) +
+                          " times in a row. A reset of the alarms starts it again");
       ++process.restarts;
     }
   }
@@ -168,28 +178,40 @@ void Launcher::hear(Process& process, const idl::service::ServiceState& state, d
     return;
   }
   if (!process.local && process.pid != state.pid) {
-    if (process.started > 0) ++process.restarts;
+    if (process.alive) ++process.restarts;
     process.pid = state.pid;
-    process.started = now;
+    process.policy.started(now);
   }
   if (process.pid != state.pid) return;
-  process.heard = now;
+  process.policy.beat(now);
+  process.alive = true;
   process.lifecycle = state.lifecycle;
   process.detail = state.detail;
+  process.in_step = state.in_step;
+}
+
+void Launcher::watch_local(Process& process, double now, bool judge) {
+  if (!judge) process.policy.wait(now);
+  const auto pulse = process.policy.pulse(now);
+  if (pulse != Pulse::beating && !process.lost && was_ready_) lose(process, "gives no sign of life");
+  if (pulse == Pulse::hung) {
+    kill(process.pid, SIGKILL);  // replaced like one that died
+    process.policy.wait(now);
+  }
 }
 
 // Silence is all that can be seen of another host. Its own launcher tells of a process that died; the first
 // host's tells of the others' silence, and they of the first host's.
-void Launcher::watch_remote(Process& process, double now) {
-  if (process.pid == 0 || now - process.heard <= beat_patience) return;
+void Launcher::watch_remote(Process& process, double now, bool judge) {
+  if (process.pid == 0) return;
+  if (!judge) process.policy.wait(now);
+  if (process.policy.pulse(now) == Pulse::beating) return;
   process.pid = 0;
   process.lifecycle = idl::service::Lifecycle::UNCONFIGURED;
   process.detail = "host " + process.entry.host + " is silent";
   const auto& first = options_.machine.hosts.front().name;
-  if (!was_ready_ || (!is_first_host() && process.entry.host != first)) return;
-  process.lost = true;
-  alarms_.raise(has_live_twin(process) ? "redundancy_lost" : "service_lost", process.entry.instance,
-                "Service " + process.entry.service + " on host " + process.entry.host + " is silent");
+  if (was_ready_ && (is_first_host() || process.entry.host == first))
+    lose(process, "on host " + process.entry.host + " is silent");
 }
 
 void Launcher::listen() {
@@ -209,27 +231,35 @@ void Launcher::listen() {
       alarms_.clear("contract_mismatch", announcement.instance);
   }
   idl::service::AlarmReset reset;
-  while (resets_.take(reset)) alarms_.reset();
+  while (resets_.take(reset)) {
+    for (auto& process : processes_) process.policy.retry();
+    alarms_.reset();
+  }
 }
 
 void Launcher::watch() {
   const double now = node::monotonic_seconds();
+  // Who was suspended itself has not heard anybody.
+  const bool judge = now - last_watch_ < own_pause;
+  last_watch_ = now;
   for (auto& process : processes_) {
     if (!process.local) {
-      watch_remote(process, now);
+      watch_remote(process, now, judge);
     } else if (process.pid == 0) {
-      if (now >= process.start_again_at) start(process);
-    } else if (now - process.heard > beat_patience && now - process.started > start_patience / 2) {
-      // A process that does not beat hangs; it is replaced like one that died.
-      kill(process.pid, SIGKILL);
-      process.heard = now;
-    }
-    if (process.lost && process.lifecycle == idl::service::Lifecycle::ACTIVE) {
-      process.lost = false;
-      alarms_.release("service_lost", process.entry.instance);
-      alarms_.release("redundancy_lost", process.entry.instance);
+      if (process.policy.due(now)) start(process);
+      continue;
+    } else {
+      watch_local(process, now, judge);
     }
   }
+  if (process.lost && process.lifecycle == idl::service::Lifecycle::ACTIVE) {
+    process.lost = false;
+    alarms_.release("service_lost", process.entry.instance);
+    alarms_.release("service_not_staying", process.entry.instance);
+  }
+  // Nobody needs to acknowledge that there are two again.
+  if (!process.lost && process.in_step) alarms_.clear("redundancy_lost", process.entry.instance);
+}
 }
 
 bool Launcher::all_ready() const {
@@ -247,7 +277,7 @@ bool Launcher::is_first_host() const {
 bool Launcher::begun() const {
   if (options_.machine.hosts.empty()) return ready_;
   return std::all_of(processes_.begin(), processes_.end(),
-                     [](const Process& p) { return !p.local || (p.pid != 0 && p.heard > p.started); });
+                     [](const Process& p) { return !p.local || p.alive; });
 }
 
 void Launcher::publish() {

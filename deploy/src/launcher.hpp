@@ -12,6 +12,7 @@
 #include "machine/machine.hpp"
 #include "node/alarm_board.hpp"
 #include "node/notify.hpp"
+#include "restart_policy.hpp"
 
 namespace trunnion::deploy {
 
@@ -38,20 +39,24 @@ class Launcher {
     machine::ServiceEntry entry;
     int pid = 0;
     std::uint32_t restarts = 0;
-    double started = 0, start_again_at = 0, heard = 0;
+    RestartPolicy policy;
     idl::service::Lifecycle lifecycle = idl::service::Lifecycle::UNCONFIGURED;
     std::string detail;
     bool lost = false;
+    bool in_step = false;  ///< of the process that runs now
     std::string log;
-    bool local = true;  ///< on this host; of the others only their heartbeats are known
+    bool alive = false;  ///< has beaten since its start
+    bool local = true;   ///< on this host; of the others only their heartbeats are known
   };
   void start(Process& process);
   void stop_all();
   bool reap(std::string& failure);
+  void lose(Process& process, const std::string& how);
   void listen();
   void watch();
   void hear(Process& process, const idl::service::ServiceState& state, double now);
-  void watch_remote(Process& process, double now);
+  void watch_local(Process& process, double now, bool judge);
+  void watch_remote(Process& process, double now, bool judge);
   bool all_ready() const;
   bool is_first_host() const;
   bool begun() const;
@@ -69,7 +74,7 @@ class Launcher {
   std::vector<Process> processes_;
   std::string start_failure_;
   bool ready_ = false, was_ready_ = false;
-  double last_published_ = 0;
+  double last_published_ = 0, last_watch_ = 0;
 };
 
 /// The last line a service wrote before it ended.

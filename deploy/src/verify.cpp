@@ -58,6 +58,8 @@ class Feeding {
         answers_(recording),
         states_(bus.reader(topics::service_state)) {
     for (const auto& handle : plan.topics) read(handle);
+    for (const auto& mark : plan.end)
+      if (!plan.topics.contains(mark.track.topic->handle)) read(mark.track.topic->handle);
     read("alarm");
     if (options.service == "channel") {
       read("program_request");

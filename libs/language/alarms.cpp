@@ -46,7 +46,8 @@ std::string_view word_at(std::string_view text) {
 
 }  // namespace
 
-Alarm make_alarm(const Fault& fault, std::string_view line_text, std::uint32_t program, std::uint32_t line) {
+Alarm make_alarm(const Fault& fault, std::string_view line_text, std::uint32_t program, std::uint32_t line,
+                 std::string_view detail) {
   Alarm alarm;
   alarm.number = fault.number;
   alarm.program = program;
@@ -68,6 +69,10 @@ Alarm make_alarm(const Fault& fault, std::string_view line_text, std::uint32_t p
   if (!word.empty()) {
     append(": ");
     for (const char c : word) *out++ = static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? '?' : c;
+  }
+  if (!detail.empty()) {
+    append(", ");
+    append(detail.substr(0, 48));
   }
   *out = '\0';
   return alarm;

@@ -39,9 +39,13 @@ enum class AlarmNumber : std::uint16_t {
   orientation_impossible = 1116,
   tool_vector_needed = 1117,
   parameter_line = 1118,
-  move_not_available = 1119,
+  not_resumable = 1119,
   tool_vector_opposite = 1120,
   tool_vector_way = 1121,
+  orientation_travel = 1122,
+  tool_vector_travel = 1123,
+  tool_vector_pole = 1124,
+  tapping_spindle_missing = 1125,
   arc_centre_missing = 1201,
   arc_centre_and_radius = 1202,
   arc_radius_zero = 1203,
@@ -144,12 +148,15 @@ inline constexpr std::array alarm_texts = {
     AlarmText{AlarmNumber::orientation_impossible, "no rotary angles give this tool direction"},
     AlarmText{AlarmNumber::tool_vector_needed, "rotary words are not allowed with G43.5: I J K"},
     AlarmText{AlarmNumber::parameter_line, "line of the parameter input G10 L50 takes N P R or G11 only"},
-    AlarmText{AlarmNumber::move_not_available,
-              "skip moves and rigid tapping are not available on this channel"},
+    AlarmText{AlarmNumber::not_resumable,
+              "an interrupted rigid tapping, or a program behind lost skip moves, cannot be resumed: reset"},
+    AlarmText{AlarmNumber::tapping_spindle_missing, "rigid tapping without a spindle on this machine"},
     AlarmText{AlarmNumber::tool_vector_opposite,
               "tool vector is opposite to the one before: no shortest way"},
-    AlarmText{AlarmNumber::tool_vector_way,
-              "tool cannot be led to this direction: out of reach, travel or pole on the way"},
+    AlarmText{AlarmNumber::tool_vector_way, "tool cannot be led to this direction: out of reach on the way"},
+    AlarmText{AlarmNumber::orientation_travel, "tool direction is beyond the travel of a rotary axis"},
+    AlarmText{AlarmNumber::tool_vector_travel, "axis would leave its travel while the tool is led"},
+    AlarmText{AlarmNumber::tool_vector_pole, "tool would come too near to a pole of the rotary axes"},
     AlarmText{AlarmNumber::arc_centre_missing, "circle without centre or radius"},
     AlarmText{AlarmNumber::arc_centre_and_radius, "circle with both centre and radius"},
     AlarmText{AlarmNumber::arc_radius_zero, "circle with radius zero"},
@@ -194,7 +201,7 @@ inline constexpr std::array alarm_texts = {
     AlarmText{AlarmNumber::cycle_depth_missing, "cycle without depth or R level"},
     AlarmText{AlarmNumber::cycle_peck_missing, "cycle needs Q of at least 0.001 mm"},
     AlarmText{AlarmNumber::cycle_inverse_time, "cycle is not possible with G93"},
-    AlarmText{AlarmNumber::cycle_lead_missing, "tapping needs F, and S with G94"},
+    AlarmText{AlarmNumber::cycle_lead_missing, "tapping needs F and S"},
     AlarmText{AlarmNumber::cycle_repeats,
               "repetitions: K or L, not both, and not of an incremental polar radius"},
     AlarmText{AlarmNumber::cycle_return_level, "back boring G87 needs G98"},
@@ -248,12 +255,14 @@ struct Alarm {
   std::uint32_t program = 0;                  ///< as Command::program
   std::uint32_t line = 0;                     ///< from 1
   std::uint32_t column = 0;                   ///< in characters (code points) from 1
-  std::array<char, 128> text{};               ///< what is wrong and the word at fault, ends with a zero
+  std::array<char, 160> text{};               ///< what is wrong and the word at fault, ends with a zero
   std::uint8_t calls = 0;                     ///< how many calls led here
   std::array<CallSite, max_nesting> chain{};  ///< their places, the main program's first
 };
 
-/// Composes the alarm for a fault in `line_text`; `line_text` may be empty when the line is not at hand.
-Alarm make_alarm(const Fault& fault, std::string_view line_text, std::uint32_t program, std::uint32_t line);
+/// Composes the alarm for a fault in `line_text`, which may be empty when the line is not at hand. `detail`
+/// (at most 48 printable characters) ends the text.
+Alarm make_alarm(const Fault& fault, std::string_view line_text, std::uint32_t program, std::uint32_t line,
+                 std::string_view detail = {});
 
 }  // namespace trunnion::language

@@ -63,4 +63,35 @@ AlarmNumber arc_from_radius(const AxisValues& start, const AxisValues& target, d
   return AlarmNumber::none;
 }
 
+AxisValues point_on_arc(const AxisValues& start, const AxisValues& target, const Arc& arc, double share) {
+  Vector3 n = arc.normal;
+  if (n == Vector3{}) n[plane_axes(arc.plane).normal] = 1;
+  const auto arm = [&](const AxisValues& p) {
+    Vector3 d{p[0] - arc.centre[0], p[1] - arc.centre[1], p[2] - arc.centre[2]};
+    const double along = d[0] * n[0] + d[1] * n[1] + d[2] * n[2];
+    for (std::size_t i = 0; i < 3; ++i) d[i] -= along * n[i];
+    return d;
+  };
+  const Vector3 from = arm(start), to = arm(target);
+  const double radius = std::hypot(from[0], from[1], from[2]);
+  const double growth = std::hypot(to[0], to[1], to[2]) - radius;
+  const Vector3 left{n[1] * from[2] - n[2] * from[1], n[2] * from[0] - n[0] * from[2],
+                     n[0] * from[1] - n[1] * from[0]};
+  const double sweep = arc.sweep / degrees_per_radian * (arc.clockwise ? -1 : 1);
+  const auto on_circle = [&](double s, std::size_t i) {
+    return (1 + growth * s / radius) * (std::cos(s * sweep) * from[i] + std::sin(s * sweep) * left[i]);
+  };
+  AxisValues point = start;
+  for (std::size_t axis = 0; axis < axis_count; ++axis) {
+    if (axis > Z || !(radius > 0)) {
+      point[axis] += share * (target[axis] - start[axis]);
+      continue;
+    }
+    // What the circle does not reach goes in proportion: the rise, and the rounding of the sweep.
+    const double rest = target[axis] - (start[axis] - from[axis]) - on_circle(1, axis);
+    point[axis] += on_circle(share, axis) - from[axis] + share * rest;
+  }
+  return point;
+}
+
 }  // namespace trunnion::language

@@ -45,4 +45,8 @@ AlarmNumber arc_from_centre(const AxisValues& start, const AxisValues& target,
 AlarmNumber arc_from_radius(const AxisValues& start, const AxisValues& target, double radius, unsigned turns,
                             double deviation, Arc& arc);
 
+/// Where the arc from `start` to `target` is when `share` (0..1) of its sweep is done: on the circle or
+/// helix, the radius running linearly between those of its ends; all other axes in proportion.
+AxisValues point_on_arc(const AxisValues& start, const AxisValues& target, const Arc& arc, double share);
+
 }  // namespace trunnion::language

@@ -11,6 +11,7 @@ namespace {
 constexpr double smallest_peck = 0.001;  // mm
 constexpr double longest_dwell = 99999.999;
 constexpr std::uint32_t most_holes = 9999;
+constexpr std::uint32_t spindle_stop = 5;  // M5
 
 constexpr bool is_tapping(std::uint8_t cycle) { return cycle == 74 || cycle == 84; }
 constexpr bool is_shifting(std::uint8_t cycle) { return cycle == 76 || cycle == 87; }
@@ -109,7 +110,12 @@ Fault BlockExecutor::read_cycle_words(const Block& block, const Codes& codes) {
   if (is_shifting(modal_.cycle) && (block.letters & letter_bits("IJ")) != 0) {
     shift_ = {length_word(block, 'I'), length_word(block, 'J')};
   }
-  if (is_tapping(modal_.cycle) && block.has('J')) return whole_number(block, 'J', 1, 6, tapping_axis_);
+  if (is_tapping(modal_.cycle) && block.has('J')) {
+    if (const Fault fault = whole_number(block, 'J', 1, 6, tapping_axis_)) return fault;
+    // An axis of its own under that letter is not the spindle.
+    const unsigned letter = A + tapping_axis_ - 1;
+    if (((channel_axes_ >> letter) & 1u) != 0) return {AlarmNumber::value_range, block.offset('J')};
+  }
   return {};
 }
 
@@ -126,7 +132,7 @@ Fault BlockExecutor::check_cycle(std::uint16_t at) const {
     return {is_tapping(modal_.cycle) ? AlarmNumber::cycle_lead_missing : AlarmNumber::feed_missing, at};
   }
   const bool speed = modal_.spindle_mode == SpindleMode::speed && modal_.spindle_speed > 0;
-  if (is_tapping(modal_.cycle) && modal_.feed_mode == FeedMode::per_minute && !speed) {
+  if (is_tapping(modal_.cycle) && !speed) {
     return {AlarmNumber::cycle_lead_missing, at};
   }
   return {};
@@ -189,9 +195,27 @@ Fault BlockExecutor::begin_holes(CommandQueue& out) {
           : modal_.spindle_speed > 0                   ? modal_.feed / modal_.spindle_speed
                                                        : 0;
   if (modal_.cycle == 74) lead_ = -lead_;
+  if (is_tapping(modal_.cycle) && modal_.spindle_direction != SpindleDirection::stopped) {
+    parked_ = modal_.spindle_direction;
+    modal_.spindle_direction = SpindleDirection::stopped;
+    push(CommandKind::auxiliary, out).number = spindle_stop;
+  }
   activity_ = Activity::holes;
   hole_.stop();
   return next_hole_step(out);
+}
+
+// Tapping couples the spindle, which must stand for that. When another code has ended the cycle it turns
+// again as before, unless the program has said otherwise meanwhile.
+void BlockExecutor::turn_spindle_again(const MCodes& codes, CommandQueue& out) {
+  if (parked_ == SpindleDirection::stopped || is_tapping(modal_.cycle)) return;
+  bool ordered = false;
+  for (std::size_t i = 0; i < codes.count; ++i) ordered |= codes.codes[i].group == MGroup::spindle;
+  if (!ordered) {
+    modal_.spindle_direction = parked_;
+    push(CommandKind::auxiliary, out).number = parked_ == SpindleDirection::cw ? 3 : 4;
+  }
+  parked_ = SpindleDirection::stopped;
 }
 
 // Steps until one of them makes a command, or all holes are done.

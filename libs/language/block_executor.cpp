@@ -38,6 +38,7 @@ void BlockExecutor::start(const AxisValues& position, const ModalState& modal) {
   needs_position_ = draining_ = parameter_input_ = swing_due_ = false;
   activity_ = Activity::none;
   later_ = {};
+  parked_ = SpindleDirection::stopped;
   pattern_.clear();
   hole_.stop();
   curve_.stop();
@@ -51,6 +52,7 @@ Fault BlockExecutor::execute(const Block& block, std::uint32_t program, std::uin
   program_ = program;
   line_ = line;
   used_ = Block::bit('N');
+  detail_number_ = AlarmNumber::none;
   if (const Fault fault = check_numbers(block)) return fault;
   if (const Fault fault = collect_g(block, codes)) return fault;
   if (const Fault fault = collect_m(block, m)) return fault;
@@ -87,6 +89,7 @@ Fault BlockExecutor::run(const Block& block, const Codes& codes, const MCodes& m
   if (const Fault fault = select_spindle_and_tool(block, codes, out)) return fault;
   if (const Fault fault = auxiliary(m, When::before, out)) return fault;
   if (const Fault fault = set_modal_codes(block, codes)) return fault;
+  turn_spindle_again(m, out);
   if (const Fault fault = set_tool_length(block, codes, out)) return fault;
   if (const Fault fault = set_cutter_compensation(block, codes)) return fault;
   if (const Fault fault = act(block, codes, out)) return fault;
@@ -295,6 +298,7 @@ Fault BlockExecutor::auxiliary(const MCodes& codes, When when, CommandQueue& out
     if (code.when != when) continue;
     if (code.action == MAction::tool_change) modal_.tool = modal_.selected_tool;
     if (code.group == MGroup::spindle) {
+      parked_ = SpindleDirection::stopped;
       modal_.spindle_direction = code.number == 3   ? SpindleDirection::cw
                                  : code.number == 4 ? SpindleDirection::ccw
                                                     : SpindleDirection::stopped;

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <string_view>
 
 #include "language/block.hpp"
 #include "language/canonical.hpp"
@@ -63,6 +64,11 @@ class BlockExecutor {
 
   /// Appends the end of the program; `number` as Command::number.
   Fault end_program(std::uint32_t number, std::uint32_t program, std::uint32_t line, CommandQueue& out);
+
+  /// What the last fault of a block says beyond its number; empty when that is not `number`.
+  std::string_view fault_detail(AlarmNumber number) const {
+    return number == detail_number_ ? std::string_view(detail_.data()) : std::string_view{};
+  }
 
   /// Change a table as G10 does, `value` in mm or degrees in place of the old.
   Fault write_work_offset(std::uint8_t index, std::size_t axis, double value, std::uint32_t program,
@@ -176,12 +182,17 @@ class BlockExecutor {
   AxisValues programmed_target(const Block& block, std::uint32_t axes);
   void apply_polar(const Block& block, std::uint32_t axes, AxisValues& target);
   Fault move(const Block& block, CommandQueue& out);
-  Fault move_on_arc(const Block& block, const AxisValues& target, std::uint16_t at, CommandQueue& out);
+  Fault find_arc(const Block& block, const AxisValues& target, std::uint16_t at, Arc& arc);
+  /// `arc` in contour coordinates.
+  Fault move_on_arc(const Arc& arc, const AxisValues& target, CommandQueue& out);
   Fault set_turns(const Block& block, const AxisValues& target, std::uint16_t at, Arc& arc);
   Fault read_tool_vector(const Block& block, std::optional<Vector3>& direction, std::uint16_t& at);
-  Fault point_tool(const Vector3& direction, std::uint16_t at, AxisValues& target) const;
-  Fault lead_tool(const Vector3& direction, std::uint16_t at, const AxisValues& program, CommandQueue& out);
+  Fault point_tool(const Vector3& direction, std::uint16_t at, AxisValues& target);
+  Fault lead_tool(CommandKind kind, const Arc& arc, const Vector3& direction, std::uint16_t at,
+                  const AxisValues& end, CommandQueue& out);
   Fault next_vector_piece(CommandQueue& out);
+  Fault refuse_orientation(const Vector3& direction, std::uint16_t at);
+  Fault refuse_direction(AlarmNumber number, const Vector3& nearest, std::uint16_t at);
   Fault check_feed(const Block& block, std::uint16_t at) const;
   Fault start_curve(const Block& block, const Codes& codes);
   Fault continue_curve(const Block& block);
@@ -200,6 +211,7 @@ class BlockExecutor {
   Fault check_cycle(std::uint16_t at) const;
   Fault run_pattern(const Block& block, const Codes& codes, CommandQueue& out);
   Fault begin_holes(CommandQueue& out);
+  void turn_spindle_again(const MCodes& codes, CommandQueue& out);
   Fault next_hole_step(CommandQueue& out);
   Fault hole_step(const HoleStep& step, CommandQueue& out);
 
@@ -263,15 +275,20 @@ class BlockExecutor {
   std::array<double, 2> shift_{};  // of G76 and G87, mm in the plane
   double lead_ = 0;                // mm, of tapping, positive right-hand
   std::uint32_t tapping_axis_ = 0;
+  SpindleDirection parked_ = SpindleDirection::stopped;  // how it turned before tapping stopped it
   HolePattern pattern_;
   HoleCycle hole_;
   HolePattern::Point hole_place_{};
-  struct VectorLine {
-    AxisValues start{}, end{};  // frame of the commands; of `end` the linear axes
+  struct VectorMove {
+    CommandKind kind = CommandKind::line;
+    AxisValues start{}, end{};  // frame of the commands; of `end` all but the rotary axes
+    Arc arc{};                  // the whole one
     Vector3 direction{};        // workpiece frame
     std::uint32_t piece = 0, pieces = 1;
   };
-  VectorLine vector_line_;
+  VectorMove vector_move_;
+  AlarmNumber detail_number_ = AlarmNumber::none;
+  std::array<char, 64> detail_{};
   NurbsCurve curve_;
   Vector3 control_point_{};  // program coordinates, the last one of the curve
 };

@@ -71,7 +71,7 @@ Fault BlockExecutor::move(const Block& block, CommandQueue& out) {
   constexpr std::uint32_t arc_bits = letter_bits("IJKR");
   constexpr std::uint32_t vector_bits = letter_bits("IJK");
   const bool arc = modal_.motion == 2 || modal_.motion == 3;
-  const bool vector = modal_.tool_vector && !arc;
+  const bool vector = modal_.tool_vector;
   const std::uint32_t moving =
       block.letters & (axis_bits | (arc ? arc_bits : 0u) | (vector ? vector_bits : 0u));
   if (moving == 0) return {};
@@ -83,17 +83,24 @@ Fault BlockExecutor::move(const Block& block, CommandQueue& out) {
     if (const Fault fault = check_feed(block, at)) return fault;
   }
   AxisValues target = programmed_target(block, axes);
-  if (arc) return move_on_arc(block, target, at, out);
-  if (vector) {
-    std::optional<Vector3> direction;
-    std::uint16_t vector_at = 0;
+  const CommandKind kind = arc                  ? CommandKind::arc
+                           : modal_.motion == 1 ? CommandKind::line
+                                                : CommandKind::rapid;
+  std::optional<Vector3> direction;
+  std::uint16_t vector_at = 0;
+  if (vector)
     if (const Fault fault = read_tool_vector(block, direction, vector_at)) return fault;
-    if (direction && modal_.motion == 1 && !compensation_.active())
-      return lead_tool(*direction, vector_at, target, out);
-    if (direction)
-      if (const Fault fault = point_tool(*direction, vector_at, target)) return fault;
+  Command made;
+  if (arc)
+    if (const Fault fault = find_arc(block, target, at, made.arc)) return fault;
+  if (direction && compensation_.active())
+    if (const Fault fault = point_tool(*direction, vector_at, target)) return fault;
+  if (direction && !compensation_.active()) {
+    made.kind = kind;
+    to_command_frame(made);
+    return lead_tool(kind, made.arc, *direction, vector_at, command_from_program(target), out);
   }
-  return move_straight(modal_.motion == 1 ? CommandKind::line : CommandKind::rapid, target, out);
+  return arc ? move_on_arc(made.arc, target, out) : move_straight(kind, target, out);
 }
 
 Fault BlockExecutor::check_feed(const Block& block, std::uint16_t at) const {
@@ -179,7 +186,7 @@ Fault BlockExecutor::set_turns(const Block& block, const AxisValues& target, std
   if (!block.has(lead_letter)) return {};
   // The third centre letter is the lead of a helix: how far it goes in a turn, hence how many turns.
   const double height = std::abs(target[normal] - program_position_[normal]);
-  if (height < no_distance) return {};
+  if (height < no_distance || (modal_.tool_vector && block.has('R'))) return {};
   const double lead = std::abs(length_word(block, lead_letter));
   if (block.has('L')) return {};
   if (!(lead > 0) || height / lead > most_turns) return {AlarmNumber::value_range, at};
@@ -188,9 +195,9 @@ Fault BlockExecutor::set_turns(const Block& block, const AxisValues& target, std
   return {};
 }
 
-Fault BlockExecutor::move_on_arc(const Block& block, const AxisValues& target, std::uint16_t at,
-                                 CommandQueue& out) {
-  Arc arc;
+// With G43.5 and R the letters I J K are the tool's.
+Fault BlockExecutor::find_arc(const Block& block, const AxisValues& target, std::uint16_t at, Arc& arc) {
+  const bool vector = modal_.tool_vector && block.has('R');
   arc.plane = modal_.plane;
   arc.clockwise = modal_.motion == 2;
   const PlaneAxes plane = plane_axes(modal_.plane);
@@ -199,7 +206,7 @@ Fault BlockExecutor::move_on_arc(const Block& block, const AxisValues& target, s
   bool centre = false;
   for (const std::uint8_t axis : {plane.first, plane.second}) {
     const char letter = static_cast<char>('I' + axis);
-    if (!block.has(letter)) continue;
+    if (!block.has(letter) || vector) continue;
     at = block.offset(letter);
     centre_offset[axis] = length_word(block, letter);
     centre = true;
@@ -225,6 +232,10 @@ Fault BlockExecutor::move_on_arc(const Block& block, const AxisValues& target, s
   const AxisValues contour_centre = frame_.contour_from_program(middle);
   arc.centre = {contour_centre[X], contour_centre[Y], contour_centre[Z]};
   if (frame_.flips(modal_.plane)) arc.clockwise = !arc.clockwise;
+  return {};
+}
+
+Fault BlockExecutor::move_on_arc(const Arc& arc, const AxisValues& target, CommandQueue& out) {
   Command command;
   command.kind = CommandKind::arc;
   command.arc = arc;

@@ -8,7 +8,7 @@ namespace trunnion::language {
 namespace {
 
 constexpr double longest_dwell = 99999.999;  // seconds
-constexpr std::uint32_t highest_skip_input = 99;
+constexpr std::uint32_t highest_skip_input = 4;
 
 }  // namespace
 

@@ -99,9 +99,10 @@ Fault BlockExecutor::set_tilt(const Block& block, const Codes& codes, CommandQue
 // check_context() has seen to it that the block is due and alone.
 Fault BlockExecutor::swing(const Codes& codes, CommandQueue& out) {
   const std::uint16_t at = codes.offset(Group::one_block);
+  const Vector3 direction = frame_.turned_by_tilt({0, 0, 1});
+  const auto turned = environment_.orient(direction, position_, swing_choice_);
+  if (!turned) return refuse_orientation(direction, at);
   swing_due_ = false;
-  const auto turned = environment_.orient(frame_.turned_by_tilt({0, 0, 1}), position_, swing_choice_);
-  if (!turned) return {AlarmNumber::orientation_impossible, at};
   AxisValues target = position_;
   for (const Axis axis : {A, B, C, U, V, W}) target[axis] = (*turned)[axis];
   const double feed = modal_.feed;

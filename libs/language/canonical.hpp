@@ -126,7 +126,8 @@ struct Command {
   std::uint32_t number = 0;   ///< M, T or message number; of end: 2, 30, or 0 for the end of the text
   double value = 0;           ///< S in 1/min, or in m/min when modal.spindle_mode says surface
   Table table = Table::none;  ///< of kind table
-  bool chord = false;         ///< a line that is a piece of a smooth curve (G6.2): its ends are no corners
+  bool chord = false;  ///< a piece of a smooth curve (G6.2) or of a way of tool vectors (G43.5): its ends are
+                       ///< no corners
   ModalState modal{};
 };
 

@@ -159,9 +159,9 @@ inline constexpr std::array g_codes = {
     GCode{730, Group::cycle, "chip-breaking drilling: Q per peck", Origin::fanuc, "0.2",
           "G73 Z-4 R1 Q2 F100"},
     GCode{740, Group::cycle,
-          "rigid tapping, left-hand thread; G94: lead = F / S, G95: lead = F; Q per peck; J1..6 taps with A "
-          "B C U V W",
-          Origin::fanuc, "0.2", "G95 G74 Z-4 R1 F1"},
+          "rigid tapping, left-hand thread, at S; G94: lead = F / S, G95: lead = F; Q per peck; J1..6: the "
+          "spindle is the axis A B C U V W",
+          Origin::fanuc, "0.2", "G95 S100 G74 Z-4 R1 F1"},
     GCode{760, Group::cycle, "fine boring: oriented stop at the bottom, shift Q or I J, rapid out",
           Origin::fanuc, "0.2", "G76 Z-4 R1 Q1 F100"},
     GCode{780, Group::one_block, "active drilling cycle on a line: first hole, spacing I, angle J, K holes",
@@ -175,7 +175,7 @@ inline constexpr std::array g_codes = {
     GCode{830, Group::cycle, "deep drilling: Q per peck, out to R between", Origin::iso, "0.2",
           "G83 Z-4 R1 Q2 F100"},
     GCode{840, Group::cycle, "rigid tapping, right-hand thread; words as G74", Origin::iso, "0.2",
-          "G95 G84 Z-4 R1 F1"},
+          "G95 S100 G84 Z-4 R1 F1"},
     GCode{850, Group::cycle, "boring, out at feed", Origin::iso, "0.2", "G85 Z-4 R1 F100"},
     GCode{860, Group::cycle, "boring, spindle stops, rapid out", Origin::iso, "0.2", "G86 Z-4 R1 F100"},
     GCode{870, Group::cycle, "back boring: R the bottom, Z the end of the bore, shift Q or I J; needs G98",

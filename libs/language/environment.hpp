@@ -41,13 +41,22 @@ enum class RotaryChoice : std::uint8_t { shortest, positive, negative, continuou
 struct VectorWay {
   enum class Fault : std::uint8_t {
     none,
-    opposite,   ///< the directions are opposite: there is no shortest way
-    end,        ///< no rotary angles give the direction at the end
-    on_the_way  ///< out of reach or of travel, or too near to a pole, on the way
+    opposite,    ///< the directions are opposite: there is no shortest way
+    end,         ///< no rotary angles give the direction at the end
+    on_the_way,  ///< nor one on the way there
+    travel,      ///< a rotary axis would leave its travel
+    pole         ///< the way comes too near to a pole
   };
   Fault fault = Fault::none;
+  Vector3 nearest{};  ///< of end and on_the_way: unit vector of the nearest direction in reach, or zero
   bool turns_first = false;  ///< at a pole: an axis must turn before the direction can change
   std::uint32_t pieces = 1;  ///< in so many pieces the axes may go in proportion
+};
+
+/// An axis that a move would take out of its travel, and the position farthest out, mm or degrees.
+struct TravelBreach {
+  Axis axis = X;
+  double position = 0;
 };
 
 inline constexpr std::uint8_t work_offset_count = 54;
@@ -100,6 +109,12 @@ class Environment {
     static_cast<void>(choice);
     return std::nullopt;
   }
+  /// Of a direction that orient() refuses: the nearest one the machine reaches; nothing when it is in reach
+  /// and only the travel of the rotary axes, or the asked sense, is in the way.
+  virtual std::optional<Vector3> nearest_direction(const Vector3& direction,
+                                                   const AxisValues& current) const {
+    return orient(direction, current, RotaryChoice::shortest) ? std::nullopt : std::optional(Vector3{});
+  }
   /// The way of the tool from its direction at the rotary axes of `current` to `direction` (as orient()).
   virtual VectorWay vector_way(const AxisValues& current, const Vector3& direction) const {
     VectorWay way;
@@ -110,6 +125,15 @@ class Environment {
   virtual AxisValues on_vector_way(const AxisValues& current, const Vector3& direction, double s) const {
     static_cast<void>(s);
     return orient(direction, current, RotaryChoice::continuous).value_or(current);
+  }
+  /// The axis that leaves its travel when the tip makes `move` (rapid, line or arc, its target's linear axes)
+  /// from `start` while the tool goes a way without fault.
+  virtual std::optional<TravelBreach> vector_breach(const AxisValues& start, const Command& move,
+                                                    const Vector3& direction) const {
+    static_cast<void>(start);
+    static_cast<void>(move);
+    static_cast<void>(direction);
+    return std::nullopt;
   }
   /// Machine coordinates of the control point to the frame of Transformation::rtcp: the linear axes change,
   /// the rotary ones stay. `tool_length` in mm along the tool axis.

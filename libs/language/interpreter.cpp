@@ -74,7 +74,7 @@ Interpreter::State Interpreter::report_line_status(LineReader::Status status, St
 }
 
 Alarm Interpreter::located(const Fault& fault, std::string_view line) const {
-  Alarm alarm = make_alarm(fault, line, frames_[depth_].program, line_);
+  Alarm alarm = make_alarm(fault, line, frames_[depth_].program, line_, executor_.fault_detail(fault.number));
   alarm.calls = static_cast<std::uint8_t>(depth_);
   for (std::size_t i = 0; i < depth_; ++i) alarm.chain[i] = {frames_[i].program, frames_[i + 1].call_line};
   return alarm;
@@ -156,10 +156,12 @@ Interpreter::State Interpreter::go(const Flow& flow, std::string_view line) {
   return call(subprogram, line);
 }
 
-void Interpreter::set_position(const AxisValues& position) {
-  const bool skipped = executor_.needs_position();
+void Interpreter::set_position(const AxisValues& position, const AxisValues& touched) {
+  if (executor_.needs_position()) {
+    executor_.set_position(touched);
+    control_.set_skip_position(executor_.workpiece_position());
+  }
   executor_.set_position(position);
-  if (skipped) control_.set_skip_position(executor_.workpiece_position());
 }
 
 AxisValues Interpreter::workpiece(const Command& command) const {

@@ -65,7 +65,9 @@ class Interpreter {
   /// Tells where the machine really is, in the frame of modal().transformation, for the blocks not read yet:
   /// after a move that ended elsewhere than commanded. Only sensible when next() has nothing prepared: after
   /// Step::end, or the command of a block's end.
-  void set_position(const AxisValues& position);
+  void set_position(const AxisValues& position) { set_position(position, position); }
+  /// The same behind a skip move; `touched` is where its input found the axes (#5061).
+  void set_position(const AxisValues& position, const AxisValues& touched);
 
   /// What the variables of time show from now on; before the first call they show zero.
   void set_time(const ControlTime& time) { control_.set_time(time); }

@@ -222,6 +222,12 @@ std::array<AxisValues, 3> BlendedPath::derivatives(std::uint64_t index, double s
   return d;
 }
 
+bool BlendedPath::bends(std::uint64_t index, double s) const {
+  bool found = false;
+  for_joins(index, s, [&](const PathBlock& join) { found = found || join.bend_weight > 0; });
+  return found;
+}
+
 double BlendedPath::next_knot(std::uint64_t index, double s) const {
   double next = (*this)[index].end();
   const double least = s + 1e-9;

@@ -40,7 +40,7 @@ struct PathBlock {
 /// them is known, and stay readable for a while after they have been executed.
 class BlendedPath {
  public:
-  static constexpr std::uint64_t capacity = 8192;
+  static constexpr std::uint64_t capacity = 16384;
   /// No join reaches farther than this, mm or degrees, or over more than this number of joins.
   static constexpr double longest_reach = 5;
   static constexpr int most_joins = 24;
@@ -75,6 +75,9 @@ class BlendedPath {
   /// First to third derivative at s, taken from the side of the path where `inside` lies, a coordinate on the
   /// same stretch between two ends of roundings.
   std::array<AxisValues, 3> derivatives(std::uint64_t index, double s, double inside) const;
+
+  /// A jump of curvature is rounded at s: the curve there is no polynomial of the third degree.
+  bool bends(std::uint64_t index, double s) const;
 
   /// The next place behind `s` on block `index` where a rounding begins, turns or ends; at most the block's
   /// end.

@@ -16,6 +16,8 @@ constexpr double mixed_share = 0.4;
 // Through a chain the derivatives vary between the ends of a cell, which are all that is looked at.
 constexpr double chained_share = 0.995;
 constexpr double fastest = 1e5;
+// Cells of one call, so that a long path known at once does not take long in one cycle.
+constexpr std::uint64_t most_at_once = 2048;
 
 }  // namespace
 
@@ -82,6 +84,7 @@ void CellBuilder::start(const Limits& limits, const geometry::Chain* chain, doub
   block_ = 0;
   at_ = 0;
   fresh_ = true;
+  stop_ = false;
 }
 
 PathRates CellBuilder::rates_at(const BlendedPath& path, std::uint64_t block, double s, double inside) const {
@@ -99,7 +102,24 @@ LimitCell CellBuilder::make(const BlendedPath& path, double from, double to) con
   cell.rapid = block.rapid;
   cell.block = block_;
   const double middle = (from + to) / 2, length = to - from;
-  const PathRates begins = rates_at(path, block_, from, middle), ends = rates_at(path, block_, to, middle);
+  PathRates begins = path.derivatives(block_, from, middle), ends;
+  if (block.path.is_arc() || path.bends(block_, middle)) {
+    ends = path.derivatives(block_, to, middle);
+  } else {  // a polynomial of the third degree
+    ends[2] = begins[2];
+    for (std::size_t i = 0; i < axis_count; ++i) {
+      ends[1][i] = begins[1][i] + begins[2][i] * length;
+      ends[0][i] = begins[0][i] + length * (begins[1][i] + begins[2][i] * (length / 2));
+    }
+  }
+  double bend = 0;
+  if (limits_.centripetal_acceleration > 0)
+    bend = std::max(std::hypot(begins[1][0], begins[1][1], begins[1][2]),
+                    std::hypot(ends[1][0], ends[1][1], ends[1][2]));
+  if (chain_ != nullptr) {
+    begins = machine_rates(path.position(block_, from), begins, chain_, tool_length_);
+    ends = machine_rates(path.position(block_, to), ends, chain_, tool_length_);
+  }
   CellRates rates;
   for (std::size_t i = 0; i < axis_count; ++i) {
     rates.third[i] = std::max(std::abs(begins[2][i]), std::abs(ends[2][i]));
@@ -108,10 +128,7 @@ LimitCell CellBuilder::make(const BlendedPath& path, double from, double to) con
     rates.first[i] =
         std::max(std::abs(begins[0][i]), std::abs(ends[0][i])) + rates.third[i] * length * length / 8;
   }
-  if (limits_.centripetal_acceleration > 0) {
-    const PathRates a = path.derivatives(block_, from, middle), b = path.derivatives(block_, to, middle);
-    rates.curvature = std::max(std::hypot(a[1][0], a[1][1], a[1][2]), std::hypot(b[1][0], b[1][1], b[1][2]));
-  }
+  rates.curvature = bend;
   limit_cell(cell, rates, limits_);
   return cell;
 }
@@ -145,7 +162,7 @@ double CellBuilder::overlap_time(const BlendedPath& path, const LimitCell& befor
 }
 
 // Longest cell at s: arcs by 6 degrees, turns of the rotary axes by 2 degrees through a chain.
-double CellBuilder::longest(const BlendedPath& path, double) const {
+double CellBuilder::longest(const BlendedPath& path) const {
   const PathBlock& block = path[block_];
   double most = 1e9;
   if (block.path.is_arc() && block.path.curvature() > 0) most = 0.1 / block.path.curvature();
@@ -157,18 +174,24 @@ double CellBuilder::longest(const BlendedPath& path, double) const {
   return most;
 }
 
+// End of the cell that begins at `from`, at most `upto`.
+double CellBuilder::cell_end(const BlendedPath& path, double from, double upto) const {
+  const double knot = std::min(upto, path.next_knot(block_, from));
+  const double most = longest(path);
+  return knot - from > most ? from + (knot - from) / std::ceil((knot - from) / most) : knot;
+}
+
 void CellBuilder::extend(const BlendedPath& path, CellRing& cells, std::uint64_t keep) {
-  while (block_ < path.settled_blocks() && cells.size() - keep < CellRing::capacity - 64) {
+  const std::uint64_t begun = cells.size();
+  while (block_ < path.settled_blocks() && cells.size() - keep < CellRing::capacity - 64 &&
+         cells.size() < begun + most_at_once) {
     const PathBlock& block = path[block_];
     if (fresh_) {
       at_ = block.at;
       fresh_ = false;
     }
     const bool first = at_ == block.at;
-    const double knot = path.next_knot(block_, at_);
-    const double most = longest(path, at_);
-    double to = knot;
-    if (knot - at_ > most) to = at_ + (knot - at_) / std::ceil((knot - at_) / most);
+    const double to = cell_end(path, at_, block.end());
     LimitCell cell = make(path, at_, to);
     cell.stop = first && block.stop;
     cell.wait_cycles = cell.stop ? block.wait_cycles : 0;
@@ -177,6 +200,49 @@ void CellBuilder::extend(const BlendedPath& path, CellRing& cells, std::uint64_t
     cells.push(cell);
     at_ = to;
     if (to >= block.end()) ++block_;
+  }
+}
+
+void CellBuilder::resume(std::uint64_t block, double s) {
+  block_ = block;
+  at_ = s;
+  fresh_ = stop_ = false;
+}
+
+bool CellBuilder::extend_back(const BlendedPath& path, CellRing& cells, std::uint64_t keep,
+                              std::uint64_t oldest) {
+  const std::uint64_t begun = cells.size();
+  while (true) {
+    const PathBlock& block = path[block_];
+    // The cells of a block are cut from its start, so how many there are is counted before they get their
+    // places in the opposite order.
+    std::uint64_t count = 0;
+    for (double s = block.at; s < at_; s = cell_end(path, s, at_)) ++count;
+    const std::uint64_t room =
+        CellRing::capacity - 64 - std::min(CellRing::capacity - 64, cells.size() - keep);
+    double from = block.at;
+    if (count > room) {
+      if (room < most_at_once) return false;
+      for (; count > room; --count) from = cell_end(path, from, at_);
+    }
+    const std::uint64_t first = cells.size();
+    double s = from;
+    for (std::uint64_t k = 0; k < count; ++k) {
+      const double to = cell_end(path, s, at_);
+      LimitCell cell = make(path, s, to);
+      cell.at = -to;
+      cell.end = -s;
+      cells[first + count - 1 - k] = cell;
+      s = to;
+    }
+    cells.append(count);
+    if (count > 0 && stop_) cells[first].stop = true;
+    stop_ = (from == block.at && block.stop) || (stop_ && count == 0);
+    at_ = from;
+    if (from > block.at) return false;
+    if (block_ <= oldest) return true;
+    --block_;
+    if (cells.size() >= begun + most_at_once) return false;
   }
 }
 

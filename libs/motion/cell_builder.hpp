@@ -32,15 +32,23 @@ class CellBuilder {
   /// on.
   void extend(const BlendedPath& path, CellRing& cells, std::uint64_t keep);
 
-  /// Coordinate up to which there are cells.
-  double built() const { return at_; }
+  /// The next cells begin at the coordinate `s` of `block`: for extend() up to its end, for extend_back()
+  /// down to its start.
+  void resume(std::uint64_t block, double s);
+
+  /// As extend(), for motion backwards: cells for the path before resume()'s place down to the start of the
+  /// block `oldest`. Their coordinate is the negative path coordinate, so it grows with the motion. True when
+  /// that start is reached.
+  bool extend_back(const BlendedPath& path, CellRing& cells, std::uint64_t keep, std::uint64_t oldest);
+
   std::uint64_t next_block() const { return block_; }
 
  private:
   PathRates rates_at(const BlendedPath& path, std::uint64_t block, double s, double inside) const;
   double overlap_time(const BlendedPath& path, const LimitCell& before, const LimitCell& after) const;
   LimitCell make(const BlendedPath& path, double from, double to) const;
-  double longest(const BlendedPath& path, double s) const;
+  double cell_end(const BlendedPath& path, double from, double upto) const;
+  double longest(const BlendedPath& path) const;
 
   Limits limits_;
   const geometry::Chain* chain_ = nullptr;
@@ -48,6 +56,7 @@ class CellBuilder {
   std::uint64_t block_ = 0;
   double at_ = 0;
   bool fresh_ = true;
+  bool stop_ = false;  // backwards: motion stands at at_
 };
 
 }  // namespace trunnion::motion

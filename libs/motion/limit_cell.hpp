@@ -52,6 +52,8 @@ class CellRing {
   std::uint64_t size() const { return pushed_; }
   void clear() { pushed_ = 0; }
   void push(const LimitCell& cell) { (*this)[pushed_++] = cell; }
+  /// `count` cells behind the last one have been written in place.
+  void append(std::uint64_t count) { pushed_ += count; }
 
  private:
   std::vector<LimitCell> cells_;

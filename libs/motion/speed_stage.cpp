@@ -15,6 +15,8 @@ constexpr double rounding_distance = 1e-9;
 constexpr double rounding = 1e-7;
 // How many stopping distances ahead weak places are taken into account before they have to be.
 constexpr double far_sight = 3;
+// Speeds this near are the same; of an acceleration, what a cycle of the jerk of its share changes.
+constexpr double cruise_rounding = 1e-9;
 // A rest this small in front of a stop is rounding.
 constexpr double arrival_distance = 1e-8;
 
@@ -27,6 +29,7 @@ void SpeedStage::clear() {
   current_ = 0;
   entered_ = finished_ = false;
   wait_ = 0;
+  clear_until_ = 0;
   braking_for_.reset();
   tail_.reset();
   overlap_allowed_ = true;
@@ -225,6 +228,47 @@ bool SpeedStage::accept(const PhaseList& action) {
   return true;
 }
 
+// A cycle at constant speed, when nothing within the distance that is looked at asks for another: what the
+// search would find as well, but cells are looked at once and not in every cycle.
+bool SpeedStage::cruises(const Overrides& now, const Look& look) {
+  const double target = speed_of(cells_[current_], look);
+  if (!(target > 0) || std::abs(state_.v - target) > cruise_rounding * target ||
+      std::abs(state_.a) > cruise_rounding * cells_[current_].ramps[0].jerk * cycle_)
+    return false;
+  const bool known = clear_until_ > current_ && clear_speed_ == target && clear_overrides_.feed == now.feed &&
+                     clear_overrides_.rapid == now.rapid;
+  if (!known) {
+    clear_until_ = current_;
+    clear_speed_ = target;
+    clear_overrides_ = now;
+    clear_ramp_ = cells_[current_].ramp(target);
+    clear_stop_ = braking_distance(target, 0, 0, clear_ramp_);
+  }
+  const double step = target * cycle_;
+  while (true) {
+    if (clear_until_ > current_ && cells_[clear_until_ - 1].end - state_.s > far_sight * clear_stop_ + step)
+      break;
+    if (clear_until_ >= cells_.size()) return false;
+    const LimitCell& cell = cells_[clear_until_];
+    if ((cell.stop && clear_until_ > current_) || speed_of(cell, look) < target) {
+      clear_until_ = 0;
+      return false;
+    }
+    const RampLimits& own = cell.ramp(target);
+    if (own.acceleration < clear_ramp_.acceleration || own.jerk < clear_ramp_.jerk) {
+      clear_ramp_.acceleration = std::min(clear_ramp_.acceleration, own.acceleration);
+      clear_ramp_.jerk = std::min(clear_ramp_.jerk, own.jerk);
+      clear_stop_ = braking_distance(target, 0, 0, clear_ramp_);
+    }
+    ++clear_until_;
+  }
+  state_ = {state_.s + step, target, 0};
+  while (state_.s > cells_[current_].end) ++current_;
+  stop_.clear();
+  stop_.add(Transition(target, 0, 0, clear_ramp_));
+  return true;
+}
+
 // Follows the transition for as long a part of the cycle as the obstacle it leads to allows, and brakes for
 // that obstacle for the rest. When even braking at once is not enough for another one, that braking is what
 // is followed.
@@ -350,6 +394,7 @@ void SpeedStage::step(const Overrides& overrides) {
   Look look{!hold, now.feed, now.rapid, rounding_distance};
   if (now.feed <= 0) look.feed = 1e-3;  // what follows a rapid that goes on is approached slowly
   if (now.rapid <= 0) look.rapid = 1e-3;
+  if (!hold && !braking_for_ && cruises(now, look)) return;
   if (braking_for_ && !hold) {
     const Transition transition(state_.v, state_.a, braking_for_->speed, braking_for_->ramp);
     const bool over = transition.duration() <= cycle_;

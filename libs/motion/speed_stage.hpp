@@ -54,6 +54,8 @@ class SpeedStage {
   const PathState& state() const { return state_; }
   bool standing() const { return state_.v == 0 && state_.a == 0; }
   std::uint64_t current_cell() const { return current_; }
+  /// Cells before this one will not be looked at again.
+  std::uint64_t oldest_needed() const { return current_ > 4 ? current_ - 4 : 0; }
   /// The first cell has been entered.
   bool started() const { return entered_; }
   /// Standing at a stop until its wait is over.
@@ -93,6 +95,7 @@ class SpeedStage {
   Transition wish(const Look& look, bool hold) const;
   Obstacle obstacle_ahead(const PathState& state, std::uint64_t cell, const Look& look) const;
   Outcome judge(const PathState& state, const Look& look) const;
+  bool cruises(const Overrides& now, const Look& look);
   bool follow(const Transition& wished, const Look& look, int depth);
   void move(const Transition& wished, const Look& look);
   bool accept(const PhaseList& action);
@@ -106,6 +109,12 @@ class SpeedStage {
   std::uint64_t current_ = 0;
   bool entered_ = false, finished_ = false;
   int wait_ = 0;
+  // While speed is constant: cells before clear_until_ allow clear_speed_ and braking from it with
+  // clear_ramp_ takes clear_stop_ mm.
+  std::uint64_t clear_until_ = 0;
+  double clear_speed_ = 0, clear_stop_ = 0;
+  RampLimits clear_ramp_;
+  Overrides clear_overrides_;
   PhaseList stop_;  // the way to a standstill that is known to keep all limits
   std::optional<Obstacle> braking_for_;
   Overrides last_;

@@ -13,8 +13,10 @@ using language::Command;
 using language::CommandKind;
 
 constexpr double longest_dwell_cycles = 1e9;
-// Blocks kept behind the current one, since roundings reach back.
+// Blocks kept behind the oldest that may be moved on, since roundings reach back.
 constexpr std::uint64_t blocks_behind = 2 * BlendedPath::most_joins + 8;
+// A path that has come to rest begins anew beyond this, mm or degrees: its coordinate gets too coarse.
+constexpr double longest_path = 1e5;
 // Moves shorter than this share of the tolerance are joined to the next one.
 constexpr double merge_share = 0.05;
 
@@ -39,7 +41,8 @@ Trajectory::Trajectory(const Limits& limits, const geometry::Chain* chain, doubl
       limits_(effective(limits, cycle_seconds)),
       chain_(chain),
       path_(blend_rules(limits_)),
-      speed_(cycle_seconds) {
+      speed_(cycle_seconds),
+      back_(cycle_seconds) {
   start({}, language::Transformation::none, 0);
 }
 
@@ -53,6 +56,8 @@ void Trajectory::start(const AxisValues& position, language::Transformation tran
   restart_path();
 }
 
+void Trajectory::set_limits(const Limits& limits) { limits_ = effective(limits, cycle_); }
+
 void Trajectory::restart_path() {
   path_.clear(blend_rules(limits_));
   builder_.start(limits_, active_chain_, tool_length_);
@@ -60,20 +65,20 @@ void Trajectory::restart_path() {
   pending_.reset();
   tail_.reset();
   stop_next_ = exact_next_ = true;
-  aborting_ = false;
+  aborting_ = retrace_wanted_ = retracing_ = false;
 }
 
-std::uint64_t Trajectory::oldest_cell() const {
-  const std::uint64_t current = speed_.current_cell();
-  return current > 4 ? current - 4 : 0;
+std::uint64_t Trajectory::current_block() const {
+  const CellRing& cells = moving().cells();
+  return cells.size() > 0 ? cells[moving().current_cell()].block : path_.oldest();
 }
+
+double Trajectory::current_s() const { return retracing_ ? -back_.state().s : speed_.state().s; }
 
 bool Trajectory::can_accept() const {
   if (aborting_) return false;
-  if (path_.size() == 0) return true;
-  const std::uint64_t current =
-      speed_.cells().size() > 0 ? speed_.cells()[speed_.current_cell()].block : path_.oldest();
-  return path_.size() - current + 2 + blocks_behind < BlendedPath::capacity;
+  return path_.size() == 0 ||
+         path_.size() - current_block() + 2 + history + blocks_behind < BlendedPath::capacity;
 }
 
 bool Trajectory::push(const Command& command) { return push_move(command, 0); }
@@ -117,7 +122,7 @@ bool Trajectory::push_move(const Command& command, double fraction) {
   if (command.kind == CommandKind::dwell) {
     const double cycles = std::ceil(command.dwell_seconds * (1 - fraction) / cycle_ - 1e-9);
     if (!(cycles >= 0) || cycles > longest_dwell_cycles) return false;
-    if (fresh) restart_path();
+    if (fresh && path_.end() > longest_path) restart_path();
     flush();
     block.path = PathSegment::line(end_, end_);
     block.wait_cycles = static_cast<int>(cycles);
@@ -150,7 +155,7 @@ bool Trajectory::push_move(const Command& command, double fraction) {
   if (length > 0 && !block.rapid && !(block.feed > 0 && std::isfinite(block.feed))) return false;
   if (!movable(end_, command.target)) return false;
   if (length > 0) {
-    if (fresh) restart_path();
+    if (fresh && path_.end() > longest_path) restart_path();
     if (pending_ && block.path.is_arc()) flush();
     if (pending_) block.path = PathSegment::line(joined_, command.target);
     end_ = command.target;
@@ -190,8 +195,35 @@ void Trajectory::append(PathBlock block) {
 
 void Trajectory::plan() {
   path_.update(speed_.finished());
-  builder_.extend(path_, speed_.cells(), oldest_cell());
+  builder_.extend(path_, speed_.cells(), speed_.oldest_needed());
   speed_.extended();
+}
+
+void Trajectory::plan_back() {
+  const std::uint64_t oldest = path_.oldest() > 0 ? path_.oldest() + blocks_behind : 0;
+  back_complete_ = back_builder_.extend_back(path_, back_.cells(), back_.oldest_needed(), oldest);
+  back_.set_finished(back_complete_);
+  back_.extended();
+}
+
+// At a standstill: the other stage goes on from here.
+void Trajectory::turn_round() {
+  const std::uint64_t block = current_block();
+  const double s = current_s();
+  retracing_ = !retracing_;
+  if (retracing_) {
+    back_builder_.start(limits_, active_chain_, tool_length_);
+    back_builder_.resume(block, s);
+    back_.clear();
+    back_complete_ = false;
+    plan_back();
+  } else {
+    const bool finished = speed_.finished();
+    builder_.resume(block, s);
+    speed_.clear();
+    speed_.set_finished(finished);
+    plan();
+  }
 }
 
 void Trajectory::finish() {
@@ -206,7 +238,9 @@ void Trajectory::abort() {
   if (!at_rest()) aborting_ = true;
 }
 
-bool Trajectory::at_rest() const {
+bool Trajectory::at_rest() const { return path_.size() == 0 || (!retracing_ && !retrace_wanted_ && done()); }
+
+bool Trajectory::done() const {
   return path_.size() == 0 || (speed_.finished() && !pending_ && builder_.next_block() == path_.size() &&
                                speed_.at_end() && !tail_);
 }
@@ -219,17 +253,25 @@ Setpoint Trajectory::step(double feed_override, double rapid_override, bool hold
     tail_->time -= cycle_;
     if (tail_->time <= 0) tail_.reset();
   }
-  speed_.allow_overlap(!tail_ && !aborting_);
-  speed_.step({feed_override, rapid_override, hold || aborting_});
-  if (const auto tail = speed_.take_tail()) tail_ = tail;
+  if (path_.size() == 0) retrace_wanted_ = retracing_ = false;
+  bool turning = retrace_wanted_ != retracing_;
+  if (turning && !tail_ && moving().standing() && !aborting_) {
+    turn_round();
+    turning = false;
+  }
+  if (retracing_ && !back_complete_) plan_back();
+  SpeedStage& stage = retracing_ ? back_ : speed_;
+  stage.allow_overlap(!tail_ && !aborting_ && !turning);
+  stage.step({feed_override, rapid_override, hold || aborting_ || turning});
+  if (const auto tail = stage.take_tail()) tail_ = tail;
 
   const AxisValues before = output_;
   Setpoint setpoint;
-  if (path_.size() > 0 && speed_.cells().size() > 0) {
-    const LimitCell& cell = speed_.cells()[speed_.current_cell()];
+  if (path_.size() > 0 && stage.cells().size() > 0) {
+    const LimitCell& cell = stage.cells()[stage.current_cell()];
     const PathBlock& block = path_[cell.block];
-    const double s = speed_.state().s;
-    if (speed_.started()) output_ = path_.position(cell.block, s);
+    const double s = current_s();
+    if (stage.started()) output_ = path_.position(cell.block, s);
     if (tail_) {
       const std::uint64_t last = speed_.cells()[tail_->cell].block;
       const double rest = tail_->jerk * tail_->time * tail_->time * tail_->time / 6;
@@ -240,12 +282,12 @@ Setpoint Trajectory::step(double feed_override, double rapid_override, bool hold
     line_ = block.line;
     sequence_ = block.sequence;
     const double length = block.path.length();
-    const double done = s >= block.end() ? (speed_.waiting() ? 0 : 1) : (s - block.at) / length;
+    const double done = s >= block.end() ? (stage.waiting() ? 0 : 1) : (s - block.at) / length;
     setpoint.fraction = block.fraction_offset + (1 - block.fraction_offset) * done;
     setpoint.rapid = block.rapid;
-    setpoint.dwelling = speed_.waiting();
+    setpoint.dwelling = stage.waiting();
     setpoint.distance_to_go = block.path.target();
-    if (aborting_ && speed_.standing() && !tail_) {
+    if (aborting_ && stage.standing() && !tail_) {
       restart_path();
       end_ = joined_ = output_;
       setpoint.distance_to_go = output_;
@@ -264,7 +306,7 @@ Setpoint Trajectory::step(double feed_override, double rapid_override, bool hold
   setpoint.line = line_;
   setpoint.sequence = sequence_;
   setpoint.feed = std::hypot(output_[0] - before[0], output_[1] - before[1], output_[2] - before[2]) / cycle_;
-  setpoint.path_speed = path_.size() > 0 ? speed_.state().v : 0;
+  setpoint.path_speed = path_.size() > 0 ? moving().state().v : 0;
   setpoint.at_rest = at_rest();
   return setpoint;
 }

@@ -32,6 +32,9 @@ struct Setpoint {
 /// construction nothing allocates.
 class Trajectory {
  public:
+  /// Executed moves kept for retrace().
+  static constexpr std::uint64_t history = 5000;
+
   /// `chain` is what Transformation::rtcp goes through; it must outlive the trajectory. nullptr: no
   /// transformation. `cycle_seconds` above 0.
   Trajectory(const Limits& limits, const geometry::Chain* chain, double cycle_seconds);
@@ -40,6 +43,9 @@ class Trajectory {
   /// pushed. A change of frame or tool length is: finish, wait for at_rest, start with the same place in the
   /// new frame.
   void start(const AxisValues& position, language::Transformation transformation, double tool_length);
+
+  /// Other limits, from the next start() on.
+  void set_limits(const Limits& limits);
 
   /// Room for at least one more command.
   bool can_accept() const;
@@ -61,9 +67,19 @@ class Trajectory {
   /// Brakes on the path and drops what is left. When at_rest, position() is where it stopped.
   void abort();
 
+  /// Backwards along the executed path from the next standstill on, which step() brakes for; off: forwards
+  /// again in the same way. Goes back over stops without their waits to the oldest move kept, at least
+  /// `history` of them when the path since start() is that long, and stands there. Within all limits, at the
+  /// programmed feeds under the overrides; setpoints name the moves they are on. While it is on the
+  /// trajectory is never at rest; abort() ends it.
+  void retrace(bool on) { retrace_wanted_ = on; }
+  /// Standing at the oldest move kept.
+  bool retraced_to_start() const { return retracing_ && back_complete_ && back_.at_end(); }
+
   /// The next cycle. Overrides 0..1.5 (rapid 0..1), 0 or `hold` brake to a standstill on the path.
   Setpoint step(double feed_override, double rapid_override, bool hold);
 
+  /// Everything pushed is done and the motion is not going back.
   bool at_rest() const;
   /// Last setpoint's position.
   const AxisValues& position() const { return output_; }
@@ -80,7 +96,12 @@ class Trajectory {
   void flush();
   void plan();
   void restart_path();
-  std::uint64_t oldest_cell() const;
+  bool done() const;
+  void turn_round();
+  void plan_back();
+  const SpeedStage& moving() const { return retracing_ ? back_ : speed_; }
+  std::uint64_t current_block() const;
+  double current_s() const;
 
   double cycle_;
   Limits limits_;
@@ -88,14 +109,15 @@ class Trajectory {
   const geometry::Chain* active_chain_ = nullptr;
   double tool_length_ = 0;
   BlendedPath path_;
-  CellBuilder builder_;
-  SpeedStage speed_;
+  CellBuilder builder_, back_builder_;
+  SpeedStage speed_, back_;  ///< forwards, and backwards over the same path
   AxisValues end_{}, joined_{}, output_{};
   std::optional<PathBlock> pending_;  ///< a move too short to be worth a segment, until more follows
   std::optional<Tail> tail_;
   std::uint32_t line_ = 0, sequence_ = 0;
   double fraction_ = 0;
   bool stop_next_ = true, exact_next_ = true, aborting_ = false;
+  bool retrace_wanted_ = false, retracing_ = false, back_complete_ = false;
 };
 
 }  // namespace trunnion::motion

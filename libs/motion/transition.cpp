@@ -5,13 +5,6 @@
 
 namespace trunnion::motion {
 
-PathState integrate(const PathState& state, double jerk, double time) {
-  return {state.s + time * (state.v + time * (state.a / 2 + time * jerk / 6)),
-          state.v + time * (state.a + time * jerk / 2), state.a + time * jerk};
-}
-
-double settled_speed(double v, double a, double jerk) { return v + a * std::abs(a) / (2 * jerk); }
-
 // With the sign of the change taken out: from the acceleration b up (or down) to a peak p, along it, and back
 // to zero changes the speed by p^2 / j - b^2 / (2 j) when nothing is held.
 Transition::Transition(double v, double a, double target, const RampLimits& limits) : target_(target) {

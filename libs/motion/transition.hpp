@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 
 namespace trunnion::motion {
@@ -21,7 +22,10 @@ struct JerkPhase {
 };
 
 /// `state` after `time` seconds of constant jerk.
-PathState integrate(const PathState& state, double jerk, double time);
+inline PathState integrate(const PathState& state, double jerk, double time) {
+  return {state.s + time * (state.v + time * (state.a / 2 + time * jerk / 6)),
+          state.v + time * (state.a + time * jerk / 2), state.a + time * jerk};
+}
 
 /// Three phases of constant jerk that end at a speed with no acceleration left, in the least time. A present
 /// acceleration beyond the limit is brought back to it first.
@@ -50,6 +54,6 @@ class Transition {
 double braking_distance(double v, double a, double target, const RampLimits& limits);
 
 /// Speed at which the acceleration would be gone when it is taken back at once.
-double settled_speed(double v, double a, double jerk);
+inline double settled_speed(double v, double a, double jerk) { return v + a * std::abs(a) / (2 * jerk); }
 
 }  // namespace trunnion::motion

@@ -7,7 +7,15 @@ namespace trunnion::node {
 AlarmBoard::AlarmBoard(bus::Bus& bus, std::uint32_t instance, std::string service)
     : instance_(instance), service_(std::move(service)), writer_(bus.writer(topics::alarm)) {}
 
-void AlarmBoard::publish(Entry& entry) { writer_.write(entry.alarm); }
+void AlarmBoard::publish(Entry& entry) {
+  if (!muted_) writer_.write(entry.alarm);
+}
+
+void AlarmBoard::speak() {
+  muted_ = false;
+  for (auto& [key, entry] : entries_)
+    if (entry.alarm.active) publish(entry);
+}
 
 namespace {
 std::string cut(std::string text) {

@@ -25,6 +25,9 @@ class AlarmBoard {
   void clear(const std::string& name, std::uint32_t part);
   /// Clears every alarm whose cause is gone. Call when an AlarmReset arrives.
   void reset();
+  /// Nobody is told of the alarms until speak(): what a shadow finds wrong is not the machine's.
+  void mute() { muted_ = true; }
+  void speak();
   bool active(const std::string& name, std::uint32_t part) const;
   bool any() const;
 
@@ -34,6 +37,7 @@ class AlarmBoard {
     bool cause = true;
   };
   void publish(Entry& entry);
+  bool muted_ = false;
   std::uint32_t instance_;
   std::string service_;
   bus::Writer<idl::service::Alarm> writer_;

@@ -12,8 +12,11 @@
 namespace trunnion::node {
 namespace {
 
+constexpr double beat_period = 0.25;  // s
 volatile std::sig_atomic_t stop_requested = 0;
 void request_stop(int) { stop_requested = 1; }
+volatile std::sig_atomic_t take_over_requested = 0;
+void request_take_over(int) { take_over_requested = 1; }
 
 std::string host_name() {
   char name[64] = {};
@@ -45,6 +48,9 @@ Node::Node(Options options)
   sigaction(SIGTERM, &action, nullptr);
   sigaction(SIGINT, &action, nullptr);
   signal(SIGPIPE, SIG_IGN);
+  action.sa_handler = request_take_over;
+  sigaction(SIGUSR1, &action, nullptr);
+  if (options_.shadow) alarms_.mute();
   if (options_.parent_bound) {
     prctl(PR_SET_PDEATHSIG, SIGTERM);
     if (getppid() == 1) stop_requested = 1;
@@ -63,9 +69,26 @@ void Node::announce() {
                        getpid(), topics::contract_hash, "0.1.0"});
 }
 
-void Node::beat(const Service& service) {
+void Node::obey_take_over() {
+  if (take_over_requested == 0 || !options_.shadow) return;
+  options_.shadow = false;
+  alarms_.speak();
+}
+
+bool Node::stand_by() {
+  Health health;
+  health.lifecycle = idl::service::Lifecycle::INACTIVE;
+  health.detail = "shadow";
+  while (stop_requested == 0 && options_.shadow) {
+    if (monotonic_seconds() - last_beat_ >= beat_period) beat(health);
+    bus_.signal().wait(0.005);
+    obey_take_over();
+  }
+  return stop_requested == 0;
+}
+
+void Node::beat(const Health& health) {
   const double now = monotonic_seconds();
-  const auto health = service.health();
   const double elapsed = now - last_beat_;
   state_.lifecycle = health.lifecycle;
   state_.detail = health.detail.substr(0, 128);
@@ -85,7 +108,6 @@ void Node::beat(const Service& service) {
 }
 
 int Node::run(Service& service) {
-  constexpr double beat_period = 0.25;
   auto last_lifecycle = idl::service::Lifecycle::UNCONFIGURED;
   while (stop_requested == 0) {
     bus_.signal().wait(std::min(service.period(), beat_period));
@@ -97,16 +119,18 @@ int Node::run(Service& service) {
       service.alarms_reset();
       alarms_.reset();
     }
+    obey_take_over();
     service.pump();
     notifier_.alive(monotonic_seconds());
     if (const double now = monotonic_seconds(); now - last_beat_ >= beat_period) {
-      beat(service);
+      beat(service.health());
     } else if (now - last_beat_ >= 0.02 && service.health().lifecycle != last_lifecycle) {
       last_lifecycle = service.health().lifecycle;
-      beat(service);  // a change of lifecycle is news: start-up waits for it
+      beat(service.health());  // a change of lifecycle is news: start-up waits for it
     }
   }
   notifier_.stopping();
+  service.end();
   return 0;
 }
 

@@ -27,6 +27,10 @@ class Node;
 /// One service. Its constructor makes its readers and writers from the node's bus.
 class Service {
  public:
+  /// It can work beside the service it is to replace and be compared with it. One that cannot, because it
+  /// owns files or a port, is made only when the other has ended.
+  static constexpr bool works_as_shadow = false;
+
   virtual ~Service() = default;
   /// Data has arrived or `period()` has passed: take everything, compute, write.
   virtual void pump() = 0;
@@ -35,6 +39,8 @@ class Service {
   virtual Health health() const = 0;
   /// Alarms without a cause are being cleared.
   virtual void alarms_reset() {}
+  /// The process is told to end: the last chance to leave something for the next.
+  virtual void end() {}
 };
 
 class Node {
@@ -45,12 +51,17 @@ class Node {
   bus::Bus& bus() { return bus_; }
   AlarmBoard& alarms() { return alarms_; }
 
+  /// Started beside the service that it is to replace, and not told to take part yet.
+  bool shadow() const { return options_.shadow; }
+  /// Waits, inactive, until this process is told to take part. False when it is told to end instead.
+  bool stand_by();
   /// Runs until SIGTERM or SIGINT; returns the exit status.
   int run(Service& service);
 
  private:
   void announce();
-  void beat(const Service& service);
+  void beat(const Health& health);
+  void obey_take_over();
   Options options_;
   bus::Bus bus_;
   AlarmBoard alarms_;

@@ -20,6 +20,8 @@ void add_options(CLI::App& app, Options& options) {
          "DDS vendor: fastdds or cyclonedds")
       ->check(CLI::IsMember({"fastdds", "cyclonedds"}));
   app.add_flag("--virtual-time", options.virtual_time, "Time goes on with the setpoints, not with the clock");
+  app.add_flag("--shadow", options.shadow,
+               "Begin beside the service that this one replaces, take part on SIGUSR1");
   app.add_flag("--parent-bound", options.parent_bound, "Stop when the parent process is gone");
 }
 

@@ -92,6 +92,8 @@ class RequestServer {
     }
     return false;
   }
+  /// Of the request taken last.
+  const bus::SampleInfo& info() const { return reader_.info(); }
   void reply(const Request& request, Reply reply) {
     reply.client = request.client;
     reply.number = request.number;

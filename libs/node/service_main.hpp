@@ -22,6 +22,7 @@ int service_main(int argc, char** argv, const char* name) {
   if (is_cyclic && !options.virtual_time) use_real_time_scheduling();
   try {
     Node node(options);
+    if (!S::works_as_shadow && !node.stand_by()) return 0;
     S service(node);
     return node.run(service);
   } catch (const std::exception& e) {

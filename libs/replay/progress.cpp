@@ -17,7 +17,10 @@ bool Progress::numbered(const StoredMessage& message, const char* handle, T& val
 
 std::pair<Mark, bool> Progress::observe(const StoredMessage& message) {
   Mark mark{{message.topic, 0}, {}};
-  if (!is_cyclic(*message.topic)) {
+  if (message.topic->handle == "plc_input_log") {
+    if (!bus::decode(message.cdr, input_log_)) return {mark, false};
+    mark.place.minor = input_log_.tick;
+  } else if (!is_cyclic(*message.topic)) {
     // A state that was there before the recording began is written again, so counting would not do.
     if (!numbered(
             message, "auxiliary_done", auxiliary_done_,

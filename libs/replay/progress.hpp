@@ -18,8 +18,8 @@ struct Track {
       default;  // NOLINT(modernize-use-nullptr): a false alarm of clang-tidy 14
 };
 
-/// Of frames: epoch and the cycle after the last. Of the drive's feedback: executed cycles and tick. Of what
-/// is numbered: the number. Otherwise: 0 and how many messages there were.
+/// Of frames: epoch and the cycle after the last. Of the drive's feedback: executed cycles and tick. Of the
+/// PLC's input log: its tick. Of what is numbered: the number. Otherwise: 0 and how many messages there were.
 struct Place {
   std::uint64_t major = 0, minor = 0;
   auto operator<=>(const Place&) const = default;  // NOLINT(modernize-use-nullptr)
@@ -44,6 +44,7 @@ class Progress {
   std::map<Track, Place> places_;
   MessageRows rows_;
   idl::stream::FeedbackFrame feedback_;
+  idl::stream::InputLog input_log_;
   idl::stream::StreamRequest stream_request_;
   idl::channel::AuxiliaryRequest auxiliary_request_;
   idl::plc::AuxiliaryDone auxiliary_done_;

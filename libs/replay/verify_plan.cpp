@@ -7,6 +7,7 @@
 #include "contracts/topics.hpp"
 #include "machine/parameters.hpp"
 #include "replay/stage_plan.hpp"
+#include "replay/tick_plan.hpp"
 
 namespace trunnion::replay {
 namespace {
@@ -15,7 +16,7 @@ namespace {
 const std::set<std::string>& not_compared() {
   static const std::set<std::string> handles = {"announcement",  "service_state", "stage_progress",
                                                 "channel_state", "plc_outputs",   "plc_image",
-                                                "alarm",         "cluster"};
+                                                "plc_input_log", "alarm",         "cluster"};
   return handles;
 }
 
@@ -166,6 +167,8 @@ VerifyPlan plan_verification(const StoredRecording& recording, const std::string
   read_surroundings(recording, service, channel, plan);
   if (const auto* stage = find_stage(service))
     plan_stage(recording, *stage, plan);
+  else if (says_when(service))
+    plan_by_tick(recording, service, plan);
   else
     OrderedPlan(recording, service, channel, plan).make();
   if (service == "channel" && has_several_channels(recording)) plan.ignored.insert("auxiliary_request.cycle");

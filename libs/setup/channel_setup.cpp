@@ -42,6 +42,12 @@ void ChannelSetup::configure(const machine::Parameters& p) {
     approach_[index] = p.get("single_direction_approach", a);
     for (std::uint32_t k = 0; k < 3; ++k) numbered_references_[k][index] = p.get("numbered_reference", a, k);
   }
+  tapping_spindle_ = {};
+  const int wanted_spindle = p.integer("tapping_spindle", channel_);
+  for (const auto& spindle : machine::spindles(p)) {
+    if (tapping_spindle_.axis || (wanted_spindle >= 0 && spindle.number != wanted_spindle)) continue;
+    tapping_spindle_ = {spindle.number, p.get("maximum_acceleration", spindle.number)};
+  }
   solver_.emplace(*chain_);
   rotary_travel_ = machine::rotary_travels(p, channel_);
   avoid_poles_ = p.integer("pole_handling", channel_) != 0;
@@ -110,8 +116,9 @@ std::optional<std::array<language::Vector3, 3>> ChannelSetup::plane_points(std::
   return plane;
 }
 
-std::optional<AxisValues> ChannelSetup::orient(const language::Vector3& direction, const AxisValues& current,
-                                               language::RotaryChoice choice) const {
+geometry::OrientationAnswer ChannelSetup::orientation(const language::Vector3& direction,
+                                                      const AxisValues& current,
+                                                      language::RotaryChoice choice) const {
   geometry::OrientationRequest request;
   request.direction = {direction[0], direction[1], direction[2]};
   request.present = geometry::angles_of(current.data());
@@ -131,11 +138,23 @@ std::optional<AxisValues> ChannelSetup::orient(const language::Vector3& directio
       request.way = geometry::WayChoice::continuous;
       break;
   }
-  const auto answer = solver_->best(request);
+  return solver_->best(request);
+}
+
+std::optional<AxisValues> ChannelSetup::orient(const language::Vector3& direction, const AxisValues& current,
+                                               language::RotaryChoice choice) const {
+  const auto answer = orientation(direction, current, choice);
   if (answer.status != geometry::OrientationStatus::found) return std::nullopt;
   AxisValues result = current;
   std::copy(answer.best.angles.begin(), answer.best.angles.end(), result.begin() + 3);
   return result;
+}
+
+std::optional<language::Vector3> ChannelSetup::nearest_direction(const language::Vector3& direction,
+                                                                 const AxisValues& current) const {
+  const auto answer = orientation(direction, current, language::RotaryChoice::continuous);
+  if (answer.status != geometry::OrientationStatus::unreachable) return std::nullopt;
+  return language::Vector3{answer.nearest[0], answer.nearest[1], answer.nearest[2]};
 }
 
 std::variant<geometry::DirectionPath, geometry::DirectionPathFault> ChannelSetup::direction_path(
@@ -158,10 +177,24 @@ language::VectorWay ChannelSetup::vector_way(const AxisValues& current,
   language::VectorWay way;
   const auto made = direction_path(current, direction);
   if (const auto* fault = std::get_if<PathFault>(&made)) {
-    way.fault = fault->kind == PathFault::opposite                       ? Fault::opposite
-                : fault->kind == PathFault::not_a_direction              ? Fault::end
-                : fault->kind == PathFault::unreachable && fault->s == 1 ? Fault::end
-                                                                         : Fault::on_the_way;
+    switch (fault->kind) {
+      case PathFault::not_a_direction:
+        way.fault = Fault::end;
+        break;
+      case PathFault::opposite:
+        way.fault = Fault::opposite;
+        break;
+      case PathFault::unreachable:
+        way.fault = fault->s == 1 ? Fault::end : Fault::on_the_way;
+        way.nearest = {fault->nearest[0], fault->nearest[1], fault->nearest[2]};
+        break;
+      case PathFault::outside_travel:
+        way.fault = Fault::travel;
+        break;
+      case PathFault::pole:
+        way.fault = Fault::pole;
+        break;
+    }
     return way;
   }
   const auto& path = std::get<geometry::DirectionPath>(made);
@@ -199,28 +232,54 @@ AxisValues ChannelSetup::machine_from_tip(const AxisValues& tip, double tool_len
   return result;
 }
 
-std::string ChannelSetup::travel_error(const AxisValues& from, const language::Command& move) const {
+std::optional<language::TravelBreach> ChannelSetup::breach_of(const AxisValues& from,
+                                                              const language::Command& move,
+                                                              const geometry::DirectionPath* way) const {
   const bool rtcp = move.modal.transformation == language::Transformation::rtcp;
   const auto path = move.kind == language::CommandKind::arc
                         ? motion::PathSegment::arc(from, move.target, move.arc)
                         : motion::PathSegment::line(from, move.target);
-  // A line without transformation is farthest at its end; everything else is looked at along the way.
-  const int places = rtcp || move.kind == language::CommandKind::arc ? 16 : 1;
-  for (int k = 1; k <= places; ++k) {
-    const AxisValues at = k == places ? move.target : path.position(path.length() * k / places);
-    const AxisValues machine = rtcp ? machine_from_tip(at, move.modal.tool_length) : at;
-    for (const auto index : channel_axes_.index) {
-      if (machine[index] >= travel_[index].negative - 1e-6 &&
-          machine[index] <= travel_[index].positive + 1e-6)
-        continue;
-      char text[160];
-      std::snprintf(text, sizeof text, "%u: %c would go to %.4f, its travel is %.4f .. %.4f", move.line,
-                    language::axis_letters[index], machine[index], travel_[index].negative,
-                    travel_[index].positive);
-      return text;
+  const double length = path.length();
+  const auto at = [&](double share) {
+    AxisValues place = share >= 1 ? move.target : path.position(length * share);
+    if (way != nullptr) {
+      const auto angles = way->angles(share);
+      for (std::size_t i = 0; i < angles.size(); ++i)
+        if (chain_->turns(i)) place[i + 3] = angles[i];
     }
-  }
-  return "";
+    return rtcp ? machine_from_tip(place, move.modal.tool_length) : place;
+  };
+  double degrees = move.kind == language::CommandKind::arc ? move.arc.sweep : 0;
+  if (rtcp)
+    for (std::size_t i = 3; i < from.size(); ++i)
+      if (chain_->turns(i - 3)) degrees += std::abs(at(1)[i] - at(0)[i]);
+  return farthest_breach(at, degrees, channel_axes_.index, travel_);
+}
+
+std::string ChannelSetup::travel_error(const AxisValues& from, const language::Command& move) const {
+  const auto breach = breach_of(from, move, nullptr);
+  if (!breach) return "";
+  const Travel& travel = travel_[breach->axis];
+  char text[160];
+  std::snprintf(text, sizeof text, "%u: %c would go to %.4f, its travel is %.4f .. %.4f", move.line,
+                language::axis_letters[breach->axis], breach->position, travel.negative, travel.positive);
+  return text;
+}
+
+std::optional<language::TravelBreach> ChannelSetup::vector_breach(const AxisValues& start,
+                                                                  const language::Command& move,
+                                                                  const language::Vector3& direction) const {
+  const auto made = direction_path(start, direction);
+  const auto* way = std::get_if<geometry::DirectionPath>(&made);
+  if (way == nullptr) return std::nullopt;
+  // At a pole the axes turn before the tip goes.
+  language::Command turn = move;
+  turn.kind = language::CommandKind::line;
+  turn.target = start;
+  const auto angles = way->start();
+  std::copy(angles.begin(), angles.end(), turn.target.begin() + 3);
+  const auto breach = breach_of(start, turn, nullptr);
+  return breach ? breach : breach_of(start, move, way);
 }
 
 }  // namespace trunnion::setup

@@ -13,14 +13,14 @@
 #include "machine/axes.hpp"
 #include "motion/limits.hpp"
 #include "setup/machine_tables.hpp"
+#include "setup/travel_search.hpp"
 
 namespace trunnion::setup {
 
-using language::AxisValues;
-
-/// Travel of an axis of the channel.
-struct Travel {
-  double negative = 0, positive = 0;
+/// The spindle that rigid tapping couples; `axis` is its logical number, nothing when the machine has none.
+struct TappingSpindle {
+  std::optional<std::uint16_t> axis;
+  double acceleration = 0;  ///< degrees/s^2
 };
 
 class ChannelSetup : public language::Environment {
@@ -53,11 +53,15 @@ class ChannelSetup : public language::Environment {
   /// Within the travel of the rotary axes, by the closed form of geometry::OrientationSolver.
   std::optional<AxisValues> orient(const language::Vector3& direction, const AxisValues& current,
                                    language::RotaryChoice choice) const override;
+  std::optional<language::Vector3> nearest_direction(const language::Vector3& direction,
+                                                     const AxisValues& current) const override;
   /// Over the great circle by geometry::DirectionPath, with the pole handling of parameter 04c100.
   language::VectorWay vector_way(const AxisValues& current,
                                  const language::Vector3& direction) const override;
   AxisValues on_vector_way(const AxisValues& current, const language::Vector3& direction,
                            double s) const override;
+  std::optional<language::TravelBreach> vector_breach(const AxisValues& start, const language::Command& move,
+                                                      const language::Vector3& direction) const override;
   std::uint16_t cycle_m_code(std::size_t index) const override { return cycle_m_codes_.at(index); }
   AxisValues tip_from_machine(const AxisValues& machine, double tool_length) const override;
   AxisValues machine_from_tip(const AxisValues& tip, double tool_length) const override;
@@ -67,8 +71,8 @@ class ChannelSetup : public language::Environment {
     return resolve ? resolve(name) : nullptr;
   }
 
-  /// Empty, or one line about the first axis that would leave its travel on the way from `from` to the end of
-  /// `move`.
+  /// Empty, or one line about an axis that would leave its travel anywhere on the way from `from` to the end
+  /// of `move`.
   std::string travel_error(const AxisValues& from, const language::Command& move) const;
 
   const machine::ChannelAxes& channel_axes() const { return channel_axes_; }
@@ -76,6 +80,7 @@ class ChannelSetup : public language::Environment {
   const motion::Limits& limits() const { return limits_; }
   const geometry::Chain& chain() const { return *chain_; }
   bool configured() const { return chain_.has_value(); }
+  const TappingSpindle& tapping_spindle() const { return tapping_spindle_; }
   const Travel& travel(std::uint8_t axis) const { return travel_[axis]; }
   double jog_feed(std::uint8_t axis) const { return jog_feed_[axis]; }
   double reference_feed(std::uint8_t axis) const { return reference_feed_[axis]; }
@@ -85,8 +90,13 @@ class ChannelSetup : public language::Environment {
   std::uint64_t revision() const { return revision_; }
 
  private:
+  /// Of a move whose tool goes `way`, or rotary axes in proportion when that is null.
+  std::optional<language::TravelBreach> breach_of(const AxisValues& from, const language::Command& move,
+                                                  const geometry::DirectionPath* way) const;
   std::variant<geometry::DirectionPath, geometry::DirectionPathFault> direction_path(
       const AxisValues& current, const language::Vector3& direction) const;
+  geometry::OrientationAnswer orientation(const language::Vector3& direction, const AxisValues& current,
+                                          language::RotaryChoice choice) const;
 
   std::uint16_t channel_;
   machine::ChannelAxes channel_axes_;
@@ -107,6 +117,7 @@ class ChannelSetup : public language::Environment {
   language::CutterSettings cutter_;
   std::array<std::array<language::Vector3, 3>, 20> planes_{};
   std::array<std::uint16_t, 8> cycle_m_codes_{};
+  TappingSpindle tapping_spindle_;
   std::array<Travel, language::axis_count> travel_{};
   AxisValues jog_feed_{}, reference_feed_{};
   std::uint16_t mask_ = 0;

@@ -5,6 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "stream/frame_difference.hpp"
+
 namespace trunnion::stream {
 
 enum class Arrival { news, duplicate, differs, stale };
@@ -25,18 +27,18 @@ class FrameWindow {
       // must be seen.
       const auto& old = slots_[frame.first % slots];
       if (old.used && old.frame.epoch == frame.epoch && old.frame.first == frame.first)
-        return same(old.frame, frame) ? Arrival::duplicate : Arrival::differs;
+        return same_values(old.frame, frame) ? Arrival::duplicate : Arrival::differs;
       return Arrival::stale;
     }
     auto& slot = slots_[frame.first % slots];
     if (slot.used && slot.frame.epoch == frame.epoch && slot.frame.first == frame.first)
-      return same(slot.frame, frame) ? Arrival::duplicate : Arrival::differs;
+      return same_values(slot.frame, frame) ? Arrival::duplicate : Arrival::differs;
     if (frame.starts &&
         (frame.epoch > start_epoch_ || (frame.epoch == start_epoch_ && frame.first > start_first_))) {
       start_epoch_ = frame.epoch;
       start_first_ = frame.first;
     }
-    if (frame.epoch > newest_epoch_ || frame.first > newest_) {
+    if (std::pair(frame.epoch, frame.first) > std::pair(newest_epoch_, newest_)) {
       newest_epoch_ = frame.epoch;
       newest_ = frame.first;
     }
@@ -75,6 +77,12 @@ class FrameWindow {
     const auto& slot = slots_[first % slots];
     return slot.used && slot.frame.epoch == epoch_ && slot.frame.first == first ? &slot.frame : nullptr;
   }
+  /// The frame that arrived first of those which `frame` is a copy of, or null.
+  const Frame* copy_of(const Frame& frame) const {
+    const auto& slot = slots_[frame.first % slots];
+    return slot.used && slot.frame.epoch == frame.epoch && slot.frame.first == frame.first ? &slot.frame
+                                                                                           : nullptr;
+  }
   void advance() {
     if (const auto* frame = peek()) next_ = frame->first + frame->count;
   }
@@ -82,17 +90,13 @@ class FrameWindow {
   std::uint32_t epoch() const { return epoch_; }
   bool has_next() const { return peek() != nullptr; }
   /// A later frame is here while the next is missing.
-  bool gap() const { return newest_epoch_ == epoch_ && newest_ > next_ && !has_next(); }
+  bool gap() const { return std::pair(newest_epoch_, newest_) > std::pair(epoch_, next_) && !has_next(); }
 
  private:
   struct Slot {
     Frame frame;
     bool used = false;
   };
-  static bool same(const Frame& a, const Frame& b) {
-    return a.first == b.first && a.count == b.count && a.revision == b.revision &&
-           a.setpoints == b.setpoints && a.states == b.states;
-  }
   void start_taken() { start_epoch_ = 0, start_first_ = 0; }
 
   std::vector<Slot> slots_;

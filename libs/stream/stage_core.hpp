@@ -10,6 +10,7 @@
 #include "contracts/types.hpp"
 #include "machine/parameters.hpp"
 #include "stream/feedback_window.hpp"
+#include "stream/stage_names.hpp"
 
 namespace trunnion::stream {
 
@@ -29,9 +30,6 @@ class StageCore {
   virtual void load(std::span<const double> state) = 0;
   virtual void save(StateValues& state) const = 0;
 };
-
-inline constexpr std::uint8_t stage_channel = 1, stage_kinematics = 2, stage_compensation = 3,
-                              stage_gantry = 4;
 
 /// The state of `stage` in a list of states, or null.
 inline const idl::stream::StageState* find_state(const std::vector<idl::stream::StageState>& states,

@@ -1,6 +1,7 @@
 // The shell of kinematics, compensation and gantry: frames in, frames out, joining, restarting, revisions.
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <map>
 #include <optional>
@@ -20,6 +21,18 @@ inline int stream_depth(int lead, int frame_cycles, int channels) {
   return std::max(1024, (2 * lead / std::max(1, frame_cycles) + 6) * std::max(1, channels));
 }
 
+/// Topic on which a stage writes while it is only compared with the one it is to replace.
+inline std::string shadow_name(const std::string& topic) { return topic + "/shadow"; }
+
+/// Raises the alarm of copies that differ, once until it is reset: it stops the machine.
+inline void raise_difference(node::AlarmBoard& alarms, const auto& first, const auto& second) {
+  if (alarms.active("copies_differ", first.channel)) return;
+  const auto what = difference(first, second);
+  if (!what) return;
+  alarms.raise("copies_differ", first.channel, what->text, what->cycle);
+  alarms.release("copies_differ", first.channel);
+}
+
 template <class In>
 class StageService : public node::Service {
  public:
@@ -35,12 +48,16 @@ class StageService : public node::Service {
         make_core_(std::move(make_core)),
         progress_writer_(node.bus().writer(topics::stage_progress)) {}
 
+  /// As a shadow it computes what it would if it took part, and writes it beside the stream (shadow_name).
+  static constexpr bool works_as_shadow = true;
+
   void pump() override {
     parameters_.poll();
     if (!reader_) {
       if (!parameters_.newest()) return;
       start();
     }
+    if (shadow_ && !node_.shadow()) take_part();
     follow_feedback();
     idl::stream::FeedbackFrame feedback;
     while (feedback_reader_ && feedback_reader_->take(feedback)) {
@@ -52,19 +69,13 @@ class StageService : public node::Service {
     while (reader_->take(frame_)) {
       ++frames_in_;
       const auto channel = frame_.channel;
-      const auto first = frame_.first;
-      if (lane(channel).window.put(frame_) == Arrival::differs)
-        node_.alarms().raise("copies_differ", channel,
-                             "Copies of the stage before " + node_.options().service + " differ at cycle " +
-                                 std::to_string(first),
-                             first);
+      auto& window = lane(channel).window;
+      if (window.put(frame_) == Arrival::differs)
+        raise_difference(node_.alarms(), *window.copy_of(frame_), frame_);
     }
-    for (auto& [channel, lane] : lanes_) run(channel, lane);
-    if (const double now = node::monotonic_seconds(); now - last_progress_ > 0.1) {
-      last_progress_ = now;
-      for (const auto& [channel, lane] : lanes_)
-        progress_writer_.write(
-            {stage_, static_cast<std::uint8_t>(node_.options().copy), lane.in_step, lane.window.next()});
+    for (auto& [channel, lane] : lanes_) {
+      run(channel, lane);
+      report_progress(channel, lane);
     }
   }
   double period() const override { return 0.02; }
@@ -72,18 +83,21 @@ class StageService : public node::Service {
   node::Health health() const override {
     using idl::service::Lifecycle;
     node::Health health;
-    health.lifecycle =
-        reader_ ? (have_feedback_ ? Lifecycle::ACTIVE : Lifecycle::INACTIVE) : Lifecycle::UNCONFIGURED;
+    health.lifecycle = !reader_                     ? Lifecycle::UNCONFIGURED
+                       : have_feedback_ && !shadow_ ? Lifecycle::ACTIVE
+                                                    : Lifecycle::INACTIVE;
     health.detail = !fault_.empty()   ? fault_
                     : !reader_        ? "waiting for parameters"
                     : !have_feedback_ ? "waiting for the drive"
+                    : shadow_         ? "shadow"
                                       : "";
     if (!fault_.empty()) health.lifecycle = Lifecycle::FAULT;
     health.frames_in = frames_in_;
     health.frames_out = frames_out_;
     health.frames_lost = frames_lost_;
     health.revision = parameters_.newest() ? parameters_.newest()->revision : 0;
-    for (const auto& [channel, lane] : lanes_) health.in_step = health.in_step && lane.in_step;
+    for (const auto& [channel, lane] : lanes_)
+      health.in_step = health.in_step && lane.in_step && lane.settled;
     return health;
   }
 
@@ -102,7 +116,12 @@ class StageService : public node::Service {
     std::uint64_t revision = 0;
     std::optional<StateValues> cut;  // to go on from; a core cannot take it before it is configured
     bool in_step = false;
+    bool settled = false;  // since it is in step it has computed all that was here, and there is a reader
     double gap_since = 0;
+    bool at_rest = false;  // the newest frame it computed was the last of a motion
+    bool told_at_rest = false;
+    idl::stream::StageProgress told;
+    double told_at = 0;
   };
 
   void start() {
@@ -111,9 +130,49 @@ class StageService : public node::Service {
         p.integer(node_.options().virtual_time ? "frame_cycles_virtual_time" : "frame_cycles_real_time");
     node_.bus().set_depth(
         {stream_depth(p.integer("stream_lead"), frame, static_cast<int>(node_.options().machine.channels))});
-    writer_.emplace(node_.bus().writer(out_topic_));
+    lead_ = static_cast<std::uint64_t>(p.integer("stream_lead"));
+    const auto& services = node_.options().machine.services;
+    twins_ = std::count_if(services.begin(), services.end(),
+                           [&](const auto& entry) { return entry.service == stage_name(stage_); }) > 1;
+    shadow_ = node_.shadow();
+    const auto shadow_topic = shadow_name(out_topic_.name);
+    auto out = out_topic_;
+    if (shadow_) out.name = shadow_topic.c_str();
+    writer_.emplace(node_.bus().writer(out));
     feedback_reader_.emplace(node_.bus().reader(topics::feedback_frame));
     reader_.emplace(node_.bus().reader(in_topic_));
+    for (const auto& entry : services)
+      if (entry.service == "channel") lane(static_cast<std::uint16_t>(entry.channel));
+  }
+
+  // From the frame it computes next on; what it wrote as a shadow the others have from the service it
+  // replaces.
+  void take_part() {
+    shadow_ = false;
+    writer_.emplace(node_.bus().writer(out_topic_));
+    for (auto& [channel, lane] : lanes_) lane.settled = false;
+  }
+
+  // Ten times a second; of a stage with twins also whenever a lead was computed, for the channel waits for
+  // it.
+  void report_progress(std::uint16_t channel, Lane& lane) {
+    if (lane.in_step && !lane.settled) lane.settled = !lane.window.has_next() && writer_->matched() > 0;
+    if (shadow_) return;
+    const idl::stream::StageProgress progress{stage_,
+                                              static_cast<std::uint8_t>(node_.options().copy),
+                                              channel,
+                                              lane.in_step && lane.settled,
+                                              lane.window.epoch(),
+                                              lane.window.next()};
+    const auto& told = lane.told;
+    const bool news = twins_ && (progress.in_step != told.in_step || progress.epoch != told.epoch ||
+                                 progress.next >= told.next + lead_ || lane.at_rest != lane.told_at_rest);
+    const double now = node::monotonic_seconds();
+    if (!news && now - lane.told_at <= 0.1) return;
+    lane.told = progress;
+    lane.told_at = now;
+    lane.told_at_rest = lane.at_rest;
+    progress_writer_.write(progress);
   }
 
   // Every reader of the feedback costs the drive a message and this process a wake-up per frame.
@@ -145,7 +204,11 @@ class StageService : public node::Service {
   void join(std::uint16_t channel, Lane& lane) {
     const auto* cut = echo(channel);
     if (cut == nullptr) return;
-    if (!cut->active) return;
+    if (!cut->active) {  // nothing moves: the first frame of the next motion will carry the state
+      lane.window.set_next(cut->epoch, cut->next);
+      lane.in_step = true;
+      return;
+    }
     const auto* state = find_state(cut->states, stage_);
     if (state == nullptr) return;
     lane.window.set_next(cut->epoch, state->cycle + 1);
@@ -202,12 +265,15 @@ class StageService : public node::Service {
       out_.epoch = in->epoch, out_.first = in->first, out_.count = in->count, out_.revision = in->revision;
       out_.starts = in->starts, out_.ends = in->ends;
       out_.lines = in->lines;
+      out_.spindle_axis = in->spindle_axis;
+      out_.spindle = in->spindle;
       out_.states = in->states;
       auto& own = state_of(out_.states, stage_);
       own.cycle = in->first + in->count - 1;
       lane.core->save(own.values);
       writer_->write(out_);
       ++frames_out_;
+      lane.at_rest = in->ends;
       lane.window.advance();
       lane.gap_since = 0;
       lane.window.jump_to_start();
@@ -218,7 +284,7 @@ class StageService : public node::Service {
       if (lane.gap_since == 0) lane.gap_since = now;
       if (now - lane.gap_since > 0.02) {
         ++frames_lost_;
-        lane.in_step = false;
+        lane.in_step = lane.settled = false;
         lane.gap_since = 0;
       }
     }
@@ -239,7 +305,9 @@ class StageService : public node::Service {
   idl::stream::FeedbackFrame newest_feedback_;
   bool have_feedback_ = false;
   std::uint64_t frames_in_ = 0, frames_out_ = 0, frames_lost_ = 0;
-  double unknown_since_ = 0, last_progress_ = 0;
+  double unknown_since_ = 0;
+  std::uint64_t lead_ = 0;
+  bool twins_ = false, shadow_ = false;
   std::string fault_;
 };
 

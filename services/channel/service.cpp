@@ -32,6 +32,8 @@ ChannelService::ChannelService(node::Node& node)
       stream_writer_(node.bus().writer(topics::stream_request)),
       variables_file_(node.options().state_directory + "/channel-" + std::to_string(node.options().channel) +
                       ".variables") {
+  copies_ = stream::CopyWatch(node.options().machine.services, node::monotonic_seconds());
+  if (!copies_.copies().empty()) progress_reader_.emplace(node.bus().reader(topics::stage_progress));
   std::ifstream boot(node.options().state_directory + "/cluster.boot");
   std::getline(boot, boot_);
   read_variables();
@@ -104,6 +106,28 @@ void ChannelService::watch_alarms() {
                                           : "");
 }
 
+// Twins: a start waits for both copies; in virtual time no copy is left farther behind than 2 * lead.
+void ChannelService::watch_copies() {
+  if (!progress_reader_) return;
+  const double now = node::monotonic_seconds();
+  idl::stream::StageProgress progress;
+  while (progress_reader_->take(progress))
+    if (progress.channel == node_.options().channel) copies_.heard(progress, now);
+  const auto lead = static_cast<std::uint64_t>(core_.machine().lead());
+  for (const auto& change : copies_.judge(lead, now)) {
+    const auto part = stream::copy_part(change.stage, change.copy);
+    if (change.lost)
+      node_.alarms().raise("redundancy_lost", part,
+                           "Copy " + std::to_string(change.copy) + " of " + stream::stage_name(change.stage) +
+                               " was dropped: it makes no progress",
+                           core_.link().executed());
+    else
+      node_.alarms().clear("redundancy_lost", part);
+  }
+  core_.set_copies(copies_.may_start(now),
+                   node_.options().virtual_time ? copies_.floor() : stream::CopyWatch::everywhere);
+}
+
 void ChannelService::answer_requests() {
   idl::channel::ChannelRequest request;
   while (requests_.take(request)) {
@@ -164,6 +188,7 @@ void ChannelService::pump() {
     if (first_feedback_ == 0) first_feedback_ = now;
     if (now - first_feedback_ > history_seconds) core_.recover();
   }
+  watch_copies();
   answer_requests();
   fetch_text();
   core_.advance();

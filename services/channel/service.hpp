@@ -7,6 +7,7 @@
 #include "node/parameter_client.hpp"
 #include "node/request.hpp"
 #include "src/channel_core.hpp"
+#include "stream/copy_watch.hpp"
 
 namespace trunnion::channel {
 
@@ -26,6 +27,7 @@ class ChannelService : public node::Service {
   void read_variables();
   void save_variables();
   void watch_alarms();
+  void watch_copies();
   void publish();
 
   node::Node& node_;
@@ -41,6 +43,8 @@ class ChannelService : public node::Service {
   bus::Reader<idl::plc::Outputs> outputs_;
   bus::Reader<idl::service::Alarm> alarm_reader_;
   bus::Reader<idl::service::Cluster> cluster_reader_;
+  stream::CopyWatch copies_;
+  std::optional<bus::Reader<idl::stream::StageProgress>> progress_reader_;  ///< of a machine with twins
   bus::Writer<idl::channel::ChannelState> state_writer_;
   bus::Writer<idl::channel::AuxiliaryRequest> auxiliary_writer_;
   bus::Writer<idl::stream::StreamRequest> stream_writer_;

@@ -4,9 +4,16 @@
 
 namespace trunnion::drive {
 namespace {
-constexpr double patience = 1.0;       // s of wall time that virtual time waits for a missing setpoint
-constexpr double plc_patience = 1.5;   // s without a sign of the PLC until the drive stops
-constexpr double idle_feedback = 0.1;  // s between two feedback frames while nothing moves
+constexpr double patience = 1.0;           // s of wall time that virtual time waits for a missing setpoint
+constexpr double plc_patience = 1.5;       // s without a sign of the PLC until the drive stops
+constexpr double own_pause = 0.5;          // s the drive itself may not run and still judge the PLC
+constexpr double idle_feedback = 0.1;      // s between two feedback frames while nothing moves
+constexpr std::size_t most_applied = 256;  // inputs that one feedback frame can name
+
+template <class T>
+std::uint64_t identity(const bus::Reader<T>& reader) {
+  return static_cast<std::uint64_t>(reader.info().source_timestamp);
+}
 }  // namespace
 
 DriveService::DriveService(node::Node& node)
@@ -17,8 +24,7 @@ DriveService::DriveService(node::Node& node)
 
 void DriveService::start() {
   const auto& p = *parameters_.newest();
-  core_.configure(p, node_.options().virtual_time);
-  revision_ = p.revision;
+  configure(p);
   core_.restore(*memory_);
   frame_cycles_ = static_cast<std::uint32_t>(
       p.integer(node_.options().virtual_time ? "frame_cycles_virtual_time" : "frame_cycles_real_time"));
@@ -33,19 +39,27 @@ void DriveService::start() {
   send();
 }
 
+void DriveService::configure(const machine::Parameters& parameters) {
+  core_.configure(parameters, node_.options().virtual_time);
+  revision_ = parameters.revision;
+  applied(idl::stream::Input::PARAMETER_SET, revision_);
+}
+
+void DriveService::applied(idl::stream::Input input, std::uint64_t identity) {
+  if (applied_.size() == most_applied) send();
+  applied_.push_back({input, core_.tick(), identity});
+}
+
 void DriveService::drain() {
-  if (parameters_.poll() && core_.configured() && !core_.any_active()) {
-    core_.configure(*parameters_.newest(), node_.options().virtual_time);
-    revision_ = parameters_.newest()->revision;
-  }
+  using idl::stream::Input;
+  if (parameters_.poll() && core_.configured() && !core_.any_active()) configure(*parameters_.newest());
   const double now = node::monotonic_seconds();
   while (frames_->take(frame_)) {
     ++frames_in_;
     // The revision of the frames that move it is the one the drive runs with.
     if (frame_.revision != revision_) {
       if (const auto p = parameters_.find(frame_.revision)) {
-        core_.configure(*p, node_.options().virtual_time);
-        revision_ = p->revision;
+        configure(*p);
       } else {
         node_.alarms().raise("revision_unknown", frame_.channel,
                              "Frames are made with parameter revision " + std::to_string(frame_.revision) +
@@ -54,18 +68,20 @@ void DriveService::drain() {
         continue;
       }
     }
-    const auto channel = frame_.channel;
-    const auto first = frame_.first;
-    if (!core_.put(frame_))
-      node_.alarms().raise("copies_differ", channel,
-                           "Copies of the gantry stage differ at cycle " + std::to_string(first), first);
+    applied(Input::GANTRY_FRAME, identity(*frames_));
+    if (!core_.put(frame_)) {
+      stream::raise_difference(node_.alarms(), *core_.copy_of(frame_), frame_);
+      core_.stop();
+    }
   }
   idl::stream::StreamRequest request;
   while (requests_->take(request)) {
+    applied(Input::STREAM_REQUEST, identity(*requests_));
     core_.request(request);
     changed_ = true;
   }
   while (outputs_->take(plc_)) {
+    applied(Input::PLC_OUTPUTS, identity(*outputs_));
     have_plc_ = true;
     plc_seen_ = now;
     core_.set_enables(plc_.axis_enable, plc_.emergency_stop);
@@ -78,8 +94,13 @@ void DriveService::drain() {
   idl::service::Alarm alarm;
   while (alarms_->take(alarm))
     if (alarm.active && alarm.reaction == idl::service::Reaction::AXIS_STOP &&
-        alarm.instance != node_.options().instance)
+        alarm.instance != node_.options().instance) {
+      applied(Input::ALARM, identity(*alarms_));
       core_.stop();
+    }
+  // A process that was suspended has not heard what was said meanwhile.
+  if (now - last_drain_ > own_pause) plc_seen_ = now;
+  last_drain_ = now;
   // An emergency stop is also the drive's own reaction to the silence of the one who could order it.
   if (have_plc_ && now - plc_seen_ > plc_patience) {
     node_.alarms().raise("plc_absent", 0, "No sign of the PLC for " + std::to_string(plc_patience) + " s",
@@ -94,6 +115,8 @@ void DriveService::drain() {
 
 void DriveService::send() {
   core_.fill(feedback_);
+  feedback_.applied.swap(applied_);
+  applied_.clear();
   writer_->write(feedback_);
   ++frames_out_;
   *memory_ = core_.memory();

@@ -23,6 +23,8 @@ class DriveService : public node::Service {
   void run_virtual();
   void run_real();
   void send();
+  void applied(idl::stream::Input input, std::uint64_t identity);
+  void configure(const machine::Parameters& parameters);
 
   node::Node& node_;
   node::ParameterClient parameters_;
@@ -37,12 +39,13 @@ class DriveService : public node::Service {
   std::optional<bus::Writer<idl::stream::FeedbackFrame>> writer_;
   idl::stream::AxisFrame frame_;
   idl::stream::FeedbackFrame feedback_;
+  std::vector<idl::stream::AppliedInput> applied_;  // not told yet
   idl::plc::Outputs plc_;
   bool have_plc_ = false;
   double plc_seen_ = 0;
   std::uint64_t frames_in_ = 0, frames_out_ = 0, revision_ = 0;
   std::uint32_t frame_cycles_ = 4;
-  double next_tick_ = 0, waiting_since_ = 0, last_sent_ = 0;
+  double next_tick_ = 0, waiting_since_ = 0, last_sent_ = 0, last_drain_ = 0;
   bool changed_ = false;
 };
 

@@ -9,7 +9,9 @@
 namespace trunnion::plc {
 namespace {
 
+constexpr std::size_t most_applied = 256;    // inputs that one message of the log can name
 constexpr double outputs_period = 0.2;       // s between two signs of life for the drive
+constexpr double log_period = 0.02;          // s between two words on how far it is
 constexpr double image_period = 0.1;         // s, fastest publication of the image
 constexpr double drive_patience = 0.15;      // s that PLC time goes on by the clock without feedback
 constexpr double standstill_patience = 0.5;  // s that a request waits for the drive to confirm the standstill
@@ -40,6 +42,7 @@ PlcService::PlcService(node::Node& node)
       outputs_(node.bus().writer(topics::plc_outputs)),
       done_(node.bus().writer(topics::auxiliary_done)),
       image_(node.bus().writer(topics::plc_image)),
+      log_(node.bus().writer(topics::plc_input_log)),
       panel_(node.bus(), topics::panel_request, topics::panel_reply) {
   if (const auto kept = retained_.load()) {
     // Only within one life of the cluster may a spindle turn on without an order of the program.
@@ -71,22 +74,46 @@ void PlcService::load_programs() {
   }
 }
 
+void PlcService::applied(idl::stream::Input input, std::int64_t source_time) {
+  inputs_.applied.push_back({input, core_.memory().tick, static_cast<std::uint64_t>(source_time)});
+  if (inputs_.applied.size() == most_applied) tell_inputs(node::monotonic_seconds());
+}
+
+void PlcService::tell_inputs(double now) {
+  const bool further = core_.memory().tick != inputs_.tick;
+  if (inputs_.applied.empty() && (!further || now - log_written_ < log_period)) return;
+  inputs_.instance = node_.options().instance;
+  inputs_.tick = core_.memory().tick;
+  log_.write(inputs_);
+  log_written_ = now;
+  inputs_.applied.clear();
+}
+
 void PlcService::take_inputs() {
+  using idl::stream::Input;
   while (feedback_.take(frame_)) {
     ++frames_in_;
     core_.set_feedback(frame_);
-    if (!node_.options().virtual_time) core_.advance(std::max(frame_.tick, core_.memory().tick));
+    // Frame by frame, so that it does not matter how many have come at once.
+    core_.advance(node_.options().virtual_time ? frame_.tick : std::max(frame_.tick, core_.memory().tick));
     if (frame_.tick != tick_) {
       tick_ = frame_.tick;
       tick_seen_ = node::monotonic_seconds();
     }
   }
   idl::channel::ChannelState state;
-  while (channels_.take(state)) core_.set_channel(state);
+  while (channels_.take(state)) {
+    applied(Input::CHANNEL_STATE, channels_.info().source_timestamp);
+    core_.set_channel(state);
+  }
   idl::channel::AuxiliaryRequest request;
-  while (requests_.take(request)) core_.set_request(request);
+  while (requests_.take(request)) {
+    applied(Input::AUXILIARY_REQUEST, requests_.info().source_timestamp);
+    core_.set_request(request);
+  }
   idl::service::Alarm alarm;
   while (alarms_.take(alarm)) {
+    applied(Input::ALARM, alarms_.info().source_timestamp);
     const auto key = std::make_tuple(alarm.instance, alarm.number, alarm.part);
     if (alarm.active)
       active_alarms_[key] = alarm;
@@ -99,6 +126,7 @@ void PlcService::take_inputs() {
                    }));
   idl::plc::PanelRequest panel;
   while (panel_.take(panel)) {
+    applied(Input::PANEL_REQUEST, panel_.info().source_timestamp);
     idl::plc::PanelReply reply;
     reply.reason = core_.panel(panel.kind, panel.address, panel.value);
     reply.accepted = reply.reason.empty();
@@ -129,6 +157,7 @@ void PlcService::pump() {
     core_.give_up_waiting();
   }
   core_.advance(tick_now(now));
+  tell_inputs(now);
   retained_.save(boot_, core_.memory());
   publish(now);
 }

@@ -17,7 +17,9 @@ class PlcService : public node::Service {
  public:
   explicit PlcService(node::Node& node);
   void pump() override;
-  double period() const override { return node_.options().virtual_time ? 0.05 : 0.01; }
+  double period() const override {
+    return node_.options().virtual_time && inputs_.tick == core_.memory().tick ? 0.05 : 0.01;
+  }
   node::Health health() const override;
   void alarms_reset() override { core_.press_reset(); }
 
@@ -26,6 +28,8 @@ class PlcService : public node::Service {
   void take_inputs();
   std::uint64_t tick_now(double now) const;
   void publish(double now);
+  void applied(idl::stream::Input input, std::int64_t source_time);
+  void tell_inputs(double now);
 
   node::Node& node_;
   RetainedMemory retained_;
@@ -39,14 +43,17 @@ class PlcService : public node::Service {
   bus::Writer<idl::plc::Outputs> outputs_;
   bus::Writer<idl::plc::AuxiliaryDone> done_;
   bus::Writer<idl::plc::Image> image_;
+  bus::Writer<idl::stream::InputLog> log_;
   node::RequestServer<idl::plc::PanelRequest, idl::plc::PanelReply> panel_;
 
   std::map<std::tuple<std::uint32_t, std::uint32_t, std::uint32_t>, idl::service::Alarm> active_alarms_;
   idl::stream::FeedbackFrame frame_;
+  idl::stream::InputLog inputs_;
   idl::plc::Outputs last_outputs_;
   idl::plc::Image last_image_;
   std::uint64_t tick_ = 0, frames_in_ = 0, frames_out_ = 0;
-  double tick_seen_ = 0, period_ = 0.001, outputs_written_ = 0, image_written_ = 0, waiting_since_ = 0;
+  double tick_seen_ = 0, period_ = 0.001, outputs_written_ = 0, image_written_ = 0, log_written_ = 0,
+         waiting_since_ = 0;
   bool first_ = true;
 };
 

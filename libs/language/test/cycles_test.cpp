@@ -92,20 +92,37 @@ TEST(Cycles, Drilling) {
   expect_streams(machine, goldens);
 }
 
+TEST(Cycles, TheSpindleOfATappingCycleIsNoAxisOfTheChannel) {
+  TestMachine machine = machine_for_cycles();
+  machine.axis_mask = 0b111;
+  EXPECT_EQ(run(machine, "S100 G95 F1 G84 Z-5 R0 J3\n").last, Step::end);
+  machine.axis_mask |= 1u << C;
+  EXPECT_EQ(run(machine, "S100 G95 F1 G84 Z-5 R0 J3\n").alarm.number, AlarmNumber::value_range);
+}
+
 TEST(Cycles, TappingAndBoring) {
   TestMachine machine = machine_for_cycles();
+  machine.axis_mask = static_cast<std::uint16_t>(machine.axis_mask & ~(1u << W));
   const Golden goldens[] = {
       // 500 mm/min at 400 1/min: 1.25 mm a turn.
-      {"rigid tapping",
-       "S400 M3 F500 G99 G84 X1 Z-5 R2 P100\n",
-       {"S400", "M3", "rapid X1", "rapid X1 Z2", "tap X1 Z-5 lead1.25", "dwell 0.1", "tap X1 Z2 lead1.25",
-        "dwell 0.1", "end 0"}},
+      {"rigid tapping: the spindle stands before it is coupled, and turns again when the cycle ends",
+       "S400 M3 F500 G99 G84 X1 Z-5 R2 P100\nX2\nG80\n",
+       {"S400", "M3", "rapid X1", "M5", "rapid X1 Z2", "tap X1 Z-5 lead1.25", "dwell 0.1",
+        "tap X1 Z2 lead1.25", "dwell 0.1", "rapid X2 Z2", "tap X2 Z-5 lead1.25", "dwell 0.1",
+        "tap X2 Z2 lead1.25", "dwell 0.1", "M3", "end 0"}},
+      {"M5 with the cycle keeps the spindle off",
+       "S400 M4\nF500 G99 G84 X0 Z-5 R0 M5\nG0 Z1\n",
+       {"S400", "M4", "M5", "tap Z-5 lead1.25", "tap lead1.25", "M5", "rapid Z1", "end 0"}},
+      {"M4 behind the cycle takes the place of the spindle's return",
+       "S400 M3 F500 G99 G84 X0 Z-5 R0\nM4 G80\n",
+       {"S400", "M3", "M5", "tap Z-5 lead1.25", "tap lead1.25", "M4", "end 0"}},
       {"left-hand thread with the lead as feed",
        "G95 S400 F1.5 G74 X0 Z-5 R2\n",
        {"S400", "rapid Z2", "tap Z-5 lead-1.5", "tap Z2 lead-1.5", "rapid", "end 0"}},
-      {"tapping in pecks, with the U axis as spindle",
-       "G95 F1 G99 G84 X0 Z-5 R0 Q3 J4\n",
-       {"tap Z-3 lead1 axis4", "tap Z-2.5 lead1 axis4", "tap Z-5 lead1 axis4", "tap lead1 axis4", "end 0"}},
+      {"tapping in pecks, with the spindle as W axis",
+       "S100 G95 F1 G99 G84 X0 Z-5 R0 Q3 J6\n",
+       {"S100", "tap Z-3 lead1 axis6", "tap Z-2.5 lead1 axis6", "tap Z-5 lead1 axis6", "tap lead1 axis6",
+        "end 0"}},
       {"boring, out at feed",
        "G99 G85 X0 Z-5 R2 F100\n",
        {"rapid Z2", "line Z-5 F100", "line Z2 F100", "end 0"}},

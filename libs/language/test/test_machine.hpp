@@ -63,7 +63,7 @@ struct TestMachine : Environment {
                                    RotaryChoice choice) const override {
     const double to_degrees = 180 / std::numbers::pi;
     const double tilt = std::acos(std::clamp(d[2], -1.0, 1.0)) * to_degrees;
-    if (tilt > 100) return std::nullopt;
+    if (tilt > 98) return std::nullopt;
     AxisValues best = current;
     double least = 1e9;
     for (const double side : {1.0, -1.0}) {
@@ -85,13 +85,29 @@ struct TestMachine : Environment {
     }
     return best;
   }
-  /// Straight there, when that is within 93 degrees of upright and not opposite.
+  /// A goes to 98 degrees, 100 would be in reach.
+  std::optional<Vector3> nearest_direction(const Vector3& d, const AxisValues&) const override {
+    const double limit = std::cos(100 * std::numbers::pi / 180), across = std::hypot(d[0], d[1]);
+    if (d[2] > limit) return std::nullopt;
+    if (!(across > 0)) return Vector3{std::sqrt(1 - limit * limit), 0, limit};
+    const double scale = std::sqrt(1 - limit * limit) / across;
+    return Vector3{scale * d[0], scale * d[1], limit};
+  }
+  /// X leaves its travel beyond 9000 mm.
+  std::optional<TravelBreach> vector_breach(const AxisValues&, const Command& move,
+                                            const Vector3&) const override {
+    return move.target[X] > 9000 ? std::optional(TravelBreach{X, move.target[X]}) : std::nullopt;
+  }
+  /// Straight there, when that is within 93 degrees of upright, not opposite, and exactly upright or clear of
+  /// it.
   VectorWay vector_way(const AxisValues& current, const Vector3& direction) const override {
     VectorWay way = Environment::vector_way(current, direction);
     const AxisValues tip = tip_from_machine(current, 1), gauge = tip_from_machine(current, 0);
     double cosine = 0;
     for (std::size_t i = 0; i < 3; ++i) cosine += (gauge[i] - tip[i]) * direction[i];
     if (way.fault == VectorWay::Fault::none && direction[2] < -0.05) way.fault = VectorWay::Fault::on_the_way;
+    if (direction[2] > 0.9999 && direction[2] < 1) way.fault = VectorWay::Fault::pole;
+    if (direction[1] < -0.99) way.fault = VectorWay::Fault::travel;
     if (cosine < -0.999999) way.fault = VectorWay::Fault::opposite;
     return way;
   }

@@ -76,6 +76,17 @@ TEST(FrameWindow, ANewEpochDropsWhatIsLeftOfTheOld) {
   EXPECT_EQ(put(window, frame(16, 8, 1)), Arrival::stale);
 }
 
+TEST(FrameWindow, AFrameOfALaterEpochIsAGapWhenItsStartIsMissing) {
+  FrameWindow<AxisFrame> window;
+  window.set_next(1, 100);
+  EXPECT_FALSE(window.gap());
+  put(window, frame(40, 8, 2));
+  EXPECT_TRUE(window.gap()) << "the frame that starts epoch 2 was lost";
+  put(window, frame(32, 8, 2, true));
+  EXPECT_EQ(drain(window), (std::vector<std::uint64_t>{32, 40}));
+  EXPECT_FALSE(window.gap());
+}
+
 TEST(FrameWindow, AMissingFrameIsAGapOnceALaterOneIsHere) {
   FrameWindow<AxisFrame> window;
   put(window, frame(0, 8, 1, true));

@@ -137,6 +137,8 @@ Answer ChannelCore::start_program(const RestartPoint& restart) {
     }
   apply_parameters();
   adopt_position();
+  skip_.end();
+  finish_tapping();
   subprograms_.clear();
   text_ = std::make_unique<ProgramText>(selected_.name, selected_.revision, selected_.size);
   const auto modal = power_on_modal();

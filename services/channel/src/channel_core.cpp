@@ -24,8 +24,20 @@ enum StateIndex {
   s_tool,
   s_position,
   s_start = s_position + 9,
-  s_size = s_start + 9
+  s_size = s_start + 9  // then the results of the skip moves so far, 18 values each
 };
+constexpr std::size_t skip_values = 18, most_skips = 24;
+
+std::vector<SkipResult> skips_of(const std::vector<double>& state) {
+  std::vector<SkipResult> skips((state.size() - s_size) / skip_values);
+  auto from = state.begin() + s_size;
+  for (auto& skip : skips) {
+    std::copy_n(from, 9, skip.stopped.begin());
+    std::copy_n(from + 9, 9, skip.touched.begin());
+    from += skip_values;
+  }
+  return skips;
+}
 }  // namespace
 
 ChannelCore::ChannelCore(std::uint16_t channel, bool virtual_time)
@@ -96,7 +108,9 @@ void ChannelCore::set_programs(const idl::program::ProgramList& programs) {
 
 void ChannelCore::on_feedback(const idl::stream::FeedbackFrame& feedback) {
   const bool first = !link_.has_feedback();
+  const bool was_off = link_.drive_mode() == DriveMode::off;
   link_.on_feedback(feedback);
+  skip_.on_feedback(feedback, machine_.channel_axes(), machine_.columns());
   remember_executed();
   if (first) auxiliary_number_ = (link_.epoch() + 1) * 4096;
   const auto mode = link_.drive_mode();
@@ -108,13 +122,15 @@ void ChannelCore::on_feedback(const idl::stream::FeedbackFrame& feedback) {
   else if (streaming && (mode == DriveMode::held || mode == DriveMode::off) && !link_.resuming() &&
            run_ != RunState::INTERRUPTED)
     interrupt(mode == DriveMode::off ? "The drives were switched off" : "The drive stopped on the path");
+  else if (mode == DriveMode::off && !first && !was_off && !link_.drive_restarted() && !must_reset_)
+    interrupt("The drives were switched off");  // while the program was held or waited
 }
 
 void ChannelCore::recover() {
   if (recovered_ || !configured() || !link_.has_feedback()) return;
   recovered_ = true;
   const auto* own = stream::find_state(link_.states(), stream::stage_channel);
-  const bool was_running = own != nullptr && own->values.size() == s_size && own->values[s_running] != 0;
+  const bool was_running = own != nullptr && own->values.size() >= s_size && own->values[s_running] != 0;
   if (!was_running) {
     if (link_.echo_active()) link_.leave();
     return;
@@ -135,6 +151,7 @@ void ChannelCore::recover() {
   point.fraction = v[s_fraction];
   std::copy_n(&v[s_position], 9, point.position.begin());
   std::copy_n(&v[s_start], 9, program_start_.begin());
+  flow_.set_skips(skips_of(v));
   restart_ = point;
   mode_ = Mode::AUTO;
   activity_ = Activity::program;
@@ -154,7 +171,7 @@ void ChannelCore::interrupt(const std::string& why) {
     if (activity_ == Activity::program) {
       const auto* own = stream::find_state(link_.states(), stream::stage_channel);
       RestartPoint point;
-      if (own != nullptr && own->values.size() == s_size && own->values[s_running] != 0 &&
+      if (own != nullptr && own->values.size() >= s_size && own->values[s_running] != 0 &&
           static_cast<std::uint32_t>(own->values[s_crc]) == selected_.crc32) {
         point.sequence = static_cast<std::uint32_t>(own->values[s_sequence]);
         point.fraction = own->values[s_fraction];
@@ -215,6 +232,8 @@ void ChannelCore::adopt_position() {
 }
 
 void ChannelCore::stop_activity() {
+  skip_.end();
+  finish_tapping();
   if (link_.state() == LinkState::active || link_.state() == LinkState::ending ||
       link_.state() == LinkState::requested)
     link_.leave();
@@ -232,6 +251,8 @@ void ChannelCore::stop_activity() {
 }
 
 void ChannelCore::finish(bool program_end) {
+  skip_.end();
+  finish_tapping();
   machine_start_ = machine_position();
   if (activity_ == Activity::mdi) {
     modal_ = flow_.modal();
@@ -247,7 +268,7 @@ void ChannelCore::finish(bool program_end) {
 }
 
 FlowState ChannelCore::fill() {
-  if (activity_ == Activity::jog || aborting_) return FlowState::full;
+  if (activity_ == Activity::jog || aborting_ || skip_.active()) return FlowState::full;
   flow_.set_cycle(link_.next());
   return flow_.fill(single_block_ && activity_ == Activity::program);
 }
@@ -267,8 +288,9 @@ void ChannelCore::advance() {
   for (int i = 0; i < 1000 && run_ == RunState::RUNNING && activity_ != Activity::none; ++i) {
     const auto flow = fill();
     if (flow == FlowState::waiting) return;
-    if (flow_.searching() && activity_ != Activity::jog) return;
-    if (restart_ && activity_ == Activity::program) {  // the restart point has been found
+    const bool searching = flow_.searching() && activity_ != Activity::jog;
+    if (searching && flow != FlowState::alarm) return;
+    if (restart_ && activity_ == Activity::program && !searching) {  // the restart point has been found
       frame_ = flow_.executing().transformation;
       frame_tool_length_ = flow_.executing().tool_length;
       restart_.reset();
@@ -278,6 +300,7 @@ void ChannelCore::advance() {
         run_ = RunState::HELD;
         return;
       }
+      if (!may_start_) return;
       standing_ = 0;
       link_.request_start();
       return;
@@ -286,34 +309,52 @@ void ChannelCore::advance() {
       finish(false);
       return;
     }
+    if (skip_.active()) {
+      finish_skip();
+      continue;
+    }
     run_pending(flow);
   }
+}
+
+// The slowest copy of a stage is near enough for `count` setpoints more. It may not have heard of this
+// motion.
+bool ChannelCore::copies_follow(std::uint32_t count) {
+  if (link_.starts()) motion_start_ = link_.next();
+  const auto end = link_.next() + count, distance = 2 * machine_.lead();
+  return end <= distance || end - distance <= std::max(floor_, motion_start_);
 }
 
 bool ChannelCore::produce(idl::stream::PathFrame& frame) {
   if (link_.state() != LinkState::active) return false;
   const std::uint32_t count = machine_.frame_cycles(virtual_time_);
-  if (!link_.credit(count, machine_.lead())) return false;
+  if (!link_.credit(count, machine_.lead()) || !copies_follow(count)) return false;
   frame.setpoints.clear();
   frame.lines.clear();
+  frame.spindle.clear();
   frame.ends = false;
   frame.count = 0;
   auto flow = FlowState::full;
   while (frame.count < count && !frame.ends) {
-    if (!hold_ && !aborting_) {
+    const std::uint64_t cycle = link_.next() + frame.count;
+    if (!holding() && !aborting_) {
       flow = fill();
       if (flow == FlowState::waiting) break;
     }
-    const auto setpoint = trajectory_->step(feed_override_, rapid_override_, hold_);
+    if (skip_.active()) skip_.moves_from(cycle);
+    if (skip_.active() && skip_.brakes_in(cycle, machine_.lead())) trajectory_->abort();
+    const double feed_override = tapping_.active() ? 1 : feed_override_;
+    const auto setpoint = trajectory_->step(feed_override, rapid_override_, holding());
     frame.setpoints.insert(frame.setpoints.end(), setpoint.position.begin(), setpoint.position.end());
     frame.lines.push_back(setpoint.line);
-    auto& written = written_[(link_.next() + frame.count) % history];
-    written = {link_.next() + frame.count, setpoint.line, setpoint.feed, setpoint.distance_to_go};
+    if (tapping_.active()) frame.spindle.push_back(tapping_.revolutions(setpoint.position));
+    written_[cycle % history] = {cycle, setpoint.line, setpoint.feed, setpoint.distance_to_go,
+                                 setpoint.position};
     point_ = {setpoint.sequence, setpoint.line, setpoint.fraction};
     ++frame.count;
     standing_ = setpoint.path_speed == 0 && setpoint.position == last_position_ ? standing_ + 1 : 0;
     last_position_ = setpoint.position;
-    frame.ends = setpoint.at_rest || (hold_ && standing_ > standstill_cycles);
+    frame.ends = setpoint.at_rest || (holding() && standing_ > standstill_cycles);
   }
   if (frame.count == 0) return false;
   frame.channel = number_;
@@ -324,6 +365,7 @@ bool ChannelCore::produce(idl::stream::PathFrame& frame) {
   frame.starts = link_.starts();
   frame.transformation = frame_ == language::Transformation::rtcp ? 1 : 0;
   frame.tool_length = frame_tool_length_;
+  frame.spindle_axis = machine_.tapping_spindle().axis.value_or(0);
   frame.states.clear();
   if (frame.starts) frame.states = link_.states();
   auto& own = stream::state_of(frame.states, stream::stage_channel);
@@ -349,6 +391,12 @@ std::vector<double> ChannelCore::stage_state(FlowState flow) {
   v[s_tool] = tool_;
   std::copy(trajectory_->position().begin(), trajectory_->position().end(), v.begin() + s_position);
   std::copy(program_start_.begin(), program_start_.end(), v.begin() + s_start);
+  // More than the state has room for are lost with this process; the program is then not resumable.
+  for (const auto& skip : flow_.skips()) {
+    if (flow_.skips().size() > most_skips) break;
+    v.insert(v.end(), skip.stopped.begin(), skip.stopped.end());
+    v.insert(v.end(), skip.touched.begin(), skip.touched.end());
+  }
   return v;
 }
 

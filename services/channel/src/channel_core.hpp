@@ -54,6 +54,9 @@ class ChannelCore {
   /// Alarms that stop motion, or the PLC's feed hold: `why` is empty when there is none.
   void set_hold(const std::string& why);
   void set_ready(bool ready) { ready_ = ready; }
+  /// A motion may start: the copies of every stage are in step. `floor` is the cycle the slowest of them
+  /// computes next; nothing is written farther than two leads beyond it.
+  void set_copies(bool may_start, std::uint64_t floor) { may_start_ = may_start, floor_ = floor; }
   Answer handle(const idl::channel::ChannelRequest& request);
   std::optional<ChunkWanted> wanted() const;
   void deliver(const std::string& name, std::uint64_t offset, std::vector<std::uint8_t> data);
@@ -99,8 +102,14 @@ class ChannelCore {
   void apply_parameters();
   void adopt_position();
   void run_pending(FlowState flow);
+  void begin_skip();
+  void finish_skip();
+  void begin_tapping();
+  void finish_tapping();
+  bool holding() const { return hold_ && !tapping_.active(); }
   void begin_auxiliary(std::uint8_t kind, std::uint32_t code, double value);
   FlowState fill();
+  bool copies_follow(std::uint32_t count);
   void remember_executed();
   std::vector<double> stage_state(FlowState flow);
   language::ModalState power_on_modal() const;
@@ -126,6 +135,8 @@ class ChannelCore {
   bool ready_ = false, recovered_ = false, hold_ = false, aborting_ = false,
        must_reset_ =
            false;  // the drives were off: spindle and coolant are, so the program must not just go on
+  bool may_start_ = true;
+  std::uint64_t floor_ = ~0ull, motion_start_ = 0;
   std::string external_hold_;
   int standing_ = 0;
   AxisValues last_position_{};
@@ -153,6 +164,8 @@ class ChannelCore {
   std::unique_ptr<language::VariableStore> variables_ = std::make_unique<language::VariableStore>();
   bool variables_news_ = false;
   std::optional<idl::channel::AuxiliaryRequest> outgoing_auxiliary_;
+  SkipMove skip_;
+  Tapping tapping_;
   std::uint32_t tool_ = 0;
   double spindle_programmed_ = 0;
   std::uint32_t reset_count_ = 0;
@@ -163,6 +176,7 @@ class ChannelCore {
     std::uint32_t line = 0;
     double feed = 0;
     AxisValues distance_to_go{};
+    AxisValues position{};
   };
   static constexpr std::size_t history = 2048;
   std::vector<Written> written_;

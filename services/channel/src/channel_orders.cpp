@@ -7,6 +7,10 @@ namespace trunnion::channel {
 // The axes stand and the drive has executed everything: what stopped the flow is dealt with now.
 void ChannelCore::run_pending(FlowState flow) {
   using language::CommandKind;
+  if (tapping_.active() && flow != FlowState::block_end) {
+    finish_tapping();
+    return;
+  }
   switch (flow) {
     case FlowState::alarm:
       events_.push_back(
@@ -35,6 +39,12 @@ void ChannelCore::run_pending(FlowState flow) {
       frame_tool_length_ = command.modal.tool_length;
       trajectory_->start(command.target, frame_, frame_tool_length_);
       flow_.finish_pending();
+      return;
+    case CommandKind::skip:
+      begin_skip();
+      return;
+    case CommandKind::tap:
+      begin_tapping();
       return;
     case CommandKind::table:
       table_order_ = table_order(command, number_, tool_table_);
@@ -107,6 +117,7 @@ void ChannelCore::on_auxiliary_done(const idl::plc::AuxiliaryDone& done) {
   }
   const bool stop =
       command.kind == language::CommandKind::auxiliary && (command.number == 0 || command.number == 1);
+  if (must_reset_) return;  // the drives were switched off meanwhile
   run_ = stop || hold_ || !external_hold_.empty() ? RunState::HELD : RunState::RUNNING;
   hold_ = false;
 }
@@ -120,6 +131,7 @@ void ChannelCore::on_table_changed(const std::string& reason) {
     return;
   }
   flow_.finish_pending();
+  if (must_reset_) return;
   run_ = hold_ || !external_hold_.empty() ? RunState::HELD : RunState::RUNNING;
   hold_ = false;
 }

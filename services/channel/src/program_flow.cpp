@@ -23,6 +23,9 @@ void ProgramFlow::start(language::TextSource& text, const AxisValues& position,
   block_line_ = 0;
   restart_ = restart;
   searching_ = restart.sequence > 0;
+  if (!searching_) skips_.clear();
+  skips_read_ = 0;
+  tapping_ = in_hole_ = refused_ = false;
   executing_ = initial;
   alarm_number_ = 0;
   alarm_text_.clear();
@@ -36,7 +39,8 @@ FlowState ProgramFlow::push_move() {
       return FlowState::alarm;
     }
   }
-  auto move = command_;
+  auto move = command_.kind == CommandKind::tap ? Tapping::line(command_) : command_;
+  if (move.kind == CommandKind::skip) move.kind = CommandKind::line;
   if (move.modal.feed_mode == language::FeedMode::per_revolution) {
     move.modal.feed *= move.modal.spindle_speed;
     move.modal.feed_mode = language::FeedMode::per_minute;
@@ -54,7 +58,27 @@ FlowState ProgramFlow::push_move() {
   return FlowState::full;
 }
 
+FlowState ProgramFlow::push_pending() {
+  const auto state = push_move();
+  refused_ = state == FlowState::alarm;
+  trajectory_->finish();
+  return state;
+}
+
+void ProgramFlow::refuse_pending(language::AlarmNumber number) {
+  fail(number);
+  refused_ = true;
+}
+
+FlowState ProgramFlow::fail(language::AlarmNumber number) {
+  alarm_number_ = static_cast<std::uint32_t>(number);
+  alarm_text_ = place(command_.program, command_.line) + ": " + std::string(language::alarm_text(number));
+  trajectory_->finish();
+  return FlowState::alarm;
+}
+
 FlowState ProgramFlow::fill(bool single_block) {
+  if (refused_) return FlowState::alarm;
   constexpr int most_commands = 4096;  // a long search for the restart point must not keep the channel deaf
   for (int i = 0; i < most_commands; ++i) {
     if (!searching_ && !trajectory_->can_accept()) return FlowState::full;
@@ -66,8 +90,12 @@ FlowState ProgramFlow::fill(bool single_block) {
         case language::Step::working:
           continue;
         case language::Step::pending:
-        case language::Step::position:
           return FlowState::waiting;
+        case language::Step::position:
+          if (skips_read_ == skips_.size()) return fail(language::AlarmNumber::not_resumable);
+          interpreter_.set_position(skips_[skips_read_].stopped, skips_[skips_read_].touched);
+          ++skips_read_;
+          continue;
         case language::Step::end:
           return FlowState::end;
         case language::Step::alarm: {
@@ -84,28 +112,27 @@ FlowState ProgramFlow::fill(bool single_block) {
     }
     if (searching_) {
       if (command_.sequence < restart_.sequence) {
+        in_hole_ = command_.kind == CommandKind::tap || (in_hole_ && command_.kind == CommandKind::dwell);
         have_command_ = false;
         continue;
       }
+      // The spindle has lost its place in the thread.
+      if (command_.kind == CommandKind::tap || (in_hole_ && command_.kind == CommandKind::dwell))
+        return fail(language::AlarmNumber::not_resumable);
       searching_ = false;
       trajectory_->start(restart_.position, command_.modal.transformation, command_.modal.tool_length);
     }
+    const bool stroke =
+        command_.kind == CommandKind::tap || (tapping_ && command_.kind == CommandKind::dwell);
     const bool move = command_.kind == CommandKind::rapid || command_.kind == CommandKind::line ||
-                      command_.kind == CommandKind::arc || command_.kind == CommandKind::dwell;
+                      command_.kind == CommandKind::arc || command_.kind == CommandKind::dwell || stroke;
     if (single_block && block_line_ != 0 && command_.line != block_line_) {
       trajectory_->finish();
       return FlowState::block_end;
     }
     block_line_ = command_.line;
-    if (command_.kind == CommandKind::skip || command_.kind == CommandKind::tap) {
-      // Neither may be passed over: the tool would not be where the program thinks.
-      alarm_number_ = static_cast<std::uint32_t>(language::AlarmNumber::move_not_available);
-      alarm_text_ = std::to_string(command_.line) + ": " +
-                    std::string(language::alarm_text(language::AlarmNumber::move_not_available));
-      trajectory_->finish();
-      return FlowState::alarm;
-    }
-    if (!move) {
+    if (!move || stroke != tapping_) {
+      if (command_.kind == CommandKind::skip || stroke) executing_ = command_.modal;
       trajectory_->finish();
       return command_.kind == CommandKind::end && command_.number == 0 ? FlowState::end : FlowState::command;
     }

@@ -7,6 +7,8 @@
 #include "language/interpreter.hpp"
 #include "motion/trajectory.hpp"
 #include "setup/channel_setup.hpp"
+#include "skip_move.hpp"
+#include "tapping.hpp"
 
 namespace trunnion::channel {
 
@@ -44,6 +46,19 @@ class ProgramFlow {
   /// Single block: the next block may begin.
   void next_block() { block_line_ = 0; }
 
+  /// Hands the pending move to motion, whose last it is. FlowState::alarm, or full.
+  FlowState push_pending();
+  /// The pending command cannot be carried out: fill() gives FlowState::alarm from now on.
+  void refuse_pending(language::AlarmNumber number);
+  /// Rigid tapping has been begun or ended: strokes and the dwells between them are moves meanwhile.
+  void set_tapping(bool tapping) { tapping_ = tapping; }
+  /// Where the pending skip move ended; the interpreter goes on from there. A restart of the program reads
+  /// the results again.
+  void skip_ended(const SkipResult& result) { skips_.push_back(result); }
+  const std::vector<SkipResult>& skips() const { return skips_; }
+  /// The results a program had before this process; after start().
+  void set_skips(std::vector<SkipResult> skips) { skips_ = std::move(skips); }
+
   const language::ModalState& modal() const { return interpreter_.modal(); }
   /// The variables as the program has left them.
   const language::VariableStore& variables() const { return interpreter_.variables(); }
@@ -61,6 +76,7 @@ class ProgramFlow {
 
  private:
   FlowState push_move();
+  FlowState fail(language::AlarmNumber number);
   setup::ChannelSetup& machine_;
   motion::Trajectory*& trajectory_;
   language::Interpreter interpreter_;
@@ -70,6 +86,9 @@ class ProgramFlow {
   std::uint32_t block_line_ = 0;
   RestartPoint restart_;
   bool searching_ = false;
+  bool tapping_ = false, in_hole_ = false, refused_ = false;
+  std::vector<SkipResult> skips_;
+  std::size_t skips_read_ = 0;
 
   std::uint32_t alarm_number_ = 0;
   std::string alarm_text_;

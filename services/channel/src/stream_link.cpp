@@ -12,6 +12,9 @@ void StreamLink::on_feedback(const idl::stream::FeedbackFrame& feedback) {
   for (const auto& echo : feedback.channels) {
     if (echo.channel != channel_) continue;
     echo_active_ = echo.active;
+    drive_restarted_ = echo.request < answered_;
+    answered_ = echo.request;
+    if (drive_restarted_ && state_ == LinkState::idle) new_epoch_ = true;  // it knows no epoch of ours
     if (!echo.states.empty()) states_ = echo.states;
     if (request_ ==
         0) {  // a process before this one may have asked already: numbers and epochs go on from its

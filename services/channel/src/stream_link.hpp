@@ -60,6 +60,8 @@ class StreamLink {
   const std::vector<double>& positions() const { return positions_; }
   /// The drive still executes (or holds) a stream of ours that this process did not write.
   bool echo_active() const { return echo_active_; }
+  /// The newest feedback is the first of another process of the drive: it does not know what was answered.
+  bool drive_restarted() const { return drive_restarted_; }
   std::optional<idl::stream::StreamRequest> take_request();
 
  private:
@@ -68,8 +70,8 @@ class StreamLink {
   LinkState state_ = LinkState::idle;
   DriveMode mode_ = DriveMode::unknown;
   std::uint64_t next_ = 0, executed_ = 0;
-  std::uint32_t epoch_ = 0, request_ = 0;
-  bool new_epoch_ = true, starts_ = false, echo_active_ = false, resuming_ = false;
+  std::uint32_t epoch_ = 0, request_ = 0, answered_ = 0;
+  bool new_epoch_ = true, starts_ = false, echo_active_ = false, resuming_ = false, drive_restarted_ = false;
   std::vector<idl::stream::StageState> states_;
   std::vector<double> positions_;
   std::optional<idl::stream::StreamRequest> outgoing_;

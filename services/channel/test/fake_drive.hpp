@@ -2,7 +2,9 @@
 #pragma once
 
 #include <deque>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "channel_core.hpp"
@@ -31,14 +33,30 @@ class FakeDrive {
     }
   }
   void put(const idl::stream::PathFrame& frame) { queue_.push_back(frame); }
+  /// A skip input that axis `axis` switches on where it passes `position` upwards.
+  struct Switch {
+    std::uint8_t input = 1;
+    std::size_t axis = 0;
+    double position = 0;
+  };
+  std::optional<Switch> switch_;
   /// Executes frames, at most `cycles` setpoints' worth, and reports.
   idl::stream::FeedbackFrame run(std::uint64_t cycles = ~0ull) {
     std::uint64_t done = 0;
+    idl::stream::FeedbackFrame feedback;
     while (mode == 0 && !queue_.empty() && done < cycles) {
       const auto& f = queue_.front();
       if (f.epoch == echo_.epoch) {
         for (std::uint32_t i = 0; i < f.count; ++i) {
+          if (edge_) {
+            edge_->cycle = f.first + i;
+            feedback.skips.push_back(*std::exchange(edge_, std::nullopt));
+          }
           rows.push_back({f.setpoints.begin() + 9 * i, f.setpoints.begin() + 9 * (i + 1)});
+          look_at_switch();
+          spindle.push_back(f.spindle.empty() ? std::nullopt : std::optional(f.spindle[i]));
+          feedback.commanded.insert(feedback.commanded.end(), rows.back().begin(),
+                                    rows.back().begin() + static_cast<long>(position_.size()));
           lines.push_back(f.lines[i]);
         }
         for (std::size_t a = 0; a < position_.size(); ++a) position_[a] = rows.back()[a];
@@ -49,8 +67,8 @@ class FakeDrive {
       }
       queue_.pop_front();
     }
-    idl::stream::FeedbackFrame feedback;
-    feedback.first = next;
+    feedback.count = static_cast<std::uint32_t>(feedback.commanded.size() / position_.size());
+    feedback.first = next - feedback.count;
     feedback.mode = static_cast<std::uint8_t>(mode);
     feedback.axis_count = static_cast<std::uint16_t>(position_.size());
     feedback.position = position_;
@@ -71,8 +89,23 @@ class FakeDrive {
   std::uint64_t next = 0;
   std::vector<std::vector<double>> rows;
   std::vector<std::uint32_t> lines;
+  std::vector<std::optional<double>> spindle;  // of each row, when one was coupled
 
  private:
+  // The axes follow without error: what a cycle commands is reached before the next one.
+  void look_at_switch() {
+    if (!switch_ || rows.size() < 2) return;
+    const auto& before = rows[rows.size() - 2];
+    const auto& now = rows.back();
+    const std::size_t a = switch_->axis;
+    if (!(before[a] < switch_->position && now[a] >= switch_->position)) return;
+    const double share = (switch_->position - before[a]) / (now[a] - before[a]);
+    edge_ = idl::stream::SkipEdge{switch_->input, 0, {}};
+    for (std::size_t i = 0; i < position_.size(); ++i)
+      edge_->position.push_back(before[i] + share * (now[i] - before[i]));
+  }
+
+  std::optional<idl::stream::SkipEdge> edge_;
   std::vector<double> position_;
   std::deque<idl::stream::PathFrame> queue_;
   idl::stream::ChannelEcho echo_;

@@ -64,6 +64,7 @@ void DriveCore::brake() {
   off_path_ = true;
   phase_ = 0;
   for (std::size_t i = 0; i < axes_.size(); ++i) command_[i] += rate_ * velocity_[i];
+  for (auto& spindle : spindles_) spindle.lead_on(rate_);
 }
 
 void DriveCore::stopped() {

@@ -39,11 +39,11 @@ void DriveCore::configure(const machine::Parameters& p, bool virtual_time) {
                   p.get("following_error_limit", a)};
     servos_[i].configure(ServoParameters::from(p, a));
   }
-  spindle_step_.clear();
-  for (const auto& spindle : machine::spindles(p))  // deg/s2 to 1/min per period
-    spindle_step_.push_back(p.get("maximum_acceleration", spindle.number) / 6 * dt_);
-  spindle_speed_.resize(spindle_step_.size(), 0.0);
-  spindle_command_.resize(spindle_step_.size(), 0.0);
+  spindle_axes_ = machine::spindles(p);
+  spindles_.resize(spindle_axes_.size());
+  for (std::size_t i = 0; i < spindles_.size(); ++i)
+    spindles_[i].configure(p.get("maximum_acceleration", spindle_axes_[i].number), dt_);
+  skip_inputs_.configure(p, axes_);
 }
 
 void DriveCore::restore(const Memory& memory) {
@@ -78,6 +78,7 @@ bool DriveCore::any_active() const {
 
 void DriveCore::leave(Channel& channel) {
   channel.active = false;
+  release_spindle(channel);
   if (any_active()) return;
   if (mode_ == Mode::held || mode_ == Mode::returning) mode_ = Mode::following;
   target_ = command_;
@@ -223,14 +224,11 @@ bool DriveCore::can_step(bool give_up) const {
 
 void DriveCore::step() {
   ++tick_;
-  for (std::size_t i = 0; i < spindle_speed_.size(); ++i) {
-    const double wanted = i < spindle_command_.size() && mode_ != Mode::off ? spindle_command_[i] : 0;
-    spindle_speed_[i] += std::clamp(wanted - spindle_speed_[i], -spindle_step_[i], spindle_step_[i]);
-  }
   switch (mode_) {
     case Mode::off:
       for (auto& servo : servos_) servo.hold();
       for (std::size_t i = 0; i < axes_.size(); ++i) command_[i] = servos_[i].command();
+      move_spindles(false);
       return;
     case Mode::held:
       if (resume_ && prefilled(supply())) resume();
@@ -298,6 +296,9 @@ bool DriveCore::pass_cycle() {
   ++rows_;
   commanded_rows_.insert(commanded_rows_.end(), target_.begin(), target_.end());
   for (const auto& servo : servos_) actual_rows_.push_back(servo.encoder());
+  for (const auto& spindle : spindles_) spindle_rows_.push_back(spindle.angle());
+  skip_inputs_.report(next_, skips_);
+  couple_spindles();
   for (auto& [number, channel] : channels_) {
     if (!channel.active) continue;
     const auto* frame = channel.window.peek();
@@ -305,7 +306,9 @@ bool DriveCore::pass_cycle() {
     channel.states = frame->states;
     const bool ends = frame->ends;
     channel.window.advance();
-    if (ends) channel.active = false;
+    if (!ends) continue;
+    channel.active = false;
+    release_spindle(channel);
   }
   ++next_;
   return true;
@@ -325,10 +328,12 @@ void DriveCore::advance(double cycles) {
     target_of(next_, scratch_);
     for (std::size_t i = 0; i < axes_.size(); ++i)
       command_[i] = target_[i] + phase_ * (scratch_[i] - target_[i]);
+    lead_spindles(phase_);
   } else {
     command_ = target_;
     if (phase_ > 0 && mode_ == Mode::braking) {  // the last setpoint at hand is passed while still moving
       for (std::size_t i = 0; i < axes_.size(); ++i) command_[i] += phase_ * velocity_[i];
+      for (auto& spindle : spindles_) spindle.lead_on(phase_);
       off_path_ = true;
       phase_ = 0;
     }
@@ -379,6 +384,8 @@ void DriveCore::follow() {
 
 void DriveCore::move_axes() {
   for (std::size_t i = 0; i < axes_.size(); ++i) servos_[i].step(command_[i], dt_);
+  move_spindles(true);
+  skip_inputs_.step(servos_);
   supervise();
 }
 
@@ -427,6 +434,10 @@ void DriveCore::fill(idl::stream::FeedbackFrame& out) {
   commanded_rows_.clear();
   actual_rows_.clear();
   rows_ = 0;
+  std::swap(out.spindle_angle, spindle_rows_);
+  spindle_rows_.clear();
+  std::swap(out.skips, skips_);
+  skips_.clear();
   out.velocity.resize(n);
   out.torque.resize(n);
   out.position.resize(n);
@@ -437,7 +448,8 @@ void DriveCore::fill(idl::stream::FeedbackFrame& out) {
     out.position[i] = servos_[i].encoder();
     out.enabled[i] = mode_ == Mode::off ? 0 : 1;
   }
-  out.spindle_speed = spindle_speed_;
+  out.spindle_speed.resize(spindles_.size());
+  for (std::size_t i = 0; i < spindles_.size(); ++i) out.spindle_speed[i] = spindles_[i].speed();
   out.starved = starved_;
   out.channels.resize(channels_.size());
   std::size_t k = 0;

@@ -10,6 +10,8 @@
 #include "contracts/types.hpp"
 #include "machine/axes.hpp"
 #include "servo_axis.hpp"
+#include "skip_inputs.hpp"
+#include "spindle.hpp"
 #include "stream/frame_window.hpp"
 
 namespace trunnion::drive {
@@ -46,9 +48,15 @@ class DriveCore {
 
   /// A frame of the gantry stage; swapped away. False when a copy differs from what is here.
   bool put(idl::stream::AxisFrame& frame);
+  /// What is here of the same channel, epoch and first cycle; null when nothing is.
+  const idl::stream::AxisFrame* copy_of(const idl::stream::AxisFrame& frame) {
+    return channels_[frame.channel].window.copy_of(frame);
+  }
   void request(const idl::stream::StreamRequest& request);
   void set_enables(const std::vector<std::uint8_t>& enable, bool emergency_stop);
-  void set_spindle_speed(const std::vector<double>& speed) { spindle_command_ = speed; }
+  void set_spindle_speed(const std::vector<double>& speed) {
+    for (std::size_t i = 0; i < spindles_.size(); ++i) spindles_[i].order(i < speed.size() ? speed[i] : 0);
+  }
 
   /// True when a tick would execute, brake, return or settle; false when there is nothing to do but wait.
   /// `give_up`: the setpoints that are missing have been waited for long enough.
@@ -90,6 +98,7 @@ class DriveCore {
     std::vector<idl::stream::StageState> states;
     std::vector<std::uint16_t> axes;  // of the frames, and the column of each
     std::vector<int> columns;
+    int spindle = -1;  // that follows the channel's frames
   };
   // How far the setpoints at hand reach.
   struct Supply {
@@ -112,6 +121,11 @@ class DriveCore {
   void resume();
   void step_return();
   void plan_return(const std::vector<double>& target);
+  const double* spindle_row(const Channel& channel, std::uint64_t cycle) const;
+  void couple_spindles();
+  void lead_spindles(double phase);
+  void release_spindle(Channel& channel);
+  void move_spindles(bool powered);
   void move_axes();
   void supervise();
   void stopped();
@@ -149,12 +163,15 @@ class DriveCore {
   std::vector<double> return_from_, return_to_;
   std::uint32_t return_periods_ = 0, return_done_ = 0;
 
-  std::vector<double> spindle_command_, spindle_speed_, spindle_step_;
+  std::vector<machine::AxisInfo> spindle_axes_;
+  std::vector<Spindle> spindles_;
+  SkipInputs skip_inputs_;
 
   std::vector<DriveEvent> events_;
   std::uint64_t first_row_ = 0;
   std::uint32_t rows_ = 0;
-  std::vector<double> commanded_rows_, actual_rows_;
+  std::vector<double> commanded_rows_, actual_rows_, spindle_rows_;
+  std::vector<idl::stream::SkipEdge> skips_;
   std::vector<bool> reported_;  // per axis: supervision has fired since the last acknowledge
 };
 

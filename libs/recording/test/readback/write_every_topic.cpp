@@ -132,5 +132,7 @@ int main(int argc, char** argv) {
   all.add(topics::alarm);
   all.add(topics::alarm_reset);
   all.add(topics::cluster);
+  all.add(topics::swap_request);
+  all.add(topics::swap_reply);
   return all.finish(argv[2]) ? 0 : 1;
 }

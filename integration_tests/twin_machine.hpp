@@ -1,0 +1,41 @@
+// Machines whose stages have two copies.
+#pragma once
+
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "cluster_files.hpp"
+
+namespace trunnion::integration {
+
+/// A copy of the machine ac-table in which each stage of `stages` has two copies, one on each vendor.
+class TwinMachine {
+ public:
+  explicit TwinMachine(const std::vector<std::string>& stages)
+      : directory_(std::filesystem::temp_directory_path() / ("trunnion-twin-" + std::to_string(getpid()))) {
+    std::filesystem::remove_all(directory_);
+    std::filesystem::copy(deploy::find_machine("ac-table"), directory_,
+                          std::filesystem::copy_options::recursive);
+    std::ifstream in(directory_ / "machine.yaml");
+    std::string text((std::istreambuf_iterator<char>(in)), {});
+    for (const auto& stage : stages) {
+      const std::string line = "{service: " + stage + "}";
+      text.replace(text.find(line), line.size(),
+                   "{service: " + stage + ", replicas: 2, vendor: [cyclonedds, fastdds]}");
+    }
+    std::ofstream(directory_ / "machine.yaml") << text;
+  }
+  ~TwinMachine() { std::filesystem::remove_all(directory_); }
+  TwinMachine(const TwinMachine&) = delete;
+  TwinMachine& operator=(const TwinMachine&) = delete;
+  std::string path() const { return directory_.string(); }
+
+ private:
+  std::filesystem::path directory_;
+};
+
+}  // namespace trunnion::integration

@@ -1,0 +1,160 @@
+#include "replay/tick_plan.hpp"
+
+#include <algorithm>
+#include <optional>
+#include <stdexcept>
+
+#include "bus/cdr.hpp"
+#include "contracts/topics.hpp"
+
+namespace trunnion::replay {
+namespace {
+
+using idl::stream::Input;
+
+// The handle of the topic an input came by: its name in the contract, in small letters.
+const bus::TopicEntry* topic_of(Input input) {
+  std::string handle = bus::EnumNames<Input>::names[static_cast<std::size_t>(input)];
+  std::transform(handle.begin(), handle.end(), handle.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return bus::find_topic(handle);
+}
+
+class TickPlan {
+ public:
+  TickPlan(const StoredRecording& recording, const std::string& service, VerifyPlan& plan)
+      : recording_(recording), service_(service), drive_(service == "drive"), plan_(plan) {}
+
+  void make() {
+    sort_messages();
+    for (const auto& stamp : stamps_) find_message(stamp);
+    if (!drive_)
+      for (const auto& told : told_)
+        due_.push_back({told.second.minor, cyclic_before, told.first, told.first->time});
+    std::stable_sort(due_.begin(), due_.end(), [](const Due& a, const Due& b) {
+      return std::pair(a.tick, a.rank) < std::pair(b.tick, b.rank);
+    });
+    weave_in_the_rest();
+    for (const auto& due : due_) feed(due);
+    plan_.end.push_back({own_, last_});
+  }
+
+ private:
+  // At one tick: for the drive what changes its orders before the setpoints that let it go on; for the PLC
+  // the tick itself before what reached it then.
+  static constexpr int order = 1, cyclic_before = 0, cyclic_after = 2;
+  struct Due {
+    std::uint64_t tick = 0;
+    int rank = 0;
+    const StoredMessage* message = nullptr;
+    std::uint64_t time = 0;
+  };
+
+  void sort_messages() {
+    idl::stream::InputLog log;
+    idl::stream::FeedbackFrame feedback;
+    idl::parameters::ParameterSet set;
+    own_ = {bus::find_topic(drive_ ? "feedback_frame" : "plc_input_log"), 0};
+    for (const auto& message : recording_.messages) {
+      const auto& handle = message.topic->handle;
+      if (plan_.topics.contains(handle)) plan_.expected.push_back(message);
+      if (handle == "feedback_frame" && bus::decode(message.cdr, feedback)) {
+        told_.emplace_back(&message, Place{feedback.first + feedback.count, feedback.tick});
+        if (drive_) stamps_.insert(stamps_.end(), feedback.applied.begin(), feedback.applied.end());
+        plan_.cycles += feedback.count;
+      } else if (handle == "plc_input_log" && !drive_ && bus::decode(message.cdr, log)) {
+        stamps_.insert(stamps_.end(), log.applied.begin(), log.applied.end());
+      } else if (handle == "parameter_set" && bus::decode(message.cdr, set)) {
+        revisions_[set.revision] = &message;
+      }
+      if (is_input(message)) inputs_[{message.topic, message.time}] = &message;
+    }
+    if (stamps_.empty()) throw std::runtime_error("the recording does not say when inputs took effect");
+  }
+
+  bool is_input(const StoredMessage& message) {
+    const auto& topic = *message.topic;
+    const auto reads = [&](const std::string& who) {
+      return std::find(topic.readers.begin(), topic.readers.end(), who) != topic.readers.end();
+    };
+    if (!reads(service_) && !reads("all")) return false;
+    if (topic.handle == "alarm") return bus::decode(message.cdr, alarm_) && alarm_.source != service_;
+    if (topic.handle == "service_state")
+      return bus::decode(message.cdr, state_) && state_.service != service_;
+    return true;
+  }
+
+  void find_message(const idl::stream::AppliedInput& stamp) {
+    const auto* topic = topic_of(stamp.input);
+    const StoredMessage* message = nullptr;
+    if (stamp.input == Input::PARAMETER_SET) {
+      message = revisions_[stamp.identity];
+    } else if (const auto found = inputs_.find({topic, stamp.identity}); found != inputs_.end()) {
+      message = found->second;
+    }
+    // What it said of itself, or what was before the recording began.
+    if (message == nullptr) return;
+    if (!placed_.insert(message).second) return;
+    due_.push_back({stamp.tick, is_cyclic(*topic) ? cyclic_after : order, message, message->time});
+  }
+
+  // What has no tick goes before the first that was written later.
+  void weave_in_the_rest() {
+    std::vector<Due> woven;
+    std::vector<const StoredMessage*> rest;
+    for (const auto& [key, message] : inputs_)
+      if (!placed_.contains(message) && !is_cyclic(*message->topic)) rest.push_back(message);
+    std::stable_sort(rest.begin(), rest.end(),
+                     [](const auto* a, const auto* b) { return a->time < b->time; });
+    auto next = rest.begin();
+    for (const auto& due : due_) {
+      for (; next != rest.end() && (*next)->time < due.time; ++next)
+        woven.push_back({woven.empty() ? 0 : woven.back().tick, order, *next, (*next)->time});
+      woven.push_back(due);
+    }
+    due_ = std::move(woven);
+  }
+
+  void feed(const Due& due) {
+    Step step{due.message, {}, !is_cyclic(*due.message->topic)};
+    if (const auto place = place_at(due.tick); place > last_ && (drive_ || step.apart)) {
+      step.needs.push_back({own_, place});
+      last_ = place;
+    }
+    plan_.steps.push_back(std::move(step));
+  }
+
+  // How far the service had told to be when it was at `tick`.
+  Place place_at(std::uint64_t tick) const {
+    if (!drive_) return {0, tick};
+    const auto after =
+        std::upper_bound(told_.begin(), told_.end(), tick,
+                         [](std::uint64_t t, const auto& told) { return t < told.second.minor; });
+    return after == told_.begin() ? Place{} : std::prev(after)->second;
+  }
+
+  const StoredRecording& recording_;
+  const std::string& service_;
+  const bool drive_;
+  VerifyPlan& plan_;
+  Track own_;
+  Place last_;
+  std::vector<idl::stream::AppliedInput> stamps_;
+  std::vector<std::pair<const StoredMessage*, Place>> told_;  // the drive's feedback
+  std::map<std::pair<const bus::TopicEntry*, std::uint64_t>, const StoredMessage*> inputs_;
+  std::map<std::uint64_t, const StoredMessage*> revisions_;
+  std::set<const StoredMessage*> placed_;
+  std::vector<Due> due_;
+  idl::service::Alarm alarm_;
+  idl::service::ServiceState state_;
+};
+
+}  // namespace
+
+bool says_when(const std::string& service) { return service == "drive" || service == "plc"; }
+
+void plan_by_tick(const StoredRecording& recording, const std::string& service, VerifyPlan& plan) {
+  TickPlan(recording, service, plan).make();
+}
+
+}  // namespace trunnion::replay

@@ -1,0 +1,105 @@
+#include "stream/frame_difference.hpp"
+
+#include <algorithm>
+#include <cstdio>
+
+#include "stream/stage_names.hpp"
+
+namespace trunnion::stream {
+namespace {
+
+std::string number(double value) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%.17g", value);
+  return text;
+}
+std::string number(std::uint64_t value) { return std::to_string(value); }
+
+class Comparison {
+ public:
+  Comparison(std::uint8_t stage, unsigned copy_a, unsigned copy_b, std::uint64_t first)
+      : head_("Copies " + std::to_string(copy_a) + " and " + std::to_string(copy_b) + " of " +
+              stage_name(stage) + " differ"),
+        first_(first) {}
+
+  template <class Value>
+  void value(const std::string& what, std::uint64_t cycle, Value a, Value b) {
+    if (found_ || a == b) return;
+    found_ = {cycle, head_ + " in cycle " + std::to_string(cycle) + ", " + what + ": " + number(a) + " and " +
+                         number(b)};
+  }
+  template <class Value>
+  void list(const std::string& what, std::uint64_t cycle, const std::vector<Value>& a,
+            const std::vector<Value>& b) {
+    value("length of " + what, cycle, std::uint64_t{a.size()}, std::uint64_t{b.size()});
+    for (std::size_t i = 0; i < std::min(a.size(), b.size()) && !found_; ++i)
+      if constexpr (std::is_floating_point_v<Value>)
+        value(what + " " + std::to_string(i), cycle, a[i], b[i]);
+      else
+        value(what + " " + std::to_string(i), cycle, std::uint64_t{a[i]}, std::uint64_t{b[i]});
+  }
+  void rows(const std::vector<double>& a, const std::vector<double>& b, std::size_t columns) {
+    value("length of setpoints", first_, std::uint64_t{a.size()}, std::uint64_t{b.size()});
+    for (std::size_t i = 0; i < std::min(a.size(), b.size()) && !found_; ++i)
+      value("column " + std::to_string(columns > 0 ? i % columns : i),
+            first_ + (columns > 0 ? i / columns : 0), a[i], b[i]);
+  }
+  void states(const std::vector<idl::stream::StageState>& a, const std::vector<idl::stream::StageState>& b) {
+    value("number of states", first_, std::uint64_t{a.size()}, std::uint64_t{b.size()});
+    for (std::size_t i = 0; i < std::min(a.size(), b.size()) && !found_; ++i) {
+      const std::string what = std::string("state of ") + stage_name(a[i].stage);
+      value("stage of state " + std::to_string(i), first_, std::uint64_t{a[i].stage},
+            std::uint64_t{b[i].stage});
+      value(what + ", cycle", a[i].cycle, a[i].cycle, b[i].cycle);
+      list(what + ", value", a[i].cycle, a[i].values, b[i].values);
+    }
+  }
+  std::optional<FrameDifference> take() { return std::move(found_); }
+
+ private:
+  std::string head_;
+  std::uint64_t first_;
+  std::optional<FrameDifference> found_;
+};
+
+template <class Frame>
+void compare_shape(Comparison& comparison, const Frame& a, const Frame& b) {
+  comparison.value("count", a.first, std::uint64_t{a.count}, std::uint64_t{b.count});
+  comparison.value("parameter revision", a.first, std::uint64_t{a.revision}, std::uint64_t{b.revision});
+  comparison.value("ends", a.first, std::uint64_t{a.ends}, std::uint64_t{b.ends});
+}
+
+}  // namespace
+
+bool same_values(const idl::stream::AxisFrame& a, const idl::stream::AxisFrame& b) {
+  return a.count == b.count && a.revision == b.revision && a.ends == b.ends && a.axes == b.axes &&
+         a.setpoints == b.setpoints && a.states == b.states;
+}
+
+bool same_values(const idl::stream::PathFrame& a, const idl::stream::PathFrame& b) {
+  return a.count == b.count && a.revision == b.revision && a.ends == b.ends &&
+         a.transformation == b.transformation && a.tool_length == b.tool_length &&
+         a.setpoints == b.setpoints && a.states == b.states;
+}
+
+std::optional<FrameDifference> difference(const idl::stream::AxisFrame& a, const idl::stream::AxisFrame& b) {
+  Comparison comparison(a.stage, a.copy, b.copy, a.first);
+  compare_shape(comparison, a, b);
+  comparison.list("axis", a.first, a.axes, b.axes);
+  comparison.rows(a.setpoints, b.setpoints, a.axes.size());
+  comparison.states(a.states, b.states);
+  return comparison.take();
+}
+
+std::optional<FrameDifference> difference(const idl::stream::PathFrame& a, const idl::stream::PathFrame& b) {
+  Comparison comparison(stage_channel, a.copy, b.copy, a.first);
+  compare_shape(comparison, a, b);
+  comparison.value("transformation", a.first, std::uint64_t{a.transformation},
+                   std::uint64_t{b.transformation});
+  comparison.value("tool length", a.first, a.tool_length, b.tool_length);
+  comparison.rows(a.setpoints, b.setpoints, 9);
+  comparison.states(a.states, b.states);
+  return comparison.take();
+}
+
+}  // namespace trunnion::stream

@@ -1,0 +1,110 @@
+// One channel core, its program, a drive and a PLC, for its unit tests.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "fake_drive.hpp"
+
+namespace trunnion::channel::testing {
+
+using idl::channel::ChannelRequest;
+using idl::channel::CommandKind;
+
+/// X Y Z of 400 mm to either side.
+inline std::shared_ptr<machine::Parameters> three_axes(std::uint64_t revision = 1) {
+  auto p = std::make_shared<machine::Parameters>();
+  p->revision = revision;
+  for (std::uint32_t a = 0; a < 3; ++a) {
+    p->values[40001 + a] = {static_cast<double>(a), ""};
+    p->values[100000 + a * 1000] = {0, std::string(1, "XYZ"[a])};
+    p->values[100006 + a * 1000] = {400, ""};
+    p->values[100007 + a * 1000] = {-400, ""};
+  }
+  return p;
+}
+
+/// A channel with the fake drive and a PLC that answers at once.
+struct Channel : ::testing::Test {
+  FakeDrive drive{3};
+  std::unique_ptr<ChannelCore> core;
+  std::string text;
+  std::vector<ChannelEvent> events;
+  std::vector<idl::channel::AuxiliaryRequest> auxiliaries;
+  bool answer_plc = true;
+  std::uint64_t cycles_per_round = ~0ull;
+  std::shared_ptr<machine::Parameters> parameters = three_axes();
+
+  void SetUp() override { begin(); }
+  void begin() {
+    core = std::make_unique<ChannelCore>(0, true);
+    core->set_parameters(parameters);
+    idl::parameters::ToolTable tools;
+    tools.tools.resize(1);
+    tools.tools[0].number = 1, tools.tools[0].length = 50;
+    core->set_tools(tools);
+    core->set_offsets({});
+    core->set_ready(true);
+    store();
+    core->on_feedback(drive.run(0));
+    core->recover();
+  }
+  void store() {
+    idl::program::ProgramList list;
+    list.programs.push_back({"part.nc", 3, text.size(), 77,
+                             static_cast<std::uint32_t>(std::count(text.begin(), text.end(), '\n'))});
+    core->set_programs(list);
+  }
+  Answer ask(CommandKind command, const std::string& argument = "", double value = 0, double increment = 0,
+             Mode mode = Mode::AUTO) {
+    ChannelRequest request;
+    request.command = command, request.text = argument, request.value = value, request.increment = increment,
+    request.mode = mode;
+    return core->handle(request);
+  }
+  void load(const std::string& program) {
+    text = program;
+    store();
+    ASSERT_TRUE(ask(CommandKind::SET_MODE).accepted);
+    ASSERT_TRUE(ask(CommandKind::SELECT_PROGRAM, "part.nc").accepted);
+  }
+  void round() {
+    core->advance();
+    if (const auto chunk = core->wanted())
+      core->deliver(
+          chunk->name, chunk->offset,
+          {text.begin() + static_cast<long>(chunk->offset),
+           text.begin() + static_cast<long>(std::min(text.size(), chunk->offset + ProgramText::chunk_size))});
+    core->advance();
+    if (const auto request = core->take_stream_request()) drive.request(*request);
+    idl::stream::PathFrame frame;
+    while (core->produce(frame)) drive.put(frame);
+    if (const auto auxiliary = core->take_auxiliary(); auxiliary && auxiliary->kind != 0) {
+      auxiliaries.push_back(*auxiliary);
+      if (answer_plc) core->on_auxiliary_done({0, auxiliary->number, false});
+    }
+    for (auto& event : core->take_events()) events.push_back(event);
+    core->on_feedback(drive.run(cycles_per_round));
+  }
+  void run(int rounds = 100000) {
+    for (int i = 0; i < rounds; ++i) {
+      round();
+      if (core->run_state() == RunState::IDLE || core->run_state() == RunState::HELD ||
+          core->run_state() == RunState::INTERRUPTED)
+        break;
+    }
+  }
+  void start_and_go_on_after_a_restart_of_the_drive() {
+    cycles_per_round = 8;
+    ask(CommandKind::CYCLE_START);
+    for (int i = 0; i < 20; ++i) round();
+    drive.forget();
+    round();
+    EXPECT_EQ(core->run_state(), RunState::INTERRUPTED);
+    ASSERT_TRUE(ask(CommandKind::CYCLE_START).accepted);
+    run();
+  }
+};
+
+}  // namespace trunnion::channel::testing

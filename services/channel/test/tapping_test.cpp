@@ -1,0 +1,183 @@
+// Rigid tapping: the spindle's angle and the depth are one, whatever the speed does; what the operator may
+// do.
+#include <cmath>
+
+#include "channel_fixture.hpp"
+
+namespace trunnion::channel {
+namespace {
+
+using idl::channel::CommandKind;
+using testing::Channel;
+using testing::three_axes;
+
+struct Tap : Channel {
+  // A spindle that gains 2000 1/min in a second: 12000 deg/s2.
+  void SetUp() override {
+    parameters->values[105000] = {0, "S"}, parameters->values[105001] = {10, ""};
+    parameters->values[105036] = {12000, ""};
+    begin();
+  }
+  void start(const std::string& program) {
+    load(program);
+    ASSERT_TRUE(ask(CommandKind::CYCLE_START).accepted);
+  }
+  /// Rows in which the spindle was coupled, as (Z, revolutions).
+  std::vector<std::pair<double, double>> coupled() const {
+    std::vector<std::pair<double, double>> result;
+    for (std::size_t i = 0; i < drive.rows.size(); ++i)
+      if (drive.spindle[i]) result.emplace_back(drive.rows[i][2], *drive.spindle[i]);
+    return result;
+  }
+  std::vector<int> m_codes() const {
+    std::vector<int> codes;
+    for (const auto& a : auxiliaries)
+      if (a.kind == 1) codes.push_back(static_cast<int>(a.code));
+    return codes;
+  }
+};
+
+// R 2, depth -10, lead 1.25: the hole is 12 mm, 9.6 turns.
+const std::string hole = "G90 G94 G0 Z5\nS400 M3\nG99 G84 X0 Y0 Z-10 R2 F500\nG80\nG0 Z20\nM30\n";
+
+TEST_F(Tap, DepthAndAngleKeepTheLeadInEveryCycleAndTheSpindleTurnsBackToWhereItBegan) {
+  start(hole);
+  run();
+  EXPECT_EQ(core->run_state(), RunState::IDLE);
+  const auto rows = coupled();
+  ASSERT_GT(rows.size(), 1000u);
+  double most = 0;
+  for (const auto& [z, turns] : rows) {
+    ASSERT_NEAR(2 - z, 1.25 * turns, 1e-9);
+    most = std::max(most, turns);
+  }
+  EXPECT_NEAR(most, 9.6, 1e-9);
+  EXPECT_NEAR(rows.back().second, 0, 1e-9);
+  EXPECT_EQ(drive.rows.back()[2], 20);
+}
+
+TEST_F(Tap, TheSpindleIsNeverAskedForMoreThanItsSpeedAndItsAcceleration) {
+  start(hole);
+  run();
+  const auto rows = coupled();
+  for (std::size_t i = 2; i < rows.size(); ++i) {
+    const double before = (rows[i - 1].second - rows[i - 2].second) * 60000;  // 1/min
+    const double now = (rows[i].second - rows[i - 1].second) * 60000;
+    ASSERT_LE(std::abs(now), 400 * (1 + 1e-6));
+    ASSERT_LE(std::abs(now - before), 2 * (1 + 1e-3)) << "2000 1/min in a second are 2 in a cycle";
+  }
+}
+
+TEST_F(Tap, ThePlcStopsTheSpindleBeforeAndStartsItAgainWhenTheCycleEnds) {
+  start(hole);
+  run();
+  EXPECT_EQ(m_codes(), (std::vector<int>{3, 5, 3, 30}));
+}
+
+TEST_F(Tap, ALeftHandThreadTurnsTheOtherWay) {
+  start("G90 G95 G0 Z5\nS400\nG99 G74 X0 Y0 Z-10 R2 F1.25\nG80\nM30\n");
+  run();
+  for (const auto& [z, turns] : coupled()) ASSERT_NEAR(2 - z, -1.25 * turns, 1e-9);
+  EXPECT_EQ(m_codes(), (std::vector<int>{30})) << "the spindle stood, so nobody stops or starts it";
+}
+
+TEST_F(Tap, TheFeedOverrideDoesNotActInTheThreadButElsewhere) {
+  start(hole);
+  run();
+  const auto thread = coupled();
+  const auto rows = drive.rows.size();
+  drive = testing::FakeDrive(3);
+  begin();
+  load(hole);
+  ask(CommandKind::FEED_OVERRIDE, "", 0.1);
+  ask(CommandKind::RAPID_OVERRIDE, "", 0.02);
+  ask(CommandKind::CYCLE_START);
+  run();
+  EXPECT_EQ(coupled(), thread);
+  EXPECT_GT(drive.rows.size(), rows);
+}
+
+TEST_F(Tap, AFeedHoldActsOnlyWhenTheTapIsOutAgain) {
+  cycles_per_round = 8;
+  start(hole);
+  while (drive.rows.empty() || drive.rows.back()[2] > -5) round();
+  ASSERT_TRUE(ask(CommandKind::FEED_HOLD).accepted);
+  run();
+  EXPECT_EQ(core->run_state(), RunState::HELD);
+  EXPECT_EQ(drive.rows.back()[2], 2);
+  EXPECT_NEAR(coupled().back().second, 0, 1e-9);
+  ask(CommandKind::CYCLE_START);
+  run();
+  EXPECT_EQ(core->run_state(), RunState::IDLE);
+  EXPECT_EQ(drive.rows.back()[2], 20);
+}
+
+TEST_F(Tap, SingleBlockStopsBehindTheHoleNotAtItsBottom) {
+  start("G90 G94 S400\nG98 G84 X0 Y0 Z-10 R-2 F500\nG80\nM30\n");
+  ask(CommandKind::SINGLE_BLOCK, "", 1);
+  std::vector<double> stops;
+  for (int i = 0; i < 5 && core->run_state() != RunState::IDLE; ++i) {
+    run();
+    stops.push_back(drive.rows.empty() ? 0 : drive.rows.back()[2]);
+    ask(CommandKind::CYCLE_START);
+  }
+  for (const double z : stops) EXPECT_EQ(z, 0);
+}
+
+TEST_F(Tap, ResetInTheThreadStopsBothInStep) {
+  cycles_per_round = 8;
+  start(hole);
+  while (drive.rows.empty() || drive.rows.back()[2] > -5) round();
+  ask(CommandKind::RESET);
+  run();
+  EXPECT_EQ(core->run_state(), RunState::IDLE);
+  EXPECT_GT(drive.rows.back()[2], -10);
+  for (const auto& [z, turns] : coupled()) ASSERT_NEAR(2 - z, 1.25 * turns, 1e-9);
+  // Then the axes have their own limits again: 1 mm takes less time than the spindle would need.
+  load("G90 G1 Z0 F24000\nM30\n");
+  const auto before = drive.rows.size();
+  ask(CommandKind::CYCLE_START);
+  run();
+  EXPECT_EQ(drive.rows.back()[2], 0);
+  EXPECT_LT(drive.rows.size() - before, 400u);
+}
+
+TEST_F(Tap, PecksAndDwellsStayCoupled) {
+  start("G90 G94 S400 G0 Z5\nG99 G84 X0 Y0 Z-10 R2 Q5 P100 F500\nG80\nM30\n");
+  run();
+  const auto rows = coupled();
+  int standing = 0;
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    ASSERT_NEAR(2 - rows[i].first, 1.25 * rows[i].second, 1e-9);
+    standing += rows[i].first == -10 && rows[i - 1].first == -10 ? 1 : 0;
+  }
+  EXPECT_GE(standing, 100) << "P100 at the bottom";
+}
+
+TEST_F(Tap, AMachineWithoutASpindleRefusesItBeforeTheToolIsInTheHole) {
+  parameters = three_axes();
+  begin();
+  start("G90 G94 S400 G0 Z5\nG99 G84 X0 Y0 Z-10 R2 F500\nM30\n");
+  run();
+  ASSERT_FALSE(events.empty());
+  EXPECT_EQ(events.back().number, 1125u);
+  EXPECT_EQ(drive.rows.back()[2], 2);
+}
+
+TEST_F(Tap, AfterTheStreamWasLostInTheThreadTheProgramCannotBeResumed) {
+  cycles_per_round = 8;
+  start(hole);
+  while (drive.rows.empty() || drive.rows.back()[2] > -5) round();
+  drive.forget();
+  round();
+  EXPECT_EQ(core->run_state(), RunState::INTERRUPTED);
+  const auto moved = drive.rows.size();
+  ask(CommandKind::CYCLE_START);
+  run();
+  EXPECT_EQ(core->run_state(), RunState::IDLE);
+  EXPECT_EQ(events.back().number, 1119u);
+  EXPECT_EQ(drive.rows.size(), moved) << "nothing moved again";
+}
+
+}  // namespace
+}  // namespace trunnion::channel
