@@ -251,15 +251,14 @@ void Launcher::watch() {
     } else {
       watch_local(process, now, judge);
     }
+    if (process.lost && process.lifecycle == idl::service::Lifecycle::ACTIVE) {
+      process.lost = false;
+      alarms_.release("service_lost", process.entry.instance);
+      alarms_.release("service_not_staying", process.entry.instance);
+    }
+    // Nobody needs to acknowledge that there are two again.
+    if (!process.lost && process.in_step) alarms_.clear("redundancy_lost", process.entry.instance);
   }
-  if (process.lost && process.lifecycle == idl::service::Lifecycle::ACTIVE) {
-    process.lost = false;
-    alarms_.release("service_lost", process.entry.instance);
-    alarms_.release("service_not_staying", process.entry.instance);
-  }
-  // Nobody needs to acknowledge that there are two again.
-  if (!process.lost && process.in_step) alarms_.clear("redundancy_lost", process.entry.instance);
-}
 }
 
 bool Launcher::all_ready() const {
