@@ -74,13 +74,14 @@ class Security : public testing::TestWithParam<Pair> {
     authority_ = std::make_unique<Authority>("security");
     others_ = std::make_unique<Authority>("rogue");
   }
+  ~Security() override { deploy::RunDirectory{domain}.remove(); }
   static void TearDownTestSuite() { authority_.reset(), others_.reset(); }
   std::string writer_vendor() const { return GetParam().writer; }
   std::string reader_vendor() const { return GetParam().reader; }
   Peer kinematics() const { return {reader_vendor(), "kinematics", authority_->path()}; }
   Peer channel() const { return {writer_vendor(), "channel", authority_->path()}; }
   static std::unique_ptr<Authority> authority_, others_;
-  static constexpr std::uint32_t domain = 84;
+  const std::uint32_t domain = deploy::free_domain();
 };
 std::unique_ptr<Authority> Security::authority_, Security::others_;
 
