@@ -13,6 +13,7 @@ int main(int argc, char** argv) {
   add_cluster_commands(app, common);
   add_run_command(app, common);
   add_operator_commands(app, common);
+  add_channel_command(app, common);
   add_parameter_commands(app, common);
   add_topic_commands(app, common);
   add_kins_command(app, common);
@@ -21,6 +22,7 @@ int main(int argc, char** argv) {
   add_recording_commands(app, common);
   add_verify_command(app, common);
   add_replay_command(app, common);
+  add_swap_command(app, common);
   add_completion_command(app, common);
   try {
     app.parse(argc, argv);

@@ -99,6 +99,14 @@ void Api::handle(const Match& match, const std::string& query, const std::string
       case Operation::override_:
       case Operation::single_block:
       case Operation::optional_stop:
+      case Operation::start_from_line:
+      case Operation::dry_run:
+      case Operation::axis_lock:
+      case Operation::auxiliary_lock:
+      case Operation::block_skip:
+      case Operation::retrace:
+      case Operation::handwheel:
+      case Operation::handwheel_offset:
         return order_channel(match, parse_body(body), respond);
       default:
         return respond(read(match, query));

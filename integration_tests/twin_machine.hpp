@@ -12,10 +12,10 @@
 
 namespace trunnion::integration {
 
-/// A copy of the machine ac-table in which each stage of `stages` has two copies, one on each vendor.
+/// A copy of the machine ac-table in which each stage of `stages` has two copies, the second one on `second`.
 class TwinMachine {
  public:
-  explicit TwinMachine(const std::vector<std::string>& stages)
+  explicit TwinMachine(const std::vector<std::string>& stages, const std::string& second = "fastdds")
       : directory_(std::filesystem::temp_directory_path() / ("trunnion-twin-" + std::to_string(getpid()))) {
     std::filesystem::remove_all(directory_);
     std::filesystem::copy(deploy::find_machine("ac-table"), directory_,
@@ -25,7 +25,7 @@ class TwinMachine {
     for (const auto& stage : stages) {
       const std::string line = "{service: " + stage + "}";
       text.replace(text.find(line), line.size(),
-                   "{service: " + stage + ", replicas: 2, vendor: [cyclonedds, fastdds]}");
+                   "{service: " + stage + ", replicas: 2, vendor: [cyclonedds, " + second + "]}");
     }
     std::ofstream(directory_ / "machine.yaml") << text;
   }

@@ -24,8 +24,12 @@ void Client::channel(std::uint16_t channel, idl::channel::CommandKind command, c
   ChannelRequest request;
   request.channel = channel, request.command = command, request.text = text, request.value = value,
   request.mode = mode;
+  this->channel(request);
+}
+
+void Client::channel(const ChannelRequest& request) {
   const auto reply = channel_.call(request, patience);
-  if (!reply) throw std::runtime_error("channel " + std::to_string(channel) + " does not answer");
+  if (!reply) throw std::runtime_error("channel " + std::to_string(request.channel) + " does not answer");
   if (!reply->accepted)
     throw std::runtime_error(reply->reason +
                              (reply->alarm != 0 ? " (alarm " + std::to_string(reply->alarm) + ")" : ""));

@@ -21,6 +21,8 @@ class Client {
   /// Throws std::runtime_error with the reason when it is refused or nobody answers.
   void channel(std::uint16_t channel, idl::channel::CommandKind command, const std::string& text = "",
                double value = 0, idl::channel::Mode mode = idl::channel::Mode::AUTO);
+  /// The same with every field of the request; client and number are given by this client.
+  void channel(const ChannelRequest& request);
   idl::program::ProgramReply program(idl::program::ProgramRequest request);
   idl::parameters::ParameterReply parameter(idl::parameters::ParameterRequest request);
   idl::plc::PanelReply panel(std::uint8_t kind);

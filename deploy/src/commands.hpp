@@ -22,6 +22,7 @@ struct Common {
 void add_cluster_commands(CLI::App& app, Common& common);    // up, down, status
 void add_run_command(CLI::App& app, Common& common);         // run
 void add_operator_commands(CLI::App& app, Common& common);   // mdi, alarms, estop
+void add_channel_command(CLI::App& app, Common& common);     // channel
 void add_parameter_commands(CLI::App& app, Common& common);  // param
 void add_topic_commands(CLI::App& app, Common& common);      // topic, record
 void add_kins_command(CLI::App& app, Common& common);        // kins
@@ -30,6 +31,7 @@ void add_plan_command(CLI::App& app, Common& common);        // plan
 void add_recording_commands(CLI::App& app, Common& common);  // info, diff, export
 void add_verify_command(CLI::App& app, Common& common);      // verify
 void add_replay_command(CLI::App& app, Common& common);      // replay
+void add_swap_command(CLI::App& app, Common& common);        // swap
 void add_completion_command(CLI::App& app, Common& common);  // completion
 
 /// --json and --domain.

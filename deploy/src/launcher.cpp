@@ -1,7 +1,5 @@
 #include "launcher.hpp"
 
-#include <fcntl.h>
-#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -12,23 +10,16 @@
 #include <random>
 #include <thread>
 
-#include "node/network.hpp"
 #include "node/node.hpp"
 
 namespace trunnion::deploy {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr std::uint32_t launcher_instance = 1000;  // and one more for each host after the first
-constexpr double start_patience = 15;              // s until a cluster that is not ready has failed
-constexpr double own_pause = 0.5;                  // s the launcher itself may not run and still judge others
+constexpr double start_patience = 15;  // s until a cluster that is not ready has failed
+constexpr double own_pause = 0.5;      // s the launcher itself may not run and still judge others
 volatile std::sig_atomic_t stop_requested = 0;
 void request_stop(int) { stop_requested = 1; }
-
-std::string name_of(const machine::ServiceEntry& e) {
-  if (e.service == "channel") return e.service + " " + std::to_string(e.channel);
-  return e.copy > 0 ? e.service + " (copy " + std::to_string(e.copy) + ")" : e.service;
-}
 
 std::uint32_t instance_on(const LaunchOptions& options) {
   const auto& hosts = options.machine.hosts;
@@ -39,14 +30,6 @@ std::uint32_t instance_on(const LaunchOptions& options) {
 
 }  // namespace
 
-std::string last_line(const std::string& path) {
-  std::ifstream in(path);
-  std::string line, last;
-  while (std::getline(in, line))
-    if (!line.empty()) last = line;
-  return last;
-}
-
 Launcher::Launcher(LaunchOptions options)
     : options_(std::move(options)),
       bus_(bus::Vendor::cyclonedds, options_.network),
@@ -54,7 +37,8 @@ Launcher::Launcher(LaunchOptions options)
       states_(bus_.reader(topics::service_state)),
       announcements_(bus_.reader(topics::announcement)),
       resets_(bus_.reader(topics::alarm_reset)),
-      cluster_writer_(bus_.writer(topics::cluster)) {
+      cluster_writer_(bus_.writer(topics::cluster)),
+      swaps_(bus_, topics::swap_request, topics::swap_reply) {
   struct sigaction action {};
   action.sa_handler = request_stop;
   sigaction(SIGTERM, &action, nullptr);
@@ -65,9 +49,10 @@ Launcher::Launcher(LaunchOptions options)
   std::random_device random;
   std::ofstream(options_.state_directory + "/cluster.boot") << random() << random() << "\n";
   for (const auto& entry : options_.machine.services) {
-    Process process;
+    ServiceProcess process;
     process.entry = entry;
     process.local = entry.host == options_.host;
+    process.executable = binary_directory() + "/trunnion-" + entry.service;
     process.log = options_.run.log_file(
         entry.service + "-" + std::to_string(entry.service == "channel" ? entry.channel : entry.copy));
     processes_.push_back(std::move(process));
@@ -76,78 +61,32 @@ Launcher::Launcher(LaunchOptions options)
 
 Launcher::~Launcher() { stop_all(); }
 
-void Launcher::start(Process& process) {
-  const auto& e = process.entry;
-  std::vector<std::string> args{binary_directory() + "/trunnion-" + e.service,
-                                "--machine",
-                                options_.machine.directory,
-                                "--state",
-                                options_.state_directory,
-                                "--instance",
-                                std::to_string(e.instance),
-                                "--copy",
-                                std::to_string(e.copy),
-                                "--channel",
-                                std::to_string(e.channel),
-                                "--domain",
-                                std::to_string(options_.machine.domain),
-                                "--vendor",
-                                e.vendor,
-                                "--parent-bound"};
-  for (auto& argument : node::network_arguments(options_.network)) args.push_back(std::move(argument));
-  if (options_.virtual_time) args.emplace_back("--virtual-time");
-  if (e.service == "gateway") {
-    args.insert(args.end(), {"--port", std::to_string(options_.port)});
-    if (const auto web = web_directory(); !web.empty()) args.insert(args.end(), {"--web", web});
-  }
-  std::vector<char*> argv;
-  for (auto& arg : args) argv.push_back(arg.data());
-  argv.push_back(nullptr);
-  const int pid = fork();
-  if (pid == 0) {
-    const int log = open(process.log.c_str(), O_WRONLY | O_CREAT | O_APPEND, 0644);
-    if (log >= 0) {
-      dup2(log, 1);
-      dup2(log, 2);
-    }
-    const int null = open("/dev/null", O_RDONLY);
-    if (null >= 0) dup2(null, 0);
-    for (int fd = 3; fd < 256; ++fd) close(fd);
-    execv(argv[0], argv.data());
-    dprintf(2, "%s: cannot be started\n", argv[0]);
-    _exit(127);
-  }
-  process.pid = pid;
-  process.policy.started(node::monotonic_seconds());
-  process.lifecycle = idl::service::Lifecycle::UNCONFIGURED;
-  process.in_step = false;
-  process.alive = false;
-}
-
-bool Launcher::has_live_twin(const Process& process) const {
-  return std::any_of(processes_.begin(), processes_.end(), [&](const Process& other) {
+bool Launcher::has_live_twin(const ServiceProcess& process) const {
+  return std::any_of(processes_.begin(), processes_.end(), [&](const ServiceProcess& other) {
     return &other != &process && other.entry.service == process.entry.service &&
            other.entry.service != "channel" && other.pid != 0 &&
            other.lifecycle == idl::service::Lifecycle::ACTIVE;
   });
 }
 
-void Launcher::lose(Process& process, const std::string& how) {
+void Launcher::lose(ServiceProcess& process, const std::string& how) {
   process.lost = true;
   process.lifecycle = idl::service::Lifecycle::UNCONFIGURED;
   alarms_.raise(has_live_twin(process) ? "redundancy_lost" : "service_lost", process.entry.instance,
-                "Service " + name_of(process.entry) + " " + how);
+                "Service " + process.name() + " " + how);
 }
 
 // Collects dead children; before the first readiness a death is a failed start.
 bool Launcher::reap(std::string& failure) {
   int status = 0;
   for (int pid; (pid = waitpid(-1, &status, WNOHANG)) > 0;) {
+    if (swap_ && swap_->ended(pid)) continue;
     for (auto& process : processes_) {
       if (!process.local || process.pid != pid) continue;
       process.pid = 0;
       process.lifecycle = idl::service::Lifecycle::UNCONFIGURED;
       process.policy.ended(node::monotonic_seconds());
+      if (process.retiring) continue;
       const auto& e = process.entry;
       const std::string how = WIFSIGNALED(status)
                                   ? "was ended by signal " + std::to_string(WTERMSIG(status))
@@ -160,7 +99,7 @@ bool Launcher::reap(std::string& failure) {
       lose(process, how);
       if (process.policy.gave_up())
         alarms_.raise("service_not_staying", e.instance,
-                      "Service " + name_of(e) + " does not stay up: it ended " +
+                      "Service " + process.name() + " does not stay up: it ended " +
                           std::to_string(process.policy.short_lives()) +
                           " times in a row. A reset of the alarms starts it again");
       ++process.restarts;
@@ -169,7 +108,8 @@ bool Launcher::reap(std::string& failure) {
   return true;
 }
 
-void Launcher::hear(Process& process, const idl::service::ServiceState& state, double now) {
+void Launcher::hear(ServiceProcess& process, const idl::service::ServiceState& state, double now) {
+  if (process.entry.instance != state.instance) return;
   if (state.service != process.entry.service) {
     alarms_.raise("machine_differs", state.instance,
                   "Instance " + std::to_string(state.instance) + " is " + process.entry.service +
@@ -182,15 +122,10 @@ void Launcher::hear(Process& process, const idl::service::ServiceState& state, d
     process.pid = state.pid;
     process.policy.started(now);
   }
-  if (process.pid != state.pid) return;
-  process.policy.beat(now);
-  process.alive = true;
-  process.lifecycle = state.lifecycle;
-  process.detail = state.detail;
-  process.in_step = state.in_step;
+  process.hear(state, now);
 }
 
-void Launcher::watch_local(Process& process, double now, bool judge) {
+void Launcher::watch_local(ServiceProcess& process, double now, bool judge) {
   if (!judge) process.policy.wait(now);
   const auto pulse = process.policy.pulse(now);
   if (pulse != Pulse::beating && !process.lost && was_ready_) lose(process, "gives no sign of life");
@@ -202,7 +137,7 @@ void Launcher::watch_local(Process& process, double now, bool judge) {
 
 // Silence is all that can be seen of another host. Its own launcher tells of a process that died; the first
 // host's tells of the others' silence, and they of the first host's.
-void Launcher::watch_remote(Process& process, double now, bool judge) {
+void Launcher::watch_remote(ServiceProcess& process, double now, bool judge) {
   if (process.pid == 0) return;
   if (!judge) process.policy.wait(now);
   if (process.policy.pulse(now) == Pulse::beating) return;
@@ -217,11 +152,14 @@ void Launcher::watch_remote(Process& process, double now, bool judge) {
 void Launcher::listen() {
   const double now = node::monotonic_seconds();
   idl::service::ServiceState state;
-  while (states_.take(state))
-    for (auto& process : processes_)
-      if (process.entry.instance == state.instance) hear(process, state, now);
+  while (states_.take(state)) {
+    for (auto& process : processes_) hear(process, state, now);
+    if (swap_) swap_->hear(state, now);
+  }
   idl::service::Announcement announcement;
   while (announcements_.take(announcement)) {
+    announced_[announcement.instance] = announcement;
+    if (swap_ && swap_->is_fresh(announcement.instance)) continue;  // it is refused, which is no alarm
     if (announcement.contract != topics::contract_hash)
       alarms_.raise("contract_mismatch", announcement.instance,
                     "Service " + announcement.service + " (" + announcement.version +
@@ -243,10 +181,11 @@ void Launcher::watch() {
   const bool judge = now - last_watch_ < own_pause;
   last_watch_ = now;
   for (auto& process : processes_) {
+    if (process.retiring) continue;
     if (!process.local) {
       watch_remote(process, now, judge);
     } else if (process.pid == 0) {
-      if (process.policy.due(now)) start(process);
+      if (process.policy.due(now)) process.start(options_, false);
       continue;
     } else {
       watch_local(process, now, judge);
@@ -262,7 +201,7 @@ void Launcher::watch() {
 }
 
 bool Launcher::all_ready() const {
-  return std::all_of(processes_.begin(), processes_.end(), [](const Process& p) {
+  return std::all_of(processes_.begin(), processes_.end(), [](const ServiceProcess& p) {
     return p.pid != 0 && p.lifecycle == idl::service::Lifecycle::ACTIVE;
   });
 }
@@ -276,7 +215,7 @@ bool Launcher::is_first_host() const {
 bool Launcher::begun() const {
   if (options_.machine.hosts.empty()) return ready_;
   return std::all_of(processes_.begin(), processes_.end(),
-                     [](const Process& p) { return !p.local || p.alive; });
+                     [](const ServiceProcess& p) { return !p.local || p.alive; });
 }
 
 void Launcher::publish() {
@@ -297,17 +236,52 @@ void Launcher::publish() {
   if (is_first_host()) cluster_writer_.write(cluster);
 }
 
+void Launcher::serve_swaps() {
+  idl::service::SwapRequest request;
+  while (swaps_.take(request)) {
+    const auto refuse = [&](const std::string& why) {
+      idl::service::SwapReply reply;
+      reply.reason = why.substr(0, 250);
+      swaps_.reply(request, reply);
+    };
+    if (!options_.machine.hosts.empty()) {
+      if (is_first_host()) refuse("Services of a cluster over several hosts cannot be swapped");
+      continue;
+    }
+    const auto found = std::find_if(processes_.begin(), processes_.end(), [&](const ServiceProcess& p) {
+      return p.entry.service == request.service && p.entry.copy == request.copy &&
+             (p.entry.service != "channel" || p.entry.channel == request.channel);
+    });
+    if (swap_)
+      refuse("Another service is being swapped");
+    else if (found == processes_.end())
+      refuse("The cluster has no " + request.service + " of this number");
+    else if (found->pid == 0 || found->lifecycle != idl::service::Lifecycle::ACTIVE)
+      refuse("The " + request.service + " that runs now is not active");
+    else {
+      swap_request_ = request;
+      swap_ = std::make_unique<Swap>(bus_, options_, *found, request, next_instance_++, announced_);
+    }
+  }
+  if (!swap_) return;
+  if (auto reply = swap_->step(node::monotonic_seconds())) {
+    swaps_.reply(swap_request_, std::move(*reply));
+    swap_.reset();
+  }
+}
+
 int Launcher::run(void (*report)(const std::string&)) {
   std::ofstream(options_.run.pid_file()) << getpid() << "\n";
   const double began = node::monotonic_seconds();
   for (auto& process : processes_)
-    if (process.local) start(process);
+    if (process.local) process.start(options_, false);
   std::string failure;
   while (stop_requested == 0) {
     bus_.signal().wait(0.02);
     if (!reap(failure)) break;
     listen();
     watch();
+    serve_swaps();
     publish();
     notifier_.alive(node::monotonic_seconds());
     if (!was_ready_ && begun()) {
@@ -331,6 +305,7 @@ int Launcher::run(void (*report)(const std::string&)) {
 }
 
 void Launcher::stop_all() {
+  swap_.reset();
   for (auto it = processes_.rbegin(); it != processes_.rend(); ++it)
     if (it->local && it->pid > 0) kill(it->pid, SIGTERM);
   const double until = node::monotonic_seconds() + 2;
@@ -340,7 +315,7 @@ void Launcher::stop_all() {
       for (auto& p : processes_)
         if (p.local && p.pid == pid) p.pid = 0;
     return std::any_of(processes_.begin(), processes_.end(),
-                       [](const Process& p) { return p.local && p.pid > 0; });
+                       [](const ServiceProcess& p) { return p.local && p.pid > 0; });
   };
   while (alive() && node::monotonic_seconds() < until)
     std::this_thread::sleep_for(std::chrono::milliseconds(5));

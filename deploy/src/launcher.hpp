@@ -12,9 +12,13 @@
 #include "machine/machine.hpp"
 #include "node/alarm_board.hpp"
 #include "node/notify.hpp"
-#include "restart_policy.hpp"
+#include "node/request.hpp"
+#include "service_process.hpp"
+#include "swap.hpp"
 
 namespace trunnion::deploy {
+
+inline constexpr std::uint32_t launcher_instance = 1000;  // and one more for each host after the first
 
 struct LaunchOptions {
   machine::MachineConfig machine;
@@ -35,33 +39,20 @@ class Launcher {
   int run(void (*report)(const std::string&));
 
  private:
-  struct Process {
-    machine::ServiceEntry entry;
-    int pid = 0;
-    std::uint32_t restarts = 0;
-    RestartPolicy policy;
-    idl::service::Lifecycle lifecycle = idl::service::Lifecycle::UNCONFIGURED;
-    std::string detail;
-    bool lost = false;
-    bool in_step = false;  ///< of the process that runs now
-    std::string log;
-    bool alive = false;  ///< has beaten since its start
-    bool local = true;   ///< on this host; of the others only their heartbeats are known
-  };
-  void start(Process& process);
   void stop_all();
   bool reap(std::string& failure);
-  void lose(Process& process, const std::string& how);
+  void lose(ServiceProcess& process, const std::string& how);
   void listen();
   void watch();
-  void hear(Process& process, const idl::service::ServiceState& state, double now);
-  void watch_local(Process& process, double now, bool judge);
-  void watch_remote(Process& process, double now, bool judge);
+  void hear(ServiceProcess& process, const idl::service::ServiceState& state, double now);
+  void watch_local(ServiceProcess& process, double now, bool judge);
+  void watch_remote(ServiceProcess& process, double now, bool judge);
   bool all_ready() const;
   bool is_first_host() const;
   bool begun() const;
   void publish();
-  bool has_live_twin(const Process& process) const;
+  bool has_live_twin(const ServiceProcess& process) const;
+  void serve_swaps();
 
   LaunchOptions options_;
   bus::Bus bus_;
@@ -70,14 +61,15 @@ class Launcher {
   bus::Reader<idl::service::Announcement> announcements_;
   bus::Reader<idl::service::AlarmReset> resets_;
   bus::Writer<idl::service::Cluster> cluster_writer_;
+  node::RequestServer<idl::service::SwapRequest, idl::service::SwapReply> swaps_;
   node::Notifier notifier_;
-  std::vector<Process> processes_;
-  std::string start_failure_;
+  std::vector<ServiceProcess> processes_;
+  std::map<std::uint32_t, idl::service::Announcement> announced_;  // by instance
+  std::unique_ptr<Swap> swap_;                                     // the one under way
+  idl::service::SwapRequest swap_request_;
+  std::uint32_t next_instance_ = launcher_instance + 100;  // of processes that machine.yaml does not number
   bool ready_ = false, was_ready_ = false;
   double last_published_ = 0, last_watch_ = 0;
 };
-
-/// The last line a service wrote before it ended.
-std::string last_line(const std::string& path);
 
 }  // namespace trunnion::deploy

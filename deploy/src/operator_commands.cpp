@@ -1,4 +1,4 @@
-// mdi, alarms, estop, reset
+// mdi, alarms, estop
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
@@ -100,27 +100,6 @@ int alarms(const Common& common, bool reset) {
   return 0;
 }
 
-int order(const Common& common, std::uint16_t channel, const std::string& what, const std::string& argument) {
-  const auto cluster = find_cluster(common.domain);
-  Client client(cluster.run.domain);
-  const std::map<std::string, CommandKind> orders{{"start", CommandKind::CYCLE_START},
-                                                  {"hold", CommandKind::FEED_HOLD},
-                                                  {"reset", CommandKind::RESET},
-                                                  {"select", CommandKind::SELECT_PROGRAM},
-                                                  {"mode", CommandKind::SET_MODE}};
-  const std::map<std::string, Mode> modes{
-      {"auto", Mode::AUTO}, {"mdi", Mode::MDI}, {"jog", Mode::JOG}, {"ref", Mode::REF}};
-  Mode mode = Mode::AUTO;
-  if (what == "mode") {
-    const auto found = modes.find(argument);
-    if (found == modes.end()) throw std::runtime_error("mode '" + argument + "': auto, mdi, jog or ref");
-    mode = found->second;
-  }
-  client.channel(channel, orders.at(what), argument, 0, mode);
-  if (common.json) std::cout << bus::Json{{"accepted", true}}.dump() << "\n";
-  return 0;
-}
-
 int panel(const Common& common, std::uint8_t kind) {
   const auto cluster = find_cluster(common.domain);
   Client(cluster.run.domain).panel(kind);
@@ -147,15 +126,6 @@ void add_operator_commands(CLI::App& app, Common& common) {
   command->add_flag("--reset", *reset, "Clear those whose cause is gone first");
 
   auto what = std::make_shared<std::string>();
-  auto argument = std::make_shared<std::string>();
-  command = add_command(
-      app, common, "channel", "Operate a channel: start, hold, reset, select PROGRAM, mode auto|mdi|jog|ref",
-      [&common, channel, what, argument] { return order(common, *channel, *what, *argument); });
-  command->add_option("what", *what, "start, hold, reset, select or mode")
-      ->required()
-      ->check(CLI::IsMember({"start", "hold", "reset", "select", "mode"}));
-  command->add_option("argument", *argument, "Program or mode");
-  command->add_option("--channel", *channel, "Channel number");
   command = add_command(
       app, common, "estop",
       "Press or release the emergency stop of the operator panel (no substitute for a hard-wired one)",

@@ -165,8 +165,30 @@ void draw_progress(const std::vector<idl::channel::ChannelState>& states, double
   std::fflush(stderr);
 }
 
+// Searches the line; the cycle start that follows goes on from there. The program may as well have an alarm.
+void search_line(Client& client, std::uint32_t line) {
+  client.channel(0, CommandKind::START_FROM_LINE, "", line);
+  auto states = client.bus().reader(topics::channel_state);
+  const double until = node::monotonic_seconds() + 60;
+  int idle = 0;
+  while (node::monotonic_seconds() < until && idle < 4) {
+    idl::channel::ChannelState state;
+    while (states.take(state)) {
+      if (state.channel != 0) continue;
+      if (state.state == RunState::HELD) return;
+      idle = state.state == RunState::IDLE ? idle + 1 : 0;
+    }
+    client.bus().signal().wait(0.02);
+  }
+  throw std::runtime_error("line " + std::to_string(line) + " was not found: see the alarms of the recording");
+}
+
 // Starts every channel and waits until all are idle again. Returns the first alarm, or empty.
-std::string execute(Client& client, std::size_t channels, double timeout, bool bar) {
+std::string execute(Client& client, std::size_t channels, const RunOptions& options, bool bar) {
+  const double timeout = options.timeout;
+  if (options.dry_run)
+    for (std::uint16_t c = 0; c < channels; ++c) client.channel(c, CommandKind::DRY_RUN, "", 1);
+  if (options.from_line != 0) search_line(client, options.from_line);
   auto states = client.bus().reader(topics::channel_state);
   auto alarms = client.bus().reader(topics::alarm);
   for (std::uint16_t c = 0; c < channels; ++c) client.channel(c, CommandKind::CYCLE_START);
@@ -253,7 +275,7 @@ RunResult run_programs(const RunOptions& options) {
       select(client, c, names.back());
     }
     result.alarm =
-        execute(client, options.programs.size(), options.timeout, !options.quiet && isatty(2) != 0);
+        execute(client, options.programs.size(), options, !options.quiet && isatty(2) != 0);
     std::this_thread::sleep_for(
         std::chrono::milliseconds(100));  // what the stages wrote last is still on its way
     recorder.stop();

@@ -14,6 +14,8 @@ struct RunOptions {
   std::string vendor;                 ///< empty, fastdds, cyclonedds or mixed
   std::string recording;              ///< file to write
   bool real_time = false;
+  std::uint32_t from_line = 0;  ///< start from this line of the first program; 0 = from its top
+  bool dry_run = false;
   bool quiet = false;     ///< no progress
   double timeout = 3600;  ///< s of wall time
   std::optional<std::uint32_t> domain;

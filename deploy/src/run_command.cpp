@@ -95,6 +95,8 @@ void add_run_command(CLI::App& app, Common& common) {
                     "One cycle in one cycle time instead of as fast as possible");
   command->add_option("--vendor", options->vendor, "DDS vendor of every service, instead of machine.yaml's")
       ->check(CLI::IsMember({"fastdds", "cyclonedds", "mixed"}));
+  command->add_option("--from-line", options->from_line, "Start the first program from this line");
+  command->add_flag("--dry-run", options->dry_run, "Parameter 04c914 takes the place of programmed feeds");
   command->add_option("--timeout", options->timeout, "Seconds of wall time after which the run has failed");
 
   auto machine = std::make_shared<std::string>("ac-table"),

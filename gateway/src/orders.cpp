@@ -15,6 +15,8 @@ constexpr std::size_t name_bytes = 64;
 constexpr std::size_t text_bytes = 256;
 constexpr double fastest = 1e6;       // mm/min or deg/min, above every axis
 constexpr double longest_step = 1e4;  // mm or deg
+constexpr double most_counts = 10000;  // of the handwheel in one request
+constexpr std::uint32_t most_lines = 999999999;
 
 /// A misspelt field would be silently without effect, so it is refused.
 void only(const Json& body, std::initializer_list<const char*> known) {
@@ -79,6 +81,49 @@ std::uint8_t axis(const Json& body, const idl::channel::ChannelState& state) {
   if (index < 0 || index >= static_cast<std::int64_t>(count))
     throw BadRequest("axis", "the channel has " + std::to_string(count) + " axes, counted from 0");
   return static_cast<std::uint8_t>(index);
+}
+
+/// {"axes": ["X", 1]}, by letter or index: bit i for axis i of the channel.
+double axis_mask(const Json& body, const idl::channel::ChannelState& state) {
+  only(body, {"axes"});
+  const auto& axes = required(body, "axes");
+  if (!axes.is_array() || axes.size() > state.axes.size())
+    throw BadRequest("axes", "axes must be a list of axes of the channel; empty unlocks them all");
+  std::uint32_t mask = 0;
+  for (const auto& one : axes) mask |= 1u << axis(Json{{"axis", one}}, state);
+  return mask;
+}
+
+/// {"levels": [1, 3]}: bit 0 for level 1.
+double level_mask(const Json& body) {
+  only(body, {"levels"});
+  const auto& levels = required(body, "levels");
+  if (!levels.is_array() || levels.size() > 9)
+    throw BadRequest("levels", "levels must be a list of numbers from 1 to 9; empty skips nothing");
+  std::uint32_t mask = 0;
+  for (const auto& level : levels) {
+    const auto value = whole(level, "levels", 9);
+    if (value < 1) throw BadRequest("levels", "levels count from 1");
+    mask |= 1u << (value - 1);
+  }
+  return mask;
+}
+
+CommandKind switch_of(Operation operation) {
+  switch (operation) {
+    case Operation::single_block:
+      return CommandKind::SINGLE_BLOCK;
+    case Operation::optional_stop:
+      return CommandKind::OPTIONAL_STOP;
+    case Operation::dry_run:
+      return CommandKind::DRY_RUN;
+    case Operation::auxiliary_lock:
+      return CommandKind::AUXILIARY_LOCK;
+    case Operation::retrace:
+      return CommandKind::RETRACE;
+    default:
+      return CommandKind::HANDWHEEL_OFFSET;
+  }
 }
 
 idl::channel::Mode mode(const Json& body) {
@@ -173,9 +218,35 @@ ChannelRequest channel_order(Operation operation, const Json& body, const idl::c
       return request;
     case Operation::single_block:
     case Operation::optional_stop:
-      request.command =
-          operation == Operation::single_block ? CommandKind::SINGLE_BLOCK : CommandKind::OPTIONAL_STOP;
+    case Operation::dry_run:
+    case Operation::auxiliary_lock:
+    case Operation::retrace:
+    case Operation::handwheel_offset:
+      request.command = switch_of(operation);
       request.value = on(body) ? 1 : 0;
+      return request;
+    case Operation::start_from_line:
+      only(body, {"line"});
+      request.command = CommandKind::START_FROM_LINE;
+      request.value = whole(required(body, "line"), "line", most_lines);
+      if (request.value < 1) throw BadRequest("line", "lines count from 1");
+      return request;
+    case Operation::axis_lock:
+      request.command = CommandKind::AXIS_LOCK;
+      request.value = axis_mask(body, state);
+      return request;
+    case Operation::block_skip:
+      request.command = CommandKind::BLOCK_SKIP;
+      request.value = level_mask(body);
+      return request;
+    case Operation::handwheel:
+      only(body, {"axis", "counts", "increment"});
+      request.command = CommandKind::HANDWHEEL;
+      request.axis = axis(body, state);
+      request.value = number(required(body, "counts"), "counts", -most_counts, most_counts);
+      if (std::floor(request.value) != request.value)
+        throw BadRequest("counts", "counts must be a whole number");
+      request.increment = number(required(body, "increment"), "increment", 0, longest_step);
       return request;
     case Operation::cycle_start:
     case Operation::feed_hold:

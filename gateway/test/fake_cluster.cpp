@@ -104,6 +104,8 @@ void FakeCluster::publish_once() {
   channel.axes = {0, 1, 2, 4, 6};
   channel.letters = "XYZAC";
   channel.machine = channel.workpiece = channel.distance_to_go = std::vector<double>(axes, 0.0);
+  channel.handwheel_offset = channel.machine;
+  channel.locked.assign(axes, 0);
 
   parameters_.revision = 1;
   const char* const letters[] = {"X", "Y", "Z", "", "A", "", "C"};
@@ -167,6 +169,30 @@ idl::channel::ChannelReply FakeCluster::apply(const idl::channel::ChannelRequest
       break;
     case CommandKind::OPTIONAL_STOP:
       channel.optional_stop = request.value != 0;
+      break;
+    case CommandKind::DRY_RUN:
+      channel.dry_run = request.value != 0;
+      break;
+    case CommandKind::AUXILIARY_LOCK:
+      channel.auxiliary_lock = request.value != 0;
+      break;
+    case CommandKind::AXIS_LOCK:
+      for (std::size_t i = 0; i < channel.locked.size(); ++i)
+        channel.locked[i] = (static_cast<unsigned>(request.value) >> i & 1u) != 0 ? 1 : 0;
+      break;
+    case CommandKind::BLOCK_SKIP:
+      channel.block_skip = static_cast<std::uint16_t>(request.value);
+      break;
+    case CommandKind::HANDWHEEL_OFFSET:
+      channel.handwheel_offset_on = request.value != 0;
+      break;
+    case CommandKind::HANDWHEEL:
+      channel.handwheel_offset.at(request.axis) += request.value * request.increment;
+      break;
+    case CommandKind::START_FROM_LINE:
+      channel.state = RunState::HELD;
+      channel.line = static_cast<std::uint32_t>(request.value);
+      channel.detail = "cycle start: S1000 M3, approach Z20.0000, then X25.0000";
       break;
     case CommandKind::MDI_LINE:
       if (std::strchr("GXYZMTSFN", request.text[0]) == nullptr)

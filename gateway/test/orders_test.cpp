@@ -90,6 +90,39 @@ TEST(Orders, SwitchesBecomeOneAndZeroAndKeysTakeNoFields) {
   EXPECT_EQ(complaint(Operation::cycle_start, {{"mode", "AUTO"}}), "mode");
 }
 
+TEST(Orders, ALineCountsFromOne) {
+  const auto request = order(Operation::start_from_line, {{"line", 40}});
+  EXPECT_EQ(request.command, CommandKind::START_FROM_LINE);
+  EXPECT_EQ(request.value, 40);
+  EXPECT_EQ(complaint(Operation::start_from_line, {{"line", 0}}), "line");
+  EXPECT_EQ(complaint(Operation::start_from_line, {{"line", 1.5}}), "line");
+}
+
+TEST(Orders, SwitchesOfTheProgramAreThoseOfTheIdl) {
+  EXPECT_EQ(order(Operation::dry_run, {{"on", true}}).command, CommandKind::DRY_RUN);
+  EXPECT_EQ(order(Operation::auxiliary_lock, {{"on", true}}).command, CommandKind::AUXILIARY_LOCK);
+  EXPECT_EQ(order(Operation::retrace, {{"on", true}}).command, CommandKind::RETRACE);
+  EXPECT_EQ(order(Operation::handwheel_offset, {{"on", true}}).command, CommandKind::HANDWHEEL_OFFSET);
+}
+
+TEST(Orders, AxesAndLevelsBecomeBits) {
+  EXPECT_EQ(order(Operation::axis_lock, {{"axes", {"X", 2}}}).value, 0b101);
+  EXPECT_EQ(order(Operation::axis_lock, {{"axes", Json::array()}}).value, 0);
+  EXPECT_EQ(complaint(Operation::axis_lock, {{"axes", {"Q"}}}), "axis");
+  EXPECT_EQ(order(Operation::block_skip, {{"levels", {1, 3}}}).value, 0b101);
+  EXPECT_EQ(complaint(Operation::block_skip, {{"levels", {0}}}), "levels");
+  EXPECT_EQ(complaint(Operation::block_skip, {{"levels", 1}}), "levels");
+}
+
+TEST(Orders, AHandwheelGivesWholeCounts) {
+  const auto request = order(Operation::handwheel, {{"axis", "Z"}, {"counts", -3}, {"increment", 0.01}});
+  EXPECT_EQ(request.command, CommandKind::HANDWHEEL);
+  EXPECT_EQ(request.axis, 2);
+  EXPECT_EQ(request.value, -3);
+  EXPECT_EQ(request.increment, 0.01);
+  EXPECT_EQ(complaint(Operation::handwheel, {{"axis", "Z"}, {"counts", 0.5}, {"increment", 0.01}}), "counts");
+}
+
 TEST(Orders, ThePanelsKindsAreThoseOfTheIdl) {
   EXPECT_EQ(panel_order(Operation::emergency_stop, Json::object()).kind, 1);
   EXPECT_EQ(panel_order(Operation::release, Json::object()).kind, 2);

@@ -5,6 +5,8 @@
 #include <array>
 #include <cstdint>
 
+#include "language/canonical.hpp"
+
 namespace trunnion::language {
 
 /// A block may hold one code of each group: two would contradict each other, so the second is an alarm. All
@@ -249,6 +251,14 @@ constexpr MCode m_code(std::uint16_t number) {
     if (code.number == number) return code;
   }
   return {number, When::before, MAction::auxiliary, MGroup::none, "auxiliary function"};
+}
+
+/// T, S, and M codes that do not only steer the program's flow: what the PLC carries out and going back along
+/// the path does not undo.
+constexpr bool changes_machine(const Command& command) {
+  if (command.kind == CommandKind::tool || command.kind == CommandKind::spindle_speed) return true;
+  return command.kind == CommandKind::auxiliary &&
+         m_code(static_cast<std::uint16_t>(command.number)).group != MGroup::flow;
 }
 
 namespace detail {

@@ -36,6 +36,7 @@ void Interpreter::start(TextSource& text, const AxisValues& position, const Moda
   next_found_ = 0;
   jumps_.clear();
   blocks_ = 0;
+  stop_line_ = 0;
   else_if_due_ = modal_call_active_ = in_modal_call_ = false;
   frames_[0] = Frame{};
   frames_[0].source = &text;
@@ -59,7 +60,7 @@ Step Interpreter::next(Command& command) {
     queue_.clear();
     Step step = Step::working;
     state_ = state_ == State::searching ? search_line(step) : run_line(step);
-    if (step == Step::pending) return step;
+    if (step == Step::pending || step == Step::line) return step;
   }
   command = queue_.pop();
   return Step::command;
@@ -94,7 +95,15 @@ Interpreter::State Interpreter::run_line(Step& step) {
   std::string_view line;
   const LineReader::Status status = reader_.next(line);
   line_ = position_.line;
-  if (status == LineReader::Status::line) return execute(line);
+  if (status == LineReader::Status::line) {
+    if (line_ == stop_line_ && frames_[depth_].program == 0) {
+      stop_line_ = 0;
+      reader_.seek(*frames_[depth_].source, position_);
+      step = Step::line;
+      return state_;
+    }
+    return execute(line);
+  }
   if (status == LineReader::Status::end) return end_of_text();
   return report_line_status(status, step);
 }

@@ -22,6 +22,7 @@ enum class Step : std::uint8_t {
   alarm,     ///< see alarm(); stays so until start()
   position,  ///< the command before was a skip move: set_position() must tell where it ended, for what the
              ///< program does next depends on it
+  line,      ///< the line of stop_before_line() would be read next; it will be, when next() is called again
 };
 
 struct InterpreterOptions {
@@ -55,6 +56,13 @@ class Interpreter {
   /// the modal state of the control at power-on or of the program before, and its variables.
   void start(TextSource& text, const AxisValues& position, const ModalState& initial,
              const VariableStore& variables = no_variables);
+
+  /// Blocks to leave out, from the next start() on.
+  void set_block_skip(SkipLevels levels) { options_.block_skip = levels; }
+
+  /// Once, before `line` (from 1) of the started text is executed for the first time, next() gives
+  /// Step::line: modal() and position() are then the state in which it begins. 0 = nowhere. Ends with start().
+  void stop_before_line(std::uint32_t line) { stop_line_ = line; }
 
   /// The next command. Before start() there is only the end.
   Step next(Command& command);
@@ -171,6 +179,7 @@ class Interpreter {
   State state_ = State::done;
   Alarm alarm_;
   std::uint32_t line_ = 0;  // of the block being executed
+  std::uint32_t stop_line_ = 0;
   std::uint64_t blocks_ = 0;
   TextPosition position_;     // of that line
   bool else_if_due_ = false;  // the next line is an ELSEIF whose condition decides

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace trunnion::motion {
 namespace {
@@ -11,6 +12,10 @@ using language::axis_count;
 // What of an axis' limits the path's own curvature may take at the highest speed; the rest accelerates.
 constexpr double normal_share = 0.72;
 constexpr double bend_share = 0.6;
+// The same where every axis is looked at by itself: all but rounding, and what changing the speed again
+// needs.
+constexpr double top_normal_share = 0.999;
+constexpr double top_bend_share = 0.95;
 // Of the jerk left, what the product of curvature, speed and acceleration may take.
 constexpr double mixed_share = 0.4;
 // Through a chain the derivatives vary between the ends of a cell, which are all that is looked at.
@@ -39,7 +44,7 @@ void limit_cell(LimitCell& cell, const CellRates& rates, const Limits& limits) {
   }
   if (rates.curvature > 0 && limits.centripetal_acceleration > 0)
     speed = std::min(speed, std::sqrt(limits.centripetal_acceleration / rates.curvature));
-  cell.speed = speed;
+  cell.speed = cell.top = speed;
   cell.uniform = !curved;
   const std::size_t count = curved ? LimitCell::levels : 1;
   for (std::size_t k = 0; k < count; ++k) {
@@ -60,6 +65,39 @@ void limit_cell(LimitCell& cell, const CellRates& rates, const Limits& limits) {
   }
   for (std::size_t k = count; k < LimitCell::levels; ++k) cell.ramps[k] = cell.ramps[0];
 }
+
+namespace {
+
+// What the cell keeps to be judged by its axes one by one.
+void keep_axes(LimitCell& cell, const PathRates& begins, const PathRates& ends, const CellRates& rates,
+               const Limits& limits) {
+  cell.axis_count = 0;
+  double top = cell.rapid ? fastest : std::min(fastest, cell.feed * highest_override);
+  if (rates.curvature > 0 && limits.centripetal_acceleration > 0)
+    top = std::min(top, std::sqrt(limits.centripetal_acceleration / rates.curvature));
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < axis_count; ++i) {
+    if (rates.first[i] <= 0 && rates.second[i] <= 0 && rates.third[i] <= 0) continue;
+    if (count == LimitCell::most_axes) return;
+    const AxisLimits& axis = limits.axes[i];
+    AxisOnCell& kept = cell.axes[count++];
+    for (std::size_t n = 0; n < 3; ++n) {
+      kept.begin[n] = static_cast<float>(begins[n][i]);
+      kept.end[n] = static_cast<float>(ends[n][i]);
+    }
+    kept.acceleration = static_cast<float>(axis.acceleration);
+    kept.jerk = static_cast<float>(axis.jerk);
+    const double velocity = cell.rapid ? axis.rapid_velocity : axis.velocity;
+    if (rates.first[i] > 0) top = std::min(top, velocity / rates.first[i]);
+    if (rates.second[i] > 0)
+      top = std::min(top, std::sqrt(top_normal_share * axis.acceleration / rates.second[i]));
+    if (rates.third[i] > 0) top = std::min(top, std::cbrt(top_bend_share * axis.jerk / rates.third[i]));
+  }
+  cell.axis_count = static_cast<int>(count);
+  cell.top = std::max(cell.speed, top);
+}
+
+}  // namespace
 
 double join_speed(const AxisValues& turn, double reach, const Limits& limits) {
   double speed = fastest;
@@ -103,7 +141,8 @@ LimitCell CellBuilder::make(const BlendedPath& path, double from, double to) con
   cell.block = block_;
   const double middle = (from + to) / 2, length = to - from;
   PathRates begins = path.derivatives(block_, from, middle), ends;
-  if (block.path.is_arc() || path.bends(block_, middle)) {
+  const bool bends = path.bends(block_, middle);
+  if (block.path.is_arc() || bends) {
     ends = path.derivatives(block_, to, middle);
   } else {  // a polynomial of the third degree
     ends[2] = begins[2];
@@ -130,6 +169,7 @@ LimitCell CellBuilder::make(const BlendedPath& path, double from, double to) con
   }
   rates.curvature = bend;
   limit_cell(cell, rates, limits_);
+  if (block.path.is_arc() && !bends && !cell.uniform) keep_axes(cell, begins, ends, rates, limits_);
   return cell;
 }
 
@@ -161,11 +201,11 @@ double CellBuilder::overlap_time(const BlendedPath& path, const LimitCell& befor
   return std::min(time, longest);
 }
 
-// Longest cell at s: arcs by 6 degrees, turns of the rotary axes by 2 degrees through a chain.
+// Longest cell at s: arcs by 3 degrees, turns of the rotary axes by 2 degrees through a chain.
 double CellBuilder::longest(const BlendedPath& path) const {
   const PathBlock& block = path[block_];
   double most = 1e9;
-  if (block.path.is_arc() && block.path.curvature() > 0) most = 0.1 / block.path.curvature();
+  if (block.path.is_arc() && block.path.curvature() > 0) most = 0.05 / block.path.curvature();
   if (chain_ != nullptr) {
     const auto d = block.path.derivatives(0);
     const double turn = std::hypot(d[0][language::A], d[0][language::B], d[0][language::C]);
@@ -232,6 +272,11 @@ bool CellBuilder::extend_back(const BlendedPath& path, CellRing& cells, std::uin
       LimitCell cell = make(path, s, to);
       cell.at = -to;
       cell.end = -s;
+      for (AxisOnCell& axis : cell.axes) {
+        std::swap(axis.begin, axis.end);
+        for (const std::size_t odd : {0, 2})
+          axis.begin[odd] = -axis.begin[odd], axis.end[odd] = -axis.end[odd];
+      }
       cells[first + count - 1 - k] = cell;
       s = to;
     }

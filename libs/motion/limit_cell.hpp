@@ -9,6 +9,13 @@
 
 namespace trunnion::motion {
 
+/// One machine axis on a cell: first to third derivative by the path length at both ends, between which they
+/// are interpolated, and its limits.
+struct AxisOnCell {
+  std::array<float, 3> begin{}, end{};
+  float acceleration = 0, jerk = 0;
+};
+
 /// Every axis keeps its limits on the cell for any motion with 0 <= v <= speeds[k], |a| and |j| within
 /// ramps[k]. Level 0 is the fastest; slower levels leave more to acceleration and jerk.
 struct LimitCell {
@@ -21,6 +28,11 @@ struct LimitCell {
   double speed = 0;  ///< never exceeded, whatever the override
   double feed = 0;   ///< programmed speed at override 1
   std::array<RampLimits, levels> ramps{};
+  double top =
+      0;  ///< highest speed that the axes themselves allow; from `speed` to it only keeps_axes() decides
+  static constexpr std::size_t most_axes = 6;
+  std::array<AxisOnCell, most_axes> axes{};  ///< of cells that are not uniform
+  int axis_count = 0;                        ///< 0: too many move, only the ramps decide
   bool rapid = false;
   bool uniform = false;  ///< all levels are the same
   bool stop = false;     ///< motion stands at the start

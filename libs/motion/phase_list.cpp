@@ -16,6 +16,10 @@ constexpr double slice_time = 0.002;
 
 bool PhaseList::add(const JerkPhase& phase) {
   if (!(phase.time > 0)) return true;
+  if (count_ > 0 && phases_[count_ - 1].jerk == phase.jerk) {
+    phases_[count_ - 1].time += phase.time;
+    return true;
+  }
   if (count_ == capacity) return false;
   phases_[count_++] = phase;
   return true;
@@ -32,6 +36,13 @@ bool PhaseList::add(const Transition& transition, double time) {
 
 bool PhaseList::add(const Transition& transition) {
   return add(transition, std::numeric_limits<double>::infinity());
+}
+
+bool PhaseList::add(const PhaseList& other) {
+  for (std::size_t k = 0; k < other.count_; ++k) {
+    if (!add(other.phases_[k])) return false;
+  }
+  return true;
 }
 
 PathState PhaseList::after(PathState state) const {

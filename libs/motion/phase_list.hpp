@@ -13,7 +13,7 @@ namespace trunnion::motion {
 /// A few phases one after the other. Phases beyond the room are refused.
 class PhaseList {
  public:
-  static constexpr std::size_t capacity = 32;
+  static constexpr std::size_t capacity = 256;
 
   void clear() { count_ = 0; }
   std::size_t size() const { return count_; }
@@ -24,6 +24,7 @@ class PhaseList {
   /// what is left of a finite `time`.
   bool add(const Transition& transition, double time);
   bool add(const Transition& transition);
+  bool add(const PhaseList& other);
 
   /// `state` after all phases.
   PathState after(PathState state) const;

@@ -30,12 +30,14 @@ void SpeedStage::clear() {
   entered_ = finished_ = false;
   wait_ = 0;
   clear_until_ = 0;
+  arriving_ = false;
   braking_for_.reset();
   tail_.reset();
   overlap_allowed_ = true;
 }
 
 void SpeedStage::extended() {
+  arriving_ = false;
   if (braking_for_ && braking_for_->end) braking_for_.reset();
 }
 
@@ -336,10 +338,7 @@ void SpeedStage::move(const Transition& wished, const Look& look) {
   braking_for_.reset();
   if (found) return;
   ++stopping_;
-  state_ = stop_.advance(state_, cycle_);
-  if (stop_.size() == 0) state_.v = state_.a = 0;
-  while (current_ + 1 < cells_.size() && !cells_[current_ + 1].stop && state_.s > cells_[current_].end)
-    ++current_;
+  follow_stop();
 }
 
 // At a stop, or the end of the path, once the motion has settled there.
@@ -395,6 +394,12 @@ void SpeedStage::step(const Overrides& overrides) {
   if (now.feed <= 0) look.feed = 1e-3;  // what follows a rapid that goes on is approached slowly
   if (now.rapid <= 0) look.rapid = 1e-3;
   if (!hold && !braking_for_ && cruises(now, look)) return;
+  if (rides(look) && ride(look, hold)) {
+    braking_for_.reset();
+    arrive();
+    return;
+  }
+  arriving_ = false;
   if (braking_for_ && !hold) {
     const Transition transition(state_.v, state_.a, braking_for_->speed, braking_for_->ramp);
     const bool over = transition.duration() <= cycle_;

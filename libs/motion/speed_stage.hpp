@@ -12,6 +12,7 @@
 #include <optional>
 
 #include "motion/limit_cell.hpp"
+#include "motion/pace.hpp"
 #include "motion/phase_list.hpp"
 #include "motion/transition.hpp"
 
@@ -100,6 +101,16 @@ class SpeedStage {
   void move(const Transition& wished, const Look& look);
   bool accept(const PhaseList& action);
   bool find_stop(const PathState& state, std::uint64_t cell, PhaseList& stop) const;
+  double top_of(const LimitCell& cell, const Look& look) const;
+  double stop_step(const PathState& state) const;
+  bool rides(const Look& look) const;
+  bool ride(const Look& look, bool hold);
+  void fill_cycle(PathState state, double time, double target, PhaseList& action) const;
+  bool accept_curved(const PhaseList& action, const Look& look, Braked& why);
+  bool find_curved_stop(const PathState& state, std::uint64_t cell, PhaseList& stop, Braked& why) const;
+  std::optional<std::uint64_t> critical_cell(const PathState& state, std::uint64_t cell,
+                                             const Look& look) const;
+  void follow_stop();
   void arrive();
   void begin_tail();
 
@@ -115,7 +126,8 @@ class SpeedStage {
   double clear_speed_ = 0, clear_stop_ = 0;
   RampLimits clear_ramp_;
   Overrides clear_overrides_;
-  PhaseList stop_;  // the way to a standstill that is known to keep all limits
+  PhaseList stop_;         // the way to a standstill that is known to keep all limits
+  bool arriving_ = false;  // that way ends on a stop: nothing is to be gained by looking for another
   std::optional<Obstacle> braking_for_;
   Overrides last_;
   bool overlap_allowed_ = true;

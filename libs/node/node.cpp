@@ -8,6 +8,7 @@
 #include <atomic>
 #include <chrono>
 #include <csignal>
+#include <filesystem>
 
 namespace trunnion::node {
 namespace {
@@ -17,6 +18,17 @@ volatile std::sig_atomic_t stop_requested = 0;
 void request_stop(int) { stop_requested = 1; }
 volatile std::sig_atomic_t take_over_requested = 0;
 void request_take_over(int) { take_over_requested = 1; }
+
+bool real_time_wanted = false;
+
+// Every thread there is by now; those made later inherit from their maker.
+void become_real_time() {
+  sched_param priority{};
+  priority.sched_priority = 20;
+  std::error_code ignored;
+  for (const auto& task : std::filesystem::directory_iterator("/proc/self/task", ignored))
+    sched_setscheduler(std::stoi(task.path().filename()), SCHED_FIFO, &priority);
+}
 
 std::string host_name() {
   char name[64] = {};
@@ -31,9 +43,8 @@ double monotonic_seconds() {
 }
 
 bool use_real_time_scheduling() {
-  sched_param priority{};
-  priority.sched_priority = 20;
-  return sched_setscheduler(0, SCHED_FIFO, &priority) == 0 && mlockall(MCL_CURRENT | MCL_FUTURE) == 0;
+  real_time_wanted = true;
+  return mlockall(MCL_CURRENT | MCL_FUTURE) == 0;
 }
 
 Node::Node(Options options)
@@ -126,6 +137,12 @@ int Node::run(Service& service) {
       beat(service.health());
     } else if (now - last_beat_ >= 0.02 && service.health().lifecycle != last_lifecycle) {
       last_lifecycle = service.health().lifecycle;
+      // Not before: processes that make their participants at the highest priority starve those they wait
+      // for.
+      if (real_time_wanted && last_lifecycle == idl::service::Lifecycle::ACTIVE) {
+        become_real_time();
+        real_time_wanted = false;
+      }
       beat(service.health());  // a change of lifecycle is news: start-up waits for it
     }
   }

@@ -75,9 +75,9 @@ class Node {
   std::uint64_t last_frames_ = 0;
 };
 
-/// Asks the system to run this process and the DDS threads it will make before ordinary ones, without page
-/// faults. Call before the first thread is made. False when the system does not allow it; the service then
-/// runs like any other.
+/// Asks the system to run this process before ordinary ones from when the service is active on, and without
+/// page faults from now on. Call before the first thread is made. False when the system does not allow it;
+/// the service then runs like any other.
 bool use_real_time_scheduling();
 
 /// Monotonic seconds, for time-outs and statistics only.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "language/codes.hpp"
 #include "motion/axis_motion.hpp"
 
 namespace trunnion::planning {
@@ -111,6 +112,8 @@ class Runner {
       frame_.tool_length = command_.modal.tool_length;
       trajectory_.start(command_.target, frame_.transformation, frame_.tool_length);
     }
+    if (language::changes_machine(command_))
+      trajectory_.start(trajectory_.end_position(), frame_.transformation, frame_.tool_length);
     frame_.start = trajectory_.end_position();
     if (moves_) moves_(command_, frame_);
     return true;

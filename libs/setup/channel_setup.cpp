@@ -54,6 +54,8 @@ void ChannelSetup::configure(const machine::Parameters& p) {
   pole_range_ = p.get("pole_range", channel_);
   diameter_programming_ = p.integer("diameter_programming", channel_) != 0;
   default_feed_ = p.get("default_feed", channel_);
+  dry_run_feed_ = p.get("dry_run_feed", channel_);
+  handwheel_share_ = p.get("handwheel_share", channel_);
   cycles_ = {p.get("cycle_retract", channel_), p.get("cycle_clearance", channel_),
              p.integer("cycle_shift_axis", channel_)};
   cutter_ = {p.integer("cutter_feed_at_contour") != 0, p.integer("cutter_wear_sign") != 0 ? 1 : -1,
@@ -258,11 +260,24 @@ std::optional<language::TravelBreach> ChannelSetup::breach_of(const AxisValues& 
 
 std::string ChannelSetup::travel_error(const AxisValues& from, const language::Command& move) const {
   const auto breach = breach_of(from, move, nullptr);
-  if (!breach) return "";
-  const Travel& travel = travel_[breach->axis];
+  return breach ? words_of(*breach, move.line) : "";
+}
+
+std::string ChannelSetup::travel_error(const AxisBox& box, const AxisValues& offset,
+                                       std::uint32_t line) const {
+  constexpr double slack = 1e-6;
+  for (const auto index : channel_axes_.index)
+    for (const double position : {box.low[index] + offset[index], box.high[index] + offset[index]})
+      if (travel_[index].excess(position) > slack)
+        return words_of({static_cast<language::Axis>(index), position}, line);
+  return "";
+}
+
+std::string ChannelSetup::words_of(const language::TravelBreach& breach, std::uint32_t line) const {
+  const Travel& travel = travel_[breach.axis];
   char text[160];
-  std::snprintf(text, sizeof text, "%u: %c would go to %.4f, its travel is %.4f .. %.4f", move.line,
-                language::axis_letters[breach->axis], breach->position, travel.negative, travel.positive);
+  std::snprintf(text, sizeof text, "%u: %c would go to %.4f, its travel is %.4f .. %.4f", line,
+                language::axis_letters[breach.axis], breach.position, travel.negative, travel.positive);
   return text;
 }
 

@@ -12,6 +12,7 @@
 #include "language/environment.hpp"
 #include "machine/axes.hpp"
 #include "motion/limits.hpp"
+#include "setup/axis_box.hpp"
 #include "setup/machine_tables.hpp"
 #include "setup/travel_search.hpp"
 
@@ -74,6 +75,8 @@ class ChannelSetup : public language::Environment {
   /// Empty, or one line about an axis that would leave its travel anywhere on the way from `from` to the end
   /// of `move`.
   std::string travel_error(const AxisValues& from, const language::Command& move) const;
+  /// The same of a way that stays in `box`, with `offset` added in machine coordinates.
+  std::string travel_error(const AxisBox& box, const AxisValues& offset, std::uint32_t line) const;
 
   const machine::ChannelAxes& channel_axes() const { return channel_axes_; }
   const std::vector<int>& columns() const { return columns_; }
@@ -83,6 +86,10 @@ class ChannelSetup : public language::Environment {
   const TappingSpindle& tapping_spindle() const { return tapping_spindle_; }
   const Travel& travel(std::uint8_t axis) const { return travel_[axis]; }
   double jog_feed(std::uint8_t axis) const { return jog_feed_[axis]; }
+  /// Feed of a dry run in mm/min (deg/min where only rotary axes move).
+  double dry_run_feed() const { return dry_run_feed_; }
+  /// Share of every limit of the axes that a handwheel offset may take.
+  double handwheel_share() const { return handwheel_share_; }
   double reference_feed(std::uint8_t axis) const { return reference_feed_[axis]; }
   double cycle_seconds() const { return cycle_seconds_; }
   std::uint64_t lead() const { return lead_; }
@@ -90,6 +97,7 @@ class ChannelSetup : public language::Environment {
   std::uint64_t revision() const { return revision_; }
 
  private:
+  std::string words_of(const language::TravelBreach& breach, std::uint32_t line) const;
   /// Of a move whose tool goes `way`, or rotary axes in proportion when that is null.
   std::optional<language::TravelBreach> breach_of(const AxisValues& from, const language::Command& move,
                                                   const geometry::DirectionPath* way) const;
@@ -112,7 +120,7 @@ class ChannelSetup : public language::Environment {
   AxisValues reference_{}, approach_{};
   std::array<AxisValues, 3> numbered_references_{};
   bool diameter_programming_ = false;
-  double default_feed_ = 1000;
+  double default_feed_ = 1000, dry_run_feed_ = 2000, handwheel_share_ = 0.2;
   language::CycleSettings cycles_;
   language::CutterSettings cutter_;
   std::array<std::array<language::Vector3, 3>, 20> planes_{};

@@ -25,8 +25,8 @@ class Comparison {
   template <class Value>
   void value(const std::string& what, std::uint64_t cycle, Value a, Value b) {
     if (found_ || a == b) return;
-    found_ = {cycle, head_ + " in cycle " + std::to_string(cycle) + ", " + what + ": " + number(a) + " and " +
-                         number(b)};
+    const auto values = what + ": " + number(a) + " and " + number(b);
+    found_ = {cycle, values, head_ + " in cycle " + std::to_string(cycle) + ", " + values};
   }
   template <class Value>
   void list(const std::string& what, std::uint64_t cycle, const std::vector<Value>& a,
@@ -73,19 +73,23 @@ void compare_shape(Comparison& comparison, const Frame& a, const Frame& b) {
 
 bool same_values(const idl::stream::AxisFrame& a, const idl::stream::AxisFrame& b) {
   return a.count == b.count && a.revision == b.revision && a.ends == b.ends && a.axes == b.axes &&
-         a.setpoints == b.setpoints && a.states == b.states;
+         a.spindle_axis == b.spindle_axis && a.spindle == b.spindle && a.setpoints == b.setpoints &&
+         a.states == b.states;
 }
 
 bool same_values(const idl::stream::PathFrame& a, const idl::stream::PathFrame& b) {
   return a.count == b.count && a.revision == b.revision && a.ends == b.ends &&
          a.transformation == b.transformation && a.tool_length == b.tool_length &&
-         a.setpoints == b.setpoints && a.states == b.states;
+         a.spindle_axis == b.spindle_axis && a.spindle == b.spindle && a.setpoints == b.setpoints &&
+         a.states == b.states;
 }
 
 std::optional<FrameDifference> difference(const idl::stream::AxisFrame& a, const idl::stream::AxisFrame& b) {
   Comparison comparison(a.stage, a.copy, b.copy, a.first);
   compare_shape(comparison, a, b);
   comparison.list("axis", a.first, a.axes, b.axes);
+  comparison.value("spindle axis", a.first, std::uint64_t{a.spindle_axis}, std::uint64_t{b.spindle_axis});
+  comparison.list("spindle", a.first, a.spindle, b.spindle);
   comparison.rows(a.setpoints, b.setpoints, a.axes.size());
   comparison.states(a.states, b.states);
   return comparison.take();
@@ -97,6 +101,8 @@ std::optional<FrameDifference> difference(const idl::stream::PathFrame& a, const
   comparison.value("transformation", a.first, std::uint64_t{a.transformation},
                    std::uint64_t{b.transformation});
   comparison.value("tool length", a.first, a.tool_length, b.tool_length);
+  comparison.value("spindle axis", a.first, std::uint64_t{a.spindle_axis}, std::uint64_t{b.spindle_axis});
+  comparison.list("spindle", a.first, a.spindle, b.spindle);
   comparison.rows(a.setpoints, b.setpoints, 9);
   comparison.states(a.states, b.states);
   return comparison.take();

@@ -10,7 +10,8 @@ namespace trunnion::stream {
 
 struct FrameDifference {
   std::uint64_t cycle = 0;
-  std::string text;  ///< names the stage, both copies, the cycle and both values
+  std::string values;  ///< what differs, in the first frame and in the second
+  std::string text;    ///< all of it: names the stage, both copies, the cycle and both values
 };
 
 /// Two frames of the same epoch and first cycle are the same in what a stage computes: shape, revision,

@@ -177,7 +177,7 @@ class StageService : public node::Service {
 
   // Every reader of the feedback costs the drive a message and this process a wake-up per frame.
   void follow_feedback() {
-    bool wanted = needs_feedback() || !have_feedback_;
+    bool wanted = needs_feedback() || !have_feedback_ || node::monotonic_seconds() < feedback_until_;
     for (const auto& [channel, lane] : lanes_) wanted = wanted || !lane.in_step;
     if (wanted && !feedback_reader_) {
       newest_feedback_.channels.clear();
@@ -285,6 +285,8 @@ class StageService : public node::Service {
       if (now - lane.gap_since > 0.02) {
         ++frames_lost_;
         lane.in_step = lane.settled = false;
+        feedback_until_ =
+            now + 2;  // who fell behind may do so again, and a new reader is sent all the history
         lane.gap_since = 0;
       }
     }
@@ -305,7 +307,7 @@ class StageService : public node::Service {
   idl::stream::FeedbackFrame newest_feedback_;
   bool have_feedback_ = false;
   std::uint64_t frames_in_ = 0, frames_out_ = 0, frames_lost_ = 0;
-  double unknown_since_ = 0;
+  double unknown_since_ = 0, feedback_until_ = 0;
   std::uint64_t lead_ = 0;
   bool twins_ = false, shadow_ = false;
   std::string fault_;

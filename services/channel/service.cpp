@@ -11,7 +11,9 @@
 namespace trunnion::channel {
 namespace {
 constexpr double history_seconds = 0.3;  // for the history of the drive's feedback to arrive
-}
+constexpr double record_seconds = 0.2;   // between two records of the executed line
+constexpr double text_patience = 0.5;    // without the text that motion waits for, before somebody is told
+}  // namespace
 
 ChannelService::ChannelService(node::Node& node)
     : node_(node),
@@ -30,13 +32,94 @@ ChannelService::ChannelService(node::Node& node)
       state_writer_(node.bus().writer(topics::channel_state)),
       auxiliary_writer_(node.bus().writer(topics::auxiliary_request)),
       stream_writer_(node.bus().writer(topics::stream_request)),
+      hand_over_file_(node.options().state_directory + "/channel-" + std::to_string(node.options().channel) +
+                      ".handover"),
       variables_file_(node.options().state_directory + "/channel-" + std::to_string(node.options().channel) +
-                      ".variables") {
+                      ".variables"),
+      record_file_(node.options().state_directory + "/channel-" + std::to_string(node.options().channel) +
+                   ".program"),
+      record_(record_file_) {
   copies_ = stream::CopyWatch(node.options().machine.services, node::monotonic_seconds());
   if (!copies_.copies().empty()) progress_reader_.emplace(node.bus().reader(topics::stage_progress));
   std::ifstream boot(node.options().state_directory + "/cluster.boot");
   std::getline(boot, boot_);
   read_variables();
+  read_record();
+  read_hand_over();
+}
+
+// A record that cannot be read says nothing about the program: it is put aside and named.
+void ChannelService::read_record() {
+  std::ifstream in(record_file_, std::ios::binary);
+  if (!in) return;
+  std::ostringstream text;
+  text << in.rdbuf();
+  try {
+    kept_ = channel::read_record(text.str(), record_file_);
+    core_.set_interrupted(kept_);
+  } catch (const std::exception& e) {
+    node_.alarms().raise("storage_failed", static_cast<std::uint32_t>(node_.options().channel), e.what());
+    std::rename(record_file_.c_str(), (record_file_ + ".damaged").c_str());
+  }
+}
+
+// The line is written now and then, the beginning and the end of a program at once.
+void ChannelService::keep_record() {
+  const double now = node::monotonic_seconds();
+  if (core_.program_under_way() == (kept_.line != 0) && now - kept_at_ < record_seconds) return;
+  const auto program = core_.running_program();
+  if (program == kept_) return;
+  record_.put(write_record(program));
+  kept_ = program;
+  kept_at_ = now;
+  const auto error = record_.error();
+  const auto channel = static_cast<std::uint32_t>(node_.options().channel);
+  if (!error.empty())
+    node_.alarms().raise("storage_failed", channel, error);
+  else if (record_failed_)
+    node_.alarms().release("storage_failed", channel);
+  record_failed_ = !error.empty();
+}
+
+void ChannelService::watch_text() {
+  const auto channel = static_cast<std::uint32_t>(node_.options().channel);
+  const double now = node::monotonic_seconds();
+  if (!core_.waits_for_text()) {
+    if (text_missing_since_ < 0) node_.alarms().release("text_late", channel);
+    text_missing_since_ = 0;
+  } else if (text_missing_since_ == 0) {
+    text_missing_since_ = now;
+  } else if (text_missing_since_ > 0 && now - text_missing_since_ > text_patience) {
+    node_.alarms().raise("text_late", channel, "The program's text does not arrive: see the program service");
+    text_missing_since_ = -1;  // told
+  }
+}
+
+// It is good for one process only: one that is killed leaves none, and what then holds is in the drive's cut.
+void ChannelService::read_hand_over() {
+  std::ifstream in(hand_over_file_, std::ios::binary);
+  if (!in) return;
+  std::ostringstream text;
+  text << in.rdbuf();
+  std::remove(hand_over_file_.c_str());
+  HandOver from;
+  try {
+    if (channel::read_hand_over(text.str(), hand_over_file_, boot_, from)) hand_over_ = std::move(from);
+  } catch (const std::exception& e) {
+    node_.alarms().raise("storage_failed", static_cast<std::uint32_t>(node_.options().channel), e.what());
+    node_.alarms().release("storage_failed", static_cast<std::uint32_t>(node_.options().channel));
+  }
+}
+
+void ChannelService::end() {
+  if (!core_.recovered()) return;
+  const auto left = core_.hand_over();
+  if (!left) return;
+  try {
+    storage::replace_file(hand_over_file_, write_hand_over(*left, boot_));
+  } catch (const storage::StorageError& e) {
+    std::fprintf(stderr, "%s\n", e.what());
+  }
 }
 
 // A file that cannot be read is put aside and named by an alarm: vacant variables are safer than wrong ones.
@@ -186,7 +269,11 @@ void ChannelService::pump() {
   if (!core_.recovered() && core_.link().has_feedback()) {
     const double now = node::monotonic_seconds();
     if (first_feedback_ == 0) first_feedback_ = now;
-    if (now - first_feedback_ > history_seconds) core_.recover();
+    if (now - first_feedback_ > history_seconds) {
+      if (hand_over_) core_.take_over(*hand_over_);
+      hand_over_.reset();
+      core_.recover();
+    }
   }
   watch_copies();
   answer_requests();
@@ -200,6 +287,8 @@ void ChannelService::pump() {
   if (const auto auxiliary = core_.take_auxiliary()) auxiliary_writer_.write(*auxiliary);
   change_tables();
   save_variables();
+  if (core_.recovered()) keep_record();
+  watch_text();
   for (const auto& event : core_.take_events()) {
     const auto channel = static_cast<std::uint32_t>(node_.options().channel);
     if (event.number != 0 && event.alarm.empty()) {

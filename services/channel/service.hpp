@@ -6,6 +6,7 @@
 #include "node/node.hpp"
 #include "node/parameter_client.hpp"
 #include "node/request.hpp"
+#include "record_keeper.hpp"
 #include "src/channel_core.hpp"
 #include "stream/copy_watch.hpp"
 
@@ -17,6 +18,7 @@ class ChannelService : public node::Service {
   void pump() override;
   double period() const override { return 0.02; }
   node::Health health() const override;
+  void end() override;
 
  private:
   void start_stream();
@@ -26,6 +28,10 @@ class ChannelService : public node::Service {
   void change_tables();
   void read_variables();
   void save_variables();
+  void read_record();
+  void keep_record();
+  void watch_text();
+  void read_hand_over();
   void watch_alarms();
   void watch_copies();
   void publish();
@@ -53,7 +59,14 @@ class ChannelService : public node::Service {
 
   using AlarmKey = std::array<std::uint32_t, 3>;
   std::map<AlarmKey, std::string> holding_alarms_;
+  std::string hand_over_file_;
+  std::optional<HandOver> hand_over_;  ///< from the process before
   std::string variables_file_, saved_variables_, boot_;
+  std::string record_file_;
+  RecordKeeper record_;
+  RunningProgram kept_;
+  double kept_at_ = 0, text_missing_since_ = 0;
+  bool record_failed_ = false;
   bool plc_hold_ = false;
   bool have_tools_ = false, have_offsets_ = false, have_programs_ = false;
   idl::stream::PathFrame frame_;

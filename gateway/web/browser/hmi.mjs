@@ -107,6 +107,30 @@ async function run(page, url) {
     await shot("plots");
     await page.getByRole("tab", { name: "Tool path" }).click();
 
+    await at("functions").click();
+    await at("dry-run").click();
+    await at("lock-X").click();
+    await eventually("dry run and lock are shown", async () => {
+      const shown = (await at("detail").count()) > 0 ? await text('[data-test="detail"]') : "";
+      return shown.includes("dry run") && shown.includes("lock X");
+    });
+    check("what changes the program is shown beside it", true);
+    await at("handwheel-offset").click();
+    await at("wheel+").click();
+    await eventually("the wheel arrives", () => cluster.includes("HANDWHEEL"));
+    await at("from-line").fill("40");
+    await at("search-line").click();
+    await eventually("the line is asked for", () => cluster.includes("START_FROM_LINE"));
+    const covered_by_functions = await overflow();
+    check(`the functions fit ${covered_by_functions}`, covered_by_functions.length === 0);
+    await shot("functions");
+    await at("dry-run").click();
+    await at("lock-X").click();
+    await at("handwheel-offset").click();
+    await page.getByRole("tab", { name: "Tool path" }).click();
+    await at("cycle-start").click();
+    await eventually("running again", async () => (await text('[data-test="state"]')) === "RUNNING");
+
     await at("feed-hold").click();
     await eventually("held", async () => (await text('[data-test="state"]')) === "HELD");
     check("feed hold holds", true);

@@ -8,9 +8,15 @@
 #include <utility>
 #include <vector>
 
+#include "axis_lock.hpp"
+#include "channel_snapshot.hpp"
 #include "contracts/types.hpp"
+#include "handwheel.hpp"
+#include "preparation.hpp"
+#include "hand_over.hpp"
 #include "program_flow.hpp"
-#include "program_text.hpp"
+#include "program_record.hpp"
+#include "program_shelf.hpp"
 #include "setup/channel_setup.hpp"
 #include "stream_link.hpp"
 
@@ -40,8 +46,14 @@ class ChannelCore {
   void set_parameters(std::shared_ptr<const machine::Parameters> parameters);
   void set_tools(const idl::parameters::ToolTable& tools);
   void set_offsets(const idl::parameters::WorkOffsets& offsets);
+  /// For the process that takes this one's place; nothing while the channel moves.
+  std::optional<HandOver> hand_over() const;
+  /// From the process before. Call it before recover(), once the programs are known.
+  void take_over(const HandOver& hand_over);
   /// The kept variables of the last time.
   void set_variables(const language::VariableStore& variables) { *variables_ = variables; }
+  /// The program under way when the control was switched off: its line is offered to start from.
+  void set_interrupted(const RunningProgram& program) { interrupted_ = program; }
   void set_programs(const idl::program::ProgramList& programs);
   void on_feedback(const idl::stream::FeedbackFrame& feedback);
   /// A process that has just begun may find that one before it died in the middle of a program. Call it once
@@ -76,45 +88,120 @@ class ChannelCore {
   }
   std::vector<ChannelEvent> take_events() { return std::exchange(events_, {}); }
   const idl::channel::ChannelState& state();
+  RunningProgram running_program() const;
+  bool program_under_way() const {
+    return !lock_.any() && (activity_ == Activity::program || suspended_.has_value());
+  }
+  /// Motion, or the search for a line, cannot go on before a part of the program's text has arrived.
+  bool waits_for_text() const { return run_ == RunState::RUNNING && text_missing_; }
 
   RunState run_state() const { return run_; }
   const setup::ChannelSetup& machine() const { return machine_; }
   const StreamLink& link() const { return link_; }
-  bool configured() const { return trajectory_owner_ != nullptr; }
+  bool configured() const { return program_owner_ != nullptr; }
 
  private:
-  enum class Activity { none, program, mdi, jog };
+  enum class Activity { none, program, mdi, jog, handwheel };
 
+  // What was written, until it is executed and can be shown; and the path points a restart would need.
+  struct Written {
+    std::uint64_t cycle = ~0ull;
+    std::uint32_t line = 0;
+    double feed = 0;
+    AxisValues distance_to_go{};
+    AxisValues position{};  // of the path, in its frame
+    AxisValues machine{};   // the same in machine coordinates, when an axis is locked
+    bool rapid = false;
+  };
+  struct PathPoint {
+    std::uint32_t sequence = 0, line = 0;
+    double fraction = 0;
+  };
+  /// A program that is held while the axes are moved by hand or MDI. Its motion stays planned.
+  struct Suspended {
+    language::Transformation frame = language::Transformation::none;
+    double tool_length = 0;
+    AxisValues machine{};  // where the path was left
+    std::uint32_t tool = 0;
+    PathPoint point;
+    Written shown;
+    language::ModalState mdi_modal;  // of MDI before
+    AuxiliaryMemory by_hand;         // what MDI has asked of spindle and coolant since
+  };
+
+  // channel_commands.cpp: what an operator may ask, and when.
   Answer refuse(const char* alarm, std::string reason) const;
   Answer startable() const;
+  Answer set_mode(Mode mode);
   Answer select(const std::string& name);
   Answer cycle_start();
-  Answer start_program(const RestartPoint& restart);
+  Answer go_on_after_interruption();
+  Answer reference(std::uint8_t index);
+  Answer jog(const idl::channel::ChannelRequest& request);
+  void stop_jog();
+  void reset();
+
+  // channel_switches.cpp: dry run, locks, block skip, handwheel.
+  Answer set_switch(const idl::channel::ChannelRequest& request);
+  Answer lock_axes(double mask);
+  Answer set_block_skip(double mask);
+  Answer set_handwheel_offset(bool on);
+  Answer turn_handwheel(const idl::channel::ChannelRequest& request);
+  Answer retrace(bool on);
+  void drop_offset();
+
+  // channel_starts.cpp: how programs, lines and moves begin, stop for a while and go on.
+  Answer start_program(const Entry& entry);
+  Answer start_from_line(double line);
   Answer start_mdi(const std::string& line);
   Answer start_move(std::uint8_t axis, double target, double feed);
-  Answer jog(const idl::channel::ChannelRequest& request);
-  void reset();
-  void hold();
+  void begin_manual(Activity activity);
+  void prepare_entry();
+  bool run_preparation();
+  void suspend();
+  Answer go_on_after_suspension();
+
+  // channel_core.cpp
   void stop_activity();
   void finish(bool program_end);
   void keep_variables();
   void interrupt(const std::string& why);
+  void offer_interrupted();
   void apply_parameters();
+  void build_trajectories();
   void adopt_position();
-  void run_pending(FlowState flow);
+
+  // channel_orders.cpp: what a program asks of the rest of the control.
+  void run_pending(FlowState state);
+  void begin_auxiliary(const AuxiliaryOrder& order);
+
+  // channel_cycles.cpp: moves that a skip input ends, and those a spindle follows.
   void begin_skip();
   void finish_skip();
   void begin_tapping();
   void finish_tapping();
   bool holding() const { return hold_ && !tapping_.active(); }
-  void begin_auxiliary(std::uint8_t kind, std::uint32_t code, double value);
+
+  // channel_stream.cpp: setpoints.
+  void hold();
   FlowState fill();
+  void start_stream();
+  void step_cycle(idl::stream::PathFrame& frame);
   bool copies_follow(std::uint32_t count);
+  AxisValues machine_of(const AxisValues& path) const;
+  bool in_machine_coordinates() const { return lock_.any() || offset_on_; }
   void remember_executed();
-  std::vector<double> stage_state(FlowState flow);
+  void store_state(FlowState state, std::vector<double>& values) const;
+
+  ProgramFlow& flow() { return activity_ == Activity::mdi ? mdi_flow_ : program_flow_; }
+  const ProgramFlow& flow() const { return activity_ == Activity::mdi ? mdi_flow_ : program_flow_; }
+  bool interpreting() const { return activity_ == Activity::program || activity_ == Activity::mdi; }
   language::ModalState power_on_modal() const;
   AxisValues machine_position() const;
   AxisValues frame_position(const language::ModalState& modal) const;
+  AxisValues drive_position() const;
+  std::string detail() const;
+  std::string program_name() const { return activity_ == Activity::program ? selected_.name : "MDI"; }
   void event(std::string alarm, std::string text) {
     events_.push_back({std::move(alarm), 0, std::move(text)});
   }
@@ -123,16 +210,21 @@ class ChannelCore {
   bool virtual_time_;
   setup::ChannelSetup machine_;
   StreamLink link_;
-  std::unique_ptr<motion::Trajectory> trajectory_owner_;
-  motion::Trajectory* trajectory_ = nullptr;
-  ProgramFlow flow_;
+  // The program's motion stays planned while the axes are moved by MDI, by hand or to the program's start.
+  std::unique_ptr<motion::Trajectory> program_owner_, manual_owner_;
+  motion::Trajectory* program_trajectory_ = nullptr;
+  motion::Trajectory* manual_trajectory_ = nullptr;
+  motion::Trajectory* trajectory_ = nullptr;  // one of the two
+  motion::Limits path_limits_;                // what a handwheel offset leaves of the axes' limits
+  ProgramFlow program_flow_, mdi_flow_;
+  ProgramShelf program_shelf_, mdi_shelf_;
   std::shared_ptr<const machine::Parameters> parameters_, next_parameters_;
   idl::program::ProgramList programs_;
 
   Mode mode_ = Mode::JOG;
   RunState run_ = RunState::IDLE;
   Activity activity_ = Activity::none;
-  bool ready_ = false, recovered_ = false, hold_ = false, aborting_ = false,
+  bool ready_ = false, recovered_ = false, hold_ = false, aborting_ = false, text_missing_ = false,
        must_reset_ =
            false;  // the drives were off: spindle and coolant are, so the program must not just go on
   bool may_start_ = true;
@@ -140,20 +232,29 @@ class ChannelCore {
   std::string external_hold_;
   int standing_ = 0;
   AxisValues last_position_{};
-  bool single_block_ = false, optional_stop_ = false;
+  bool single_block_ = false, optional_stop_ = false, dry_run_ = false, auxiliary_lock_ = false;
+  language::SkipLevels block_skip_ = 0;
   double feed_override_ = 1, rapid_override_ = 1, spindle_override_ = 1;
 
   idl::program::ProgramEntry selected_;
-  std::unique_ptr<ProgramText> text_;
-  std::vector<std::unique_ptr<ProgramText>> subprograms_;
   std::string mdi_line_;
   std::optional<language::StringSource> mdi_source_;
   language::ModalState modal_;                                       // of MDI, kept from line to line
   language::Transformation frame_ = language::Transformation::none;  // of the trajectory
   double frame_tool_length_ = 0;
-  AxisValues machine_start_{};  // machine coordinates at rest
+  AxisValues machine_start_{};  // of the path at rest, in machine coordinates
   AxisValues program_start_{};
   std::optional<RestartPoint> restart_;
+  std::optional<Preparation> preparation_;
+  bool preparing_motion_ = false;
+  std::optional<Suspended> suspended_;
+  RunningProgram interrupted_;  // before this process began, by the end of the control
+  AxisLock lock_;
+  bool offset_on_ = false;
+  Handwheel offset_;  // added to the path
+  Handwheel wheel_;   // in place of a path
+  bool retracing_ = false;
+  bool reset_due_ = false;  // when the motion has stopped
   bool auxiliary_open_ = false;
   std::uint32_t auxiliary_number_ = 0;
   idl::channel::AuxiliaryRequest auxiliary_;
@@ -170,20 +271,8 @@ class ChannelCore {
   double spindle_programmed_ = 0;
   std::uint32_t reset_count_ = 0;
 
-  // What was written, until it is executed and can be shown; and the path points a restart would need.
-  struct Written {
-    std::uint64_t cycle = ~0ull;
-    std::uint32_t line = 0;
-    double feed = 0;
-    AxisValues distance_to_go{};
-    AxisValues position{};
-  };
   static constexpr std::size_t history = 2048;
   std::vector<Written> written_;
-  struct PathPoint {
-    std::uint32_t sequence = 0, line = 0;
-    double fraction = 0;
-  };
   PathPoint point_;  // that the newest setpoint has reached
   Written shown_;
   std::vector<ChannelEvent> events_;

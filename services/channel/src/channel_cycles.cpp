@@ -5,8 +5,8 @@ namespace trunnion::channel {
 
 // The axes stand, and nothing is read on before the move has ended.
 void ChannelCore::begin_skip() {
-  const auto input = flow_.pending().number;
-  if (flow_.push_pending() != FlowState::alarm) skip_.begin(input);
+  const auto input = flow().pending().number;
+  if (flow().push_pending() != FlowState::alarm) skip_.begin(input);
 }
 
 void ChannelCore::finish_skip() {
@@ -21,26 +21,26 @@ void ChannelCore::finish_skip() {
     result.touched = tip ? machine_.tip_from_machine(at, frame_tool_length_) : at;
   }
   skip_.end();
-  flow_.skip_ended(result);
+  flow().skip_ended(result);
 }
 
 void ChannelCore::begin_tapping() {
   const auto& spindle = machine_.tapping_spindle();
   if (!spindle.axis) {
-    flow_.refuse_pending(language::AlarmNumber::tapping_spindle_missing);
+    flow().refuse_pending(language::AlarmNumber::tapping_spindle_missing);
     return;
   }
-  tapping_.begin(trajectory_->position(), flow_.pending());
-  trajectory_->set_limits(tapping_.limits(machine_.limits(), spindle.acceleration));
+  tapping_.begin(trajectory_->position(), flow().pending());
+  trajectory_->set_limits(tapping_.limits(path_limits_, spindle.acceleration));
   trajectory_->start(trajectory_->position(), frame_, frame_tool_length_);
-  flow_.set_tapping(true);
+  flow().set_tapping(true);
 }
 
 void ChannelCore::finish_tapping() {
   if (!tapping_.active()) return;
   tapping_.end();
-  flow_.set_tapping(false);
-  trajectory_->set_limits(machine_.limits());
+  flow().set_tapping(false);
+  trajectory_->set_limits(path_limits_);
   trajectory_->start(trajectory_->position(), frame_, frame_tool_length_);
 }
 

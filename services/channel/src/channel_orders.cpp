@@ -1,44 +1,48 @@
 // What a program asks of the rest of the control while the axes stand: the PLC, the tables, the operator.
 #include "channel_core.hpp"
+#include "language/codes.hpp"
 #include "table_order.hpp"
 
 namespace trunnion::channel {
-
 // The axes stand and the drive has executed everything: what stopped the flow is dealt with now.
-void ChannelCore::run_pending(FlowState flow) {
+void ChannelCore::run_pending(FlowState state) {
   using language::CommandKind;
-  if (tapping_.active() && flow != FlowState::block_end) {
+  if (tapping_.active() && state != FlowState::block_end) {
     finish_tapping();
     return;
   }
-  switch (flow) {
+  switch (state) {
     case FlowState::alarm:
       events_.push_back(
-          {flow_.alarm_number() < 1000 ? "travel_limit" : "", flow_.alarm_number(),
-           (activity_ == Activity::program ? selected_.name : "MDI") + ":" + flow_.alarm_text()});
+          {flow().alarm_name(), flow().alarm_number(), program_name() + ":" + flow().alarm_text()});
       finish(false);
       return;
     case FlowState::end:
       finish(true);
       return;
     case FlowState::block_end:
-      flow_.next_block();
+      flow().next_block();
       run_ = RunState::HELD;
       return;
     case FlowState::full:
     case FlowState::waiting:
+    case FlowState::found:
       return;
     case FlowState::command:
       break;
   }
-  const auto& command = flow_.pending();
+  const auto& command = flow().pending();
+  if (auxiliary_lock_ && language::changes_machine(command)) {
+    flow().finish_pending();
+    return;
+  }
   switch (command.kind) {
     case CommandKind::transformation:
       machine_start_ = machine_position();
       frame_ = command.modal.transformation;
       frame_tool_length_ = command.modal.tool_length;
       trajectory_->start(command.target, frame_, frame_tool_length_);
-      flow_.finish_pending();
+      flow().finish_pending();
       return;
     case CommandKind::skip:
       begin_skip();
@@ -52,30 +56,29 @@ void ChannelCore::run_pending(FlowState flow) {
       run_ = RunState::WAITING;
       return;
     case CommandKind::message:
-      event("program_message", (activity_ == Activity::program ? selected_.name : "MDI") + ":" +
-                                   std::to_string(command.line) + ": message " +
+      event("program_message", program_name() + ":" + std::to_string(command.line) + ": message " +
                                    std::to_string(command.number) + ", see the comment of the line");
-      flow_.finish_pending();
+      flow().finish_pending();
       return;
     case CommandKind::tool:
-      begin_auxiliary(3, command.number, 0);
+      begin_auxiliary({3, command.number, 0});
       return;
     case CommandKind::spindle_speed:
       spindle_programmed_ = command.value;
-      begin_auxiliary(2, 0, command.value);
+      begin_auxiliary({2, 0, command.value});
       return;
     case CommandKind::auxiliary:
       if (command.number == 1 && !optional_stop_) {
-        flow_.finish_pending();
+        flow().finish_pending();
         return;
       }
-      begin_auxiliary(1, command.number, 0);
+      begin_auxiliary({1, command.number, 0});
       return;
     case CommandKind::end:
-      begin_auxiliary(1, command.number, 0);
+      begin_auxiliary({1, command.number, 0});
       return;
     default:
-      flow_.finish_pending();
+      flow().finish_pending();
       return;
   }
 }
@@ -84,8 +87,8 @@ std::optional<idl::channel::AuxiliaryRequest> ChannelCore::take_auxiliary() {
   return std::exchange(outgoing_auxiliary_, std::nullopt);
 }
 
-void ChannelCore::begin_auxiliary(std::uint8_t kind, std::uint32_t code, double value) {
-  auxiliary_ = {number_, ++auxiliary_number_, kind, code, value, link_.executed()};
+void ChannelCore::begin_auxiliary(const AuxiliaryOrder& order) {
+  auxiliary_ = {number_, ++auxiliary_number_, order.kind, order.code, order.value, link_.executed()};
   outgoing_auxiliary_ = auxiliary_;
   auxiliary_open_ = true;
   run_ = RunState::WAITING;
@@ -96,16 +99,26 @@ void ChannelCore::on_auxiliary_done(const idl::plc::AuxiliaryDone& done) {
   auxiliary_open_ = false;
   if (done.failed) {
     event("auxiliary_refused",
-          selected_.name + ":" + std::to_string(flow_.pending().line) + ": the PLC could not carry it out");
+          program_name() + ":" + std::to_string(flow().pending().line) + ": the PLC could not carry it out");
     auxiliary_.kind = 0;
     outgoing_auxiliary_ = auxiliary_;
     stop_activity();
     return;
   }
-  const auto command = flow_.pending();
-  flow_.finish_pending();
   auxiliary_.kind = 0;
   outgoing_auxiliary_ = auxiliary_;
+  if (preparation_) {
+    if (must_reset_) return;
+    run_ = hold_ || !external_hold_.empty() ? RunState::HELD : RunState::RUNNING;
+    hold_ = false;
+    return;
+  }
+  const auto command = flow().pending();
+  flow().finish_pending();
+  if (suspended_) suspended_->by_hand.pass(command);
+  // What the PLC has done is not undone by going back: the path begins anew behind it.
+  if (language::changes_machine(command))
+    trajectory_->start(trajectory_->position(), frame_, frame_tool_length_);
   if (command.kind == language::CommandKind::tool) {
     // The tool is selected; M6 puts it into the spindle.
   } else if (command.kind == language::CommandKind::auxiliary && command.number == 6) {
@@ -126,11 +139,11 @@ void ChannelCore::on_table_changed(const std::string& reason) {
   if (!table_open_) return;
   table_open_ = false;
   if (!reason.empty()) {
-    event("table_refused", selected_.name + ":" + std::to_string(flow_.pending().line) + ": " + reason);
+    event("table_refused", program_name() + ":" + std::to_string(flow().pending().line) + ": " + reason);
     stop_activity();
     return;
   }
-  flow_.finish_pending();
+  flow().finish_pending();
   if (must_reset_) return;
   run_ = hold_ || !external_hold_.empty() ? RunState::HELD : RunState::RUNNING;
   hold_ = false;

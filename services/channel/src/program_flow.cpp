@@ -1,5 +1,7 @@
 #include "program_flow.hpp"
 
+#include "machine/alarms.hpp"
+
 namespace trunnion::channel {
 
 using language::CommandKind;
@@ -13,40 +15,69 @@ std::string place(std::uint32_t program, std::uint32_t line) {
   return name + std::to_string(line);
 }
 
+bool is_path(CommandKind kind) {
+  return kind == CommandKind::rapid || kind == CommandKind::line || kind == CommandKind::arc;
+}
+
 }  // namespace
 
 void ProgramFlow::start(language::TextSource& text, const AxisValues& position,
                         const language::ModalState& initial, const language::VariableStore& variables,
-                        const RestartPoint& restart) {
+                        const Entry& entry) {
   interpreter_.start(text, position, initial, variables);
+  interpreter_.stop_before_line(entry.line);
   have_command_ = false;
   block_line_ = 0;
-  restart_ = restart;
-  searching_ = restart.sequence > 0;
-  if (!searching_) skips_.clear();
+  entry_ = entry;
+  search_ = entry.restart.sequence > 0 ? Search::restart : entry.line > 0 ? Search::line : Search::none;
+  if (entry.restart.sequence == 0) skips_.clear();
   skips_read_ = 0;
   tapping_ = in_hole_ = refused_ = false;
   executing_ = initial;
+  auxiliaries_.clear();
+  const bool rtcp = initial.transformation == language::Transformation::rtcp;
+  extent_ = setup::AxisBox::of(rtcp ? machine_.machine_from_tip(position, initial.tool_length) : position);
   alarm_number_ = 0;
+  alarm_name_.clear();
   alarm_text_.clear();
 }
 
+FlowState ProgramFlow::fail(const char* alarm, const std::string& text) {
+  alarm_number_ = machine::alarm_definition(alarm).number;
+  alarm_name_ = alarm;
+  alarm_text_ = text;
+  trajectory_->finish();
+  return FlowState::alarm;
+}
+
+FlowState ProgramFlow::fail_search(const std::string& why) {
+  return fail("search_failed", std::to_string(entry_.line) + ": " + why);
+}
+
 FlowState ProgramFlow::push_move() {
+  const auto& from = trajectory_->end_position();
   if (command_.kind != CommandKind::dwell) {
-    alarm_text_ = machine_.travel_error(trajectory_->end_position(), command_);
-    if (!alarm_text_.empty()) {
-      alarm_number_ = 140;
-      return FlowState::alarm;
+    std::string error;
+    if (offset_) {
+      const auto extent = setup::extent_of(from, command_, machine_.chain());
+      error = machine_.travel_error(extent, *offset_, command_.line);
+      if (error.empty()) extent_.include(extent);
+    } else {
+      error = machine_.travel_error(from, command_);
     }
+    if (!error.empty()) return fail("travel_limit", error);
   }
   auto move = command_.kind == CommandKind::tap ? Tapping::line(command_) : command_;
   if (move.kind == CommandKind::skip) move.kind = CommandKind::line;
-  if (move.modal.feed_mode == language::FeedMode::per_revolution) {
+  if (dry_run_feed_ > 0 && command_.kind != CommandKind::tap && command_.kind != CommandKind::skip) {
+    move.modal.feed = dry_run_feed_;
+    move.modal.feed_mode = language::FeedMode::per_minute;
+  } else if (move.modal.feed_mode == language::FeedMode::per_revolution) {
     move.modal.feed *= move.modal.spindle_speed;
     move.modal.feed_mode = language::FeedMode::per_minute;
   }
-  const bool partly = restart_.sequence == command_.sequence && restart_.sequence > 0;
-  const bool taken = partly ? trajectory_->push_from(move, restart_.fraction) : trajectory_->push(move);
+  const bool partly = entry_.restart.sequence == command_.sequence && entry_.restart.sequence > 0;
+  const bool taken = partly ? trajectory_->push_from(move, entry_.restart.fraction) : trajectory_->push(move);
   if (!taken) {
     alarm_number_ = 1112;
     alarm_text_ = std::to_string(command_.line) +
@@ -72,60 +103,94 @@ void ProgramFlow::refuse_pending(language::AlarmNumber number) {
 
 FlowState ProgramFlow::fail(language::AlarmNumber number) {
   alarm_number_ = static_cast<std::uint32_t>(number);
+  alarm_name_.clear();
   alarm_text_ = place(command_.program, command_.line) + ": " + std::string(language::alarm_text(number));
   trajectory_->finish();
   return FlowState::alarm;
+}
+
+// A skip move has ended, now or before the restart: the interpreter is told where.
+FlowState ProgramFlow::go_on_from_skip() {
+  if (search_ == Search::line)
+    return fail_search("line " + std::to_string(command_.line) +
+                       " measures (G31), and what follows depends on it");
+  if (skips_read_ == skips_.size()) return fail(language::AlarmNumber::not_resumable);
+  interpreter_.set_position(skips_[skips_read_].stopped, skips_[skips_read_].touched);
+  ++skips_read_;
+  return FlowState::full;
+}
+
+// The blocks of a contour with cutter radius compensation, and of a curve, hang together: in the middle the
+// tool is at no point that a block by itself says.
+FlowState ProgramFlow::arrive_at_line() {
+  const auto& modal = interpreter_.modal();
+  if (modal.cutter_side != language::CutterSide::off)
+    return fail_search("cutter radius compensation is on here: start before its G41 or G42");
+  if (modal.motion == 62) return fail_search("the line is in the middle of a curve (G6.2)");
+  search_ = Search::none;
+  executing_ = modal;
+  const bool rtcp = modal.transformation == language::Transformation::rtcp;
+  extent_ = setup::AxisBox::of(rtcp ? machine_.machine_from_tip(position(), modal.tool_length) : position());
+  return FlowState::found;
+}
+
+// What to do without a command; full: there is one.
+FlowState ProgramFlow::take_step(language::Step step) {
+  switch (step) {
+    case language::Step::command:
+      have_command_ = true;
+      return FlowState::full;
+    case language::Step::working:
+    case language::Step::pending:
+      return FlowState::waiting;
+    case language::Step::position:
+      return go_on_from_skip();
+    case language::Step::line:
+      return arrive_at_line();
+    case language::Step::end:
+      if (search_ == Search::line) return fail_search("the program ends without reaching this line");
+      return FlowState::end;
+    case language::Step::alarm: {
+      const auto& alarm = interpreter_.alarm();
+      alarm_number_ = static_cast<std::uint32_t>(alarm.number);
+      alarm_text_ =
+          place(alarm.program, alarm.line) + ":" + std::to_string(alarm.column) + ": " + alarm.text.data();
+      for (std::size_t k = alarm.calls; k-- > 0;)
+        alarm_text_ += ", called from " + place(alarm.chain[k].program, alarm.chain[k].line);
+      trajectory_->finish();
+      return FlowState::alarm;
+    }
+  }
+  return FlowState::waiting;
 }
 
 FlowState ProgramFlow::fill(bool single_block) {
   if (refused_) return FlowState::alarm;
   constexpr int most_commands = 4096;  // a long search for the restart point must not keep the channel deaf
   for (int i = 0; i < most_commands; ++i) {
-    if (!searching_ && !trajectory_->can_accept()) return FlowState::full;
+    if (!searching() && !trajectory_->can_accept()) return FlowState::full;
     if (!have_command_) {
-      switch (interpreter_.next(command_)) {
-        case language::Step::command:
-          have_command_ = true;
-          break;
-        case language::Step::working:
-          continue;
-        case language::Step::pending:
-          return FlowState::waiting;
-        case language::Step::position:
-          if (skips_read_ == skips_.size()) return fail(language::AlarmNumber::not_resumable);
-          interpreter_.set_position(skips_[skips_read_].stopped, skips_[skips_read_].touched);
-          ++skips_read_;
-          continue;
-        case language::Step::end:
-          return FlowState::end;
-        case language::Step::alarm: {
-          const auto& alarm = interpreter_.alarm();
-          alarm_number_ = static_cast<std::uint32_t>(alarm.number);
-          alarm_text_ = place(alarm.program, alarm.line) + ":" + std::to_string(alarm.column) + ": " +
-                        alarm.text.data();
-          for (std::size_t k = alarm.calls; k-- > 0;)
-            alarm_text_ += ", called from " + place(alarm.chain[k].program, alarm.chain[k].line);
-          trajectory_->finish();
-          return FlowState::alarm;
-        }
-      }
+      const auto step = interpreter_.next(command_);
+      if (step == language::Step::working) continue;
+      if (const auto state = take_step(step); state != FlowState::full) return state;
+      if (!have_command_) continue;
     }
-    if (searching_) {
-      if (command_.sequence < restart_.sequence) {
-        in_hole_ = command_.kind == CommandKind::tap || (in_hole_ && command_.kind == CommandKind::dwell);
-        have_command_ = false;
+    if (searching()) {
+      const bool drilling =
+          command_.kind == CommandKind::tap || (in_hole_ && command_.kind == CommandKind::dwell);
+      if (search_ == Search::line || command_.sequence < entry_.restart.sequence) {
+        in_hole_ = drilling;
+        finish_pending();
         continue;
       }
       // The spindle has lost its place in the thread.
-      if (command_.kind == CommandKind::tap || (in_hole_ && command_.kind == CommandKind::dwell))
-        return fail(language::AlarmNumber::not_resumable);
-      searching_ = false;
-      trajectory_->start(restart_.position, command_.modal.transformation, command_.modal.tool_length);
+      if (drilling) return fail(language::AlarmNumber::not_resumable);
+      search_ = Search::none;
+      trajectory_->start(entry_.restart.position, command_.modal.transformation, command_.modal.tool_length);
     }
     const bool stroke =
         command_.kind == CommandKind::tap || (tapping_ && command_.kind == CommandKind::dwell);
-    const bool move = command_.kind == CommandKind::rapid || command_.kind == CommandKind::line ||
-                      command_.kind == CommandKind::arc || command_.kind == CommandKind::dwell || stroke;
+    const bool move = is_path(command_.kind) || command_.kind == CommandKind::dwell || stroke;
     if (single_block && block_line_ != 0 && command_.line != block_line_) {
       trajectory_->finish();
       return FlowState::block_end;

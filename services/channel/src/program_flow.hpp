@@ -4,6 +4,7 @@
 
 #include <optional>
 
+#include "auxiliary_memory.hpp"
 #include "language/interpreter.hpp"
 #include "motion/trajectory.hpp"
 #include "setup/channel_setup.hpp"
@@ -19,6 +20,7 @@ enum class FlowState {
   waiting,    ///< the text has to arrive first: do not step, or the motion would depend on when it does
   command,    ///< pending() needs the axes at rest and somebody's attention
   block_end,  ///< single block: the block's motion is all there is
+  found,      ///< the line to start from comes next: executing() and position() are the state it begins in
   end,        ///< program finished
   alarm,      ///< alarm_number(), alarm_text()
 };
@@ -30,19 +32,36 @@ struct RestartPoint {
   AxisValues position{};       ///< where the path was left, in the frame of that command
 };
 
+/// Where a program begins: at a restart point, before a line, or at its top.
+struct Entry {
+  RestartPoint restart;
+  std::uint32_t line = 0;  ///< from 1; 0 = none
+};
+
 class ProgramFlow {
  public:
   ProgramFlow(setup::ChannelSetup& machine, motion::Trajectory*& trajectory)
       : machine_(machine), trajectory_(trajectory), interpreter_(machine) {}
 
+  /// What holds for the next start.
+  void set_block_skip(language::SkipLevels levels) { interpreter_.set_block_skip(levels); }
+  /// Feeds of the program are replaced by this one, mm/min; 0 = they are not.
+  void set_dry_run_feed(double feed) { dry_run_feed_ = feed; }
+  /// Machine coordinates that are added to the path, or may be: travel is looked at with them, and extent()
+  /// is kept. Nothing when there are none.
+  void set_offset(const std::optional<AxisValues>& offset) { offset_ = offset; }
+
   /// `position` in the frame of `initial`. The trajectory must be at rest there. A restart needs the
   /// variables the program began with, for it interprets it again.
   void start(language::TextSource& text, const AxisValues& position, const language::ModalState& initial,
-             const language::VariableStore& variables, const RestartPoint& restart = {});
+             const language::VariableStore& variables, const Entry& entry = {});
   FlowState fill(bool single_block);
   /// The command fill() stopped at, and done with it.
   const language::Command& pending() const { return command_; }
-  void finish_pending() { have_command_ = false; }
+  void finish_pending() {
+    auxiliaries_.pass(command_);
+    have_command_ = false;
+  }
   /// Single block: the next block may begin.
   void next_block() { block_line_ = 0; }
 
@@ -60,6 +79,8 @@ class ProgramFlow {
   void set_skips(std::vector<SkipResult> skips) { skips_ = std::move(skips); }
 
   const language::ModalState& modal() const { return interpreter_.modal(); }
+  /// Where the blocks read so far end, in the frame of modal().
+  const AxisValues& position() const { return interpreter_.position(); }
   /// The variables as the program has left them.
   const language::VariableStore& variables() const { return interpreter_.variables(); }
   /// What the program's clocks show from now on, in cycles of the stream.
@@ -69,29 +90,45 @@ class ProgramFlow {
   }
   /// Of the newest command handed to motion.
   const language::ModalState& executing() const { return executing_; }
+  /// What the commands that are done, or were skipped, have asked of spindle and coolant.
+  const AuxiliaryMemory& auxiliaries() const { return auxiliaries_; }
+  /// Machine coordinates the moves handed to motion go through, since the start with an offset.
+  const setup::AxisBox& extent() const { return extent_; }
+  /// Number of the alarm, and its name when it is none of the NC language, else empty.
   std::uint32_t alarm_number() const { return alarm_number_; }
+  const std::string& alarm_name() const { return alarm_name_; }
   const std::string& alarm_text() const { return alarm_text_; }
-  /// Commands up to the restart point are being skipped.
-  bool searching() const { return searching_; }
+  /// Commands up to the restart point, or the line, are being skipped.
+  bool searching() const { return search_ != Search::none; }
 
  private:
+  enum class Search : std::uint8_t { none, restart, line };
   FlowState push_move();
+  FlowState take_step(language::Step step);
+  FlowState arrive_at_line();
+  FlowState fail(const char* alarm, const std::string& text);
   FlowState fail(language::AlarmNumber number);
+  FlowState fail_search(const std::string& why);
+  FlowState go_on_from_skip();
   setup::ChannelSetup& machine_;
   motion::Trajectory*& trajectory_;
   language::Interpreter interpreter_;
   language::Command command_;
   language::ModalState executing_;
+  AuxiliaryMemory auxiliaries_;
+  setup::AxisBox extent_;
+  std::optional<AxisValues> offset_;
+  double dry_run_feed_ = 0;
   bool have_command_ = false;
   std::uint32_t block_line_ = 0;
-  RestartPoint restart_;
-  bool searching_ = false;
+  Entry entry_;
+  Search search_ = Search::none;
   bool tapping_ = false, in_hole_ = false, refused_ = false;
   std::vector<SkipResult> skips_;
   std::size_t skips_read_ = 0;
 
   std::uint32_t alarm_number_ = 0;
-  std::string alarm_text_;
+  std::string alarm_name_, alarm_text_;
 };
 
 }  // namespace trunnion::channel

@@ -57,8 +57,9 @@ struct Channel : ::testing::Test {
     core->set_programs(list);
   }
   Answer ask(CommandKind command, const std::string& argument = "", double value = 0, double increment = 0,
-             Mode mode = Mode::AUTO) {
+             Mode mode = Mode::AUTO, std::uint8_t axis = 0) {
     ChannelRequest request;
+    request.axis = axis;
     request.command = command, request.text = argument, request.value = value, request.increment = increment,
     request.mode = mode;
     return core->handle(request);

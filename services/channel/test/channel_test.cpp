@@ -366,5 +366,74 @@ TEST_F(Channel, KeptVariablesGoFromOneProgramToTheNext) {
   EXPECT_EQ(drive.rows.back()[0], 12.5);
 }
 
+TEST_F(Channel, AMotionStartsOnlyWhenTheCopiesOfEveryStageAreInStep) {
+  load("G90\nG1 X100 Y50 F6000\nM30\n");
+  core->set_copies(false, ~0ull);
+  ASSERT_TRUE(ask(CommandKind::CYCLE_START).accepted);
+  for (int i = 0; i < 20; ++i) round();
+  EXPECT_EQ(drive.starts, 0);
+  EXPECT_EQ(core->run_state(), RunState::RUNNING) << "it waits";
+  core->set_copies(true, ~0ull);
+  run();
+  EXPECT_EQ(drive.starts, 1);
+  EXPECT_EQ(drive.rows.back()[0], 100);
+}
+
+TEST_F(Channel, NothingIsWrittenFartherThanTwoLeadsBeyondTheSlowestCopy) {
+  load("G90\nG1 X100 Y50 F6000\nM30\n");
+  ask(CommandKind::CYCLE_START);
+  run();
+  load("G90\nG1 X0 Y0 F6000\nM30\n");
+  const auto begin = drive.next;
+  core->set_copies(true, 0);  // as of a copy that has not heard of this motion
+  ASSERT_TRUE(ask(CommandKind::CYCLE_START).accepted);
+  for (int i = 0; i < 50; ++i) round();
+  // Parameter 000900: the lead is 32 cycles. Two of them are allowed, frame by frame of 16.
+  EXPECT_EQ(drive.next - begin, 64u);
+  core->set_copies(true, begin + 10);
+  for (int i = 0; i < 50; ++i) round();
+  EXPECT_EQ(drive.next - begin, 64u) << "74 cycles do not hold another whole frame of 16";
+  core->set_copies(true, begin + 16);
+  for (int i = 0; i < 50; ++i) round();
+  EXPECT_EQ(drive.next - begin, 80u);
+  core->set_copies(true, ~0ull);
+  run();
+  EXPECT_EQ(core->run_state(), RunState::IDLE);
+  EXPECT_EQ(drive.rows.back()[0], 0);
+}
+
+TEST_F(Channel, HandsOverAtRestAndTheNextProcessHasTheSameStateAndProgram) {
+  ask(CommandKind::SET_MODE, "", 0, 0, Mode::MDI);
+  ASSERT_TRUE(ask(CommandKind::MDI_LINE, "G91 G20 G55 F77").accepted);
+  run();
+  load("G90\nG1 X100 Y50 F6000\nM30\n");
+  ask(CommandKind::FEED_OVERRIDE, "", 0.5);
+  ask(CommandKind::SINGLE_BLOCK, "", 1);
+  const auto before = core->state();
+  const auto left = core->hand_over();
+  ASSERT_TRUE(left);
+  core = std::make_unique<ChannelCore>(0, true);
+  core->set_parameters(three_axes());
+  core->set_tools({});
+  core->set_offsets({});
+  store();
+  core->on_feedback(drive.run(0));
+  core->take_over(*left);
+  core->recover();
+  const auto after = core->state();
+  EXPECT_EQ(after.modal, before.modal);
+  EXPECT_EQ(after.program, "part.nc");
+  EXPECT_EQ(after.mode, before.mode);
+  EXPECT_EQ(after.feed_override, 0.5);
+  EXPECT_TRUE(after.single_block);
+  EXPECT_EQ(after.work_offset, before.work_offset);
+  EXPECT_EQ(after.reset_count, before.reset_count);
+
+  core->set_ready(true);
+  ASSERT_TRUE(ask(CommandKind::CYCLE_START).accepted);
+  round();
+  EXPECT_FALSE(core->hand_over()) << "a channel that moves leaves nothing: the drive's cut has it";
+}
+
 }  // namespace
 }  // namespace trunnion::channel

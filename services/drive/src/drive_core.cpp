@@ -50,7 +50,12 @@ void DriveCore::restore(const Memory& memory) {
   if (memory.magic != Memory::magic_value || memory.axes != axes_.size()) return;
   next_ = memory.next;
   tick_ = memory.tick;
-  for (auto& [number, channel] : channels_) channel.epoch = memory.epoch;
+  for (auto& [number, channel] : channels_) {
+    const auto& kept = memory.channels[number % memory.channels.size()];
+    channel.begun = kept.begun != 0;
+    channel.epoch = channel.begun ? kept.epoch : memory.epoch;
+    channel.request = kept.request;
+  }
   for (std::size_t i = 0; i < axes_.size(); ++i) {
     command_[i] = target_[i] = memory.position[i];
     servos_[i].place(memory.position[i]);
@@ -63,7 +68,10 @@ Memory DriveCore::memory() const {
   memory.axes = static_cast<std::uint32_t>(axes_.size());
   memory.next = next_;
   memory.tick = tick_;
-  for (const auto& [number, channel] : channels_) memory.epoch = std::max(memory.epoch, channel.epoch);
+  for (const auto& [number, channel] : channels_) {
+    memory.epoch = std::max(memory.epoch, channel.epoch);
+    memory.channels[number % memory.channels.size()] = {channel.epoch, channel.request, channel.begun};
+  }
   for (std::size_t i = 0; i < axes_.size(); ++i) memory.position[i] = servos_[i].encoder();
   return memory;
 }

@@ -24,11 +24,16 @@ inline constexpr double on_path_distance = 1e-6;
 /// What must survive the process: where the axes are and which cycle is next.
 struct Memory {
   static constexpr std::uint32_t magic_value = 0x54524e31;
+  struct Channel {
+    std::uint32_t epoch = 0, request = 0;
+    std::uint32_t begun = 0;  ///< the epoch's begin was seen: a start within it is no old message
+  };
   std::uint32_t magic = 0;
   std::uint32_t axes = 0;
   std::uint32_t epoch = 0;  ///< newest of any channel
   std::uint64_t next = 0, tick = 0;
   std::array<double, 32> position{};
+  std::array<Channel, 32> channels{};  ///< behind what older files have, which end here
 };
 
 /// Something the drive wants to tell: the service turns it into an alarm.

@@ -208,6 +208,23 @@ TEST_F(Fixture, EmergencyStopStopsOnThePathAndNothingMovesUntilANewEpoch) {
   EXPECT_NEAR(core.commands()[0], x, 1e-3) << "frames of the old epoch are dead";
 }
 
+TEST_F(Fixture, AProcessThatTakesOverAtRestKnowsTheEpochAndWhatWasAnswered) {
+  begin();
+  feed(0, 400, true);
+  run();
+  DriveCore next;
+  next.configure(two_axes(), true);
+  next.restore(core.memory());
+  next.set_enables({1, 1}, false);
+  next.request({0, number, 3, epoch});  // the newest request is still in the topic: it was answered
+  EXPECT_FALSE(next.any_active());
+  next.request({0, number + 1, 1, epoch});
+  EXPECT_TRUE(next.any_active()) << "a start within the epoch that the process before has seen begin";
+  idl::stream::FeedbackFrame f;
+  next.fill(f);
+  EXPECT_EQ(f.channels.at(0).start, 400u);
+}
+
 TEST_F(Fixture, ASetpointThatJumpsIsRefused) {
   begin();
   feed(0, 96);

@@ -37,6 +37,21 @@ export interface Channel {
   workpiece: number[];
   distance_to_go: number[];
   homed: boolean;
+  dry_run: boolean;
+  auxiliary_lock: boolean;
+  /** 1 for each axis whose setpoints stand. */
+  locked: number[];
+  /** Bit 0 is level 1. */
+  block_skip: number;
+  retracing: boolean;
+  /** The program is held while the axes are moved by hand or MDI. */
+  suspended: boolean;
+  handwheel_offset_on: boolean;
+  handwheel_offset: number[];
+  /** Line in which the control was switched off in the program, 0 = none. */
+  restart_line: number;
+  /** What the channel waits for, or empty. */
+  detail: string;
 }
 
 export interface Axis {
@@ -175,6 +190,7 @@ export function axisRows(state: MachineState, channel: Channel): AxisRow[] {
 /** Whether cycle start can do anything now; the channel itself decides, this only greys the button. */
 export function canStart(state: MachineState, channel: Channel): boolean {
   if (state.plc?.emergency_stop) return false;
+  if (channel.suspended && channel.mode !== "AUTO") return false;
   if (channel.state === "HELD" || channel.state === "WAITING" || channel.state === "INTERRUPTED") return true;
   return channel.state === "IDLE" && (channel.mode === "AUTO" ? channel.program !== "" : channel.mode === "MDI");
 }

@@ -3,6 +3,7 @@ import { useEffect, useRef } from "preact/hooks";
 import { get, programBytes, type ProgramEntry, remove, upload } from "../api";
 import { bytes } from "../format";
 import { ProgramText } from "../program/lines";
+import { reminders } from "../state/functions";
 import { channel, command, machine, order, tell } from "../state/store";
 import { ProgramView } from "./ProgramView";
 
@@ -169,6 +170,16 @@ export function ProgramPanel() {
           />
         </div>
       </div>
+      {(one.detail || reminders(one).length > 0) && (
+        <div class="program-detail" data-test="detail">
+          {reminders(one).map((what) => (
+            <span class="tag warn" key={what}>
+              {what}
+            </span>
+          ))}
+          <span>{one.detail}</span>
+        </div>
+      )}
       {open.value ? (
         <Library close={() => (open.value = false)} />
       ) : text.value ? (

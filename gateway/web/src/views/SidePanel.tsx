@@ -1,8 +1,9 @@
 import { signal } from "@preact/signals";
+import { Functions } from "./Functions";
 import { Plots } from "./Plots";
 import { ToolPath } from "./ToolPath";
 
-const shown = signal<"path" | "plots">("path");
+const shown = signal<"path" | "plots" | "functions">("path");
 
 export function SidePanel() {
   return (
@@ -20,9 +21,17 @@ export function SidePanel() {
           >
             Feed & lag
           </button>
+          <button
+            role="tab"
+            aria-selected={shown.value === "functions"}
+            data-test="functions"
+            onClick={() => (shown.value = "functions")}
+          >
+            Functions
+          </button>
         </div>
       </div>
-      {shown.value === "path" ? <ToolPath /> : <Plots />}
+      {shown.value === "path" ? <ToolPath /> : shown.value === "plots" ? <Plots /> : <Functions />}
     </section>
   );
 }

@@ -1,0 +1,207 @@
+// What an operator does to a program beside starting it, in a whole cluster: start from a line, dry run, axis
+// lock, retrace, handwheel, and the line that is offered after the control was switched off.
+#include "cluster_harness.hpp"
+
+namespace trunnion::integration {
+namespace {
+
+// 80 rounds of 0.2 m with both rotary axes at 50 mm/s under RTCP.
+std::string long_program() {
+  std::string text = "G21 G17 G90 G54\nG0 X0 Y0 A0 C0\nG43.4 H1\nG1 X0 Y0 Z80 F6000\n";
+  for (int i = 0; i < 80; ++i) text += "X60 Y30 A20 C40 F3000\nX-60 Y-30 A-10 C-20\n";
+  return text + "X0 Y0 A0 C0\nG49\nM30\n";
+}
+
+const char* const part =
+    "G21 G17 G90 G54\n"        // 1
+    "G0 X0 Y0 A0 C0\n"         // 2
+    "G43.4 H1\n"               // 3
+    "G1 X0 Y0 Z80 F6000\n"     // 4
+    "S500 M3\n"                // 5
+    "M8\n"                     // 6
+    "X40 Y20 A10 C20 F3000\n"  // 7
+    "X-40 Y-20 A-10 C-20\n"    // 8
+    "X30 Y30\n"                // 9
+    "G49\n"                    // 10
+    "M30\n";                   // 11
+
+void ask(Cluster& cluster, CommandKind command, double value = 0, std::uint8_t axis = 0,
+         double increment = 0) {
+  deploy::ChannelRequest request;
+  request.command = command, request.value = value, request.axis = axis, request.increment = increment;
+  cluster.client().channel(request);
+}
+
+// The state is one that was published after what was asked last.
+void refresh(Cluster& cluster) {
+  const auto before = cluster.state_count[0];
+  ASSERT_TRUE(cluster.until([&] { return cluster.state_count[0] >= before + 2; }));
+}
+
+void select(Cluster& cluster, const std::string& text) {
+  cluster.client().upload("live.nc", text);
+  cluster.client().channel(0, CommandKind::SET_MODE, "", 0, Mode::AUTO);
+  ASSERT_TRUE(cluster.until([&] {
+    try {
+      cluster.client().channel(0, CommandKind::SELECT_PROGRAM, "live.nc");
+      return true;
+    } catch (const std::exception&) {
+      return false;
+    }
+  }));
+}
+
+TEST(LiveControl, AProgramStartsFromALineWithItsFrameFunctionsAndPosition) {
+  Cluster cluster("ac-table", Time::virtual_, "", false, 70);
+  select(cluster, part);
+  cluster.keep_rows = true;
+  cluster.cycle_start();
+  ASSERT_TRUE(cluster.finish()) << cluster.told();
+  ASSERT_FALSE(cluster.rows.empty());
+  const auto whole_end = cluster.rows.back();
+  cluster.rows.clear();
+  ask(cluster, CommandKind::START_FROM_LINE, 8);
+  ASSERT_TRUE(cluster.until([&] { return cluster.state() == RunState::HELD; })) << cluster.told();
+  EXPECT_TRUE(cluster.rows.empty()) << "nothing moves before cycle start";
+  EXPECT_NE(cluster.channels[0].detail.find("S500 M3 M8, approach"), std::string::npos)
+      << cluster.channels[0].detail;
+  EXPECT_TRUE(cluster.channels[0].rtcp);
+  cluster.cycle_start();
+  ASSERT_TRUE(cluster.finish()) << cluster.told();
+  ASSERT_FALSE(cluster.rows.empty());
+  for (std::size_t i = 0; i < whole_end.size(); ++i)
+    EXPECT_NEAR(cluster.rows.back()[i], whole_end[i], 1e-9) << "axis " << i;
+}
+
+TEST(LiveControl, UnderAxisLockAndDryRunTheProgramRunsAndTheAxesStand) {
+  Cluster cluster("ac-table", Time::virtual_, "", false, 71);
+  select(cluster, part);
+  ask(cluster, CommandKind::DRY_RUN, 1);
+  ask(cluster, CommandKind::AXIS_LOCK, 0b11111);
+  refresh(cluster);
+  EXPECT_TRUE(cluster.channels[0].dry_run);
+  const auto before = cluster.channels[0].machine;
+  cluster.keep_rows = true;
+  cluster.cycle_start();
+  ASSERT_TRUE(cluster.finish()) << cluster.told();
+  ASSERT_GT(cluster.rows.size(), 1000u);
+  for (const auto& row : cluster.rows)
+    for (std::size_t i = 0; i < row.size(); ++i) ASSERT_EQ(row[i], cluster.rows.front()[i]);
+  refresh(cluster);
+  EXPECT_GT(std::abs(cluster.channels[0].machine[0] - before[0]), 10) << "the program's position is shown";
+  ask(cluster, CommandKind::AXIS_LOCK, 0);
+  refresh(cluster);
+  EXPECT_NEAR(cluster.channels[0].machine[0], before[0], 0.01) << "and that of the axes again";
+}
+
+TEST(LiveControl, RetraceGoesBackToTheBeginningOfThePathAndForwardsToTheEnd) {
+  Cluster cluster("ac-table", Time::virtual_, "", false, 72);
+  select(cluster, long_program());
+  cluster.cycle_start();
+  ASSERT_TRUE(cluster.until([&] { return cluster.channels[0].line >= 12; })) << cluster.told();
+  ask(cluster, CommandKind::RETRACE, 1);
+  ASSERT_TRUE(cluster.until([&] { return cluster.state() == RunState::HELD; }, 60)) << cluster.told();
+  EXPECT_LE(cluster.channels[0].line, 4u) << "G43.4 is where the path begins";
+  cluster.cycle_start();
+  ASSERT_TRUE(cluster.until([&] { return cluster.channels[0].line >= 16; })) << cluster.told();
+  EXPECT_FALSE(cluster.has_alarm(113)) << cluster.active_alarms();
+  cluster.client().channel(0, CommandKind::RESET);
+  EXPECT_TRUE(cluster.until([&] { return cluster.state() == RunState::IDLE; }));
+}
+
+TEST(LiveControl, TheHandwheelMovesAnAxisAndShiftsAProgram) {
+  Cluster cluster("ac-table", Time::virtual_, "", false, 73);
+  cluster.client().channel(0, CommandKind::SET_MODE, "", 0, Mode::JOG);
+  refresh(cluster);
+  const double x = cluster.channels[0].machine[0];
+  ask(cluster, CommandKind::HANDWHEEL, 5, 0, 0.1);
+  ASSERT_TRUE(cluster.until([&] { return std::abs(cluster.channels[0].machine[0] - x - 0.5) < 0.005; }))
+      << cluster.channels[0].machine[0];
+  EXPECT_THROW(ask(cluster, CommandKind::HANDWHEEL, 1, 0, 0.5), std::runtime_error) << "no such increment";
+
+  select(cluster, part);
+  ask(cluster, CommandKind::HANDWHEEL_OFFSET, 1);
+  ask(cluster, CommandKind::HANDWHEEL, 3, 2, 1);
+  ASSERT_TRUE(cluster.until([&] { return cluster.channels[0].handwheel_offset[2] == 3; })) << cluster.told();
+  cluster.keep_rows = true;
+  cluster.cycle_start();
+  ASSERT_TRUE(cluster.finish()) << cluster.told();
+  const double with_offset = cluster.rows.back()[2];
+  cluster.client().channel(0, CommandKind::RESET);
+  cluster.cycle_start();
+  ASSERT_TRUE(cluster.finish()) << cluster.told();
+  EXPECT_NEAR(with_offset - cluster.rows.back()[2], 3, 1e-9);
+}
+
+// As after a power failure: every process is gone at once, and only the state directory is left.
+TEST(LiveControl, TheLineOfThePowerFailureIsOfferedAndTheProgramStartsFromIt) {
+  const auto state = std::filesystem::temp_directory_path() / ("trunnion-live-" + std::to_string(getpid()));
+  deploy::UpOptions up;
+  up.machine = "ac-table";
+  up.state_directory = state.string();
+  up.domain = 74;
+  up.virtual_time = false;
+  up.with_gateway = false;
+  std::uint32_t line = 0;
+  {
+    const auto cluster = deploy::start_cluster(up);
+    deploy::Client client(cluster.run.domain);
+    client.upload("live.nc", long_program());
+    client.channel(0, CommandKind::SET_MODE, "", 0, Mode::AUTO);
+    for (int i = 0; i < 100; ++i) try {
+        client.channel(0, CommandKind::SELECT_PROGRAM, "live.nc");
+        break;
+      } catch (const std::exception&) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));
+      }
+    client.channel(0, CommandKind::CYCLE_START);
+    auto states = client.bus().reader(topics::channel_state);
+    const double end = node::monotonic_seconds() + 30;
+    idl::channel::ChannelState newest;
+    while (node::monotonic_seconds() < end && newest.line < 6) {
+      while (states.take(newest)) {
+      }
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    line = newest.line;
+    ASSERT_GE(line, 6u);
+    std::this_thread::sleep_for(std::chrono::milliseconds(500));
+    ASSERT_EQ(kill(*cluster.run.launcher(), SIGKILL), 0);
+    for (int i = 0; i < 500 && !cluster.run.abandoned(); ++i)
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    std::this_thread::sleep_for(std::chrono::milliseconds(500));
+    cluster.run.remove();
+  }
+  up.virtual_time = true;
+  const auto cluster = deploy::start_cluster(up);
+  {
+    deploy::Client client(cluster.run.domain);
+    auto states = client.bus().reader(topics::channel_state);
+    idl::channel::ChannelState newest;
+    const auto until = [&](const auto& condition) {
+      const double end = node::monotonic_seconds() + 30;
+      while (node::monotonic_seconds() < end) {
+        while (states.take(newest)) {
+        }
+        if (condition()) return true;
+        std::this_thread::sleep_for(std::chrono::milliseconds(5));
+      }
+      return false;
+    };
+    ASSERT_TRUE(until([&] { return newest.restart_line != 0; }));
+    EXPECT_GE(newest.restart_line, line);
+    EXPECT_LE(newest.restart_line, line + 2) << "a line takes four seconds";
+    EXPECT_EQ(newest.program, "live.nc");
+    client.channel(0, CommandKind::SET_MODE, "", 0, Mode::AUTO);
+    client.channel(0, CommandKind::START_FROM_LINE, "", newest.restart_line);
+    EXPECT_TRUE(until([&] { return newest.state == RunState::HELD; }));
+    client.channel(0, CommandKind::CYCLE_START);
+    EXPECT_TRUE(until([&] { return newest.state == RunState::RUNNING && newest.line > line + 4; }));
+    client.channel(0, CommandKind::RESET);
+  }
+  deploy::stop_cluster(cluster.run);
+  std::filesystem::remove_all(state);
+}
+
+}  // namespace
+}  // namespace trunnion::integration

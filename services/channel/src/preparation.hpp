@@ -1,0 +1,34 @@
+// The way to a point of a program at which the machine does not stand: orders first, then moves.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "auxiliary_memory.hpp"
+#include "setup/channel_setup.hpp"
+
+namespace trunnion::channel {
+
+using language::AxisValues;
+
+/// What is done, in this order, before a program goes on.
+struct Preparation {
+  std::vector<AuxiliaryOrder> orders;
+  std::vector<language::Command> moves;  ///< rapids in machine coordinates, with a stop between them
+};
+
+/// The approach from `from` to `to`, machine coordinates in mm and degrees. With Z going up, Z moves first
+/// and then all the other axes together; with Z going down, the others first and Z last. So the tool leaves
+/// the part before it moves over it, and comes to it last. Empty when nothing has to move. `line` is what the
+/// setpoints of the approach show.
+std::vector<language::Command> approach_moves(const AxisValues& from, const AxisValues& to,
+                                              std::uint32_t line);
+
+/// The first thing wrong with the approach: an axis would leave its travel. Empty when it is right.
+std::string approach_error(const setup::ChannelSetup& machine, const AxisValues& from,
+                           const std::vector<language::Command>& moves);
+
+/// In words for the operator, e.g. "S1000 M3 M8, approach X10.0000 Y5.0000, then Z-3.0000".
+std::string words_of(const Preparation& preparation, const AxisValues& from);
+
+}  // namespace trunnion::channel

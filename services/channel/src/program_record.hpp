@@ -1,0 +1,23 @@
+// The program under way, as the text that outlives the control.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace trunnion::channel {
+
+/// The program that a power failure, or the end of the control, would interrupt now.
+struct RunningProgram {
+  std::string name;
+  std::uint64_t revision = 0;
+  std::uint32_t crc = 0;
+  std::uint32_t line = 0;  ///< newest that was executed; 0 = no program is under way
+  bool operator==(const RunningProgram&) const = default;
+};
+
+std::string write_record(const RunningProgram& program);
+
+/// Throws std::runtime_error, beginning with `file`:line:column, when the text is not one of write_record().
+RunningProgram read_record(const std::string& text, const std::string& file);
+
+}  // namespace trunnion::channel

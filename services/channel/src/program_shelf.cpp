@@ -1,0 +1,47 @@
+#include "program_shelf.hpp"
+
+namespace trunnion::channel {
+
+language::TextSource& ProgramShelf::open(const idl::program::ProgramEntry& program) {
+  subprograms_.clear();
+  main_ = std::make_unique<ProgramText>(program.name, program.revision, program.size);
+  return *main_;
+}
+
+language::TextSource* ProgramShelf::call(const idl::program::ProgramList& stored, std::string_view name) {
+  for (const auto& entry : stored.programs) {
+    const bool matches = entry.name.rfind(name, 0) == 0 &&
+                         (entry.name.size() == name.size() || entry.name[name.size()] == '.');
+    if (!matches) continue;
+    subprograms_.push_back(std::make_unique<ProgramText>(entry.name, entry.revision, entry.size));
+    return subprograms_.back().get();
+  }
+  return nullptr;
+}
+
+std::optional<ChunkWanted> ProgramShelf::wanted() const {
+  if (main_)
+    if (auto chunk = main_->wanted()) return chunk;
+  for (const auto& text : subprograms_)
+    if (auto chunk = text->wanted()) return chunk;
+  return std::nullopt;
+}
+
+// Several texts may have one name: a program that is called from two others.
+void ProgramShelf::deliver(const std::string& name, std::uint64_t offset,
+                           const std::vector<std::uint8_t>& data) {
+  const auto give = [&](ProgramText& text) {
+    const auto chunk = text.wanted();
+    if (text.name() == name && chunk && chunk->offset == offset) text.deliver(offset, data);
+  };
+  if (main_) give(*main_);
+  for (const auto& text : subprograms_) give(*text);
+}
+
+void ProgramShelf::fail(const std::string& name) {
+  if (main_ && main_->name() == name) main_->fail();
+  for (const auto& text : subprograms_)
+    if (text->name() == name) text->fail();
+}
+
+}  // namespace trunnion::channel

@@ -1,0 +1,34 @@
+// The texts one interpretation reads: a program and the subprograms it calls.
+#pragma once
+
+#include <memory>
+#include <string_view>
+
+#include "contracts/types.hpp"
+#include "program_text.hpp"
+
+namespace trunnion::channel {
+
+class ProgramShelf {
+ public:
+  /// Forgets every text.
+  void clear() {
+    main_.reset();
+    subprograms_.clear();
+  }
+  language::TextSource& open(const idl::program::ProgramEntry& program);
+  /// A stored program by the name a call gives it, with or without what follows its first dot; nullptr when
+  /// there is none.
+  language::TextSource* call(const idl::program::ProgramList& stored, std::string_view name);
+
+  /// What has to be fetched next.
+  std::optional<ChunkWanted> wanted() const;
+  void deliver(const std::string& name, std::uint64_t offset, const std::vector<std::uint8_t>& data);
+  void fail(const std::string& name);
+
+ private:
+  std::unique_ptr<ProgramText> main_;
+  std::vector<std::unique_ptr<ProgramText>> subprograms_;
+};
+
+}  // namespace trunnion::channel
