@@ -63,8 +63,12 @@ def common_name(service, vendor):
 
 def permissions(service, name, topics, days):
     def topic_list(side):
-        names = [t["name"] for t in topics
-                 if service in t[side] or ("all" in t[side] and service != "recorder") or (side == "readers" and service in OBSERVERS)]
+        names = []
+        for t in topics:
+            if service in t[side] or ("all" in t[side] and service != "recorder") or (side == "readers" and service in OBSERVERS):
+                names.append(t["name"])
+                # A stage that is to replace another writes beside it, for the launcher to compare.
+                if t["qos"] == "frame" and (side == "writers" or service == "deploy"): names.append(t["name"] + "/shadow")
         verb = "publish" if side == "writers" else "subscribe"
         lines = "".join(f"            <topic>{n}</topic>\n" for n in names)
         return f"        <{verb}>\n          <topics>\n{lines}          </topics>\n        </{verb}>\n" if names else ""
