@@ -180,7 +180,8 @@ void search_line(Client& client, std::uint32_t line) {
     }
     client.bus().signal().wait(0.02);
   }
-  throw std::runtime_error("line " + std::to_string(line) + " was not found: see the alarms of the recording");
+  throw std::runtime_error("line " + std::to_string(line) +
+                           " was not found: see the alarms of the recording");
 }
 
 // Starts every channel and waits until all are idle again. Returns the first alarm, or empty.
@@ -274,8 +275,7 @@ RunResult run_programs(const RunOptions& options) {
       client.channel(c, CommandKind::SET_MODE, "", 0, Mode::AUTO);
       select(client, c, names.back());
     }
-    result.alarm =
-        execute(client, options.programs.size(), options, !options.quiet && isatty(2) != 0);
+    result.alarm = execute(client, options.programs.size(), options, !options.quiet && isatty(2) != 0);
     std::this_thread::sleep_for(
         std::chrono::milliseconds(100));  // what the stages wrote last is still on its way
     recorder.stop();
