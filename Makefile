@@ -5,7 +5,7 @@ BUILD := build/$(PRESET)
 TRUNNION := $(BUILD)/bin/trunnion
 JOBS := $(shell nproc)
 
-.PHONY: run test build configure packages unit sanitize fuzz lint format bench clean
+.PHONY: run test build configure packages unit sanitize fuzz lint format bench faults soak clean
 
 run: build
 	$(TRUNNION) run ac-table nas979_cone --report out
@@ -47,6 +47,16 @@ format:
 
 bench: build
 	for program in $(BUILD)/bin/*_bench; do $$program $(BENCH_OPTIONS) || exit 1; done
+
+# Every cell of the fault matrix, half an hour; goes on where an interrupted run was. FRESH=1 begins anew.
+faults: build
+	tools/fault_matrix.py --program $(BUILD)/bin/fault_matrix_test --results $(BUILD)/faults $(if $(FRESH),--fresh)
+
+# Programs with a random fault every few seconds. SEED=, MINUTES=
+SEED ?= 1
+MINUTES ?= 10
+soak: build
+	TRUNNION_SOAK_SEED=$(SEED) TRUNNION_SOAK_SECONDS=$$(( $(MINUTES) * 60 )) $(BUILD)/bin/fault_soak_test
 
 clean:
 	rm -rf build out

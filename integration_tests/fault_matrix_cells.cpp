@@ -43,8 +43,9 @@ const char* text_of(Way way) {
 std::string bound(const std::string& service, const Expectation& e) {
   if (e.machine == Machine::goes_on) return "0";
   if (service == "drive") return "0: the simulated axes stand where they are";
-  if (is_stage(service) || service == "channel") return "the setpoints at hand, at most lead (32)";
-  return "lead (32), two frames (32) and 0.1 s of braking";
+  if (is_stage(service) || service == "channel")
+    return "the setpoints at hand (lead, 32), or the channel's hold";
+  return "the channel's hold";
 }
 
 }  // namespace
@@ -104,8 +105,8 @@ Expectation expectation(const std::string& service, Fault fault, bool in_motion)
   if (is_stage(service)) {
     e.may = {110, 144};
   } else if (service == "channel") {
-    e.must.insert(144);
-    e.may = {110};
+    e.may = {110, 144};
+    if (fault != Fault::suspended) e.must.insert(144);
   } else if (service == "drive") {
     if (fault == Fault::suspended)
       e.may = {144};

@@ -11,6 +11,7 @@ namespace trunnion::integration {
 namespace {
 
 constexpr double ready_patience = 40;  // s; on a busy machine a process takes some seconds to come up
+constexpr double run_patience = 300;   // s; a run takes two, but on a computer that others have nearly all of
 constexpr double suspension = 2;       // s
 constexpr int kept_tool = 77;
 constexpr unsigned kept_number = 500;
@@ -22,7 +23,13 @@ const std::string part_name = "part.nc";
 
 std::string part_program(int rounds) {
   std::string text = "#501=#501+1\nG21 G17 G90 G54\nG0 X0 Y0 A0 C0\nS1000 M3\nG43.4 H1\nG1 X0 Y0 Z80 F6000\n";
-  for (int i = 0; i < rounds; ++i) text += "X60 Y30 A20 C40 F3000\nX-60 Y-30 A-10 C-20\n";
+  // No way is gone twice, so that a place on the path is one time of the run.
+  char line[128];
+  for (int i = 0; i < rounds; ++i) {
+    std::snprintf(line, sizeof line, "X%.2f Y%.2f A%.2f C40 F3000\nX%.2f Y%.2f A%.2f C-20\n", 60 - 0.5 * i,
+                  30 - 1.1 * i, 20 - 0.3 * i, -60 + 0.4 * i, -30 + 0.7 * i, -10 + 0.2 * i);
+    text += line;
+  }
   return text + "X0 Y0 A0 C0\nG49\nM5\nG53 G0 Z0\nG53 G0 X0 Y0 A0 C0\n#502=#501*2\nM30\n";
 }
 
@@ -35,10 +42,7 @@ FaultRig::FaultRig(const std::string& layout, bool gateway, std::optional<std::u
   cluster_.keep_rows = true;
 }
 
-FaultRig::~FaultRig() {
-  stop_recorder();
-  std::filesystem::remove(recording_);
-}
+FaultRig::~FaultRig() { drop_recorder(); }
 
 void FaultRig::watch() {
   idl::channel::ChannelState state;
@@ -54,7 +58,8 @@ void FaultRig::wait_for_news(const std::function<void()>& order) {
   EXPECT_TRUE(cluster_.until([&] { return cluster_.state_count[0] >= before + 2; }));
 }
 
-void FaultRig::store_keepsakes() {
+void FaultRig::store_keepsakes(int rounds) {
+  part_ = part_program(rounds);
   auto& client = cluster_.client();
   using idl::parameters::Operation;
   idl::parameters::ParameterRequest request;
@@ -70,7 +75,7 @@ void FaultRig::store_keepsakes() {
   request.offsets = {{0, 1, {12.5, -3, -400, 0, 0, 0, 0, 0, 0}}};
   client.parameter(request);
   client.upload(kept_program, kept_text);
-  client.upload(part_name, part_program(15));
+  client.upload(part_name, part_);
   mdi("#" + std::to_string(kept_number) + "=" + std::to_string(kept_value));
   cluster_.until([] { return false; }, 0.1);  // what was published last arrives
   parameters_ = client.newest(topics::parameter_set);
@@ -86,7 +91,7 @@ void FaultRig::check_keepsakes() {
   EXPECT_TRUE(client.newest(topics::tool_table) == tools_) << "tools";
   EXPECT_TRUE(client.newest(topics::work_offsets) == offsets_) << "work offsets";
   EXPECT_EQ(client.download(kept_program), kept_text);
-  EXPECT_EQ(client.download(part_name), part_program(15));
+  EXPECT_EQ(client.download(part_name), part_);
   EXPECT_EQ(kept_variable(kept_number), kept_value);
 }
 
@@ -111,16 +116,38 @@ void FaultRig::go_home() {
   mdi("G53 G0 X0 Y0 A0 C0");
 }
 
+// Rows of the last motion arrive; on a busy machine they take their time.
+void FaultRig::settle() {
+  for (int i = 0; i < 50; ++i) {
+    const auto before = cluster_.expected_cycle;
+    cluster_.until([] { return false; }, 0.2);
+    if (cluster_.expected_cycle == before && before >= cluster_.channels[0].cycle) return;
+  }
+}
+
 void FaultRig::begin() {
-  cluster_.until([] { return false; }, 0.2);  // rows of the last motion arrive
+  settle();
   cluster_.rows.clear();
   cluster_.lost_frames = 0;
   cluster_.start(part_name);
 }
 
+Judgement FaultRig::judge(const Rows& reference, bool whole) const {
+  return integration::judge(cluster_.rows, reference, path_tolerance, whole);
+}
+
+Rows FaultRig::undisturbed(double& runs) {
+  for (int i = 0; i < 8; ++i) {
+    begin(), ++runs;
+    EXPECT_TRUE(finish()) << cluster_.told();
+    if (lost_rows() == 0) return rows();
+  }
+  return {};
+}
+
 bool FaultRig::finish() {
-  const bool finished = cluster_.finish();
-  cluster_.until([] { return false; }, 0.2);
+  const bool finished = cluster_.finish(0, run_patience);
+  settle();
   return finished;
 }
 
@@ -291,8 +318,6 @@ void FaultRig::start_recorder() {
   EXPECT_EQ(line.rfind("recording", 0), 0u) << line;
 }
 
-bool FaultRig::recorder_lives() const { return recorder_ > 0 && waitpid(recorder_, nullptr, WNOHANG) == 0; }
-
 std::uint64_t FaultRig::recorded_messages() const {
   recording::FileSource source(recording_);
   recording::Reader reader(source);
@@ -300,6 +325,14 @@ std::uint64_t FaultRig::recorded_messages() const {
   std::uint64_t messages = 0;
   while (reader.next(message)) ++messages;
   return messages;
+}
+
+void FaultRig::drop_recorder() {
+  if (recorder_ > 0) {
+    kill(recorder_, SIGKILL);
+    waitpid(std::exchange(recorder_, 0), nullptr, 0);
+  }
+  std::filesystem::remove(recording_);
 }
 
 std::uint64_t FaultRig::stop_recorder() {

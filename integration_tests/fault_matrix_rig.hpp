@@ -35,8 +35,8 @@ class FaultRig {
 
   Cluster& cluster() { return cluster_; }
 
-  /// Stores one of everything that must survive.
-  void store_keepsakes();
+  /// Stores one of everything that must survive, and the program with so many rounds.
+  void store_keepsakes(int rounds = 15);
   /// Compares all of it; every difference is a failure of the test.
   void check_keepsakes();
   /// Value of a kept variable in the channel's file; nothing when it is vacant.
@@ -52,6 +52,10 @@ class FaultRig {
   /// Rows since begin().
   const Rows& rows() { return cluster_.rows; }
   std::uint64_t lost_rows() const { return cluster_.lost_frames; }
+  Judgement judge(const Rows& reference, bool whole) const;
+  /// An undisturbed run of which every row was seen; empty when the observer is too slow for that. Counts in
+  /// `runs`.
+  Rows undisturbed(double& runs);
 
   /// Remembers every process, then strikes. Returns when the struck process has had its fault.
   void strike(const std::string& service, Fault fault);
@@ -66,17 +70,19 @@ class FaultRig {
   /// Ends it in order when it runs; returns the messages in its file.
   std::uint64_t stop_recorder();
   std::uint64_t recorded_messages() const;
-  bool recorder_lives() const;
+  /// Ends it however it is and removes its file.
+  void drop_recorder();
 
  private:
   int pid_of(const std::string& service) const;
   bool stands();
+  void settle();
   void watch();
   void wait_for_news(const std::function<void()>& order);
   bool replaced(const std::string& service) const;
   void restart_loop(const std::string& service);
   Cluster cluster_;
-  std::string recording_;
+  std::string recording_, part_;
   int recorder_ = 0;
   std::map<std::string, int> pids_;
   std::map<std::string, std::uint32_t> restarts_;

@@ -35,27 +35,19 @@ void expect_alarms(const Observation& seen, const Expectation& expected) {
 }
 
 // Rows lie on the way of the undisturbed run, in its order, with nothing left out.
-void expect_on_path(FaultRig& rig, const Rows& reference, bool to_the_end) {
-  PathFollower follower(reference);
-  // Where the observer itself has missed rows they cannot be judged.
-  const std::size_t ahead = rig.lost_rows() > 0 ? 4096 : 64;
-  for (std::size_t r = 0; r < rig.rows().size(); ++r)
-    ASSERT_TRUE(follower.follow(rig.rows()[r], path_tolerance, ahead))
-        << "row " << r << " of " << rig.rows().size() << " is not on the path near cycle " << follower.place()
-        << ": " << text_of(rig.rows()[r]) << " instead of " << text_of(reference[follower.place()]);
-  if (to_the_end) {
-    EXPECT_TRUE(follower.arrived(path_tolerance)) << follower.place() << " of " << reference.size();
-  }
-  testing::Test::RecordProperty("largest_deviation_nm", static_cast<int>(follower.largest() * 1e6));
-  testing::Test::RecordProperty("cycles_gone_back", static_cast<int>(follower.farthest_back()));
-  testing::Test::RecordProperty("lost_rows", static_cast<int>(rig.lost_rows()));
+void expect_on_path(const FaultRig& rig, const Rows& reference, bool to_the_end) {
+  const auto judgement = rig.judge(reference, to_the_end);
+  EXPECT_EQ(judgement.problem, "");
+  testing::Test::RecordProperty("largest_deviation_nm", static_cast<int>(judgement.largest * 1e6));
+  testing::Test::RecordProperty("cycles_gone_back", static_cast<int>(judgement.back));
+  testing::Test::RecordProperty("unseen_cycles", static_cast<int>(judgement.unseen));
 }
 
 class FaultMatrix : public testing::TestWithParam<Cell> {
  protected:
   void in_motion(FaultRig& rig, const Rows& reference, const Expectation& expected);
   void at_rest(FaultRig& rig, const Rows& reference, const Expectation& expected);
-  double runs_ = 1;  ///< begun
+  double runs_ = 0;  ///< begun
 };
 
 void FaultMatrix::in_motion(FaultRig& rig, const Rows& reference, const Expectation& expected) {
@@ -119,7 +111,8 @@ void FaultMatrix::at_rest(FaultRig& rig, const Rows& reference, const Expectatio
   rig.reset_alarms();
   rig.cluster().until([] { return false; }, 0.2);
   for (std::size_t i = 0; i < at.size(); ++i)
-    EXPECT_NEAR(rig.cluster().channels[0].machine[i], at[i], 1e-6) << "the position is kept";
+    // The servos settle for another while when periods pass.
+    EXPECT_NEAR(rig.cluster().channels[0].machine[i], at[i], 1e-3) << "the position is kept";
   rig.go_home();
   rig.begin(), ++runs_;
   ASSERT_TRUE(rig.finish()) << rig.cluster().told();
@@ -130,11 +123,8 @@ TEST_P(FaultMatrix, Cell) {
   const auto& cell = GetParam();
   FaultRig rig(cell.layout, cell.service == "gateway", given_domain());
   rig.store_keepsakes();
-  rig.begin();
-  ASSERT_TRUE(rig.finish()) << rig.cluster().told();
-  const Rows reference = rig.rows();
-  ASSERT_EQ(rig.lost_rows(), 0u) << "the observer was too slow: nothing can be judged";
-  ASSERT_GT(reference.size(), 10000u);
+  const Rows reference = rig.undisturbed(runs_);
+  ASSERT_GT(reference.size(), 10000u) << "the observer is too slow: nothing can be judged";
   if (cell.service == "recorder") {
     ASSERT_NO_FATAL_FAILURE(rig.start_recorder());
   }
@@ -153,6 +143,37 @@ TEST_P(FaultMatrix, Cell) {
   EXPECT_EQ(rig.kept_variable(501), runs_) << "each run has counted once";
   EXPECT_EQ(rig.kept_variable(502), 2 * runs_);
   rig.check_keepsakes();
+}
+
+std::string document() {
+  return "# The fault matrix\n\n"
+         "Written by `make faults`, which loses every service in every way, on clusters of all Fast DDS, all "
+         "Cyclone DDS and both mixed, and\n"
+         "checks what is written here in each cell. The machine is ac-table in virtual time, feed 3000 "
+         "mm/min. Cycles are those that are still\n"
+         "executed: from the one at which the channel learns of the loss, or the drive of the missing "
+         "setpoint, to the standstill. The channel's hold is lead (32),\n"
+         "two frames (16 each) and at most 0.1 s for the braking on the path.\n\n"
+         "- *killed*: SIGKILL. *terminated*: SIGTERM; a service ends in order, and because nobody told the "
+         "launcher, it is a loss like any other.\n"
+         "- *suspended*: SIGSTOP for 2 s. After 1.5 s without a heartbeat the launcher says so; only after 4 "
+         "s would it replace the process.\n"
+         "- *restarts*: SIGKILL each time it has come up. The fifth life in a row that is shorter than 10 s "
+         "is the last: alarm 105.\n\n"
+         "In every cell: the cluster becomes ready without another restart; no parameter (active or "
+         "waiting), tool, work offset, stored\n"
+         "program, kept variable or position is lost; every setpoint that is executed lies within 0.02 mm "
+         "and degrees of the undisturbed run,\n"
+         "in its order, and the program arrives at its end.\n" +
+         matrix_document();
+}
+
+TEST(FaultMatrixDocument, IsWhatTheMatrixChecks) {
+  const std::string path = TRUNNION_FAULT_DOCUMENT;
+  if (std::getenv("TRUNNION_WRITE_FAULT_MATRIX") != nullptr) std::ofstream(path) << document();
+  std::ifstream in(path);
+  const std::string there((std::istreambuf_iterator<char>(in)), {});
+  EXPECT_EQ(there, document()) << "run `make faults`";
 }
 
 INSTANTIATE_TEST_SUITE_P(Faults, FaultMatrix, testing::ValuesIn(all_cells()),

@@ -5,6 +5,7 @@
 #include "cluster_harness.hpp"
 #include "machine/axes.hpp"
 #include "machine/machine.hpp"
+#include "planning/part_path.hpp"
 #include "report_run.hpp"
 
 namespace trunnion::integration {
@@ -27,7 +28,7 @@ TEST_P(RtcpMachine, RunsItsProgramWithTheTipOnThePath) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Machines, RtcpMachine,
-                         testing::Values("bc-table", "cb-head", "ac-head", "b-head-c-table",
+                         testing::Values("ac-table", "bc-table", "cb-head", "ac-head", "b-head-c-table",
                                          "nutating-b-head-c-table", "four-axis"),
                          [](const auto& machine) {
                            std::string name = machine.param;
@@ -79,6 +80,45 @@ INSTANTIATE_TEST_SUITE_P(Pieces, TestPiece,
                            return name;
                          });
 
+// As the programs are, with rounded joins: what the drives of each machine are commanded puts the tip onto
+// one and the same curve, that of a plan for the AC table. From the approach, which comes from where the
+// machine happens to be, until the tool has left the piece.
+TEST_P(TestPiece, WithRoundedJoinsIsTheCurveOfEveryOtherMachineWithin1e6) {
+  const auto [machine, program] = GetParam();
+  const auto folder = deploy::find_machine("ac-table");
+  std::ifstream in(folder + "/programs/" + program);
+  const std::string text((std::istreambuf_iterator<char>(in)), {});
+  const auto line_of = [&](const char* word) {
+    const auto at = static_cast<std::ptrdiff_t>(text.find(word));
+    return static_cast<std::uint32_t>(1 + std::count(text.begin(), text.begin() + at, '\n'));
+  };
+  setup::ChannelSetup planned(setup::load_machine_tables(folder));
+  const auto curve = planning::part_path(text, planned, line_of("G9 G0"), line_of("\nG49"));
+
+  Cluster cluster(machine);
+  cluster.keep_rows = true;
+  cluster.start(program);
+  ASSERT_TRUE(cluster.finish(0, 100)) << cluster.active_alarms();
+  const setup::ChannelSetup setup(setup::load_machine_tables(deploy::find_machine(machine)));
+  const auto zero = setup.work_offset(0);
+  std::vector<Vec3> tips;
+  std::size_t begin = 0, end = 0;
+  for (const auto& row : cluster.rows) {
+    language::AxisValues at{};
+    for (std::size_t i = 0; i < setup.columns().size(); ++i)
+      at[setup.channel_axes().index[i]] = row[static_cast<std::size_t>(setup.columns()[i])];
+    const auto tip = setup.tip_from_machine(at, *setup.tool_length(1));
+    tips.emplace_back(tip[0] - zero[0], tip[1] - zero[1], tip[2] - zero[2]);
+    if (begin == 0 && (tips.back() - curve.front()).norm() < 1e-6) begin = tips.size() - 1;
+    if ((tips.back() - curve.back()).norm() < 1e-6) end = tips.size();
+  }
+  ASSERT_GT(begin, 0u) << "the approach is there";
+  ASSERT_GT(end, begin + 10000) << "and the whole piece behind it";
+  const std::vector<Vec3> piece(tips.begin() + static_cast<std::ptrdiff_t>(begin),
+                                tips.begin() + static_cast<std::ptrdiff_t>(end));
+  EXPECT_LT(planning::farthest_from(curve, piece), 1e-6);
+}
+
 // One program with tool vectors for every machine: lines over which the tool goes round a cone, through the
 // pole and past it. Its tips are the program's on all of them.
 class VectorProgram : public testing::TestWithParam<const char*> {};
@@ -88,7 +128,8 @@ TEST_P(VectorProgram, IsTheSameTextForEveryMachineAndKeepsTheTipOnItsLines) {
       std::filesystem::temp_directory_path() / ("trunnion-vector-" + std::to_string(getpid()) + ".nc");
   std::ofstream(path) << "G21 G17 G90 G54 G94 G61\nG53 G0 Z0\nG43.5 H1\nG0 X0 Y0 Z80\n"
                          "G1 X0 Y0 Z60 F3000\nX30 I0.4 K1\nX30 Y30 J0.4 K1\nX0 Y30 I-0.4 K1\nX0 Y0 J-0.4 K1\n"
-                         "X20 Y20 J0.4 K1\nX0 Y0 Z65 I0.0004 J-0.4 K1\nX10 I0 J0 K1\nG49\nG53 G0 Z0\nM30\n";
+                         "X20 Y20 J0.4 K1\n"
+                         "X0 Y0 Z65 I0.0004 J-0.4 K1\nX10 I0 J0 K1\nG49\nG53 G0 Z0\nM30\n";
   const auto report = run(std::string(GetParam()) + " " + path.string());
   std::filesystem::remove(path);
   ASSERT_TRUE(report.is_object());
@@ -213,6 +254,12 @@ TEST(KinsCommand, AnswersLineByLineAndStopsAtABadLine) {
   EXPECT_EQ(said.status, 1);
   said = kins("ac-table orient --set 040426=0 --set 040428=1", "0 0 1\\n");
   EXPECT_EQ(said.out, "trunnion: channel 0, parameters 040400 .. 040437: the rotary axes are parallel\n");
+  EXPECT_EQ(said.status, 1);
+  said = kins("ac-table inverse --tool-length nan", "1 2 3 0 0\\n");
+  EXPECT_EQ(said.out, "trunnion: --tool-length: not a number\n");
+  EXPECT_EQ(said.status, 1);
+  said = kins("ac-table orient --set CORR_C=0,0,1", "0 0 1\\n");
+  EXPECT_EQ(said.out.substr(0, 10), "trunnion: ") << "no correction of that name, and no number";
   EXPECT_EQ(said.status, 1);
   said = kins(deploy::find_machine("four-axis") + "/machine.yaml orient", "0 -0.6 0.8\\n");
   EXPECT_EQ(said.out, "36.869897645844\n");

@@ -115,14 +115,17 @@ TEST(LiveControl, TheHandwheelMovesAnAxisAndShiftsAProgram) {
   refresh(cluster);
   const double x = cluster.channels[0].machine[0];
   ask(cluster, CommandKind::HANDWHEEL, 5, 0, 0.1);
-  ASSERT_TRUE(cluster.until([&] { return std::abs(cluster.channels[0].machine[0] - x - 0.5) < 0.005; }))
-      << cluster.channels[0].machine[0];
+  ASSERT_TRUE(cluster.until([&] {
+    return cluster.state() == RunState::IDLE && std::abs(cluster.channels[0].machine[0] - x - 0.5) < 0.005;
+  })) << cluster.channels[0].machine[0];
   EXPECT_THROW(ask(cluster, CommandKind::HANDWHEEL, 1, 0, 0.5), std::runtime_error) << "no such increment";
 
   select(cluster, part);
   ask(cluster, CommandKind::HANDWHEEL_OFFSET, 1);
   ask(cluster, CommandKind::HANDWHEEL, 3, 2, 1);
-  ASSERT_TRUE(cluster.until([&] { return cluster.channels[0].handwheel_offset[2] == 3; })) << cluster.told();
+  ASSERT_TRUE(cluster.until([&] {
+    return cluster.state() == RunState::IDLE && cluster.channels[0].handwheel_offset[2] == 3;
+  })) << cluster.told();
   cluster.keep_rows = true;
   cluster.cycle_start();
   ASSERT_TRUE(cluster.finish()) << cluster.told();
@@ -130,7 +133,9 @@ TEST(LiveControl, TheHandwheelMovesAnAxisAndShiftsAProgram) {
   cluster.client().channel(0, CommandKind::RESET);
   cluster.cycle_start();
   ASSERT_TRUE(cluster.finish()) << cluster.told();
-  EXPECT_NEAR(with_offset - cluster.rows.back()[2], 3, 1e-9);
+  // What the drive is commanded is compensated: the pitch table differs between the two places by
+  // micrometres.
+  EXPECT_NEAR(with_offset - cluster.rows.back()[2], 3, 0.005);
 }
 
 // As after a power failure: every process is gone at once, and only the state directory is left.

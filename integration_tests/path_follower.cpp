@@ -26,10 +26,15 @@ double PathFollower::distance(const std::vector<double>& row, std::size_t piece)
 
 bool PathFollower::search(const std::vector<double>& row, std::size_t from, std::size_t to,
                           double tolerance) {
+  // Of places that are equally near, which there are where the path turns back on itself, the next in time.
+  constexpr double equal = 1e-9;
+  const auto off = [&](std::size_t i) { return i > place_ ? i - place_ - 1 : place_ + 1 - i; };
   double best = std::numeric_limits<double>::max();
   std::size_t at = from;
-  for (std::size_t i = from; i < to; ++i)
-    if (const double d = distance(row, i); d < best) best = d, at = i;
+  for (std::size_t i = from; i < to; ++i) {
+    const double d = distance(row, i);
+    if (d < best - equal || (d <= best + equal && off(i) < off(at))) best = std::min(best, d), at = i;
+  }
   if (best > tolerance) return false;
   if (at < place_) back_ = std::max(back_, place_ - at);
   place_ = at;
@@ -53,6 +58,31 @@ bool PathFollower::arrived(double tolerance) const {
     for (std::size_t i = 0; i < last.size(); ++i)
       if (std::abs(reference_[r][i] - last[i]) > tolerance) return false;
   return true;
+}
+
+Judgement judge(const Rows& rows, const Rows& reference, double tolerance, bool whole) {
+  constexpr std::size_t ahead = 64;
+  Judgement judgement;
+  PathFollower follower(reference);
+  std::size_t unseen = 0;
+  for (std::size_t r = 0; r < rows.size() && judgement.problem.empty(); ++r) {
+    if (rows[r].empty()) {
+      ++unseen, ++judgement.unseen;
+      continue;
+    }
+    if (!follower.follow(rows[r], tolerance, ahead + unseen))
+      judgement.problem = "row " + std::to_string(r) + " of " + std::to_string(rows.size()) + ", after " +
+                          std::to_string(unseen) + " unseen, is not on the path near cycle " +
+                          std::to_string(follower.place()) + " of " + std::to_string(reference.size()) +
+                          ": " + text_of(rows[r]) + " instead of " + text_of(reference[follower.place()]);
+    unseen = 0;
+  }
+  if (judgement.problem.empty() && whole && !follower.arrived(tolerance))
+    judgement.problem = "only cycle " + std::to_string(follower.place()) + " of " +
+                        std::to_string(reference.size()) + " is reached";
+  judgement.largest = follower.largest();
+  judgement.back = follower.farthest_back();
+  return judgement;
 }
 
 bool same_rows(const Rows& a, const Rows& b, double tolerance) {

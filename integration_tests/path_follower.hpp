@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -35,10 +36,22 @@ class PathFollower {
   double largest_ = 0;
 };
 
+/// What a run was like beside an undisturbed one.
+struct Judgement {
+  std::string problem;  ///< the first row that is not where it may be, or empty
+  double largest = 0;
+  std::size_t back = 0;
+  std::uint64_t unseen = 0;  ///< cycles the observer missed: they are not judged, but what follows them is
+};
+
+/// `rows` is one for each cycle, empty where the observer has missed it. With `whole` it must also arrive at
+/// the end.
+Judgement judge(const Rows& rows, const Rows& reference, double tolerance, bool whole);
+
 /// Both executed the same cycles: equal numbers of rows, no value farther off than `tolerance`.
 bool same_rows(const Rows& a, const Rows& b, double tolerance);
 
-/// `row 12: 1.000 2.000`, for messages.
+/// `1.0000 2.0000`, for messages.
 std::string text_of(const std::vector<double>& row);
 
 }  // namespace trunnion::integration

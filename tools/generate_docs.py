@@ -91,7 +91,7 @@ def codes():
     shown = r",\s*Origin::(\w+),\s*" + TEXT + r",\s*" + TEXT
     g = [(int(t), group, joined(text), dialect[o], joined(since), program(example)) for t, group, text, o, since, example in
          entries(path, "GCode", r"(\d+),\s*Group::(\w+),\s*" + TEXT + shown)]
-    c = [(first, last, joined(text), dialect[o], joined(since), program(example)) for first, last, text, o, since, example in
+    c = [(int(first), int(last), joined(text), dialect[o], joined(since), program(example)) for first, last, text, o, since, example in
          entries(calls, "CallCode", r"(\d+),\s*(\d+),\s*CallKind::\w+,\s*" + TEXT + shown)]
     m = [(int(n), when, action, group, joined(text)) for n, when, action, group, text in
          entries(path, "MCode", r"(\d+),\s*When::(\w+),\s*MAction::(\w+),\s*MGroup::(\w+),\s*" + TEXT)]
@@ -101,7 +101,7 @@ def codes():
            "A motion code ends a cycle. *Dialect*: ISO 6983, Fanuc or HNC-8 controls; *since*: the version of Trunnion. Each example is a program that a test runs; blocks are separated by /.", ""]
     out += table(("code", "group", "meaning", "dialect", "since", "example"), [(name(t), *rest) for t, *rest in g])
     out += ["", "## Calls", "", "Such a code stands alone among the codes of its block; see [macros.md](macros.md) for the arguments.", ""]
-    out += table(("code", "meaning", "dialect", "since", "example"), [(f"G{a}" + (f" .. G{b}" if b != a else ""), *rest) for a, b, *rest in c])
+    out += table(("code", "meaning", "dialect", "since", "example"), [(name(a) + (f" .. {name(b)}" if b != a else ""), *rest) for a, b, *rest in c])
     out += ["", "## M codes", "", "*before* and *after*: when it acts, seen from the motion of its block. A block may hold one M code of each group, and none twice.",
             "Every other M code up to M999 goes to the PLC before the motion, but those of parameters 010170 to 010177 call G1007 to G1014.", ""]
     return out + table(("code", "acts", "group", "handled as", "meaning"), [(f"M{n}", when, "" if group == "none" else group, action, text) for n, when, action, group, text in m])
@@ -116,7 +116,7 @@ def macros():
     out = ["# Macros", "", f"The tables are generated from `{variables}`, `{functions}` and `{calls}` by `tools/generate_docs.py`.", "",
            "## Variables", "",
            "A variable nobody has written to is vacant: it counts as 0 in a computation, `EQ` and `NE` tell it from 0, and a word whose number is a vacant",
-           "variable is left out. Where Fanuc and HNC-8 number variables differently, this table is what counts. Lengths of system variables are mm or inch as",
+           "variable is left out. Where Fanuc and HNC-8 number variables differently, this table is what counts. HNC-8's own system variables from #1000 on are in none of the manuals at hand and do not exist. Lengths of system variables are mm or inch as",
            "G21 or G20 is active. `#[expression]` names a variable by a computed number.", ""]
     out += table(("variables", "may be written", "meaning"), [(f"#{a}" + (f" .. #{b}" if b != a else ""), "yes" if w else "no", text) for a, b, w, text in v])
     out += ["", "## Expressions", "",
@@ -135,9 +135,11 @@ def macros():
             "| `GOTO n` | to the block with that N: looked for forward, then from the top of the program |", "",
             "`IF`, `WHILE` and `DO` nest 16 deep in a program. A jump may leave them but not enter one.", "",
             "## Calls", "",
-            "`M98 P_ L_` calls a subprogram, which shares the local variables of its caller. `G65 P_ L_` and `G66 P_ L_` call a macro, `G1000` .. `G1999` and the M codes of parameters",
+            "`M98 P_ L_` calls a subprogram, which shares the local variables of its caller. Without L, and when there is no program of that number, the digits before the last four count the calls, as in",
+            "Fanuc's old form: `M98 P60020` calls O0020 six times. `G65 P_ L_` and `G66 P_ L_` call a macro, `G1000` .. `G1999` and the M codes of parameters",
             "010170 to 010177 a cycle of `USERDEF.CYC`; both have local variables of their own, which begin with the arguments, each repetition anew. `M99` returns, `M99 P_` to the block of the caller with",
             "that N; in the main program it goes there or begins again. Calls nest 8 deep.", "",
+            "`G66` calls behind each block that moves, be it a canned cycle. `G66.1` calls instead of each block behind it until `G67`; the block's letters are the arguments, G (the last one), L, N and P are #10, #12, #14 and #16 then.", "",
             "The letters of a macro become the variables of Fanuc's argument list I; I, J and K may be given up to ten times, and are then #4 #5 #6, #7 #8 #9 and so on to #33 (list II). A letter that does not go on from I to K begins the next",
             "set. Of two words for one variable the later counts. The letters of a cycle are numbered by the alphabet, as on HNC-8: A is #0, B #1 .. Z #25. G, N and O are no arguments, nor L and P of a macro, nor M of a cycle.", ""]
     return out + table([l for l, _ in letters], [[f"#{n}" for _, n in letters]])

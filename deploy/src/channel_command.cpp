@@ -28,12 +28,10 @@ const std::map<std::string, CommandKind> plain{{"start", CommandKind::CYCLE_STAR
                                                {"hold", CommandKind::FEED_HOLD},
                                                {"reset", CommandKind::RESET},
                                                {"jog-stop", CommandKind::JOG_STOP}};
-const std::map<std::string, CommandKind> switches{{"dry-run", CommandKind::DRY_RUN},
-                                                  {"auxiliary-lock", CommandKind::AUXILIARY_LOCK},
-                                                  {"retrace", CommandKind::RETRACE},
-                                                  {"handwheel-offset", CommandKind::HANDWHEEL_OFFSET},
-                                                  {"single-block", CommandKind::SINGLE_BLOCK},
-                                                  {"optional-stop", CommandKind::OPTIONAL_STOP}};
+const std::map<std::string, CommandKind> switches{
+    {"dry-run", CommandKind::DRY_RUN},           {"auxiliary-lock", CommandKind::AUXILIARY_LOCK},
+    {"retrace", CommandKind::RETRACE},           {"handwheel-offset", CommandKind::HANDWHEEL_OFFSET},
+    {"single-block", CommandKind::SINGLE_BLOCK}, {"optional-stop", CommandKind::OPTIONAL_STOP}};
 
 const std::string& argument(const Order& order, std::size_t index, const char* meaning) {
   if (index >= order.arguments.size())
@@ -195,7 +193,8 @@ void add_channel_command(CLI::App& app, Common& common) {
       ->check(CLI::IsMember({"start", "hold", "reset", "select", "mode", "single-block", "optional-stop",
                              "dry-run", "auxiliary-lock", "retrace", "handwheel-offset", "axis-lock",
                              "block-skip", "jog", "jog-stop", "handwheel"}));
-  command->add_option("arguments", order->arguments, "Program, mode, on or off, axes, levels")->expected(0, 3);
+  command->add_option("arguments", order->arguments, "Program, mode, on or off, axes, levels")
+      ->expected(0, 3);
   command->add_option("--channel", order->channel, "Channel number");
   command->add_option("--from-line", order->from_line,
                       "With start: search this line, say what will happen, and wait for another start");

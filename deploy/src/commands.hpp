@@ -34,6 +34,9 @@ void add_replay_command(CLI::App& app, Common& common);      // replay
 void add_swap_command(CLI::App& app, Common& common);        // swap
 void add_completion_command(CLI::App& app, Common& common);  // completion
 
+/// The subject "motion" of bench; 1 when a requirement is missed.
+int bench_motion(const Common& common, const std::string& machine);
+
 /// --json and --domain.
 CLI::App* add_command(CLI::App& app, Common& common, const std::string& name, const std::string& about,
                       std::function<int()> action);

@@ -293,4 +293,39 @@ RunResult run_programs(const RunOptions& options) {
   return result;
 }
 
+RecordingCost measure_recording(const RunOptions& options, int rounds) {
+  const auto directory = find_machine(options.machine);
+  const auto machine = machine::load_machine(directory, options.vendor);
+  UpOptions up;
+  up.machine = directory;
+  up.vendor = options.vendor;
+  up.state_directory = "temporary";
+  up.own_domain = !options.domain;
+  up.domain = options.domain;
+  up.virtual_time = true;
+  up.with_gateway = false;
+  ClusterGuard cluster(start_cluster(up));
+  Client client(cluster.get().run.domain);
+  const auto name = place_program(client, machine, options.programs.at(0));
+  client.channel(0, CommandKind::SET_MODE, "", 0, Mode::AUTO);
+  select(client, 0, name);
+  RecordingCost cost;
+  for (int round = 0; round < 2 * rounds; ++round) {
+    // Which of the two is first changes from round to round, as the machine may warm up or be shared.
+    const bool record = (round % 2 == 1) != (round / 2 % 2 == 1);
+    std::optional<Recorder> recorder;
+    if (record) recorder.emplace(options.recording, cluster.get());
+    const auto before = client.newest(topics::channel_state).cycle;
+    const double began = node::monotonic_seconds();
+    if (const auto alarm = execute(client, 1, options, false); !alarm.empty())
+      throw std::runtime_error(alarm);
+    const double seconds = node::monotonic_seconds() - began;
+    recorder.reset();
+    fs::remove(options.recording);
+    const auto cycles = static_cast<double>(client.newest(topics::channel_state).cycle - before);
+    (record ? cost.with : cost.without).push_back(cycles / seconds);
+  }
+  return cost;
+}
+
 }  // namespace trunnion::deploy

@@ -30,4 +30,13 @@ struct RunResult {
 /// Nothing of the cluster is left when it returns or throws.
 RunResult run_programs(const RunOptions& options);
 
+/// Cycles executed in a second of wall time, by turns without and with a recorder of every topic.
+struct RecordingCost {
+  std::vector<double> without, with;
+};
+
+/// Runs the first program of `options` twice in each round, all in one cluster in virtual time. Throws
+/// std::runtime_error with the alarm when a run does not end well.
+RecordingCost measure_recording(const RunOptions& options, int rounds);
+
 }  // namespace trunnion::deploy

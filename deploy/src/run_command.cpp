@@ -1,5 +1,6 @@
 // run: a machine, a program, a report; bench: the same as a measurement
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
@@ -72,6 +73,37 @@ int bench(const Common& common, const std::string& machine, const std::string& p
   return 0;
 }
 
+double median(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  return values[values.size() / 2];
+}
+
+// What a recorder of every topic costs the stream, by turns in one cluster for each vendor.
+int bench_recording(const Common& common, const std::string& machine, const std::string& program,
+                    int rounds) {
+  const auto recording =
+      (fs::temp_directory_path() / ("trunnion-bench-" + std::to_string(getpid()) + ".mcap")).string();
+  bus::Json rows = bus::Json::array();
+  if (!common.json)
+    std::printf("%-11s %24s %24s %8s\n", "vendor", "cycles/s, not recorded", "cycles/s, recorded", "ratio");
+  for (const char* vendor : {"cyclonedds", "mixed", "fastdds"}) {
+    RunOptions options;
+    options.machine = machine, options.programs = {program}, options.vendor = vendor;
+    options.recording = recording, options.domain = common.domain;
+    const auto cost = measure_recording(options, rounds);
+    const double without = median(cost.without), with = median(cost.with);
+    rows.push_back({{"vendor", vendor},
+                    {"cycles_per_second", without},
+                    {"cycles_per_second_recorded", with},
+                    {"ratio", with / without},
+                    {"rounds", rounds}});
+    if (!common.json) std::printf("%-11s %24.0f %24.0f %8.3f\n", vendor, without, with, with / without);
+    std::fflush(stdout);
+  }
+  if (common.json) std::cout << rows.dump(2) << "\n";
+  return 0;
+}
+
 }  // namespace
 
 void add_run_command(CLI::App& app, Common& common) {
@@ -102,17 +134,23 @@ void add_run_command(CLI::App& app, Common& common) {
   auto machine = std::make_shared<std::string>("ac-table"),
        program = std::make_shared<std::string>("nas979_cone");
   auto rounds = std::make_shared<int>(3);
-  auto real_time = std::make_shared<bool>(false);
+  auto real_time = std::make_shared<bool>(false), recording = std::make_shared<bool>(false);
+  auto subject = std::make_shared<std::string>("stream");
   command = add_command(app, common, "bench",
                         "Measure the stream: the speed of a program in virtual time over the DDS vendors, or "
-                        "starved cycles in real time",
-                        [&common, machine, program, rounds, real_time] {
+                        "starved cycles in real time; or the planner: the reference motions and its speed",
+                        [&common, machine, program, rounds, real_time, recording, subject] {
+                          if (*subject == "motion") return bench_motion(common, *machine);
+                          if (*recording) return bench_recording(common, *machine, *program, *rounds);
                           return bench(common, *machine, *program, *rounds, *real_time);
                         });
+  command->add_option("subject", *subject, "stream (default) or motion")
+      ->check(CLI::IsMember({"stream", "motion"}));
   command->add_option("--machine", *machine, "Machine (default ac-table)");
   command->add_option("--program", *program, "Program (default nas979_cone)");
   command->add_option("--rounds", *rounds, "Rounds over the vendors")->check(CLI::Range(1, 1000));
   command->add_flag("--real-time", *real_time, "Run in real time and count starved cycles");
+  command->add_flag("--recording", *recording, "What a recorder costs: runs with and without one by turns");
 }
 
 }  // namespace trunnion::deploy

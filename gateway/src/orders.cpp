@@ -13,8 +13,8 @@ using idl::channel::CommandKind;
 
 constexpr std::size_t name_bytes = 64;
 constexpr std::size_t text_bytes = 256;
-constexpr double fastest = 1e6;       // mm/min or deg/min, above every axis
-constexpr double longest_step = 1e4;  // mm or deg
+constexpr double fastest = 1e6;        // mm/min or deg/min, above every axis
+constexpr double longest_step = 1e4;   // mm or deg
 constexpr double most_counts = 10000;  // of the handwheel in one request
 constexpr std::uint32_t most_lines = 999999999;
 

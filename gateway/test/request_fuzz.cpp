@@ -36,12 +36,26 @@ void body(const std::string& text) {
       require(bad.what()[0] != 0);
     }
   };
-  for (const auto operation :
-       {Operation::mode, Operation::select, Operation::cycle_start, Operation::feed_hold, Operation::reset,
-        Operation::mdi, Operation::jog, Operation::jog_stop, Operation::reference, Operation::override_,
-        Operation::single_block, Operation::optional_stop, Operation::start_from_line,
-        Operation::dry_run, Operation::axis_lock, Operation::auxiliary_lock, Operation::block_skip,
-        Operation::retrace, Operation::handwheel, Operation::handwheel_offset})
+  for (const auto operation : {Operation::mode,
+                               Operation::select,
+                               Operation::cycle_start,
+                               Operation::feed_hold,
+                               Operation::reset,
+                               Operation::mdi,
+                               Operation::jog,
+                               Operation::jog_stop,
+                               Operation::reference,
+                               Operation::override_,
+                               Operation::single_block,
+                               Operation::optional_stop,
+                               Operation::start_from_line,
+                               Operation::dry_run,
+                               Operation::axis_lock,
+                               Operation::auxiliary_lock,
+                               Operation::block_skip,
+                               Operation::retrace,
+                               Operation::handwheel,
+                               Operation::handwheel_offset})
     refused_or([&] { check(channel_order(operation, json, state)); });
   for (const auto operation : {Operation::emergency_stop, Operation::release, Operation::panel_reset})
     refused_or([&] { panel_order(operation, json); });

@@ -1,9 +1,11 @@
-// Sine and cosine of machine angles: fast, exact at quarter turns, the same bits on every processor.
+// Sine, cosine and the angle of a vector: fast, exact at quarter turns, the same bits on every processor.
 #pragma once
 
 #include <Eigen/Geometry>
+#include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <numbers>
 
 namespace trunnion::geometry {
@@ -54,10 +56,49 @@ inline SineCosine sine_cosine(double degrees) {
   }
 }
 
+/// The angle of (x, y) from the x axis in radians, -pi .. pi, within 5e-16, small angles within 4e-16 of
+/// themselves, multiples of a quarter turn exact; 0 of (0, 0), not a number of anything that is not finite.
+/// For the reason above not the C library's: the arc tangent of the nearest sixteenth, and a series for the
+/// rest.
+inline double arc_tangent(double y, double x) {
+  constexpr std::array<double, 17> sixteenths{0,
+                                              0.06241880999595735,
+                                              0.12435499454676144,
+                                              0.18534794999569476,
+                                              0.24497866312686414,
+                                              0.3028848683749714,
+                                              0.35877067027057225,
+                                              0.4124104415973873,
+                                              0.4636476090008061,
+                                              0.5123894603107377,
+                                              0.5585993153435624,
+                                              0.6022873461349642,
+                                              0.6435011087932844,
+                                              0.6823165548747481,
+                                              0.7188299996216245,
+                                              0.7531512809621944,
+                                              std::numbers::pi / 4};
+  const double across = std::abs(y), along = std::abs(x);
+  const bool steep = across > along;
+  const double large = steep ? across : along, small = steep ? along : across;
+  if (!(small <= large && large < std::numeric_limits<double>::infinity()))
+    return std::numeric_limits<double>::quiet_NaN();
+  if (large == 0) return 0;
+  const int nearest = static_cast<int>(16 * (small / large) + 0.5);
+  const double c = 0.0625 * nearest;
+  const double r = (small - c * large) / (large + c * small), q = r * r;
+  // Terms up to the ninth power, in two halves that do not wait for each other.
+  const double s = (1 / 5.0 * q - 1 / 3.0) + q * q * (1 / 9.0 * q - 1 / 7.0);
+  double angle = sixteenths[static_cast<std::size_t>(nearest)] + (r + r * q * s);
+  if (steep) angle = std::numbers::pi / 2 - angle;
+  if (x < 0) angle = std::numbers::pi - angle;
+  return y < 0 ? -angle : angle;
+}
+
 /// The angle of two vectors in radians, 0 .. pi, accurate for any size of the angle and any length.
 template <class A, class B>
 double angle_between(const A& a, const B& b) {
-  return std::atan2(a.cross(b).norm(), a.dot(b));
+  return arc_tangent(a.cross(b).norm(), a.dot(b));
 }
 
 }  // namespace trunnion::geometry

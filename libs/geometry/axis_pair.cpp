@@ -21,11 +21,13 @@ std::optional<AxisPair> AxisPair::make(const Vec3& k1, const Vec3& k2, const Vec
   pair.beta = angle_between(tool, k2);
   pair.sine_beta = k2.cross(tool).norm();
   pair.cosine_beta = k2.dot(tool);
-  pair.sine_half_sum = std::sin(0.5 * (pair.alpha + pair.beta));
-  pair.cosine_half_sum = std::cos(0.5 * (pair.alpha + pair.beta));
-  pair.sine_half_difference = std::sin(0.5 * (pair.alpha - pair.beta));
-  pair.cosine_half_difference = std::cos(0.5 * (pair.alpha - pair.beta));
-  pair.zero = std::atan2(pair.g.dot(tool), pair.f.dot(tool));
+  const auto sum = sine_cosine(0.5 * (pair.alpha + pair.beta) / radians_per_degree);
+  const auto difference = sine_cosine(0.5 * (pair.alpha - pair.beta) / radians_per_degree);
+  pair.sine_half_sum = sum.sine;
+  pair.cosine_half_sum = sum.cosine;
+  pair.sine_half_difference = difference.sine;
+  pair.cosine_half_difference = difference.cosine;
+  pair.zero = arc_tangent(pair.g.dot(tool), pair.f.dot(tool));
   return pair;
 }
 
@@ -42,14 +44,14 @@ AxisPair::Triangle AxisPair::triangle(const Vec3& u, const Vec3& across) const {
   double s = (p + q) * (p - q), c = (a + b) * (a - b);
   Triangle t;
   if (s <= 0 || c <= 0) {
-    const double psi = std::atan2(sine, cosine);
+    const double psi = arc_tangent(sine, cosine);
     const double least = std::abs(alpha - beta);
     const double most = std::numbers::pi - std::abs(std::numbers::pi - (alpha + beta));
     t.missed = std::max({0.0, least - psi, psi - most});
     (s <= 0 ? s : c) = 0;
   }
   const double root_s = std::sqrt(s), root_c = std::sqrt(c);
-  t.x = 2 * std::atan2(root_s, root_c);
+  t.x = 2 * arc_tangent(root_s, root_c);
   t.sine_x = 2 * root_s * root_c / (s + c);
   t.cosine_x = (c - s) / (s + c);
   t.regularity = 2 * root_s * root_c;

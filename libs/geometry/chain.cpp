@@ -37,9 +37,9 @@ Vec3 Chain::Side::offsets() const {
 std::optional<ChainError> Chain::adopt(const std::optional<RotaryAxis>& axis, Side& side) {
   if (!axis) return std::nullopt;
   if (axis->angle >= angle_count) return ChainError::bad_angle;
-  if (!axis->offset.allFinite()) return ChainError::not_finite;
+  if (!axis->offset.allFinite() || !axis->correction.allFinite()) return ChainError::not_finite;
   Joint& joint = side.joints[side.count++];
-  joint = {axis->direction, axis->offset, axis->angle};
+  joint = {axis->direction, axis->offset + axis->correction, axis->angle};
   return normalize(joint.direction);
 }
 
@@ -63,8 +63,16 @@ std::variant<Chain, ChainError> Chain::make(const ChainParameters& p) {
   for (const auto* axis : {&p.head_2, &p.head_1, &p.head_0})
     if (const auto error = adopt(*axis, chain.head_)) return *error;
   if (const auto error = chain.check_rotary()) return *error;
-  if (!p.origin.allFinite()) return ChainError::not_finite;
-  chain.base_ = chain.table_.offsets() - chain.head_.offsets() - p.origin;
+  Vec3 origin = p.origin;
+  if (p.open) {
+    origin += p.base_correction;
+    for (const auto* axis : {&p.table_2, &p.table_1, &p.table_0})
+      if (*axis) origin += (*axis)->correction;
+    for (const auto* axis : {&p.head_2, &p.head_1, &p.head_0})
+      if (*axis) origin -= (*axis)->correction;
+  }
+  if (!origin.allFinite()) return ChainError::not_finite;
+  chain.base_ = chain.table_.offsets() - chain.head_.offsets() - origin;
   for (int i = 0; i < 3; ++i) {
     Vec3 direction = p.linear_direction.col(i);
     if (const auto error = normalize(direction)) return *error;

@@ -15,6 +15,8 @@ struct RotaryAxis {
       Vec3::UnitZ();           ///< axis of rotation, signed by the sense of rotation; any length above zero
   Vec3 offset = Vec3::Zero();  ///< mm; of a head: from the tool towards the base, of a table: see Chain
   std::size_t angle = 0;       ///< which entry of Angles turns it: 0 = A .. 5 = W
+  Vec3 correction =
+      Vec3::Zero();  ///< mm, added to the offset: what a measurement of the kinematics has found
 };
 
 /// Head, table and linear axes of a machine, as parameters 04c400..04c437 have them. Axis 1 is next to the
@@ -33,6 +35,11 @@ struct ChainParameters {
   /// mm: the tip minus the origin of the workpiece frame when every axis stands at zero and the tool has no
   /// length. Zero for a closed chain.
   Vec3 origin = Vec3::Zero();
+  /// The chain does not end where it began: corrections move the origin, too.
+  bool open = false;
+  /// mm: of an open chain, the correction between the last table axis and the first head axis, towards the
+  /// tool.
+  Vec3 base_correction = Vec3::Zero();
 };
 
 enum class ChainError : std::uint8_t {
@@ -44,6 +51,8 @@ enum class ChainError : std::uint8_t {
   dependent_linear,       ///< the directions of X, Y and Z lie in a plane
   linear_between_rotary,  ///< a linear axis is carried by a rotary axis of its own side
   too_many_rotary,        ///< more than three rotary axes on a side
+  two_corrections,        ///< two corrections with no rotary axis between them
+  idle_correction,        ///< a correction between table and head of a closed chain: it would do nothing
   linear_missing,         ///< a chain of elements without X, Y or Z, or with one of them twice
 };
 

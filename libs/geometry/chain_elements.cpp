@@ -1,49 +1,105 @@
 #include "geometry/chain_elements.hpp"
 
 namespace trunnion::geometry {
+namespace {
+
+// What stands between two rotary axes, or beyond the outer ones.
+struct Gap {
+  Vec3 offset = Vec3::Zero(), correction = Vec3::Zero();
+  std::string name;  // of the correction
+};
+
+struct Joint {
+  RotaryAxis axis;
+  Gap gap;  // on its workpiece side in the table, on its tool side in the head
+};
+
+struct Sides {
+  std::vector<Joint> table, head;  // workpiece to tool
+  Gap base;                        // between them
+};
+
+std::variant<Sides, ChainError> walk(const ChainDescription& description, Mat3& linear_direction) {
+  Sides sides;
+  Gap gap;
+  unsigned linear = 0;
+  const auto close = [&] { (sides.head.empty() ? sides.base : sides.head.back().gap) = gap; };
+  for (const auto& e : description.elements) {
+    switch (e.kind) {
+      case ElementKind::offset:
+        gap.offset += e.vector;
+        break;
+      case ElementKind::correction:
+        if (!gap.name.empty()) return ChainError::two_corrections;
+        gap.correction = e.vector;
+        gap.name = e.name;
+        break;
+      case ElementKind::linear:
+        if (e.axis > 2 || (linear & (1u << e.axis)) != 0) return ChainError::linear_missing;
+        if (!sides.head.empty()) return ChainError::linear_between_rotary;
+        linear |= 1u << e.axis;
+        linear_direction.col(static_cast<Eigen::Index>(e.axis)) = e.vector;
+        break;
+      case ElementKind::rotary:
+        if (linear == 0) {
+          sides.table.push_back({{e.vector, Vec3::Zero(), e.axis}, gap});
+        } else {
+          close();
+          sides.head.push_back({{e.vector, Vec3::Zero(), e.axis}, {}});
+        }
+        gap = {};
+        break;
+    }
+  }
+  close();
+  if (linear != 7) return ChainError::linear_missing;
+  if (sides.table.size() > 3 || sides.head.size() > 3) return ChainError::too_many_rotary;
+  if (description.closed && !sides.base.name.empty()) return ChainError::idle_correction;
+  return sides;
+}
+
+}  // namespace
 
 std::variant<ChainParameters, ChainError> parameters_of(const ChainDescription& description) {
   ChainParameters p;
   p.tool_direction = description.tool_direction;
-  std::vector<RotaryAxis> table, head;  // workpiece to tool
-  Vec3 gap = Vec3::Zero();              // since the last rotary axis
-  Vec3 sum = Vec3::Zero();
-  unsigned linear = 0;
-  for (const auto& e : description.elements) {
-    switch (e.kind) {
-      case ElementKind::offset:
-      case ElementKind::correction:
-        gap += e.vector;
-        sum += e.vector;
-        break;
-      case ElementKind::linear:
-        if (e.axis > 2 || (linear & (1u << e.axis)) != 0) return ChainError::linear_missing;
-        if (!head.empty()) return ChainError::linear_between_rotary;
-        linear |= 1u << e.axis;
-        p.linear_direction.col(static_cast<Eigen::Index>(e.axis)) = e.vector;
-        break;
-      case ElementKind::rotary:
-        if (linear == 0) {
-          table.push_back({e.vector, gap, e.axis});
-        } else {
-          // A head's offset points from its tool side back to the axis.
-          if (!head.empty()) head.back().offset = -gap;
-          head.push_back({e.vector, Vec3::Zero(), e.axis});
-        }
-        gap.setZero();
-        break;
-    }
+  const auto walked = walk(description, p.linear_direction);
+  if (const auto* error = std::get_if<ChainError>(&walked)) return *error;
+  const auto& sides = std::get<Sides>(walked);
+  Vec3 sum = sides.base.offset;
+  for (const auto* side : {&sides.table, &sides.head})
+    for (const Joint& joint : *side) sum += joint.gap.offset;
+  p.open = !description.closed;
+  if (p.open) {
+    p.origin = sum;
+    p.base_correction = sides.base.correction;
   }
-  if (linear != 7) return ChainError::linear_missing;
-  if (table.size() > 3 || head.size() > 3) return ChainError::too_many_rotary;
-  if (!head.empty()) head.back().offset = -gap;
-  if (!description.closed) p.origin = sum;
-  // Both sides count their slots 2, 1, 0 from the outer end of the chain.
+  // Both sides count their slots 2, 1, 0 from the outer end of the chain; a head's offsets point from the
+  // tool to the base.
   std::optional<RotaryAxis>* const table_slots[] = {&p.table_2, &p.table_1, &p.table_0};
-  for (std::size_t i = 0; i < table.size(); ++i) *table_slots[i] = table[i];
+  for (std::size_t i = 0; i < sides.table.size(); ++i) {
+    const Joint& joint = sides.table[i];
+    *table_slots[i] = {joint.axis.direction, joint.gap.offset, joint.axis.angle, joint.gap.correction};
+  }
   std::optional<RotaryAxis>* const head_slots[] = {&p.head_2, &p.head_1, &p.head_0};
-  for (std::size_t i = 0; i < head.size(); ++i) *head_slots[i] = head[head.size() - 1 - i];
+  for (std::size_t i = 0; i < sides.head.size(); ++i) {
+    const Joint& joint = sides.head[sides.head.size() - 1 - i];
+    *head_slots[i] = {joint.axis.direction, -joint.gap.offset, joint.axis.angle, -joint.gap.correction};
+  }
   return p;
+}
+
+CorrectionNames correction_names(const ChainDescription& description) {
+  CorrectionNames names;
+  Mat3 unused;
+  const auto walked = walk(description, unused);
+  if (const auto* sides = std::get_if<Sides>(&walked)) {
+    for (std::size_t i = 0; i < sides->table.size(); ++i) names.table[i] = sides->table[i].gap.name;
+    for (std::size_t i = 0; i < sides->head.size(); ++i)
+      names.head[i] = sides->head[sides->head.size() - 1 - i].gap.name;
+    names.base = sides->base.name;
+  }
+  return names;
 }
 
 }  // namespace trunnion::geometry

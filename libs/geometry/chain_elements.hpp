@@ -33,8 +33,16 @@ struct ChainDescription {
   bool closed = true;
 };
 
-/// The same machine in the form of the parameters: neighbouring offsets and corrections are added up. Errors:
-/// those of the order (linear_between_rotary, too_many_rotary, linear_missing); Chain::make finds the others.
+/// The same machine in the form of the parameters: neighbouring offsets are added up, a correction keeps its
+/// own vector. Errors: those of the order (linear_between_rotary, too_many_rotary, linear_missing) and of
+/// corrections (two_corrections, idle_correction); Chain::make finds the others.
 std::variant<ChainParameters, ChainError> parameters_of(const ChainDescription& description);
+
+/// Names of the corrections by the place where ChainParameters have them; empty where there is none.
+struct CorrectionNames {
+  std::array<std::string, 3> table, head;  ///< of axis 2, 1, 0
+  std::string base;                        ///< of base_correction
+};
+CorrectionNames correction_names(const ChainDescription& description);
 
 }  // namespace trunnion::geometry

@@ -31,7 +31,7 @@ DirectionPathFault fault_of(const OrientationAnswer& answer, double s) {
 
 // The angle in degrees about k between two vectors across it.
 double azimuth(const Vec3& k, const Vec3& from, const Vec3& to) {
-  return std::atan2(k.dot(from.cross(to)), from.dot(to)) / radians_per_degree;
+  return arc_tangent(k.dot(from.cross(to)), from.dot(to)) / radians_per_degree;
 }
 
 // Value and derivatives of order 1 and 2 at both ends of 0 .. 1.
@@ -114,7 +114,7 @@ std::optional<DirectionPathFault> DirectionPath::turn_one(const OrientationSolve
 // Where the great circle is nearest to (sign 1) or farthest from (sign -1) the direction of axis 1.
 double DirectionPath::foot(double sign) const {
   const Vec3& k = pair_.axes.k1;
-  return std::atan2(sign * k.dot(arc_.across()), sign * k.dot(arc_.from())) / arc_.length();
+  return arc_tangent(sign * k.dot(arc_.across()), sign * k.dot(arc_.from())) / arc_.length();
 }
 
 bool DirectionPath::has_pole(double sign, double tolerance) const {
@@ -228,7 +228,10 @@ void DirectionPath::build(const Piece& start, const DirectionPathRequest& reques
     // As far to either side as makes the axis turn about as fast as the direction, if the tolerance allows.
     double range = std::max({std::sqrt(passing), 2 * closest, 0.5 * radians_per_degree});
     for (int attempt = 0; attempt < 12 && range > 1.01 * closest; ++attempt, range /= 2) {
-      const double half = std::acos(std::min(1.0, std::cos(range) / std::cos(passing))) / arc_.length();
+      // Pythagoras on the sphere.
+      const double share = std::min(1.0, sine_cosine(range / radians_per_degree).cosine /
+                                             sine_cosine(passing / radians_per_degree).cosine);
+      const double half = arc_tangent(std::sqrt((1 - share) * (1 + share)), share) / arc_.length();
       const double begin = std::max(pieces_[count_ - 1].begin, s - half), end = std::min(1.0, s + half);
       if (end > begin && add_window(begin, end, request.tolerance)) break;
     }

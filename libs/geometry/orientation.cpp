@@ -22,7 +22,7 @@ Vec3 turned(const Vec3& k, double sine, double cosine, const Vec3& v) {
 // The angle in degrees about k from one vector to another, given as k x v each: so that nothing cancels when
 // both are near k.
 double azimuth(const Vec3& k, const Vec3& from, const Vec3& to) {
-  return degrees_per_radian * std::atan2(k.dot(from.cross(to)), from.dot(to));
+  return degrees_per_radian * arc_tangent(k.dot(from.cross(to)), from.dot(to));
 }
 
 // The position nearest to `present` that is `angle` plus full turns and within the travel; of two equally
@@ -53,7 +53,9 @@ int sense_of(WayChoice way) { return way == WayChoice::positive ? 1 : way == Way
 using Rank = std::tuple<long long, long long, long long, long long>;
 
 Rank rank_of(const Orientation& o, const OrientationRequest& request, std::size_t first, std::size_t second) {
-  const auto steps = [](double degrees) { return static_cast<long long>(std::floor(degrees * 1e7 + 0.5)); };
+  const auto steps = [](double degrees) {
+    return static_cast<long long>(degrees * 1e7 + (degrees < 0 ? -0.5 : 0.5));
+  };
   const double leading = o.angles[second], other = first < angle_count ? o.angles[first] : 0;
   const long long way = steps(std::abs(leading - request.present[second]));
   const long long other_way = first < angle_count ? steps(std::abs(other - request.present[first])) : 0;
@@ -66,7 +68,7 @@ Rank rank_of(const Orientation& o, const OrientationRequest& request, std::size_
 OrientationSolver::OrientationSolver(const Chain& chain)
     : count_(chain.rotary_count()), tool_(chain.tool_direction()) {
   for (std::size_t i = 0; i < count_; ++i) axes_[i] = chain.orienting_axis(i);
-  if (count_ == 2) only_pair_ = pair(0, 1, {});
+  if (count_ >= 2) last_pair_ = pair(count_ - 2, count_ - 1, {});
 }
 
 // The vector as the axes 0 .. end - 1 carry it, of which i and j are left out.
@@ -121,6 +123,18 @@ OrientationSolver::Solutions OrientationSolver::solve(const MovingPair& pair, co
   return out;
 }
 
+OrientationSolver::Solutions OrientationSolver::solve_last(const Vec3& u,
+                                                           const OrientationRequest& request) const {
+  Vec3 seen = u;
+  for (std::size_t i = 0; i + 2 < count_; ++i) {
+    const auto t = sine_cosine(request.present[axes_[i].angle]);
+    seen = turned(axes_[i].direction, -t.sine, t.cosine, seen);
+  }
+  Solutions out = solve(*last_pair_, seen, request);
+  if (out.count == 0) out.nearest = carried(count_ - 2, out.nearest, request.present, count_, count_);
+  return out;
+}
+
 OrientationSolver::Solutions OrientationSolver::solve_single(std::size_t i, const Vec3& u,
                                                              const OrientationRequest& request) const {
   const Vec3 k = carried(i, axes_[i].direction, request.present, i, i);
@@ -160,11 +174,11 @@ OrientationAnswer OrientationSolver::search(const OrientationRequest& request, V
     if (found) answer.status = OrientationStatus::found;
     return found;
   };
-  if (only_pair_) {
-    take(solve(*only_pair_, u, request));
-  } else {
+  if (last_pair_ && take(solve_last(u, request))) return answer;
+  if (!last_pair_ || count_ > 2) {
     for (std::size_t j = count_; j-- > 1;)
       for (std::size_t i = j; i-- > 0;) {
+        if (last_pair_ && i + 2 == count_) continue;
         const auto moving = pair(i, j, request.present);
         if (moving && take(solve(*moving, u, request))) return answer;
       }

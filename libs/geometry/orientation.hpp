@@ -98,6 +98,7 @@ class OrientationSolver {
   };
   static Solutions solve(const MovingPair& pair, const Vec3& u, const OrientationRequest& request);
   Solutions solve_single(std::size_t i, const Vec3& u, const OrientationRequest& request) const;
+  Solutions solve_last(const Vec3& u, const OrientationRequest& request) const;
   Vec3 carried(std::size_t end, const Vec3& v, const Angles& at, std::size_t i, std::size_t j) const;
   template <class Visit>
   OrientationAnswer search(const OrientationRequest& request, Visit&& visit) const;
@@ -105,7 +106,8 @@ class OrientationSolver {
   std::array<OrientingAxis, 6> axes_;
   std::size_t count_ = 0;
   Vec3 tool_ = Vec3::UnitZ();
-  std::optional<MovingPair> only_pair_;  // of a machine with two rotary axes
+  // The two axes nearest the tool, seen with those before them at zero: they turn the pair as a whole.
+  std::optional<MovingPair> last_pair_;
 };
 
 }  // namespace trunnion::geometry

@@ -34,9 +34,10 @@ Fault BlockExecutor::run_cycle(const Block& block, const Codes& codes, CommandQu
   if (const Fault fault = find_axes(block, axes)) return fault;
   used_ |= block.letters & axis_bits;
   std::uint32_t repeats = 1;
-  if (block.has('K') && block.has('L')) return {AlarmNumber::cycle_repeats, block.offset('L')};
+  const bool repeats_by_k = block.has('K') && (used_ & Block::bit('K')) == 0;
+  if (repeats_by_k && block.has('L')) return {AlarmNumber::cycle_repeats, block.offset('L')};
   for (const char letter : {'K', 'L'}) {
-    if (!block.has(letter)) continue;
+    if (!block.has(letter) || (used_ & Block::bit(letter)) != 0) continue;
     if (const Fault fault = whole_number(block, letter, 0, most_holes, repeats)) return fault;
   }
   if (!drills || repeats == 0) return {};
@@ -107,8 +108,10 @@ Fault BlockExecutor::read_cycle_words(const Block& block, const Codes& codes) {
       cycle_.peck = q;
     }
   }
-  if (is_shifting(modal_.cycle) && (block.letters & letter_bits("IJ")) != 0) {
-    shift_ = {length_word(block, 'I'), length_word(block, 'J')};
+  const PlaneAxes plane = plane_axes(modal_.plane);
+  const char first = static_cast<char>('I' + plane.first), second = static_cast<char>('I' + plane.second);
+  if (is_shifting(modal_.cycle) && (block.letters & (Block::bit(first) | Block::bit(second))) != 0) {
+    shift_ = {length_word(block, first), length_word(block, second)};
   }
   if (is_tapping(modal_.cycle) && block.has('J')) {
     if (const Fault fault = whole_number(block, 'J', 1, 6, tapping_axis_)) return fault;

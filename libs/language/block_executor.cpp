@@ -18,14 +18,20 @@ bool is_whole(double value, double low, double high) {
 
 }  // namespace
 
-void BlockExecutor::start(const AxisValues& position, const ModalState& modal) {
+void BlockExecutor::start(const AxisValues& position, const ModalState& modal, Beginning beginning) {
+  beginning_ = beginning;
   modal_ = modal;
-  modal_.cycle = 80;
   modal_.cutter_side = CutterSide::off;
-  modal_.polar = modal_.scaled = modal_.mirrored = modal_.rotated = false;
   if (modal_.work_offset >= work_offset_count) modal_.work_offset = 0;
+  if (beginning == Beginning::program) {
+    modal_.cycle = 80;
+    modal_.polar = modal_.scaled = modal_.mirrored = modal_.rotated = false;
+    frame_ = ProgramFrame{};
+    intermediate_.reset();
+    parameter_input_ = swing_due_ = false;
+    parked_ = SpindleDirection::stopped;
+  }
   tables_.load(environment_);
-  frame_ = ProgramFrame{};
   frame_.set_work_offset(tables_.work_offset(modal_.work_offset));
   frame_.set_tilt(modal_.tilt);
   compensation_.reset();
@@ -34,11 +40,9 @@ void BlockExecutor::start(const AxisValues& position, const ModalState& modal) {
   diameter_ = environment_.diameter_programming();
   channel_axes_ = environment_.axes();
   sequence_ = 0;
-  intermediate_.reset();
-  needs_position_ = draining_ = parameter_input_ = swing_due_ = false;
+  needs_position_ = draining_ = held_too_many_ = false;
   activity_ = Activity::none;
   later_ = {};
-  parked_ = SpindleDirection::stopped;
   pattern_.clear();
   hole_.stop();
   curve_.stop();
@@ -52,6 +56,7 @@ Fault BlockExecutor::execute(const Block& block, std::uint32_t program, std::uin
   program_ = program;
   line_ = line;
   used_ = Block::bit('N');
+  moves_ = false;
   detail_number_ = AlarmNumber::none;
   if (const Fault fault = check_numbers(block)) return fault;
   if (const Fault fault = collect_g(block, codes)) return fault;
@@ -341,6 +346,7 @@ Fault BlockExecutor::set_flow(const Block& block, const MCodes& codes, Flow& flo
     if (const Fault fault = whole_number(block, 'P', 1, 99999999, flow.subprogram)) return fault;
     if (block.has('L')) {
       if (const Fault fault = whole_number(block, 'L', 1, highest_repetition, flow.repetitions)) return fault;
+      flow.counted = true;
     }
   }
   return {};

@@ -19,6 +19,12 @@
 
 namespace trunnion::language {
 
+/// How much of what was before a text begins is still there.
+enum class Beginning : std::uint8_t {
+  program,  ///< only the modal state handed over: a program means the same whatever was before it
+  line,     ///< everything but cutter radius compensation: a further line of manual data input
+};
+
 /// Where the program goes on after a block.
 struct Flow {
   enum class Kind : std::uint8_t { next, call, go_back, end };
@@ -26,6 +32,7 @@ struct Flow {
   bool to_label = false;          ///< go_back to the sequence number `subprogram`
   std::uint32_t subprogram = 0;   ///< of call
   std::uint32_t repetitions = 1;  ///< of call
+  bool counted = false;           ///< the repetitions were given
   std::uint16_t offset = 0;       ///< of the M word in its line
 };
 
@@ -48,12 +55,16 @@ class BlockExecutor {
  public:
   explicit BlockExecutor(Environment& environment) : environment_(environment) {}
 
-  /// Begins a program at `position`, in the frame `modal.transformation` says, and fetches the tables. Frames
-  /// but the work offset and the tilted plane, cycles and cutter compensation begin switched off.
-  void start(const AxisValues& position, const ModalState& modal);
+  /// Begins a text at `position`, in the frame `modal.transformation` says, and fetches the tables. In a
+  /// program the frames but the work offset and the tilted plane, and cycles, begin switched off; in a line
+  /// `modal` must be what modal() was at the end of the line before.
+  void start(const AxisValues& position, const ModalState& modal, Beginning beginning = Beginning::program);
 
   /// Appends the block's commands to `out`, which must be empty; sequence numbers go on from start().
   Fault execute(const Block& block, std::uint32_t program, std::uint32_t line, CommandQueue& out, Flow& flow);
+
+  /// The last block moves the axes, or has a cycle do so.
+  bool moves() const { return moves_ || activity_ != Activity::none; }
 
   /// The last block has more commands: resume() appends some of them to `out`, which must be empty.
   bool busy() const { return activity_ != Activity::none || draining_; }
@@ -93,8 +104,6 @@ class BlockExecutor {
   void set_position(const AxisValues& position);
 
   const ProgramFrame& frame() const { return frame_; }
-  /// Goes on with the frames of a program before, behind start() (MDI lines).
-  void set_frame(const ProgramFrame& frame);
   const OffsetTables& tables() const { return tables_; }
 
  private:
@@ -141,6 +150,7 @@ class BlockExecutor {
   Fault change_tool_length(Transformation transformation, bool vector, std::uint16_t h, double length,
                            CommandQueue& out);
   Fault set_cutter_compensation(const Block& block, const Codes& codes);
+  void read_wall(const Block& block, const AxisValues& here);
 
   // Frames: block_frames.cpp and block_tilt.cpp
   Fault set_frames(const Block& block, const Codes& codes, CommandQueue& out);
@@ -247,6 +257,7 @@ class BlockExecutor {
   double radius_deviation_ = 0;
   bool diameter_ = false;
   std::uint16_t channel_axes_ = 0;
+  Beginning beginning_ = Beginning::program;
   std::uint32_t program_ = 0;
   std::uint32_t line_ = 0;
   std::uint32_t sequence_ = 0;
@@ -259,6 +270,7 @@ class BlockExecutor {
 
   std::optional<AxisValues> intermediate_;  // program coordinates, of the last G28 or G30
   bool needs_position_ = false;
+  bool moves_ = false;
   std::uint32_t skip_input_ = 1;
   bool draining_ = false;       // the compensation has settled commands that found no place in the queue
   bool held_too_many_ = false;  // a command found no place in the compensation

@@ -235,9 +235,22 @@ Fault BlockExecutor::set_cutter_compensation(const Block& block, const Codes& co
     radius = *tool->radius + environment_.cutter_settings().wear_sign * tool->radius_wear;
   }
   if (modal_.cutter_side == CutterSide::off && !compensation_.active()) return {};
-  compensation_.request(modal_.cutter_side, radius, modal_.plane,
-                        frame_.contour_from_program(program_position_));
+  const AxisValues here = frame_.contour_from_program(program_position_);
+  const bool ends = modal_.cutter_side == CutterSide::off && codes.has(Group::cutter_compensation);
+  compensation_.request(modal_.cutter_side, radius, modal_.plane, here);
+  if (ends && modal_.motion <= 1 && !modal_.tool_vector) read_wall(block, here);
   return {};
+}
+
+// I J K of G40: the direction in which the contour would go on.
+void BlockExecutor::read_wall(const Block& block, const AxisValues& here) {
+  AxisValues ahead = program_position_;
+  const PlaneAxes plane = plane_axes(modal_.plane);
+  for (const std::uint8_t axis : {plane.first, plane.second})
+    ahead[axis] += length_word(block, static_cast<char>('I' + axis));
+  const AxisValues there = frame_.contour_from_program(ahead);
+  compensation_.leave_along(
+      {there[plane.first] - here[plane.first], there[plane.second] - here[plane.second]});
 }
 
 }  // namespace trunnion::language

@@ -169,6 +169,7 @@ Fault BlockExecutor::push_move(const Command& move, const AxisValues& program) {
     }
   }
   const AxisValues start = frame_.contour_from_program(program_position_);
+  moves_ = true;
   Command command = move;
   command.program = program_;
   command.line = line_;

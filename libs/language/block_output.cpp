@@ -3,11 +3,6 @@
 
 namespace trunnion::language {
 
-void BlockExecutor::set_frame(const ProgramFrame& frame) {
-  frame_ = frame;
-  locate(position_);
-}
-
 void BlockExecutor::set_position(const AxisValues& position) {
   if (compensation_.active()) {
     compensation_.reset();
@@ -34,7 +29,9 @@ Fault BlockExecutor::end_program(std::uint32_t number, std::uint32_t program, st
   program_ = program;
   line_ = line;
   if (curve_.active()) return {AlarmNumber::curve_incomplete, 0};
-  if (swing_due_) return {AlarmNumber::tilt_swing_missing, 0};
+  // Behind a line of manual data input the next one may hold the swing.
+  const bool more = number == 0 && beginning_ == Beginning::line;
+  if (swing_due_ && !more) return {AlarmNumber::tilt_swing_missing, 0};
   if (const Fault fault = push_end(number, out)) return fault;
   return drain_compensation(out);
 }
@@ -70,6 +67,8 @@ Command& BlockExecutor::push(CommandKind kind, CommandQueue& out) {
     held_too_many_ = true;
     place = &scratch_;
   }
+  moves_ |= kind == CommandKind::rapid || kind == CommandKind::line || kind == CommandKind::arc ||
+            kind == CommandKind::skip || kind == CommandKind::tap;
   Command& command = *place;
   command = Command{};
   command.kind = kind;

@@ -43,6 +43,7 @@ void CutterCompensation::request(CutterSide side, double radius, Plane plane, co
     past_count_ = 0;
   }
   finished_ = false;
+  wall_ = {};
   side_ = side;
   radius_ = radius;
 }
@@ -130,6 +131,13 @@ AlarmNumber CutterCompensation::settle_corner(Item& before, Item& after) {
   }
   before.tool_end = before.contour.left_of_end(before.left);
   if (after.leads) {
+    if (length(wall_) > 0) {
+      PlanarPiece wall;
+      wall.start = before.contour.end;
+      wall.end = wall.start + wall_;
+      const Meeting meeting = meet(before.contour, before.left, wall, before.left);
+      if (meeting.found) before.tool_end = meeting.point;
+    }
     after.tool_start = before.tool_end;
     return check_direction(before);
   }

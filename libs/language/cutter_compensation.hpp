@@ -17,7 +17,7 @@ namespace trunnion::language {
 ///
 ///  - The first straight move in the plane behind request() leads in: it ends square beside the start of the
 ///    next one. The first straight move behind request(off) leads out, from square beside the end of the one
-///    before. Neither may be an arc.
+///    before, or from where its offset meets that of a wall behind it (leave_along). Neither may be an arc.
 ///  - Inside corners: both moves end where their offsets meet. Outside corners: an arc about the corner at
 ///    feed, a polygon around that arc in rapid.
 ///  - Another radius or side at a corner without a meeting point: a straight line between the square points.
@@ -41,6 +41,9 @@ class CutterCompensation {
   /// `at` is where the tool is; it counts when nothing was active before.
   void request(CutterSide side, double radius, Plane plane, const AxisValues& at);
   CutterSide side() const { return side_; }
+  /// Behind request(off): the contour is taken to go on from its end in this direction of the plane (G40 I J
+  /// K). Not both components may be 0.
+  void leave_along(Vector2 direction) { wall_ = direction; }
 
   /// Moves and everything else must go through here.
   bool active() const { return side_ != CutterSide::off || offset_ || count_ != 0; }
@@ -105,6 +108,7 @@ class CutterCompensation {
   std::size_t count_ = 0;
   std::size_t last_move_ = 0;  // slot of the newest move in the plane
   bool has_last_move_ = false;
+  Vector2 wall_;       // direction behind the end of the contour; zero = none
   int join_step_ = 0;  // corners of the polygon in rapid already given
   Vector2 join_from_;  // from the corner to where that polygon begins
   struct Past {

@@ -24,9 +24,12 @@ Interpreter::Interpreter(Environment& environment, InterpreterOptions options, c
       variables_(control_) {}
 
 void Interpreter::start(TextSource& text, const AxisValues& position, const ModalState& initial,
-                        const VariableStore& variables) {
-  executor_.start(position, initial);
-  control_.start();
+                        const VariableStore& variables, Beginning beginning) {
+  executor_.start(position, initial, beginning);
+  if (beginning == Beginning::program) {
+    control_.start();
+    modal_call_active_ = false;
+  }
   variables_.start(variables);
   for (std::size_t i = 0; i < cycle_m_codes_.size(); ++i) cycle_m_codes_[i] = environment_.cycle_m_code(i);
   queue_.clear();
@@ -37,7 +40,7 @@ void Interpreter::start(TextSource& text, const AxisValues& position, const Moda
   jumps_.clear();
   blocks_ = 0;
   stop_line_ = 0;
-  else_if_due_ = modal_call_active_ = in_modal_call_ = false;
+  else_if_due_ = in_modal_call_ = false;
   frames_[0] = Frame{};
   frames_[0].source = &text;
   reader_.reset();
@@ -132,16 +135,19 @@ Interpreter::State Interpreter::execute(std::string_view line) {
 Interpreter::State Interpreter::execute_words(std::string_view line) {
   Call call;
   if (find_call(block_, cycle_m_codes_, call)) return call_macro(call, line);
+  if (modal_call_active_ && !in_modal_call_ && modal_call_.kind == CallKind::block_macro) {
+    read_arguments(block_, CallKind::block_macro, executor_.modal().absolute, arguments_);
+    return this->call(modal_call_, line);
+  }
   Flow flow;
   if (!modal_call_active_ || in_modal_call_) {
     if (const Fault fault = executor_.execute(block_, frames_[depth_].program, line_, queue_, flow))
       return fail(fault, line);
     return go(flow, line);
   }
-  const AxisValues before = executor_.position();
   if (const Fault fault = executor_.execute(block_, frames_[depth_].program, line_, queue_, flow))
     return fail(fault, line);
-  if (flow.kind != Flow::Kind::next || executor_.position() == before) return go(flow, line);
+  if (flow.kind != Flow::Kind::next || !executor_.moves()) return go(flow, line);
   arguments_ = modal_arguments_;
   return this->call(modal_call_, line);
 }
@@ -160,6 +166,7 @@ Interpreter::State Interpreter::go(const Flow& flow, std::string_view line) {
   Call subprogram;
   subprogram.number = flow.subprogram;
   subprogram.repetitions = flow.repetitions;
+  subprogram.counted = flow.counted;
   subprogram.offset = flow.offset;
   subprogram.program_offset = block_.offset('P');
   return call(subprogram, line);

@@ -39,7 +39,8 @@ inline constexpr VariableStore no_variables{};
 /// only.
 ///
 /// M98 P1234 and G65 P1234 call the program that begins with O1234 or %1234 in the same text, else the text
-/// Environment::subprogram finds for "O1234"; G1007 calls %1007 of the text "USERDEF.CYC". A main program
+/// Environment::subprogram finds for "O1234"; M98 P31234 without L calls O1234 three times when there is no
+/// O31234; G1007 calls %1007 of the text "USERDEF.CYC". A main program
 /// ends with M2, M30, its text, a lone % or the head of the next program; M99 there starts it again from its
 /// top. A subprogram must end with M99. GOTO and M99 P look for N forward, then from the top of the program.
 /// While G66 is active, each block that moves, but for those of the called macro itself, is followed by the
@@ -53,15 +54,17 @@ class Interpreter {
   Interpreter& operator=(const Interpreter&) = delete;
 
   /// Begins `text`, a program or an MDI line, at `position` (in the frame of `initial.transformation`) with
-  /// the modal state of the control at power-on or of the program before, and its variables.
+  /// the modal state of the control at power-on or of the program before, and its variables. Beginning::line
+  /// goes on in the frames, the cycle and the modal macro of the line before; `initial` is then its modal().
   void start(TextSource& text, const AxisValues& position, const ModalState& initial,
-             const VariableStore& variables = no_variables);
+             const VariableStore& variables = no_variables, Beginning beginning = Beginning::program);
 
   /// Blocks to leave out, from the next start() on.
   void set_block_skip(SkipLevels levels) { options_.block_skip = levels; }
 
   /// Once, before `line` (from 1) of the started text is executed for the first time, next() gives
-  /// Step::line: modal() and position() are then the state in which it begins. 0 = nowhere. Ends with start().
+  /// Step::line: modal() and position() are then the state in which it begins. 0 = nowhere. Ends with
+  /// start().
   void stop_before_line(std::uint32_t line) { stop_line_ = line; }
 
   /// The next command. Before start() there is only the end.
@@ -111,7 +114,8 @@ class Interpreter {
   /// Where a call from one text leads, so that a long text is searched once and not at every call.
   struct Found {
     const TextSource* caller = nullptr;
-    std::uint32_t number = 0;
+    std::uint32_t number = 0;       // as it was called
+    std::uint32_t repetitions = 0;  // when the number holds them
     bool cycle = false;
     TextSource* source = nullptr;
     std::uint32_t program = 0;
@@ -190,6 +194,7 @@ class Interpreter {
   Alarm not_allowed_;
   // A call that looks for its program: what was called and where to come back.
   Call call_;
+  std::uint32_t called_ = 0;  // the number as written
   Arguments arguments_;
   TextPosition after_call_;
   std::uint32_t call_line_ = 0;

@@ -5,12 +5,14 @@ namespace trunnion::language {
 
 Interpreter::State Interpreter::call_macro(Call& call, std::string_view line) {
   if (const Fault fault = read_call(block_, call)) return fail(fault, line);
-  if (call.kind == CallKind::modal_cancel || call.kind == CallKind::modal_macro) {
-    modal_call_active_ = call.kind == CallKind::modal_macro;
+  if (call.kind == CallKind::modal_cancel || call.kind == CallKind::modal_macro ||
+      call.kind == CallKind::block_macro) {
+    modal_call_active_ = call.kind != CallKind::modal_cancel;
     control_.set_modal_macro(modal_call_active_);
     modal_call_ = call;
     modal_call_.offset = modal_call_.program_offset = 0;  // it will be called from other lines
-    if (modal_call_active_) read_arguments(block_, call.kind, executor_.modal().absolute, modal_arguments_);
+    if (call.kind == CallKind::modal_macro)
+      read_arguments(block_, call.kind, executor_.modal().absolute, modal_arguments_);
     return State::running;
   }
   read_arguments(block_, call.kind, executor_.modal().absolute, arguments_);
@@ -20,12 +22,15 @@ Interpreter::State Interpreter::call_macro(Call& call, std::string_view line) {
 Interpreter::State Interpreter::call(const Call& call, std::string_view line) {
   if (depth_ == max_nesting) return fail({AlarmNumber::nesting_too_deep, call.offset}, line);
   call_ = call;
+  called_ = call.number;
   after_call_ = reader_.position();
   call_line_ = line_;
   const bool cycle = call.kind == CallKind::cycle;
   TextSource* const caller = frames_[depth_].source;
   for (const Found& known : found_) {
-    if (known.caller == caller && known.number == call.number && known.cycle == cycle) return enter(known);
+    if (known.caller == caller && known.number == call.number && known.cycle == cycle &&
+        (known.repetitions == 0 || !call.counted))
+      return enter(known);
   }
   not_found_ = located({AlarmNumber::subprogram_missing, call.program_offset}, line);
   search_.purpose = Purpose::program;
@@ -39,7 +44,9 @@ Interpreter::State Interpreter::call(const Call& call, std::string_view line) {
 Interpreter::State Interpreter::found(TextSource& source, std::uint32_t program, TextPosition top) {
   Found& entry = found_[next_found_];
   next_found_ = (next_found_ + 1) % found_.size();
-  entry = {frames_[depth_].source, call_.number, call_.kind == CallKind::cycle, &source, program, top};
+  const std::uint32_t repetitions = call_.number == called_ ? 0 : call_.repetitions;
+  entry = {
+      frames_[depth_].source, called_, repetitions, call_.kind == CallKind::cycle, &source, program, top};
   return enter(entry);
 }
 
@@ -50,10 +57,10 @@ Interpreter::State Interpreter::enter(const Found& target) {
   frame.program = target.program;
   frame.top = target.top;
   frame.call_line = call_line_;
-  frame.remaining = call_.repetitions - 1;
+  frame.remaining = (target.repetitions != 0 && !call_.counted ? target.repetitions : call_.repetitions) - 1;
   frame.begun = false;
   frame.own_variables = call_.kind != CallKind::subprogram;
-  frame.modal = call_.kind == CallKind::modal_macro;
+  frame.modal = call_.kind == CallKind::modal_macro || call_.kind == CallKind::block_macro;
   frame.open.clear();
   if (frame.own_variables) variables_.enter(arguments_);
   if (frame.modal) in_modal_call_ = true;

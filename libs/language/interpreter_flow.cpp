@@ -148,6 +148,16 @@ Interpreter::State Interpreter::search_ended() {
   if (search_.purpose == Purpose::program && call_.kind != CallKind::cycle) {
     TextSource* const other = environment_.subprogram(ProgramName(call_.number).view());
     if (other != nullptr) return found(*other, call_.number, {});
+    // The old form: the last four digits are the program, those before them count.
+    constexpr std::uint32_t four_digits = 10000;
+    if (!call_.counted && call_.number > four_digits && call_.number % four_digits != 0) {
+      call_.repetitions = call_.number / four_digits;
+      call_.number %= four_digits;
+      call_.counted = true;
+      search_.wanted = call_.number;
+      reader_.seek(*search_.source, {});
+      return State::searching;
+    }
   }
   if (search_.purpose != Purpose::label || search_.from_top) return fail(not_found_);
   search_.from_top = true;

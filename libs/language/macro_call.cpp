@@ -28,8 +28,8 @@ void fanuc_arguments(const Block& block, Arguments& arguments) {
     written[variable] = offset;
   };
   for (const ArgumentLetter& argument : argument_letters) {
-    const bool centre = argument.letter >= 'I' && argument.letter <= 'K';
-    if (!centre && argument.letter != 'M' && block.has(argument.letter)) {
+    const bool listed = block.centre_count != 0 && argument.letter >= 'I' && argument.letter <= 'K';
+    if (!listed && argument.letter != 'M' && block.has(argument.letter)) {
       set(argument.variable, block.value(argument.letter), block.offset(argument.letter));
     }
   }
@@ -68,9 +68,12 @@ ProgramName::ProgramName(std::uint32_t program) {
 bool find_call(const Block& block, const CycleMCodes& cycle_m_codes, Call& call) {
   for (std::size_t i = 0; i < block.g_count; ++i) {
     const double code = block.g[i].value;
-    if (code < call_codes[0].first) continue;
+    const double tenths = std::round(code * 10);
+    if (tenths < call_codes[0].first) continue;
+    const bool range_fits = std::abs(code * 10 - tenths) < 1e-9;
     for (const CallCode& entry : call_codes) {
-      if (code < entry.first || code > entry.last || code != std::floor(code)) continue;
+      if (!range_fits || tenths < entry.first || tenths > entry.last) continue;
+      if (entry.kind == CallKind::cycle && code != std::floor(code)) continue;
       call = Call{};
       call.kind = entry.kind;
       call.offset = call.program_offset = block.g[i].offset;
@@ -93,7 +96,8 @@ bool find_call(const Block& block, const CycleMCodes& cycle_m_codes, Call& call)
 }
 
 Fault read_call(const Block& block, Call& call) {
-  const bool fanuc = call.kind == CallKind::macro || call.kind == CallKind::modal_macro;
+  const bool fanuc = call.kind == CallKind::macro || call.kind == CallKind::modal_macro ||
+                     call.kind == CallKind::block_macro;
   // In a Fanuc call M is an argument; otherwise the code of the call is the only one.
   const std::size_t codes = std::size_t{block.g_count} + block.m_count;
   if (block.g_count > 1 || codes > (fanuc ? 2u : 1u)) return {AlarmNumber::call_not_alone, call.offset};
@@ -112,7 +116,14 @@ Fault read_call(const Block& block, Call& call) {
 void read_arguments(const Block& block, CallKind kind, bool absolute, Arguments& arguments) {
   arguments.clear();
   arguments.absolute = absolute;
-  if (kind != CallKind::cycle) return fanuc_arguments(block, arguments);
+  if (kind != CallKind::cycle) fanuc_arguments(block, arguments);
+  if (kind == CallKind::block_macro) {
+    if (block.g_count != 0) arguments.values[10] = Value::of(block.g[block.g_count - 1u].value);
+    if (block.has('L')) arguments.values[12] = Value::of(block.value('L'));
+    if (block.has('N')) arguments.values[14] = Value::of(block.value('N'));
+    if (block.has('P')) arguments.values[16] = Value::of(block.value('P'));
+  }
+  if (kind != CallKind::cycle) return;
   for (char name = 'A'; name <= 'Z'; ++name) {
     if (name != 'N' && block.has(name)) {
       arguments.values[static_cast<std::size_t>(name - 'A')] = Value::of(block.value(name));

@@ -29,13 +29,14 @@ enum class CallKind : std::uint8_t {
   subprogram,    ///< M98: shares the variables of its caller
   macro,         ///< G65: a level of its own, letters after Fanuc's argument lists I and II
   modal_macro,   ///< G66: as macro, after each motion until G67
+  block_macro,   ///< G66.1: instead of each block until G67, whose letters are the arguments
   modal_cancel,  ///< G67
   cycle,         ///< G1000..G1999 or a user M code: a level of its own, letter A is #0 .. Z is #25
 };
 
 /// G codes that call programs; they stand alone among the codes of their block.
 struct CallCode {
-  std::uint16_t first;
+  std::uint16_t first;  ///< tenths
   std::uint16_t last;
   CallKind kind;
   const char* meaning;
@@ -44,12 +45,15 @@ struct CallCode {
   const char* example;  ///< a program that shows the code
 };
 inline constexpr std::array call_codes = {
-    CallCode{65, 65, CallKind::macro, "macro call: P program, L repetitions, letters as arguments",
+    CallCode{650, 650, CallKind::macro, "macro call: P program, L repetitions, letters as arguments",
              Origin::fanuc, "0.2", "G65 P9010 A5\nM30\nO9010\nM99"},
-    CallCode{66, 66, CallKind::modal_macro, "macro call as G65 behind each block that moves, until G67",
+    CallCode{660, 660, CallKind::modal_macro, "macro call as G65 behind each block that moves, until G67",
              Origin::fanuc, "0.2", "G66 P9010 A5\nG0 X1\nG67\nM30\nO9010\nM99"},
-    CallCode{67, 67, CallKind::modal_cancel, "end of the modal macro call", Origin::fanuc, "0.2", "G67"},
-    CallCode{1000, 1999, CallKind::cycle,
+    CallCode{661, 661, CallKind::block_macro,
+             "macro call instead of each block behind, whose letters are the arguments, until G67",
+             Origin::fanuc, "0.2", "G66.1 P9010\nX1 Y2\nG67\nM30\nO9010\nG0 X#24 Y#25\nM99"},
+    CallCode{670, 670, CallKind::modal_cancel, "end of the modal macro call", Origin::fanuc, "0.2", "G67"},
+    CallCode{10000, 19990, CallKind::cycle,
              "user cycle: the program of that number in USERDEF.CYC, letters as arguments", Origin::hnc,
              "0.2", "G1007 X1"},
 };
@@ -58,6 +62,7 @@ struct Call {
   CallKind kind = CallKind::subprogram;
   std::uint32_t number = 0;  ///< of the program
   std::uint32_t repetitions = 1;
+  bool counted = true;               ///< L was given, or no number can hold the repetitions
   std::uint16_t offset = 0;          ///< of the code in its line
   std::uint16_t program_offset = 0;  ///< of the word that names the program
 };
@@ -71,7 +76,8 @@ bool find_call(const Block& block, const CycleMCodes& cycle_m_codes, Call& call)
 /// Completes a call that find_call has found: P, L and that nothing else is in the block.
 Fault read_call(const Block& block, Call& call);
 
-/// The letters of the block as variables.
+/// The letters of the block as variables. Of a block that CallKind::block_macro has swallowed also G (the
+/// last one), L, N and P: #10, #12, #14 and #16.
 void read_arguments(const Block& block, CallKind kind, bool absolute, Arguments& arguments);
 
 /// Fanuc's argument list I: the variable each letter becomes; letters that are no arguments are not in it.

@@ -47,7 +47,8 @@ void read_side(const Parameters& parameters, const std::string& side, std::uint1
                 "digit " + std::to_string(digits[i]) + " is not 3 (A), 4 (B), 5 (C), 6 (U), 7 (V) or 8 (W)");
     *axes[i] = {vector(parameters, side + "_direction" + slots[i], channel),
                 vector(parameters, side + "_offset" + slots[i], channel),
-                static_cast<std::size_t>(digits[i] - 3)};
+                static_cast<std::size_t>(digits[i] - 3),
+                vector(parameters, side + "_correction" + slots[i], channel)};
   }
 }
 
@@ -95,6 +96,10 @@ std::string to_string(ChainError error) {
       return "a linear axis stands beyond a rotary axis of its side: X, Y and Z must be neighbours";
     case ChainError::too_many_rotary:
       return "more than three rotary axes on one side";
+    case ChainError::two_corrections:
+      return "two corrections with no rotary axis between them: one does the same";
+    case ChainError::idle_correction:
+      return "a correction between table and head of a closed chain does nothing";
     case ChainError::linear_missing:
       return "each of X, Y and Z must be there once";
   }
@@ -114,6 +119,8 @@ geometry::Chain make_chain(const Parameters& parameters, std::uint16_t channel) 
   for (std::uint32_t axis = 0; axis < 3; ++axis)
     p.linear_direction.col(axis) = vector(parameters, "linear_direction", channel, axis * 3);
   p.origin = vector(parameters, "chain_origin", channel);
+  p.open = parameters.integer("chain_open", channel) != 0;
+  p.base_correction = vector(parameters, "base_correction", channel);
   auto made = geometry::Chain::make(p);
   if (const auto* error = std::get_if<ChainError>(&made)) {
     std::string where =
@@ -179,6 +186,7 @@ std::map<std::uint32_t, ParameterValue> parameters_of_chain(const geometry::Chai
       type += place * static_cast<double>(axis.angle + 3);
       set_vector(side + "_direction" + slots[i], 0, axis.direction);
       set_vector(side + "_offset" + slots[i], 0, axis.offset);
+      set_vector(side + "_correction" + slots[i], 0, axis.correction);
     }
     set(side + "_type", 0, type);
   };
@@ -188,17 +196,48 @@ std::map<std::uint32_t, ParameterValue> parameters_of_chain(const geometry::Chai
   for (std::uint32_t axis = 0; axis < 3; ++axis)
     set_vector("linear_direction", axis * 3, p.linear_direction.col(axis));
   set_vector("chain_origin", 0, p.origin);
+  set_vector("base_correction", 0, p.base_correction);
+  set("chain_open", 0, p.open ? 1 : 0);
+  const auto names = geometry::correction_names(description);
+  const auto set_name = [&](const std::string& name, const std::string& text) {
+    if (text.empty()) return;
+    const auto number = Catalogue::instance().by_name(name).number(channel);
+    if (const auto refused = Catalogue::instance().check(number, 0, text); !refused.empty())
+      throw KinematicsError("kinematics_invalid", refused);
+    values[number] = {0, text};
+  };
+  for (std::size_t i = 0; i < slots.size(); ++i) {
+    set_name(std::string("table_correction_name") + slots[i], names.table[i]);
+    set_name(std::string("head_correction_name") + slots[i], names.head[i]);
+  }
+  set_name("base_correction_name", names.base);
   Parameters all;
   all.values = values;
   make_chain(all, channel);
   return values;
 }
 
+std::vector<CorrectionElement> correction_elements(const Parameters& parameters, std::uint16_t channel) {
+  std::vector<CorrectionElement> elements;
+  const auto add = [&](const std::string& name, const std::string& vector_name, double sign) {
+    const auto text = parameters.text(name, channel);
+    if (!text.empty())
+      elements.push_back({text, Catalogue::instance().by_name(vector_name).number(channel), sign});
+  };
+  for (const char* slot : slots)
+    add(std::string("table_correction_name") + slot, std::string("table_correction") + slot, 1);
+  add("base_correction_name", "base_correction", 1);
+  for (const char* slot : slots)
+    add(std::string("head_correction_name") + slot, std::string("head_correction") + slot, -1);
+  return elements;
+}
+
 bool is_chain_parameter(std::uint32_t number) {
   if (number / 10000 != 4) return false;
   const auto offset = number % 1000;
   return (offset >= 400 && offset <= 402) || (offset >= 410 && offset <= 422) ||
-         (offset >= 425 && offset <= 437) || (offset >= 920 && offset <= 943);
+         (offset >= 425 && offset <= 437) || (offset >= 920 && offset <= 943) ||
+         (offset >= 960 && offset <= 988);
 }
 
 }  // namespace trunnion::machine

@@ -28,7 +28,7 @@ class KinematicsError : public std::runtime_error {
 /// Name of the alarm about an error of configuring a channel's kinematics.
 std::string alarm_of(const std::exception& error);
 
-/// Parameters 04c400..04c437 and 04c920..04c943. Throws KinematicsError.
+/// Parameters 04c400..04c437, 04c920..04c943 and 04c960..04c988. Throws KinematicsError.
 geometry::Chain make_chain(const Parameters& parameters, std::uint16_t channel);
 
 /// One line for each direction vector that is used and not one long (beyond 1e-4): it is normalized.
@@ -40,6 +40,16 @@ geometry::AngleTravels rotary_travels(const Parameters& parameters, std::uint16_
 /// The parameters that describe the same chain: the form in which services get it. Throws KinematicsError.
 std::map<std::uint32_t, ParameterValue> parameters_of_chain(const geometry::ChainDescription& description,
                                                             std::uint16_t channel);
+
+/// A correction of the kinematic chain that has a name: what a measurement writes.
+struct CorrectionElement {
+  std::string name;
+  std::uint32_t number = 0;  ///< of the parameter with X; Y and Z follow
+  double sign = 1;           ///< the parameters are this times the vector towards the tool, mm
+};
+
+/// Those of a channel, of the table from the workpiece, then of the head from the tool.
+std::vector<CorrectionElement> correction_elements(const Parameters& parameters, std::uint16_t channel);
 
 /// True for the numbers parameters_of_chain() may return, of any channel.
 bool is_chain_parameter(std::uint32_t number);

@@ -64,4 +64,41 @@ double acceleration_bound(const std::vector<PathSample>& path, const motion::Lim
   return time;
 }
 
+// The ramp in the plane of speed v and acceleration u: backwards from (top, 0) with the strongest decrease of
+// u that the jerk allows, forwards from (0, 0) with the strongest increase below that curve. The way down is
+// the same in reverse.
+double circle_time(double radius, double acceleration, double jerk) {
+  const double top = std::min(std::sqrt(acceleration * radius), 0.999 * std::cbrt(jerk * radius * radius));
+  const double step = 2e-6;
+  const auto along = [&](double v, double u) {  // jerk left along the path by what it is across
+    const double across = 3 * v * u / radius;
+    return std::sqrt(std::max(0.0, jerk * jerk - across * across));
+  };
+  const auto most = [&](double v) {
+    const double normal = v * v / radius;
+    return std::min(std::sqrt(std::max(0.0, acceleration * acceleration - normal * normal)),
+                    v > 0 ? 0.999 * jerk * radius / (3 * v) : acceleration);
+  };
+  constexpr std::size_t parts = 4096;
+  std::vector<double> last(parts + 1, acceleration);  // the curve of the end over v
+  std::size_t filled = parts;
+  for (double v = top, u = 0; filled > 0;) {
+    const double falls = along(v, u) - v * v * v / (radius * radius);
+    u = std::min(u + std::max(falls, 1e-3 * jerk) * step, most(v));
+    v = std::max(0.0, v - std::max(u, 1e-4 * acceleration) * step);
+    const auto index = static_cast<std::size_t>(v / top * parts);
+    while (filled > index) last[--filled] = u;
+  }
+  double v = 0, u = 0, time = 0, way = 0;
+  while (v < top * (1 - 1e-5)) {
+    u += std::min(jerk, v * v * v / (radius * radius) + along(v, u)) * step;
+    u = std::min({u, most(v), last[static_cast<std::size_t>(v / top * parts)]});
+    way += v * step;
+    v += std::max(u, 1e-3 * acceleration) * step;
+    time += step;
+  }
+  constexpr double pi = 3.14159265358979323846;
+  return 2 * time + std::max(0.0, 2 * pi * radius - 2 * way) / top;
+}
+
 }  // namespace trunnion::planning

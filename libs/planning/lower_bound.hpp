@@ -22,4 +22,11 @@ struct PathSample {
 /// Seconds. Needs at least two samples.
 double acceleration_bound(const std::vector<PathSample>& path, const motion::Limits& limits);
 
+/// Least time for a full circle from rest to rest when the vectors of acceleration and jerk, whatever their
+/// direction, stay within the limits of one axis: speed sqrt(a r) (or cbrt(j r^2)), reached and left in ramps
+/// in which the acceleration along the path u, its normal part v^2/r, and the two parts of the jerk,
+/// u' - v^3/r^2 along the path and 3 v u / r across it, share the limits. Axes whose directions are used one
+/// by one may be a little faster. Millimetres and seconds, all above 0.
+double circle_time(double radius, double acceleration, double jerk);
+
 }  // namespace trunnion::planning

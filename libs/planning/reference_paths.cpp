@@ -145,14 +145,18 @@ ReferencePath dense_three_axis(double length) { return along_cap("dense three-ax
 
 std::string program_text(const ReferencePath& path) {
   std::string text = "G90 G94 G64\n";
+  if (path.transformation == language::Transformation::rtcp) text += "T1 M6\nG43.4 H1\n";
+  std::array<bool, language::axis_count> moves{true, true, true};
+  for (const Command& command : path.program) {
+    for (std::size_t i = 0; i < moves.size(); ++i) moves[i] = moves[i] || command.target[i] != path.start[i];
+  }
   char word[64];
   double feed = -1;
   for (const Command& command : path.program) {
     const bool arc = command.kind == CommandKind::arc;
     text += arc ? (command.arc.clockwise ? "G2" : "G3") : "G1";
     for (std::size_t i = 0; i < language::axis_count; ++i) {
-      const bool rotary = i >= language::A && i <= language::C;
-      if (i > language::C || (rotary && path.transformation == language::Transformation::none)) continue;
+      if (!moves[i]) continue;
       std::snprintf(word, sizeof word, " %c%.4f", language::axis_letters[i], command.target[i]);
       text += word;
     }

@@ -35,7 +35,8 @@ ReferencePath wavy_cap(double length = 300);
 /// The same line without rotary axes.
 ReferencePath dense_three_axis(double length = 300);
 
-/// The path as a program of the interpreter's language (one block per command).
+/// The path as a program of the interpreter's language (one block per command), for a machine with an A C
+/// table and a tool 1 when it goes through a chain.
 std::string program_text(const ReferencePath& path);
 
 }  // namespace trunnion::planning

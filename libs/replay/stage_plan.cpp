@@ -194,9 +194,9 @@ class StagePlan {
       } else if (any) {
         executed = feedback_[fed].executed;
         Step step{feedback_[fed++].message, {}, false};
-        // With newer feedback at hand it would join at a later cut than the one chosen.
+        // With newer feedback at hand, and its inputs still on the way, it would join at a later cut.
         for (auto& [channel, lane] : lanes_)
-          if (lane.joins_at > 0 && lane.next > 0 && !lane.done.empty() && !lane.joined) {
+          if (lane.next > 0 && !lane.done.empty() && !lane.joined) {
             step.needs.push_back(mark_of(channel, lane.done.front()));
             lane.joined = true;
           }

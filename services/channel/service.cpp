@@ -10,9 +10,9 @@
 
 namespace trunnion::channel {
 namespace {
-constexpr double history_seconds = 0.3;  // for the history of the drive's feedback to arrive
-constexpr double record_seconds = 0.2;   // between two records of the executed line
-constexpr double text_patience = 0.5;    // without the text that motion waits for, before somebody is told
+constexpr double history_pause = 0.3;   // without feedback, after which no more history is on its way
+constexpr double record_seconds = 0.2;  // between two records of the executed line
+constexpr double text_patience = 0.5;   // without the text that motion waits for, before somebody is told
 }  // namespace
 
 ChannelService::ChannelService(node::Node& node)
@@ -163,7 +163,10 @@ void ChannelService::start_stream() {
   const int frame = static_cast<int>(core_.machine().frame_cycles(node_.options().virtual_time));
   node_.bus().set_depth({stream::stream_depth(p.integer("stream_lead"), frame, 1)});
   frame_writer_.emplace(node_.bus().writer(topics::path_frame));
-  feedback_reader_.emplace(node_.bus().reader(topics::feedback_frame));
+  auto& bus = node_.bus();
+  present_reader_.emplace(
+      bus.backend().reader(bus::describe(topics::feedback_frame), {false, 0}, &bus.signal()));
+  feedback_reader_.emplace(bus.reader(topics::feedback_frame));
 }
 
 void ChannelService::watch_alarms() {
@@ -257,24 +260,31 @@ void ChannelService::drain() {
   watch_alarms();
 }
 
+// The history of the drive's feedback arrives before its newest, and on a busy machine takes its time: to go
+// on from an older cut would be to cut again what was executed. What a reader without history gets is the
+// present.
+void ChannelService::recover() {
+  if (core_.recovered() || !core_.link().has_feedback()) return;
+  if (!have_present_) have_present_ = present_reader_->take(present_);
+  const bool caught_up = have_present_ && feedback_.tick >= present_.tick &&
+                         feedback_.first + feedback_.count >= present_.first + present_.count;
+  if (!caught_up && node::monotonic_seconds() - last_feedback_ < history_pause) return;
+  if (hand_over_) core_.take_over(*hand_over_);
+  hand_over_.reset();
+  core_.recover();
+  if (core_.recovered()) present_reader_.reset();
+}
+
 void ChannelService::pump() {
   drain();
   if (!core_.configured() || !have_tools_ || !have_offsets_ || !have_programs_) return publish();
   if (!frame_writer_) start_stream();
   while (feedback_reader_->take(feedback_)) {
     ++frames_in_;
+    last_feedback_ = node::monotonic_seconds();
     core_.on_feedback(feedback_);
   }
-  // The history of the drive's feedback arrives before its newest.
-  if (!core_.recovered() && core_.link().has_feedback()) {
-    const double now = node::monotonic_seconds();
-    if (first_feedback_ == 0) first_feedback_ = now;
-    if (now - first_feedback_ > history_seconds) {
-      if (hand_over_) core_.take_over(*hand_over_);
-      hand_over_.reset();
-      core_.recover();
-    }
-  }
+  recover();
   watch_copies();
   answer_requests();
   fetch_text();

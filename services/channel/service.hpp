@@ -22,6 +22,7 @@ class ChannelService : public node::Service {
 
  private:
   void start_stream();
+  void recover();
   void drain();
   void answer_requests();
   void fetch_text();
@@ -56,6 +57,8 @@ class ChannelService : public node::Service {
   bus::Writer<idl::stream::StreamRequest> stream_writer_;
   std::optional<bus::Writer<idl::stream::PathFrame>> frame_writer_;
   std::optional<bus::Reader<idl::stream::FeedbackFrame>> feedback_reader_;
+  std::optional<bus::Reader<idl::stream::FeedbackFrame>>
+      present_reader_;  ///< without history; until recovered
 
   using AlarmKey = std::array<std::uint32_t, 3>;
   std::map<AlarmKey, std::string> holding_alarms_;
@@ -70,10 +73,11 @@ class ChannelService : public node::Service {
   bool plc_hold_ = false;
   bool have_tools_ = false, have_offsets_ = false, have_programs_ = false;
   idl::stream::PathFrame frame_;
-  idl::stream::FeedbackFrame feedback_;
+  idl::stream::FeedbackFrame feedback_, present_;
+  bool have_present_ = false;
   idl::program::ProgramRequest wanted_;
   std::uint64_t frames_in_ = 0, frames_out_ = 0;
-  double last_state_ = 0, first_feedback_ = 0;
+  double last_state_ = 0, last_feedback_ = 0;
   RunState last_run_ = RunState::IDLE;
   bool changed_ = true;
 };

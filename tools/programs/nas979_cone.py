@@ -116,10 +116,13 @@ def program(machine, size):
     yield "G53 G0 Z0"
     yield f"G0 {rotary(machine, (a, c))}"
     yield "G43.4 H1"
-    yield f"G0 {linear(add(tip, tool, RETRACT))}"
-    yield f"G1 {linear(tip)} F{feed}"
-    for tip, a, c, tool in path[1:]:
+    # Exact stops where the contour begins and ends: how a corner is rounded there in time depends on the machine.
+    yield f"G9 G0 {linear(add(tip, tool, RETRACT))}"
+    yield f"G9 G1 {linear(tip)} F{feed}"
+    for tip, a, c, _ in path[1:-1]:
         yield f"G1 {linear(tip)} {rotary(machine, (a, c))}"
+    tip, a, c, tool = path[-1]
+    yield f"G9 G1 {linear(tip)} {rotary(machine, (a, c))}"
     yield f"G1 {linear(add(tip, tool, RETRACT))}"
     yield "G49"
     yield "G53 G0 Z0"

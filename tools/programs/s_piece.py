@@ -106,10 +106,13 @@ def program(machine):
     yield "G53 G0 Z0"
     yield f"G0 {rotary(machine, pair)}"
     yield "G43.4 H1"
-    yield f"G0 {linear(add(tip, tool, RETRACT))}"
-    yield f"G1 {linear(tip)} F{round(SPEED * FEED_PER_TOOTH * TEETH)}"
-    for tip, tool, pair in path[1:]:
+    # Exact stops where the contour begins and ends: how a corner is rounded there in time depends on the machine.
+    yield f"G9 G0 {linear(add(tip, tool, RETRACT))}"
+    yield f"G9 G1 {linear(tip)} F{round(SPEED * FEED_PER_TOOTH * TEETH)}"
+    for tip, _, pair in path[1:-1]:
         yield f"G1 {linear(tip)} {rotary(machine, pair)}"
+    tip, tool, pair = path[-1]
+    yield f"G9 G1 {linear(tip)} {rotary(machine, pair)}"
     yield f"G1 {linear(add(tip, tool, RETRACT))}"
     yield "G49"
     yield "G53 G0 Z0"

@@ -38,7 +38,8 @@ TEST(ChainElements, an_ac_table_as_a_list_gives_the_bits_of_its_parameters) {
                             rotary(0, {-1, 0, 0}), linear(1), linear(0), linear(2)},
                            true};
   ChainParameters p = ac_table();
-  p.table_1->offset = Vec3(0, 0.1, 0) + Vec3(0, 0.0028, 0);
+  p.table_1->offset = Vec3(0, 0.1, 0);
+  p.table_1->correction = Vec3(0, 0.0028, 0);
   p.table_2->offset = Vec3(-200, -190, -516) + Vec3(-0.3605, -0.1897, -0.0118);
   expect_same(chain_of(d), make(p));
 }
@@ -105,6 +106,9 @@ TEST(ChainElements, refuses_an_order_it_cannot_build) {
   EXPECT_EQ(error({linear(0), linear(1)}), ChainError::linear_missing);
   EXPECT_EQ(error({linear(0), linear(1), linear(1), linear(2)}), ChainError::linear_missing);
   EXPECT_EQ(error({linear(0), c, linear(1), linear(2)}), ChainError::linear_between_rotary);
+  const auto corr = correction({1, 0, 0});
+  EXPECT_EQ(error({corr, corr, c, linear(0), linear(1), linear(2)}), ChainError::two_corrections);
+  EXPECT_EQ(error({c, corr, linear(0), linear(1), linear(2)}), ChainError::idle_correction);
   EXPECT_EQ(error({c, b, c, b, linear(0), linear(1), linear(2)}), ChainError::too_many_rotary);
 }
 

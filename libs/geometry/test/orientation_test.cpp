@@ -278,5 +278,29 @@ TEST(Angle, sine_and_cosine_are_those_of_the_c_library_and_exact_at_quarter_turn
   EXPECT_EQ(sine_cosine(360.0 * 1e15).cosine, 1);
 }
 
+// Against the C library in 80 bits, for vectors of any size and as near to the axes as they come.
+TEST(Angle, the_arc_tangent_is_that_of_the_c_library_and_exact_on_the_axes) {
+  std::mt19937_64 random(24);
+  std::uniform_real_distribution<double> part(-1, 1), exponent(-20, 20);
+  for (int i = 0; i < 200000; ++i) {
+    const double scale = std::pow(10, exponent(random));
+    const double y = part(random) * (i % 2 == 0 ? 1 : std::pow(10, exponent(random))) * scale;
+    const double x = part(random) * scale;
+    const long double exact = std::atan2(static_cast<long double>(y), static_cast<long double>(x));
+    const double size = std::min(1.0, std::abs(static_cast<double>(exact)));
+    ASSERT_NEAR(static_cast<double>(arc_tangent(y, x) - exact), 0, std::abs(exact) < 1 ? 4e-16 * size : 5e-16)
+        << y << " " << x;
+  }
+  const double pi = std::numbers::pi, inf = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(arc_tangent(0, 2), 0);
+  EXPECT_EQ(arc_tangent(2, 0), pi / 2);
+  EXPECT_EQ(arc_tangent(-2, 0), -pi / 2);
+  EXPECT_EQ(arc_tangent(0, -2), pi);
+  EXPECT_EQ(arc_tangent(3, 3), pi / 4);
+  EXPECT_EQ(arc_tangent(0, 0), 0);
+  EXPECT_TRUE(std::isnan(arc_tangent(inf, 1)) && std::isnan(arc_tangent(1, std::nan(""))) &&
+              std::isnan(arc_tangent(std::nan(""), 1)));
+}
+
 }  // namespace
 }  // namespace trunnion::geometry

@@ -1,26 +1,13 @@
 // The interpreter allocates when it is made and never again.
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <new>
-
 #include "test_machine.hpp"
-
-namespace {
-std::size_t allocations = 0;
-}
-
-// Kept out of line: inlined, malloc and delete look mismatched to the compiler.
-[[gnu::noinline]] void* operator new(std::size_t size) {
-  ++allocations;
-  if (void* const memory = std::malloc(size == 0 ? 1 : size)) return memory;
-  throw std::bad_alloc();
-}
-[[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
-[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+#include "testing_support/allocation_count.hpp"
 
 namespace trunnion::language::test {
 namespace {
+
+using testing_support::allocations;
 
 TEST(Allocation, NoneFromStartToEndWithCallsArcsAndTransformations) {
   TestMachine machine;
@@ -64,6 +51,36 @@ TEST(Allocation, NoneWithFramesCyclesCurvesAndCompensation) {
   while (step == Step::command || step == Step::working) step = interpreter.next(command);
   EXPECT_EQ(allocations, before);
   EXPECT_EQ(step, Step::end) << interpreter.alarm().line << interpreter.alarm().text.data();
+}
+
+/// A program of any length, made while it is read: one line again and again.
+struct EndlessText : TextSource {
+  ReadResult read(std::uint64_t offset, char* buffer, std::size_t capacity) override {
+    if (offset >= bytes) return {ReadStatus::end, 0};
+    const std::size_t size = std::min<std::uint64_t>(capacity, bytes - offset);
+    for (std::size_t i = 0; i < size; ++i) buffer[i] = line[(offset + i) % line.size()];
+    return {ReadStatus::bytes, size};
+  }
+  std::string_view line =
+      "G1 X1 Y2 (a comment that makes a gigabyte of fewer blocks, for the length of the text is the point)\n";
+  std::uint64_t bytes = 0;
+};
+
+TEST(Allocation, NoneHoweverLongTheProgramIs) {
+  TestMachine machine;
+  EndlessText text;
+  text.bytes = text.line.size() * 1000000;
+  Interpreter interpreter(machine);
+  ModalState modal;
+  modal.feed = 100;
+  Command command;
+  const std::size_t before = allocations;
+  interpreter.start(text, {}, modal);
+  Step step = Step::command;
+  while (step == Step::command || step == Step::working) step = interpreter.next(command);
+  EXPECT_EQ(allocations, before);
+  EXPECT_EQ(step, Step::end) << interpreter.alarm().text.data();
+  EXPECT_EQ(interpreter.blocks(), 1000000u);
 }
 
 TEST(Allocation, NoneForAnAlarm) {

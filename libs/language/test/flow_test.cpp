@@ -40,6 +40,22 @@ TEST(Flow, SubprogramInTheSameTextRunsLTimes) {
   EXPECT_EQ(result.commands[4].line, 4u);
 }
 
+TEST(Flow, WithoutLTheDigitsBeforeTheLastFourCountTheCallsUnlessThereIsSuchAProgram) {
+  TestMachine machine;
+  const char* program = "G91 G0\nM98 P30020\nM98 P20020\nM98 P20\nM98 P20 L2\nM30\n%20\nX1\nM99\n";
+  std::vector<std::string> calls(8);
+  for (int i = 0; i < 8; ++i) calls[static_cast<std::size_t>(i)] = "rapid X" + std::to_string(i + 1);
+  calls.emplace_back("end 30");
+  EXPECT_THAT(stream(run(machine, program)), ElementsAreArray(calls));
+  EXPECT_THAT(stream(run(machine, "G91 G0\nM98 P30020\nM30\n%20\nX1\nM99\n%30020\nY1\nM99\n")),
+              ElementsAre("rapid Y1", "end 30"));
+  // With L the number is a number; four zeros are no program.
+  for (const char* wrong : {"M98 P30020 L2\nM30\nO20\nM99\n", "M98 P30000\nM30\nO3\nM99\n"}) {
+    EXPECT_EQ(run(machine, wrong).alarm.number, AlarmNumber::subprogram_missing) << wrong;
+  }
+  EXPECT_EQ(run(machine, "M98 P30020\nM98 P30020 L2\nM30\nO20\nM99\n").alarm.line, 2u);
+}
+
 TEST(Flow, CallFollowsTheMotionOfItsBlock) {
   TestMachine machine;
   EXPECT_THAT(stream(run(machine, "G0 X1 M98 P20\nX3\nM2\nO20\nX2\nM99\n")),

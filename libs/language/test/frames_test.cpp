@@ -1,10 +1,10 @@
-// Frames: offsets, mirror, scaling, rotation, polar words, diameters, and the order they act in.
+// Frames can be undone, and their properties.
 #include <gtest/gtest.h>
 
 #include <random>
 
-#include "golden.hpp"
 #include "language/program_frame.hpp"
+#include "test_machine.hpp"
 
 namespace trunnion::language::test {
 namespace {
@@ -15,116 +15,6 @@ TestMachine offsets() {
   machine.more_offsets[48] = {7, 8, 9, 0, 0, 0, 0, 0, 0};
   machine.tools[1] = {50, 0.5, 4, 0.1};
   return machine;
-}
-
-TEST(Frames, Offsets) {
-  TestMachine machine = offsets();
-  const Golden goldens[] = {
-      {"additional offset", "G54.1 P48 G0 X1 Z1\n", {"rapid X8 Z10", "end 0"}},
-      {"local offset adds to every work offset",
-       "G52 X10 Y20\nG0 X1 Y1\nG55 X1\nG52 X0 Y0\nX1\n",
-       // G54: 10 + 1, 20 + 1. G55: 100 + 10 + 1; Y stays at the machine's 21.
-       {"rapid X11 Y21", "rapid X111 Y21", "rapid X101 Y21", "end 0"}},
-      {"an incremental local offset moves on", "G52 X10\nG91 G52 X5\nG90 G0 X0\n", {"rapid X15", "end 0"}},
-      {"G92 gives the position its name, in every work offset",
-       // At machine X10: X0 is 10 from then on; in G55 it is 100 + 10.
-       "G0 X10\nG92 X0\nG0 X1\nG55 X1\nG92.1\nX1\n",
-       {"rapid X10", "rapid X11", "rapid X111", "rapid X101", "end 0"}},
-      {"G92 counts the tool length", "G43 H1\nG92 Z5\nG0 Z6\n", {"frame none L50.5", "rapid Z1", "end 0"}},
-      {"table offset changes at once and is passed on",
-       "G10 L2 P1 X5 Y6\nG0 X1\nG91 G10 L2 P1 X2\nG90 X1\nG10 L20 P2 Z4\nG54.1 P2 Z0\n",
-       {"table1 0 X5 Y6", "rapid X6", "table1 0 X7 Y6", "rapid X8", "table1 7 Z4", "rapid X8 Z4", "end 0"}},
-      {"offset of another number moves nothing",
-       "G10 L2 P3 X5\nG0 X1\n",
-       {"table1 2 X5", "rapid X1", "end 0"}},
-      {"tool length and wear by the program",
-       // 50 + 0.5, then 40 + 0.5, then 40 + 0.5 + 0.25
-       "G43 H1 G0 Z0\nG10 L10 P1 R40\nG43 H1 Z0\nG91 G10 L11 P1 R0.25\nG90 G43 H1 Z0\n",
-       {"frame none L50.5", "rapid Z50.5", "table2 1 40", "frame none L40.5 Z50.5", "rapid Z40.5",
-        "table3 1 0.75", "frame none L40.75 Z40.5", "rapid Z40.75", "end 0"}},
-      {"radius and its wear", "G20 G10 L12 P1 R1\nG10 L13 P1 R0\n", {"table4 1 25.4", "table5 1 0", "end 0"}},
-      {"length and radius in one block, T selects nothing",
-       "G10 P9 Z128 R6 T01\nG43 H9 G0 Z0\n",
-       {"table2 9 128", "table4 9 6", "frame none L128", "rapid Z128", "end 0"}},
-      {"parameters",
-       "G10 L50\nN10010 R3\nN100 P1 R2.5\nG11\nG10 L50 P40030 R500\n",
-       {"table6 10010 3", "table6 1100 2.5", "table6 40030 500", "end 0"}},
-      {"G44 subtracts", "G44 H1 G0 Z100\n", {"frame none L-50.5", "rapid Z49.5", "end 0"}},
-      {"H alone exchanges the length, H0 takes it away",
-       "H0 G0 Z1\nG43 H1\nZ1\nH0 Z1\n",
-       {"rapid Z1", "frame none L50.5 Z1", "rapid Z51.5", "frame none L0 Z51.5", "rapid Z1", "end 0"}},
-  };
-  expect_streams(machine, goldens);
-}
-
-TEST(Frames, Shapes) {
-  TestMachine machine = offsets();
-  const Golden goldens[] = {
-      {"scaling about a point", "G51 X10 Y0 Z0 P2\nG0 X11 Y1\n", {"rapid X12 Y2", "end 0"}},
-      {"scaling per axis, off again goes on from the position",
-       "G51 X0 Y0 Z0 I2 J3\nG0 X1 Y1 Z1\nG50\nG91 X1\n",
-       {"rapid X2 Y3 Z1", "rapid X3 Y3 Z1", "end 0"}},
-      {"scaling without a point is about the position",
-       "G0 X10\nG51 P2\nG0 X11\n",
-       {"rapid X10", "rapid X12", "end 0"}},
-      {"incremental words are scaled too", "G51 X5 Y5 Z5 P0.5\nG91 G0 X4\n", {"rapid X2", "end 0"}},
-      {"a negative factor mirrors, and a circle turns round",
-       "G51 X0 Y0 Z0 I-1\nG0 X10\nG3 X0 Y10 I-10 F100\n",
-       {"rapid X-10", "arc Y10 cw 0 0 0 90deg F100", "end 0"}},
-      {"equal factors scale circles",
-       "G51 X0 Y0 Z0 P2\nG0 X10\nG3 X0 Y10 R10 F100\n",
-       {"rapid X20", "arc Y20 ccw 0 0 0 90deg F100", "end 0"}},
-      {"mirror about a coordinate, per axis and off",
-       "G51.1 X10\nG0 X11 Y1\nG24 Y0\nX11 Y1\nG50.1 X0\nX11 Y1\nG25\nX11 Y1\n",
-       {"rapid X9 Y1", "rapid X9 Y-1", "rapid X11 Y-1", "rapid X11 Y1", "end 0"}},
-      {"two mirrors leave the sense of a circle",
-       "G51.1 X0 Y0\nG0 X10\nG3 X0 Y10 I-10 F100\n",
-       {"rapid X-10", "arc Y-10 ccw 0 0 0 90deg F100", "end 0"}},
-      {"a mirrored rotary axis", "G51.1 A0\nG0 A30\n", {"rapid A-30", "end 0"}},
-      // (10, 0) turned by 90 degrees about (5, 0) is (5, 5).
-      {"rotation about a point", "G68 X5 Y0 R90\nG0 X10 Y0\n", {"rapid X5 Y5", "end 0"}},
-      {"rotation turns the centre of a circle",
-       "G68 X0 Y0 P90\nG0 X10\nG3 X0 Y10 I-10 F100\n",
-       {"rapid Y10", "arc X-10 ccw 0 0 0 90deg F100", "end 0"}},
-      {"rotation in ZX", "G18 G68 X0 Z0 R90\nG0 Z10\n", {"rapid X10", "end 0"}},
-      {"incremental angles add", "G68 X0 Y0 R30\nG91 G68 X0 Y0 R60\nG90 G0 X10\n", {"rapid Y10", "end 0"}},
-      {"G69 goes on from the position",
-       "G68 X0 Y0 R90\nG0 X10\nG69\nG0 X1\n",
-       {"rapid Y10", "rapid X1 Y10", "end 0"}},
-      // mirror: X 1 -> -1; scaling by 2: -2, Y 0; rotation by 90 about 0: (0, -2); G52 X100: (100, -2).
-      {"mirror, then scaling, then rotation, then offsets, whatever the order they were called in",
-       "G68 X0 Y0 R90\nG51 X0 Y0 Z0 P2\nG51.1 X0\nG52 X100\nG0 X1 Y0\n",
-       {"rapid X100 Y-2", "end 0"}},
-      // The centre (10, 0) is scaled to (20, 0) and the point (11, 0) to (22, 0): 2 beside it, so 2 above it.
-      {"the centre of rotation is scaled with the drawing",
-       "G51 X0 Y0 Z0 P2\nG68 X10 Y0 R90\nG0 X11 Y0\n",
-       {"rapid X20 Y2", "end 0"}},
-      {"a frame moves nothing by itself",
-       "G0 X3 Y4\nG68 X0 Y0 R90\nG51 P2\nG51.1 X7\nG0 A1\n",
-       {"rapid X3 Y4", "rapid X3 Y4 A1", "end 0"}},
-      {"polar words",
-       "G16 G0 X10 Y90\nY180\nX20\nG91 Y90\nG90 G15 X1\n",
-       // radius 10 at 90, 180 degrees; radius 20 at 180; 90 degrees on: 270.
-       {"rapid Y10", "rapid X-10", "rapid X-20", "rapid Y-20", "rapid X1 Y-20", "end 0"}},
-      {"an incremental polar radius is about the position",
-       "G0 X5\nG16 G91 X10 Y90\n",
-       {"rapid X5", "rapid X5 Y10", "end 0"}},
-  };
-  expect_streams(machine, goldens);
-}
-
-TEST(Frames, DiameterProgrammingHalvesXWords) {
-  TestMachine machine;
-  machine.diameter = true;
-  const Golden goldens[] = {
-      {"absolute and incremental, but not I and R",
-       "G18 G0 X20 Z0\nG91 X10\nG90 G2 X10 Z0 I-5 F100\n",
-       {"rapid X10", "rapid X15", "arc X5 cw 10 0 0 180deg F100", "end 0"}},
-      {"offsets of the program are diameters, those of the table are not",
-       "G52 X20\nG0 X0\nG10 L2 P1 X20\nX0\n",
-       {"rapid X10", "table1 0 X20", "rapid X30", "end 0"}},
-  };
-  expect_streams(machine, goldens);
 }
 
 AxisValues random_point(std::mt19937_64& random) {

@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "golden.hpp"
 #include "language/nurbs_curve.hpp"
+#include "test_machine.hpp"
 
 namespace trunnion::language::test {
 namespace {
@@ -37,19 +37,6 @@ TEST(Nurbs, QuarterCircleIsOneWithinTheTolerance) {
   EXPECT_GE(chords, 25u);
   EXPECT_LE(chords, 60u);
   EXPECT_FALSE(result.commands[result.commands.size() - 2].chord);
-}
-
-TEST(Nurbs, OrderTwoIsThePolygon) {
-  TestMachine machine;
-  const Golden goldens[] = {
-      {"polygon: the first point may be left out",
-       "G6.2 P2 K0 F100\nK0 X5\nK1 Y5\nK2\nK2\nG0 X1\n",
-       {"line X5 F100", "line X5 Y5 F100", "rapid X1 Y5", "end 0"}},
-      {"incremental points and frames",
-       "G52 X100\nG68 X0 Y0 R90\nG0 X0 Y0\nG91 G6.2 P2 K0 F100\nK0 X5\nK1 Y5\nK2\nK2\n",
-       {"rapid X100", "line X100 Y5 F100", "line X95 Y5 F100", "end 0"}},
-  };
-  expect_streams(machine, goldens);
 }
 
 TEST(Nurbs, CubicFollowsBernsteinsPolynomial) {

@@ -1,7 +1,7 @@
 // Positioning codes, modal values that are passed on, spindle modes, helices and skip moves.
 #include <gtest/gtest.h>
 
-#include "golden.hpp"
+#include "test_machine.hpp"
 
 namespace trunnion::language::test {
 namespace {
@@ -14,41 +14,6 @@ TestMachine machine_with_references() {
   machine.last_way = {0.5, -0.25, 0, 0, 0, 2, 0, 0, 0};
   machine.offsets[1] = {100, 0, 0, 0, 0, 0, 0, 0, 0};
   return machine;
-}
-
-TEST(Positioning, Streams) {
-  TestMachine machine = machine_with_references();
-  const Golden goldens[] = {
-      {"further reference positions, the second without P",
-       "G30 P4 X1\nG30 Y2\n",
-       {"rapid X1", "rapid X-50", "rapid X-50 Y2", "rapid X-50 Y60", "end 0"}},
-      {"back over the point of the way there",
-       "G91 G28 X10 Z20\nG90 G29 X3 Z4\n",
-       {"rapid X10 Z20", "rapid X500 Z300", "rapid X10 Z20", "rapid X3 Z4", "end 0"}},
-      {"the way back takes only the axes named",
-       "G28 X10 Z20\nG29 X3\n",
-       {"rapid X10 Z20", "rapid X500 Z300", "rapid X10 Z300", "rapid X3 Z300", "end 0"}},
-      // X arrives in plus direction by 0.5, Y in minus by 0.25, Z has no side.
-      {"single-direction positioning",
-       "G60 X10 Y20 Z30\n",
-       {"rapid X9.5 Y20.25 Z30", "rapid X10 Y20 Z30", "end 0"}},
-      {"single-direction positioning in a frame", "G55 G60 X10\n", {"rapid X109.5", "rapid X110", "end 0"}},
-      {"skip move", "G31 L2 G91 X20 F100\n", {"skip2 X20 F100", "end 0"}},
-      {"skip input 1 by default", "F50 G31 X20 A5\n", {"skip1 X20 A5 F50", "end 0"}},
-      // 10 mm at a lead of 4 and half a turn for the end: 2.5 turns.
-      {"lead of a helix counts its turns",
-       "G0 X10\nG3 X-10 Z10 I-10 K4 F100\n",
-       {"rapid X10", "arc X-10 Z10 ccw 0 0 0 900deg F100", "end 0"}},
-      {"a lead beside L says nothing",
-       "G0 X10\nG3 X-10 Z10 I-10 K4 L2 F100\n",
-       {"rapid X10", "arc X-10 Z10 ccw 0 0 0 540deg F100", "end 0"}},
-      {"constant surface speed and back to the speed before",
-       "S500\nG96 S120\nS130\nG97\nG97 S600\n",
-       {"S500", "S120", "S130", "S500", "S600", "end 0"}},
-      {"surface speed in feet", "G20 G96 S100\n", {"S30.48", "end 0"}},
-      {"limit of the spindle moves nothing", "G92 S3000\n", {"end 0"}},
-  };
-  expect_streams(machine, goldens);
 }
 
 TEST(Positioning, ValuesThatArePassedOn) {

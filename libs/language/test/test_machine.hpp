@@ -267,11 +267,4 @@ inline std::vector<std::string> stream(const Interpretation& result) {
   return lines;
 }
 
-/// A program, what it means, and which rule the pair shows.
-struct Golden {
-  const char* rule;
-  const char* program;
-  std::vector<std::string> commands;
-};
-
 }  // namespace trunnion::language::test

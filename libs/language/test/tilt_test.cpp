@@ -1,7 +1,7 @@
 // Tilted planes, the swing to them, and tool vectors, on the AC table of the test machine.
 #include <gtest/gtest.h>
 
-#include "golden.hpp"
+#include "test_machine.hpp"
 
 namespace trunnion::language::test {
 namespace {

@@ -122,8 +122,10 @@ TEST(Chains, the_section_of_machine_yaml_and_its_parameters_give_the_same_number
   p.values = read_chain_parameters(node, "m");
   EXPECT_EQ(p.at(40425), 35);
   EXPECT_EQ(p.at(40410), 4);
-  EXPECT_EQ(p.at(40435), -200.3605);
-  EXPECT_EQ(p.at(40422), 180 + 0.003);
+  EXPECT_EQ(p.at(40435), -200);
+  EXPECT_EQ(p.at(40960), -0.3605);
+  EXPECT_EQ(p.at(40422), 180);
+  EXPECT_EQ(p.at(40971), 0.003) << "a head's vectors point from the tool to the base";
   const auto from_parameters = make_chain(p, 0);
   // Once more as text, as the parameters service keeps them.
   Parameters kept;
@@ -139,6 +141,52 @@ TEST(Chains, the_section_of_machine_yaml_and_its_parameters_give_the_same_number
     ASSERT_EQ(direct.machine_from_tip(w, a, 88), from_parameters.machine_from_tip(w, a, 88));
     ASSERT_EQ(direct.machine_from_tip(w, a, 88), from_text.machine_from_tip(w, a, 88));
     ASSERT_EQ(direct.tool_direction_in_workpiece(a), from_text.tool_direction_in_workpiece(a));
+  }
+}
+
+// The C axis stands at X-200.3605, so C180 takes the point X0 Y0 to; with a correction of X0.5 it
+// stands at and takes it to X-399.
+TEST(Chains, a_correction_is_found_by_its_name_and_changes_what_it_corrects) {
+  Parameters p;
+  p.values = read_chain_parameters(parse_yaml(chains, "m"), "m");
+  const auto elements = correction_elements(p, 0);
+  ASSERT_EQ(elements.size(), 2u);
+  EXPECT_EQ(elements[0].name, "CORR_C_OFFSET");
+  EXPECT_EQ(elements[0].number, 40960u);
+  EXPECT_EQ(elements[0].sign, 1);
+  EXPECT_EQ(elements[1].name, "CORR_SP1_OFFSET");
+  EXPECT_EQ(elements[1].number, 40969u);
+  EXPECT_EQ(elements[1].sign, -1);
+  const auto at_c180 = [&] { return make_chain(p, 0).machine_from_tip(Vec3::Zero(), {0, 0, 180}, 0).x(); };
+  // C leans by 2e-4, which takes the point 190 and 516 mm away from its foot by some tenths.
+  const double before = at_c180();
+  EXPECT_NEAR(before, 2 * -200.3605, 0.3);
+  p.values[elements[0].number] = {0.5, ""};
+  EXPECT_NEAR(at_c180() - before, 2 * 0.8605, 1e-6);
+}
+
+// Along an open chain the correction moves the tip as the offset beside it would, in a closed one it moves
+// the axis alone.
+TEST(Chains, a_correction_counts_as_an_offset_in_open_and_closed_chains) {
+  const auto chain = [](const std::string& closed, const std::string& offset, const std::string& correction) {
+    Parameters p;
+    p.values = read_chain_parameters(
+        parse_yaml("- closed: " + closed + "\n  elements:\n    - {name: O, offset: " + offset +
+                       "}\n    - {name: K, correction: " + correction +
+                       "}\n    - {name: C, rotary: C, direction: [0, 0, -1]}\n    - {name: X, linear: X}\n"
+                       "    - {name: Y, linear: Y}\n    - {name: Z, linear: Z}\n",
+                   "m"),
+        "m");
+    return make_chain(p, 0);
+  };
+  for (const char* closed : {"true", "false"}) {
+    const auto apart = chain(closed, "[10, 20, 30]", "[0.5, 0.25, -0.125]");
+    const auto together = chain(closed, "[10.5, 20.25, 29.875]", "[0, 0, 0]");
+    for (const double c : {0.0, 37.0, 180.0})
+      EXPECT_LT((apart.tip_from_machine(Vec3(1, 2, 3), {0, 0, c}, 50) -
+                 together.tip_from_machine(Vec3(1, 2, 3), {0, 0, c}, 50))
+                    .norm(),
+                1e-12);
   }
 }
 

@@ -114,7 +114,7 @@ TEST(Contour, programmed_arcs_with_corners_at_their_ends_keep_the_tolerances) {
         const Motion result = run(t, {line_to({0, 0}, 6000), arc_to(end, cx, cy, 180, false, 6000)});
         expect_within(result, {-10, 0}, limits, nullptr, 0);
         for (const Setpoint& s : result.setpoints) {
-          const double to_line = distance_to_leg(s.position, {-10, 0}, {0, 0});
+          const double to_line = std::sqrt(square_to_leg(s.position, {-10, 0}, {0, 0}));
           const double to_circle = std::abs(std::hypot(s.position[0] - cx, s.position[1] - cy) - radius);
           ASSERT_LE(std::min(to_line, to_circle), 0.01 + 1e-9) << radius << " " << cycles << " " << corner;
         }

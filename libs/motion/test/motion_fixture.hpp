@@ -109,7 +109,7 @@ inline Ratios axis_ratios(const Motion& run, const AxisValues& start, const Limi
   return ratios;
 }
 
-inline double distance_to_leg(const AxisValues& p, const AxisValues& a, const AxisValues& b) {
+inline double square_to_leg(const AxisValues& p, const AxisValues& a, const AxisValues& b) {
   double along = 0, length = 0;
   for (std::size_t i = 0; i < 3; ++i) {
     along += (p[i] - a[i]) * (b[i] - a[i]);
@@ -117,8 +117,11 @@ inline double distance_to_leg(const AxisValues& p, const AxisValues& a, const Ax
   }
   const double f = length > 0 ? std::clamp(along / length, 0.0, 1.0) : 0;
   double square = 0;
-  for (std::size_t i = 0; i < 3; ++i) square += std::pow(p[i] - a[i] - f * (b[i] - a[i]), 2);
-  return std::sqrt(square);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double d = p[i] - a[i] - f * (b[i] - a[i]);
+    square += d * d;
+  }
+  return square;
 }
 
 /// Largest distance of a setpoint from the polyline `points` (X Y Z); every output point against every leg.
@@ -127,9 +130,9 @@ inline double contour_error(const Motion& run, const std::vector<AxisValues>& po
   for (const Setpoint& s : run.setpoints) {
     double best = 1e300;
     for (std::size_t k = 1; k < points.size() && best > 0; ++k) {
-      best = std::min(best, distance_to_leg(s.position, points[k - 1], points[k]));
+      best = std::min(best, square_to_leg(s.position, points[k - 1], points[k]));
     }
-    worst = std::max(worst, best);
+    worst = std::max(worst, std::sqrt(best));
   }
   return worst;
 }

@@ -127,6 +127,107 @@ TEST(Robustness, rotary_move_with_a_trace_of_linear_travel_ends) {
   }
 }
 
+// 3.6 million cycles. The motion stands on the path where it stopped and goes on to the same end.
+TEST(Robustness, an_override_of_zero_for_an_hour_loses_nothing) {
+  const Limits limits = uniform_limits(100, 1000, 20);
+  Trajectory t(limits, nullptr, cycle);
+  ASSERT_TRUE(t.push(line_to({50}, 6000)));
+  ASSERT_TRUE(t.push(line_to({50, 50}, 6000)));
+  t.finish();
+  for (int k = 0; k < 300; ++k) t.step(1, 1, false);
+  for (int k = 0; k < 1000; ++k) t.step(0, 1, false);
+  const AxisValues stood = t.position();
+  for (int k = 0; k < 3600000; ++k) t.step(0, 1, false);
+  EXPECT_EQ(t.position(), stood);
+  EXPECT_FALSE(t.at_rest());
+  int cycles = 0;
+  while (!t.step(1, 1, false).at_rest && ++cycles < 5000) {
+  }
+  EXPECT_EQ(t.position(), (AxisValues{50, 50}));
+}
+
+TEST(Robustness, feeds_that_make_no_motion_are_refused_before_anything_moves) {
+  Trajectory t(uniform_limits(100, 1000, 20), nullptr, cycle);
+  for (const double feed : {0.0, -100.0, std::nan(""), HUGE_VAL}) EXPECT_FALSE(t.push(line_to({10}, feed)));
+  EXPECT_TRUE(t.at_rest());
+  EXPECT_EQ(t.end_position(), AxisValues{});
+}
+
+TEST(Robustness, an_axis_without_limits_refuses_to_move_and_the_others_do_not_care) {
+  for (const auto limit : {&AxisLimits::velocity, &AxisLimits::acceleration, &AxisLimits::jerk}) {
+    Limits limits = uniform_limits(100, 1000, 20);
+    limits.axes[language::Y].*limit = 0;
+    Trajectory t(limits, nullptr, cycle);
+    EXPECT_FALSE(t.push(line_to({10, 10}, 6000)));
+    EXPECT_TRUE(t.push(line_to({10}, 6000)));
+    t.finish();
+    for (int k = 0; k < 2000 && !t.step(1, 1, false).at_rest; ++k) {
+    }
+    EXPECT_EQ(t.position(), AxisValues{10});
+  }
+}
+
+// C by half a turn within a millimetre of tip travel, forth and back: the rotary axis sets the pace.
+TEST(Robustness, flips_of_the_orientation_run_at_the_pace_of_the_rotary_axis) {
+  const geometry::Chain chain = ac_table();
+  const Limits limits = uniform_limits(100, 1000, 20);
+  Trajectory t(limits, &chain, cycle);
+  const AxisValues start{20, 0, 0, 30};
+  t.start(start, Transformation::rtcp, 50);
+  std::vector<Command> program;
+  AxisValues p = start;
+  for (int k = 0; k < 6; ++k) {
+    p[0] += 1;
+    p[language::A] = -p[language::A];
+    p[language::C] += k % 2 == 0 ? 180 : -180;
+    program.push_back(line_to(p, 6000));
+  }
+  const Motion result = run(t, program, 200000);
+  ASSERT_TRUE(result.stopped);
+  EXPECT_EQ(t.position(), p);
+  const Ratios ratios = axis_ratios(result, start, limits, &chain, 50);
+  EXPECT_LE(ratios.velocity, 1.001);
+  EXPECT_LE(ratios.acceleration, 1.001);
+  EXPECT_LE(ratios.jerk, 1.001);
+}
+
+// Nothing says that the program is over: the motion stops by itself on the end of what it knows, within the
+// limits, and says that it is not at rest. A block is known when no rounding behind it can change any more:
+// two reaches and a block of 1 mm before the end.
+TEST(Robustness, a_program_that_ends_in_motion_without_an_end_stops_on_its_path) {
+  const Limits limits = uniform_limits(100, 1000, 20);
+  Trajectory t(limits, nullptr, cycle);
+  Motion motion;
+  for (int k = 1; k <= 40; ++k) ASSERT_TRUE(t.push(line_to({1.0 * k}, 6000)));
+  for (int k = 0; k < 2000; ++k) motion.setpoints.push_back(t.step(1, 1, false));
+  EXPECT_EQ(motion.setpoints.back().path_speed, 0);
+  EXPECT_FALSE(t.at_rest());
+  EXPECT_GE(t.position()[0], 40 - 3 * BlendedPath::longest_reach);
+  EXPECT_LE(t.position()[0], 40);
+  t.finish();
+  for (int k = 0; k < 2000 && !t.at_rest(); ++k) motion.setpoints.push_back(t.step(1, 1, false));
+  EXPECT_EQ(t.position(), AxisValues{40});
+  EXPECT_LE(axis_ratios(motion, {}, limits, nullptr, 0).jerk, 1.001);
+}
+
+// 0.02 mm at 100 mm/s are a fifth of a cycle. The feeder brings 20 blocks in every cycle, 0.4 mm, four times
+// what is travelled; so the speed comes up and stays.
+TEST(Robustness, blocks_shorter_than_a_cycle_do_not_starve) {
+  const Limits limits = uniform_limits(200, 2000, 4);
+  Trajectory t(limits, nullptr, cycle);
+  std::uint32_t next = 1;
+  int slow = 0;
+  for (int k = 0; k < 1500; ++k) {
+    for (int n = 0; n < 20 && t.can_accept(); ++n, ++next) {
+      const double x = 0.02 * next;
+      ASSERT_TRUE(t.push(line_to({x, std::sin(0.05 * x)}, 6000, next)));
+    }
+    const Setpoint s = t.step(1, 1, false);
+    if (k > 300 && s.path_speed < 99) ++slow;
+  }
+  EXPECT_EQ(slow, 0);
+}
+
 TEST(Robustness, mixed_noise_of_every_kind_ends_and_keeps_the_limits) {
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     std::mt19937_64 random(seed);

@@ -3,6 +3,7 @@
 
 #include <random>
 
+#include "planning/lower_bound.hpp"
 #include "planning/reference_paths.hpp"
 
 namespace trunnion::planning {
@@ -22,6 +23,18 @@ RunReport run(const ReferencePath& p, const OverrideHistory& overrides = {}) {
 // Peak speed v with v^2 / 3000 + v / 20 = 100 is 477.8: 2 (477.8 / 3000 + 0.05) = 0.4186 s; cycles round up.
 TEST(Reference, a_line_of_100_mm_takes_the_time_of_its_s_curve) {
   EXPECT_NEAR(run(single_line()).motion_time, 0.4186, 0.002);
+}
+
+// A circle of R 10 mm with 3000 mm/s2 and 60000 mm/s3. Centripetal: v = sqrt(3000 * 10) = 173.2 mm/s, where
+// the circle alone takes v^3 / r^2 = 51,960 of the jerk. 62.832 / 173.2 = 0.3628 s; a ramp with nothing but
+// its own acceleration and jerk adds v / a + a / j = 0.1077 s in all: 0.4705 s. But the ramps share the
+// limits with the circle: of the jerk 3 v u / r goes across the path when the speed grows by u, so at 100
+// mm/s u may be 2000 at most and at 173.2 mm/s only 8,040 mm/s3 are left along the path. With that each ramp
+// takes 0.1786 s over 19.64 mm: 2 * 0.1786 + (62.832 - 2 * 19.64) / 173.2 = 0.4932 s.
+TEST(Reference, a_circle_is_within_3_percent_of_its_centripetal_and_jerk_bound) {
+  const double bound = circle_time(10, 3000, 60000);
+  EXPECT_NEAR(bound, 0.4932, 0.0005);
+  EXPECT_LE(run(circle(500)).motion_time, 1.03 * bound);
 }
 
 // 50 mm at 100 mm/s with ramps of 2 sqrt(100 / 60000) s = 81.65 ms: 0.58165 s each. Overlapping by

@@ -185,18 +185,60 @@ TEST(OrderedPlan, FeedsEachInputOnceTheServiceHasWrittenWhatItHadWrittenBefore) 
   StoredRecording recording;
   recording.messages = {
       parameters(1, 1),
-      stored(topics::auxiliary_request, idl::channel::AuxiliaryRequest{0, 4097, 1, 3, 0, 0}, 10),
-      stored(topics::auxiliary_done, idl::plc::AuxiliaryDone{0, 4097, false}, 20),
-      stored(topics::auxiliary_request, idl::channel::AuxiliaryRequest{0, 4097, 0, 3, 0, 0}, 30),
+      stored(topics::auxiliary_done, idl::plc::AuxiliaryDone{0, 4097, false}, 10),
+      stored(topics::auxiliary_request, idl::channel::AuxiliaryRequest{0, 4097, 0, 3, 0, 0}, 20),
+      stored(topics::auxiliary_done, idl::plc::AuxiliaryDone{0, 4098, false}, 30),
       stored(topics::feedback_frame, feedback_frame(0, 8), 5),
   };
-  const auto plan = plan_verification(recording, "plc", 0);
+  const auto plan = plan_verification(recording, "channel", 0);
   ASSERT_EQ(plan.steps.size(), 4u);
   EXPECT_EQ(plan.steps[1].message->topic->handle, "feedback_frame") << "by the time of writing";
   EXPECT_TRUE(plan.steps[2].needs.empty());
   ASSERT_EQ(plan.steps[3].needs.size(), 1u);
-  EXPECT_EQ(plan.steps[3].needs[0].place, (Place{0, 4097}));
+  EXPECT_EQ(plan.steps[3].needs[0].place, (Place{4097, 1})) << "its request has to be there first";
   EXPECT_TRUE(plan.end.empty()) << "nothing was written after the last input";
+}
+
+TEST(TickPlan, GivesTheDriveItsInputsAtTheTicksAtWhichTheyTookEffect) {
+  // The PLC's order was written before the second frame and taken behind it, at tick 8.
+  StoredRecording recording;
+  const auto frame = [](std::uint64_t first) {
+    idl::stream::AxisFrame f;
+    f.first = first, f.count = 8;
+    return f;
+  };
+  auto before = feedback_frame(0, 8), after = feedback_frame(8, 8);
+  using idl::stream::Input;
+  before.tick = 8;
+  before.applied = {{Input::PARAMETER_SET, 0, 1}, {Input::GANTRY_FRAME, 0, 10}, {Input::GANTRY_FRAME, 8, 30}};
+  after.tick = 16;
+  after.applied = {{Input::PLC_OUTPUTS, 8, 20}};
+  recording.messages = {
+      parameters(1, 1),
+      stored(topics::gantry_frame, frame(0), 10),
+      stored(topics::plc_outputs, idl::plc::Outputs{}, 20),
+      stored(topics::gantry_frame, frame(8), 30),
+      stored(topics::feedback_frame, before, 40),
+      stored(topics::feedback_frame, after, 50),
+  };
+  const auto plan = plan_verification(recording, "drive", 0);
+  ASSERT_EQ(plan.steps.size(), 4u);
+  EXPECT_EQ(plan.steps[0].message->topic->handle, "parameter_set");
+  EXPECT_EQ(plan.steps[1].message->topic->handle, "gantry_frame");
+  // An order of the same tick as a frame goes first: the frame lets the drive go on.
+  EXPECT_EQ(plan.steps[2].message->topic->handle, "plc_outputs");
+  ASSERT_EQ(plan.steps[2].needs.size(), 1u);
+  EXPECT_EQ(plan.steps[2].needs[0].place, (Place{8, 8})) << "8 cycles and 8 ticks";
+  EXPECT_TRUE(plan.steps[2].apart);
+  EXPECT_EQ(plan.steps[3].message->topic->handle, "gantry_frame");
+  EXPECT_EQ(plan.cycles, 16u);
+  EXPECT_EQ(plan.expected.size(), 2u);
+}
+
+TEST(TickPlan, ARecordingThatDoesNotSayWhenIsRefused) {
+  StoredRecording recording;
+  recording.messages = {parameters(1, 1), stored(topics::feedback_frame, feedback_frame(0, 8), 5)};
+  EXPECT_THROW(plan_verification(recording, "drive", 0), std::runtime_error);
 }
 
 TEST(OrderedPlan, AChannelIsFedAndComparedWithItsOwn) {

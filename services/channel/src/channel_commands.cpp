@@ -135,6 +135,9 @@ Answer ChannelCore::go_on_after_interruption() {
   if (restart_) {  // the stream was lost: begin anew at the newest point that was executed
     Entry entry;
     entry.restart = *restart_;
+    // What was on its way through the stages may have been executed since.
+    if (const auto own = snapshot_of(link_.states()); own && own->running && own->crc == selected_.crc32)
+      entry.restart = RestartPoint{own->sequence, own->fraction, own->position};
     return start_program(entry);
   }
   link_.request_resume();
@@ -194,6 +197,7 @@ void ChannelCore::reset() {
                       run_ != RunState::INTERRUPTED && run_ != RunState::HELD;
   suspended_.reset();
   modal_ = power_on_modal();
+  frames_kept_ = false;
   if (moving) {
     aborting_ = true;
     reset_due_ = true;

@@ -244,6 +244,10 @@ void ChannelCore::adopt_position() {
 }
 
 void ChannelCore::stop_activity() {
+  // A motion that was held stands where its path was left, and no new epoch will say so.
+  const bool moved = !preparation_ || preparing_motion_;
+  if (activity_ != Activity::none && link_.state() == LinkState::idle && !link_.needs_epoch() && moved)
+    machine_start_ = machine_position();
   skip_.end();
   finish_tapping();
   if (link_.state() == LinkState::active || link_.state() == LinkState::ending ||
@@ -272,8 +276,9 @@ void ChannelCore::finish(bool program_end) {
   finish_tapping();
   machine_start_ = machine_position();
   wheel_.start({});
-  if (activity_ == Activity::mdi) {
+  if (activity_ == Activity::mdi && !reset_due_) {  // a reset has its own modal state
     modal_ = mdi_flow_.modal();
+    frames_kept_ = true;
     modal_.tool = static_cast<std::uint16_t>(tool_);
   }
   if (program_end && activity_ == Activity::program) shown_ = {};

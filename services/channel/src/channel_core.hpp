@@ -11,9 +11,9 @@
 #include "axis_lock.hpp"
 #include "channel_snapshot.hpp"
 #include "contracts/types.hpp"
+#include "hand_over.hpp"
 #include "handwheel.hpp"
 #include "preparation.hpp"
-#include "hand_over.hpp"
 #include "program_flow.hpp"
 #include "program_record.hpp"
 #include "program_shelf.hpp"
@@ -239,7 +239,8 @@ class ChannelCore {
   idl::program::ProgramEntry selected_;
   std::string mdi_line_;
   std::optional<language::StringSource> mdi_source_;
-  language::ModalState modal_;                                       // of MDI, kept from line to line
+  language::ModalState modal_;  // of MDI, kept from line to line
+  bool frames_kept_ = false;    // the interpreter still has those of the MDI line before
   language::Transformation frame_ = language::Transformation::none;  // of the trajectory
   double frame_tool_length_ = 0;
   AxisValues machine_start_{};  // of the path at rest, in machine coordinates

@@ -40,6 +40,7 @@ Answer ChannelCore::start_program(const Entry& entry) {
   program_flow_.set_block_skip(block_skip_);
   program_flow_.set_dry_run_feed(dry_run_ ? machine_.dry_run_feed() : 0);
   program_flow_.set_offset(offset_on_ ? std::optional(offset_.target()) : std::nullopt);
+  frames_kept_ = false;
   program_flow_.start(text, program_start_, modal, *variables_, entry);
   restart_ = restart.sequence != 0 ? std::optional(restart) : std::nullopt;
   preparation_.reset();
@@ -71,9 +72,13 @@ Answer ChannelCore::start_from_line(double line) {
 void ChannelCore::prepare_entry() {
   const bool by_line = !restart_;
   const auto& modal = program_flow_.executing();
-  frame_ = modal.transformation;
-  frame_tool_length_ = modal.tool_length;
-  const auto target = machine_of(by_line ? program_flow_.position() : restart_->position);
+  const auto& place_on_path = by_line ? program_flow_.position() : restart_->position;
+  const bool rtcp = modal.transformation == language::Transformation::rtcp;
+  const auto target = rtcp ? machine_.machine_from_tip(place_on_path, modal.tool_length) : place_on_path;
+  const auto give_up = [this, stands = machine_start_] {
+    finish(false);
+    machine_start_ = stands;
+  };
   const auto line = shown_.line;
   Preparation preparation;
   if (by_line) preparation.orders = program_flow_.auxiliaries().orders();
@@ -85,12 +90,12 @@ void ChannelCore::prepare_entry() {
   if (by_line && modal.tool != tool_) {
     event("search_failed", place + "needs tool T" + std::to_string(modal.tool) + ", T" +
                                std::to_string(tool_) + " is in the spindle: change it by MDI first");
-    finish(false);
+    give_up();
     return;
   }
   if (!error.empty()) {
     event("travel_limit", selected_.name + ":" + error);
-    finish(false);
+    give_up();
     return;
   }
   preparation_ = std::move(preparation);
@@ -212,7 +217,8 @@ Answer ChannelCore::start_mdi(const std::string& line) {
   mdi_flow_.set_block_skip(block_skip_);
   mdi_flow_.set_dry_run_feed(dry_run_ ? machine_.dry_run_feed() : 0);
   mdi_flow_.set_offset(offset_on_ ? std::optional(offset_.target()) : std::nullopt);
-  mdi_flow_.start(*mdi_source_, position, modal_, suspended_ ? program_flow_.variables() : *variables_);
+  mdi_flow_.start(*mdi_source_, position, modal_, suspended_ ? program_flow_.variables() : *variables_, {},
+                  frames_kept_ ? language::Beginning::line : language::Beginning::program);
   // What is wrong with the line is the answer to whoever typed it.
   const auto state = mdi_flow_.fill(false);
   if (state == FlowState::alarm && trajectory_->at_rest()) {

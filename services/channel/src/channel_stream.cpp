@@ -203,7 +203,7 @@ void ChannelCore::store_state(FlowState state, std::vector<double>& values) cons
 }
 
 void ChannelCore::remember_executed() {
-  if (link_.executed() == 0) return;
+  if (link_.executed() == 0 || activity_ == Activity::none) return;
   const auto& written = written_[(link_.executed() - 1) % history];
   if (written.cycle == link_.executed() - 1 && (written.line != 0 || activity_ != Activity::program))
     shown_ = written;

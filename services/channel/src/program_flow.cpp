@@ -23,8 +23,8 @@ bool is_path(CommandKind kind) {
 
 void ProgramFlow::start(language::TextSource& text, const AxisValues& position,
                         const language::ModalState& initial, const language::VariableStore& variables,
-                        const Entry& entry) {
-  interpreter_.start(text, position, initial, variables);
+                        const Entry& entry, language::Beginning beginning) {
+  interpreter_.start(text, position, initial, variables, beginning);
   interpreter_.stop_before_line(entry.line);
   have_command_ = false;
   block_line_ = 0;

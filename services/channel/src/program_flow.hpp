@@ -54,7 +54,8 @@ class ProgramFlow {
   /// `position` in the frame of `initial`. The trajectory must be at rest there. A restart needs the
   /// variables the program began with, for it interprets it again.
   void start(language::TextSource& text, const AxisValues& position, const language::ModalState& initial,
-             const language::VariableStore& variables, const Entry& entry = {});
+             const language::VariableStore& variables, const Entry& entry = {},
+             language::Beginning beginning = language::Beginning::program);
   FlowState fill(bool single_block);
   /// The command fill() stopped at, and done with it.
   const language::Command& pending() const { return command_; }

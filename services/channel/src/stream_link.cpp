@@ -16,8 +16,7 @@ void StreamLink::on_feedback(const idl::stream::FeedbackFrame& feedback) {
     answered_ = echo.request;
     if (drive_restarted_ && state_ == LinkState::idle) new_epoch_ = true;  // it knows no epoch of ours
     if (!echo.states.empty()) states_ = echo.states;
-    if (request_ ==
-        0) {  // a process before this one may have asked already: numbers and epochs go on from its
+    if (!asked_) {  // a process before this one may have: numbers and epochs go on from its newest
       request_ = echo.request;
       epoch_ = echo.epoch;
     }
@@ -46,7 +45,10 @@ void StreamLink::on_feedback(const idl::stream::FeedbackFrame& feedback) {
   }
 }
 
-void StreamLink::request(std::uint8_t kind) { outgoing_ = {channel_, ++request_, kind, epoch_}; }
+void StreamLink::request(std::uint8_t kind) {
+  asked_ = true;
+  outgoing_ = {channel_, ++request_, kind, epoch_};
+}
 
 void StreamLink::request_start() {
   if (new_epoch_) ++epoch_;

@@ -71,7 +71,8 @@ class StreamLink {
   DriveMode mode_ = DriveMode::unknown;
   std::uint64_t next_ = 0, executed_ = 0;
   std::uint32_t epoch_ = 0, request_ = 0, answered_ = 0;
-  bool new_epoch_ = true, starts_ = false, echo_active_ = false, resuming_ = false, drive_restarted_ = false;
+  bool new_epoch_ = true, starts_ = false, echo_active_ = false, resuming_ = false, drive_restarted_ = false,
+       asked_ = false;  // the drive, by this process
   std::vector<idl::stream::StageState> states_;
   std::vector<double> positions_;
   std::optional<idl::stream::StreamRequest> outgoing_;

@@ -236,6 +236,61 @@ TEST_F(Channel, AnMdiLineRunsAndKeepsItsModalStateForTheNext) {
   EXPECT_EQ(answer.reason.substr(0, 8), "MDI:1:4:") << answer.reason;
 }
 
+/// MDI lines one after the other, and where X and Y are behind each.
+struct MdiLines : Channel {
+  std::vector<std::pair<double, double>> after(const std::vector<std::string>& lines) {
+    ask(CommandKind::SET_MODE, "", 0, 0, Mode::MDI);
+    std::vector<std::pair<double, double>> places;
+    for (const auto& line : lines) {
+      const auto answer = ask(CommandKind::MDI_LINE, line);
+      EXPECT_TRUE(answer.accepted) << line << ": " << answer.reason;
+      run();
+      places.emplace_back(drive.rows.empty() ? 0 : drive.rows.back()[0],
+                          drive.rows.empty() ? 0 : drive.rows.back()[1]);
+    }
+    return places;
+  }
+};
+
+TEST_F(MdiLines, GoOnInTheFramesOfTheLinesBefore) {
+  const auto places = after({"G90 G52 X10", "G0 X5", "G52 X0", "X5", "G92 X0", "X1", "G92.1", "X1"});
+  // 10 + 5; without G52 5; G92 calls that 0, so 1 is 6; without G92 1.
+  EXPECT_EQ(places[1].first, 15);
+  EXPECT_EQ(places[3].first, 5);
+  EXPECT_EQ(places[5].first, 6);
+  EXPECT_EQ(places[7].first, 1);
+}
+
+TEST_F(MdiLines, GoOnInRotationScalingMirrorAndPolarCoordinates) {
+  const auto places = after({"G90 G68 X0 Y0 R90", "G0 X2 Y0", "G69", "G51 X0 Y0 P3", "X2 Y1", "G50",
+                             "G51.1 X0", "X2 Y1", "G50.1", "G16", "X4 Y90", "G15"});
+  EXPECT_NEAR(places[1].first, 0, 1e-12);
+  EXPECT_NEAR(places[1].second, 2, 1e-12);
+  EXPECT_EQ(places[4], (std::pair<double, double>{6, 3}));
+  EXPECT_EQ(places[7], (std::pair<double, double>{-2, 1}));
+  EXPECT_NEAR(places[10].first, 0, 1e-12);
+  EXPECT_NEAR(places[10].second, 4, 1e-12);
+}
+
+TEST_F(MdiLines, AResetAndAProgramEndTheFramesOfTheLines) {
+  after({"G90 G52 X10"});
+  ask(CommandKind::RESET);
+  EXPECT_EQ(after({"G90 G0 X5"}).back().first, 5);
+  after({"G52 X50"});
+  cycles_per_round = 8;
+  ask(CommandKind::MDI_LINE, "G1 X100 F6000");
+  for (int i = 0; i < 20; ++i) round();
+  ask(CommandKind::RESET);
+  run();
+  EXPECT_EQ(after({"G90 G0 X5"}).back().first, 5) << "also a reset while a line moves";
+  after({"G52 X10", "G68 X0 Y0 R90"});
+  load("G90 G0 X7 Y3\nG52 X100\nM30\n");
+  ask(CommandKind::CYCLE_START);
+  run();
+  EXPECT_EQ(drive.rows.back()[0], 7) << "a program means the same whatever was typed before";
+  EXPECT_EQ(after({"G90 G0 X6"}).back().first, 6) << "and leaves no frame behind";
+}
+
 TEST_F(Channel, MacroVariablesGoFromLineToProgramToProgram) {
   ask(CommandKind::SET_MODE, "", 0, 0, Mode::MDI);
   ASSERT_TRUE(ask(CommandKind::MDI_LINE, "#500=5").accepted);

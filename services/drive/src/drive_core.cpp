@@ -17,6 +17,10 @@ void DriveCore::configure(const machine::Parameters& p, bool virtual_time) {
   revision_ = p.revision;
   dt_ = p.get("interpolation_cycle") * 1e-6;
   lead_ = static_cast<std::uint64_t>(p.integer("stream_lead"));
+  // Three quarters of the lead, but no more than the channel's credit allows it to write: whole frames only.
+  const auto frame = static_cast<std::uint64_t>(
+      p.integer(virtual_time ? "frame_cycles_virtual_time" : "frame_cycles_real_time"));
+  prefill_ = std::max<std::uint64_t>(1, std::min((lead_ * 3 - 1) / 4, lead_ > frame ? lead_ - frame + 1 : 1));
   if (first) {
     axes_ = machine::drive_axes(p);
     const std::size_t n = axes_.size();
@@ -209,7 +213,7 @@ double DriveCore::stop_periods(std::uint64_t cycles) {
 
 bool DriveCore::enough(const Supply& s) const { return s.cycles > 0 && (s.ends || s.cycles > reserve_); }
 
-bool DriveCore::prefilled(const Supply& s) const { return s.ends || s.cycles * 4 >= lead_ * 3 - 4; }
+bool DriveCore::prefilled(const Supply& s) const { return s.ends || s.cycles >= prefill_; }
 
 bool DriveCore::waiting() const { return mode_ == Mode::following && any_active() && !enough(supply()); }
 

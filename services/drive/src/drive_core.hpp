@@ -142,6 +142,7 @@ class DriveCore {
   double dt_ = 0.001;
   bool virtual_time_ = false;
   std::uint64_t lead_ = 32;
+  std::uint64_t prefill_ = 23;  // cycles at hand to begin with
   std::uint64_t revision_ = 0;
   std::vector<machine::AxisInfo> axes_;
   std::vector<Limits> limits_;

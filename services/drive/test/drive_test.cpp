@@ -105,6 +105,30 @@ TEST_F(Fixture, AMissingSetpointStopsOnThePathAndTheRestIsExecutedUnchangedAfter
   for (std::size_t n = 0; n < 400; ++n) EXPECT_EQ(commanded[n], path(n));
 }
 
+TEST_F(Fixture, AResumeWaitsForNoMoreThanTheChannelsCreditLetsItWrite) {
+  begin();
+  feed(0, 160);
+  run();
+  run(true);
+  ASSERT_EQ(core.mode(), Mode::held);
+  ASSERT_LE(core.next() + 16, 160u + 16u);
+  begin(2);
+  // Lead 32 and whole frames of 16: with 17 cycles at hand another frame would be beyond the credit.
+  const auto put = [&](std::uint64_t first, std::uint64_t count) {
+    AxisFrame f;
+    f.epoch = epoch, f.first = first, f.count = static_cast<std::uint32_t>(count), f.revision = 1;
+    f.axes = {0, 1};
+    for (std::uint64_t n = first; n < first + count; ++n)
+      f.setpoints.insert(f.setpoints.end(), {path(n), 2 * path(n)});
+    ASSERT_TRUE(core.put(f));
+  };
+  const std::uint64_t missing = core.next() + 16 - 160;
+  if (missing > 0) put(160, missing);
+  EXPECT_FALSE(core.can_step(false)) << "16 cycles are at hand";
+  put(160 + missing, 1);
+  EXPECT_TRUE(core.can_step(false));
+}
+
 TEST_F(Fixture, BrakingAndResumingNeedAtMostTheLimitOnTopOfThePathsOwnAcceleration) {
   begin();
   feed(0, 200);

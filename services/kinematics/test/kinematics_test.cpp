@@ -53,6 +53,21 @@ TEST(Kinematics, RtcpTurnsTheWorkpiecePointAboutC) {
   EXPECT_NEAR(out.setpoints[2], -400, 1e-9);
 }
 
+// 040960: the C axis is found 0.25 farther in X than its offset says, so C180 brings a point 0.5 farther.
+TEST(Kinematics, ACorrectionOfTheChainIsPartOfARevision) {
+  KinematicsCore before, after;
+  auto parameters = ac_table();
+  before.configure(parameters, 0);
+  parameters.values[40960] = {0.25, ""};
+  after.configure(parameters, 0);
+  idl::stream::AxisFrame out, corrected;
+  const auto in = frame({-190, -190, -500, 0, 0, 180, 0, 0, 0}, 1, 100);
+  ASSERT_TRUE(before.process(in, {}, out));
+  ASSERT_TRUE(after.process(in, {}, corrected));
+  EXPECT_NEAR(corrected.setpoints[0] - out.setpoints[0], 0.5, 1e-12);
+  EXPECT_NEAR(corrected.setpoints[1], out.setpoints[1], 1e-12);
+}
+
 TEST(Kinematics, ForwardOfWhatItCommandsIsTheTipWithin1e9) {
   KinematicsCore core;
   const auto parameters = ac_table();

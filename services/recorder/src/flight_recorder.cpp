@@ -21,8 +21,8 @@ FlightRecorder::FlightRecorder(std::string path, FileHeader header, FlightLimits
 void FlightRecorder::take(Message& message, double now) {
   const bool fired = fires(message);
   bytes_ += message.cdr.size() + overhead;
-  kept_.push_back({std::move(message), now});
-  message.cdr.clear();
+  kept_.push_back(
+      {{message.topic, message.sequence, message.source_time, std::exchange(message.cdr, {})}, now});
   if (fired && !save_at_) save_at_ = now + limits_.after;
   idle(now);
 }

@@ -117,6 +117,7 @@ int main(int argc, char** argv) {
   all.add(topics::auxiliary_done);
   all.add(topics::plc_outputs);
   all.add(topics::plc_image);
+  all.add(topics::plc_input_log);
   all.add(topics::panel_request);
   all.add(topics::panel_reply);
   all.add(topics::parameter_set);
