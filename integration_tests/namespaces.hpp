@@ -72,7 +72,9 @@ class ThreeHosts {
   Shell script(const std::string& verb, const std::string& arguments = "") const {
     // The script works from outside, wherever this thread is.
     const int here = home_ < 0 ? -1 : open("/proc/thread-self/ns/net", O_RDONLY | O_CLOEXEC);
-    if (here >= 0) EXPECT_EQ(setns(home_, CLONE_NEWNET), 0);
+    if (here >= 0) {
+      EXPECT_EQ(setns(home_, CLONE_NEWNET), 0);
+    }
     Shell result(std::string(TRUNNION_NAMESPACES) + " " + verb + " " + prefix_ + " " + arguments);
     if (here >= 0) {
       EXPECT_EQ(setns(here, CLONE_NEWNET), 0);

@@ -3,6 +3,8 @@
 #include <array>
 #include <cstdio>
 #include <future>
+#include <set>
+#include <sstream>
 
 #include "cluster_harness.hpp"
 
@@ -19,7 +21,7 @@ std::string output_of(const std::string& command) {
   return pclose(pipe) == 0 ? text : "failed: " + text;
 }
 
-/// Certificates of an authority of its own, made once for a process.
+/// Certificates of an authority of its own.
 class Authority {
  public:
   explicit Authority(const std::string& name)
@@ -32,169 +34,196 @@ class Authority {
   Authority(const Authority&) = delete;
   Authority& operator=(const Authority&) = delete;
   std::string path() const { return directory_.string(); }
+  std::string file(const std::string& name) const {
+    std::ifstream in(directory_ / name);
+    return {std::istreambuf_iterator<char>(in), {}};
+  }
 
  private:
   fs::path directory_;
 };
 
 struct Peer {
-  std::string vendor, identity, security;
+  std::string vendor, identity, security;  ///< without the last two it has no certificate
 };
 
-/// What a peer did: how many others it found and how many samples it wrote or got, or why it was refused.
+/// What a peer did: how many others it found, how many samples it got from whom or wrote, or why it was
+/// refused.
 struct Result {
-  int matched = 0, samples = 0;
+  int matched = 0;
+  std::map<int, int> samples;  // by the writer's mark
   std::string text;
 };
 
-std::future<Result> start(const Peer& peer, const std::string& action, std::uint32_t domain,
-                          double seconds = 4, const std::string& topic = "path_frame") {
+std::future<Result> start(const Peer& peer, const std::string& action, std::uint32_t domain, int mark = 0,
+                          const std::string& topic = "path_frame", double seconds = 4) {
   const std::string command =
       deploy::binary_directory() + "/security-peer --domain " + std::to_string(domain) + " --vendor " +
-      peer.vendor + " --seconds " + std::to_string(seconds) +
+      peer.vendor + " --mark " + std::to_string(mark) + " --seconds " + std::to_string(seconds) +
       (peer.security.empty() ? "" : " --security " + peer.security + " --identity " + peer.identity) + " " +
       action + " " + topic;
   return std::async(std::launch::async, [command] {
     Result result;
     result.text = output_of(command);
     const auto at = result.text.rfind("matched ");
-    if (at != std::string::npos)
-      std::sscanf(result.text.c_str() + at, "matched %d samples %d", &result.matched, &result.samples);
+    if (at == std::string::npos) return result;
+    std::istringstream told(result.text.substr(at + 8));
+    told >> result.matched;
+    char colon = 0;
+    for (int from = 0, count = 0; told >> from >> colon >> count;) result.samples[from] = count;
     return result;
   });
 }
 
-struct Pair {
-  const char *writer, *reader;
-};
-
-class Security : public testing::TestWithParam<Pair> {
- protected:
-  static void SetUpTestSuite() {
-    authority_ = std::make_unique<Authority>("security");
-    others_ = std::make_unique<Authority>("rogue");
-  }
-  ~Security() override { deploy::RunDirectory{domain}.remove(); }
-  static void TearDownTestSuite() { authority_.reset(), others_.reset(); }
-  std::string writer_vendor() const { return GetParam().writer; }
-  std::string reader_vendor() const { return GetParam().reader; }
-  Peer kinematics() const { return {reader_vendor(), "kinematics", authority_->path()}; }
-  Peer channel() const { return {writer_vendor(), "channel", authority_->path()}; }
-  static std::unique_ptr<Authority> authority_, others_;
-  const std::uint32_t domain = deploy::free_domain();
-};
-std::unique_ptr<Authority> Security::authority_, Security::others_;
-
-TEST_P(Security, TheChannelWritesThePathToTheKinematics) {
-  auto reader = start(kinematics(), "read", domain);
-  auto writer = start(channel(), "write", domain);
-  const auto got = reader.get(), sent = writer.get();
-  EXPECT_EQ(got.matched, 1) << got.text;
-  EXPECT_EQ(sent.matched, 1) << sent.text;
-  EXPECT_GT(got.samples, 20);
+std::set<int> heard(const Result& result) {
+  std::set<int> marks;
+  for (const auto& [mark, count] : result.samples) marks.insert(mark);
+  return marks;
 }
 
-TEST_P(Security, WhoHasNoCertificateNeitherWritesNorReads) {
-  auto reader = start(kinematics(), "read", domain);
-  auto rogue = start({writer_vendor(), "", ""}, "write", domain);
-  auto got = reader.get();
-  auto tried = rogue.get();
-  EXPECT_GT(tried.samples, 20) << "it did write: " << tried.text;
-  EXPECT_EQ(got.matched, 0) << got.text;
-  EXPECT_EQ(got.samples, 0);
-
-  auto spy = start({reader_vendor(), "", ""}, "read", domain);
-  auto writer = start(channel(), "write", domain);
-  got = spy.get();
-  tried = writer.get();
-  EXPECT_GT(tried.samples, 20);
-  EXPECT_EQ(tried.matched, 0) << tried.text;
-  EXPECT_EQ(got.samples, 0) << got.text;
-}
-
-TEST_P(Security, WhoseCertificateIsOfAnotherAuthorityNeitherWritesNorReads) {
-  auto reader = start(kinematics(), "read", domain);
-  auto rogue = start({writer_vendor(), "channel", others_->path()}, "write", domain);
-  auto got = reader.get();
-  auto tried = rogue.get();
-  EXPECT_GT(tried.samples, 20) << "it did write: " << tried.text;
-  EXPECT_EQ(got.matched, 0) << got.text;
-  EXPECT_EQ(got.samples, 0);
-
-  auto spy = start({reader_vendor(), "kinematics", others_->path()}, "read", domain);
-  auto writer = start(channel(), "write", domain);
-  EXPECT_EQ(spy.get().samples, 0);
-  EXPECT_EQ(writer.get().matched, 0);
-}
-
-TEST_P(Security, AServiceWithTheRightsOfAnotherNeitherWritesNorReads) {
-  auto reader = start(kinematics(), "read", domain);
-  auto program = start({writer_vendor(), "program", authority_->path()}, "write", domain);
-  auto got = reader.get();
-  EXPECT_EQ(program.get().matched, 0);
-  EXPECT_EQ(got.matched, 0) << got.text;
-  EXPECT_EQ(got.samples, 0) << "only the channel may write path frames";
-
-  auto spy = start({reader_vendor(), "program", authority_->path()}, "read", domain);
-  auto writer = start(channel(), "write", domain);
-  EXPECT_EQ(spy.get().samples, 0) << "path frames are not for the program service";
-  EXPECT_EQ(writer.get().matched, 0);
-}
-
-TEST_P(Security, PermissionsOfAnotherServiceDoNotGoWithOnesCertificate) {
-  const Authority stolen("stolen");
+// All of them take part at once, so that what the rightful ones reach shows that the others could have.
+TEST(Security, OnlyTheChannelWritesThePathAndOnlyTheKinematicsReadsItOnBothVendorsAndAcrossThem) {
+  const Authority ours("security"), foreign("rogue");
+  const auto domain = deploy::free_domain();
+  const std::vector<std::string> vendors{"cyclonedds", "fastdds"};
+  // Whoever has its certificate from `stolen` is the program service and shows the permissions of the
+  // channel.
+  const auto stolen = ours.path() + "/stolen";
+  fs::create_directories(stolen);
   for (const auto* file : {"ca.pem", "governance.p7s"})
-    fs::copy(authority_->path() + "/" + file, stolen.path() + "/" + file,
-             fs::copy_options::overwrite_existing);
-  const auto own = "/program-" + writer_vendor() + "/", others = "/channel-" + writer_vendor() + "/";
-  for (const auto* file : {"certificate.pem", "key.pem"})
-    fs::copy(authority_->path() + own + file, stolen.path() + own + file,
-             fs::copy_options::overwrite_existing);
-  fs::copy(authority_->path() + others + "permissions.p7s", stolen.path() + own + "permissions.p7s",
-           fs::copy_options::overwrite_existing);
-  auto reader = start(kinematics(), "read", domain);
-  auto program = start({writer_vendor(), "program", stolen.path()}, "write", domain);
-  const auto got = reader.get();
-  EXPECT_EQ(program.get().matched, 0);
-  EXPECT_EQ(got.matched, 0) << got.text;
-  EXPECT_EQ(got.samples, 0);
+    fs::copy(ours.path() + "/" + file, stolen + "/" + file);
+  for (const auto& vendor : vendors) {
+    fs::copy(ours.path() + "/program-" + vendor, stolen + "/program-" + vendor);
+    fs::copy(ours.path() + "/channel-" + vendor + "/permissions.p7s",
+             stolen + "/program-" + vendor + "/permissions.p7s", fs::copy_options::overwrite_existing);
+  }
+  struct {
+    std::string name, identity, security;
+    std::vector<std::future<Result>> running = {};
+  } readers[] = {{"the kinematics", "kinematics", ours.path()},
+                 {"one without certificate", "", ""},
+                 {"one with another authority's certificate", "kinematics", foreign.path()},
+                 {"the program service", "program", ours.path()}},
+    writers[] = {{"the channel", "channel", ours.path()},
+                 {"one without certificate", "", ""},
+                 {"one with another authority's certificate", "channel", foreign.path()},
+                 {"the program service", "program", ours.path()},
+                 {"the program service with the channel's permissions", "program", stolen}};
+  for (auto& reader : readers)
+    for (const auto& vendor : vendors)
+      reader.running.push_back(start({vendor, reader.identity, reader.security}, "read", domain));
+  int mark = 0;  // of the writers: 1 and 2 the channel, 3 and 4 without certificate, ...
+  for (auto& writer : writers)
+    for (const auto& vendor : vendors)
+      writer.running.push_back(start({vendor, writer.identity, writer.security}, "write", domain, ++mark));
+
+  // Strangers do reach each other, and so do those of the other authority: they are there, and they try.
+  const std::set<int> may_hear[] = {{1, 2}, {3, 4}, {5, 6}, {}};
+  const int matched[] = {2, 2, 2, 0, 0};
+  for (std::size_t i = 0; i < std::size(readers); ++i)
+    for (std::size_t v = 0; v < vendors.size(); ++v) {
+      const auto result = readers[i].running[v].get();
+      EXPECT_EQ(heard(result), may_hear[i]) << readers[i].name << " on " << vendors[v] << ": " << result.text;
+      for (const auto& [from, count] : result.samples) EXPECT_GT(count, 20) << result.text;
+    }
+  for (std::size_t i = 0; i < std::size(writers); ++i)
+    for (std::size_t v = 0; v < vendors.size(); ++v) {
+      const auto result = writers[i].running[v].get();
+      EXPECT_EQ(result.matched, matched[i]) << writers[i].name << " on " << vendors[v] << ": " << result.text;
+    }
+  deploy::RunDirectory{domain}.remove();
 }
 
-INSTANTIATE_TEST_SUITE_P(Vendors, Security,
-                         testing::Values(Pair{"cyclonedds", "cyclonedds"}, Pair{"fastdds", "fastdds"},
-                                         Pair{"cyclonedds", "fastdds"}, Pair{"fastdds", "cyclonedds"}),
-                         [](const auto& pair) {
-                           return std::string(pair.param.writer) + "_to_" + pair.param.reader;
-                         });
-
-class SecureCluster : public testing::TestWithParam<const char*> {};
-
-TEST_P(SecureCluster, RunsAProgramWhileARogueNeitherReadsNorWritesSetpoints) {
-  const Authority authority("cluster");
-  const auto directory = fs::temp_directory_path() / ("trunnion-secure-" + std::to_string(getpid()));
-  fs::remove_all(directory);
-  fs::copy(deploy::find_machine("ac-table"), directory, fs::copy_options::recursive);
-  std::ofstream(directory / "machine.yaml", std::ios::app) << "security: " << authority.path() << "\n";
-  {
-    Cluster cluster(directory.string(), Time::virtual_, GetParam());
-    const auto domain = cluster.running().run.domain;
-    const std::string vendor = GetParam(), rogue_vendor = vendor == "mixed" ? "cyclonedds" : vendor;
-    auto spy = start({rogue_vendor, "", ""}, "read", domain, 4, "gantry_frame");
-    // Not the same topic: the two would talk to each other.
-    auto rogue = start({rogue_vendor, "", ""}, "write", domain, 4, "path_frame");
-    std::string text = "G21 G17 G90 G54\nG0 X0 Y0 A0 C0\nG43.4 H1\nG1 X0 Y0 Z80 F6000\n";
-    for (int i = 0; i < 20; ++i) text += "X60 Y30 A20 C40 F6000\nX-60 Y-30 A-10 C-20\n";
-    cluster.start_text(text + "X0 Y0 A0 C0\nG49\nM30\n");
-    ASSERT_TRUE(cluster.finish()) << cluster.told();
-    EXPECT_EQ(cluster.lost_frames, 0u);
-    const auto read = spy.get(), written = rogue.get();
-    EXPECT_EQ(read.samples, 0) << read.text;
-    EXPECT_GT(written.samples, 20) << written.text;
-    EXPECT_EQ(written.matched, 0) << "nobody listened";
-    EXPECT_FALSE(cluster.has_alarm(103)) << "a foreign frame would differ from ours";
-    EXPECT_EQ(cluster.active_alarms(), "");
+/// The services with `topic` in the part `verb` of their permissions, on both vendors.
+std::set<std::string> who_may(const Authority& authority, const std::string& verb, const std::string& topic) {
+  std::map<std::string, int> found;
+  for (const auto& entry : fs::directory_iterator(authority.path())) {
+    if (!entry.is_directory()) continue;
+    const auto identity = entry.path().filename().string();
+    const auto text = authority.file(identity + "/permissions.xml");
+    EXPECT_NE(text.find("<default>DENY</default>"), std::string::npos) << identity;
+    const auto begin = text.find("<" + verb + ">"), end = text.find("</" + verb + ">");
+    if (begin != std::string::npos &&
+        text.substr(begin, end - begin).find("<topic>" + topic + "</topic>") != std::string::npos)
+      ++found[identity.substr(0, identity.find('-'))];
   }
-  fs::remove_all(directory);
+  std::set<std::string> services;
+  for (const auto& [service, vendors] : found)
+    if (vendors == 2) services.insert(service);
+  EXPECT_EQ(services.size(), found.size()) << topic << ": the same on both vendors";
+  return services;
+}
+
+TEST(Security, PermissionsAreThoseOfTheTopics) {
+  const Authority authority("permissions");
+  using Names = std::set<std::string>;
+  for (const auto& [topic, writer] : {std::pair<std::string, std::string>{"channel/path_frame/1", "channel"},
+                                      {"kinematics/axis_frame/1", "kinematics"},
+                                      {"compensation/axis_frame/1", "compensation"},
+                                      {"gantry/axis_frame/1", "gantry"},
+                                      {"drive/feedback_frame/1", "drive"},
+                                      {"plc/outputs/1", "plc"},
+                                      {"parameters/set/1", "parameters"}})
+    EXPECT_EQ(who_may(authority, "publish", "trunnion/" + topic), Names{writer}) << topic;
+  EXPECT_EQ(who_may(authority, "subscribe", "trunnion/channel/path_frame/1"),
+            (Names{"kinematics", "deploy", "recorder"}));
+  EXPECT_EQ(who_may(authority, "publish", "trunnion/service/alarm/1").count("recorder"), 0u)
+      << "all who take part in the machine, not who looks on";
+
+  // They follow the table of topics and nothing else.
+  const auto table = authority.path() + "/topics.yaml";
+  const auto generate = [&](const std::string& topics) {
+    std::ofstream(table) << "topics:\n" << topics;
+    return output_of(std::string(TRUNNION_SECURITY) + "/documents.py " + table + " " + authority.path());
+  };
+  EXPECT_EQ(generate("  - {name: swarf, qos: state, writers: [plc], readers: [gateway]}\n"), "");
+  EXPECT_EQ(who_may(authority, "publish", "swarf"), Names{"plc"});
+  EXPECT_EQ(who_may(authority, "subscribe", "swarf"), (Names{"gateway", "deploy", "recorder"}));
+  EXPECT_EQ(who_may(authority, "publish", "trunnion/channel/path_frame/1"), Names{});
+  EXPECT_NE(generate("  - {name: swarf, qos: state, writers: [conveyor], readers: []}\n")
+                .find("topic swarf names the unknown service conveyor"),
+            std::string::npos);
+}
+
+class SecureCluster : public testing::TestWithParam<const char*> {
+ protected:
+  static void SetUpTestSuite() { authority_ = std::make_unique<Authority>("cluster"); }
+  static void TearDownTestSuite() { authority_.reset(); }
+  static inline std::unique_ptr<Authority> authority_;
+};
+
+TEST_P(SecureCluster, RunsAProgramAndTakesARestartedServiceBackWhileARogueNeitherReadsNorWritesSetpoints) {
+  const auto directory = authority_->path() + "/machine-" + GetParam();
+  fs::copy(deploy::find_machine("ac-table"), directory, fs::copy_options::recursive);
+  std::ofstream(directory + "/machine.yaml", std::ios::app) << "security: " << authority_->path() << "\n";
+  Cluster cluster(directory, Time::virtual_, GetParam());
+  const auto domain = cluster.running().run.domain;
+  const std::string vendor = GetParam(), rogue_vendor = vendor == "mixed" ? "cyclonedds" : vendor;
+  auto spy = start({rogue_vendor, "", ""}, "read", domain, 0, "gantry_frame");
+  // Not the same topic: the two would talk to each other.
+  auto rogue = start({rogue_vendor, "", ""}, "write", domain, 7, "path_frame");
+  std::string text = "G21 G17 G90 G54\nG0 X0 Y0 A0 C0\nG43.4 H1\nG1 X0 Y0 Z80 F6000\n";
+  for (int i = 0; i < 20; ++i) text += "X60 Y30 A20 C40 F6000\nX-60 Y-30 A-10 C-20\n";
+  text += "X0 Y0 A0 C0\nG49\nM30\n";
+  cluster.start_text(text);
+  ASSERT_TRUE(cluster.finish()) << cluster.told();
+  EXPECT_EQ(cluster.active_alarms(), "");
+
+  const auto pid = cluster.service("kinematics")->pid;
+  ASSERT_EQ(kill(pid, SIGKILL), 0);
+  ASSERT_TRUE(cluster.until([&] { return cluster.service("kinematics")->pid != pid && cluster.ready(); }))
+      << cluster.told();
+  cluster.reset_alarms();
+  ASSERT_TRUE(cluster.until([&] { return cluster.active_alarms().empty(); })) << cluster.told();
+  cluster.start_text(text);
+  ASSERT_TRUE(cluster.finish()) << cluster.told();
+
+  const auto read = spy.get(), written = rogue.get();
+  EXPECT_EQ(heard(read), std::set<int>{}) << read.text;
+  EXPECT_GT(written.samples.at(7), 20) << written.text;
+  EXPECT_EQ(written.matched, 0) << "nobody listened";
+  EXPECT_FALSE(cluster.has_alarm(103)) << "a foreign frame would differ from ours";
+  EXPECT_EQ(cluster.active_alarms(), "");
 }
 
 INSTANTIATE_TEST_SUITE_P(Vendors, SecureCluster, testing::Values("cyclonedds", "fastdds", "mixed"),

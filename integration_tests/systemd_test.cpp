@@ -1,4 +1,5 @@
-// Plays systemd: the socket of Type=notify and the watchdog, for the launcher and for a service.
+// What a service manager sees of the launcher and of a service. Some tests play systemd: the socket of
+// Type=notify and the watchdog. One has a systemd of its own.
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <signal.h>
@@ -15,6 +16,7 @@
 #include <functional>
 
 #include "cluster_files.hpp"
+#include "cluster_harness.hpp"
 #include "node/node.hpp"
 
 namespace trunnion::integration {
@@ -101,11 +103,12 @@ void expect_pings_until_it_hangs(Unit& unit) {
 }
 
 TEST(Systemd, TheLauncherSaysReadyOncePingsStopsWhenItHangsAndSaysThatItStops) {
-  const std::string domain = "91";
+  const auto domain = deploy::free_domain();
   const auto directory =
       std::filesystem::temp_directory_path() / ("trunnion-systemd-" + std::to_string(getpid()));
   Unit unit({deploy::binary_directory() + "/trunnion", "up", "ac-table", "--foreground", "--time", "virtual",
-             "--domain", domain, "--port", "18491", "--state", directory.string()});
+             "--domain", std::to_string(domain), "--port", std::to_string(free_port()), "--state",
+             directory.string()});
   const auto start = unit.messages(30, "READY=1");
   ASSERT_FALSE(start.empty());
   ASSERT_EQ(start.back(), "READY=1");
@@ -121,38 +124,98 @@ TEST(Systemd, TheLauncherSaysReadyOncePingsStopsWhenItHangsAndSaysThatItStops) {
 }
 
 TEST(Systemd, AServiceStartedAloneSaysReadyWhenItIsActiveAndPings) {
+  const auto domain = deploy::free_domain();
   const auto directory =
       std::filesystem::temp_directory_path() / ("trunnion-systemd-" + std::to_string(getpid()));
   Unit unit({deploy::binary_directory() + "/trunnion-parameters", "--machine",
-             deploy::find_machine("ac-table"), "--state", directory.string(), "--domain", "92"});
+             deploy::find_machine("ac-table"), "--state", directory.string(), "--domain",
+             std::to_string(domain)});
   EXPECT_TRUE(unit.told("READY=1", 20));
   expect_pings_until_it_hangs(unit);
   kill(unit.pid(), SIGTERM);
   EXPECT_TRUE(unit.told("STOPPING=1", 10));
   EXPECT_EQ(unit.stop(), 0);
   std::filesystem::remove_all(directory);
+  deploy::RunDirectory{domain}.remove();
 }
+
+std::string content(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// The unit as it is, but for the places of the program and of what it keeps.
+void install_unit(const std::filesystem::path& directory, const std::string& kept) {
+  std::filesystem::create_directories(directory);
+  auto text = content(TRUNNION_UNITS "/trunnion@.service");
+  for (const auto& [installed, here] :
+       {std::pair<std::string, std::string>{"/usr/bin/trunnion", deploy::binary_directory() + "/trunnion"},
+        {"/var/lib/trunnion", kept}}) {
+    ASSERT_NE(text.find(installed), std::string::npos);
+    text.replace(text.find(installed), installed.size(), here);
+  }
+  std::ofstream(directory / "trunnion@.service") << text;
+}
+
+std::string output_of(const std::string& command, int* status = nullptr) {
+  FILE* pipe = popen((command + " 2>&1").c_str(), "r");
+  std::string text;
+  std::array<char, 512> buffer;
+  while (const auto n = fread(buffer.data(), 1, buffer.size(), pipe)) text.append(buffer.data(), n);
+  const int ended = pclose(pipe);
+  if (status != nullptr) *status = WIFEXITED(ended) ? WEXITSTATUS(ended) : -1;
+  return text;
+}
+
+class Directory {
+ public:
+  explicit Directory(const std::string& name)
+      : path(std::filesystem::temp_directory_path() / (name + std::to_string(getpid()))) {
+    std::filesystem::remove_all(path);
+  }
+  ~Directory() { std::filesystem::remove_all(path); }
+  Directory(const Directory&) = delete;
+  Directory& operator=(const Directory&) = delete;
+  const std::filesystem::path path;
+};
 
 // systemd-analyze ends with status 0 whatever it finds, so any output is a finding.
 TEST(Systemd, TheUnitIsOneThatSystemdUnderstands) {
-  if (std::system("command -v systemd-analyze >/dev/null") != 0) GTEST_SKIP() << "no systemd-analyze here";
-  const auto directory =
-      std::filesystem::temp_directory_path() / ("trunnion-unit-" + std::to_string(getpid()));
-  std::filesystem::create_directories(directory);
-  std::ifstream in(TRUNNION_UNITS "/trunnion@.service");
-  std::string text((std::istreambuf_iterator<char>(in)), {});
-  const std::string installed = "/usr/bin/trunnion";
-  ASSERT_NE(text.find(installed), std::string::npos);
-  text.replace(text.find(installed), installed.size(), deploy::binary_directory() + "/trunnion");
-  std::ofstream(directory / "trunnion@.service") << text;
-  FILE* pipe =
-      popen(("systemd-analyze verify " + (directory / "trunnion@.service").string() + " 2>&1").c_str(), "r");
-  std::string found;
-  std::array<char, 512> buffer;
-  while (const auto n = fread(buffer.data(), 1, buffer.size(), pipe)) found.append(buffer.data(), n);
-  pclose(pipe);
-  EXPECT_EQ(found, "");
-  std::filesystem::remove_all(directory);
+  if (output_of("command -v systemd-analyze").empty()) GTEST_SKIP() << "no systemd-analyze here";
+  const Directory directory("trunnion-unit-");
+  install_unit(directory.path, directory.path.string());
+  EXPECT_EQ(output_of("systemd-analyze verify " + (directory.path / "trunnion@.service").string()), "");
+}
+
+TEST(Systemd, ASystemdStartsTheUnitKillsAndRestartsItWhenItHangsAndStopsIt) {
+  const Directory directory("trunnion-instance-");
+  const auto units = directory.path / "config" / "systemd" / "user";
+  install_unit(units, directory.path.string() + "/state");
+  const auto domain = std::to_string(deploy::free_domain());
+  std::filesystem::create_directories(units / "trunnion@.service.d");
+  const auto results = directory.path / "results";
+  // A user's systemd cannot become another user, /etc/trunnion is not this test's, and the programs may lie
+  // in somebody's home.
+  std::ofstream(units / "trunnion@.service.d" / "test.conf")
+      << "[Service]\nUser=\nStateDirectory=\nProtectHome=no\nExecStopPost=/bin/sh -c 'echo $$SERVICE_RESULT "
+         ">>"
+      << results.string() << "'\nEnvironment=TRUNNION_CONFIGS="
+      << std::filesystem::path(deploy::find_machine("ac-table")).parent_path().string()
+      << "\nEnvironment=\"TRUNNION_OPTIONS=--time virtual --port " << free_port() << " --domain " << domain
+      << "\"\n";
+  int status = 0;
+  const auto told =
+      output_of(std::string(TRUNNION_TESTS) + "/systemd_instance.sh " + directory.path.string() + " " +
+                    TRUNNION_TESTS + "/systemd_unit.sh " + deploy::binary_directory() + "/trunnion " + domain,
+                &status);
+  deploy::RunDirectory{static_cast<std::uint32_t>(std::stoul(domain))}.remove();
+  if (status == 77) GTEST_SKIP() << told;
+  ASSERT_EQ(status, 0) << told;
+  EXPECT_NE(told.find("started 0 active ready 0\n"), std::string::npos) << told;
+  EXPECT_NE(told.find("hung active ready 1 another\n"), std::string::npos) << told;
+  EXPECT_NE(told.find("stopped 0 inactive success 0\n"), std::string::npos) << told;
+  EXPECT_EQ(content(results), "watchdog\nsuccess\n") << "why systemd says that the unit ended, each time";
+  std::printf("%s", told.c_str());
 }
 
 }  // namespace

@@ -20,7 +20,10 @@ shift 2
 hosts() { ip netns list | awk -v p="$prefix-" 'index($1, p) == 1 { print substr($1, length(p) + 1) }'; }
 # The outer end of a host's cable; interface names have 15 characters at most.
 port() { echo "$prefix-${1:0:8}"; }
-runs() { echo "/run/trunnion-namespaces/$prefix/$1"; }
+# Launchers of one user and domain would take each other for the same cluster by their run files, so each host has a directory
+# for them. It lies in the real one, which a cluster outside would remove with its mounts if it were empty.
+run_files=/tmp/trunnion-0
+runs() { echo "$run_files/hosts-$prefix/$1"; }
 
 make_host() {
   ip netns add "$prefix-$1"
@@ -58,17 +61,17 @@ case $verb in
     [ $# -ge 2 ] || fail "exec PREFIX HOST COMMAND..."
     host=$1
     shift
-    # Launchers of one user and domain would take each other for the same cluster by their run files.
-    mkdir -p /tmp/trunnion-0
     exec ip netns exec "$prefix-$host" unshare --mount --uts bash -c \
-      'hostname "$1"; mount --bind "$2" /tmp/trunnion-0; shift 2; exec "$@"' exec "$host" "$(runs "$host")" "$@"
+      'hostname "$1"; mount --bind "$2" "$3"; shift 3; exec "$@"' exec "$host" "$(runs "$host")" "$run_files" "$@"
     ;;
   loss)
     [ $# -eq 1 ] || fail "loss PREFIX PERCENT"
     for host in $(hosts); do
       ip netns exec "$prefix-$host" iptables -F INPUT
-      [ "$1" = 0 ] || ip netns exec "$prefix-$host" iptables -A INPUT -i cable -p udp \
+      [ "$1" = 0 ] && continue
+      ip netns exec "$prefix-$host" iptables -A INPUT -i cable -p udp \
         -m statistic --mode random --probability "$(awk -v p="$1" 'BEGIN { printf "%.6f", p / 100 }')" -j DROP
+      ip netns exec "$prefix-$host" iptables -A INPUT -i cable -p udp # counts the others
     done
     ;;
   cut)
@@ -80,10 +83,13 @@ case $verb in
   down)
     for host in $(hosts); do
       ip netns pids "$prefix-$host" | xargs -r kill -9 2>/dev/null || true
+      # Who has a socket there keeps the namespace, and with it the cable.
+      if ip link show "$(port "$host")" >/dev/null 2>&1; then ip link del "$(port "$host")"; fi
       ip netns del "$prefix-$host"
     done
     if ip link show "$prefix-br" >/dev/null 2>&1; then ip link del "$prefix-br"; fi
-    rm -rf "/run/trunnion-namespaces/$prefix"
+    rm -rf "$run_files/hosts-$prefix"
+    rmdir "$run_files" 2>/dev/null || true # another cluster's are in it
     ;;
   *) fail "unknown verb '$verb'" ;;
 esac

@@ -195,7 +195,8 @@ void add_cluster_commands(CLI::App& app, Common& common) {
       "--host", options->host,
       "Which host of machine.yaml this is (default: the one with an address of this computer)");
   command->add_flag("--foreground", options->foreground, "Stay in the foreground until Ctrl-C");
-  add_command(app, common, "down", "Stop a cluster; nothing of it is left but its state",
+  add_command(app, common, "down",
+              "Stop a cluster (of several hosts: the part on this one); nothing of it is left but its state",
               [&common] { return down(common); });
   add_command(
       app, common, "status",
