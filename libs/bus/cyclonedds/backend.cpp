@@ -303,7 +303,10 @@ std::string configuration(const NetworkSettings& network) {
          // overwritten. The interval between heartbeats doubles while nobody answers; its bound is what a cut
          // cable costs after it is whole again.
          "<Internal><Watermarks><WhcHigh>64MB</WhcHigh></Watermarks><NackDelay>5ms</NackDelay>"
-         "<HeartbeatInterval max=\"100ms\">20ms</HeartbeatInterval></Internal>"
+         "<HeartbeatInterval max=\"100ms\">20ms</HeartbeatInterval>"
+         // A reader that is there answers a heartbeat at once; when the whole cluster ends nobody does, and
+         // every process would wait this long.
+         "<WriterLingerDuration>100ms</WriterLingerDuration></Internal>"
          "</Domain></CycloneDDS>";
   return xml.str();
 }
@@ -345,7 +348,6 @@ std::unique_ptr<dds_qos_t, QosDeleter> participant_qos(const NetworkSettings& ne
 void print_log(void*, const dds_log_data_t* data) {
   const std::string_view line(data->message, data->size);
   if (line.find("ddsi_udp_conn_write") == std::string_view::npos)
-
     std::fwrite(data->message - data->hdrsize, 1, data->hdrsize + data->size + 1,
                 stderr);  // and the new line
 }
