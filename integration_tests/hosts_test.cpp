@@ -45,15 +45,17 @@ class Machines {
   fs::path directory_;
 };
 
-/// `trunnion up` on every host, in an order in which nobody finds what it waits for.
+/// `trunnion up` on every host at once, so that nobody finds what it waits for.
 void start(const ThreeHosts& hosts, std::uint32_t domain, const std::string& machine,
            const std::string& options) {
-  for (const auto* host : {"motion", "drives", "control"}) {
-    const auto up = hosts.exec(host, deploy::binary_directory() + "/trunnion up " + machine +
-                                         " --port 18477 --domain " + std::to_string(domain) + " --state " +
-                                         machine + "/state-" + host + " " + options);
+  auto ups = hosts.exec_on_all([&](const std::string& host) {
+    return deploy::binary_directory() + "/trunnion up " + machine + " --port 18477 --domain " +
+           std::to_string(domain) + " --state " + machine + "/state-" + host + " " + options;
+  });
+  for (auto& [host, running] : ups) {
+    const auto up = running.get();
     ASSERT_EQ(up.status, 0) << host << ": " << up.text;
-    EXPECT_NE(up.text.find(std::string("runs what host ") + host + " has"), std::string::npos) << up.text;
+    EXPECT_NE(up.text.find("runs what host " + host + " has"), std::string::npos) << up.text;
   }
 }
 
@@ -65,46 +67,45 @@ bus::NetworkSettings on_control(std::uint32_t domain) {
   return network;
 }
 
-// Two rounds at 100 mm/s (F6000) with both rotary axes.
-const std::string sweep = [] {
-  std::string text = "G21 G17 G90 G54\nG0 X0 Y0 A0 C0\nG43.4 H1\nG1 X0 Y0 Z80 F6000\n";
-  for (int i = 0; i < 2; ++i) text += "X60 Y30 A20 C40 F6000\nX-60 Y-30 A-10 C-20\n";
-  return text + "X0 Y0 A0 C0\nG49\nM30\n";
-}();
+// At 100 mm/s (F6000) with both rotary axes.
+const std::string sweep =
+    "G21 G17 G90 G54\nG0 X0 Y0 A0 C0\nG43.4 H1\nG1 X0 Y0 Z80 F6000\n"
+    "X60 Y30 A20 C40\nX-60 Y-30 A-10 C-20\nX0 Y0 A0 C0\nG49\nM30\n";
+const std::string cone = "nas979_cone.nc";
+constexpr std::uint32_t first_slanting_line = 5;
 
-/// Every commanded position of the cone on one host, in virtual time.
-Rows cone_on_one_host(const Machines& machines) {
-  Cluster cluster(machines.one());
-  cluster.keep_rows = true;
-  cluster.start("nas979_cone.nc");
-  EXPECT_TRUE(cluster.finish()) << cluster.told();
-  cluster.until([] { return false; }, 0.2);  // the last of the feedback
-  return cluster.rows;
+void begin(Cluster& cluster, const std::string& program) {
+  if (program == sweep)
+    cluster.start_text(program);
+  else
+    cluster.start(program);
 }
 
-/// Of the sweep, and of the sweep once more from where it has ended.
-std::pair<Rows, Rows> two_sweeps_on_one_host(const Machines& machines) {
+/// Every commanded position of programs on one host, in virtual time.
+std::vector<Rows> on_one_host(const Machines& machines, const std::vector<std::string>& programs) {
   Cluster cluster(machines.one());
   cluster.keep_rows = true;
-  cluster.start_text(sweep);
-  EXPECT_TRUE(cluster.finish()) << cluster.told();
-  const auto first = std::move(cluster.rows);
-  cluster.rows.clear();
-  cluster.start("test0.nc");
-  EXPECT_TRUE(cluster.finish()) << cluster.told();
-  return {first, cluster.rows};
+  std::vector<Rows> all;
+  for (const auto& program : programs) {
+    cluster.rows.clear();
+    begin(cluster, program);
+    EXPECT_TRUE(cluster.finish()) << cluster.told();
+    cluster.until([] { return false; }, 0.2);  // the last of the feedback
+    all.push_back(cluster.rows);
+  }
+  return all;
 }
 
 /// Waits for as many cycles as there are in `expected`, because feedback may come after the news of the end.
-Rows cone_over_three_hosts(const Machines& machines, ThreeHosts& hosts, std::uint32_t domain,
-                           const Rows& expected, const std::string& options = "") {
+Rows over_three_hosts(const std::string& program, const Machines& machines, ThreeHosts& hosts,
+                      std::uint32_t domain, const Rows& expected, const std::string& options = "") {
   start(hosts, domain, machines.three(), "--time virtual " + options);
   hosts.enter("control");
   Rows rows;
   {
     Cluster cluster(on_control(domain));
     cluster.keep_rows = true;
-    cluster.start("nas979_cone.nc");
+    begin(cluster, program);
     EXPECT_TRUE(cluster.finish(0, 90)) << cluster.told();
     EXPECT_TRUE(cluster.until([&] { return cluster.rows.size() >= expected.size(); }, 2))
         << cluster.rows.size() << " cycles instead of " << expected.size();
@@ -142,8 +143,10 @@ std::pair<double, double> lost_and_received(const ThreeHosts& hosts, const char*
 }
 
 void expect_all_processes_in_the_status_of_each_host(const ThreeHosts& hosts) {
-  for (const auto* host : {"control", "motion", "drives"}) {
-    const auto status = hosts.exec(host, deploy::binary_directory() + "/trunnion status --json");
+  auto all = hosts.exec_on_all(
+      [](const std::string&) { return deploy::binary_directory() + "/trunnion status --json"; });
+  for (auto& [host, running] : all) {
+    const auto status = running.get();
     EXPECT_EQ(status.status, 0) << status.text;
     const auto json = nlohmann::json::parse(status.text, nullptr, false);
     ASSERT_TRUE(json.is_object()) << status.text;
@@ -186,8 +189,8 @@ class Hosts : public testing::Test {
 };
 
 TEST_F(Hosts, OnePercentLossAndTwoMillisecondsEachWayChangeNoBitOfTheConeAndStatusShowsAllProcesses) {
-  const Machines machines(32);
-  const auto expected = cone_on_one_host(machines);
+  const Machines machines(64);
+  const auto expected = on_one_host(machines, {cone}).front();
   ThreeHosts hosts(ThreeHosts::Cables::long_);
   expect_each_mistake_in_one_line(hosts, machines.three());
   hosts.enter("control");
@@ -197,7 +200,7 @@ TEST_F(Hosts, OnePercentLossAndTwoMillisecondsEachWayChangeNoBitOfTheConeAndStat
   hosts.leave();
   hosts.expect("loss", "1");
   const double began = node::monotonic_seconds();
-  const auto rows = cone_over_three_hosts(machines, hosts, domain, expected);
+  const auto rows = over_three_hosts(cone, machines, hosts, domain, expected);
   const double took = node::monotonic_seconds() - began;
   EXPECT_GT(rows.size(), 10000u);
   EXPECT_EQ(first_difference(rows, expected), "");
@@ -212,20 +215,20 @@ TEST_F(Hosts, OnePercentLossAndTwoMillisecondsEachWayChangeNoBitOfTheConeAndStat
   expect_all_processes_in_the_status_of_each_host(hosts);
 }
 
-TEST_F(Hosts, MulticastFindsTheOthersOnBothVendorsAndTheConeIsTheSame) {
+TEST_F(Hosts, MulticastFindsTheOthersOnBothVendorsAndTheMotionIsTheSame) {
   const Machines machines(32, "network: multicast\n");
-  const auto expected = cone_on_one_host(machines);
+  const auto expected = on_one_host(machines, {sweep}).front();
   ThreeHosts hosts;
-  EXPECT_EQ(
-      first_difference(cone_over_three_hosts(machines, hosts, domain, expected, "--vendor mixed"), expected),
-      "");
+  EXPECT_EQ(first_difference(over_three_hosts(sweep, machines, hosts, domain, expected, "--vendor mixed"),
+                             expected),
+            "");
 }
 
 TEST_F(Hosts, ACableCutForFiftyMillisecondsIsNotNoticedAndForASecondIsAStopOnThePath) {
   // docs/hosts.md computes it: the reserve for stopping, the cut, and what it takes until the lost frames
   // have come.
   const Machines machines(256);
-  const auto [expected, expected_again] = two_sweeps_on_one_host(machines);
+  const auto sweeps = on_one_host(machines, {sweep, sweep});  // the second from where the first ends
   ThreeHosts hosts;
   start(hosts, domain, machines.three(), "--time real");
   hosts.enter("control");
@@ -233,17 +236,19 @@ TEST_F(Hosts, ACableCutForFiftyMillisecondsIsNotNoticedAndForASecondIsAStopOnThe
     Cluster cluster(on_control(domain));
     cluster.keep_rows = true;
     cluster.start_text(sweep);
-    ASSERT_TRUE(cluster.until([&] { return cluster.channels[0].line >= 6; })) << cluster.told();
+    ASSERT_TRUE(cluster.until([&] { return cluster.channels[0].line >= first_slanting_line; }))
+        << cluster.told();
     const auto before = cluster.feedback.starved;
     hosts.expect("cut", " motion 0.05");
     ASSERT_TRUE(cluster.finish()) << cluster.told();
     EXPECT_FALSE(cluster.has_alarm(110)) << cluster.told();
     EXPECT_EQ(cluster.feedback.starved, before);
-    EXPECT_EQ(first_difference(cluster.rows, expected), "");
+    EXPECT_EQ(first_difference(cluster.rows, sweeps[0]), "");
 
     cluster.rows.clear();
     cluster.start("test0.nc");
-    ASSERT_TRUE(cluster.until([&] { return cluster.channels[0].line >= 6; })) << cluster.told();
+    ASSERT_TRUE(cluster.until([&] { return cluster.channels[0].line >= first_slanting_line; }))
+        << cluster.told();
     hosts.expect("cut", " motion 1");
     ASSERT_TRUE(cluster.until([&] { return cluster.has_alarm(110); })) << cluster.told();
     constexpr int held = 2;
@@ -252,15 +257,38 @@ TEST_F(Hosts, ACableCutForFiftyMillisecondsIsNotNoticedAndForASecondIsAStopOnThe
     ASSERT_TRUE(cluster.go_on()) << cluster.told();
     ASSERT_TRUE(cluster.finish()) << cluster.told();
     constexpr double path_tolerance = 0.01;  // mm or deg, parameter 040901 of the machine
-    const auto judged = judge(cluster.rows, expected_again, path_tolerance, true);
+    const auto judged = judge(cluster.rows, sweeps[1], path_tolerance, true);
     EXPECT_EQ(judged.problem, "");
     std::printf(
         "cut for 1 s: %zu cycles, %zu without the cut, %.6f mm or deg off the path, %zu back; "
         "rows: %s\n",
-        cluster.rows.size(), expected_again.size(), judged.largest, judged.back,
-        first_difference(cluster.rows, expected_again).c_str());
+        cluster.rows.size(), sweeps[1].size(), judged.largest, judged.back,
+        first_difference(cluster.rows, sweeps[1]).c_str());
   }
   hosts.leave();
+}
+
+// Not a check but a measurement: docs/hosts.md has its numbers.
+TEST_F(Hosts, DISABLED_HowOftenTheDriveWaitsInRealTimeForEachLead) {
+  for (const int lead : {32, 48, 64, 128}) {
+    const Machines machines(lead);
+    ThreeHosts hosts(ThreeHosts::Cables::long_);
+    hosts.expect("loss", "1");
+    const auto in = domain + static_cast<std::uint32_t>(lead) / 16;
+    start(hosts, in, machines.three(), "--time real");
+    hosts.enter("control");
+    {
+      Cluster cluster(on_control(in));
+      begin(cluster, sweep);
+      const auto before = cluster.feedback.starved, first = cluster.expected_cycle;
+      int stops = 0;
+      while (!cluster.finish() && cluster.state() == RunState::INTERRUPTED && ++stops < 20) cluster.go_on();
+      std::printf("lead %d: %llu of %llu periods without a setpoint, %d stops\n", lead,
+                  static_cast<unsigned long long>(cluster.feedback.starved - before),
+                  static_cast<unsigned long long>(cluster.expected_cycle - first), stops);
+    }
+    hosts.leave();
+  }
 }
 
 }  // namespace

@@ -10,7 +10,8 @@
 #include <array>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
+#include <functional>
+#include <future>
 #include <map>
 #include <string>
 #include <vector>
@@ -22,7 +23,7 @@ namespace trunnion::integration {
 /// Output of a shell command, with its exit status.
 struct Shell {
   explicit Shell(const std::string& command) {
-    FILE* pipe = popen((command + " 2>&1").c_str(), "r");
+    FILE* pipe = popen(("{ " + command + "; } 2>&1").c_str(), "r");
     std::array<char, 4096> buffer;
     while (const auto n = fread(buffer.data(), 1, buffer.size(), pipe)) text.append(buffer.data(), n);
     status = pclose(pipe);
@@ -36,9 +37,18 @@ inline std::string no_namespaces() {
   if (geteuid() != 0) return "needs root for network namespaces";
   for (const char* tool : {"ip", "iptables", "unshare"})
     if (Shell(std::string("command -v ") + tool).status != 0) return std::string("needs the program ") + tool;
+  if (access("/dev/net/tun", R_OK | W_OK) != 0) return "needs the device /dev/net/tun";
   const std::string probe = "trunnion-probe-" + std::to_string(getpid());
-  const Shell made("ip netns add " + probe + " && ip netns del " + probe);
-  return made.status == 0 ? "" : "no network namespaces here: " + made.text;
+  const Shell made("ip netns add " + probe);
+  if (made.status != 0) return "no network namespaces here: " + made.text;
+  const Shell used(
+      "ip -n " + probe + " link add name bridge0 type bridge && ip -n " + probe +
+      " link add name cable0 type veth peer name cable1 && ip netns exec " + probe +
+      " iptables -A INPUT -m statistic --mode random --probability 0.5 -j DROP && ip netns exec " + probe +
+      " unshare --mount --uts true");
+  const Shell deleted("ip netns del " + probe);
+  return used.status == 0 ? ""
+                          : "no bridge, cable, packet filter or mounts in a namespace here: " + used.text;
 }
 
 /// Three hosts: `control`, `motion` and `drives`, 10.77.0.1 to 10.77.0.3.
@@ -60,8 +70,9 @@ class ThreeHosts {
   }
   ~ThreeHosts() {
     leave();
-    for (const auto* host : {"control", "motion", "drives"})
-      exec(host, deploy::binary_directory() + "/trunnion down");
+    for (auto& down :
+         exec_on_all([](const std::string&) { return deploy::binary_directory() + "/trunnion down"; }))
+      (void)down.second.get();
     if (switch_ != nullptr) pclose(switch_);
     std::filesystem::remove(switch_log());
     expect("down", "");
@@ -88,6 +99,15 @@ class ThreeHosts {
   }
   Shell exec(const std::string& host, const std::string& command) const {
     return script("exec", host + " " + command);
+  }
+  /// A command on each host, at once.
+  std::map<std::string, std::future<Shell>> exec_on_all(
+      const std::function<std::string(const std::string&)>& command) const {
+    std::map<std::string, std::future<Shell>> running;
+    for (const std::string host : {"motion", "drives", "control"})
+      running[host] =
+          std::async(std::launch::async, [this, host, text = command(host)] { return exec(host, text); });
+    return running;
   }
   /// From now on the sockets that this thread and the threads it starts make are on `host`, and they go
   /// before the cluster's: one who looks on must not lose frames of virtual time, which waits for nobody.
