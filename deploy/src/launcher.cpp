@@ -76,7 +76,8 @@ void Launcher::lose(ServiceProcess& process, const std::string& how) {
                 "Service " + process.name() + " " + how);
 }
 
-// Collects dead children; before the first readiness a death is a failed start.
+// Collects dead children. Before the first readiness one that ended by itself is a failed start; one that was
+// ended by a signal is started again as later, while `up` waits.
 bool Launcher::reap(std::string& failure) {
   int status = 0;
   for (int pid; (pid = waitpid(-1, &status, WNOHANG)) > 0;) {
@@ -91,6 +92,10 @@ bool Launcher::reap(std::string& failure) {
       const std::string how = WIFSIGNALED(status)
                                   ? "was ended by signal " + std::to_string(WTERMSIG(status))
                                   : "ended with status " + std::to_string(WEXITSTATUS(status));
+      if (!was_ready_ && WIFSIGNALED(status)) {
+        ++process.restarts;
+        continue;
+      }
       if (!was_ready_) {
         const auto line = last_line(process.log);
         failure = line.empty() ? e.service + " " + how : line;
