@@ -34,10 +34,6 @@ class Authority {
   Authority(const Authority&) = delete;
   Authority& operator=(const Authority&) = delete;
   std::string path() const { return directory_.string(); }
-  std::string file(const std::string& name) const {
-    std::ifstream in(directory_ / name);
-    return {std::istreambuf_iterator<char>(in), {}};
-  }
 
  private:
   fs::path directory_;
@@ -135,12 +131,13 @@ TEST(Security, OnlyTheChannelWritesThePathAndOnlyTheKinematicsReadsItOnBothVendo
 }
 
 /// The services with `topic` in the part `verb` of their permissions, on both vendors.
-std::set<std::string> who_may(const Authority& authority, const std::string& verb, const std::string& topic) {
+std::set<std::string> who_may(const fs::path& directory, const std::string& verb, const std::string& topic) {
   std::map<std::string, int> found;
-  for (const auto& entry : fs::directory_iterator(authority.path())) {
+  for (const auto& entry : fs::directory_iterator(directory)) {
     if (!entry.is_directory()) continue;
     const auto identity = entry.path().filename().string();
-    const auto text = authority.file(identity + "/permissions.xml");
+    std::ifstream in(entry.path() / "permissions.xml");
+    const std::string text(std::istreambuf_iterator<char>(in), {});
     EXPECT_NE(text.find("<default>DENY</default>"), std::string::npos) << identity;
     const auto begin = text.find("<" + verb + ">"), end = text.find("</" + verb + ">");
     if (begin != std::string::npos &&
@@ -155,7 +152,13 @@ std::set<std::string> who_may(const Authority& authority, const std::string& ver
 }
 
 TEST(Security, PermissionsAreThoseOfTheTopics) {
-  const Authority authority("permissions");
+  const auto directory = fs::temp_directory_path() / ("trunnion-permissions-" + std::to_string(getpid()));
+  fs::create_directories(directory);
+  const auto generate = [&](const std::string& table) {
+    return output_of(TRUNNION_PYTHON " " TRUNNION_SECURITY "/documents.py " + table + " " +
+                     directory.string());
+  };
+  EXPECT_EQ(generate(TRUNNION_SECURITY "/../../idl/topics.yaml"), "");
   using Names = std::set<std::string>;
   for (const auto& [topic, writer] : {std::pair<std::string, std::string>{"channel/path_frame/1", "channel"},
                                       {"kinematics/axis_frame/1", "kinematics"},
@@ -164,25 +167,25 @@ TEST(Security, PermissionsAreThoseOfTheTopics) {
                                       {"drive/feedback_frame/1", "drive"},
                                       {"plc/outputs/1", "plc"},
                                       {"parameters/set/1", "parameters"}})
-    EXPECT_EQ(who_may(authority, "publish", "trunnion/" + topic), Names{writer}) << topic;
-  EXPECT_EQ(who_may(authority, "subscribe", "trunnion/channel/path_frame/1"),
+    EXPECT_EQ(who_may(directory, "publish", "trunnion/" + topic), Names{writer}) << topic;
+  EXPECT_EQ(who_may(directory, "subscribe", "trunnion/channel/path_frame/1"),
             (Names{"kinematics", "deploy", "recorder"}));
-  EXPECT_EQ(who_may(authority, "publish", "trunnion/service/alarm/1").count("recorder"), 0u)
+  EXPECT_EQ(who_may(directory, "publish", "trunnion/service/alarm/1").count("recorder"), 0u)
       << "all who take part in the machine, not who looks on";
 
   // They follow the table of topics and nothing else.
-  const auto table = authority.path() + "/topics.yaml";
-  const auto generate = [&](const std::string& topics) {
-    std::ofstream(table) << "topics:\n" << topics;
-    return output_of(std::string(TRUNNION_SECURITY) + "/documents.py " + table + " " + authority.path());
+  const auto table_of = [&](const std::string& topics) {
+    std::ofstream(directory / "topics.yaml") << "topics:\n" << topics;
+    return (directory / "topics.yaml").string();
   };
-  EXPECT_EQ(generate("  - {name: swarf, qos: state, writers: [plc], readers: [gateway]}\n"), "");
-  EXPECT_EQ(who_may(authority, "publish", "swarf"), Names{"plc"});
-  EXPECT_EQ(who_may(authority, "subscribe", "swarf"), (Names{"gateway", "deploy", "recorder"}));
-  EXPECT_EQ(who_may(authority, "publish", "trunnion/channel/path_frame/1"), Names{});
-  EXPECT_NE(generate("  - {name: swarf, qos: state, writers: [conveyor], readers: []}\n")
+  EXPECT_EQ(generate(table_of("  - {name: swarf, qos: state, writers: [plc], readers: [gateway]}\n")), "");
+  EXPECT_EQ(who_may(directory, "publish", "swarf"), Names{"plc"});
+  EXPECT_EQ(who_may(directory, "subscribe", "swarf"), (Names{"gateway", "deploy", "recorder"}));
+  EXPECT_EQ(who_may(directory, "publish", "trunnion/channel/path_frame/1"), Names{});
+  EXPECT_NE(generate(table_of("  - {name: swarf, qos: state, writers: [conveyor], readers: []}\n"))
                 .find("topic swarf names the unknown service conveyor"),
             std::string::npos);
+  fs::remove_all(directory);
 }
 
 class SecureCluster : public testing::TestWithParam<const char*> {

@@ -8,13 +8,26 @@
 
 enum { stream_depth = 1024 };
 
-static const char configuration[] =
-    "<CycloneDDS><Domain id=\"any\"><General><Interfaces><NetworkInterface address=\"127.0.0.1\"/></Interfaces>"
-    "<AllowMulticast>false</AllowMulticast></General><Discovery><ParticipantIndex>auto</ParticipantIndex>"
-    "<MaxAutoParticipantIndex>39</MaxAutoParticipantIndex><Peers><Peer address=\"127.0.0.1\"/></Peers>"
-    "<SPDPInterval>0.5s</SPDPInterval><LeaseDuration>3s</LeaseDuration></Discovery><Internal><Watermarks><WhcHigh>"
-    "64MB</WhcHigh></Watermarks><NackDelay>5ms</NackDelay><HeartbeatInterval>20ms</HeartbeatInterval></Internal>"
-    "</Domain></CycloneDDS>";
+/* What Cyclone reads at the start; 0 when the list of peers is too long for it. */
+static int configure(char *text, size_t size, const struct options *o) {
+  char peers[1024] = "";
+  size_t used = 0;
+  for (const char *p = o->multicast ? "" : o->peers; *p != 0;) {
+    const int length = (int)strcspn(p, ",");
+    used += (size_t)snprintf(peers + used, sizeof peers - used, "<Peer address=\"%.*s\"/>", length, p);
+    if (used >= sizeof peers) return 0;
+    p += length + (p[length] == ',');
+  }
+  return (size_t)snprintf(
+             text, size,
+             "<CycloneDDS><Domain id=\"any\"><General><Interfaces><NetworkInterface address=\"%s\"/></Interfaces>"
+             "<AllowMulticast>%s</AllowMulticast></General><Discovery><ParticipantIndex>auto</ParticipantIndex>"
+             "<MaxAutoParticipantIndex>39</MaxAutoParticipantIndex><Peers>%s</Peers><SPDPInterval>0.5s</SPDPInterval>"
+             "<LeaseDuration>3s</LeaseDuration></Discovery><Internal><Watermarks><WhcHigh>64MB</WhcHigh></Watermarks>"
+             "<NackDelay>5ms</NackDelay><HeartbeatInterval max=\"100ms\">20ms</HeartbeatInterval></Internal></Domain>"
+             "</CycloneDDS>",
+             o->interface_address, o->multicast ? "spdp" : "false", peers) < size;
+}
 
 /* The hash of a type is part of its name on the wire, so that types that differ never meet. */
 static dds_entity_t make_topic(dds_entity_t participant, const dds_topic_descriptor_t *type, const char *wire_type,
@@ -61,7 +74,12 @@ static dds_entity_t make_writer(const struct cluster *c, const dds_topic_descrip
 }
 
 int cluster_open(struct cluster *c, const struct options *o) {
+  char configuration[2048];
   memset(c, 0, sizeof *c);
+  if (!configure(configuration, sizeof configuration, o)) {
+    fprintf(stderr, "compensation-in-c: --interface or --peers is too long\n");
+    return -1;
+  }
   dds_create_domain(o->domain, configuration);
   c->participant = dds_create_participant(o->domain, NULL, NULL);
   if (c->participant < 0) {

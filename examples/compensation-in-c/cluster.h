@@ -10,7 +10,8 @@
 struct options {
   unsigned instance, copy, domain;
   const char *machine;
-  int virtual_time, parent_bound, shadow;
+  const char *interface_address, *peers; /* IPv4 addresses, the second separated by commas */
+  int multicast, virtual_time, parent_bound, shadow;
 };
 
 struct cluster {

@@ -45,7 +45,7 @@ static double now_seconds(void) {
 
 static int usage(const char *what) {
   fprintf(stderr, "compensation-in-c: %s\nOptions as of every service: --machine --state --instance --copy --channel "
-                  "--domain --vendor --virtual-time --parent-bound --shadow\n", what);
+                  "--domain --vendor --interface --peers --multicast --virtual-time --parent-bound --shadow\n", what);
   return 1;
 }
 
@@ -59,6 +59,8 @@ static int parse(struct options *o, int argc, char **argv) {
       o->parent_bound = 1;
     } else if (strcmp(name, "--shadow") == 0) {
       o->shadow = 1;
+    } else if (strcmp(name, "--multicast") == 0) {
+      o->multicast = 1;
     } else if (value == NULL) {
       return usage(name);
     } else {
@@ -69,6 +71,12 @@ static int parse(struct options *o, int argc, char **argv) {
         o->copy = (unsigned)strtoul(value, NULL, 10);
       else if (strcmp(name, "--domain") == 0)
         o->domain = (unsigned)strtoul(value, NULL, 10);
+      else if (strcmp(name, "--interface") == 0)
+        o->interface_address = value;
+      else if (strcmp(name, "--peers") == 0)
+        o->peers = value;
+      else if (strcmp(name, "--security") == 0)
+        return usage("it has no certificate to show");
       else if (strcmp(name, "--vendor") == 0 && strcmp(value, "cyclonedds") != 0)
         return usage("it speaks Cyclone DDS only");
       else if (strcmp(name, "--machine") != 0 && strcmp(name, "--state") != 0 && strcmp(name, "--channel") != 0 &&
@@ -267,6 +275,7 @@ int main(int argc, char **argv) {
   static struct service s; /* the lanes are large */
   struct sigaction action;
   int status = 0;
+  s.options.interface_address = s.options.peers = "127.0.0.1";
   if (parse(&s.options, argc, argv) != 0) return 1;
   memset(&action, 0, sizeof action);
   action.sa_handler = on_signal;
