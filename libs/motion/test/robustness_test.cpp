@@ -230,7 +230,7 @@ TEST(Robustness, blocks_shorter_than_a_cycle_do_not_starve) {
 
 // Rapids and feeds in turn; every override and the hold change at random cycles.
 TEST(Robustness, rapids_under_random_overrides_and_holds_keep_the_limits) {
-  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     std::mt19937_64 random(seed);
     std::uniform_real_distribution<double> unit(-1, 1);
     const Limits limits = uniform_limits(150, 2000, static_cast<int>(1 + random() % 40));
@@ -270,7 +270,7 @@ TEST(Robustness, rapids_under_random_overrides_and_holds_keep_the_limits) {
 // stopped.
 TEST(Robustness, jogs_let_go_of_at_any_cycle_under_any_override_keep_the_limits_and_the_travel) {
   const Limits limits = uniform_limits(100, 1000, 20);
-  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     std::mt19937_64 random(seed);
     Trajectory t(limits, nullptr, cycle);
     Motion result;
@@ -301,7 +301,7 @@ TEST(Robustness, jogs_let_go_of_at_any_cycle_under_any_override_keep_the_limits_
 }
 
 TEST(Robustness, mixed_noise_of_every_kind_ends_and_keeps_the_limits) {
-  for (std::uint64_t seed = 0; seed < 12; ++seed) {
+  for (std::uint64_t seed = 0; seed < 8; ++seed) {
     std::mt19937_64 random(seed);
     std::uniform_real_distribution<double> unit(-1, 1);
     const Limits limits = uniform_limits(100, 1000, static_cast<int>(1 + random() % 64));
