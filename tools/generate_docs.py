@@ -116,8 +116,11 @@ def macros():
     out = ["# Macros", "", f"The tables are generated from `{variables}`, `{functions}` and `{calls}` by `tools/generate_docs.py`.", "",
            "## Variables", "",
            "A variable nobody has written to is vacant: it counts as 0 in a computation, `EQ` and `NE` tell it from 0, and a word whose number is a vacant",
-           "variable is left out. Where Fanuc and HNC-8 number variables differently, this table is what counts. HNC-8's own system variables from #1000 on are in none of the manuals at hand and do not exist. Lengths of system variables are mm or inch as",
-           "G21 or G20 is active. `#[expression]` names a variable by a computed number.", ""]
+           "variable is left out. Where Fanuc and HNC-8 number variables differently, this table is what counts. Any number that is not in it is alarm 1509 with",
+           "that number, read or written. Lengths of system variables are mm or inch as G21 or G20 is active. `#[expression]` names a variable by a computed number.", "",
+           "Of HNC-8's own system variables from #1000 on, the manuals at hand name one, #1319 (the angle of G115, which does not exist here either). The numbers of",
+           "the others are not known, so none exists, and a program that uses them stops with that alarm instead of running on with wrong values. What they are for",
+           "is here under Fanuc's numbers: time from #3001, modal state from #4001, positions from #5001, tools from #2001, offsets from #5221 and #7001.", ""]
     out += table(("variables", "may be written", "meaning"), [(f"#{a}" + (f" .. #{b}" if b != a else ""), "yes" if w else "no", text) for a, b, w, text in v])
     out += ["", "## Expressions", "",
             "What binds first: functions and signs; `*` `/` `MOD` `AND`; `+` `-` `OR` `XOR`; the comparisons `EQ NE GT GE LT LE` or `== != <> > >= < <=`,",

@@ -34,6 +34,7 @@ void ProgramFlow::start(language::TextSource& text, const AxisValues& position,
   skips_read_ = 0;
   tapping_ = in_hole_ = refused_ = text_missing_ = false;
   executing_ = initial;
+  frames_.clear();
   auxiliaries_.clear();
   const bool rtcp = initial.transformation == language::Transformation::rtcp;
   extent_ = setup::AxisBox::of(rtcp ? machine_.machine_from_tip(position, initial.tool_length) : position);
@@ -192,6 +193,8 @@ FlowState ProgramFlow::fill(bool single_block) {
       search_ = Search::none;
       trajectory_->start(entry_.restart.position, command_.modal.transformation, command_.modal.tool_length);
     }
+    if (command_.modal.frame != frame_) frames_.add(command_.sequence, interpreter_.frame_of(command_));
+    frame_ = command_.modal.frame;
     const bool stroke =
         command_.kind == CommandKind::tap || (tapping_ && command_.kind == CommandKind::dwell);
     const bool move = is_path(command_.kind) || command_.kind == CommandKind::dwell || stroke;

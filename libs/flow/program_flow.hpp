@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "flow/auxiliary_memory.hpp"
+#include "flow/frame_trail.hpp"
 #include "flow/skip_result.hpp"
 #include "flow/tapping.hpp"
 #include "language/interpreter.hpp"
@@ -95,6 +96,8 @@ class ProgramFlow {
     const double milliseconds = static_cast<double>(cycle) * machine_.cycle_seconds() * 1000;
     interpreter_.set_time({milliseconds, milliseconds / 3.6e6, 0, 0});
   }
+  /// In which frames the commands handed on since the start were programmed.
+  const FrameTrail& frames() const { return frames_; }
   /// Of the newest command handed to motion.
   const language::ModalState& executing() const { return executing_; }
   /// What the commands that are done, or were skipped, have asked of spindle and coolant.
@@ -124,6 +127,8 @@ class ProgramFlow {
   language::Interpreter interpreter_;
   language::Command command_;
   language::ModalState executing_;
+  FrameTrail frames_;
+  std::uint32_t frame_ = 0;  // of the newest of them
   AuxiliaryMemory auxiliaries_;
   setup::AxisBox extent_;
   std::optional<AxisValues> offset_;

@@ -32,6 +32,9 @@ struct ChainParameters {
   /// Columns: where the tool moves, seen from the workpiece, when X, Y, Z go in the positive direction; any
   /// length.
   Mat3 linear_direction = Mat3::Identity();
+  /// How many rotary axes stand between the base and X, Y, Z: they turn it. Above zero those of the head,
+  /// below zero those of the table, counted from the base. linear_direction is meant with all at zero.
+  std::array<int, 3> linear_carriers{};
   /// mm: the tip minus the origin of the workpiece frame when every axis stands at zero and the tool has no
   /// length. Zero for a closed chain.
   Vec3 origin = Vec3::Zero();
@@ -43,17 +46,18 @@ struct ChainParameters {
 };
 
 enum class ChainError : std::uint8_t {
-  not_finite,             ///< a component of a direction or an offset is infinite or not a number
-  zero_direction,         ///< a direction vector has no length
-  bad_angle,              ///< RotaryAxis::angle is above 5
-  shared_angle,           ///< two rotary axes are turned by the same angle
-  parallel_axes,          ///< no two of several rotary axes have different directions
-  dependent_linear,       ///< the directions of X, Y and Z lie in a plane
-  linear_between_rotary,  ///< a linear axis is carried by a rotary axis of its own side
-  too_many_rotary,        ///< more than three rotary axes on a side
-  two_corrections,        ///< two corrections with no rotary axis between them
-  idle_correction,        ///< a correction between table and head of a closed chain: it would do nothing
-  linear_missing,         ///< a chain of elements without X, Y or Z, or with one of them twice
+  not_finite,        ///< a component of a direction or an offset is infinite or not a number
+  zero_direction,    ///< a direction vector has no length
+  bad_angle,         ///< RotaryAxis::angle is above 5
+  shared_angle,      ///< two rotary axes are turned by the same angle
+  parallel_axes,     ///< no two of several rotary axes have different directions
+  dependent_linear,  ///< the directions of X, Y and Z lie in a plane
+  bad_carrier,       ///< a linear axis is carried by more rotary axes than its side has
+  too_many_rotary,   ///< more than three rotary axes on a side
+  two_corrections,   ///< two corrections with no rotary axis between them
+  idle_correction,   ///< a correction between table and head of a closed chain: it would do nothing
+  linear_missing,    ///< a chain of elements without X, Y or Z, or with one of them twice
+  two_bases,         ///< a chain of elements with more than one base
 };
 
 /// Rotary axes whose directions enclose less than this (sine of the angle) count as parallel.
@@ -85,12 +89,18 @@ struct OrientingAxis {
 ///   head   D X = P - (v2 + v1 + v0) + R0 [v0 + R1 [v1 + R2 (v2 + L t0)]] - origin
 /// w is the tip in the workpiece frame: machine coordinates with all rotary axes at zero (so X = w + L t0
 /// there, for D = 1 and no origin), P the same workpiece point after the table has turned, X the position of
-/// the linear machine axes, all in mm; D has the directions of the linear axes as columns. Angles in degrees.
-/// Pure, allocation-free and safe to use from any thread. (HNC-8 five-axis parameters 040400..040437.)
+/// the linear machine axes, all in mm; D has the directions of the linear axes as columns, turned by the
+/// rotary axes that carry them. Angles in degrees. Pure, allocation-free and safe to use from any thread.
+/// (HNC-8 five-axis parameters 040400..040437.)
 class Chain {
  public:
   /// Checks and normalizes the parameters.
   static std::variant<Chain, ChainError> make(const ChainParameters& parameters);
+
+  /// What machine_from_tip() says of every linear axis, mm, where there is no position: rotary axes that
+  /// carry linear ones have turned X, Y and Z into one plane (within parallel_sine). It is beyond every
+  /// travel, so that such a pose is found as what it is, a way out of travel.
+  static constexpr double no_position = 1e7;
 
   /// Machine position of the linear axes that puts a tool of length `tool_length` (mm) with its tip at `w`.
   Vec3 machine_from_tip(const Vec3& w, const Angles& degrees, double tool_length) const;
@@ -133,14 +143,29 @@ class Chain {
   Chain() = default;
   static std::optional<ChainError> adopt(const std::optional<RotaryAxis>& axis, Side& side);
   std::optional<ChainError> check_rotary() const;
-  Vec3 axes_from_space(const Vec3& x) const { return perpendicular_ ? x : Vec3(from_space_ * x); }
-  Vec3 space_from_axes(const Vec3& x) const { return perpendicular_ ? x : Vec3(to_space_ * x); }
+  void turn(const Joint& joint, const TipMotion& motion, std::array<Vec3, 4>& y) const;
+  template <class Turn>
+  void carry(std::size_t axis, Turn&& turn) const;
+  Mat3 carried_directions(const Angles& degrees) const;
+  Vec3 carried_axes_from_space(const Vec3& x, const Angles& degrees) const;
+  std::array<Vec3, 4> carried_derivatives(const std::array<Vec3, 4>& space, const TipMotion& motion) const;
+  Jacobian carried_jacobian(const Vec3& w, const Angles& degrees, double tool_length) const;
+  Vec3 axes_from_space(const Vec3& x, const Angles& degrees) const {
+    if (carried_) return carried_axes_from_space(x, degrees);
+    return perpendicular_ ? x : Vec3(from_space_ * x);
+  }
+  Vec3 space_from_axes(const Vec3& x, const Angles& degrees) const {
+    if (carried_) return carried_directions(degrees) * x;
+    return perpendicular_ ? x : Vec3(to_space_ * x);
+  }
 
   Vec3 tool_direction_ = Vec3::UnitZ();
   Side table_, head_;
   Vec3 base_ = Vec3::Zero();  // what the formulae add apart from the brackets
   bool perpendicular_ = true;
   Mat3 to_space_ = Mat3::Identity(), from_space_ = Mat3::Identity();
+  std::array<int, 3> carriers_{};
+  bool carried_ = false;  // any of them is not zero
 };
 
 }  // namespace trunnion::geometry

@@ -1,5 +1,7 @@
 #include "geometry/chain_elements.hpp"
 
+#include <algorithm>
+
 namespace trunnion::geometry {
 namespace {
 
@@ -17,14 +19,29 @@ struct Joint {
 struct Sides {
   std::vector<Joint> table, head;  // workpiece to tool
   Gap base;                        // between them
+  Mat3 linear_direction = Mat3::Identity();
+  std::array<int, 3> linear_carriers{};
 };
 
-std::variant<Sides, ChainError> walk(const ChainDescription& description, Mat3& linear_direction) {
+// Where the table ends and the head begins.
+std::size_t base_of(const std::vector<ChainElement>& elements) {
+  const auto first = [&](ElementKind kind) {
+    return std::find_if(elements.begin(), elements.end(), [&](const auto& e) { return e.kind == kind; });
+  };
+  auto found = first(ElementKind::base);
+  if (found == elements.end()) found = first(ElementKind::linear);
+  return static_cast<std::size_t>(found - elements.begin());
+}
+
+std::variant<Sides, ChainError> walk(const ChainDescription& description) {
   Sides sides;
   Gap gap;
   unsigned linear = 0;
+  const std::size_t base = base_of(description.elements);
+  std::array<bool, 3> in_table{};
   const auto close = [&] { (sides.head.empty() ? sides.base : sides.head.back().gap) = gap; };
-  for (const auto& e : description.elements) {
+  for (std::size_t i = 0; i < description.elements.size(); ++i) {
+    const ChainElement& e = description.elements[i];
     switch (e.kind) {
       case ElementKind::offset:
         gap.offset += e.vector;
@@ -36,12 +53,16 @@ std::variant<Sides, ChainError> walk(const ChainDescription& description, Mat3& 
         break;
       case ElementKind::linear:
         if (e.axis > 2 || (linear & (1u << e.axis)) != 0) return ChainError::linear_missing;
-        if (!sides.head.empty()) return ChainError::linear_between_rotary;
         linear |= 1u << e.axis;
-        linear_direction.col(static_cast<Eigen::Index>(e.axis)) = e.vector;
+        sides.linear_direction.col(static_cast<Eigen::Index>(e.axis)) = e.vector;
+        in_table[e.axis] = i < base;
+        sides.linear_carriers[e.axis] = static_cast<int>(i < base ? sides.table.size() : sides.head.size());
+        break;
+      case ElementKind::base:
+        if (i != base) return ChainError::two_bases;
         break;
       case ElementKind::rotary:
-        if (linear == 0) {
+        if (i < base) {
           sides.table.push_back({{e.vector, Vec3::Zero(), e.axis}, gap});
         } else {
           close();
@@ -54,6 +75,8 @@ std::variant<Sides, ChainError> walk(const ChainDescription& description, Mat3& 
   close();
   if (linear != 7) return ChainError::linear_missing;
   if (sides.table.size() > 3 || sides.head.size() > 3) return ChainError::too_many_rotary;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    if (in_table[axis]) sides.linear_carriers[axis] -= static_cast<int>(sides.table.size());
   if (description.closed && !sides.base.name.empty()) return ChainError::idle_correction;
   return sides;
 }
@@ -63,9 +86,11 @@ std::variant<Sides, ChainError> walk(const ChainDescription& description, Mat3& 
 std::variant<ChainParameters, ChainError> parameters_of(const ChainDescription& description) {
   ChainParameters p;
   p.tool_direction = description.tool_direction;
-  const auto walked = walk(description, p.linear_direction);
+  const auto walked = walk(description);
   if (const auto* error = std::get_if<ChainError>(&walked)) return *error;
   const auto& sides = std::get<Sides>(walked);
+  p.linear_direction = sides.linear_direction;
+  p.linear_carriers = sides.linear_carriers;
   Vec3 sum = sides.base.offset;
   for (const auto* side : {&sides.table, &sides.head})
     for (const Joint& joint : *side) sum += joint.gap.offset;
@@ -91,8 +116,7 @@ std::variant<ChainParameters, ChainError> parameters_of(const ChainDescription& 
 
 CorrectionNames correction_names(const ChainDescription& description) {
   CorrectionNames names;
-  Mat3 unused;
-  const auto walked = walk(description, unused);
+  const auto walked = walk(description);
   if (const auto* sides = std::get_if<Sides>(&walked)) {
     for (std::size_t i = 0; i < sides->table.size(); ++i) names.table[i] = sides->table[i].gap.name;
     for (std::size_t i = 0; i < sides->head.size(); ++i)

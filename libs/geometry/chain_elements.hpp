@@ -12,7 +12,8 @@ enum class ElementKind : std::uint8_t {
   offset,      ///< a fixed vector of the machine's design
   correction,  ///< a fixed vector that a measurement of the kinematics writes; counts like an offset
   linear,      ///< X, Y or Z
-  rotary,      ///< A, B, C, U, V or W; before the first linear axis it carries the workpiece, else the tool
+  rotary,      ///< A, B, C, U, V or W; before the base it carries the workpiece, else the tool
+  base,        ///< what stands still; without it, that is where the first linear axis stands
 };
 
 struct ChainElement {
@@ -34,8 +35,8 @@ struct ChainDescription {
 };
 
 /// The same machine in the form of the parameters: neighbouring offsets are added up, a correction keeps its
-/// own vector. Errors: those of the order (linear_between_rotary, too_many_rotary, linear_missing) and of
-/// corrections (two_corrections, idle_correction); Chain::make finds the others.
+/// own vector. Errors: those of the order (two_bases, too_many_rotary, linear_missing) and of corrections
+/// (two_corrections, idle_correction); Chain::make finds the others.
 std::variant<ChainParameters, ChainError> parameters_of(const ChainDescription& description);
 
 /// Names of the corrections by the place where ChainParameters have them; empty where there is none.

@@ -32,6 +32,7 @@ void BlockExecutor::start(const AxisValues& position, const ModalState& modal, B
     parked_ = SpindleDirection::stopped;
   }
   tables_.load(environment_);
+  kept_revision_.reset();
   frame_.set_work_offset(tables_.work_offset(modal_.work_offset));
   frame_.set_tilt(modal_.tilt);
   compensation_.reset();

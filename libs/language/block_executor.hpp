@@ -104,7 +104,12 @@ class BlockExecutor {
   void set_position(const AxisValues& position);
 
   const ProgramFrame& frame() const { return frame_; }
+  /// That of a command, by its ModalState::frame, while no more than frames_kept others came behind it.
+  /// Enough for every command that has not been taken yet.
+  const ProgramFrame& frame_of(std::uint32_t number) const { return kept_[number % frames_kept]; }
   const OffsetTables& tables() const { return tables_; }
+
+  static constexpr std::size_t frames_kept = 128;
 
  private:
   struct Codes {
@@ -234,6 +239,8 @@ class BlockExecutor {
   Fault refuse_in_compensation(std::uint16_t at) const;
   // Output: block_output.cpp
   Command& push(CommandKind kind, CommandQueue& out);
+  /// The state of a command that is made now; its frame is kept.
+  ModalState command_modal();
   Fault push_end(std::uint32_t number, CommandQueue& out);
   /// The end of what pushed commands outside a block.
   Fault settle(CommandQueue& out);
@@ -252,6 +259,9 @@ class BlockExecutor {
   AxisValues position_{};
   AxisValues program_position_{};
   ProgramFrame frame_;
+  std::array<ProgramFrame, frames_kept> kept_;  // by number, those that commands were made in
+  std::uint32_t frame_number_ = 0;              // the newest of them
+  std::optional<std::uint32_t> kept_revision_;  // of frame_
   OffsetTables tables_;
   CutterCompensation compensation_;
   double radius_deviation_ = 0;

@@ -175,8 +175,7 @@ Fault BlockExecutor::push_move(const Command& move, const AxisValues& program) {
   command.program = program_;
   command.line = line_;
   command.target = frame_.contour_from_program(program);
-  command.modal = modal_;
-  if (exact_stop_once_) command.modal.path_control = PathControl::exact_stop;
+  command.modal = command_modal();
   position_ = command_from_program(program);
   program_position_ = program;
   return {compensation_.add(command, start, frame_.flips(modal_.plane)), 0};

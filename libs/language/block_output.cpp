@@ -60,6 +60,17 @@ Fault BlockExecutor::settle(CommandQueue& out) {
   return {AlarmNumber::compensation_look_ahead, 0};
 }
 
+ModalState BlockExecutor::command_modal() {
+  if (kept_revision_ != frame_.revision()) {
+    kept_revision_ = frame_.revision();
+    modal_.frame = ++frame_number_;
+    kept_[frame_number_ % frames_kept] = frame_;
+  }
+  ModalState modal = modal_;
+  if (exact_stop_once_) modal.path_control = PathControl::exact_stop;
+  return modal;
+}
+
 Command& BlockExecutor::push(CommandKind kind, CommandQueue& out) {
   const bool held = compensation_.active();
   Command* place = held ? compensation_.add_standing() : &out.push();
@@ -76,8 +87,7 @@ Command& BlockExecutor::push(CommandKind kind, CommandQueue& out) {
   command.line = line_;
   command.sequence = held ? 0 : ++sequence_;
   command.target = position_;
-  command.modal = modal_;
-  if (exact_stop_once_) command.modal.path_control = PathControl::exact_stop;
+  command.modal = command_modal();
   return command;
 }
 

@@ -70,6 +70,7 @@ struct ModalState {
   double spindle_limit = 0;   ///< S of G92, 1/min; 0 = none
   double path_tolerance = 0;  ///< P of G64, mm; 0 = the channel's own
   Tilt tilt{};                ///< words are in this plane; targets of commands never are
+  std::uint32_t frame = 0;    ///< names the frame of the words: Interpreter::frame_of()
 };
 
 enum class CommandKind : std::uint8_t {

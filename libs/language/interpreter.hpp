@@ -89,6 +89,10 @@ class Interpreter {
   /// Where the last command that next() gave ends in the workpiece: without offsets and, but for tool tip
   /// control, the tool length.
   AxisValues workpiece(const Command& command) const;
+  /// The frame in which a command that next() has just given was programmed.
+  const ProgramFrame& frame_of(const Command& command) const {
+    return executor_.frame_of(command.modal.frame);
+  }
   /// Blocks executed since start(), a loop's each time.
   std::uint64_t blocks() const { return blocks_; }
   const VariableStore& variables() const { return variables_.store(); }

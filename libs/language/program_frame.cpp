@@ -40,6 +40,7 @@ void ProgramFrame::update() {
     if (((mirrored_ >> i) & 1u) != 0) centre = 2 * mirror_[i] - centre;
     turned_centre_[i] = scaling_centre_[i] + factors_[i] * (centre - scaling_centre_[i]);
   }
+  ++revision_;
   plain_ = mirrored_ == 0 && !scaled_ && !rotated_ && !tilt_.active;
 }
 

@@ -29,6 +29,10 @@ class ProgramFrame {
   AxisValues program_from_contour(const AxisValues& contour) const;
   AxisValues command_from_contour(const AxisValues& contour) const;
   AxisValues contour_from_command(const AxisValues& command) const;
+  /// What the words of the program would say of the point.
+  AxisValues program_from_command(const AxisValues& command) const {
+    return program_from_contour(contour_from_command(command));
+  }
   /// The point without its offsets: what a position display calls workpiece coordinates.
   AxisValues workpiece_from_command(const AxisValues& command) const;
   /// A direction in the tilted plane, in the workpiece frame.
@@ -37,6 +41,8 @@ class ProgramFrame {
   /// Only offsets act: a command is the program's position plus total_offset().
   bool plain() const { return plain_; }
   const AxisValues& total_offset() const { return total_; }
+  /// Counts the changes.
+  std::uint32_t revision() const { return revision_; }
 
   void set_work_offset(const AxisValues& offset);
   void set_local(std::uint8_t axis, double value);  ///< G52
@@ -82,6 +88,7 @@ class ProgramFrame {
   double degrees_ = 0, cosine_ = 1, sine_ = 0;
   Tilt tilt_{};
   bool plain_ = true;
+  std::uint32_t revision_ = 0;
 };
 
 }  // namespace trunnion::language

@@ -44,16 +44,16 @@ std::size_t read_letter(const std::string& file, const YAML::Node& node, const s
 }
 
 ChainElement read_element(const std::string& file, const YAML::Node& node) {
-  check_keys(file, node, {"name", "offset", "correction", "rotary", "linear", "direction"});
+  check_keys(file, node, {"name", "offset", "correction", "rotary", "linear", "direction", "base"});
   ChainElement element;
   if (!node["name"]) fail(file, node, "an element without a name");
   element.name = scalar(file, node["name"]);
   const auto offset = node["offset"], correction = node["correction"], rotary = node["rotary"],
-             linear = node["linear"], direction = node["direction"];
+             linear = node["linear"], direction = node["direction"], base = node["base"];
   if (int{offset.IsDefined()} + int{correction.IsDefined()} + int{rotary.IsDefined()} +
-          int{linear.IsDefined()} !=
+          int{linear.IsDefined()} + int{base.IsDefined()} !=
       1)
-    fail(file, node, "an element is one of offset, correction, rotary and linear");
+    fail(file, node, "an element is one of offset, correction, rotary, linear and base");
   if (rotary) {
     element.kind = ElementKind::rotary;
     element.axis = read_letter(file, rotary, "ABCUVW");
@@ -67,6 +67,11 @@ ChainElement read_element(const std::string& file, const YAML::Node& node) {
                          : geometry::Vec3(geometry::Vec3::Unit(static_cast<Eigen::Index>(element.axis)));
   } else {
     if (direction) fail(file, direction, "only axes have a direction");
+    if (base) {
+      if (scalar(file, base) != "true") fail(file, base, "'base' is true where it stands");
+      element.kind = ElementKind::base;
+      return element;
+    }
     element.kind = offset ? ElementKind::offset : ElementKind::correction;
     element.vector = read_vector(file, offset ? offset : correction);
   }

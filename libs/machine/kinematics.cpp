@@ -92,8 +92,8 @@ std::string to_string(ChainError error) {
       return "the rotary axes are parallel";
     case ChainError::dependent_linear:
       return "the directions of X, Y and Z lie in one plane";
-    case ChainError::linear_between_rotary:
-      return "a linear axis stands beyond a rotary axis of its side: X, Y and Z must be neighbours";
+    case ChainError::bad_carrier:
+      return "a linear axis is carried by more rotary axes than its side has";
     case ChainError::too_many_rotary:
       return "more than three rotary axes on one side";
     case ChainError::two_corrections:
@@ -102,6 +102,8 @@ std::string to_string(ChainError error) {
       return "a correction between table and head of a closed chain does nothing";
     case ChainError::linear_missing:
       return "each of X, Y and Z must be there once";
+    case ChainError::two_bases:
+      return "more than one base";
   }
   return "";
 }
@@ -118,6 +120,8 @@ geometry::Chain make_chain(const Parameters& parameters, std::uint16_t channel) 
   read_side(parameters, "table", channel, {&p.table_2, &p.table_1, &p.table_0});
   for (std::uint32_t axis = 0; axis < 3; ++axis)
     p.linear_direction.col(axis) = vector(parameters, "linear_direction", channel, axis * 3);
+  for (std::uint32_t axis = 0; axis < 3; ++axis)
+    p.linear_carriers[axis] = parameters.integer("linear_carriers", channel, axis);
   p.origin = vector(parameters, "chain_origin", channel);
   p.open = parameters.integer("chain_open", channel) != 0;
   p.base_correction = vector(parameters, "base_correction", channel);
@@ -131,6 +135,8 @@ geometry::Chain make_chain(const Parameters& parameters, std::uint16_t channel) 
         if (vector(parameters, name, channel, first).isZero(0))
           where = number_of(name, channel, first) + " .. " + number_of(name, channel, first + 2);
       });
+    if (*error == ChainError::bad_carrier)
+      where = number_of("linear_carriers", channel) + " .. " + number_of("linear_carriers", channel, 2);
     throw KinematicsError(alarm_name(*error), "channel " + std::to_string(channel) + ", parameters " + where +
                                                   ": " + to_string(*error));
   }
@@ -195,6 +201,7 @@ std::map<std::uint32_t, ParameterValue> parameters_of_chain(const geometry::Chai
   set_side("table", {&p.table_2, &p.table_1, &p.table_0});
   for (std::uint32_t axis = 0; axis < 3; ++axis)
     set_vector("linear_direction", axis * 3, p.linear_direction.col(axis));
+  for (std::uint32_t axis = 0; axis < 3; ++axis) set("linear_carriers", axis, p.linear_carriers[axis]);
   set_vector("chain_origin", 0, p.origin);
   set_vector("base_correction", 0, p.base_correction);
   set("chain_open", 0, p.open ? 1 : 0);
@@ -237,7 +244,7 @@ bool is_chain_parameter(std::uint32_t number) {
   const auto offset = number % 1000;
   return (offset >= 400 && offset <= 402) || (offset >= 410 && offset <= 422) ||
          (offset >= 425 && offset <= 437) || (offset >= 920 && offset <= 943) ||
-         (offset >= 960 && offset <= 988);
+         (offset >= 960 && offset <= 991);
 }
 
 }  // namespace trunnion::machine

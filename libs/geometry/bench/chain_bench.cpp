@@ -21,6 +21,7 @@ BENCHMARK_CAPTURE(machine_from_tip, cb_head, cb_head());
 BENCHMARK_CAPTURE(machine_from_tip, nutating_b_head_c_table, nutating_b_head_c_table());
 BENCHMARK_CAPTURE(machine_from_tip, slanted_linear_axes, slanted_linear_axes());
 BENCHMARK_CAPTURE(machine_from_tip, six_rotary_axes, six_rotary_axes());
+BENCHMARK_CAPTURE(machine_from_tip, linear_axes_on_a_turning_column, linear_axes_on_a_turning_column());
 
 void tip_from_machine(benchmark::State& state) {
   const Chain chain = make(ac_table());

@@ -118,7 +118,7 @@ TEST(Chain, jacobian_agrees_with_central_differences) {
   const double h = 1e-3;
   for (const Machine& m : machines()) {
     const Chain chain = make(m.parameters);
-    for (int i = 0; i < 2000; ++i) {
+    for (int i = 0; i < 20000; ++i) {
       const Vec3 w(position(random), position(random), position(random));
       const Angles a{angle(random), angle(random), angle(random),
                      angle(random), angle(random), angle(random)};
@@ -137,6 +137,63 @@ TEST(Chain, jacobian_agrees_with_central_differences) {
             (chain.machine_from_tip(w + step, a, 150) - chain.machine_from_tip(w - step, a, 150)) / (2 * h);
         ASSERT_LT((by_tip - j.tip.col(k)).norm(), 1e-8) << m.name << " tip " << k;
       }
+    }
+  }
+}
+
+// v2 = (0.3, 0, 180), L = 20: B60 turns (0.3, 0, 200) into (0.3 c + 200 s, 0, -0.3 s + 200 c), s = sin 60, c
+// = cos 60. The rest of the way from w to the spindle, w - v2 + that, is made by X along (1, 0, 0), Y and Z
+// along (s, 0, c): the third component gives Z, the first X.
+TEST(Chain, a_quill_in_a_b_head_by_hand) {
+  const Chain chain = make(quill_in_a_b_head());
+  const double s = std::sqrt(0.75), c = 0.5;
+  const double z = (3 - 180 - 0.3 * s + 200 * c) / c;
+  const double x = 1 - 0.3 + 0.3 * c + 200 * s - z * s;
+  EXPECT_LT((chain.machine_from_tip(Vec3(1, 2, 3), {0, 60, 0}, 20) - Vec3(x, 2, z)).norm(), 1e-11);
+}
+
+TEST(Chain, where_x_y_and_z_lie_in_one_plane_the_position_is_beyond_every_travel) {
+  const Chain chain = make(quill_in_a_b_head());
+  const Vec3 nowhere = Vec3::Constant(Chain::no_position);
+  for (const double b : {90.0, 90.0 + 1e-13, 89.5, -90.0, 450.0})
+    EXPECT_EQ(chain.machine_from_tip(Vec3(1, 2, 3), {0, b, 10}, 20), nowhere) << b;
+  TipMotion motion;
+  motion.angles[0][1] = 90;
+  motion.angles[1][1] = 10;
+  EXPECT_EQ(chain.machine_derivatives(motion, 20)[0], nowhere);
+  EXPECT_EQ(chain.machine_derivatives(motion, 20)[1], Vec3::Zero());
+  EXPECT_LT(chain.machine_from_tip(Vec3(1, 2, 3), {0, 89, 10}, 20).norm(), 1e5);
+}
+
+// X goes with 1 / cos B. Its third derivative at B60 is about 700 mm * 2 / cos^2 B (3 / cos^2 B - 2) = 56
+// m/rad^3; h^2 (pi/180)^3 / 6 of it, 5e-8 mm/deg, is what central differences miss, and a few times that
+// where the other axes lean, too.
+TEST(Chain, carried_linear_axes_come_back_and_have_the_derivatives_of_central_differences) {
+  ChainParameters p = cb_head();
+  p.table_2 = RotaryAxis{Vec3(-1, 0, 0.1), Vec3(0, 5, -300), 0};
+  p.linear_direction << 1, 0.1, 0, 0, 1, 0, 0.2, 0, 1;
+  p.linear_carriers = {1, -1, 2};
+  const Chain chain = make(p);
+  std::mt19937_64 random(8);
+  std::uniform_real_distribution<double> position(-500, 500), angle(-60, 60), turn(-25, 25);
+  const double h = 1e-3;
+  for (int i = 0; i < 20000; ++i) {
+    const Vec3 w(position(random), position(random), position(random));
+    const Angles a{turn(random), angle(random), turn(random)};
+    const Vec3 x = chain.machine_from_tip(w, a, 150);
+    ASSERT_LT((chain.tip_from_machine(x, a, 150) - w).norm(), 1e-10);
+    const Jacobian j = chain.jacobian(w, a, 150);
+    for (int k = 0; k < 3; ++k) {
+      Angles up = a, down = a;
+      up[static_cast<std::size_t>(k)] += h;
+      down[static_cast<std::size_t>(k)] -= h;
+      const Vec3 by_angle =
+          (chain.machine_from_tip(w, up, 150) - chain.machine_from_tip(w, down, 150)) / (2 * h);
+      ASSERT_LT((by_angle - j.angle.col(k)).norm(), 1e-6) << k;
+      const Vec3 step = h * Vec3::Unit(k);
+      const Vec3 by_tip =
+          (chain.machine_from_tip(w + step, a, 150) - chain.machine_from_tip(w - step, a, 150)) / (2 * h);
+      ASSERT_LT((by_tip - j.tip.col(k)).norm(), 1e-8) << k;
     }
   }
 }
@@ -190,6 +247,11 @@ TEST(Chain, refuses_parameters_that_describe_no_machine) {
   p = cb_head();
   p.origin.x() = std::numeric_limits<double>::infinity();
   EXPECT_EQ(error(p), ChainError::not_finite);
+  p = cb_head();
+  p.linear_carriers = {0, 3, 0};
+  EXPECT_EQ(error(p), ChainError::bad_carrier);
+  p.linear_carriers = {0, -1, 0};
+  EXPECT_EQ(error(p), ChainError::bad_carrier);
 }
 
 TEST(Chain, a_redundant_axis_may_be_parallel_to_another) {

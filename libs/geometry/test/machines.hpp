@@ -94,6 +94,20 @@ inline ChainParameters slanted_linear_axes() {  // a slant-bed machine: Y leans,
   return p;
 }
 
+inline ChainParameters linear_axes_on_a_turning_column() {  // C turns X and Y and the head, Z stands still
+  ChainParameters p;
+  p.head_1 = RotaryAxis{Vec3(0, 0, 1), Vec3(-3, 4, 0), 2};
+  p.head_2 = RotaryAxis{Vec3(0, 1, 0), Vec3(0.2, 0, 150), 1};
+  p.linear_carriers = {1, 1, 0};
+  return p;
+}
+
+inline ChainParameters quill_in_a_b_head() {  // Z moves along the tool: no position at B90
+  ChainParameters p = b_head_c_table();
+  p.linear_carriers = {0, 0, 1};
+  return p;
+}
+
 struct Machine {
   const char* name;
   ChainParameters parameters;
@@ -102,18 +116,20 @@ struct Machine {
 inline void PrintTo(const Machine& machine, std::ostream* out) { *out << machine.name; }
 
 inline const std::vector<Machine>& machines() {
-  static const std::vector<Machine> all{{"AC table", ac_table()},
-                                        {"BC table", bc_table()},
-                                        {"CB head", cb_head()},
-                                        {"CA head", ca_head()},
-                                        {"B head C table", b_head_c_table()},
-                                        {"nutating B head C table", nutating_b_head_c_table()},
-                                        {"A table", a_table()},
-                                        {"skewed AC table", skewed_ac_table()},
-                                        {"skewed head", skewed_head()},
-                                        {"AC table with B head", ac_table_with_b_head()},
-                                        {"six rotary axes", six_rotary_axes()},
-                                        {"slanted linear axes", slanted_linear_axes()}};
+  static const std::vector<Machine> all{
+      {"AC table", ac_table()},
+      {"BC table", bc_table()},
+      {"CB head", cb_head()},
+      {"CA head", ca_head()},
+      {"B head C table", b_head_c_table()},
+      {"nutating B head C table", nutating_b_head_c_table()},
+      {"A table", a_table()},
+      {"skewed AC table", skewed_ac_table()},
+      {"skewed head", skewed_head()},
+      {"AC table with B head", ac_table_with_b_head()},
+      {"six rotary axes", six_rotary_axes()},
+      {"slanted linear axes", slanted_linear_axes()},
+      {"linear axes on a turning column", linear_axes_on_a_turning_column()}};
   return all;
 }
 

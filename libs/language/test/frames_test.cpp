@@ -1,6 +1,7 @@
 // Frames can be undone, and their properties.
 #include <gtest/gtest.h>
 
+#include <map>
 #include <random>
 
 #include "language/program_frame.hpp"
@@ -53,6 +54,38 @@ TEST(Frames, EveryFrameCanBeUndone) {
     // Numbers up to 5000 times factors up to 5 lose at most some 1e-11.
     for (std::size_t axis = 0; axis < axis_count; ++axis) ASSERT_NEAR(back[axis], p[axis], 1e-9);
   }
+}
+
+// Every move goes to X N, N the number of its line, in a frame of its own; the compensation holds moves back
+// until the frame has changed again.
+TEST(Frames, FrameOfACommandIsThatOfItsBlockAndNotOfThoseReadAhead) {
+  TestMachine machine = offsets();
+  std::string text;
+  for (unsigned line = 1; line <= 400; line += 4) {
+    const std::string n = std::to_string(line);
+    text += "G52 X" + n + "\nG68 X1 Y2 R" + n + "\nG51.1 X" + n + "\nG0 X" + std::to_string(line + 3) + "\n";
+  }
+  text += "G69 G50.1\nG52 X0 Y0\nG41 D1 G1 F1 X403\nG68 X1 Y2 R30\nX405\nG68 X1 Y2 R50\nX407\nG40 X408\n";
+  StringSource source(text);
+  Interpreter interpreter(machine);
+  interpreter.start(source, {}, {});
+  Command command;
+  int held = 0, moves = 0;
+  while (interpreter.next(command) == Step::command && command.kind != CommandKind::end) {
+    const ProgramFrame& frame = interpreter.frame_of(command);
+    if (command.line <= 400) {
+      EXPECT_NEAR(frame.program_from_command(command.target)[X], command.line, 1e-9);
+      ++moves;
+    } else {
+      const std::map<std::uint32_t, double> degrees{{403, 0}, {405, 30}, {407, 50}, {408, 50}};
+      ASSERT_TRUE(degrees.contains(command.line));
+      EXPECT_EQ(frame.rotation(), degrees.at(command.line)) << command.line;
+      held += frame.revision() != interpreter.executor().frame().revision() ? 1 : 0;
+    }
+  }
+  EXPECT_EQ(command.kind, CommandKind::end);
+  EXPECT_EQ(moves, 100);
+  EXPECT_GT(held, 0);
 }
 
 TEST(Frames, PositionsForMacrosAreThoseOfTheFrames) {

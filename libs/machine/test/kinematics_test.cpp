@@ -144,6 +144,40 @@ TEST(Chains, the_section_of_machine_yaml_and_its_parameters_give_the_same_number
   }
 }
 
+// Z hangs in the B head, and the table's C carries X: Y alone stands next to the base.
+TEST(Chains, carried_linear_axes_are_parameters_and_give_the_same_bits) {
+  const auto node = parse_yaml(R"(- elements:
+    - {name: X_AXIS, linear: X}
+    - {name: C_OFFSET, offset: [10, 20, 0]}
+    - {name: C_AXIS, rotary: C, direction: [0, 0, -1]}
+    - {name: BASE, base: true}
+    - {name: Y_AXIS, linear: Y}
+    - {name: B_AXIS, rotary: B, direction: [0, 1, 0]}
+    - {name: Z_AXIS, linear: Z}
+    - {name: SP1_OFFSET, offset: [0.1, 0, -180]}
+)",
+                               "m");
+  Parameters p;
+  p.values = read_chain_parameters(node, "m");
+  EXPECT_EQ(p.at(40989), -1);
+  EXPECT_EQ(p.at(40990), 0);
+  EXPECT_EQ(p.at(40991), 1);
+  const auto from_parameters = make_chain(p, 0);
+  const auto direct = std::get<geometry::Chain>(geometry::Chain::make(
+      std::get<geometry::ChainParameters>(geometry::parameters_of(read_chains(node, "m").at(0)))));
+  for (double angle = -60; angle <= 60; angle += 7.5) {
+    const Angles a{0, angle, angle / 2};
+    ASSERT_EQ(direct.machine_from_tip(Vec3(1, 2, 3), a, 88),
+              from_parameters.machine_from_tip(Vec3(1, 2, 3), a, 88));
+  }
+  p.values[40991] = {2, ""};
+  std::string alarm;
+  EXPECT_EQ(error_of(p, &alarm),
+            "channel 0, parameters 040989 .. 040991: a linear axis is carried by more rotary axes than its "
+            "side has");
+  EXPECT_EQ(alarm, "kinematics_invalid");
+}
+
 // The C axis stands at X-200.3605, so C180 takes the point X0 Y0 to X-400.721; with a correction of X0.5 it
 // stands at X-199.5 and takes it to X-399.
 TEST(Chains, a_correction_is_found_by_its_name_and_changes_what_it_corrects) {
@@ -211,7 +245,9 @@ TEST(Chains, errors_name_line_and_column) {
   EXPECT_EQ(chains_error("- elements:\n    - {name: O, offset: [1, a, 2]}\n"),
             "m:2:29: error: expected a number");
   EXPECT_EQ(chains_error("- elements:\n    - {name: O}\n"),
-            "m:2:7: error: an element is one of offset, correction, rotary and linear");
+            "m:2:7: error: an element is one of offset, correction, rotary, linear and base");
+  EXPECT_EQ(chains_error("- elements:\n    - {name: BASE, base: 1}\n"),
+            "m:2:26: error: 'base' is true where it stands");
   EXPECT_EQ(chains_error("- elements:\n    - {name: X, linear: X}\n"),
             "m:1:3: error: each of X, Y and Z must be there once");
   EXPECT_EQ(chains_error("- elements:\n    - {name: X, linear: X}\n    - {name: X, linear: Y}\n"),

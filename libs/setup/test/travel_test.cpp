@@ -75,5 +75,21 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"rotary_axis_on_the_way", "ac-table", "G43.5 H1\nG1 I1 K1\nJ1 K-2", 1123, ""}),
     [](const auto& one) { return one.param.name; });
 
+// G54 is X10 Y20 Z-700, so the tip stands at Z0 of the machine. With a quill for Z in the head, a swing to
+// B60 takes X to about 10 + 180 sin 60 / cos 60 = 322, whatever the tool. At B90 no position of X, Y and Z
+// holds the tip, and on the way there they have left their travel.
+TEST(TravelOfAQuill, EndsWhereItCannotHoldTheTip) {
+  auto tables = load_machine_tables(std::string(MACHINES_DIRECTORY) + "/b-head-c-table");
+  tables.parameters.values[40991] = {1, ""};
+  ChannelSetup setup(std::move(tables));
+  const std::string start = "G43.4 H1\nG0 X0 Y0 Z700\n";
+  EXPECT_EQ(read(setup, start + "G0 B60\nG0 B-60\n").text, "");
+  for (const char* move : {"G0 B90\n", "G1 B100 F1000\n", "G1 B-90.3 F1000\n"}) {
+    const auto result = read(setup, start + move);
+    EXPECT_EQ(result.alarm, 140u) << move;
+    EXPECT_EQ(result.line, 3u) << move;
+  }
+}
+
 }  // namespace
 }  // namespace trunnion::setup

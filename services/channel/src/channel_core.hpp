@@ -120,6 +120,7 @@ class ChannelCore {
     AxisValues position{};  // of the path, in its frame
     AxisValues machine{};   // the same in machine coordinates, when an axis is locked
     bool rapid = false;
+    std::uint32_t sequence = 0;
   };
   struct PathPoint {
     std::uint32_t sequence = 0, line = 0;
@@ -208,6 +209,9 @@ class ChannelCore {
   AxisValues machine_position() const;
   AxisValues frame_position(const language::ModalState& modal) const;
   AxisValues drive_position() const;
+  language::ProgramFrame executed_frame(const language::ModalState& modal) const;
+  void forget_sequences();
+  void show_positions();
   std::string detail() const;
   std::string program_name() const { return activity_ == Activity::program ? selected_.name : "MDI"; }
   void event(std::string alarm, std::string text) {
@@ -284,6 +288,7 @@ class ChannelCore {
   std::vector<Written> written_;
   PathPoint point_;  // that the newest setpoint has reached
   Written shown_;
+  std::uint32_t reached_ = 0;  // command that is carried out with the axes at rest
   std::vector<ChannelEvent> events_;
   idl::channel::ChannelState state_;
 };

@@ -32,6 +32,7 @@ void ChannelCore::run_pending(FlowState state) {
       break;
   }
   const auto& command = flow().pending();
+  reached_ = command.sequence;
   if (auxiliary_lock_ && language::changes_machine(command)) {
     flow().finish_pending();
     return;

@@ -41,6 +41,7 @@ Answer ChannelCore::start_program(const Entry& entry) {
   program_flow_.set_dry_run_feed(dry_run_ ? machine_.dry_run_feed() : 0);
   program_flow_.set_offset(offset_on_ ? std::optional(offset_.target()) : std::nullopt);
   frames_kept_ = false;
+  forget_sequences();
   program_flow_.start(text, program_start_, modal, *variables_, entry);
   restart_ = restart.sequence != 0 ? std::optional(restart) : std::nullopt;
   preparation_.reset();
@@ -144,6 +145,7 @@ bool ChannelCore::run_preparation() {
     frame_tool_length_ = suspended_->tool_length;
     point_ = suspended_->point;
     shown_ = suspended_->shown;
+    reached_ = shown_.sequence;
     modal_ = suspended_->mdi_modal;
     suspended_.reset();
     trajectory_->retrace(false);
@@ -217,6 +219,7 @@ Answer ChannelCore::start_mdi(const std::string& line) {
   mdi_flow_.set_block_skip(block_skip_);
   mdi_flow_.set_dry_run_feed(dry_run_ ? machine_.dry_run_feed() : 0);
   mdi_flow_.set_offset(offset_on_ ? std::optional(offset_.target()) : std::nullopt);
+  forget_sequences();
   mdi_flow_.start(*mdi_source_, position, modal_, suspended_ ? program_flow_.variables() : *variables_, {},
                   frames_kept_ ? language::Beginning::line : language::Beginning::program);
   // What is wrong with the line is the answer to whoever typed it.

@@ -23,6 +23,42 @@ std::string ChannelCore::detail() const {
   return "";
 }
 
+// Of the block that is executed, not of those read ahead. At rest the frames of the last MDI line act, on the
+// tables as they are now; those of a held program when nothing was typed into it.
+language::ProgramFrame ChannelCore::executed_frame(const language::ModalState& modal) const {
+  const language::ProgramFrame* known = nullptr;
+  if (interpreting())
+    known = flow().frames().at(retracing_ ? shown_.sequence : std::max(shown_.sequence, reached_));
+  else if (suspended_ && !frames_kept_)
+    known = program_flow_.frames().at(suspended_->shown.sequence);
+  if (known != nullptr) return *known;
+  language::ProgramFrame frame;
+  const auto* typed = frames_kept_ ? mdi_flow_.frames().newest() : nullptr;
+  if (typed != nullptr) frame = *typed;
+  frame.set_work_offset(machine_.work_offset(modal.work_offset));
+  frame.set_tilt(modal.tilt);
+  return frame;
+}
+
+void ChannelCore::show_positions() {
+  auto& s = state_;
+  const auto& index = machine_.channel_axes().index;
+  const auto& modal = interpreting() ? flow().executing() : modal_;
+  const bool moving = link_.state() == LinkState::active || link_.state() == LinkState::ending;
+  const AxisValues position = lock_.show(drive_position(), moving ? shown_.machine : machine_start_);
+  AxisValues tip = position;
+  if (s.rtcp)
+    tip = machine_.tip_from_machine(position, modal.tool_length);
+  else
+    tip[language::Z] -= modal.tool_length;
+  const AxisValues words = executed_frame(modal).program_from_command(tip);
+  for (std::size_t i = 0; i < index.size(); ++i) {
+    s.machine[i] = position[index[i]];
+    s.workpiece[i] = words[index[i]];
+    s.distance_to_go[i] = moving ? shown_.distance_to_go[index[i]] : 0;
+  }
+}
+
 const idl::channel::ChannelState& ChannelCore::state() {
   auto& s = state_;
   s.channel = number_;
@@ -56,21 +92,7 @@ const idl::channel::ChannelState& ChannelCore::state() {
   s.machine.resize(index.size());
   s.workpiece.resize(index.size());
   s.distance_to_go.resize(index.size());
-  if (machine_.configured()) {
-    const auto program = moving ? shown_.machine : machine_start_;
-    const AxisValues position = lock_.show(drive_position(), program);
-    AxisValues tip = position;
-    if (s.rtcp)
-      tip = machine_.tip_from_machine(position, modal.tool_length);
-    else
-      tip[language::Z] -= modal.tool_length;
-    const auto offset = machine_.work_offset(modal.work_offset);
-    for (std::size_t i = 0; i < index.size(); ++i) {
-      s.machine[i] = position[index[i]];
-      s.workpiece[i] = tip[index[i]] - offset[index[i]];
-      s.distance_to_go[i] = moving ? shown_.distance_to_go[index[i]] : 0;
-    }
-  }
+  if (machine_.configured()) show_positions();
   s.reset_count = reset_count_;
   s.revision = machine_.revision();
   s.frames_ahead =

@@ -116,7 +116,8 @@ void ChannelCore::step_cycle(idl::stream::PathFrame& frame) {
              setpoint.distance_to_go,
              setpoint.position,
              {},
-             setpoint.rapid};
+             setpoint.rapid,
+             setpoint.sequence};
   auto out = setpoint.position;
   if (in_machine_coordinates()) {
     written.machine = activity_ == Activity::handwheel ? out : machine_of(out);
@@ -200,6 +201,12 @@ void ChannelCore::store_state(FlowState state, std::vector<double>& values) cons
   }
   s.sequence = point.sequence, s.line = point.line, s.fraction = point.fraction;
   store(s, program_flow_.skips(), values);
+}
+
+// Commands are counted anew; what was written before is not of them.
+void ChannelCore::forget_sequences() {
+  for (auto& written : written_) written.sequence = 0;
+  shown_.sequence = reached_ = 0;
 }
 
 void ChannelCore::remember_executed() {
