@@ -20,7 +20,7 @@ for machine in "${machines[@]}"; do
     "$trunnion" run "$root/configs/machines/$machine" "$directory"/*.nc --record "$work/golden.mcap" --report "$work/report" > "$work/log" 2>&1 ||
       { cat "$work/log"; exit 1; }
     good=yes
-    for service in parameters program gantry compensation kinematics; do
+    for service in parameters program plc kinematics compensation gantry drive; do
       timeout 60 "$trunnion" verify --service $service --recording "$work/golden.mcap" > "$work/log" || { good=no; break; }
     done
     channel=0

@@ -236,6 +236,17 @@ SwapReply Swap::done(double now) {
 
 std::optional<SwapReply> Swap::step(double now) {
   read();
+  if (fresh_ended_ && !old_.retiring && !started_again_ && access(fresh_.executable.c_str(), X_OK) == 0) {
+    // Until the old one is told to end nobody depends on the new one, and a vendor's library may end a
+    // process that begins while others of its topics leave (Fast DDS 2.9: an assertion of its reader).
+    started_again_ = true;
+    fresh_ended_ = false;
+    fresh_.detail.clear();
+    fresh_.start(options_, true);
+    comparison_ = {};
+    compared_before_ = 0;
+    enter(Phase::starting, now);
+  }
   if (fresh_ended_) {
     // An old one that has ended already is started again like one that died, only at once.
     const bool gone = old_.retiring;
@@ -257,7 +268,8 @@ std::optional<SwapReply> Swap::step(double now) {
       if (fresh_.lifecycle != Lifecycle::ACTIVE || !fresh_.in_step) {
         active_at_ = now;
         if (now - entered_ > promote_patience)
-          return keep("The new " + old_.entry.service + " does not take part");
+          return keep("The new " + old_.entry.service + " does not take part" +
+                      (fresh_.detail.empty() ? "" : ": " + fresh_.detail));
       } else if (now - active_at_ > overlap) {
         retire(now);
       }

@@ -69,7 +69,7 @@ class Swap {
   std::uint64_t executed_ = 0, promoted_cycle_ = 0, compared_before_ = 0;
   Phase phase_ = Phase::starting;
   double began_ = 0, entered_ = 0, moved_ = 0, compared_at_ = 0, active_at_ = 0, retired_at_ = 0, gap_ = 0;
-  bool fresh_ended_ = false, taken_over_ = false;
+  bool fresh_ended_ = false, started_again_ = false, taken_over_ = false;
 };
 
 }  // namespace trunnion::deploy

@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <map>
 #include <stdexcept>
@@ -59,7 +60,8 @@ class Feeding {
         states_(bus.reader(topics::service_state)) {
     for (const auto& handle : plan.topics) read(handle);
     for (const auto& mark : plan.end)
-      if (!plan.topics.contains(mark.track.topic->handle)) read(mark.track.topic->handle);
+      if (is_own(*mark.track.topic) && !plan.topics.contains(mark.track.topic->handle))
+        read(mark.track.topic->handle);
     read("alarm");
     if (options.service == "channel") {
       read("program_request");
@@ -95,6 +97,9 @@ class Feeding {
   std::vector<replay::StoredMessage>& produced() { return produced_; }
 
  private:
+  bool is_own(const bus::TopicEntry& topic) const {
+    return std::find(topic.writers.begin(), topic.writers.end(), options_.service) != topic.writers.end();
+  }
   void read(const std::string& handle) {
     // As the recorder does, keeping all: of a state the service changes twice in a row both count.
     const auto* topic = bus::find_topic(handle);
@@ -174,6 +179,9 @@ class Feeding {
     for (const auto& need : needs) {
       if (progress_.reached(need)) continue;
       const auto at = progress_.at(need.track);
+      if (!is_own(*need.track.topic))
+        return "the service has not told of taking " + need.track.topic->handle + " number " +
+               std::to_string(need.place.minor);
       return "the service wrote nothing more of " + need.track.topic->handle + " after " +
              std::to_string(at.minor) + ", the recording has it up to " + std::to_string(need.place.minor);
     }

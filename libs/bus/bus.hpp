@@ -69,7 +69,7 @@ class Writer {
     encode(value, buffer_);
     return raw_->write(buffer_);
   }
-  int matched() { return raw_->matched(); }
+  int matched() const { return raw_->matched(); }
 
  private:
   std::unique_ptr<RawWriter> raw_;

@@ -135,7 +135,8 @@ Fault BlockExecutor::move_straight(CommandKind kind, const AxisValues& program, 
   if (!moves) return {};
   position_ = target;
   Command& command = push(kind, out);
-  if (kind == CommandKind::line) command.chord = curve_.active();
+  command.chord = kind == CommandKind::line && curve_.active() && !curve_.at_end();
+  if (command.chord) command.modal.path_control = PathControl::continuous;
   if (kind == CommandKind::skip) command.number = skip_input_;
   if (kind == CommandKind::tap) {
     command.value = lead_;

@@ -127,7 +127,7 @@ Fault BlockExecutor::next_vector_piece(CommandQueue& out) {
                        : move.kind == CommandKind::rapid ? CommandKind::rapid
                                                          : CommandKind::line,
                        out);
-  made.chord = move.pieces > 1;
+  made.chord = !last;
   if (!last) made.modal.path_control = PathControl::continuous;
   if (arc) {
     made.arc = move.arc;

@@ -56,7 +56,7 @@ struct ModalState {
   CutterSide cutter_side = CutterSide::off;
   std::uint8_t cycle = 80;        ///< 73, 74, 76, 81..89, or 80 for none
   bool return_to_initial = true;  ///< G98, else G99
-  std::uint8_t smoothing = 0;     ///< Q of G5.1, passed on
+  std::uint8_t smoothing = 0;     ///< machining mode, Q of G5.1: 0..2
   bool tool_vector = false;       ///< G43.5: I J K give the tool's direction
   bool polar = false;             ///< G16
   bool scaled = false;            ///< G51
@@ -127,8 +127,8 @@ struct Command {
   std::uint32_t number = 0;   ///< M, T or message number; of end: 2, 30, or 0 for the end of the text
   double value = 0;           ///< S in 1/min, or in m/min when modal.spindle_mode says surface
   Table table = Table::none;  ///< of kind table
-  bool chord = false;  ///< a piece of a smooth curve (G6.2) or of a way of tool vectors (G43.5): its ends are
-                       ///< no corners
+  bool chord = false;  ///< a piece of a smooth curve (G6.2) or of a way of tool vectors (G43.5) that goes on
+                       ///< behind it: its end is no corner
   ModalState modal{};
 };
 

@@ -61,7 +61,9 @@ inline constexpr std::array g_codes = {
     GCode{30, Group::motion, "circle or helix counter-clockwise; words as G2", Origin::iso, "0.1",
           "G3 X2 I1 F100"},
     GCode{40, Group::one_block, "dwell: P milliseconds, or X or U seconds", Origin::iso, "0.1", "G4 P500"},
-    GCode{51, Group::smoothing, "path smoothing Q0 off, Q1, Q2: passed on", Origin::fanuc, "0.2", "G5.1 Q1"},
+    GCode{51, Group::smoothing,
+          "machining mode: Q0 default, Q1 high precision, Q2 high speed and high precision", Origin::fanuc,
+          "0.2", "G5.1 Q1"},
     GCode{62, Group::motion,
           "NURBS curve: P order 2..4, K knot, R weight, X Y Z control point per block; as many blocks with K "
           "alone as the order end it",

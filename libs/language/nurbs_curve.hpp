@@ -15,7 +15,7 @@ namespace trunnion::language {
 ///
 /// Chords and not a curve command, because everything behind (travel check, restart at a fraction of a
 /// command, five-axis transformation, reports) then needs no new case; the tolerance is the control's own
-/// (000010) and Command::chord tells the smoothing that the joints are no corners.
+/// (half of 000010) and Command::chord tells the smoothing that the joints are no corners.
 class NurbsCurve {
  public:
   static constexpr std::uint32_t most_order = 4;
@@ -38,6 +38,10 @@ class NurbsCurve {
   /// The end of the next chord; false when the next block is needed. The curve is no longer active when its
   /// last chord has been given.
   bool next(Vector3& end);
+  /// That chord was the last.
+  bool at_end() const {
+    return !in_span_ && knot_count_ > point_count_ && knot_count_ + 1 >= point_count_ + order_;
+  }
 
  private:
   AlarmNumber add_knot(double knot);

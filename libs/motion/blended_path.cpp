@@ -28,8 +28,7 @@ double weigh(const AxisValues& change, const BlendRules& rules) {
 
 }  // namespace
 
-void BlendedPath::clear(const BlendRules& rules) {
-  rules_ = rules;
+void BlendedPath::clear() {
   pushed_ = rated_ = reached_ = settled_blocks_ = 0;
   settled_ = 0;
   last_widest_ = 1;
@@ -46,8 +45,8 @@ void BlendedPath::rate_join(PathBlock& block) const {
     block.turn[i] = begins[0][i] - ends[0][i];
     block.bend[i] = begins[1][i] - ends[1][i];
   }
-  block.weight = weigh(block.turn, rules_);
-  block.bend_weight = before.path.is_arc() || block.path.is_arc() ? weigh(block.bend, rules_) : 0;
+  block.weight = weigh(block.turn, block.rules);
+  block.bend_weight = before.path.is_arc() || block.path.is_arc() ? weigh(block.bend, block.rules) : 0;
 }
 
 void BlendedPath::push(PathBlock block) {

@@ -9,15 +9,17 @@
 
 namespace trunnion::motion {
 
-/// What joins may deviate by.
+/// What a join may deviate by.
 struct BlendRules {
-  double contour_tolerance = 0.01;      ///< mm; 0: every join is exact
+  double contour_tolerance = 0.01;      ///< mm; 0: exact
   double orientation_tolerance = 0.05;  ///< degrees of the rotary axes together
 };
 
 /// One programmed segment and the join at its start. Lengths are in the unit of its PathSegment.
 struct PathBlock {
   PathSegment path;
+  BlendRules rules;        ///< of the join at the start; others follow only behind a stop
+  std::uint8_t mode = 0;   ///< machining mode
   double at = 0;           ///< path coordinate of the start
   AxisValues turn{};       ///< jump of the first derivative at the start
   AxisValues bend{};       ///< jump of the second
@@ -45,9 +47,9 @@ class BlendedPath {
   static constexpr double longest_reach = 5;
   static constexpr int most_joins = 24;
 
-  explicit BlendedPath(const BlendRules& rules) : rules_(rules), blocks_(capacity) {}
+  BlendedPath() : blocks_(capacity) {}
 
-  void clear(const BlendRules& rules);
+  void clear();
 
   /// Appends a block that begins where the last one ended. The caller has decided on `stop`.
   void push(PathBlock block);
@@ -91,7 +93,6 @@ class BlendedPath {
   double widest_reach(std::uint64_t index) const;
   double final_reach(std::uint64_t index) const;
 
-  BlendRules rules_;
   std::vector<PathBlock> blocks_;
   std::uint64_t pushed_ = 0;
   std::uint64_t rated_ = 0;    // joins before this one have `widest`

@@ -108,15 +108,16 @@ double join_speed(const AxisValues& turn, double reach, const Limits& limits) {
   return speed;
 }
 
-void CellBuilder::start(const Limits& limits, const geometry::Chain* chain, double tool_length) {
+void CellBuilder::start(const ModeLimits& limits, const geometry::Chain* chain, double tool_length) {
   limits_ = limits;
-  for (AxisLimits& axis : limits_.axes) {
-    const double share = chain != nullptr ? chained_share : 1;
-    axis.velocity *= share;
-    axis.rapid_velocity *= share;
-    axis.acceleration *= share;
-    axis.jerk *= share;
-  }
+  for (Limits& mode : limits_)
+    for (AxisLimits& axis : mode.axes) {
+      const double share = chain != nullptr ? chained_share : 1;
+      axis.velocity *= share;
+      axis.rapid_velocity *= share;
+      axis.acceleration *= share;
+      axis.jerk *= share;
+    }
   chain_ = chain;
   tool_length_ = tool_length;
   block_ = 0;
@@ -133,6 +134,7 @@ PathRates CellBuilder::rates_at(const BlendedPath& path, std::uint64_t block, do
 
 LimitCell CellBuilder::make(const BlendedPath& path, double from, double to) const {
   const PathBlock& block = path[block_];
+  const Limits& limits = limits_[block.mode];
   LimitCell cell;
   cell.at = from;
   cell.end = to;
@@ -152,7 +154,7 @@ LimitCell CellBuilder::make(const BlendedPath& path, double from, double to) con
     }
   }
   double bend = 0;
-  if (limits_.centripetal_acceleration > 0)
+  if (limits.centripetal_acceleration > 0)
     bend = std::max(std::hypot(begins[1][0], begins[1][1], begins[1][2]),
                     std::hypot(ends[1][0], ends[1][1], ends[1][2]));
   if (chain_ != nullptr) {
@@ -168,8 +170,8 @@ LimitCell CellBuilder::make(const BlendedPath& path, double from, double to) con
         std::max(std::abs(begins[0][i]), std::abs(ends[0][i])) + rates.third[i] * length * length / 8;
   }
   rates.curvature = bend;
-  limit_cell(cell, rates, limits_);
-  if (block.path.is_arc() && !bends && !cell.uniform) keep_axes(cell, begins, ends, rates, limits_);
+  limit_cell(cell, rates, limits);
+  if (block.path.is_arc() && !bends && !cell.uniform) keep_axes(cell, begins, ends, rates, limits);
   return cell;
 }
 
@@ -183,17 +185,19 @@ double CellBuilder::overlap_time(const BlendedPath& path, const LimitCell& befor
   const PathRates first = rates_at(path, before.block, before.end, (before.at + before.end) / 2);
   const PathRates second = rates_at(path, after.block, after.at, (after.at + after.end) / 2);
   const RampLimits a = before.ramps[0], b = after.ramps[0];
+  const BlendRules& rules = path[after.block].rules;
+  const auto& axes = limits_[path[after.block].mode].axes;
   double rotary = 0, linear = 1e-9;
   for (std::size_t i = 0; i < axis_count; ++i) {
     const double q1 = std::abs(first[0][i]), q2 = std::abs(second[0][i]);
-    if (q1 * a.acceleration + q2 * b.acceleration > limits_.axes[i].acceleration * (1 + 1e-9)) return 0;
-    if (q1 * a.jerk + q2 * b.jerk > limits_.axes[i].jerk * (1 + 1e-9)) return 0;
+    if (q1 * a.acceleration + q2 * b.acceleration > axes[i].acceleration * (1 + 1e-9)) return 0;
+    if (q1 * a.jerk + q2 * b.jerk > axes[i].jerk * (1 + 1e-9)) return 0;
     double& part = i >= language::A && i <= language::C ? rotary : linear;
     part = std::max({part, q1, q2});
   }
   if (path[after.block].path.unit() == LengthUnit::degree) linear = 1e-9;
-  double deviation = limits_.contour_tolerance / std::max(1.0, linear);
-  if (rotary > 0) deviation = std::min(deviation, limits_.orientation_tolerance / (1.8 * rotary));
+  double deviation = rules.contour_tolerance / std::max(1.0, linear);
+  if (rotary > 0) deviation = std::min(deviation, rules.orientation_tolerance / (1.8 * rotary));
   deviation *= 0.98;
   const double time = std::cbrt(6 * deviation / a.jerk) + std::cbrt(6 * deviation / b.jerk);
   const double longest = std::min(std::cbrt(6 * (before.end - before.at) / a.jerk),

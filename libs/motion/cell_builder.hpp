@@ -26,7 +26,7 @@ double join_speed(const AxisValues& turn, double reach, const Limits& limits);
 class CellBuilder {
  public:
   /// `chain` may be nullptr and must outlive the builder.
-  void start(const Limits& limits, const geometry::Chain* chain, double tool_length);
+  void start(const ModeLimits& limits, const geometry::Chain* chain, double tool_length);
 
   /// Appends cells for all of the path that is settled and fits into the ring, which keeps cells from `keep`
   /// on.
@@ -50,7 +50,7 @@ class CellBuilder {
   double cell_end(const BlendedPath& path, double from, double upto) const;
   double longest(const BlendedPath& path) const;
 
-  Limits limits_;
+  ModeLimits limits_;
   const geometry::Chain* chain_ = nullptr;
   double tool_length_ = 0;
   std::uint64_t block_ = 0;

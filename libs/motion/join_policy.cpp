@@ -46,7 +46,8 @@ double overlap_estimate(const PathBlock& before, const PathBlock& block, const P
     if (q1 * a.jerk + q2 * b.jerk > limits.axes[i].jerk * (1 + 1e-9)) return 0;
     if (q1 * a.acceleration + q2 * b.acceleration > limits.axes[i].acceleration * (1 + 1e-9)) return 0;
   }
-  return std::cbrt(6 * limits.contour_tolerance / a.jerk) + std::cbrt(6 * limits.contour_tolerance / b.jerk);
+  const double tolerance = block.rules.contour_tolerance;
+  return std::cbrt(6 * tolerance / a.jerk) + std::cbrt(6 * tolerance / b.jerk);
 }
 
 }  // namespace

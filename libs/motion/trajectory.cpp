@@ -24,14 +24,26 @@ bool is_finite(const AxisValues& values) {
   return std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
 }
 
-Limits effective(Limits limits, double cycle) {
-  const int cycles = std::clamp(limits.smoothing_cycles, 1, max_smoothing_cycles);
-  for (AxisLimits& axis : limits.axes) axis.jerk = std::min(axis.jerk, axis.acceleration / (cycles * cycle));
-  return limits;
+ModeLimits effective(const Limits& limits, double cycle) {
+  ModeLimits modes;
+  for (std::size_t k = 0; k < path_modes; ++k) {
+    Limits& mode = modes[k] = limits;
+    if (k > 0) static_cast<PathMode&>(mode) = limits.modes[k - 1];
+    const int cycles = std::clamp(mode.smoothing_cycles, 1, max_smoothing_cycles);
+    for (AxisLimits& axis : mode.axes) axis.jerk = std::min(axis.jerk, axis.acceleration / (cycles * cycle));
+  }
+  return modes;
 }
 
-BlendRules blend_rules(const Limits& limits) {
-  return {std::max(0.0, limits.contour_tolerance), std::max(0.0, limits.orientation_tolerance)};
+// The pieces of a curve stray from it by half of the tolerance of arcs. What joins them has the rest, also
+// where corners are exact.
+double inside_curve(const BlendRules& rules, const Limits& limits) {
+  const double pieces = limits.arc_tolerance / 2;
+  return std::max(rules.contour_tolerance - pieces, pieces);
+}
+
+bool same(const BlendRules& a, const BlendRules& b) {
+  return a.contour_tolerance == b.contour_tolerance && a.orientation_tolerance == b.orientation_tolerance;
 }
 
 }  // namespace
@@ -40,7 +52,6 @@ Trajectory::Trajectory(const Limits& limits, const geometry::Chain* chain, doubl
     : cycle_(cycle_seconds),
       limits_(effective(limits, cycle_seconds)),
       chain_(chain),
-      path_(blend_rules(limits_)),
       speed_(cycle_seconds),
       back_(cycle_seconds) {
   start({}, language::Transformation::none, 0);
@@ -59,12 +70,13 @@ void Trajectory::start(const AxisValues& position, language::Transformation tran
 void Trajectory::set_limits(const Limits& limits) { limits_ = effective(limits, cycle_); }
 
 void Trajectory::restart_path() {
-  path_.clear(blend_rules(limits_));
+  path_.clear();
   builder_.start(limits_, active_chain_, tool_length_);
   speed_.clear();
   pending_.reset();
   tail_.reset();
   stop_next_ = exact_next_ = true;
+  curve_goes_on_ = false;
   aborting_ = retrace_wanted_ = retracing_ = false;
 }
 
@@ -91,7 +103,7 @@ bool Trajectory::push_from(const Command& command, double fraction) {
 bool Trajectory::movable(const AxisValues& from, const AxisValues& to) const {
   for (std::size_t i = 0; i < axis_count; ++i) {
     if (from[i] == to[i] && (active_chain_ == nullptr || i > language::Z)) continue;
-    const AxisLimits& axis = limits_.axes[i];
+    const AxisLimits& axis = limits_[mode_].axes[i];
     if (!(axis.velocity > 0 && axis.rapid_velocity > 0 && axis.acceleration > 0 && axis.jerk > 0))
       return false;
   }
@@ -108,12 +120,29 @@ bool Trajectory::joins_to_last(const PathSegment& segment) const {
     double& part = i >= language::A && i <= language::C ? rotary : linear;
     part = std::max(part, travel);
   }
-  return linear <= merge_share * limits_.contour_tolerance &&
-         rotary <= merge_share * limits_.orientation_tolerance;
+  return linear <= merge_share * rules_.contour_tolerance &&
+         rotary <= merge_share * rules_.orientation_tolerance;
+}
+
+BlendRules Trajectory::rules_of(const Command& command) const {
+  const PathMode& mode = limits_[command.modal.smoothing];
+  const double own = command.modal.path_tolerance;
+  return {std::max(0.0, own > 0 ? own : mode.contour_tolerance), std::max(0.0, mode.orientation_tolerance)};
+}
+
+// Another machining mode, or other tolerances, begin at a standstill.
+void Trajectory::change_mode(const Command& command) {
+  const BlendRules rules = rules_of(command);
+  if (command.modal.smoothing == mode_ && same(rules, rules_)) return;
+  flush();
+  stop_next_ = exact_next_ = true;
+  mode_ = command.modal.smoothing;
+  rules_ = rules;
 }
 
 bool Trajectory::push_move(const Command& command, double fraction) {
   if (!can_accept()) return false;
+  if (command.modal.smoothing >= path_modes || !std::isfinite(command.modal.path_tolerance)) return false;
   PathBlock block;
   block.line = command.line;
   block.sequence = command.sequence;
@@ -125,6 +154,8 @@ bool Trajectory::push_move(const Command& command, double fraction) {
     if (fresh && path_.end() > longest_path) restart_path();
     flush();
     block.path = PathSegment::line(end_, end_);
+    block.mode = mode_;
+    block.rules = rules_;
     block.wait_cycles = static_cast<int>(cycles);
     stop_next_ = exact_next_ = true;
     append(block);
@@ -156,6 +187,11 @@ bool Trajectory::push_move(const Command& command, double fraction) {
   if (!movable(end_, command.target)) return false;
   if (length > 0) {
     if (fresh && path_.end() > longest_path) restart_path();
+    change_mode(command);
+    block.mode = mode_;
+    block.rules = rules_;
+    if (curve_goes_on_) block.rules.contour_tolerance = inside_curve(rules_, limits_[mode_]);
+    curve_goes_on_ = command.chord;
     if (pending_ && block.path.is_arc()) flush();
     if (pending_) block.path = PathSegment::line(joined_, command.target);
     end_ = command.target;
@@ -184,8 +220,9 @@ void Trajectory::flush() {
 
 void Trajectory::append(PathBlock block) {
   path_.rate_join(block);
-  block.stop = stop_next_ || path_.size() == 0 || stops_at_join(path_[path_.size() - 1], block, limits_);
-  block.overlap = block.stop && !exact_next_ && limits_.contour_tolerance > 0;
+  block.stop =
+      stop_next_ || path_.size() == 0 || stops_at_join(path_[path_.size() - 1], block, limits_[block.mode]);
+  block.overlap = block.stop && !exact_next_ && block.rules.contour_tolerance > 0;
   joined_ = block.path.target();
   path_.push(block);
   stop_next_ = exact_next_ = false;

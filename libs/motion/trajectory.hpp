@@ -103,8 +103,11 @@ class Trajectory {
   std::uint64_t current_block() const;
   double current_s() const;
 
+  BlendRules rules_of(const language::Command& command) const;
+  void change_mode(const language::Command& command);
+
   double cycle_;
-  Limits limits_;
+  ModeLimits limits_;
   const geometry::Chain* chain_;
   const geometry::Chain* active_chain_ = nullptr;
   double tool_length_ = 0;
@@ -114,6 +117,9 @@ class Trajectory {
   AxisValues end_{}, joined_{}, output_{};
   std::optional<PathBlock> pending_;  ///< a move too short to be worth a segment, until more follows
   std::optional<Tail> tail_;
+  std::uint8_t mode_ = 0;       ///< of the newest move
+  BlendRules rules_;            ///< and its tolerances
+  bool curve_goes_on_ = false;  ///< the newest move was a piece of a curve
   std::uint32_t line_ = 0, sequence_ = 0;
   double fraction_ = 0;
   bool stop_next_ = true, exact_next_ = true, aborting_ = false;

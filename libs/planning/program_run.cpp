@@ -3,29 +3,25 @@
 #include <algorithm>
 #include <memory>
 
+#include "flow/program_flow.hpp"
+#include "flow/tapping.hpp"
 #include "language/codes.hpp"
 #include "motion/axis_motion.hpp"
 
 namespace trunnion::planning {
 namespace {
 
+using flow::FlowState;
 using language::Command;
 using language::CommandKind;
-using language::Step;
 
 bool is_move(const Command& command) {
   return command.kind == CommandKind::rapid || command.kind == CommandKind::line ||
          command.kind == CommandKind::arc || command.kind == CommandKind::dwell;
 }
 
-Command per_minute(Command command) {
-  if (command.modal.feed_mode == language::FeedMode::per_revolution) {
-    command.modal.feed *= command.modal.spindle_speed;
-    command.modal.feed_mode = language::FeedMode::per_minute;
-  }
-  return command;
-}
-
+// The channel without a cluster: moves come through the same ProgramFlow, and what the channel asks of
+// others while the axes stand is done at once.
 class Runner {
  public:
   Runner(setup::ChannelSetup& machine, const AxisValues& start,
@@ -35,102 +31,101 @@ class Runner {
         sink_(sink),
         moves_(moves),
         most_(most_cycles),
-        trajectory_(machine.limits(), &machine.chain(), machine.cycle_seconds()) {
-    interpreting_.repeat = false;
-    interpreter_ = std::make_unique<language::Interpreter>(machine, interpreting_);
+        trajectory_(machine.limits(), &machine.chain(), machine.cycle_seconds()),
+        flow_(machine, trajectory_pointer_, {0, false}) {
     frame_.start = start;
-    trajectory_.start(start, frame_.transformation, 0);
+    flow_.on_move = [this](const Command& move) {
+      ++result_.blocks;
+      if (moves_) moves_(move, frame_);
+    };
   }
 
   ProgramResult run(language::TextSource& text) {
-    interpreter_->start(text, frame_.start, {});
-    while (result_.alarm.empty()) {
-      const Step step = interpreter_->next(command_);
-      if (step == Step::working) continue;
-      if (step == Step::command) {
-        if (is_move(command_) ? push() : other()) continue;
-        break;
-      }
-      settle();
-      if (step == Step::position) {
-        interpreter_->set_position(command_.target);
-        continue;
-      }
-      if (step == Step::end) {
-        result_.good = result_.alarm.empty();
-      } else if (step == Step::alarm) {
-        const auto& alarm = interpreter_->alarm();
-        result_.alarm = std::to_string(alarm.line) + ":" + std::to_string(alarm.column) + ": " +
-                        std::to_string(static_cast<unsigned>(alarm.number)) + ": " + alarm.text.data();
-      } else {
-        result_.alarm = "The text ends in the middle of reading";
-      }
-      break;
-    }
+    trajectory_.start(frame_.start, frame_.transformation, 0);
+    flow_.start(text, frame_.start, {}, variables_);
+    do {
+      flow_.set_cycle(result_.cycles);
+      state_ = skip_on_its_way_ ? FlowState::full : flow_.fill(false);
+    } while (state_ == FlowState::waiting ? go_on_reading()
+             : trajectory_.at_rest()      ? go_on_at_rest()
+                                          : step());
     return result_;
   }
 
  private:
-  bool fail(const std::string& why) {
-    settle();
-    if (result_.alarm.empty()) result_.alarm = std::to_string(command_.line) + ": " + why;
-    return false;
+  // A program that never moves again is ended by the same count as one that never ends.
+  bool go_on_reading() {
+    if (flow_.text_missing()) return fail("The text ends in the middle of reading");
+    return ++reads_ < most_ || never_ends();
   }
 
-  bool push() {
-    if (command_.kind != CommandKind::dwell) {
-      const std::string travel = machine_.travel_error(trajectory_.end_position(), command_);
-      if (!travel.empty()) {
-        settle();
-        result_.alarm = travel;
-        return false;
-      }
-    }
-    const Command move = per_minute(command_);
-    while (!trajectory_.can_accept()) {
-      if (!step()) return false;
-    }
-    if (!trajectory_.push(move))
-      return fail("feed must be above zero (per revolution: with the spindle turning)");
-    ++result_.blocks;
-    if (moves_) moves_(move, frame_);
-    return true;
-  }
-
-  // What is no move happens at rest. Skip and tapping moves run as lines to their ends.
-  bool other() {
-    if (command_.kind == CommandKind::skip || command_.kind == CommandKind::tap) {
-      command_.kind = CommandKind::line;
-      if (!push()) return false;
-      settle();
+  // As ChannelCore::run_pending.
+  bool go_on_at_rest() {
+    if (skip_on_its_way_) {
+      skip_on_its_way_ = false;
+      flow_.skip_ended({trajectory_.position(), trajectory_.position()});
       return true;
     }
-    settle();
-    if (!result_.alarm.empty()) return false;
-    if (command_.kind == CommandKind::transformation) {
-      frame_.transformation = command_.modal.transformation;
-      frame_.tool_length = command_.modal.tool_length;
-      trajectory_.start(command_.target, frame_.transformation, frame_.tool_length);
+    if (tapping_.active()) {
+      tapping_.end();
+      begin_tapping(false, machine_.limits());
+      return true;
     }
-    if (language::changes_machine(command_))
-      trajectory_.start(trajectory_.end_position(), frame_.transformation, frame_.tool_length);
-    frame_.start = trajectory_.end_position();
-    if (moves_) moves_(command_, frame_);
+    if (state_ == FlowState::alarm)
+      return fail(flow_.alarm_text() + " (alarm " + std::to_string(flow_.alarm_number()) + ")");
+    if (state_ == FlowState::end) {
+      result_.good = true;
+      return false;
+    }
+    return state_ != FlowState::command || take(flow_.pending());
+  }
+
+  bool take(const Command& command) {
+    switch (command.kind) {
+      case CommandKind::end:
+        result_.good = true;
+        return false;
+      case CommandKind::skip:
+        skip_on_its_way_ = flow_.push_pending() != FlowState::alarm;
+        return true;
+      case CommandKind::tap:
+        if (!machine_.tapping_spindle().axis) {
+          flow_.refuse_pending(language::AlarmNumber::tapping_spindle_missing);
+          return true;
+        }
+        tapping_.begin(trajectory_.position(), command);
+        begin_tapping(true, tapping_.limits(machine_.limits(), machine_.tapping_spindle().acceleration));
+        return true;
+      case CommandKind::transformation:
+        frame_.transformation = command.modal.transformation;
+        frame_.tool_length = command.modal.tool_length;
+        trajectory_.start(command.target, frame_.transformation, frame_.tool_length);
+        break;
+      default:
+        if (language::changes_machine(command))
+          trajectory_.start(trajectory_.position(), frame_.transformation, frame_.tool_length);
+        break;
+    }
+    frame_.start = trajectory_.position();
+    if (moves_) moves_(command, frame_);
+    flow_.finish_pending();
     return true;
   }
 
-  void settle() {
-    trajectory_.finish();
-    while (!trajectory_.at_rest()) {
-      if (!step()) return;
-    }
+  void begin_tapping(bool on, const motion::Limits& limits) {
+    trajectory_.set_limits(limits);
+    trajectory_.start(trajectory_.position(), frame_.transformation, frame_.tool_length);
+    flow_.set_tapping(on);
   }
 
+  bool fail(const std::string& why) {
+    result_.alarm = why;
+    return false;
+  }
+  bool never_ends() { return fail("The program has not ended after " + std::to_string(most_) + " cycles"); }
+
   bool step() {
-    if (result_.cycles >= most_) {
-      result_.alarm = "The program has not ended after " + std::to_string(most_) + " cycles";
-      return false;
-    }
+    if (result_.cycles >= most_) return never_ends();
     const motion::Setpoint setpoint = trajectory_.step(1, 1, false);
     if (sink_) {
       PlannedCycle cycle;
@@ -150,11 +145,14 @@ class Runner {
   setup::ChannelSetup& machine_;
   const std::function<void(const PlannedCycle&)>& sink_;
   const std::function<void(const Command&, const FrameMoves&)>& moves_;
-  std::uint64_t most_;
+  std::uint64_t most_, reads_ = 0;
   motion::Trajectory trajectory_;
-  language::InterpreterOptions interpreting_;
-  std::unique_ptr<language::Interpreter> interpreter_;
-  Command command_;
+  motion::Trajectory* trajectory_pointer_ = &trajectory_;
+  language::VariableStore variables_;
+  flow::ProgramFlow flow_;
+  FlowState state_ = FlowState::full;
+  flow::Tapping tapping_;
+  bool skip_on_its_way_ = false;
   FrameMoves frame_;
   ProgramResult result_;
 };

@@ -3,8 +3,21 @@
 #include <algorithm>
 
 #include "bus/cdr.hpp"
+#include "contracts/topics.hpp"
 
 namespace trunnion::replay {
+
+const bus::TopicEntry* topic_of(idl::stream::Input input) {
+  // Its handle is its name in the contract, in small letters.
+  std::string handle = bus::EnumNames<idl::stream::Input>::names[static_cast<std::size_t>(input)];
+  std::transform(handle.begin(), handle.end(), handle.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return bus::find_topic(handle);
+}
+
+void Progress::count(const std::vector<idl::stream::AppliedInput>& applied) {
+  for (const auto& input : applied) ++places_[{topic_of(input.input), 0}].minor;
+}
 
 template <class T, class PlaceOf>
 bool Progress::numbered(const StoredMessage& message, const char* handle, T& value, PlaceOf place_of,
@@ -20,6 +33,7 @@ std::pair<Mark, bool> Progress::observe(const StoredMessage& message) {
   if (message.topic->handle == "plc_input_log") {
     if (!bus::decode(message.cdr, input_log_)) return {mark, false};
     mark.place.minor = input_log_.tick;
+    count(input_log_.applied);
   } else if (!is_cyclic(*message.topic)) {
     // A state that was there before the recording began is written again, so counting would not do.
     if (!numbered(
@@ -44,6 +58,7 @@ std::pair<Mark, bool> Progress::observe(const StoredMessage& message) {
   } else if (message.topic->handle == "feedback_frame") {
     if (!bus::decode(message.cdr, feedback_)) return {mark, false};
     mark.place = {feedback_.first + feedback_.count, feedback_.tick};
+    count(feedback_.applied);
   } else {
     if (!rows_.load(*message.topic, message.cdr)) return {mark, false};
     mark.track.channel = rows_.span().channel;

@@ -18,8 +18,12 @@ struct Track {
       default;  // NOLINT(modernize-use-nullptr): a false alarm of clang-tidy 14
 };
 
+/// The topic by which an input came that a service has told the tick of.
+const bus::TopicEntry* topic_of(idl::stream::Input input);
+
 /// Of frames: epoch and the cycle after the last. Of the drive's feedback: executed cycles and tick. Of the
-/// PLC's input log: its tick. Of what is numbered: the number. Otherwise: 0 and how many messages there were.
+/// PLC's input log: its tick. Of what is numbered: the number. Of an input: 0 and how many were applied, as
+/// the feedback or the log tells. Otherwise: 0 and how many messages there were.
 struct Place {
   std::uint64_t major = 0, minor = 0;
   auto operator<=>(const Place&) const = default;  // NOLINT(modernize-use-nullptr)
@@ -41,6 +45,7 @@ class Progress {
  private:
   template <class T, class PlaceOf>
   bool numbered(const StoredMessage& message, const char* handle, T& value, PlaceOf place_of, Mark& mark);
+  void count(const std::vector<idl::stream::AppliedInput>& applied);
   std::map<Track, Place> places_;
   MessageRows rows_;
   idl::stream::FeedbackFrame feedback_;

@@ -1,7 +1,9 @@
 #include "replay/tick_plan.hpp"
 
 #include <algorithm>
+#include <map>
 #include <optional>
+#include <set>
 #include <stdexcept>
 
 #include "bus/cdr.hpp"
@@ -12,14 +14,6 @@ namespace {
 
 using idl::stream::Input;
 
-// The handle of the topic an input came by: its name in the contract, in small letters.
-const bus::TopicEntry* topic_of(Input input) {
-  std::string handle = bus::EnumNames<Input>::names[static_cast<std::size_t>(input)];
-  std::transform(handle.begin(), handle.end(), handle.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return bus::find_topic(handle);
-}
-
 class TickPlan {
  public:
   TickPlan(const StoredRecording& recording, const std::string& service, VerifyPlan& plan)
@@ -27,7 +21,7 @@ class TickPlan {
 
   void make() {
     sort_messages();
-    for (const auto& stamp : stamps_) find_message(stamp);
+    for (std::size_t i = 0; i < stamps_.size(); ++i) find_message(i);
     if (!drive_)
       for (const auto& told : told_)
         due_.push_back({told.second.minor, cyclic_before, told.first, told.first->time});
@@ -37,6 +31,7 @@ class TickPlan {
     weave_in_the_rest();
     for (const auto& due : due_) feed(due);
     plan_.end.push_back({own_, last_});
+    if (unconfirmed_) plan_.end.push_back(*unconfirmed_);
   }
 
  private:
@@ -48,6 +43,7 @@ class TickPlan {
     int rank = 0;
     const StoredMessage* message = nullptr;
     std::uint64_t time = 0;
+    bool stamped = false;
   };
 
   void sort_messages() {
@@ -84,18 +80,36 @@ class TickPlan {
     return true;
   }
 
-  void find_message(const idl::stream::AppliedInput& stamp) {
+  void find_message(std::size_t stamp_index) {
+    const auto& stamp = stamps_[stamp_index];
     const auto* topic = topic_of(stamp.input);
     const StoredMessage* message = nullptr;
     if (stamp.input == Input::PARAMETER_SET) {
       message = revisions_[stamp.identity];
     } else if (const auto found = inputs_.find({topic, stamp.identity}); found != inputs_.end()) {
       message = found->second;
+    } else if (stamp.input == Input::PLC_OUTPUTS && stamp_index + 1 < stamps_.size()) {
+      message = stand_in(*topic, stamp.identity, stamps_[stamp_index + 1].tick);
     }
     // What it said of itself, or what was before the recording began.
     if (message == nullptr) return;
     if (!placed_.insert(message).second) return;
-    due_.push_back({stamp.tick, is_cyclic(*topic) ? cyclic_after : order, message, message->time});
+    due_.push_back({stamp.tick, is_cyclic(*topic) ? cyclic_after : order, message, message->time,
+                    stamp.input != Input::PARAMETER_SET});
+  }
+
+  // Outputs of the PLC that newer ones have overwritten before the recorder was there: as the newer ones, but
+  // time goes on only as far as it did until the next input.
+  const StoredMessage* stand_in(const bus::TopicEntry& topic, std::uint64_t time, std::uint64_t until) {
+    const auto newer = inputs_.lower_bound({&topic, time});
+    idl::plc::Outputs outputs;
+    if (newer == inputs_.end() || newer->first.first != &topic || !bus::decode(newer->second->cdr, outputs))
+      return nullptr;
+    outputs.run_until_tick = until;
+    auto& message = plan_.stand_ins.emplace_back(*newer->second);
+    message.time = time;
+    bus::encode(outputs, message.cdr);
+    return &message;
   }
 
   // What has no tick goes before the first that was written later.
@@ -117,6 +131,16 @@ class TickPlan {
 
   void feed(const Due& due) {
     Step step{due.message, {}, !is_cyclic(*due.message->topic)};
+    // Each is taken before anything follows: a state that is overwritten would not be seen, and time must not
+    // go on before it.
+    if (unconfirmed_) {
+      step.needs.push_back(*unconfirmed_);
+      unconfirmed_.reset();
+    }
+    if (due.stamped && step.apart) {
+      const Track track{due.message->topic, 0};
+      unconfirmed_ = Mark{track, {0, ++given_[track]}};
+    }
     if (const auto place = place_at(due.tick); place > last_ && (drive_ || step.apart)) {
       step.needs.push_back({own_, place});
       last_ = place;
@@ -139,6 +163,8 @@ class TickPlan {
   VerifyPlan& plan_;
   Track own_;
   Place last_;
+  std::optional<Mark> unconfirmed_;  // of the stamped input that was fed last
+  std::map<Track, std::uint64_t> given_;
   std::vector<idl::stream::AppliedInput> stamps_;
   std::vector<std::pair<const StoredMessage*, Place>> told_;  // the drive's feedback
   std::map<std::pair<const bus::TopicEntry*, std::uint64_t>, const StoredMessage*> inputs_;

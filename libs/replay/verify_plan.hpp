@@ -1,6 +1,7 @@
 // What a service is fed from a recording, in which order and when, and what it must answer. No DDS, no clock.
 #pragma once
 
+#include <deque>
 #include <map>
 #include <set>
 #include <string>
@@ -19,6 +20,7 @@ struct Step {
 
 struct VerifyPlan {
   std::vector<Step> steps;
+  std::deque<StoredMessage> stand_ins;  ///< for inputs that were overwritten before they were recorded
   std::vector<Mark> end;                ///< reached when every recorded output has come
   std::vector<StoredMessage> expected;  ///< outputs to compare with
   std::set<std::string> topics;         ///< handles of the outputs that are compared

@@ -71,6 +71,11 @@ void ChannelSetup::configure(const machine::Parameters& p) {
   limits_.smooth_corner_angle = p.get("smooth_corner_angle", channel_);
   limits_.centripetal_acceleration = p.get("centripetal_acceleration", channel_);
   limits_.orientation_tolerance = p.get("orientation_tolerance", channel_);
+  for (std::uint32_t k = 0; k < limits_.modes.size(); ++k)
+    limits_.modes[k] = {
+        p.integer("mode_smoothing_cycles", channel_, k), p.get("mode_contour_tolerance", channel_, k),
+        p.get("mode_orientation_tolerance", channel_, k), p.get("mode_smooth_corner_angle", channel_, k),
+        p.get("mode_centripetal_acceleration", channel_, k)};
   radius_deviation_ = p.get("radius_deviation");
   cycle_seconds_ = p.get("interpolation_cycle") * 1e-6;
   lead_ = static_cast<std::uint64_t>(p.integer("stream_lead"));

@@ -47,7 +47,8 @@ class ChannelSetup : public language::Environment {
   AxisValues approach() const override { return approach_; }
   bool diameter_programming() const override { return diameter_programming_; }
   double default_feed() const override { return default_feed_; }
-  double curve_tolerance() const override { return limits_.arc_tolerance; }
+  /// Half of parameter 000010; the other half is left to the smoothing of the joints.
+  double curve_tolerance() const override { return limits_.arc_tolerance / 2; }
   language::CycleSettings cycle_settings() const override { return cycles_; }
   language::CutterSettings cutter_settings() const override { return cutter_; }
   std::optional<std::array<language::Vector3, 3>> plane_points(std::uint8_t index) const override;

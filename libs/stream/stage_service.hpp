@@ -90,7 +90,7 @@ class StageService : public node::Service {
                     : !reader_        ? "waiting for parameters"
                     : !have_feedback_ ? "waiting for the drive"
                     : shadow_         ? "shadow"
-                                      : "";
+                                      : waiting_for();
     if (!fault_.empty()) health.lifecycle = Lifecycle::FAULT;
     health.frames_in = frames_in_;
     health.frames_out = frames_out_;
@@ -151,6 +151,19 @@ class StageService : public node::Service {
     shadow_ = false;
     writer_.emplace(node_.bus().writer(out_topic_));
     for (auto& [channel, lane] : lanes_) lane.settled = false;
+  }
+
+  // What keeps it from being in step.
+  std::string waiting_for() const {
+    for (const auto& [channel, lane] : lanes_) {
+      if (lane.in_step && lane.settled) continue;
+      const auto what = !lane.in_step             ? "the cut to go on from"
+                        : lane.window.has_next()  ? "parameters"
+                        : writer_->matched() == 0 ? "a reader"
+                                                  : "the next frame";
+      return std::string("waiting for ") + what + " of channel " + std::to_string(channel);
+    }
+    return "";
   }
 
   // Ten times a second; of a stage with twins also whenever a lead was computed, for the channel waits for

@@ -3,7 +3,9 @@
 The tool direction points from the tip to the spindle, seen from the workpiece (docs/kinematics.md). A stays positive and B
 stays positive, so that C turns without jumps as long as the direction does not pass the vertical.
 """
+import argparse
 import math
+import sys
 
 # Machine: letters of the rotary axes, travel of C in degrees (0: endless), height of the first safe place over the part in Z.
 MACHINES = {"ac-table": ("AC", 0), "cb-head": ("BC", 380), "b-head-c-table": ("BC", 0)}
@@ -75,3 +77,44 @@ def linear(point):
 
 def rotary(machine, pair):
     return " ".join(word(letter, value) for letter, value in zip(MACHINES[machine][0], pair))
+
+
+def milling(machine, number, comments, speed, feed, retract, path):
+    """The lines of a program that mills along `path`, a list of (tip, tool direction, (swing, C)), with tool tip control.
+
+    Exact stops where the contour begins and ends: how a corner is rounded there in time depends on the machine.
+    """
+    yield from ("%", f"O{number}")
+    yield from (f"({comment})" for comment in comments)
+    yield "G21 G17 G90 G54 G94 G64 G49"
+    yield "T1 M6"
+    yield f"S{speed} M3"
+    yield "G53 G0 Z0"
+    (tip, tool, pair), last = path[0], path[-1]
+    yield f"G0 {rotary(machine, pair)}"
+    yield "G43.4 H1"
+    yield f"G9 G0 {linear(add(tip, tool, retract))}"
+    yield f"G9 G1 {linear(tip)} F{feed}"
+    for tip, _, pair in path[1:-1]:
+        yield f"G1 {linear(tip)} {rotary(machine, pair)}"
+    tip, tool, pair = last
+    yield f"G9 G1 {linear(tip)} {rotary(machine, pair)}"
+    yield f"G1 {linear(add(tip, tool, retract))}"
+    yield from ("G49", "G53 G0 Z0", "M5", "M30", "%")
+
+
+def run(description, lines_of, options=(), machines=tuple(sorted(MACHINES))):
+    """The command line every generator has: `lines_of` makes the program from the parsed options, of which `options` are
+    (name, keywords of add_argument) besides --machine and --output."""
+    parser = argparse.ArgumentParser(description=description, formatter_class=argparse.RawDescriptionHelpFormatter)
+    for name, keywords in options:
+        parser.add_argument(name, **keywords)
+    parser.add_argument("--machine", choices=machines, default="ac-table", help="machine the program is for")
+    parser.add_argument("--output", help="file to write (default: standard output)")
+    chosen = parser.parse_args()
+    text = "\n".join(lines_of(chosen)) + "\n"
+    if chosen.output:
+        with open(chosen.output, "w", encoding="ascii", newline="\n") as file:
+            file.write(text)
+    else:
+        sys.stdout.write(text)

@@ -15,11 +15,9 @@ Machine. The swing (A or B) stays positive, slope - tilt .. slope + tilt, and C 
 and a little more; a negative swing with C turned by 180 deg would be the mirror image. G54 is the centre of the base
 plate on the table.
 """
-import argparse
 import math
-import sys
 
-from five_axis import MACHINES, add, direction, follow, linear, rotary
+from five_axis import add, direction, follow, milling, run
 
 SIZES = {  # base diameter mm, thickness mm, slope deg, tilt deg, height of the base under the cone's centre mm
     "standard": (80.0, 20.0, 15.0, 10.0, 40.0),
@@ -103,47 +101,16 @@ def program(machine, size):
     check(machine, cone, path)
     speed = round(CUTTING_SPEED * 1000 / (math.pi * 2 * TOOL_RADIUS))
     feed = round(speed * FEED_PER_TOOTH * TEETH)
-    tip, a, c, tool = path[0]
-    yield "%"
-    yield "O0979"
-    yield f"(NAS 979 cone frustum, side: base {2 * cone.radius:g} mm, thickness {cone.thickness:g} mm," \
-          f" slope {cone.slope:g} deg, tilted {cone.tilt:g} deg)"
-    yield f"(tool 1: end mill {2 * TOOL_RADIUS:g} mm; G54: centre of the base plate on the table)"
-    yield f"(blocks of {cone.step():.3f} deg, chord error at most {CHORD_ERROR:g} mm)"
-    yield "G21 G17 G90 G54 G94 G64 G49"
-    yield "T1 M6"
-    yield f"S{speed} M3"
-    yield "G53 G0 Z0"
-    yield f"G0 {rotary(machine, (a, c))}"
-    yield "G43.4 H1"
-    # Exact stops where the contour begins and ends: how a corner is rounded there in time depends on the machine.
-    yield f"G9 G0 {linear(add(tip, tool, RETRACT))}"
-    yield f"G9 G1 {linear(tip)} F{feed}"
-    for tip, a, c, _ in path[1:-1]:
-        yield f"G1 {linear(tip)} {rotary(machine, (a, c))}"
-    tip, a, c, tool = path[-1]
-    yield f"G9 G1 {linear(tip)} {rotary(machine, (a, c))}"
-    yield f"G1 {linear(add(tip, tool, RETRACT))}"
-    yield "G49"
-    yield "G53 G0 Z0"
-    yield "M5"
-    yield "M30"
-    yield "%"
-
-
-def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--size", choices=sorted(SIZES), default="standard", help="size of the test piece")
-    parser.add_argument("--machine", choices=sorted(MACHINES), default="ac-table", help="machine the program is for")
-    parser.add_argument("--output", help="file to write (default: standard output)")
-    options = parser.parse_args()
-    text = "\n".join(program(options.machine, options.size)) + "\n"
-    if options.output:
-        with open(options.output, "w", encoding="ascii", newline="\n") as file:
-            file.write(text)
-    else:
-        sys.stdout.write(text)
+    comments = [
+        f"NAS 979 cone frustum, side: base {2 * cone.radius:g} mm, thickness {cone.thickness:g} mm,"
+        f" slope {cone.slope:g} deg, tilted {cone.tilt:g} deg",
+        f"tool 1: end mill {2 * TOOL_RADIUS:g} mm; G54: centre of the base plate on the table",
+        f"blocks of {cone.step():.3f} deg, chord error at most {CHORD_ERROR:g} mm",
+    ]
+    milled = [(tip, tool, (a, c)) for tip, a, c, tool in path]
+    return milling(machine, "0979", comments, speed, feed, RETRACT, milled)
 
 
 if __name__ == "__main__":
-    main()
+    size = ("--size", {"choices": sorted(SIZES), "default": "standard", "help": "size of the test piece"})
+    run(__doc__, lambda options: program(options.machine, options.size), [size])

@@ -11,12 +11,10 @@ never stand upright, so that no step passes a pole. The tool axis lies along the
 height; a ruled side is twisted, so above and below that the flank is off by what the header of the program says. The piece
 lies with its middle at X0 Y0 and its lower face at Z0 of G54.
 """
-import argparse
 import bisect
 import math
-import sys
 
-from five_axis import MACHINES, add, cross, direction, dot, follow, linear, rotary, unit
+from five_axis import add, cross, direction, dot, follow, milling, run, unit
 
 BASE, TOP = 30.0, 70.0         # mm, height of the strip's lower and upper edge
 HALF_LENGTH = 115.0            # mm, of the strip in X
@@ -94,45 +92,13 @@ def program(machine):
     tips = [pose(t) for t in even_parameters()]
     path = [(tip, tool, pair) for (tip, tool), pair in zip(tips, follow(machine, [tool for _, tool in tips]))]
     check(machine, path)
-    tip, tool, pair = path[0]
-    yield "%"
-    yield "O0791"
-    yield "(S-shaped test piece, one side: 300 x 200 x 70 mm, base 30 mm)"
-    yield f"(tool 1: end mill {2 * TOOL_RADIUS:g} mm; G54: middle of the lower face)"
-    yield f"({STEPS} blocks of {math.dist(path[0][0], path[1][0]):.2f} mm, flank off the twisted side by {flank_error():.3f} mm at most)"
-    yield "G21 G17 G90 G54 G94 G64 G49"
-    yield "T1 M6"
-    yield f"S{SPEED} M3"
-    yield "G53 G0 Z0"
-    yield f"G0 {rotary(machine, pair)}"
-    yield "G43.4 H1"
-    # Exact stops where the contour begins and ends: how a corner is rounded there in time depends on the machine.
-    yield f"G9 G0 {linear(add(tip, tool, RETRACT))}"
-    yield f"G9 G1 {linear(tip)} F{round(SPEED * FEED_PER_TOOTH * TEETH)}"
-    for tip, _, pair in path[1:-1]:
-        yield f"G1 {linear(tip)} {rotary(machine, pair)}"
-    tip, tool, pair = path[-1]
-    yield f"G9 G1 {linear(tip)} {rotary(machine, pair)}"
-    yield f"G1 {linear(add(tip, tool, RETRACT))}"
-    yield "G49"
-    yield "G53 G0 Z0"
-    yield "M5"
-    yield "M30"
-    yield "%"
-
-
-def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--machine", choices=sorted(MACHINES), default="ac-table", help="machine the program is for")
-    parser.add_argument("--output", help="file to write (default: standard output)")
-    options = parser.parse_args()
-    text = "\n".join(program(options.machine)) + "\n"
-    if options.output:
-        with open(options.output, "w", encoding="ascii", newline="\n") as file:
-            file.write(text)
-    else:
-        sys.stdout.write(text)
+    comments = [
+        "S-shaped test piece, one side: 300 x 200 x 70 mm, base 30 mm",
+        f"tool 1: end mill {2 * TOOL_RADIUS:g} mm; G54: middle of the lower face",
+        f"{STEPS} blocks of {math.dist(path[0][0], path[1][0]):.2f} mm, flank off the twisted side by {flank_error():.3f} mm at most",
+    ]
+    return milling(machine, "0791", comments, SPEED, round(SPEED * FEED_PER_TOOTH * TEETH), RETRACT, path)
 
 
 if __name__ == "__main__":
-    main()
+    run(__doc__, lambda options: program(options.machine))

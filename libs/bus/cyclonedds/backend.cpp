@@ -293,7 +293,10 @@ std::string configuration(const NetworkSettings& network) {
          // A packet that a full socket buffer dropped is asked for again within milliseconds, before it is
          // overwritten.
          "<Internal><Watermarks><WhcHigh>64MB</WhcHigh></Watermarks><NackDelay>5ms</NackDelay>"
-         "<HeartbeatInterval>20ms</HeartbeatInterval></Internal>"
+         "<HeartbeatInterval>20ms</HeartbeatInterval>"
+         // A reader that is there answers a heartbeat at once; when the whole cluster ends nobody does, and
+         // every process would wait this long.
+         "<WriterLingerDuration>100ms</WriterLingerDuration></Internal>"
          "</Domain></CycloneDDS>";
   return xml.str();
 }

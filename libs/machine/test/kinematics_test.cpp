@@ -159,9 +159,9 @@ TEST(Chains, carried_linear_axes_are_parameters_and_give_the_same_bits) {
                                "m");
   Parameters p;
   p.values = read_chain_parameters(node, "m");
-  EXPECT_EQ(p.at(40989), -1);
-  EXPECT_EQ(p.at(40990), 0);
-  EXPECT_EQ(p.at(40991), 1);
+  EXPECT_EQ(p.at(40944), -1);
+  EXPECT_EQ(p.at(40945), 0);
+  EXPECT_EQ(p.at(40946), 1);
   const auto from_parameters = make_chain(p, 0);
   const auto direct = std::get<geometry::Chain>(geometry::Chain::make(
       std::get<geometry::ChainParameters>(geometry::parameters_of(read_chains(node, "m").at(0)))));
@@ -170,10 +170,10 @@ TEST(Chains, carried_linear_axes_are_parameters_and_give_the_same_bits) {
     ASSERT_EQ(direct.machine_from_tip(Vec3(1, 2, 3), a, 88),
               from_parameters.machine_from_tip(Vec3(1, 2, 3), a, 88));
   }
-  p.values[40991] = {2, ""};
+  p.values[40946] = {2, ""};
   std::string alarm;
   EXPECT_EQ(error_of(p, &alarm),
-            "channel 0, parameters 040989 .. 040991: a linear axis is carried by more rotary axes than its "
+            "channel 0, parameters 040944 .. 040946: a linear axis is carried by more rotary axes than its "
             "side has");
   EXPECT_EQ(alarm, "kinematics_invalid");
 }

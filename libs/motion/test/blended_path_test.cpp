@@ -9,9 +9,10 @@ namespace trunnion::motion {
 namespace {
 
 BlendedPath polyline(const std::vector<AxisValues>& points, const BlendRules& rules) {
-  BlendedPath path(rules);
+  BlendedPath path;
   for (std::size_t k = 1; k < points.size(); ++k) {
     PathBlock block;
+    block.rules = rules;
     block.path = PathSegment::line(points[k - 1], points[k]);
     path.rate_join(block);
     block.stop = k == 1;
@@ -61,7 +62,8 @@ TEST(BlendedPath, a_join_never_reaches_across_a_stop_or_the_end_and_tolerance_ze
   EXPECT_EQ(path.position(0, 0), points[0]);
   EXPECT_EQ(path.position(1, path.end()), points[2]);
   PathBlock block;
-  BlendedPath exact({0, 0});
+  block.rules = {0, 0};
+  BlendedPath exact;
   block.path = PathSegment::line({}, {1});
   exact.rate_join(block);
   exact.push(block);

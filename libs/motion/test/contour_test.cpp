@@ -40,7 +40,7 @@ TEST_P(Zigzag, random_corners_keep_tolerance_velocity_and_acceleration) {
   std::uniform_real_distribution<double> unit(-1, 1);
   Polyline path;
   path.add({}, 6000);
-  for (int i = 1; i < 200; ++i) {
+  for (int i = 1; i < 120; ++i) {
     path.add({i * size * 0.7 + unit(random) * size * 0.3, size * unit(random), size * unit(random)}, 9000);
   }
   Limits limits = uniform_limits(200, 3000, cycles);
@@ -55,8 +55,7 @@ TEST_P(Zigzag, random_corners_keep_tolerance_velocity_and_acceleration) {
 }
 
 INSTANTIATE_TEST_SUITE_P(sizes, Zigzag,
-                         testing::Combine(testing::Values(1, 2, 10, 20, 50, 64),
-                                          testing::Values(0.05, 0.5, 5.0),
+                         testing::Combine(testing::Values(1, 2, 20, 64), testing::Values(0.05, 0.5, 5.0),
                                           testing::Values(0.002, 0.02, 0.5)));
 
 class DenseCircle : public testing::TestWithParam<std::tuple<double, double, int>> {};
@@ -131,11 +130,11 @@ TEST_P(FiveAxis, wavy_cap_with_rtcp_keeps_the_limits_of_the_machine_axes_and_the
   Limits limits = uniform_limits(300, 3000, cycles);
   for (std::size_t i = 3; i < 6; ++i) limits.axes[i] = {100, 200, 600};
   Polyline path;
-  for (int i = 0; i <= 1000; ++i) {
-    const double f = i * 2 * std::numbers::pi / 1000;
+  for (int i = 0; i <= 600; ++i) {
+    const double f = i * 2 * std::numbers::pi / 600;
     AxisValues p{30 * std::cos(f) + 5, 30 * std::sin(f) - 4, 2 * std::sin(6 * f)};
     p[language::A] = 20 + 15 * std::sin(9 * f);
-    p[language::C] = 360 * i / 1000.0;
+    p[language::C] = 360 * i / 600.0;
     path.add(p, feed);
   }
   Trajectory t(limits, &chain, cycle);
@@ -176,7 +175,7 @@ TEST(Contour, random_five_axis_corners_with_rtcp_keep_the_limits_and_the_toleran
       Limits limits = uniform_limits(300, 3000, cycles);
       for (std::size_t i = 3; i < 6; ++i) limits.axes[i] = {100, 200, 600};
       Polyline path;
-      for (int i = 0; i < 120; ++i) {
+      for (int i = 0; i < 60; ++i) {
         AxisValues p{i * size * 0.4 + unit(random) * size, unit(random) * size, unit(random) * size};
         p[language::A] = unit(random) * 3 * size;
         p[language::C] = unit(random) * 5 * size;

@@ -124,17 +124,27 @@ inline double square_to_leg(const AxisValues& p, const AxisValues& a, const Axis
   return square;
 }
 
-/// Largest distance of a setpoint from the polyline `points` (X Y Z); every output point against every leg.
+/// Largest distance of a setpoint from the polyline `points` (X Y Z). Every leg counts for every setpoint,
+/// but one that some leg near the last nearest brings within the largest distance so far cannot change it.
 inline double contour_error(const Motion& run, const std::vector<AxisValues>& points) {
+  constexpr std::size_t nearby = 4;
   double worst = 0;
+  std::size_t nearest = 1;
   for (const Setpoint& s : run.setpoints) {
     double best = 1e300;
-    for (std::size_t k = 1; k < points.size() && best > 0; ++k) {
-      best = std::min(best, square_to_leg(s.position, points[k - 1], points[k]));
-    }
-    worst = std::max(worst, std::sqrt(best));
+    std::size_t found = nearest;
+    const auto look = [&](std::size_t from, std::size_t to) {
+      for (std::size_t k = from; k < to; ++k) {
+        const double square = square_to_leg(s.position, points[k - 1], points[k]);
+        if (square < best) best = square, found = k;
+      }
+    };
+    look(nearest > nearby ? nearest - nearby : 1, std::min(points.size(), nearest + nearby));
+    if (best > worst) look(1, points.size());
+    worst = std::max(worst, best);
+    nearest = found;
   }
-  return worst;
+  return std::sqrt(worst);
 }
 
 }  // namespace trunnion::motion::test

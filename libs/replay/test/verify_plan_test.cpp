@@ -231,8 +231,35 @@ TEST(TickPlan, GivesTheDriveItsInputsAtTheTicksAtWhichTheyTookEffect) {
   EXPECT_EQ(plan.steps[2].needs[0].place, (Place{8, 8})) << "8 cycles and 8 ticks";
   EXPECT_TRUE(plan.steps[2].apart);
   EXPECT_EQ(plan.steps[3].message->topic->handle, "gantry_frame");
+  ASSERT_EQ(plan.steps[3].needs.size(), 1u);
+  EXPECT_EQ(plan.steps[3].needs[0].track.topic->handle, "plc_outputs") << "until the drive says it has them";
+  EXPECT_EQ(plan.steps[3].needs[0].place, (Place{0, 1}));
   EXPECT_EQ(plan.cycles, 16u);
   EXPECT_EQ(plan.expected.size(), 2u);
+}
+
+TEST(TickPlan, OutputsOfThePlcThatWereOverwrittenBeforeTheRecordingAreStoodInForByTheNextOnes) {
+  using idl::stream::Input;
+  // The outputs of time 10 let time go on to tick 12; the recorder came when those of time 20 had replaced
+  // them.
+  StoredRecording recording;
+  auto start = feedback_frame(0, 0), end = feedback_frame(0, 0);
+  start.tick = 12;
+  start.applied = {{Input::PARAMETER_SET, 0, 1}, {Input::PLC_OUTPUTS, 0, 10}};
+  end.tick = 40;
+  end.applied = {{Input::PLC_OUTPUTS, 12, 20}};
+  idl::plc::Outputs outputs;
+  outputs.run_until_tick = 40;
+  recording.messages = {parameters(1, 1), stored(topics::feedback_frame, start, 15),
+                        stored(topics::plc_outputs, outputs, 20), stored(topics::feedback_frame, end, 25)};
+  const auto plan = plan_verification(recording, "drive", 0);
+  ASSERT_EQ(plan.steps.size(), 3u);
+  idl::plc::Outputs given;
+  ASSERT_TRUE(bus::decode(plan.steps[1].message->cdr, given));
+  EXPECT_EQ(given.run_until_tick, 12u);
+  ASSERT_TRUE(bus::decode(plan.steps[2].message->cdr, given));
+  EXPECT_EQ(given.run_until_tick, 40u);
+  EXPECT_EQ(plan.steps[2].needs.size(), 2u) << "tick 12, and the stand-in was taken";
 }
 
 TEST(TickPlan, ARecordingThatDoesNotSayWhenIsRefused) {

@@ -11,17 +11,25 @@
 #include "axis_lock.hpp"
 #include "channel_snapshot.hpp"
 #include "contracts/types.hpp"
+#include "flow/program_flow.hpp"
+#include "flow/tapping.hpp"
 #include "hand_over.hpp"
 #include "handwheel.hpp"
 #include "preparation.hpp"
-#include "program_flow.hpp"
 #include "program_record.hpp"
 #include "program_shelf.hpp"
 #include "setup/channel_setup.hpp"
+#include "skip_move.hpp"
 #include "stream_link.hpp"
 
 namespace trunnion::channel {
 
+using flow::AuxiliaryMemory;
+using flow::Entry;
+using flow::FlowState;
+using flow::ProgramFlow;
+using flow::RestartPoint;
+using flow::Tapping;
 using idl::channel::Mode;
 using idl::channel::RunState;
 

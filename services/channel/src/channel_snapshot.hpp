@@ -6,9 +6,12 @@
 #include <vector>
 
 #include "contracts/types.hpp"
-#include "skip_move.hpp"
+#include "flow/skip_result.hpp"
 
 namespace trunnion::channel {
+
+using flow::SkipResult;
+using language::AxisValues;
 
 struct ChannelSnapshot {
   bool running = false;  ///< a program is under way that can be gone on with

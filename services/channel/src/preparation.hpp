@@ -4,11 +4,12 @@
 #include <string>
 #include <vector>
 
-#include "auxiliary_memory.hpp"
+#include "flow/auxiliary_memory.hpp"
 #include "setup/channel_setup.hpp"
 
 namespace trunnion::channel {
 
+using flow::AuxiliaryOrder;
 using language::AxisValues;
 
 /// What is done, in this order, before a program goes on.

@@ -13,12 +13,6 @@ namespace trunnion::channel {
 
 using language::AxisValues;
 
-/// Where a skip move ended and where its input found the axes, in the frame of the move. Without an edge both
-/// are its end.
-struct SkipResult {
-  AxisValues stopped{}, touched{};
-};
-
 /// The input's edge, in the machine coordinates of the drives.
 struct Touch {
   std::uint64_t cycle = 0;

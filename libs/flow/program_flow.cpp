@@ -1,8 +1,8 @@
-#include "program_flow.hpp"
+#include "flow/program_flow.hpp"
 
 #include "machine/alarms.hpp"
 
-namespace trunnion::channel {
+namespace trunnion::flow {
 
 using language::CommandKind;
 
@@ -32,7 +32,7 @@ void ProgramFlow::start(language::TextSource& text, const AxisValues& position,
   search_ = entry.restart.sequence > 0 ? Search::restart : entry.line > 0 ? Search::line : Search::none;
   if (entry.restart.sequence == 0) skips_.clear();
   skips_read_ = 0;
-  tapping_ = in_hole_ = refused_ = false;
+  tapping_ = in_hole_ = refused_ = text_missing_ = false;
   executing_ = initial;
   frames_.clear();
   auxiliaries_.clear();
@@ -87,6 +87,7 @@ FlowState ProgramFlow::push_move() {
   }
   executing_ = command_.modal;
   have_command_ = false;
+  if (on_move) on_move(move);
   return FlowState::full;
 }
 
@@ -142,7 +143,9 @@ FlowState ProgramFlow::take_step(language::Step step) {
       have_command_ = true;
       return FlowState::full;
     case language::Step::working:
+      return FlowState::waiting;
     case language::Step::pending:
+      text_missing_ = true;
       return FlowState::waiting;
     case language::Step::position:
       return go_on_from_skip();
@@ -166,6 +169,7 @@ FlowState ProgramFlow::take_step(language::Step step) {
 }
 
 FlowState ProgramFlow::fill(bool single_block) {
+  text_missing_ = false;
   if (refused_) return FlowState::alarm;
   constexpr int most_commands = 4096;  // a long search for the restart point must not keep the channel deaf
   for (int i = 0; i < most_commands; ++i) {
@@ -212,4 +216,4 @@ FlowState ProgramFlow::fill(bool single_block) {
   return FlowState::waiting;
 }
 
-}  // namespace trunnion::channel
+}  // namespace trunnion::flow

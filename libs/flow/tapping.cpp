@@ -1,10 +1,10 @@
-#include "tapping.hpp"
+#include "flow/tapping.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-namespace trunnion::channel {
+namespace trunnion::flow {
 
 void Tapping::begin(const AxisValues& start, const language::Command& stroke) {
   active_ = true;
@@ -44,4 +44,4 @@ language::Command Tapping::line(language::Command stroke) {
   return stroke;
 }
 
-}  // namespace trunnion::channel
+}  // namespace trunnion::flow

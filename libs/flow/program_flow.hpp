@@ -1,18 +1,20 @@
 // Pulls commands out of the interpreter and feeds them to motion; stops where something else has to happen
-// first.
+// first. The channel and the planner without a cluster both run programs through it, so their motions agree
+// bit for bit.
 #pragma once
 
+#include <functional>
 #include <optional>
 
-#include "auxiliary_memory.hpp"
-#include "frame_trail.hpp"
+#include "flow/auxiliary_memory.hpp"
+#include "flow/frame_trail.hpp"
+#include "flow/skip_result.hpp"
+#include "flow/tapping.hpp"
 #include "language/interpreter.hpp"
 #include "motion/trajectory.hpp"
 #include "setup/channel_setup.hpp"
-#include "skip_move.hpp"
-#include "tapping.hpp"
 
-namespace trunnion::channel {
+namespace trunnion::flow {
 
 using language::AxisValues;
 
@@ -41,8 +43,12 @@ struct Entry {
 
 class ProgramFlow {
  public:
-  ProgramFlow(setup::ChannelSetup& machine, motion::Trajectory*& trajectory)
-      : machine_(machine), trajectory_(trajectory), interpreter_(machine) {}
+  ProgramFlow(setup::ChannelSetup& machine, motion::Trajectory*& trajectory,
+              language::InterpreterOptions options = {})
+      : machine_(machine), trajectory_(trajectory), interpreter_(machine, options) {}
+
+  /// Sees every move as motion has got it; may be empty.
+  std::function<void(const language::Command&)> on_move;
 
   /// What holds for the next start.
   void set_block_skip(language::SkipLevels levels) { interpreter_.set_block_skip(levels); }
@@ -104,6 +110,8 @@ class ProgramFlow {
   const std::string& alarm_text() const { return alarm_text_; }
   /// Commands up to the restart point, or the line, are being skipped.
   bool searching() const { return search_ != Search::none; }
+  /// The last FlowState::waiting was for the text; otherwise fill() has only done enough for one call.
+  bool text_missing() const { return text_missing_; }
 
  private:
   enum class Search : std::uint8_t { none, restart, line };
@@ -129,7 +137,7 @@ class ProgramFlow {
   std::uint32_t block_line_ = 0;
   Entry entry_;
   Search search_ = Search::none;
-  bool tapping_ = false, in_hole_ = false, refused_ = false;
+  bool tapping_ = false, in_hole_ = false, refused_ = false, text_missing_ = false;
   std::vector<SkipResult> skips_;
   std::size_t skips_read_ = 0;
 
@@ -137,4 +145,4 @@ class ProgramFlow {
   std::string alarm_name_, alarm_text_;
 };
 
-}  // namespace trunnion::channel
+}  // namespace trunnion::flow

@@ -1,8 +1,8 @@
-#include "auxiliary_memory.hpp"
+#include "flow/auxiliary_memory.hpp"
 
 #include "language/codes.hpp"
 
-namespace trunnion::channel {
+namespace trunnion::flow {
 
 using language::CommandKind;
 
@@ -61,4 +61,4 @@ std::vector<AuxiliaryOrder> AuxiliaryMemory::orders_touched_by(const AuxiliaryMe
   return undo;
 }
 
-}  // namespace trunnion::channel
+}  // namespace trunnion::flow
