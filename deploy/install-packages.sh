@@ -8,7 +8,7 @@ packages=(
   libeigen3-dev libyaml-cpp-dev nlohmann-json3-dev libcli11-dev libboost-dev libzstd-dev
   libgtest-dev libgmock-dev libbenchmark-dev librapidcheck-dev
   clang-14 clang-tidy-14 clang-format-14 clang-tools-14 libclang-rt-14-dev
-  chromium procps iproute2
+  chromium procps iproute2 iptables util-linux openssl hostname systemd
 )
 
 # Another Node.js than Debian's (18) will do from version 18 on.

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <iostream>
 
+#include "node/network.hpp"
 #include "src/launcher.hpp"
 
 namespace {
@@ -42,12 +43,18 @@ int main(int argc, char** argv) {
   app.add_option("--domain", domain, "DDS domain")->required();
   app.add_option("--port", options.port, "Port of the gateway, 0 = no gateway");
   app.add_flag("--virtual-time", options.virtual_time, "Time goes on with the setpoints, not with the clock");
+  app.add_option("--host", options.host, "Which host of machine.yaml this is");
+  bool one_host = false;
+  app.add_flag("--one-host", one_host, "Start everything here, whatever machine.yaml says of hosts");
   app.add_option("--report", report_pipe, "File descriptor that is told 'ready' or 'error ...'");
   CLI11_PARSE(app, argc, argv);
   if (report_pipe >= 0) fcntl(report_pipe, F_SETFD, FD_CLOEXEC);
   try {
     options.machine = machine::load_machine(machine, vendor);
     options.machine.domain = domain;
+    if (one_host) machine::forget_hosts(options.machine);
+    options.network = node::network_of(options.machine, options.host);
+    options.network.identity = "deploy";
     options.run.domain = domain;
     if (options.port == 0)
       std::erase_if(options.machine.services, [](const auto& s) { return s.service == "gateway"; });

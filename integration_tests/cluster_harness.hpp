@@ -88,16 +88,13 @@ class Cluster {
     up.with_gateway = gateway;
     up.port = free_port();
     cluster_ = deploy::start_cluster(up);
-    client_ = std::make_unique<deploy::Client>(cluster_.run.domain);
-    states_.emplace(client_->bus().reader(topics::channel_state));
-    alarms_.emplace(client_->bus().reader(topics::alarm));
-    feedback_.emplace(client_->bus().reader(topics::feedback_frame));
-    clusters_.emplace(client_->bus().reader(topics::cluster));
-    resets_.emplace(client_->bus().writer(topics::alarm_reset));
-    EXPECT_TRUE(until([&] { return have_cluster_ && list_.ready && !channels.empty(); }));
+    join(cluster_.network);
   }
+  /// Takes part in a cluster that somebody else starts and stops.
+  explicit Cluster(const bus::NetworkSettings& network) : owned_(false) { join(network); }
   ~Cluster() {
     states_.reset(), alarms_.reset(), feedback_.reset(), clusters_.reset(), resets_.reset(), client_.reset();
+    if (!owned_) return;
     try {
       deploy::stop_cluster(cluster_.run);
     } catch (const std::exception& e) {
@@ -235,6 +232,17 @@ class Cluster {
   std::uint64_t expected_cycle = 0, lost_frames = 0;
 
  private:
+  void join(const bus::NetworkSettings& network) {
+    client_ = std::make_unique<deploy::Client>(network);
+    states_.emplace(client_->bus().reader(topics::channel_state));
+    alarms_.emplace(client_->bus().reader(topics::alarm));
+    feedback_.emplace(client_->bus().reader(topics::feedback_frame));
+    clusters_.emplace(client_->bus().reader(topics::cluster));
+    resets_.emplace(client_->bus().writer(topics::alarm_reset));
+    EXPECT_TRUE(until([&] { return have_cluster_ && list_.ready && !channels.empty(); })) << told();
+  }
+
+  bool owned_ = true;
   deploy::RunningCluster cluster_;
   std::unique_ptr<deploy::Client> client_;
   std::optional<bus::Reader<idl::channel::ChannelState>> states_;

@@ -2,6 +2,7 @@
 
 #include <stdexcept>
 
+#include "cluster.hpp"
 #include "storage/crc32.hpp"
 
 namespace trunnion::deploy {
@@ -9,8 +10,10 @@ namespace {
 constexpr double patience = 3;  // s for an answer
 }
 
-Client::Client(std::uint32_t domain)
-    : bus_(bus::Vendor::cyclonedds, {domain}),
+Client::Client(std::uint32_t domain) : Client(network_in(domain)) {}
+
+Client::Client(const bus::NetworkSettings& network)
+    : bus_(bus::Vendor::cyclonedds, network),
       channel_(bus_, topics::channel_request, topics::channel_reply),
       program_(bus_, topics::program_request, topics::program_reply),
       parameter_(bus_, topics::parameter_request, topics::parameter_reply),

@@ -13,7 +13,9 @@ using idl::channel::ChannelRequest;
 
 class Client {
  public:
+  /// To the cluster in `domain` whose launcher runs on this computer.
   explicit Client(std::uint32_t domain);
+  explicit Client(const bus::NetworkSettings& network);
 
   bus::Bus& bus() { return bus_; }
   /// Throws std::runtime_error with the reason when it is refused or nobody answers.

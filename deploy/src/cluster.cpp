@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "machine/parameters.hpp"
+#include "node/network.hpp"
 #include "node/node.hpp"
 
 namespace trunnion::deploy {
@@ -31,6 +32,8 @@ std::vector<std::string> launcher_arguments(const UpOptions& up, const RunningCl
                                 std::to_string(cluster.run.domain),
                                 "--port",
                                 std::to_string(cluster.port)};
+  args.insert(args.end(), {"--host", cluster.host});
+  if (up.one_host) args.emplace_back("--one-host");
   if (!up.vendor.empty()) args.insert(args.end(), {"--vendor", up.vendor});
   if (cluster.virtual_time) args.emplace_back("--virtual-time");
   return args;
@@ -51,8 +54,13 @@ RunningCluster start_cluster(const UpOptions& up) {
   const double began = node::monotonic_seconds();
   auto config = machine::load_machine(find_machine(up.machine), up.vendor);
   machine::machine_parameters(config);
+  if (up.one_host) machine::forget_hosts(config);
   RunningCluster cluster;
+  cluster.host = up.host.empty() ? node::local_host(config) : up.host;
+  cluster.network = node::network_of(config, cluster.host);
   cluster.run.domain = up.own_domain ? free_domain() : up.domain.value_or(config.domain);
+  cluster.network.domain = cluster.run.domain;
+  cluster.network.identity = "deploy";
   if (const auto pid = cluster.run.launcher())
     throw std::runtime_error("a cluster is already running in domain " + std::to_string(cluster.run.domain) +
                              " (launcher " + std::to_string(*pid) +
@@ -70,6 +78,11 @@ RunningCluster start_cluster(const UpOptions& up) {
                                                            {"state_directory", cluster.state_directory},
                                                            {"virtual_time", cluster.virtual_time},
                                                            {"port", cluster.port},
+                                                           {"host", cluster.host},
+                                                           {"interface", cluster.network.interface_address},
+                                                           {"peers", cluster.network.peers},
+                                                           {"multicast", cluster.network.multicast},
+                                                           {"security", cluster.network.security},
                                                            {"domain", cluster.run.domain}}
                                          << "\n";
   auto args = launcher_arguments(up, cluster);
@@ -122,6 +135,20 @@ void stop_cluster(const RunDirectory& run) {
   run.remove();
 }
 
+bus::NetworkSettings network_in(std::uint32_t domain) {
+  bus::NetworkSettings network;
+  network.domain = domain;
+  network.identity = "deploy";
+  std::ifstream in(RunDirectory{domain}.info_file());
+  const auto info = nlohmann::json::parse(in, nullptr, false);
+  if (!info.is_object()) return network;
+  network.interface_address = info.value("interface", network.interface_address);
+  network.peers = info.value("peers", network.peers);
+  network.multicast = info.value("multicast", false);
+  network.security = info.value("security", "");
+  return network;
+}
+
 RunningCluster find_cluster(std::optional<std::uint32_t> domain) {
   const auto all = run_directories();
   if (!domain) {
@@ -149,6 +176,8 @@ RunningCluster find_cluster(std::optional<std::uint32_t> domain) {
   cluster.state_directory = info.value("state_directory", "");
   cluster.virtual_time = info.value("virtual_time", false);
   cluster.port = info.value("port", std::uint16_t{0});
+  cluster.host = info.value("host", "");
+  cluster.network = network_in(*domain);
   return cluster;
 }
 

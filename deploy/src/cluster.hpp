@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "bus/endpoint.hpp"
 #include "cluster_files.hpp"
 #include "machine/machine.hpp"
 
@@ -19,6 +20,8 @@ struct UpOptions {
   std::optional<std::uint16_t> port;
   std::optional<bool> virtual_time;
   bool with_gateway = true;
+  std::string host;  ///< which host of machine.yaml this is; empty: the one with an address of this computer
+  bool one_host = false;  ///< run everything here, whatever machine.yaml says of hosts
   bool foreground = false;
 };
 
@@ -28,6 +31,8 @@ struct RunningCluster {
   std::string machine, machine_directory, state_directory;
   bool virtual_time = false;
   std::uint16_t port = 0;  ///< 0 without a gateway
+  std::string host;        ///< which host this is; empty when the machine has none
+  bus::NetworkSettings network;
   double start_seconds = 0;
 };
 
@@ -36,6 +41,8 @@ struct RunningCluster {
 RunningCluster start_cluster(const UpOptions& options);
 /// Stops every process and removes the cluster's files; false when some process had to be killed.
 void stop_cluster(const RunDirectory& run);
+/// How a process takes part in the cluster of this computer in `domain`; the loopback when none is known.
+bus::NetworkSettings network_in(std::uint32_t domain);
 /// Throws std::runtime_error when there is none (or several and no domain was given).
 RunningCluster find_cluster(std::optional<std::uint32_t> domain);
 

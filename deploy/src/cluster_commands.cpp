@@ -42,7 +42,8 @@ int up(const Common& common, UpOptions options, const std::string& time) {
                      .dump()
               << "\n";
   } else {
-    std::printf("%s is ready in %.2f s, domain %u, state in %s\n", cluster.machine.c_str(),
+    std::printf("%s %s in %.2f s, domain %u, state in %s\n", cluster.machine.c_str(),
+                cluster.host.empty() ? "is ready" : ("runs what host " + cluster.host + " has").c_str(),
                 cluster.start_seconds, cluster.run.domain, cluster.state_directory.c_str());
     if (cluster.port != 0) std::printf("Operate it at http://localhost:%u\n", cluster.port);
   }
@@ -67,6 +68,18 @@ int down(const Common& common) {
   else
     std::printf("%s is down\n", cluster.machine.c_str());
   return 0;
+}
+
+std::string host_of(const machine::MachineConfig& config, std::uint32_t instance) {
+  for (const auto& entry : config.services)
+    if (entry.instance == instance) return entry.host;
+  return "";
+}
+
+// What stands behind the columns: the host, where there are several, and what the service says of itself.
+std::string remark(const Json& row) {
+  const auto host = row["host"].get<std::string>();
+  return (host.empty() ? "" : "on " + host + "  ") + row["detail"].get<std::string>();
 }
 
 // Of a copy of a stage: in step, joining, or dropped by a channel; empty for other services.
@@ -106,6 +119,7 @@ int status(const Common& common) {
     if (all && node::monotonic_seconds() > until - 1.2) break;
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   } while (node::monotonic_seconds() < until);
+  const auto config = machine::load_machine(cluster.machine_directory);
   Json services = Json::array();
   for (const auto& service : list.services) {
     Json row = bus::to_json(service);
@@ -123,6 +137,7 @@ int status(const Common& common) {
     row["contract_matches"] = a != announced.end() && a->second.contract == topics::contract_hash;
     if (a != announced.end() && a->second.contract != topics::contract_hash)
       row["state"] = "CONTRACT " + a->second.contract + ", expected " + topics::contract_hash;
+    row["host"] = host_of(config, service.instance);
     services.push_back(row);
   }
   Json active = Json::array();
@@ -145,7 +160,7 @@ int status(const Common& common) {
                   row["vendor"].get<std::string>().c_str(), row["pid"].get<int>(),
                   row["state"].get<std::string>().c_str(), row["standing"].get<std::string>().c_str(),
                   row["uptime_seconds"].get<double>(), row["frames_per_second"].get<double>(),
-                  row["restarts"].get<int>(), row["detail"].get<std::string>().c_str());
+                  row["restarts"].get<int>(), remark(row).c_str());
     if (!active.empty()) std::printf("\nalarms\n");
     for (const auto& a : active)
       std::printf("  %u %s (%s): %s\n", a["number"].get<unsigned>(), a["severity"].get<std::string>().c_str(),
@@ -176,8 +191,12 @@ void add_cluster_commands(CLI::App& app, Common& common) {
   command->add_option("--port", *port, "Port of the gateway")->check(CLI::Range(1, 65535));
   command->add_option("--state", options->state_directory,
                       "Directory for what must survive (default: under ~/.local/state/trunnion)");
+  command->add_option(
+      "--host", options->host,
+      "Which host of machine.yaml this is (default: the one with an address of this computer)");
   command->add_flag("--foreground", options->foreground, "Stay in the foreground until Ctrl-C");
-  add_command(app, common, "down", "Stop a cluster; nothing of it is left but its state",
+  add_command(app, common, "down",
+              "Stop a cluster (of several hosts: the part on this one); nothing of it is left but its state",
               [&common] { return down(common); });
   add_command(
       app, common, "status",

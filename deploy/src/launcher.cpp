@@ -21,12 +21,19 @@ constexpr double own_pause = 0.5;      // s the launcher itself may not run and 
 volatile std::sig_atomic_t stop_requested = 0;
 void request_stop(int) { stop_requested = 1; }
 
+std::uint32_t instance_on(const LaunchOptions& options) {
+  const auto& hosts = options.machine.hosts;
+  const auto here =
+      std::find_if(hosts.begin(), hosts.end(), [&](const auto& host) { return host.name == options.host; });
+  return launcher_instance + static_cast<std::uint32_t>(here == hosts.end() ? 0 : here - hosts.begin());
+}
+
 }  // namespace
 
 Launcher::Launcher(LaunchOptions options)
     : options_(std::move(options)),
-      bus_(bus::Vendor::cyclonedds, {options_.machine.domain}),
-      alarms_(bus_, launcher_instance, "launcher"),
+      bus_(bus::Vendor::cyclonedds, options_.network),
+      alarms_(bus_, instance_on(options_), "launcher"),
       states_(bus_.reader(topics::service_state)),
       announcements_(bus_.reader(topics::announcement)),
       resets_(bus_.reader(topics::alarm_reset)),
@@ -44,6 +51,7 @@ Launcher::Launcher(LaunchOptions options)
   for (const auto& entry : options_.machine.services) {
     ServiceProcess process;
     process.entry = entry;
+    process.local = entry.host == options_.host;
     process.executable = binary_directory() + "/trunnion-" + entry.service;
     process.log = options_.run.log_file(
         entry.service + "-" + std::to_string(entry.service == "channel" ? entry.channel : entry.copy));
@@ -74,7 +82,7 @@ bool Launcher::reap(std::string& failure) {
   for (int pid; (pid = waitpid(-1, &status, WNOHANG)) > 0;) {
     if (swap_ && swap_->ended(pid)) continue;
     for (auto& process : processes_) {
-      if (process.pid != pid) continue;
+      if (!process.local || process.pid != pid) continue;
       process.pid = 0;
       process.lifecycle = idl::service::Lifecycle::UNCONFIGURED;
       process.policy.ended(node::monotonic_seconds());
@@ -100,11 +108,52 @@ bool Launcher::reap(std::string& failure) {
   return true;
 }
 
+void Launcher::hear(ServiceProcess& process, const idl::service::ServiceState& state, double now) {
+  if (process.entry.instance != state.instance) return;
+  if (state.service != process.entry.service) {
+    alarms_.raise("machine_differs", state.instance,
+                  "Instance " + std::to_string(state.instance) + " is " + process.entry.service +
+                      " in this host's machine.yaml, a service " + state.service +
+                      " has this number elsewhere");
+    return;
+  }
+  if (!process.local && process.pid != state.pid) {
+    if (process.alive) ++process.restarts;
+    process.pid = state.pid;
+    process.policy.started(now);
+  }
+  process.hear(state, now);
+}
+
+void Launcher::watch_local(ServiceProcess& process, double now, bool judge) {
+  if (!judge) process.policy.wait(now);
+  const auto pulse = process.policy.pulse(now);
+  if (pulse != Pulse::beating && !process.lost && was_ready_) lose(process, "gives no sign of life");
+  if (pulse == Pulse::hung) {
+    kill(process.pid, SIGKILL);  // replaced like one that died
+    process.policy.wait(now);
+  }
+}
+
+// Silence is all that can be seen of another host. Its own launcher tells of a process that died; the first
+// host's tells of the others' silence, and they of the first host's.
+void Launcher::watch_remote(ServiceProcess& process, double now, bool judge) {
+  if (process.pid == 0) return;
+  if (!judge) process.policy.wait(now);
+  if (process.policy.pulse(now) == Pulse::beating) return;
+  process.pid = 0;
+  process.lifecycle = idl::service::Lifecycle::UNCONFIGURED;
+  process.detail = "host " + process.entry.host + " is silent";
+  const auto& first = options_.machine.hosts.front().name;
+  if (was_ready_ && (is_first_host() || process.entry.host == first))
+    lose(process, "on host " + process.entry.host + " is silent");
+}
+
 void Launcher::listen() {
   const double now = node::monotonic_seconds();
   idl::service::ServiceState state;
   while (states_.take(state)) {
-    for (auto& process : processes_) process.hear(state, now);
+    for (auto& process : processes_) hear(process, state, now);
     if (swap_) swap_->hear(state, now);
   }
   idl::service::Announcement announcement;
@@ -133,16 +182,13 @@ void Launcher::watch() {
   last_watch_ = now;
   for (auto& process : processes_) {
     if (process.retiring) continue;
-    if (process.pid == 0) {
+    if (!process.local) {
+      watch_remote(process, now, judge);
+    } else if (process.pid == 0) {
       if (process.policy.due(now)) process.start(options_, false);
       continue;
-    }
-    if (!judge) process.policy.wait(now);
-    const auto pulse = process.policy.pulse(now);
-    if (pulse != Pulse::beating && !process.lost && was_ready_) lose(process, "gives no sign of life");
-    if (pulse == Pulse::hung) {
-      kill(process.pid, SIGKILL);  // replaced like one that died
-      process.policy.wait(now);
+    } else {
+      watch_local(process, now, judge);
     }
     if (process.lost && process.lifecycle == idl::service::Lifecycle::ACTIVE) {
       process.lost = false;
@@ -160,6 +206,18 @@ bool Launcher::all_ready() const {
   });
 }
 
+bool Launcher::is_first_host() const {
+  return options_.machine.hosts.empty() || options_.machine.hosts.front().name == options_.host;
+}
+
+// What `up` waits for: the whole cluster; of several hosts, which start in any order, that the processes of
+// this one are alive.
+bool Launcher::begun() const {
+  if (options_.machine.hosts.empty()) return ready_;
+  return std::all_of(processes_.begin(), processes_.end(),
+                     [](const ServiceProcess& p) { return !p.local || p.alive; });
+}
+
 void Launcher::publish() {
   const double now = node::monotonic_seconds();
   const bool ready = all_ready();
@@ -175,7 +233,7 @@ void Launcher::publish() {
     cluster.services.push_back({p.entry.instance, p.entry.service, static_cast<std::uint8_t>(p.entry.copy),
                                 p.entry.vendor, p.pid, p.restarts,
                                 p.pid != 0 && p.lifecycle == idl::service::Lifecycle::ACTIVE});
-  cluster_writer_.write(cluster);
+  if (is_first_host()) cluster_writer_.write(cluster);
 }
 
 void Launcher::serve_swaps() {
@@ -186,6 +244,10 @@ void Launcher::serve_swaps() {
       reply.reason = why.substr(0, 250);
       swaps_.reply(request, reply);
     };
+    if (!options_.machine.hosts.empty()) {
+      if (is_first_host()) refuse("Services of a cluster over several hosts cannot be swapped");
+      continue;
+    }
     const auto found = std::find_if(processes_.begin(), processes_.end(), [&](const ServiceProcess& p) {
       return p.entry.service == request.service && p.entry.copy == request.copy &&
              (p.entry.service != "channel" || p.entry.channel == request.channel);
@@ -211,7 +273,8 @@ void Launcher::serve_swaps() {
 int Launcher::run(void (*report)(const std::string&)) {
   std::ofstream(options_.run.pid_file()) << getpid() << "\n";
   const double began = node::monotonic_seconds();
-  for (auto& process : processes_) process.start(options_, false);
+  for (auto& process : processes_)
+    if (process.local) process.start(options_, false);
   std::string failure;
   while (stop_requested == 0) {
     bus_.signal().wait(0.02);
@@ -220,18 +283,21 @@ int Launcher::run(void (*report)(const std::string&)) {
     watch();
     serve_swaps();
     publish();
-    if (ready_ && !was_ready_) {
+    notifier_.alive(node::monotonic_seconds());
+    if (!was_ready_ && begun()) {
       was_ready_ = true;
       report("");
+      notifier_.ready();
     }
     if (!was_ready_ && node::monotonic_seconds() - began > start_patience) {
       for (const auto& p : processes_)
-        if (p.lifecycle != idl::service::Lifecycle::ACTIVE)
+        if (p.local && p.lifecycle != idl::service::Lifecycle::ACTIVE)
           failure += (failure.empty() ? "not ready: " : "; ") + p.entry.service +
                      (p.detail.empty() ? "" : " (" + p.detail + ")");
       break;
     }
   }
+  notifier_.stopping();
   stop_all();
   if (!failure.empty()) report(failure);
   options_.run.remove();
@@ -241,20 +307,20 @@ int Launcher::run(void (*report)(const std::string&)) {
 void Launcher::stop_all() {
   swap_.reset();
   for (auto it = processes_.rbegin(); it != processes_.rend(); ++it)
-    if (it->pid > 0) kill(it->pid, SIGTERM);
+    if (it->local && it->pid > 0) kill(it->pid, SIGTERM);
   const double until = node::monotonic_seconds() + 2;
   const auto alive = [&] {
     int status = 0;
     for (int pid; (pid = waitpid(-1, &status, WNOHANG)) > 0;)
       for (auto& p : processes_)
-        if (p.pid == pid) p.pid = 0;
+        if (p.local && p.pid == pid) p.pid = 0;
     return std::any_of(processes_.begin(), processes_.end(),
-                       [](const ServiceProcess& p) { return p.pid > 0; });
+                       [](const ServiceProcess& p) { return p.local && p.pid > 0; });
   };
   while (alive() && node::monotonic_seconds() < until)
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   for (auto& p : processes_)
-    if (p.pid > 0) {
+    if (p.local && p.pid > 0) {
       kill(p.pid, SIGKILL);
       waitpid(p.pid, nullptr, 0);
       p.pid = 0;

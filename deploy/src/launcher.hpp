@@ -11,13 +11,14 @@
 #include "contracts/topics.hpp"
 #include "machine/machine.hpp"
 #include "node/alarm_board.hpp"
+#include "node/notify.hpp"
 #include "node/request.hpp"
 #include "service_process.hpp"
 #include "swap.hpp"
 
 namespace trunnion::deploy {
 
-inline constexpr std::uint32_t launcher_instance = 1000;
+inline constexpr std::uint32_t launcher_instance = 1000;  // and one more for each host after the first
 
 struct LaunchOptions {
   machine::MachineConfig machine;
@@ -25,6 +26,8 @@ struct LaunchOptions {
   bool virtual_time = false;
   std::uint16_t port = 8080;
   RunDirectory run;
+  std::string host;  ///< which of the machine's hosts this is; empty when it has none
+  bus::NetworkSettings network;
 };
 
 /// Runs in a process of its own. `report` is called once: with "" when the cluster is ready, with one line
@@ -41,7 +44,12 @@ class Launcher {
   void lose(ServiceProcess& process, const std::string& how);
   void listen();
   void watch();
+  void hear(ServiceProcess& process, const idl::service::ServiceState& state, double now);
+  void watch_local(ServiceProcess& process, double now, bool judge);
+  void watch_remote(ServiceProcess& process, double now, bool judge);
   bool all_ready() const;
+  bool is_first_host() const;
+  bool begun() const;
   void publish();
   bool has_live_twin(const ServiceProcess& process) const;
   void serve_swaps();
@@ -54,11 +62,12 @@ class Launcher {
   bus::Reader<idl::service::AlarmReset> resets_;
   bus::Writer<idl::service::Cluster> cluster_writer_;
   node::RequestServer<idl::service::SwapRequest, idl::service::SwapReply> swaps_;
+  node::Notifier notifier_;
   std::vector<ServiceProcess> processes_;
   std::map<std::uint32_t, idl::service::Announcement> announced_;  // by instance
   std::unique_ptr<Swap> swap_;                                     // the one under way
   idl::service::SwapRequest swap_request_;
-  std::uint32_t next_instance_ = launcher_instance + 1;  // of processes that machine.yaml does not number
+  std::uint32_t next_instance_ = launcher_instance + 100;  // of processes that machine.yaml does not number
   bool ready_ = false, was_ready_ = false;
   double last_published_ = 0, last_watch_ = 0;
 };

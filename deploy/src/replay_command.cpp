@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "bus/bus.hpp"
+#include "cluster.hpp"
 #include "cluster_files.hpp"
 #include "commands.hpp"
 #include "node/node.hpp"
@@ -50,7 +51,7 @@ int run(const Common& common, const ReplayArguments& arguments) {
   action.sa_handler = [](int) { stop_requested = 1; };
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
-  bus::Bus bus(bus::Vendor::cyclonedds, {*common.domain}, {stream_frames});
+  bus::Bus bus(bus::Vendor::cyclonedds, network_in(*common.domain), {stream_frames});
   std::map<const bus::TopicEntry*, std::unique_ptr<bus::RawWriter>> writers;
   for (const auto& d : due) {
     auto& writer = writers[d.message->topic];

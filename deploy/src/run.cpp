@@ -13,6 +13,7 @@
 
 #include "client.hpp"
 #include "cluster.hpp"
+#include "node/network.hpp"
 
 namespace trunnion::deploy {
 namespace fs = std::filesystem;
@@ -36,6 +37,7 @@ class Recorder {
                                   "--domain",
                                   std::to_string(cluster.run.domain),
                                   "--parent-bound"};
+    for (auto& argument : node::network_arguments(cluster.network)) args.push_back(std::move(argument));
     std::vector<char*> argv;
     for (auto& arg : args) argv.push_back(arg.data());
     argv.push_back(nullptr);
@@ -252,6 +254,7 @@ RunResult run_programs(const RunOptions& options) {
   up.domain = options.domain;
   up.virtual_time = !options.real_time;
   up.with_gateway = false;
+  up.one_host = true;
   RunResult result;
   ClusterGuard cluster(start_cluster(up));
   result.start_seconds = cluster.get().start_seconds;

@@ -8,6 +8,7 @@
 
 #include "cluster_files.hpp"
 #include "launcher.hpp"
+#include "node/network.hpp"
 #include "node/node.hpp"
 
 namespace trunnion::deploy {
@@ -38,6 +39,7 @@ void ServiceProcess::start(const LaunchOptions& options, bool shadow) {
                                 "--vendor",
                                 e.vendor,
                                 "--parent-bound"};
+  for (auto& argument : node::network_arguments(options.network)) args.push_back(std::move(argument));
   if (options.virtual_time) args.emplace_back("--virtual-time");
   if (shadow) args.emplace_back("--shadow");
   if (e.service == "gateway") {
@@ -65,11 +67,13 @@ void ServiceProcess::start(const LaunchOptions& options, bool shadow) {
   policy.started(node::monotonic_seconds());
   lifecycle = idl::service::Lifecycle::UNCONFIGURED;
   in_step = false;
+  alive = false;
 }
 
 bool ServiceProcess::hear(const idl::service::ServiceState& state, double now) {
   if (entry.instance != state.instance || pid != state.pid || pid == 0) return false;
   policy.beat(now);
+  alive = true;
   lifecycle = state.lifecycle;
   detail = state.detail;
   in_step = state.in_step;

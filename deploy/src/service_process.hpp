@@ -21,6 +21,8 @@ struct ServiceProcess {
   idl::service::Lifecycle lifecycle = idl::service::Lifecycle::UNCONFIGURED;
   std::string detail;
   bool in_step = false;   ///< of the process that runs now
+  bool alive = false;     ///< has beaten since its start
+  bool local = true;      ///< on this host; of those on others only the heartbeats are known
   bool lost = false;      ///< it died and is not back
   bool retiring = false;  ///< another one has taken over: its end is no loss
 

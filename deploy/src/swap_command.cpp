@@ -21,7 +21,7 @@ int swap(const Common& common, idl::service::SwapRequest request, double timeout
     if (request.executable.size() > 255)
       throw std::runtime_error("the path of --exec is longer than 255 characters");
   }
-  bus::Bus bus(bus::Vendor::cyclonedds, {cluster.run.domain});
+  bus::Bus bus(bus::Vendor::cyclonedds, cluster.network);
   node::RequestClient<idl::service::SwapRequest, idl::service::SwapReply> client(bus, topics::swap_request,
                                                                                  topics::swap_reply);
   const auto reply = client.call(request, timeout);

@@ -12,6 +12,7 @@
 #include "client.hpp"
 #include "cluster.hpp"
 #include "commands.hpp"
+#include "node/network.hpp"
 
 namespace trunnion::deploy {
 namespace {
@@ -37,7 +38,7 @@ int list(const Common& common) {
 
 int echo(const Common& common, const std::string& name, int count, double timeout) {
   const auto& topic = find(name);
-  bus::Bus bus(bus::Vendor::cyclonedds, {find_cluster(common.domain).run.domain});
+  bus::Bus bus(bus::Vendor::cyclonedds, find_cluster(common.domain).network);
   auto reader = bus.backend().reader(topic.description, bus::reader_qos(topic.qos), &bus.signal());
   bus::Bytes bytes;
   bus::SampleInfo info;
@@ -59,7 +60,7 @@ int echo(const Common& common, const std::string& name, int count, double timeou
 
 int rate(const Common& common, const std::string& name, double seconds) {
   const auto& topic = find(name);
-  bus::Bus bus(bus::Vendor::cyclonedds, {find_cluster(common.domain).run.domain});
+  bus::Bus bus(bus::Vendor::cyclonedds, find_cluster(common.domain).network);
   auto reader = bus.backend().reader(topic.description, bus::reader_qos(topic.qos), &bus.signal());
   for (int i = 0; i < 100 && reader->matched() == 0; ++i)
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
@@ -112,6 +113,7 @@ int record(const Common& common, const std::string& file, const RecorderValues& 
       std::to_string(cluster.run.domain)};
   for (std::size_t i = 0; i < values.size(); ++i)
     if (!values[i].empty()) args.insert(args.end(), {recorder_options[i].name, values[i]});
+  for (auto& argument : node::network_arguments(cluster.network)) args.push_back(std::move(argument));
   if (common.json) args.emplace_back("--json");
   std::vector<char*> argv;
   for (auto& arg : args) argv.push_back(arg.data());

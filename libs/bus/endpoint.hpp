@@ -74,6 +74,11 @@ struct NetworkSettings {
   std::uint32_t domain = 0;  ///< 0..100
   std::string interface_address = "127.0.0.1";
   std::string peers = "127.0.0.1";  ///< comma-separated addresses
+  bool multicast = false;           ///< find the others by multicast and not by `peers`; data stay unicast
+  std::string security =
+      {};  ///< directory of the cluster's certificates (docs/security.md); empty: no security
+  std::string identity =
+      {};  ///< whose certificate and permissions this participant uses: a sub-directory of it
 };
 
 class Backend {

@@ -28,7 +28,7 @@ class KinematicsError : public std::runtime_error {
 /// Name of the alarm about an error of configuring a channel's kinematics.
 std::string alarm_of(const std::exception& error);
 
-/// Parameters 04c400..04c437, 04c920..04c946 and 04c960..04c988. Throws KinematicsError.
+/// Parameters 04c400..04c437, 04c905..04c907, 04c920..04c943 and 04c960..04c988. Throws KinematicsError.
 geometry::Chain make_chain(const Parameters& parameters, std::uint16_t channel);
 
 /// One line for each direction vector that is used and not one long (beyond 1e-4): it is normalized.

@@ -39,7 +39,9 @@ MachineConfig parse_machine(const std::string& text, const std::string& director
                             const std::string& vendor_override) {
   const std::string file = directory + "/machine.yaml";
   const auto document = parse_yaml(text, file);
-  check_keys(file, document, {"name", "title", "domain", "port", "time", "vendor", "services", "chains"});
+  check_keys(file, document,
+             {"name", "title", "domain", "port", "time", "vendor", "hosts", "network", "security", "services",
+              "chains"});
   MachineConfig config;
   config.directory = directory;
   config.name = value<std::string>(file, document, "name", "");
@@ -57,6 +59,9 @@ MachineConfig parse_machine(const std::string& text, const std::string& director
   config.virtual_time = time == "virtual";
   const auto default_vendor = value<std::string>(file, document, "vendor", "cyclonedds");
 
+  config.hosts = read_hosts(document["hosts"], file);
+  config.multicast = read_multicast(document["network"], file);
+  config.security = read_security(document["security"], directory, file);
   config.chain_parameters = read_chain_parameters(document["chains"], file);
 
   const auto services = document["services"];
@@ -64,7 +69,7 @@ MachineConfig parse_machine(const std::string& text, const std::string& director
     throw std::runtime_error(file + ":1:1: error: 'services' is missing");
   config.channels = 0;
   for (const auto& node : services) {
-    check_keys(file, node, {"service", "vendor", "replicas", "channel"});
+    check_keys(file, node, {"service", "vendor", "replicas", "channel", "host"});
     ServiceEntry entry;
     entry.service = value<std::string>(file, node, "service", "");
     if (std::find(known_services.begin(), known_services.end(), entry.service) == known_services.end())
@@ -80,6 +85,7 @@ MachineConfig parse_machine(const std::string& text, const std::string& director
                                "replicas must be 1, or 2 for kinematics, compensation and gantry");
     for (std::uint32_t copy = 0; copy < replicas; ++copy) {
       entry.copy = copy;
+      entry.host = host_of(node, copy, config.hosts, file);
       const auto vendor = node["vendor"];
       entry.vendor = vendor && vendor.IsSequence()
                          ? (copy < vendor.size() ? scalar(file, vendor[copy]) : default_vendor)
@@ -106,6 +112,11 @@ MachineConfig parse_machine(const std::string& text, const std::string& director
 
 MachineConfig load_machine(const std::string& directory, const std::string& vendor_override) {
   return parse_machine(read_text(directory + "/machine.yaml"), directory, vendor_override);
+}
+
+void forget_hosts(MachineConfig& config) {
+  config.hosts.clear();
+  for (auto& entry : config.services) entry.host.clear();
 }
 
 std::map<std::uint32_t, ParameterValue> machine_parameters(const MachineConfig& config) {

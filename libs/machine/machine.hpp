@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "machine/hosts.hpp"
 #include "machine/parameters.hpp"
 
 namespace trunnion::machine {
@@ -18,6 +19,7 @@ struct ServiceEntry {
   std::uint32_t instance = 0;  ///< unique in the cluster, in the order of machine.yaml
   std::uint32_t copy = 0;      ///< twin number
   std::uint32_t channel = 0;   ///< of a channel service
+  std::string host;            ///< where it runs; empty when the machine has no `hosts`
 };
 
 struct MachineConfig {
@@ -29,6 +31,9 @@ struct MachineConfig {
   bool virtual_time = false;
   std::uint32_t channels = 1;
   std::vector<ServiceEntry> services;
+  std::vector<Host> hosts;  ///< empty: everything on one computer, over its loopback
+  bool multicast = false;   ///< hosts find each other by multicast instead of by the list of addresses
+  std::string security;     ///< directory of the cluster's certificates; empty: DDS security is off
   std::map<std::uint32_t, ParameterValue> chain_parameters;  ///< what the section `chains` comes to
 
   std::string parameters_file() const { return directory + "/parameters.yaml"; }
@@ -42,6 +47,9 @@ MachineConfig parse_machine(const std::string& text, const std::string& director
                             const std::string& vendor_override = "");
 /// The same from the file; throws std::runtime_error also when it cannot be read.
 MachineConfig load_machine(const std::string& directory, const std::string& vendor_override = "");
+
+/// Everything on one computer, over its loopback.
+void forget_hosts(MachineConfig& config);
 
 /// parameters.yaml and the chains of machine.yaml together. A parameter of a kinematic chain that stands in
 /// parameters.yaml of a channel with a chain in machine.yaml is an error: there would be two truths. Throws

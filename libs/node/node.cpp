@@ -113,6 +113,7 @@ void Node::beat(const Health& health) {
   state_.uptime = now - started_;
   ++state_.beats;
   state_writer_.write(state_);
+  if (health.lifecycle == idl::service::Lifecycle::ACTIVE) notifier_.ready();
   last_beat_ = now;
   last_frames_ = health.frames_out;
 }
@@ -131,6 +132,7 @@ int Node::run(Service& service) {
     }
     obey_take_over();
     service.pump();
+    notifier_.alive(monotonic_seconds());
     if (const double now = monotonic_seconds(); now - last_beat_ >= beat_period) {
       beat(service.health());
     } else if (now - last_beat_ >= 0.02 && service.health().lifecycle != last_lifecycle) {
@@ -144,6 +146,7 @@ int Node::run(Service& service) {
       beat(service.health());  // a change of lifecycle is news: start-up waits for it
     }
   }
+  notifier_.stopping();
   service.end();
   return 0;
 }

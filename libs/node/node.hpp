@@ -8,6 +8,7 @@
 #include "bus/bus.hpp"
 #include "contracts/topics.hpp"
 #include "node/alarm_board.hpp"
+#include "node/notify.hpp"
 #include "node/options.hpp"
 
 namespace trunnion::node {
@@ -68,6 +69,7 @@ class Node {
   bus::Writer<idl::service::ServiceState> state_writer_;
   bus::Reader<idl::service::AlarmReset> alarm_reset_;
   idl::service::ServiceState state_;
+  Notifier notifier_;
   double started_ = 0;
   double last_beat_ = 0;
   std::uint64_t last_frames_ = 0;

@@ -3,6 +3,8 @@
 #include <CLI/CLI.hpp>
 #include <iostream>
 
+#include "node/network.hpp"
+
 namespace trunnion::node {
 
 void add_options(CLI::App& app, Options& options) {
@@ -12,6 +14,7 @@ void add_options(CLI::App& app, Options& options) {
   app.add_option("--copy", options.copy, "Number of this copy of a stage");
   app.add_option("--channel", options.channel, "Channel number");
   app.add_option("--domain", options.network.domain, "DDS domain, 0 .. 100")->check(CLI::Range(0, 100));
+  add_network_options(app, options.network);
   app.add_option_function<std::string>(
          "--vendor", [&options](const std::string& name) { options.vendor = bus::vendor_from(name); },
          "DDS vendor: fastdds or cyclonedds")
@@ -25,6 +28,7 @@ void add_options(CLI::App& app, Options& options) {
 int parse_options(CLI::App& app, int argc, char** argv, Options& options) {
   try {
     app.parse(argc, argv);
+    options.network.identity = options.service;
     options.machine = machine::load_machine(options.machine_directory);
   } catch (const CLI::ParseError& e) {
     return app.exit(e);

@@ -3,6 +3,7 @@
 #include <iostream>
 #include <vector>
 
+#include "node/network.hpp"
 #include "service.hpp"
 
 namespace {
@@ -19,6 +20,7 @@ int main(int argc, char** argv) {
   app.add_option("--topics", options.topics, "Handles or names of topics, separated by commas (default: all)")
       ->delimiter(',');
   app.add_option("--domain", options.network.domain, "DDS domain, 0 .. 100")->check(CLI::Range(0, 100));
+  node::add_network_options(app, options.network);
   app.add_option_function<std::string>(
          "--vendor", [&options](const std::string& name) { options.vendor = bus::vendor_from(name); },
          "DDS vendor: fastdds or cyclonedds")
@@ -62,6 +64,7 @@ int main(int argc, char** argv) {
   app.add_flag("--parent-bound", options.parent_bound, "Stop when the parent process is gone");
   CLI11_PARSE(app, argc, argv);
   options.parts.bytes = static_cast<std::uint64_t>(part_mebibytes * (1 << 20));
+  options.network.identity = "recorder";
   try {
     return recorder::record(options);
   } catch (const std::exception& e) {

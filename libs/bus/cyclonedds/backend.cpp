@@ -6,13 +6,21 @@
 #include <dds/ddsi/ddsi_serdata.h>
 #include <dds/ddsi/ddsi_sertype.h>
 #include <dds/ddsi/q_radmin.h>
+#include <dds/ddsrt/log.h>
 
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <sstream>
 #include <stdexcept>
+#include <string_view>
 
 #include "bus/endpoint.hpp"
+#include "bus/security.hpp"
+
+#ifndef TRUNNION_CYCLONE_PLUGINS
+#define TRUNNION_CYCLONE_PLUGINS ""
+#endif
 
 namespace trunnion::bus {
 namespace {
@@ -282,18 +290,20 @@ class Reader : public RawReader {
 std::string configuration(const NetworkSettings& network) {
   std::ostringstream xml;
   xml << "<CycloneDDS><Domain id=\"any\"><General><Interfaces><NetworkInterface address=\""
-      << network.interface_address
-      << "\"/></Interfaces><AllowMulticast>false</AllowMulticast></General>"
+      << network.interface_address << "\"/></Interfaces><AllowMulticast>"
+      << (network.multicast ? "spdp" : "false")
+      << "</AllowMulticast></General>"
          "<Discovery><ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>39</"
          "MaxAutoParticipantIndex><Peers>";
-  std::istringstream peers(network.peers);
+  std::istringstream peers(network.multicast ? "" : network.peers);
   for (std::string peer; std::getline(peers, peer, ',');) xml << "<Peer address=\"" << peer << "\"/>";
   xml << "</Peers><SPDPInterval>0.5s</SPDPInterval><LeaseDuration>3s</LeaseDuration></Discovery>"
          // A writer never waits for a reader that is slow or dead: its bounded history is what it may lose.
          // A packet that a full socket buffer dropped is asked for again within milliseconds, before it is
-         // overwritten.
+         // overwritten. The interval between heartbeats doubles while nobody answers; its bound is what a cut
+         // cable costs after it is whole again.
          "<Internal><Watermarks><WhcHigh>64MB</WhcHigh></Watermarks><NackDelay>5ms</NackDelay>"
-         "<HeartbeatInterval>20ms</HeartbeatInterval>"
+         "<HeartbeatInterval max=\"100ms\">20ms</HeartbeatInterval>"
          // A reader that is there answers a heartbeat at once; when the whole cluster ends nobody does, and
          // every process would wait this long.
          "<WriterLingerDuration>100ms</WriterLingerDuration></Internal>"
@@ -301,13 +311,62 @@ std::string configuration(const NetworkSettings& network) {
   return xml.str();
 }
 
+// A plugin is named by its whole path, or, where it is among the system's libraries, without directory and
+// `lib`.
+std::string plugin(const std::string& name) {
+  const std::string directory = TRUNNION_CYCLONE_PLUGINS;
+  return directory.empty() ? name : directory + "lib" + name + ".so";
+}
+
+std::unique_ptr<dds_qos_t, QosDeleter> participant_qos(const NetworkSettings& network) {
+  std::unique_ptr<dds_qos_t, QosDeleter> qos(dds_create_qos());
+  if (network.security.empty()) return qos;
+  const auto files = security_files(network, Vendor::cyclonedds);
+  const auto set = [&](const std::string& name, const std::string& value) {
+    dds_qset_prop(qos.get(), ("dds.sec." + name).c_str(), value.c_str());
+  };
+  set("auth.library.path", plugin("dds_security_auth"));
+  set("auth.library.init", "init_authentication");
+  set("auth.library.finalize", "finalize_authentication");
+  set("access.library.path", plugin("dds_security_ac"));
+  set("access.library.init", "init_access_control");
+  set("access.library.finalize", "finalize_access_control");
+  set("crypto.library.path", plugin("dds_security_crypto"));
+  set("crypto.library.init", "init_crypto");
+  set("crypto.library.finalize", "finalize_crypto");
+  set("auth.identity_ca", files.authority);
+  set("auth.private_key", files.key);
+  set("auth.identity_certificate", files.certificate);
+  set("access.permissions_ca", files.authority);
+  set("access.governance", files.governance);
+  set("access.permissions", files.permissions);
+  return qos;
+}
+
+// Asking for participants at the addresses of a host that is off fails forty times each half second, and each
+// time is a line for Cyclone.
+void print_log(void*, const dds_log_data_t* data) {
+  const std::string_view line(data->message, data->size);
+  if (line.find("ddsi_udp_conn_write") == std::string_view::npos)
+    std::fwrite(data->message - data->hdrsize, 1, data->hdrsize + data->size + 1,
+                stderr);  // and the new line
+}
+
+// The domain's threads would go on encrypting while OpenSSL, loaded with the security plugins, clears up at
+// the end of the process. What is registered later is called earlier.
+void end_before_openssl() {
+  [[maybe_unused]] static const int once = std::atexit([] { dds_delete(DDS_CYCLONEDDS_HANDLE); });
+}
+
 class CycloneBackend : public Backend {
  public:
   explicit CycloneBackend(const NetworkSettings& network) {
     // The domain outlives this object on purpose: a second participant in the process (tests) shares it.
+    dds_set_log_sink(print_log, nullptr);
     dds_create_domain(network.domain, configuration(network).c_str());
-    participant_ = dds_create_participant(network.domain, nullptr, nullptr);
+    participant_ = dds_create_participant(network.domain, participant_qos(network).get(), nullptr);
     if (participant_ < 0) fail("participant in domain " + std::to_string(network.domain), participant_);
+    if (!network.security.empty()) end_before_openssl();
   }
   ~CycloneBackend() override { dds_delete(participant_); }
   std::unique_ptr<RawWriter> writer(const TopicDescription& topic, const EndpointQos& qos) override {

@@ -18,6 +18,7 @@
 #include <stdexcept>
 
 #include "bus/endpoint.hpp"
+#include "bus/security.hpp"
 
 namespace trunnion::bus {
 namespace {
@@ -156,6 +157,26 @@ class Reader : public RawReader, DataReaderListener {
   DataReader* reader_;
 };
 
+void secure(DomainParticipantQos& qos, const NetworkSettings& network) {
+  if (network.security.empty()) return;
+  auto files = security_files(network, Vendor::fastdds);
+  const auto set = [&](const std::string& name, std::string value) {
+    constexpr const char* scheme = "file:";
+    if (value.rfind(scheme, 0) == 0) value.insert(5, "//");
+    qos.properties().properties().emplace_back("dds.sec." + name, value);
+  };
+  const std::string auth = "auth.builtin.PKI-DH.", access = "access.builtin.Access-Permissions.";
+  set("auth.plugin", "builtin.PKI-DH");
+  set(auth + "identity_ca", files.authority);
+  set(auth + "identity_certificate", files.certificate);
+  set(auth + "private_key", files.key);
+  set("access.plugin", "builtin.Access-Permissions");
+  set(access + "permissions_ca", files.authority);
+  set(access + "governance", files.governance);
+  set(access + "permissions", files.permissions);
+  set("crypto.plugin", "builtin.AES-GCM-GMAC");
+}
+
 class FastBackend : public Backend {
  public:
   explicit FastBackend(const NetworkSettings& network) {
@@ -167,7 +188,7 @@ class FastBackend : public Backend {
     qos.transport().use_builtin_transports = false;
     qos.transport().user_transports.push_back(udp);
     auto& builtin = qos.wire_protocol().builtin;
-    std::istringstream peers(network.peers);
+    std::istringstream peers(network.multicast ? "" : network.peers);
     for (std::string peer; std::getline(peers, peer, ',');) {
       eprosima::fastrtps::rtps::Locator_t locator;
       locator.kind = LOCATOR_KIND_UDPv4;
@@ -175,9 +196,11 @@ class FastBackend : public Backend {
       builtin.initialPeersList.push_back(locator);
     }
     // An (invalid) unicast locator in the list keeps Fast DDS from adding the multicast one.
-    builtin.metatrafficUnicastLocatorList.push_back(eprosima::fastrtps::rtps::Locator_t());
+    if (!network.multicast)
+      builtin.metatrafficUnicastLocatorList.push_back(eprosima::fastrtps::rtps::Locator_t());
     builtin.discovery_config.leaseDuration = duration(3);
     builtin.discovery_config.leaseDuration_announcementperiod = duration(0.5);
+    secure(qos, network);
     participant_ = DomainParticipantFactory::get_instance()->create_participant(network.domain, qos);
     if (participant_ == nullptr)
       throw std::runtime_error("Fast DDS: participant in domain " + std::to_string(network.domain));

@@ -159,9 +159,9 @@ TEST(Chains, carried_linear_axes_are_parameters_and_give_the_same_bits) {
                                "m");
   Parameters p;
   p.values = read_chain_parameters(node, "m");
-  EXPECT_EQ(p.at(40944), -1);
-  EXPECT_EQ(p.at(40945), 0);
-  EXPECT_EQ(p.at(40946), 1);
+  EXPECT_EQ(p.at(40905), -1);
+  EXPECT_EQ(p.at(40906), 0);
+  EXPECT_EQ(p.at(40907), 1);
   const auto from_parameters = make_chain(p, 0);
   const auto direct = std::get<geometry::Chain>(geometry::Chain::make(
       std::get<geometry::ChainParameters>(geometry::parameters_of(read_chains(node, "m").at(0)))));
@@ -170,10 +170,13 @@ TEST(Chains, carried_linear_axes_are_parameters_and_give_the_same_bits) {
     ASSERT_EQ(direct.machine_from_tip(Vec3(1, 2, 3), a, 88),
               from_parameters.machine_from_tip(Vec3(1, 2, 3), a, 88));
   }
-  p.values[40946] = {2, ""};
+  for (const auto& [number, value] : p.values) EXPECT_TRUE(is_chain_parameter(number)) << number;
+  for (const std::uint32_t number : {40100, 40403, 40904, 40908, 40950, 40989, 40990, 100006})
+    EXPECT_FALSE(is_chain_parameter(number)) << number;
+  p.values[40907] = {2, ""};
   std::string alarm;
   EXPECT_EQ(error_of(p, &alarm),
-            "channel 0, parameters 040944 .. 040946: a linear axis is carried by more rotary axes than its "
+            "channel 0, parameters 040905 .. 040907: a linear axis is carried by more rotary axes than its "
             "side has");
   EXPECT_EQ(alarm, "kinematics_invalid");
 }

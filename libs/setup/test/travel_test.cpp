@@ -80,7 +80,7 @@ INSTANTIATE_TEST_SUITE_P(
 // holds the tip, and on the way there they have left their travel.
 TEST(TravelOfAQuill, EndsWhereItCannotHoldTheTip) {
   auto tables = load_machine_tables(std::string(MACHINES_DIRECTORY) + "/b-head-c-table");
-  tables.parameters.values[40946] = {1, ""};
+  tables.parameters.values[40907] = {1, ""};
   ChannelSetup setup(std::move(tables));
   const std::string start = "G43.4 H1\nG0 X0 Y0 Z700\n";
   EXPECT_EQ(read(setup, start + "G0 B60\nG0 B-60\n").text, "");
