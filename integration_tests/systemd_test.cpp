@@ -91,10 +91,22 @@ class Unit {
   int socket_ = -1, pid_ = 0;
 };
 
+// A thread stops when it is next about to run, so one that is just sending does so still.
+bool stands_still(int pid) {
+  const auto tasks = std::filesystem::directory_iterator("/proc/" + std::to_string(pid) + "/task");
+  return std::all_of(begin(tasks), end(tasks), [](const auto& task) {
+    std::ifstream in(task.path() / "stat");
+    std::string stat((std::istreambuf_iterator<char>(in)), {});
+    return stat.find(") T ") != std::string::npos;
+  });
+}
+
 void expect_pings_until_it_hangs(Unit& unit) {
   ASSERT_TRUE(unit.told("WATCHDOG=1", 10));
   EXPECT_TRUE(unit.told("WATCHDOG=1", 10)) << "again and again";
   ASSERT_EQ(kill(unit.pid(), SIGSTOP), 0);
+  for (int i = 0; i < 1000 && !stands_still(unit.pid()); ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
   unit.messages(0.1);  // what was on its way
   EXPECT_TRUE(unit.messages(3 * watchdog).empty())
       << "a process that hangs does not ping: systemd would kill it";
