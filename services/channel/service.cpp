@@ -10,7 +10,7 @@
 
 namespace trunnion::channel {
 namespace {
-constexpr double history_pause = 0.3;   // without feedback, after which no more history is on its way
+constexpr double history_pause = 1.0;   // without feedback: longer than a drive that lives is ever silent
 constexpr double record_seconds = 0.2;  // between two records of the executed line
 constexpr double text_patience = 0.5;   // without the text that motion waits for, before somebody is told
 }  // namespace
@@ -268,7 +268,7 @@ void ChannelService::recover() {
   if (!have_present_) have_present_ = present_reader_->take(present_);
   const bool caught_up = have_present_ && feedback_.tick >= present_.tick &&
                          feedback_.first + feedback_.count >= present_.first + present_.count;
-  if (!caught_up && node::monotonic_seconds() - last_feedback_ < history_pause) return;
+  if (!caught_up && (have_present_ || node::monotonic_seconds() - last_feedback_ < history_pause)) return;
   if (hand_over_) core_.take_over(*hand_over_);
   hand_over_.reset();
   core_.recover();
