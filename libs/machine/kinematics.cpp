@@ -243,8 +243,8 @@ bool is_chain_parameter(std::uint32_t number) {
   if (number / 10000 != 4) return false;
   const auto offset = number % 1000;
   return (offset >= 400 && offset <= 402) || (offset >= 410 && offset <= 422) ||
-         (offset >= 425 && offset <= 437) || (offset >= 920 && offset <= 943) ||
-         (offset >= 960 && offset <= 991);
+         (offset >= 425 && offset <= 437) || (offset >= 905 && offset <= 907) ||
+         (offset >= 920 && offset <= 943) || (offset >= 960 && offset <= 988);
 }
 
 }  // namespace trunnion::machine

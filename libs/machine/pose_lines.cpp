@@ -125,7 +125,10 @@ PoseLines::Answer PoseLines::answer(Direction direction, const std::string& line
     for (const double value : v) append(answer.text, value);
   };
   if (direction == Direction::inverse) {
-    add(chain_.machine_from_tip(place, angles, tool_length_));
+    const auto machine = chain_.machine_from_tip(place, angles, tool_length_);
+    if (machine == geometry::Vec3::Constant(geometry::Chain::no_position))
+      throw std::runtime_error("X, Y and Z lie in one plane at these angles: there is no position");
+    add(machine);
   } else {
     add(chain_.tip_from_machine(place, angles, tool_length_));
     add(chain_.tool_direction_in_workpiece(angles));

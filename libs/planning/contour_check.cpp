@@ -65,22 +65,10 @@ double ContourCheck::weigh(const Piece& piece, double f, const AxisValues& posit
   return std::max(deviation.contour / contour_tolerance_, deviation.orientation / orientation_tolerance_);
 }
 
-// Both distances are convex along a line, so thirds find the least of the larger one; an arc is cut into
-// parts of a few degrees first.
-double ContourCheck::search(const Piece& piece, const AxisValues& position, Deviation& deviation) const {
-  double low = 0, high = 1;
+// Both distances are convex along a line, so thirds find the least of the larger one.
+double ContourCheck::search(const Piece& piece, double low, double high, const AxisValues& position,
+                            Deviation& deviation) const {
   Deviation ignored;
-  if (piece.is_arc) {
-    const int parts = static_cast<int>(std::clamp(piece.arc.sweep / 3, 4.0, 4000.0));
-    double best = 1e300;
-    int best_part = 0;
-    for (int k = 0; k <= parts; ++k) {
-      const double w = weigh(piece, static_cast<double>(k) / parts, position, ignored);
-      if (w < best) best = w, best_part = k;
-    }
-    low = std::max(0.0, (best_part - 1.0) / parts);
-    high = std::min(1.0, (best_part + 1.0) / parts);
-  }
   for (int k = 0; k < 60 && (high - low) * piece.size > 1e-10; ++k) {
     const double a = low + (high - low) / 3, b = high - (high - low) / 3;
     if (weigh(piece, a, position, ignored) < weigh(piece, b, position, ignored))
@@ -89,6 +77,30 @@ double ContourCheck::search(const Piece& piece, const AxisValues& position, Devi
       low = a;
   }
   return weigh(piece, (low + high) / 2, position, deviation);
+}
+
+// An arc is cut into parts of a few degrees first. A full circle begins where it ends, so both ends are
+// looked at.
+double ContourCheck::search(const Piece& piece, const AxisValues& position, Deviation& deviation) const {
+  if (!piece.is_arc) return search(piece, 0, 1, position, deviation);
+  const int parts = static_cast<int>(std::clamp(piece.arc.sweep / 3, 4.0, 4000.0));
+  double best = 1e300;
+  int best_part = 0;
+  for (int k = 0; k <= parts; ++k) {
+    Deviation ignored;
+    const double w = weigh(piece, static_cast<double>(k) / parts, position, ignored);
+    if (w < best) best = w, best_part = k;
+  }
+  const auto around = [&](int part, Deviation& found) {
+    return search(piece, std::max(0.0, (part - 1.0) / parts), std::min(1.0, (part + 1.0) / parts), position,
+                  found);
+  };
+  const double least = around(best_part, deviation);
+  if (best_part != 0 && best_part != parts) return least;
+  Deviation other;
+  const double at_other_end = around(parts - best_part, other);
+  if (at_other_end < least) deviation = other;
+  return std::min(least, at_other_end);
 }
 
 Deviation ContourCheck::of(const AxisValues& position, std::uint32_t sequence, double reach) const {

@@ -43,6 +43,8 @@ class ContourCheck {
   AxisValues at(const Piece& piece, double f) const;
   double weigh(const Piece& piece, double f, const AxisValues& position, Deviation& deviation) const;
   double search(const Piece& piece, const AxisValues& position, Deviation& deviation) const;
+  double search(const Piece& piece, double low, double high, const AxisValues& position,
+                Deviation& deviation) const;
 
   std::vector<Piece> pieces_;
   AxisValues end_;

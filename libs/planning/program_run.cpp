@@ -20,6 +20,9 @@ bool is_move(const Command& command) {
          command.kind == CommandKind::arc || command.kind == CommandKind::dwell;
 }
 
+// Calls of ProgramFlow::fill() in a row, of millions of blocks each, that may bring no move.
+constexpr int most_reads = 25;
+
 // The channel without a cluster: moves come through the same ProgramFlow, and what the channel asks of
 // others while the axes stand is done at once.
 class Runner {
@@ -36,6 +39,7 @@ class Runner {
     frame_.start = start;
     flow_.on_move = [this](const Command& move) {
       ++result_.blocks;
+      reads_ = 0;
       if (moves_) moves_(move, frame_);
     };
   }
@@ -53,10 +57,10 @@ class Runner {
   }
 
  private:
-  // A program that never moves again is ended by the same count as one that never ends.
   bool go_on_reading() {
     if (flow_.text_missing()) return fail("The text ends in the middle of reading");
-    return ++reads_ < most_ || never_ends();
+    if (++reads_ < most_reads) return true;
+    return fail("The program goes on and on without a move");
   }
 
   // As ChannelCore::run_pending.
@@ -122,10 +126,10 @@ class Runner {
     result_.alarm = why;
     return false;
   }
-  bool never_ends() { return fail("The program has not ended after " + std::to_string(most_) + " cycles"); }
 
   bool step() {
-    if (result_.cycles >= most_) return never_ends();
+    if (result_.cycles >= most_)
+      return fail("The program has not ended after " + std::to_string(most_) + " cycles");
     const motion::Setpoint setpoint = trajectory_.step(1, 1, false);
     if (sink_) {
       PlannedCycle cycle;
@@ -145,7 +149,8 @@ class Runner {
   setup::ChannelSetup& machine_;
   const std::function<void(const PlannedCycle&)>& sink_;
   const std::function<void(const Command&, const FrameMoves&)>& moves_;
-  std::uint64_t most_, reads_ = 0;
+  std::uint64_t most_;
+  int reads_ = 0;
   motion::Trajectory trajectory_;
   motion::Trajectory* trajectory_pointer_ = &trajectory_;
   language::VariableStore variables_;

@@ -170,6 +170,9 @@ TEST(Chains, carried_linear_axes_are_parameters_and_give_the_same_bits) {
     ASSERT_EQ(direct.machine_from_tip(Vec3(1, 2, 3), a, 88),
               from_parameters.machine_from_tip(Vec3(1, 2, 3), a, 88));
   }
+  for (const auto& [number, value] : p.values) EXPECT_TRUE(is_chain_parameter(number)) << number;
+  for (const std::uint32_t number : {40100, 40403, 40904, 40908, 40950, 40989, 40990, 100006})
+    EXPECT_FALSE(is_chain_parameter(number)) << number;
   p.values[40907] = {2, ""};
   std::string alarm;
   EXPECT_EQ(error_of(p, &alarm),

@@ -88,5 +88,13 @@ TEST(PoseLines, bad_lines_are_one_clear_message) {
   EXPECT_EQ(error(lines, Direction::orient, "0 0 1 0"), "expected 3 numbers, there are 4");
 }
 
+// A B head that carries Z: at B90 nothing lifts the tool.
+TEST(PoseLines, a_pose_without_a_position_is_a_message) {
+  const PoseLines quill(with({{40410, 4}, {40415, 1}, {40422, 180}, {40907, 1}}), 0, 0);
+  EXPECT_EQ(error(quill, Direction::inverse, "0 0 0 90"),
+            "X, Y and Z lie in one plane at these angles: there is no position");
+  EXPECT_EQ(answer(quill, Direction::inverse, "1 2 3 0"), "1.000000000000 2.000000000000 3.000000000000");
+}
+
 }  // namespace
 }  // namespace trunnion::machine

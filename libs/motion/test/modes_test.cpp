@@ -103,7 +103,7 @@ TEST(Modes, centripetal_acceleration_of_a_mode_bounds_the_speed_in_curves) {
   const auto fastest = [&](std::uint8_t mode) {
     t.start({10}, language::Transformation::none, 0);
     double speed = 0;
-    for (const Setpoint& s : run(t, in_mode({arc_to({10}, 0, 0, 3600, false, 12000)}, mode)).setpoints)
+    for (const Setpoint& s : run(t, in_mode({arc_to({10}, 0, 0, 1440, false, 12000)}, mode)).setpoints)
       speed = std::max(speed, s.path_speed);
     return speed;
   };

@@ -103,18 +103,18 @@ TEST(Retrace, five_thousand_blocks_can_be_gone_back_over_and_no_block_is_lost_fo
   Setpoint s;
   const auto step = [&](std::size_t upto) {
     while (next <= upto && t.can_accept())
-      t.push(line_to(point(next), 12000, static_cast<std::uint32_t>(next))), ++next;
+      t.push(line_to(point(next), 6000, static_cast<std::uint32_t>(next))), ++next;
     if (next > upto) t.finish();
     s = t.step(1, 1, false);
   };
-  while (s.sequence < 7000) step(9000);
+  while (s.sequence < 20000) step(25000);
   t.retrace(true);
-  for (int k = 0; k < 60000 && !t.retraced_to_start(); ++k) step(9000);
+  for (int k = 0; k < 120000 && !t.retraced_to_start(); ++k) step(25000);
   ASSERT_TRUE(t.retraced_to_start());
-  EXPECT_LE(s.sequence, 7000 - Trajectory::history);
+  EXPECT_LE(s.sequence, 20000 - Trajectory::history);
   t.retrace(false);
-  while (!s.at_rest) step(9000);
-  EXPECT_EQ(t.position(), point(9000));
+  while (!s.at_rest) step(25000);
+  EXPECT_EQ(t.position(), point(25000));
 }
 
 TEST(Retrace, turning_at_any_cycle_under_any_override_keeps_the_limits_through_a_chain) {

@@ -64,6 +64,26 @@ TEST(ContourCheck, distance_to_a_line_an_arc_and_the_turn_of_a_rotary_axis) {
 }
 
 // 100 mm at 3000 mm/s^2 up to 500 mm/s: 83.33 mm of ramps in 0.3333 s, 16.67 mm in 0.0333 s.
+// The circle begins where it ends, and which of the two is nearer in floating point depends on its centre.
+TEST(ContourCheck, just_behind_the_start_and_before_the_end_of_a_full_circle_is_on_it) {
+  for (const double x : {0.0, 14.0, -3.7, 1e3}) {
+    for (const bool clockwise : {true, false}) {
+      AxisValues start{x, 19, -100};
+      ContourCheck check(start, 0.01, 0.05);
+      language::Command c;
+      c.kind = language::CommandKind::arc;
+      c.sequence = 1;
+      c.target = start;
+      c.arc.centre = {x + 2, 19, -100};
+      c.arc.sweep = 360;
+      c.arc.clockwise = clockwise;
+      check.add(c);
+      for (const double angle : {0.0256, -0.0256})
+        EXPECT_LT(check.of({x + 2 - 2 * std::cos(angle), 19 - 2 * std::sin(angle), -100}, 1).contour, 1e-6);
+    }
+  }
+}
+
 TEST(LowerBound, a_line_takes_the_time_of_its_trapezoid) {
   std::vector<PathSample> path;
   for (int k = 0; k <= 2000; ++k) path.push_back({0.05 * k, {0.05 * k}, 500});

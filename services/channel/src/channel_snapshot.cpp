@@ -1,6 +1,7 @@
 #include "channel_snapshot.hpp"
 
 #include <algorithm>
+#include <bit>
 
 #include "stream/stage_core.hpp"
 
@@ -23,9 +24,27 @@ enum Index {
   dry_run = offset + 9,
   auxiliary_lock,
   block_skip,
-  size  // then the results of the skip moves
+  size  // then, behind skip moves, a bit for each axis they concern, and of those axes what each move gave
 };
-constexpr std::size_t skip_values = 18, most_skips = 24;  // of the 512 values a state may have
+constexpr std::size_t most_values = 512;  // a state may have
+
+// The others are 0 in every result, as those a channel does not have always are.
+std::uint16_t axes_of(const std::vector<SkipResult>& skips) {
+  std::uint16_t axes = 0;
+  for (const auto& skip : skips)
+    for (std::size_t i = 0; i < skip.stopped.size(); ++i)
+      if (skip.stopped[i] != 0 || skip.touched[i] != 0) axes = static_cast<std::uint16_t>(axes | 1u << i);
+  return axes;
+}
+
+// Calls visit(value) for everything that is stored of the results, in its order.
+template <class Skips, class Visit>
+void visit_values(Skips& skips, std::uint16_t axes, Visit&& visit) {
+  for (auto& skip : skips)
+    for (auto* values : {&skip.stopped, &skip.touched})
+      for (std::size_t i = 0; i < values->size(); ++i)
+        if ((axes >> i & 1u) != 0) visit((*values)[i]);
+}
 }  // namespace
 
 void store(const ChannelSnapshot& s, const std::vector<SkipResult>& skips, std::vector<double>& v) {
@@ -46,11 +65,12 @@ void store(const ChannelSnapshot& s, const std::vector<SkipResult>& skips, std::
   v[dry_run] = s.dry_run ? 1 : 0;
   v[auxiliary_lock] = s.auxiliary_lock ? 1 : 0;
   v[block_skip] = s.block_skip;
-  if (skips.size() > most_skips) return;
-  for (const auto& skip : skips) {
-    v.insert(v.end(), skip.stopped.begin(), skip.stopped.end());
-    v.insert(v.end(), skip.touched.begin(), skip.touched.end());
-  }
+  if (skips.empty()) return;
+  // A result of nothing but zeros is one, too.
+  const auto axes = std::max<std::uint16_t>(axes_of(skips), 1);
+  if (size + 1 + skips.size() * 2 * static_cast<std::size_t>(std::popcount(axes)) > most_values) return;
+  v.push_back(axes);
+  visit_values(skips, axes, [&](double value) { v.push_back(value); });
 }
 
 std::optional<ChannelSnapshot> snapshot_of(const std::vector<idl::stream::StageState>& states) {
@@ -74,13 +94,13 @@ std::optional<ChannelSnapshot> snapshot_of(const std::vector<idl::stream::StageS
   s.dry_run = v[dry_run] != 0;
   s.auxiliary_lock = v[auxiliary_lock] != 0;
   s.block_skip = static_cast<std::uint16_t>(v[block_skip]);
-  s.skips.resize((v.size() - size) / skip_values);
-  auto from = v.begin() + size;
-  for (auto& skip : s.skips) {
-    std::copy_n(from, 9, skip.stopped.begin());
-    std::copy_n(from + 9, 9, skip.touched.begin());
-    from += skip_values;
-  }
+  if (v.size() == size) return s;
+  const auto axes = static_cast<std::uint16_t>(v[size]);
+  const auto each = 2 * static_cast<std::size_t>(std::popcount(axes));
+  if (each == 0) return s;
+  s.skips.resize((v.size() - size - 1) / each);
+  auto from = v.begin() + size + 1;
+  visit_values(s.skips, axes, [&](double& value) { value = *from++; });
   return s;
 }
 

@@ -1,5 +1,6 @@
 // G31: a skip input ends the move, the program goes on from where the axes are and knows where they were.
 #include "channel_fixture.hpp"
+#include "stream/stage_core.hpp"
 
 namespace trunnion::channel {
 namespace {
@@ -145,6 +146,46 @@ TEST_F(Skip, AFreshProcessGoesOnBehindATouchThatTheOneBeforeItMade) {
   run();
   EXPECT_EQ(core->run_state(), RunState::IDLE);
   EXPECT_NEAR(drive.rows.back()[0], 60, 1e-9);
+}
+
+SkipResult touch(double x, double z) {
+  SkipResult result;
+  result.stopped[language::X] = x, result.stopped[language::Z] = z;
+  result.touched = result.stopped;
+  result.touched[language::X] += 0.25;
+  return result;
+}
+
+std::vector<SkipResult> brought_back(const std::vector<SkipResult>& skips, std::size_t& size) {
+  std::vector<double> values;
+  store({}, skips, values);
+  size = values.size();
+  idl::stream::StageState state;
+  state.stage = stream::stage_channel;
+  state.values = values;
+  return snapshot_of({state})->skips;
+}
+
+// A state has 512 values, 40 are the snapshot's own and one says which axes: with X and Z 117 results of four
+// values find room.
+TEST(ChannelSnapshot, HoldsTheResultsOfAsManySkipMovesAsItHasRoomForOrOfNone) {
+  std::size_t size = 0;
+  EXPECT_TRUE(brought_back({}, size).empty());
+  const std::size_t own = size;
+  std::vector<SkipResult> skips;
+  for (int i = 1; i <= 117; ++i) {
+    skips.push_back(touch(i, -i));
+    const auto back = brought_back(skips, size);
+    ASSERT_LE(size, 512u);
+    ASSERT_EQ(back.size(), skips.size());
+    EXPECT_EQ(back.front().touched, skips.front().touched);
+    EXPECT_EQ(back.back().stopped, skips.back().stopped);
+    EXPECT_EQ(back.back().touched, skips.back().touched);
+  }
+  EXPECT_EQ(size, own + 1 + 117 * 4);
+  skips.push_back(touch(200, 1));
+  EXPECT_TRUE(brought_back(skips, size).empty());
+  EXPECT_EQ(brought_back({SkipResult{}, SkipResult{}}, size).size(), 2u) << "touched at zero";
 }
 
 }  // namespace
