@@ -84,8 +84,11 @@ void Soak::strike(const Stroke& stroke) {
 }
 
 void Soak::strike_in_motion(const Stroke& stroke) {
-  if (!rig_.cluster().until([&] {
-        return rig_.cluster().channels[0].line >= stroke.line || rig_.cluster().state() == RunState::IDLE;
+  // Until it moves, the channel shows the last line of the program before.
+  auto& cluster = rig_.cluster();
+  if (!cluster.until([&] {
+        return cluster.rows.size() > 500 &&
+               (cluster.channels[0].line >= stroke.line || cluster.state() == RunState::IDLE);
       }))
     FAIL() << "line " << stroke.line << " is not reached; " << rig_.cluster().told();
   ASSERT_NO_FATAL_FAILURE(strike(stroke));
