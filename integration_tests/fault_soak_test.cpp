@@ -86,10 +86,12 @@ void Soak::strike(const Stroke& stroke) {
 void Soak::strike_in_motion(const Stroke& stroke) {
   // Until it moves, the channel shows the last line of the program before.
   auto& cluster = rig_.cluster();
-  if (!cluster.until([&] {
-        return cluster.rows.size() > 500 &&
-               (cluster.channels[0].line >= stroke.line || cluster.state() == RunState::IDLE);
-      }))
+  if (!cluster.until(
+          [&] {
+            return cluster.rows.size() > 500 &&
+                   (cluster.channels[0].line >= stroke.line || cluster.state() == RunState::IDLE);
+          },
+          300))
     FAIL() << "line " << stroke.line << " is not reached; " << rig_.cluster().told();
   ASSERT_NO_FATAL_FAILURE(strike(stroke));
   const auto seen = rig_.await(stroke.service, stroke.fault, true);

@@ -1,6 +1,7 @@
 // What a service manager sees of the launcher and of a service. Some tests play systemd: the socket of
 // Type=notify and the watchdog. One has a systemd of its own.
 #include <fcntl.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/socket.h>
@@ -50,7 +51,7 @@ class Unit {
     }
   }
   ~Unit() {
-    kill(pid_, SIGCONT);
+    if (pid_ > 0) kill(pid_, SIGCONT);  // 0 would be the whole process group, other tests among it
     stop();
     close(socket_);
     std::filesystem::remove(path_);
@@ -108,7 +109,7 @@ void expect_pings_until_it_hangs(Unit& unit) {
   for (int i = 0; i < 1000 && !stands_still(unit.pid()); ++i)
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   unit.messages(0.1);  // what was on its way
-  EXPECT_TRUE(unit.messages(3 * watchdog).empty())
+  EXPECT_THAT(unit.messages(3 * watchdog), testing::IsEmpty())
       << "a process that hangs does not ping: systemd would kill it";
   ASSERT_EQ(kill(unit.pid(), SIGCONT), 0);
   EXPECT_TRUE(unit.told("WATCHDOG=1", 10));
