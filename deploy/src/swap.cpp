@@ -234,19 +234,33 @@ SwapReply Swap::done(double now) {
   return reply;
 }
 
+// Until the old one is told to end nobody depends on the new one, so a second try costs nothing: a vendor's
+// library may end a process that begins while others of its topics leave (Fast DDS 2.9: an assertion of its
+// reader).
+bool Swap::start_again(const char* why, double now) {
+  if (started_again_) return false;
+  std::fprintf(stderr, "swap: the new %s %s (%s): it is started again\n", old_.entry.service.c_str(), why,
+               fresh_.detail.c_str());
+  started_again_ = true;
+  if (fresh_.pid != 0) {
+    kill(fresh_.pid, SIGKILL);
+    waitpid(fresh_.pid, nullptr, 0);
+    clear_alarms(fresh_.entry.instance);
+  }
+  fresh_ended_ = false;
+  fresh_.detail.clear();
+  fresh_.start(options_, true);
+  comparison_ = {};
+  compared_before_ = 0;
+  enter(Phase::starting, now);
+  return true;
+}
+
 std::optional<SwapReply> Swap::step(double now) {
   read();
-  if (fresh_ended_ && !old_.retiring && !started_again_ && access(fresh_.executable.c_str(), X_OK) == 0) {
-    // Until the old one is told to end nobody depends on the new one, and a vendor's library may end a
-    // process that begins while others of its topics leave (Fast DDS 2.9: an assertion of its reader).
-    started_again_ = true;
-    fresh_ended_ = false;
-    fresh_.detail.clear();
-    fresh_.start(options_, true);
-    comparison_ = {};
-    compared_before_ = 0;
-    enter(Phase::starting, now);
-  }
+  if (fresh_ended_ && !old_.retiring && access(fresh_.executable.c_str(), X_OK) == 0 &&
+      start_again("ended", now))
+    return std::nullopt;
   if (fresh_ended_) {
     // An old one that has ended already is started again like one that died, only at once.
     const bool gone = old_.retiring;
@@ -267,7 +281,7 @@ std::optional<SwapReply> Swap::step(double now) {
     case Phase::promoting:
       if (fresh_.lifecycle != Lifecycle::ACTIVE || !fresh_.in_step) {
         active_at_ = now;
-        if (now - entered_ > promote_patience)
+        if (now - entered_ > promote_patience && !start_again("does not take part", now))
           return keep("The new " + old_.entry.service + " does not take part" +
                       (fresh_.detail.empty() ? "" : ": " + fresh_.detail));
       } else if (now - active_at_ > overlap) {

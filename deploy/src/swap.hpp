@@ -46,6 +46,7 @@ class Swap {
   std::optional<idl::service::SwapReply> after_comparison(double now);
   std::optional<idl::service::SwapReply> after_retirement(double now);
   void retire(double now);
+  bool start_again(const char* why, double now);
   idl::service::SwapReply keep(const std::string& reason);
   idl::service::SwapReply done(double now);
   void clear_alarms(std::uint32_t instance);
