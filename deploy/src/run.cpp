@@ -192,9 +192,14 @@ std::string execute(Client& client, std::size_t channels, const RunOptions& opti
   if (options.from_line != 0) search_line(client, options.from_line);
   auto states = client.bus().reader(topics::channel_state);
   auto alarms = client.bus().reader(topics::alarm);
-  for (std::uint16_t c = 0; c < channels; ++c) client.channel(c, CommandKind::CYCLE_START);
   std::vector<idl::channel::ChannelState> newest(channels);
-  std::vector<bool> ran(channels), done(channels);
+  std::vector<bool> known(channels), ran(channels), done(channels);
+  for (int i = 0; i < 100 && std::find(known.begin(), known.end(), false) != known.end(); ++i) {
+    client.bus().signal().wait(0.05);
+    for (idl::channel::ChannelState state; states.take(state);)
+      if (state.channel < channels) newest[state.channel] = state, known[state.channel] = true;
+  }
+  for (std::uint16_t c = 0; c < channels; ++c) client.channel(c, CommandKind::CYCLE_START);
   const double began = node::monotonic_seconds();
   double drawn = 0;
   std::string alarm;

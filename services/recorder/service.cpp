@@ -26,7 +26,9 @@ namespace {
 
 constexpr double match_seconds = 1.0;    // how long to wait for the writers of the stream
 constexpr double cluster_seconds = 5.0;  // the same when a launcher says which services there are
-constexpr int priority = -10;            // of the threads that take samples; they use little
+// To wake up for every message would take as much of the processor as a stage of the stream does.
+constexpr auto pause = std::chrono::milliseconds(5);
+constexpr int priority = -10;  // of the threads that take samples; they use little
 
 volatile sig_atomic_t stop_requested = 0;
 
@@ -265,9 +267,8 @@ int record(const Options& options) {
         told = queue.dropped();
         std::cerr << "trunnion-recorder: warning: messages are dropped: the disk is slower than the stream\n";
       }
-      continue;
     }
-    bus.signal().wait(0.05);
+    std::this_thread::sleep_for(pause);
   }
   // What has arrived by now belongs to the recording; a stream in full flow does not keep us for ever.
   const double until = node::monotonic_seconds() + 2;
