@@ -2,10 +2,10 @@
 // arcs of the program by formulae of this file.
 #include <gtest/gtest.h>
 
+#include <cctype>
 #include <fstream>
 #include <map>
 #include <numbers>
-#include <regex>
 
 #include "planning/program_run.hpp"
 
@@ -99,8 +99,19 @@ std::string program_of(const std::string& machine) {
 
 // As fast as the axes go, whatever the program says.
 std::string at_full_feed(const std::string& text, const std::string& path_control) {
-  return std::regex_replace(std::regex_replace(text, std::regex("F[0-9]+"), "F99999"), std::regex("G61"),
-                            path_control);
+  std::string fast;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text.compare(i, 3, "G61") == 0) {
+      fast += path_control;
+      i += 2;
+    } else if (text[i] == 'F' && i + 1 < text.size() && std::isdigit(text[i + 1]) != 0) {
+      fast += "F99999";
+      while (i + 1 < text.size() && std::isdigit(text[i + 1]) != 0) ++i;
+    } else {
+      fast += text[i];
+    }
+  }
+  return fast;
 }
 
 const std::string vectors =
