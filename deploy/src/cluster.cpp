@@ -1,8 +1,6 @@
 #include "cluster.hpp"
 
 #include <fcntl.h>
-#include <poll.h>
-#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -126,12 +124,10 @@ RunningCluster start_cluster(const UpOptions& up) {
 void stop_cluster(const RunDirectory& run) {
   const auto pid = run.launcher();
   if (!pid) throw std::runtime_error("no cluster is running in domain " + std::to_string(run.domain));
-  // The descriptor tells the end at once; the number stays taken until init has asked for the exit status.
-  pollfd ended{static_cast<int>(syscall(SYS_pidfd_open, *pid, 0)), POLLIN, 0};
   kill(*pid, SIGTERM);
-  const bool stopped = ended.fd < 0 ? kill(*pid, 0) != 0 : poll(&ended, 1, 8000) == 1;
-  if (ended.fd >= 0) close(ended.fd);
-  if (!stopped) throw std::runtime_error("launcher " + std::to_string(*pid) + " does not stop");
+  for (int i = 0; i < 800 && is_launcher(*pid); ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  if (is_launcher(*pid)) throw std::runtime_error("launcher " + std::to_string(*pid) + " does not stop");
   run.remove();
 }
 

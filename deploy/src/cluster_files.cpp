@@ -52,15 +52,18 @@ std::string default_state_directory(const std::string& machine) {
 
 std::string RunDirectory::path() const { return base() + "/" + std::to_string(domain); }
 
+bool is_launcher(int pid) {
+  // The number may belong to another process by now, or to one that is dead and not yet waited for.
+  std::ifstream stat("/proc/" + std::to_string(pid) + "/stat");
+  std::string number, name, state;
+  return stat >> number >> name >> state && name == "(trunnion-launch)" && state != "Z";
+}
+
 std::optional<int> RunDirectory::launcher() const {
   std::ifstream in(pid_file());
   int pid = 0;
   if (!(in >> pid) || pid <= 0) return std::nullopt;
-  // The number may belong to another process by now, or to one that is dead and not yet waited for.
-  std::ifstream stat("/proc/" + std::to_string(pid) + "/stat");
-  std::string number, name, state;
-  if (!(stat >> number >> name >> state) || name != "(trunnion-launch)" || state == "Z") return std::nullopt;
-  return pid;
+  return is_launcher(pid) ? std::optional(pid) : std::nullopt;
 }
 
 bool RunDirectory::abandoned() const { return fs::exists(info_file()) && !launcher(); }

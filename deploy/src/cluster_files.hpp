@@ -17,6 +17,9 @@ std::string web_directory();
 /// <XDG_STATE_HOME or ~/.local/state>/trunnion/<machine>
 std::string default_state_directory(const std::string& machine);
 
+/// Whether the process of this number lives and is a launcher.
+bool is_launcher(int pid);
+
 /// Files of one running cluster; all of them are gone after `down`.
 struct RunDirectory {
   std::uint32_t domain = 0;

@@ -242,15 +242,8 @@ std::string execute(Client& client, std::size_t channels, const RunOptions& opti
   return alarm;
 }
 
-}  // namespace
-
-RunResult run_programs(const RunOptions& options) {
-  const auto directory = find_machine(options.machine);
-  const auto machine = machine::load_machine(directory, options.vendor);
-  if (options.programs.size() > machine.channels)
-    throw std::runtime_error("machine " + machine.name + " has " + std::to_string(machine.channels) +
-                             " channel(s), " + std::to_string(options.programs.size()) +
-                             " programs were given");
+// A cluster for this run alone, on this computer, whatever machine.yaml says of hosts.
+UpOptions up_options(const std::string& directory, const RunOptions& options) {
   UpOptions up;
   up.machine = directory;
   up.vendor = options.vendor;
@@ -260,8 +253,20 @@ RunResult run_programs(const RunOptions& options) {
   up.virtual_time = !options.real_time;
   up.with_gateway = false;
   up.one_host = true;
+  return up;
+}
+
+}  // namespace
+
+RunResult run_programs(const RunOptions& options) {
+  const auto directory = find_machine(options.machine);
+  const auto machine = machine::load_machine(directory, options.vendor);
+  if (options.programs.size() > machine.channels)
+    throw std::runtime_error("machine " + machine.name + " has " + std::to_string(machine.channels) +
+                             " channel(s), " + std::to_string(options.programs.size()) +
+                             " programs were given");
   RunResult result;
-  ClusterGuard cluster(start_cluster(up));
+  ClusterGuard cluster(start_cluster(up_options(directory, options)));
   result.start_seconds = cluster.get().start_seconds;
   if (!options.quiet) {
     std::printf("%s is ready in %.2f s (%s time, domain %u)\n", machine.name.c_str(), result.start_seconds,
@@ -301,15 +306,7 @@ RunResult run_programs(const RunOptions& options) {
 RecordingCost measure_recording(const RunOptions& options, int rounds) {
   const auto directory = find_machine(options.machine);
   const auto machine = machine::load_machine(directory, options.vendor);
-  UpOptions up;
-  up.machine = directory;
-  up.vendor = options.vendor;
-  up.state_directory = "temporary";
-  up.own_domain = !options.domain;
-  up.domain = options.domain;
-  up.virtual_time = true;
-  up.with_gateway = false;
-  ClusterGuard cluster(start_cluster(up));
+  ClusterGuard cluster(start_cluster(up_options(directory, options)));
   Client client(cluster.get().run.domain);
   const auto name = place_program(client, machine, options.programs.at(0));
   client.channel(0, CommandKind::SET_MODE, "", 0, Mode::AUTO);

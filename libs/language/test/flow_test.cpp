@@ -10,19 +10,6 @@ namespace {
 using testing::ElementsAre;
 using testing::ElementsAreArray;
 
-/// Gives `chunk` bytes at a time, each after being asked twice.
-struct SlowSource : TextSource {
-  SlowSource(std::string_view text, std::size_t size) : whole(text), chunk(size) {}
-  ReadResult read(std::uint64_t offset, char* buffer, std::size_t capacity) override {
-    asked = !asked;
-    if (asked) return {ReadStatus::pending, 0};
-    return whole.read(offset, buffer, std::min(capacity, chunk));
-  }
-  StringSource whole;
-  std::size_t chunk;
-  bool asked = false;
-};
-
 TEST(Flow, HeadsTapeMarksAndEnds) {
   TestMachine machine;
   EXPECT_THAT(stream(run(machine, "%\nO1234 (PART)\nG0 X1\nM30\n%\n")), ElementsAre("rapid X1", "end 30"));

@@ -54,16 +54,6 @@ TestMachine with_lengths() {
   return machine;
 }
 
-TestMachine with_references() {
-  TestMachine machine;
-  machine.reference = {500, 400, 300, 0, 0, 0, 0, 0, 0};
-  machine.further_references[2] = {50, 60, 70, 0, 0, 0, 0, 0, 0};
-  machine.further_references[4] = {-50, 60, 70, 0, 0, 0, 0, 0, 0};
-  machine.last_way = {0.5, -0.25, 0, 0, 0, 2, 0, 0, 0};
-  machine.offsets[1] = {100, 0, 0, 0, 0, 0, 0, 0, 0};
-  return machine;
-}
-
 TestMachine with_diameters() {
   TestMachine machine;
   machine.diameter = true;
@@ -103,7 +93,7 @@ const std::map<std::string, std::function<TestMachine()>>& machines() {
       {"motion", with_lengths},
       {"arcs", plain},
       {"auxiliary", with_lengths},
-      {"positioning", with_references},
+      {"positioning", machine_with_references},
       {"offsets", with_offsets},
       {"frames", with_offsets},
       {"diameters", with_diameters},
@@ -126,19 +116,6 @@ const std::map<std::string, std::function<TestMachine()>>& machines() {
   };
   return by_feature;
 }
-
-/// Gives a few bytes at a time, each after being asked twice.
-struct Pieces : TextSource {
-  Pieces(std::string_view text, std::size_t size) : whole(text), chunk(size) {}
-  ReadResult read(std::uint64_t offset, char* buffer, std::size_t capacity) override {
-    asked = !asked;
-    if (asked) return {ReadStatus::pending, 0};
-    return whole.read(offset, buffer, std::min(capacity, chunk));
-  }
-  StringSource whole;
-  std::size_t chunk;
-  bool asked = false;
-};
 
 }  // namespace
 
@@ -187,7 +164,7 @@ TEST_P(GoldenStream, IsTheSameOnEveryRunAndFromPiecesOfAnySize) {
   for (const Golden& golden : golden_programs(GetParam())) {
     for (std::size_t chunk = 1; chunk < 9; ++chunk) {
       TestMachine machine = machines().at(GetParam())();
-      Pieces pieces(golden.program, chunk);
+      SlowSource pieces(golden.program, chunk);
       EXPECT_THAT(stream(run(machine, pieces)), testing::ElementsAreArray(golden.commands))
           << golden.shows << ", " << chunk << " bytes at a time";
     }

@@ -6,16 +6,6 @@
 namespace trunnion::language::test {
 namespace {
 
-TestMachine machine_with_references() {
-  TestMachine machine;
-  machine.reference = {500, 400, 300, 0, 0, 0, 0, 0, 0};
-  machine.further_references[2] = {50, 60, 70, 0, 0, 0, 0, 0, 0};
-  machine.further_references[4] = {-50, 60, 70, 0, 0, 0, 0, 0, 0};
-  machine.last_way = {0.5, -0.25, 0, 0, 0, 2, 0, 0, 0};
-  machine.offsets[1] = {100, 0, 0, 0, 0, 0, 0, 0, 0};
-  return machine;
-}
-
 TEST(Positioning, ValuesThatArePassedOn) {
   TestMachine machine = machine_with_references();
   const Interpretation result =

@@ -185,6 +185,30 @@ inline Interpretation run(Environment& machine, std::string_view text, const Axi
   return run(machine, source, position, modal, options, most);
 }
 
+/// With a reference point, two further ones and a way of approaching them.
+inline TestMachine machine_with_references() {
+  TestMachine machine;
+  machine.reference = {500, 400, 300, 0, 0, 0, 0, 0, 0};
+  machine.further_references[2] = {50, 60, 70, 0, 0, 0, 0, 0, 0};
+  machine.further_references[4] = {-50, 60, 70, 0, 0, 0, 0, 0, 0};
+  machine.last_way = {0.5, -0.25, 0, 0, 0, 2, 0, 0, 0};
+  machine.offsets[1] = {100, 0, 0, 0, 0, 0, 0, 0, 0};
+  return machine;
+}
+
+/// Gives `chunk` bytes at a time, each after being asked twice.
+struct SlowSource : TextSource {
+  SlowSource(std::string_view text, std::size_t size) : whole(text), chunk(size) {}
+  ReadResult read(std::uint64_t offset, char* buffer, std::size_t capacity) override {
+    asked = !asked;
+    if (asked) return {ReadStatus::pending, 0};
+    return whole.read(offset, buffer, std::min(capacity, chunk));
+  }
+  StringSource whole;
+  std::size_t chunk;
+  bool asked = false;
+};
+
 /// One command in a short form, for comparing streams: kind, the axes that are not 0, and what the kind adds.
 inline std::string brief(const Command& command) {
   static constexpr const char* kinds[] = {"rapid", "line", "arc",  "dwell", "T",     "S",      "M",
