@@ -28,7 +28,8 @@ constexpr double match_seconds = 1.0;    // how long to wait for the writers of 
 constexpr double cluster_seconds = 5.0;  // the same when a launcher says which services there are
 // To wake up for every message would take as much of the processor as a stage of the stream does.
 constexpr auto pause = std::chrono::milliseconds(5);
-constexpr int priority = -10;  // of the threads that take samples; they use little
+constexpr int priority = -10;        // of the threads that take samples; they use little
+constexpr int writer_priority = 10;  // of the one that compresses: what it does can wait, the stream cannot
 
 volatile sig_atomic_t stop_requested = 0;
 
@@ -97,6 +98,7 @@ class FileThread {
 
  private:
   void run() {
+    setpriority(PRIO_PROCESS, 0, writer_priority);  // of this thread alone
     std::vector<Message> messages;
     while (queue_.pop_all(messages, 0.2)) {
       const double now = node::monotonic_seconds();
@@ -150,6 +152,7 @@ bool drain(std::vector<Topic>& topics, MessageQueue& queue, Message& message) {
       queue.push(message);
     }
   }
+  if (any) queue.wake();
   return any;
 }
 
@@ -246,13 +249,16 @@ int record(const Options& options) {
                            {"version", TRUNNION_VERSION}}};
   FileThread file(options, header, queue);
   // A stream faster than real time keeps only some milliseconds for whoever is late, so the threads that take
-  // samples go first where that is allowed; the one that compresses has begun before and stays as it is.
+  // samples go first where that is allowed.
   setpriority(PRIO_PROCESS, 0, priority);
+  bus::Gathering gathering;
   bus::Bus bus(options.vendor, options.network);
   std::vector<Topic> topics;
   for (const auto* entry : entries) {
-    const bool late = bus::reader_qos(entry->qos).transient_local;
-    topics.push_back({entry, bus.backend().reader(entry->description, {late, 0}, &bus.signal()), 0});
+    // What is in the stream when the recording begins was before it; a thousand frames asked for at once
+    // would slow it down.
+    const bool late = entry->qos != bus::QosKind::frame && bus::reader_qos(entry->qos).transient_local;
+    topics.push_back({entry, bus.backend().reader(entry->description, {late, 0}, &gathering), 0});
   }
   Message message;
   wait_for_writers(bus, topics, [&] { drain(topics, queue, message); });
