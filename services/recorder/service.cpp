@@ -138,14 +138,15 @@ class FileThread {
   std::thread thread_;
 };
 
-// Takes what has arrived at every reader; true when there was anything.
-bool drain(std::vector<Topic>& topics, MessageQueue& queue, Message& message) {
+// Takes what has arrived at every reader; true when there was anything. Without `stream` frames are left out.
+bool drain(std::vector<Topic>& topics, MessageQueue& queue, Message& message, bool stream = true) {
   bool any = false;
   bus::SampleInfo info;
   for (std::size_t i = 0; i < topics.size(); ++i) {
     // A bounded number at a time, so that one topic in full flow does not keep the others waiting.
     for (int n = 0; n < 256 && topics[i].reader->take(message.cdr, info); ++n) {
       any = true;
+      if (!stream && topics[i].entry->qos == bus::QosKind::frame) continue;
       message.topic = static_cast<std::uint16_t>(i);
       message.sequence = ++topics[i].sequence;
       message.source_time = info.source_timestamp;
@@ -261,7 +262,8 @@ int record(const Options& options) {
     topics.push_back({entry, bus.backend().reader(entry->description, {late, 0}, &gathering), 0});
   }
   Message message;
-  wait_for_writers(bus, topics, [&] { drain(topics, queue, message); });
+  // Frames count from the moment when every writer of the stream is heard, so that all stages begin together.
+  wait_for_writers(bus, topics, [&] { drain(topics, queue, message, false); });
   std::cout << "recording " << options.output << std::endl;
 
   const double started = node::monotonic_seconds();
