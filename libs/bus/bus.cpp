@@ -1,5 +1,7 @@
 #include "bus/bus.hpp"
 
+#include <sys/resource.h>
+
 #include <chrono>
 #include <stdexcept>
 #include <thread>
@@ -22,13 +24,22 @@ bool Signal::wait(double seconds) {
   return notified;
 }
 
+namespace {
+// How often this thread has waited for something of its own accord.
+long waits_of_this_thread() {
+  rusage usage{};
+  getrusage(RUSAGE_THREAD, &usage);
+  return usage.ru_nvcsw;
+}
+}  // namespace
+
 void Gathering::notify() {
-  // A thread that finds the next packet waiting is back much sooner.
-  constexpr auto slept = std::chrono::microseconds(50);
   constexpr auto pause = std::chrono::milliseconds(2);
-  thread_local std::chrono::steady_clock::time_point last{};
-  if (std::chrono::steady_clock::now() - last > slept) std::this_thread::sleep_for(pause);
-  last = std::chrono::steady_clock::now();
+  thread_local long waits = -1;
+  // While it has not waited there was always a next packet, and those are to be taken in without a break.
+  if (waits_of_this_thread() == waits) return;
+  std::this_thread::sleep_for(pause);
+  waits = waits_of_this_thread();
 }
 
 const char* to_string(Vendor vendor) { return vendor == Vendor::fastdds ? "fastdds" : "cyclonedds"; }
