@@ -10,13 +10,17 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "test/client.hpp"
+#include "http/client.hpp"
 #include "test/fake_cluster.hpp"
 #include "testing_support/eventually.hpp"
 
 namespace trunnion::gateway {
 namespace {
 
+using http::free_port;
+using http::raw_exchange;
+using http::Response;
+using http::WebSocketClient;
 using nlohmann::json;
 using testing::HasSubstr;
 using testing_support::eventually;
@@ -99,9 +103,9 @@ class Gateway : public testing::Test {
     std::filesystem::remove_all(web_);
   }
 
-  Response get(const std::string& target) const { return http(port_, "GET", target); }
+  Response get(const std::string& target) const { return http::request(port_, "GET", target); }
   Response post(const std::string& target, const json& body = json::object()) const {
-    return http(port_, "POST", target, body.dump());
+    return http::request(port_, "POST", target, body.dump());
   }
   /// `look(cluster)` while the cluster stands still.
   template <class Look>
@@ -171,10 +175,10 @@ TEST_F(Gateway, ARefusalIsAnsweredWithAlarmAndReason) {
 }
 
 TEST_F(Gateway, BadInputNeverReachesTheBus) {
-  auto bad = http(port_, "POST", "/api/channels/0/jog", "{\"axis\":\"Q\",\"speed\":100}");
+  auto bad = http::request(port_, "POST", "/api/channels/0/jog", "{\"axis\":\"Q\",\"speed\":100}");
   EXPECT_EQ(bad.status, 400);
   EXPECT_EQ(json::parse(bad.body)["field"], "axis");
-  bad = http(port_, "POST", "/api/channels/0/mdi", "{not json");
+  bad = http::request(port_, "POST", "/api/channels/0/mdi", "{not json");
   EXPECT_EQ(bad.status, 400);
   EXPECT_THAT(bad.body, HasSubstr("not JSON"));
   EXPECT_EQ(post("/api/channels/9/reset").status, 404);
@@ -185,19 +189,21 @@ TEST_F(Gateway, BadInputNeverReachesTheBus) {
   EXPECT_EQ(get("/api/programs/NOTHING").status, 404);
   EXPECT_EQ(get("/api/parameters?limit=many").status, 400);
   EXPECT_EQ(get("/api/stream").status, 426);
-  EXPECT_EQ(http(port_, "POST", "/api/channels/0/mdi", std::string((1 << 20) + 1, ' ')).status, 413);
-  EXPECT_EQ(http(port_, "PUT", "/api/programs/BIG", "", "Content-Length: 200000000\r\n").status, 413);
-  EXPECT_EQ(http(port_, "PUT", "/api/programs/..%2fX", "G0").status, 400);
+  EXPECT_EQ(http::request(port_, "POST", "/api/channels/0/mdi", std::string((1 << 20) + 1, ' ')).status, 413);
+  EXPECT_EQ(http::request(port_, "PUT", "/api/programs/BIG", "", "Content-Length: 200000000\r\n").status,
+            413);
+  EXPECT_EQ(http::request(port_, "PUT", "/api/programs/..%2fX", "G0").status, 400);
   EXPECT_THAT(raw_exchange(port_, "nonsense\r\n\r\n"), HasSubstr("400"));
   cluster([](auto& c) { EXPECT_TRUE(c.channel_requests.empty()); });
 }
 
 TEST_F(Gateway, APageOfAnotherSiteMustNotOperateTheMachine) {
-  EXPECT_EQ(
-      http(port_, "POST", "/api/channels/0/cycle-start", "{}", "Origin: http://elsewhere.example\r\n").status,
-      403);
+  EXPECT_EQ(http::request(port_, "POST", "/api/channels/0/cycle-start", "{}",
+                          "Origin: http://elsewhere.example\r\n")
+                .status,
+            403);
   const auto own = "Origin: http://127.0.0.1:" + std::to_string(port_) + "\r\n";
-  EXPECT_EQ(http(port_, "POST", "/api/channels/0/cycle-start", "{}", own).status, 200);
+  EXPECT_EQ(http::request(port_, "POST", "/api/channels/0/cycle-start", "{}", own).status, 200);
   cluster([](auto& c) { EXPECT_EQ(c.channel_requests.size(), 1u); });
 }
 
@@ -234,7 +240,7 @@ TEST_F(Gateway, ProgramsTravelInChunksAndComeBackAsTheyWere) {
   std::string text;
   while (text.size() < 400000)
     text += "G1 X" + std::to_string(text.size() * 7919 % 100000) + " Y1.5 \xC3\xA4\n";
-  const auto stored = http(port_, "PUT", "/api/programs/LARGE%201.NC", text);
+  const auto stored = http::request(port_, "PUT", "/api/programs/LARGE%201.NC", text);
   EXPECT_EQ(stored.status, 200) << stored.body;
   EXPECT_EQ(json::parse(stored.body)["program"]["size"], text.size());
   cluster([&](auto& c) {
@@ -245,28 +251,30 @@ TEST_F(Gateway, ProgramsTravelInChunksAndComeBackAsTheyWere) {
   EXPECT_EQ(read.status, 200);
   EXPECT_EQ(read.headers.at("content-length"), std::to_string(text.size()));
   EXPECT_EQ(read.body, text);
-  EXPECT_EQ(http(port_, "PUT", "/api/programs/EMPTY", "").status, 200);
+  EXPECT_EQ(http::request(port_, "PUT", "/api/programs/EMPTY", "").status, 200);
   EXPECT_EQ(get("/api/programs/EMPTY").status, 200);
   EXPECT_EQ(get("/api/programs/EMPTY").body, "");
   EXPECT_TRUE(eventually([&] { return get("/api/programs").body.find("LARGE 1.NC") != std::string::npos; }));
-  EXPECT_EQ(http(port_, "DELETE", "/api/programs/LARGE%201.NC").status, 200);
-  EXPECT_EQ(http(port_, "DELETE", "/api/programs/LARGE%201.NC").status, 409);
+  EXPECT_EQ(http::request(port_, "DELETE", "/api/programs/LARGE%201.NC").status, 200);
+  EXPECT_EQ(http::request(port_, "DELETE", "/api/programs/LARGE%201.NC").status, 409);
   EXPECT_TRUE(eventually([&] { return get("/api/programs/LARGE%201.NC").status == 404; }));
 }
 
 TEST_F(Gateway, ParametersAreReadChangedAndRefusedWithTheReason) {
   EXPECT_EQ(json::parse(get("/api/parameters/100034").body)["value"], 24000);
-  EXPECT_EQ(http(port_, "PUT", "/api/parameters/100034", "{\"value\":12000.5,\"who\":\"test\"}").status, 200);
+  EXPECT_EQ(
+      http::request(port_, "PUT", "/api/parameters/100034", "{\"value\":12000.5,\"who\":\"test\"}").status,
+      200);
   EXPECT_TRUE(
       eventually([&] { return json::parse(get("/api/parameters/100034").body)["value"] == 12000.5; }));
   cluster([](auto& c) { EXPECT_EQ(c.parameter_requests.at(0).who, "test"); });
-  const auto refused = http(port_, "PUT", "/api/parameters/100034", "{\"value\":5e9}");
+  const auto refused = http::request(port_, "PUT", "/api/parameters/100034", "{\"value\":5e9}");
   EXPECT_EQ(refused.status, 409);
   EXPECT_THAT(refused.body, HasSubstr("must be from 1 to 1000000"));
   const auto found = json::parse(get("/api/parameters?class=axis&search=rapid_feed").body);
   EXPECT_EQ(found["total"], 5) << "one for each of X Y Z A C";
-  const auto offset =
-      http(port_, "PUT", "/api/work-offsets", "{\"channel\":0,\"index\":1,\"values\":[1,2,3,4,5,6,7,8,9]}");
+  const auto offset = http::request(port_, "PUT", "/api/work-offsets",
+                                    "{\"channel\":0,\"index\":1,\"values\":[1,2,3,4,5,6,7,8,9]}");
   EXPECT_EQ(offset.status, 200);
   EXPECT_TRUE(
       eventually([&] { return json::parse(get("/api/work-offsets").body)["offsets"][0]["index"] == 1; }));
