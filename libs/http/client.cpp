@@ -59,6 +59,13 @@ std::string raw_exchange(std::uint16_t port, const std::string& text) {
   return answer;
 }
 
+void send_and_go(std::uint16_t port, const std::string& text) {
+  const int fd = connect_to(port, 0);
+  if (fd < 0) return;
+  send_all(fd, text);
+  ::close(fd);
+}
+
 Response request(std::uint16_t port, const std::string& method, const std::string& target,
                  const std::string& body, const std::string& headers) {
   const bool has_length = headers.find("Content-Length") != std::string::npos;

@@ -23,6 +23,9 @@ Response request(std::uint16_t port, const std::string& method, const std::strin
 /// Sends exactly `text` and returns what comes until the other side closes, within 5 s.
 std::string raw_exchange(std::uint16_t port, const std::string& text);
 
+/// Sends exactly `text` and closes the connection.
+void send_and_go(std::uint16_t port, const std::string& text);
+
 class WebSocketClient {
  public:
   /// `receive_buffer` bytes for the kernel, 0 = its default.
