@@ -154,7 +154,7 @@ TEST_F(VerifyGateway, DoesShowsAndAnswersWhatIsRecordedOnEitherVendor) {
                                 << text_of(result.difference, "recorded", "written now");
     EXPECT_EQ(result.requests, 7u);
     EXPECT_EQ(result.left_out, 0u);
-    EXPECT_GE(result.looks, 4u);
+    EXPECT_GE(result.looks, 2u) << "before the first request and at the end at least";
     std::size_t compared = 0;
     for (const auto& topic : result.difference.topics) compared += topic.compared;
     EXPECT_EQ(compared, 7u + 3u + 3u) << "lines, orders to the channel, requests to the program service";
