@@ -11,7 +11,6 @@ namespace trunnion::motion {
 namespace {
 
 using language::A;
-using language::X;
 using language::Y;
 using language::Z;
 
