@@ -16,6 +16,14 @@ std::string sweep(int rounds) {
   return text + "X0 Y0 A0 C0\nG49\nM30\n";
 }
 
+// Short moves with an M code and an order to the spindle between them.
+std::string functions(int rounds) {
+  std::string text = "G21 G17 G90 G54\nG0 X0 Y0 A0 C0\nM3 S1000\n";
+  for (int i = 0; i < rounds; ++i)
+    text += "M8\nG1 X6 Y3 A2 C4 F6000\nS" + std::to_string(900 + i % 7 * 20) + "\nX-6 Y-3 A-2 C-4\nM9\nX0\n";
+  return text + "M5\nM30\n";
+}
+
 class Swapping : public testing::Test {
  protected:
   // As `trunnion swap` does.
@@ -34,6 +42,10 @@ class Swapping : public testing::Test {
                   reply->accepted ? "swapped" : "kept", reply->compared, reply->seconds, reply->gap,
                   reply->reason.c_str());
     return reply.value_or(SwapReply{});
+  }
+  // Moving, or waiting for an M function.
+  static bool runs(Cluster& cluster) {
+    return cluster.state() == RunState::RUNNING || cluster.state() == RunState::WAITING;
   }
   static int pid(Cluster& cluster, const std::string& service) { return cluster.service(service)->pid; }
   static nlohmann::json last_line(const Cluster& cluster) {
@@ -109,16 +121,32 @@ TEST_F(Swapping, AStageThatComputesOtherwiseIsNotTaken) {
   EXPECT_FALSE(std::filesystem::exists(cluster.running().state_directory + "/" + deploy::swap_journal_file));
 }
 
-// ac-table with errors to compensate: backlash on X and Y, a pitch table for each direction on X, a table
-// that repeats on C.
-class MachineWithErrors {
+// ac-table in a place where its files may be changed.
+class OwnMachine {
  public:
-  MachineWithErrors()
-      : directory_(std::filesystem::temp_directory_path() / ("trunnion-errors-" + std::to_string(getpid()))) {
+  OwnMachine()
+      : directory_(std::filesystem::temp_directory_path() /
+                   ("trunnion-machine-" + std::to_string(getpid()))) {
     std::filesystem::remove_all(directory_);
     std::filesystem::copy(deploy::find_machine("ac-table"), directory_,
                           std::filesystem::copy_options::recursive);
-    std::ofstream out(directory_ / "parameters.yaml", std::ios::app);
+  }
+  ~OwnMachine() { std::filesystem::remove_all(directory_); }
+  OwnMachine(const OwnMachine&) = delete;
+  OwnMachine& operator=(const OwnMachine&) = delete;
+  std::string path() const { return directory_.string(); }
+  std::ofstream append(const std::string& file) const { return {directory_ / file, std::ios::app}; }
+
+ private:
+  std::filesystem::path directory_;
+};
+
+// With errors to compensate: backlash on X and Y, a pitch table for each direction on X, a table that repeats
+// on C.
+class MachineWithErrors : public OwnMachine {
+ public:
+  MachineWithErrors() {
+    auto out = append("parameters.yaml");
     const auto set = [&](unsigned number, double value) { out << '"' << number << "\": " << value << "\n"; };
     for (const unsigned axis : {300000u, 301000u}) set(axis, 1), set(axis + 1, 0.013), set(axis + 2, 0.0007);
     set(300020, 2), set(300021, -400), set(300022, 81), set(300023, 10), set(300026, 700000);
@@ -126,13 +154,6 @@ class MachineWithErrors {
     set(304020, 1), set(304021, 0), set(304022, 36), set(304023, 10), set(304024, 1), set(304026, 700200);
     for (unsigned i = 0; i < 36; ++i) set(700200 + i, 0.0003 * (i % 5));
   }
-  ~MachineWithErrors() { std::filesystem::remove_all(directory_); }
-  MachineWithErrors(const MachineWithErrors&) = delete;
-  MachineWithErrors& operator=(const MachineWithErrors&) = delete;
-  std::string path() const { return directory_.string(); }
-
- private:
-  std::filesystem::path directory_;
 };
 
 TEST_F(Swapping, TheCompensationInCTakesOverInMotionAndComputesTheSameBits) {
@@ -176,6 +197,86 @@ TEST_F(Swapping, TheCompensationInCTakesOverInMotionAndComputesTheSameBits) {
   }
   EXPECT_EQ(first_difference(rows, reference(program, rows.size(), machine.path())), "")
       << "over " << rows.size() << " cycles";
+}
+
+TEST_F(Swapping, ThePlcIsComparedTickByTickOverMCodesAndItsSwapChangesNoBitOfTheMotion) {
+  const auto program = functions(4000);
+  Rows rows;
+  {
+    Cluster cluster("ac-table");
+    cluster.keep_rows = true;
+    cluster.start_text(program);
+    ASSERT_TRUE(cluster.until([&] { return cluster.expected_cycle > 500; }));
+    for (const std::string vendor : {"fastdds", "cyclonedds"}) {
+      const auto before = pid(cluster, "plc");
+      const auto line = cluster.channels[0].line;
+      const auto reply = swap(cluster, "plc", "", vendor, 5000);
+      ASSERT_TRUE(reply.accepted) << reply.reason << cluster.told();
+      EXPECT_GE(reply.compared, 5000u);
+      EXPECT_NE(kill(before, 0), 0) << "the old one is gone";
+      // 5000 ticks are more than five moves of 12 mm at 100 mm/s with the functions between them.
+      EXPECT_GT(cluster.channels[0].line, line + 10);
+      EXPECT_EQ(last_line(cluster)["service"], "plc");
+      ASSERT_TRUE(cluster.until([&] { return pid(cluster, "plc") != before && cluster.ready(); }));
+    }
+    const auto after = cluster.expected_cycle + 2000;
+    ASSERT_TRUE(cluster.until([&] { return cluster.expected_cycle > after; })) << cluster.told();
+    EXPECT_TRUE(runs(cluster)) << cluster.told();
+    EXPECT_TRUE(cluster.history.empty()) << cluster.told();
+    rows = std::move(cluster.rows);
+  }
+  EXPECT_EQ(first_difference(rows, reference(program, rows.size())), "")
+      << "over " << rows.size() << " cycles";
+}
+
+TEST_F(Swapping, InRealTimeThePlcIsComparedAtTheTicksTheClockGaveTheOldOne) {
+  Cluster cluster("ac-table", Time::real);
+  cluster.start_text(functions(4000));
+  ASSERT_TRUE(cluster.until([&] { return cluster.channels[0].line > 4; })) << cluster.told();
+  const auto before = pid(cluster, "plc");
+  const auto reply = swap(cluster, "plc");
+  ASSERT_TRUE(reply.accepted) << reply.reason << cluster.told();
+  EXPECT_GE(reply.compared, 500u);
+  ASSERT_TRUE(cluster.until([&] { return cluster.ready() && pid(cluster, "plc") != before; }));
+  const auto line = cluster.channels[0].line;
+  ASSERT_TRUE(cluster.until([&] { return cluster.channels[0].line > line + 4; })) << cluster.told();
+  EXPECT_TRUE(runs(cluster)) << cluster.told();
+}
+
+TEST_F(Swapping, APlcAndKeepersThatWouldDoOtherwiseAreNotTaken) {
+  const OwnMachine machine;
+  Cluster cluster(machine.path());
+  cluster.start_text(functions(40000));
+  ASSERT_TRUE(cluster.until([&] { return cluster.expected_cycle > 500; }));
+  const auto refused = [&](const std::string& service, const std::string& executable,
+                           const std::string& what) {
+    const auto before = pid(cluster, service);
+    const auto reply = swap(cluster, service, executable, "", 100000);
+    EXPECT_FALSE(reply.accepted);
+    EXPECT_NE(reply.reason.find(what), std::string::npos) << reply.reason;
+    EXPECT_EQ(pid(cluster, service), before);
+    EXPECT_TRUE(runs(cluster)) << cluster.told();
+    return reply.reason;
+  };
+  // It is wrong in one bit of one tick in a thousand.
+  EXPECT_NE(refused("plc", variant("plc_one_bit"), ", register R500: 0 and 1 (the first is")
+                .find("differs in tick "),
+            std::string::npos);
+  // The same executable with another program: a lamp that the next M code switches on.
+  machine.append("plc/main.il") << "\nLD m_strobe_0\nS Y31.0\n";
+  refused("plc", "", ", register Y31: 0 and 1 (the first is");
+  machine.append("plc/main.il") << "LD nothing_of_that_name\n";
+  refused("plc", "", "main.il:");
+  // What the machine delivers has changed behind the back of the running ones.
+  machine.append("parameters.yaml") << "\"000010\": 0.004\n";
+  refused("parameters", "", "differs in parameter 000010, which waits");
+  machine.append("programs/other.nc") << "M30\n";
+  refused("program", "", "differs in program other.nc");
+  const auto after = cluster.expected_cycle + 500;
+  EXPECT_TRUE(cluster.until([&] { return cluster.expected_cycle > after; })) << cluster.told();
+  EXPECT_TRUE(cluster.history.empty()) << cluster.told();
+  EXPECT_FALSE(std::filesystem::exists(cluster.running().state_directory + "/" + deploy::swap_journal_file));
+  EXPECT_FALSE(std::filesystem::exists(cluster.running().state_directory + "/plc.rounds"));
 }
 
 TEST_F(Swapping, WhatCannotBeStartedOrDoesNotExistIsRefused) {

@@ -67,6 +67,7 @@ void ServiceProcess::start(const LaunchOptions& options, bool shadow) {
   policy.started(node::monotonic_seconds());
   lifecycle = idl::service::Lifecycle::UNCONFIGURED;
   in_step = false;
+  frames_out = 0;
   alive = false;
 }
 
@@ -77,6 +78,7 @@ bool ServiceProcess::hear(const idl::service::ServiceState& state, double now) {
   lifecycle = state.lifecycle;
   detail = state.detail;
   in_step = state.in_step;
+  frames_out = state.frames_out;
   return true;
 }
 

@@ -20,7 +20,8 @@ struct ServiceProcess {
   RestartPolicy policy;
   idl::service::Lifecycle lifecycle = idl::service::Lifecycle::UNCONFIGURED;
   std::string detail;
-  bool in_step = false;   ///< of the process that runs now
+  bool in_step = false;  ///< of the process that runs now
+  std::uint64_t frames_out = 0;
   bool alive = false;     ///< has beaten since its start
   bool local = true;      ///< on this host; of those on others only the heartbeats are known
   bool lost = false;      ///< it died and is not back

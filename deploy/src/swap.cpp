@@ -64,6 +64,7 @@ Swap::Swap(bus::Bus& bus, const LaunchOptions& options, ServiceProcess& old,
       announced_(announced),
       request_(request),
       stage_(stream::stage_of(old.entry.service)),
+      counts_ticks_(old.entry.service == "plc"),
       feedback_(bus.reader(topics::feedback_frame)),
       channels_(bus.reader(topics::channel_state)),
       alarms_(bus.reader(topics::alarm)),
@@ -103,7 +104,11 @@ void Swap::enter(Phase phase, double now) {
 void Swap::read() {
   const double now = node::monotonic_seconds();
   idl::stream::FeedbackFrame feedback;
-  while (feedback_.take(feedback)) executed_ = std::max(executed_, feedback.first + feedback.count);
+  while (feedback_.take(feedback)) {
+    executed_ = std::max(executed_, feedback.first + feedback.count);
+    if (counts_ticks_ && feedback.tick > tick_) moved_ = now;
+    tick_ = std::max(tick_, feedback.tick);
+  }
   idl::channel::ChannelState state;
   while (channels_.take(state)) run_states_[state.channel] = state.state;
   idl::service::Alarm alarm;
@@ -134,10 +139,23 @@ std::optional<std::string> Swap::at_rest() const {
   return std::nullopt;
 }
 
+std::uint64_t Swap::compared() const {
+  if (!counts_ticks_) return comparison_.equal_cycles();
+  // Once it takes part the heartbeat counts other things.
+  return phase_ == Phase::starting || phase_ == Phase::comparing ? fresh_.frames_out : compared_before_;
+}
+
+std::optional<std::string> Swap::difference() const {
+  if (const auto& found = comparison_.first_difference()) return where(*found);
+  const std::string mark = node::differs_detail;
+  if (stage_ == 0 && fresh_.detail.starts_with(mark)) return fresh_.detail.substr(mark.size());
+  return std::nullopt;
+}
+
 SwapReply Swap::keep(const std::string& reason) {
   SwapReply reply;
   reply.reason = reason.substr(0, 250);
-  reply.compared = static_cast<std::uint32_t>(comparison_.equal_cycles());
+  reply.compared = static_cast<std::uint32_t>(compared());
   reply.cycle = executed_;
   reply.seconds = node::monotonic_seconds() - began_;
   return reply;
@@ -164,15 +182,14 @@ std::optional<SwapReply> Swap::after_start(double now) {
   if (announced != announced_.end() && announced->second.contract != topics::contract_hash)
     return keep("The new " + old_.entry.service + " was built with contract " + announced->second.contract +
                 ", this cluster with " + topics::contract_hash);
-  const bool there =
-      announced != announced_.end() && fresh_.detail == "shadow" && (stage_ == 0 || fresh_.in_step);
+  const bool there = announced != announced_.end() && fresh_.detail == node::shadow_detail && fresh_.in_step;
   if (!there) {
     if (now - entered_ > start_patience)
       return keep("The new " + old_.entry.service + " does not find its way into the cluster" +
                   (fresh_.detail.empty() ? "" : ": " + fresh_.detail));
     return std::nullopt;
   }
-  if (stage_ != 0) {
+  if (compares()) {
     compared_at_ = now;
     enter(Phase::comparing, now);
     return std::nullopt;
@@ -183,13 +200,17 @@ std::optional<SwapReply> Swap::after_start(double now) {
 }
 
 std::optional<SwapReply> Swap::after_comparison(double now) {
-  const auto equal = comparison_.equal_cycles();
+  const auto equal = compared();
   if (equal > compared_before_) compared_at_ = now;
   compared_before_ = equal;
   const bool rests = now - moved_ > rest_patience && now - entered_ > rest_patience;
   if (equal < request_.cycles && !rests) {
     if (now - compared_at_ > compare_patience)
-      return keep("The new " + old_.entry.service + " writes nothing that could be compared");
+      return keep("The new " + old_.entry.service + " does nothing that could be compared");
+    return std::nullopt;
+  }
+  if (counts_ticks_) {
+    retire(now);
     return std::nullopt;
   }
   kill(fresh_.pid, SIGUSR1);
@@ -270,8 +291,8 @@ std::optional<SwapReply> Swap::step(double now) {
                     ? fresh_.executable + ": cannot be started"
                     : "The new " + old_.entry.service + " ended: " + last_line(fresh_.log));
   }
-  if (comparison_.first_difference() && (phase_ == Phase::starting || phase_ == Phase::comparing))
-    return keep("The new " + old_.entry.service + " differs in " + where(*comparison_.first_difference()) +
+  if (const auto what = difference(); what && (phase_ == Phase::starting || phase_ == Phase::comparing))
+    return keep("The new " + old_.entry.service + " differs in " + *what +
                 " (the first is the running one's)");
   switch (phase_) {
     case Phase::starting:

@@ -15,7 +15,9 @@ namespace trunnion::deploy {
 /// A stage computes beside the old one, writing to a topic of its own, until enough cycles were equal; then
 /// both take part as twins for a moment, and the old one is retired. Every other service begins as a process
 /// that waits, and takes over when the old one has ended, because its files and its port have one owner at a
-/// time. Whatever goes wrong, the old one serves.
+/// time. Meanwhile the PLC repeats what the old one does, over enough cycles, and the keepers of parameters
+/// and programs compare what they would publish; they say in their heartbeat what differs. Whatever goes
+/// wrong, the old one serves.
 class Swap {
  public:
   using Announcements = std::map<std::uint32_t, idl::service::Announcement>;
@@ -43,6 +45,9 @@ class Swap {
   void read();
   std::optional<std::string> at_rest() const;
   std::optional<idl::service::SwapReply> after_start(double now);
+  bool compares() const { return stage_ != 0 || counts_ticks_; }
+  std::uint64_t compared() const;
+  std::optional<std::string> difference() const;
   std::optional<idl::service::SwapReply> after_comparison(double now);
   std::optional<idl::service::SwapReply> after_retirement(double now);
   void retire(double now);
@@ -58,6 +63,8 @@ class Swap {
   const Announcements& announced_;
   idl::service::SwapRequest request_;
   std::uint8_t stage_;  ///< 0 when it is no stage
+  bool counts_ticks_;   ///< it is no stage and yet compared over a number of cycles, as the heartbeat of the
+                        ///< new one tells
   std::string shadow_topic_;
   std::optional<bus::Reader<idl::stream::AxisFrame>> originals_, shadows_;
   bus::Reader<idl::stream::FeedbackFrame> feedback_;
@@ -67,7 +74,7 @@ class Swap {
   std::map<std::uint16_t, idl::channel::RunState> run_states_;
   std::map<std::array<std::uint32_t, 3>, idl::service::Alarm> active_alarms_;
   stream::ShadowComparison comparison_;
-  std::uint64_t executed_ = 0, promoted_cycle_ = 0, compared_before_ = 0;
+  std::uint64_t executed_ = 0, tick_ = 0, promoted_cycle_ = 0, compared_before_ = 0;
   Phase phase_ = Phase::starting;
   double began_ = 0, entered_ = 0, moved_ = 0, compared_at_ = 0, active_at_ = 0, retired_at_ = 0, gap_ = 0;
   bool fresh_ended_ = false, started_again_ = false, taken_over_ = false;

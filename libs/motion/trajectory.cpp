@@ -53,7 +53,8 @@ Trajectory::Trajectory(const Limits& limits, const geometry::Chain* chain, doubl
       limits_(effective(limits, cycle_seconds)),
       chain_(chain),
       speed_(cycle_seconds),
-      back_(cycle_seconds) {
+      back_(cycle_seconds),
+      interpolation_(cycle_seconds) {
   start({}, language::Transformation::none, 0);
 }
 
@@ -61,9 +62,8 @@ void Trajectory::start(const AxisValues& position, language::Transformation tran
                        double tool_length) {
   active_chain_ = transformation == language::Transformation::rtcp ? chain_ : nullptr;
   tool_length_ = tool_length;
-  end_ = joined_ = output_ = position;
-  line_ = sequence_ = 0;
-  fraction_ = 0;
+  end_ = joined_ = position;
+  interpolation_.start(position);
   restart_path();
 }
 
@@ -74,7 +74,7 @@ void Trajectory::restart_path() {
   builder_.start(limits_, active_chain_, tool_length_);
   speed_.clear();
   pending_.reset();
-  tail_.reset();
+  interpolation_.drop_tail();
   stop_next_ = exact_next_ = true;
   curve_goes_on_ = false;
   aborting_ = retrace_wanted_ = retracing_ = false;
@@ -279,71 +279,35 @@ bool Trajectory::at_rest() const { return path_.size() == 0 || (!retracing_ && !
 
 bool Trajectory::done() const {
   return path_.size() == 0 || (speed_.finished() && !pending_ && builder_.next_block() == path_.size() &&
-                               speed_.at_end() && !tail_);
+                               speed_.at_end() && !interpolation_.overlapping());
 }
 
 Setpoint Trajectory::step(double feed_override, double rapid_override, bool hold) {
   // A ring that is full of blocks none of which is known well enough becomes a path of its own.
   if (path_.size() > 0 && !can_accept() && !aborting_ && path_.settled_blocks() == 0) finish();
   if (builder_.next_block() < path_.settled_blocks()) plan();
-  if (tail_) {
-    tail_->time -= cycle_;
-    if (tail_->time <= 0) tail_.reset();
-  }
+  interpolation_.pass_cycle();
   if (path_.size() == 0) retrace_wanted_ = retracing_ = false;
   bool turning = retrace_wanted_ != retracing_;
-  if (turning && !tail_ && moving().standing() && !aborting_) {
+  if (turning && !interpolation_.overlapping() && moving().standing() && !aborting_) {
     turn_round();
     turning = false;
   }
   if (retracing_ && !back_complete_) plan_back();
   SpeedStage& stage = retracing_ ? back_ : speed_;
-  stage.allow_overlap(!tail_ && !aborting_ && !turning);
+  stage.allow_overlap(!interpolation_.overlapping() && !aborting_ && !turning);
   stage.step({feed_override, rapid_override, hold || aborting_ || turning});
-  if (const auto tail = stage.take_tail()) tail_ = tail;
+  if (const auto tail = stage.take_tail()) interpolation_.begin_tail(*tail, stage.cells()[tail->cell].block);
 
-  const AxisValues before = output_;
-  Setpoint setpoint;
-  if (path_.size() > 0 && stage.cells().size() > 0) {
-    const LimitCell& cell = stage.cells()[stage.current_cell()];
-    const PathBlock& block = path_[cell.block];
-    const double s = current_s();
-    if (stage.started()) output_ = path_.position(cell.block, s);
-    if (tail_) {
-      const std::uint64_t last = speed_.cells()[tail_->cell].block;
-      const double rest = tail_->jerk * tail_->time * tail_->time * tail_->time / 6;
-      const AxisValues near = path_.position(last, tail_->end - rest),
-                       corner = path_.position(last, tail_->end);
-      for (std::size_t i = 0; i < axis_count; ++i) output_[i] += near[i] - corner[i];
-    }
-    line_ = block.line;
-    sequence_ = block.sequence;
-    const double length = block.path.length();
-    const double done = s >= block.end() ? (stage.waiting() ? 0 : 1) : (s - block.at) / length;
-    setpoint.fraction = block.fraction_offset + (1 - block.fraction_offset) * done;
-    setpoint.rapid = block.rapid;
-    setpoint.dwelling = stage.waiting();
-    setpoint.distance_to_go = block.path.target();
-    if (aborting_ && stage.standing() && !tail_) {
-      restart_path();
-      end_ = joined_ = output_;
-      setpoint.distance_to_go = output_;
-    }
-  } else {
-    if (aborting_) {
-      restart_path();
-      end_ = joined_ = output_;
-    }
-    setpoint.distance_to_go = output_;
-    setpoint.fraction = fraction_;
+  const bool moves = stage.cells().size() > 0;
+  Setpoint setpoint = moves ? interpolation_.follow(path_, {current_block(), current_s(), stage.state().v,
+                                                            stage.started(), stage.waiting()})
+                            : interpolation_.stay();
+  if (aborting_ && (!moves || (stage.standing() && !interpolation_.overlapping()))) {
+    restart_path();
+    end_ = joined_ = setpoint.position;
+    setpoint.distance_to_go = {};
   }
-  fraction_ = setpoint.fraction;
-  setpoint.position = output_;
-  for (std::size_t i = 0; i < axis_count; ++i) setpoint.distance_to_go[i] -= output_[i];
-  setpoint.line = line_;
-  setpoint.sequence = sequence_;
-  setpoint.feed = std::hypot(output_[0] - before[0], output_[1] - before[1], output_[2] - before[2]) / cycle_;
-  setpoint.path_speed = path_.size() > 0 ? moving().state().v : 0;
   setpoint.at_rest = at_rest();
   return setpoint;
 }

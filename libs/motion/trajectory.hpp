@@ -7,24 +7,11 @@
 #include "language/canonical.hpp"
 #include "motion/blended_path.hpp"
 #include "motion/cell_builder.hpp"
+#include "motion/interpolation.hpp"
 #include "motion/limits.hpp"
 #include "motion/speed_stage.hpp"
 
 namespace trunnion::motion {
-
-/// What one cycle commands, and where in the program that is.
-struct Setpoint {
-  AxisValues position{};        ///< in the frame given to start(): machine axes, or tool tip and rotary axes
-  AxisValues distance_to_go{};  ///< to the end of the command, per axis
-  std::uint32_t line = 0;       ///< of the command being executed, 0 before the first
-  std::uint32_t sequence = 0;
-  double fraction = 0;    ///< of that command completed, 0..1
-  double feed = 0;        ///< speed of X Y Z in that frame, mm/s
-  double path_speed = 0;  ///< mm/s (deg/s when only rotary axes move)
-  bool rapid = false;
-  bool dwelling = false;  ///< standing between segments: dwell or exact stop
-  bool at_rest = true;    ///< everything pushed is done
-};
 
 /// One channel's motion: geometry, speed and interpolation in a row (docs/motion.md). Every machine axis
 /// keeps its limits of velocity, acceleration and jerk under any overrides, and the path its tolerances.
@@ -82,7 +69,7 @@ class Trajectory {
   /// Everything pushed is done and the motion is not going back.
   bool at_rest() const;
   /// Last setpoint's position.
-  const AxisValues& position() const { return output_; }
+  const AxisValues& position() const { return interpolation_.position(); }
   /// End of everything pushed.
   const AxisValues& end_position() const { return end_; }
   /// See SpeedStage::stopping_cycles.
@@ -114,14 +101,12 @@ class Trajectory {
   BlendedPath path_;
   CellBuilder builder_, back_builder_;
   SpeedStage speed_, back_;  ///< forwards, and backwards over the same path
-  AxisValues end_{}, joined_{}, output_{};
+  Interpolation interpolation_;
+  AxisValues end_{}, joined_{};
   std::optional<PathBlock> pending_;  ///< a move too short to be worth a segment, until more follows
-  std::optional<Tail> tail_;
-  std::uint8_t mode_ = 0;       ///< of the newest move
-  BlendRules rules_;            ///< and its tolerances
-  bool curve_goes_on_ = false;  ///< the newest move was a piece of a curve
-  std::uint32_t line_ = 0, sequence_ = 0;
-  double fraction_ = 0;
+  std::uint8_t mode_ = 0;             ///< of the newest move
+  BlendRules rules_;                  ///< and its tolerances
+  bool curve_goes_on_ = false;        ///< the newest move was a piece of a curve
   bool stop_next_ = true, exact_next_ = true, aborting_ = false;
   bool retrace_wanted_ = false, retracing_ = false, back_complete_ = false;
 };

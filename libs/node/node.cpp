@@ -86,12 +86,14 @@ void Node::obey_take_over() {
   alarms_.speak();
 }
 
-bool Node::stand_by() {
+bool Node::stand_by(Service* rehearsal) {
   Health health;
   health.lifecycle = idl::service::Lifecycle::INACTIVE;
-  health.detail = "shadow";
+  health.detail = shadow_detail;
   while (stop_requested == 0 && options_.shadow) {
-    if (monotonic_seconds() - last_beat_ >= beat_period) beat(health);
+    if (rehearsal != nullptr) rehearsal->pump();
+    if (monotonic_seconds() - last_beat_ >= beat_period)
+      beat(rehearsal != nullptr ? rehearsal->health() : health);
     bus_.signal().wait(0.005);
     obey_take_over();
   }

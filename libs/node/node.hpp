@@ -13,6 +13,10 @@
 
 namespace trunnion::node {
 
+/// Health::detail of a shadow that has found no difference yet, and the beginning of that of one that has.
+inline constexpr const char* shadow_detail = "shadow";
+inline constexpr const char* differs_detail = "differs in ";
+
 /// What a service shows of itself four times a second.
 struct Health {
   idl::service::Lifecycle lifecycle = idl::service::Lifecycle::UNCONFIGURED;
@@ -28,7 +32,8 @@ class Node;
 class Service {
  public:
   /// It can work beside the service it is to replace and be compared with it. One that cannot, because it
-  /// owns files or a port, is made only when the other has ended.
+  /// owns files or a port, is made only when the other has ended. Until then a member type `Rehearsal`, if it
+  /// has one, is what works as shadow: a Service that writes nothing and tells in its health how it compares.
   static constexpr bool works_as_shadow = false;
 
   virtual ~Service() = default;
@@ -54,7 +59,8 @@ class Node {
   /// Started beside the service that it is to replace, and not told to take part yet.
   bool shadow() const { return options_.shadow; }
   /// Waits, inactive, until this process is told to take part. False when it is told to end instead.
-  bool stand_by();
+  /// Meanwhile `rehearsal`, if there is one, is pumped and tells the health.
+  bool stand_by(Service* rehearsal = nullptr);
   /// Runs until SIGTERM or SIGINT; returns the exit status.
   int run(Service& service);
 

@@ -8,6 +8,18 @@
 
 namespace trunnion::node {
 
+/// False when the process is told to end before it is needed.
+template <class S>
+bool wait_for_its_time(Node& node) {
+  if constexpr (requires { typename S::Rehearsal; }) {
+    if (node.shadow()) {
+      typename S::Rehearsal rehearsal(node);
+      return node.stand_by(&rehearsal);
+    }
+  }
+  return node.stand_by();
+}
+
 template <class S>
 int service_main(int argc, char** argv, const char* name) {
   Options options;
@@ -22,7 +34,7 @@ int service_main(int argc, char** argv, const char* name) {
   if (is_cyclic && !options.virtual_time) use_real_time_scheduling();
   try {
     Node node(options);
-    if (!S::works_as_shadow && !node.stand_by()) return 0;
+    if (!S::works_as_shadow && !wait_for_its_time<S>(node)) return 0;
     S service(node);
     return node.run(service);
   } catch (const std::exception& e) {

@@ -6,8 +6,6 @@
 #include "machine/alarms.hpp"
 
 namespace trunnion::parameters {
-namespace {
-
 MachineDefaults defaults_of(const machine::MachineConfig& machine) {
   MachineDefaults defaults;
   defaults.values = machine::machine_parameters(machine);
@@ -19,6 +17,8 @@ MachineDefaults defaults_of(const machine::MachineConfig& machine) {
     defaults.offsets = setup::read_offsets(*text, machine.directory + "/" + setup::offsets_file, revision);
   return defaults;
 }
+
+namespace {
 
 std::string make_directory(const std::string& path) {
   std::filesystem::create_directories(path);

@@ -6,6 +6,8 @@
 #include <iostream>
 #include <sstream>
 
+#include "program_files.hpp"
+
 namespace trunnion::plc {
 namespace {
 
@@ -35,6 +37,7 @@ PlcService::PlcService(node::Node& node)
       retained_(in_directory(node.options().state_directory, "plc.image")),
       boot_(read_file(node.options().state_directory + "/cluster.boot").substr(0, 63)),
       parameters_(node.bus()),
+      round_writer_(node.options().state_directory + rounds_file),
       feedback_(node.bus().reader(topics::feedback_frame)),
       channels_(node.bus().reader(topics::channel_state)),
       requests_(node.bus().reader(topics::auxiliary_request)),
@@ -52,26 +55,32 @@ PlcService::PlcService(node::Node& node)
       core_.power_up(kept->memory);
   }
   tick_ = core_.memory().tick;
-  load_programs();
-}
-
-void PlcService::load_programs() {
-  const auto directory = node_.options().machine.plc_directory();
-  Compiler compiler(interface_symbols());
   try {
-    Program programs[2];
-    const char* names[] = {"/fast.il", "/main.il"};
-    for (int i = 0; i < 2; ++i) {
-      const auto path = directory + names[i];
-      if (!std::filesystem::exists(path)) throw std::runtime_error(path + ": error: cannot be opened");
-      programs[i] = compiler.compile(read_file(path), path);
-    }
-    core_.load(std::move(programs[0]), std::move(programs[1]));
+    load_programs(node.options().machine.plc_directory(), core_);
   } catch (const std::runtime_error& e) {
     fault_ = e.what();
     std::cerr << fault_ << "\n";
     node_.alarms().raise("plc_program", 0, fault_);
   }
+}
+
+void PlcService::begin_round() {
+  if (!core_.configured()) return;
+  const auto generation = round_writer_.wanted(node::monotonic_seconds());
+  if (!rounds_.begin_round(generation, core_, parameters_.newest()->revision)) return;
+  bus::encode(rounds_.first_round(), round_bytes_);
+  round_writer_.write(round_bytes_);
+}
+
+void PlcService::end_round(const std::vector<idl::plc::AuxiliaryDone>& done) {
+  if (!rounds_.on()) return;
+  bus::encode(rounds_.end_round(core_, done), round_bytes_);
+  round_writer_.write(round_bytes_);
+}
+
+void PlcService::advance(std::uint64_t tick) {
+  core_.advance(tick);
+  rounds_.told(StepKind::advance, tick);
 }
 
 void PlcService::applied(idl::stream::Input input, std::int64_t source_time) {
@@ -94,8 +103,9 @@ void PlcService::take_inputs() {
   while (feedback_.take(frame_)) {
     ++frames_in_;
     core_.set_feedback(frame_);
+    rounds_.told(frame_);
     // Frame by frame, so that it does not matter how many have come at once.
-    core_.advance(node_.options().virtual_time ? frame_.tick : std::max(frame_.tick, core_.memory().tick));
+    advance(node_.options().virtual_time ? frame_.tick : std::max(frame_.tick, core_.memory().tick));
     if (frame_.tick != tick_) {
       tick_ = frame_.tick;
       tick_seen_ = node::monotonic_seconds();
@@ -105,11 +115,13 @@ void PlcService::take_inputs() {
   while (channels_.take(state)) {
     applied(Input::CHANNEL_STATE, channels_.info().source_timestamp);
     core_.set_channel(state);
+    rounds_.told(StepKind::channel, state);
   }
   idl::channel::AuxiliaryRequest request;
   while (requests_.take(request)) {
     applied(Input::AUXILIARY_REQUEST, requests_.info().source_timestamp);
     core_.set_request(request);
+    rounds_.told(StepKind::request, request);
   }
   idl::service::Alarm alarm;
   while (alarms_.take(alarm)) {
@@ -120,16 +132,19 @@ void PlcService::take_inputs() {
     else
       active_alarms_.erase(key);
   }
-  core_.set_alarms(!active_alarms_.empty(),
-                   std::any_of(active_alarms_.begin(), active_alarms_.end(), [](const auto& entry) {
-                     return entry.second.reaction != idl::service::Reaction::SHOW;
-                   }));
+  const bool any = !active_alarms_.empty();
+  const bool stops = std::any_of(active_alarms_.begin(), active_alarms_.end(), [](const auto& entry) {
+    return entry.second.reaction != idl::service::Reaction::SHOW;
+  });
+  core_.set_alarms(any, stops);
+  rounds_.told(StepKind::alarms, (any ? 1u : 0u) | (stops ? 2u : 0u));
   idl::plc::PanelRequest panel;
   while (panel_.take(panel)) {
     applied(Input::PANEL_REQUEST, panel_.info().source_timestamp);
     idl::plc::PanelReply reply;
     reply.reason = core_.panel(panel.kind, panel.address, panel.value);
     reply.accepted = reply.reason.empty();
+    rounds_.told(StepKind::panel, panel);
     panel_.reply(panel, reply);
   }
 }
@@ -142,8 +157,10 @@ std::uint64_t PlcService::tick_now(double now) const {
 }
 
 void PlcService::pump() {
+  begin_round();
   if (parameters_.poll()) {
     core_.configure(*parameters_.newest(), node_.options().virtual_time);
+    rounds_.told(StepKind::parameters, parameters_.newest()->revision);
     period_ = parameters_.newest()->integer("interpolation_cycle") * 1e-6;
   }
   take_inputs();
@@ -155,8 +172,9 @@ void PlcService::pump() {
     waiting_since_ = now;
   } else if (now - waiting_since_ > standstill_patience) {
     core_.give_up_waiting();
+    rounds_.told(StepKind::give_up);
   }
-  core_.advance(tick_now(now));
+  advance(tick_now(now));
   tell_inputs(now);
   retained_.save(boot_, core_.memory());
   publish(now);
@@ -178,7 +196,9 @@ void PlcService::publish(double now) {
   }
   if (first_)
     for (const auto& done : core_.all_done()) done_.write(done);
-  for (const auto& done : core_.take_done()) {
+  const auto finished = core_.take_done();
+  end_round(finished);
+  for (const auto& done : finished) {
     if (done.failed)
       node_.alarms().raise("auxiliary_refused", done.channel, "An auxiliary function was not carried out",
                            core_.memory().handshakes[done.channel].cycle);

@@ -4,27 +4,36 @@
 #include <optional>
 #include <tuple>
 
-#include "compiler.hpp"
 #include "node/node.hpp"
 #include "node/parameter_client.hpp"
 #include "node/request.hpp"
 #include "plc_core.hpp"
+#include "rehearsal_service.hpp"
 #include "retained_memory.hpp"
+#include "round_recorder.hpp"
 
 namespace trunnion::plc {
 
 class PlcService : public node::Service {
  public:
+  /// What it does while it is a shadow.
+  using Rehearsal = RehearsalService;
+
   explicit PlcService(node::Node& node);
   void pump() override;
   double period() const override {
     return node_.options().virtual_time && inputs_.tick == core_.memory().tick ? 0.05 : 0.01;
   }
   node::Health health() const override;
-  void alarms_reset() override { core_.press_reset(); }
+  void alarms_reset() override {
+    core_.press_reset();
+    rounds_.told(StepKind::reset);
+  }
 
  private:
-  void load_programs();
+  void begin_round();
+  void end_round(const std::vector<idl::plc::AuxiliaryDone>& done);
+  void advance(std::uint64_t tick);
   void take_inputs();
   std::uint64_t tick_now(double now) const;
   void publish(double now);
@@ -36,6 +45,9 @@ class PlcService : public node::Service {
   std::string boot_, fault_;
   node::ParameterClient parameters_;
   PlcCore core_;
+  RoundRecorder rounds_;
+  RoundWriter round_writer_;
+  bus::Bytes round_bytes_;
   bus::Reader<idl::stream::FeedbackFrame> feedback_;
   bus::Reader<idl::channel::ChannelState> channels_;
   bus::Reader<idl::channel::AuxiliaryRequest> requests_;

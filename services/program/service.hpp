@@ -6,11 +6,15 @@
 #include "node/node.hpp"
 #include "node/request.hpp"
 #include "program_store.hpp"
+#include "rehearsal_service.hpp"
 
 namespace trunnion::program {
 
 class ProgramService : public node::Service {
  public:
+  /// What it does while it is a shadow.
+  using Rehearsal = RehearsalService;
+
   explicit ProgramService(node::Node& node);
   void pump() override;
   double period() const override { return 0.25; }

@@ -62,4 +62,26 @@ struct Memory {
 };
 static_assert(std::is_trivially_copyable_v<Memory>);
 
+/// What the PLC has heard of the machine and does not remember: a process that starts again hears it anew.
+struct View {
+  struct Channel {
+    bool seen = false, active = false;
+    std::uint32_t resets = 0;
+  };
+  std::array<Channel, channel_count> channels{};
+  std::array<double, spindle_count> spindle_actual{};  ///< 1/min
+  std::uint32_t spindles_heard = 0;                    ///< entries of spindle_actual
+  std::uint64_t executed = 0;                          ///< cycles of the stream
+  bool drive_seen = false;
+  bool gave_up = false;  ///< to wait for the drive's word on a standstill
+  bool changed = true;   ///< an input, since the image was stable
+};
+
+/// Everything that decides what the PLC does next, besides its programs and parameters.
+struct Snapshot {
+  Memory memory;
+  View view;
+};
+static_assert(std::is_trivially_copyable_v<Snapshot>);
+
 }  // namespace trunnion::plc

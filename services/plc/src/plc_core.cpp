@@ -55,20 +55,20 @@ void PlcCore::configure(const machine::Parameters& parameters, bool virtual_time
   for (const auto& axis : machine::drive_axes(parameters)) axis_exists_[axis.number] = 1;
   spindles_ = std::min(machine::spindles(parameters).size(), spindle_count);
   period_us_ = static_cast<std::uint64_t>(parameters.integer("interpolation_cycle"));
-  changed_ = true;
+  view_.changed = true;
 }
 
 void PlcCore::load(Program fast, Program main) {
   fast_ = std::move(fast);
   main_ = std::move(main);
   loaded_ = true;
-  changed_ = true;
+  view_.changed = true;
 }
 
 void PlcCore::input(Address address, std::int64_t value) {
   const auto before = plc::load(memory_.registers, address);
   store(memory_.registers, address, value);
-  changed_ = changed_ || plc::load(memory_.registers, address) != before;
+  view_.changed = view_.changed || plc::load(memory_.registers, address) != before;
 }
 
 void PlcCore::set_channel(const idl::channel::ChannelState& state) {
@@ -89,7 +89,7 @@ void PlcCore::set_channel(const idl::channel::ChannelState& state) {
   input(s.rapid_override, percent(state.rapid_override));
   input(s.spindle_override, percent(state.spindle_override));
   input(s.tool, state.tool);
-  auto& view = channels_[state.channel];
+  auto& view = view_.channels[state.channel];
   if (view.seen && state.reset_count > view.resets) input(s.reset, 1);
   view.seen = true;
   view.resets = state.reset_count;
@@ -101,7 +101,7 @@ void PlcCore::set_request(const idl::channel::AuxiliaryRequest& request) {
   if (request.kind == 0) {
     if (h.state == HandshakeState::waiting || h.state == HandshakeState::strobe)
       h.state = HandshakeState::none;
-    changed_ = true;
+    view_.changed = true;
     return;
   }
   const bool known = h.state != HandshakeState::none && h.number == request.number &&
@@ -111,23 +111,25 @@ void PlcCore::set_request(const idl::channel::AuxiliaryRequest& request) {
     return;
   }
   h = {HandshakeState::waiting, request.number, request.kind, request.code, request.value, request.cycle, 0};
-  gave_up_ = false;
-  changed_ = true;
+  view_.gave_up = false;
+  view_.changed = true;
 }
 
 void PlcCore::set_feedback(const idl::stream::FeedbackFrame& frame) {
-  drive_seen_ = true;
-  changed_ = changed_ || waits_for_standstill();
-  executed_ = std::max(executed_, frame.first + frame.count);
-  for (auto& channel : channels_) channel.active = false;
+  view_.drive_seen = true;
+  view_.changed = view_.changed || waits_for_standstill();
+  view_.executed = std::max(view_.executed, frame.first + frame.count);
+  for (auto& channel : view_.channels) channel.active = false;
   for (const auto& echo : frame.channels)
-    if (echo.channel < channel_count) channels_[echo.channel].active = echo.active;
-  spindle_actual_ = frame.spindle_speed;
+    if (echo.channel < channel_count) view_.channels[echo.channel].active = echo.active;
+  const auto spindles = std::min(spindle_count, frame.spindle_speed.size());
+  view_.spindles_heard = static_cast<std::uint32_t>(spindles);
+  std::copy_n(frame.spindle_speed.begin(), spindles, view_.spindle_actual.begin());
   input(drive_present_, 1);
   input(drives_on_, !frame.enabled.empty() && std::all_of(frame.enabled.begin(), frame.enabled.end(),
                                                           [](std::uint8_t on) { return on != 0; }));
-  for (std::size_t s = 0; s < std::min(spindles_, spindle_actual_.size()); ++s)
-    input(spindle_symbols_[s].actual, std::llround(std::abs(spindle_actual_[s])));
+  for (std::size_t s = 0; s < std::min(spindles_, spindles); ++s)
+    input(spindle_symbols_[s].actual, std::llround(std::abs(view_.spindle_actual[s])));
   check_spindles();
 }
 
@@ -158,8 +160,9 @@ std::string PlcCore::panel(std::uint8_t kind, std::uint32_t address, std::uint32
 }
 
 bool PlcCore::standing(std::size_t channel) const {
-  if (!virtual_time_ || gave_up_) return true;
-  return drive_seen_ && !channels_[channel].active && executed_ >= memory_.handshakes[channel].cycle;
+  if (!virtual_time_ || view_.gave_up) return true;
+  return view_.drive_seen && !view_.channels[channel].active &&
+         view_.executed >= memory_.handshakes[channel].cycle;
 }
 
 bool PlcCore::waits_for_standstill() const {
@@ -169,8 +172,8 @@ bool PlcCore::waits_for_standstill() const {
 }
 
 void PlcCore::give_up_waiting() {
-  gave_up_ = true;
-  changed_ = true;
+  view_.gave_up = true;
+  view_.changed = true;
 }
 
 void PlcCore::set_strobes(bool present) {
@@ -195,9 +198,9 @@ void PlcCore::set_strobes(bool present) {
 
 bool PlcCore::at_speed(std::size_t s) const {
   if (s >= spindles_) return true;
-  if (s >= spindle_actual_.size()) return drive_seen_;
+  if (s >= view_.spindles_heard) return view_.drive_seen;
   const double order = memory_.spindle_order[s];
-  return std::abs(spindle_actual_[s] - order) <=
+  return std::abs(view_.spindle_actual[s] - order) <=
          std::max(speed_tolerance * std::abs(order), slowest_tolerance);
 }
 
@@ -259,8 +262,14 @@ void PlcCore::advance(std::uint64_t tick) {
     ++memory_.scans;
     scan(memory_.scans % main_period == 0, false);
   }
-  if (changed_ || timer_due(memory_.blocks, now)) settle();
-  changed_ = false;
+  if (view_.changed || timer_due(memory_.blocks, now)) settle();
+  view_.changed = false;
+}
+
+Registers PlcCore::rescanned() const {
+  PlcCore copy = *this;
+  if (loaded_ && configured()) copy.settle();
+  return copy.memory_.registers;
 }
 
 bool PlcCore::emergency_stop() const {

@@ -34,6 +34,12 @@ class PlcCore {
   /// After a restart of the cluster: only the kept registers B.
   void power_up(const Memory& memory) { memory_.registers.b = memory.registers.b; }
   const Memory& memory() const { return memory_; }
+  /// To be taken when take_done() has emptied what is finished.
+  Snapshot snapshot() const { return {memory_, view_}; }
+  /// Goes on as the core that the snapshot is of would, given the same programs and parameters.
+  void adopt(const Snapshot& snapshot) { memory_ = snapshot.memory, view_ = snapshot.view; }
+  /// The registers as they would be if the main task ran once more until they are stable.
+  Registers rescanned() const;
 
   void set_channel(const idl::channel::ChannelState& state);
   void set_request(const idl::channel::AuxiliaryRequest& request);
@@ -65,11 +71,6 @@ class PlcCore {
   struct SpindleSymbols {
     Address at_speed, actual, speed, enable, counterclockwise;
   };
-  struct ChannelView {
-    bool seen = false, active = false;
-    std::uint32_t resets = 0;
-  };
-
   void input(Address address, std::int64_t value);
   void scan(bool main, bool present);
   void settle();
@@ -80,7 +81,7 @@ class PlcCore {
   bool standing(std::size_t channel) const;
 
   Program fast_, main_;
-  bool loaded_ = false, virtual_time_ = false, gave_up_ = false;
+  bool loaded_ = false, virtual_time_ = false;
   std::array<ChannelSymbols, channel_count> channel_symbols_;
   std::array<SpindleSymbols, spindle_count> spindle_symbols_;
   Address emergency_button_, reset_button_, drive_present_, drives_on_, alarm_active_, alarm_stops_;
@@ -92,10 +93,7 @@ class PlcCore {
   std::size_t spindles_ = 0;
   std::uint64_t period_us_ = 0;
   Memory memory_;
-  std::array<ChannelView, channel_count> channels_{};
-  std::vector<double> spindle_actual_;
-  std::uint64_t executed_ = 0;
-  bool drive_seen_ = false, changed_ = true;
+  View view_;
   std::vector<idl::plc::AuxiliaryDone> done_;
 };
 

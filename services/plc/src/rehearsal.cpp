@@ -1,0 +1,138 @@
+#include "rehearsal.hpp"
+
+#include <algorithm>
+#include <cstring>
+
+namespace trunnion::plc {
+namespace {
+
+// Calls `use` with the sample of the step; false when it is none.
+template <class T, class Use>
+bool with_sample(const Step& step, Use use) {
+  T sample;
+  if (!bus::decode(step.sample, sample)) return false;
+  use(sample);
+  return true;
+}
+
+std::int32_t value_in(const Registers& registers, const RegisterValue& at) {
+  return load(registers, {static_cast<Area>(at.area), at.index, -1});
+}
+
+const RegisterValue* find(const Changes& changes, const RegisterValue& at) {
+  const auto found = std::find_if(changes.begin(), changes.end(), [&](const RegisterValue& other) {
+    return other.area == at.area && other.index == at.index;
+  });
+  return found == changes.end() ? nullptr : &*found;
+}
+
+}  // namespace
+
+Rehearsal::Outcome Rehearsal::play(const Round& round, std::uint32_t generation) {
+  if (!difference_.empty()) return Outcome::differs;
+  if (round.generation != generation) return Outcome::equal;
+  if (round.number == 0) return begin(round);
+  if (round.generation != generation_ || round.number != number_ + 1) return Outcome::gap;
+  for (const Step& step : round.steps)
+    if (static_cast<StepKind>(step.kind) == StepKind::parameters && find_(step.value) == nullptr)
+      return Outcome::waiting;
+  const Registers before = core_.memory().registers;
+  for (const Step& step : round.steps)
+    if (!repeat(step))
+      return differ(round.tick, "a step of kind " + std::to_string(step.kind) + " that it does not know");
+  number_ = round.number;
+  const Outcome outcome = compare(round, before);
+  if (outcome == Outcome::equal) equal_ticks_ += round.tick - std::min(tick_, round.tick);
+  tick_ = round.tick;
+  return outcome;
+}
+
+Rehearsal::Outcome Rehearsal::begin(const Round& round) {
+  Snapshot snapshot;
+  if (round.start.size() != sizeof snapshot) return differ(round.tick, "a memory of another layout");
+  if (!parameters(round.revision)) return Outcome::waiting;
+  std::memcpy(&snapshot, round.start.data(), sizeof snapshot);
+  core_.adopt(snapshot);
+  generation_ = round.generation;
+  number_ = 0;
+  tick_ = round.tick;
+  begun_ = true;
+  const Registers& registers = core_.memory().registers;
+  if (const auto own = changes(registers, core_.rescanned()); own != round.rescanned)
+    return differ(round.tick, registers, round.rescanned, own);
+  return compare(round, registers);
+}
+
+bool Rehearsal::parameters(std::uint64_t revision) {
+  const auto found = find_(revision);
+  if (found) core_.configure(*found, virtual_time_);
+  return found != nullptr;
+}
+
+bool Rehearsal::repeat(const Step& step) {
+  switch (static_cast<StepKind>(step.kind)) {
+    case StepKind::parameters:
+      return parameters(step.value);
+    case StepKind::feedback:
+      return with_sample<idl::stream::FeedbackFrame>(step, [&](const auto& s) { core_.set_feedback(s); });
+    case StepKind::channel:
+      return with_sample<idl::channel::ChannelState>(step, [&](const auto& s) { core_.set_channel(s); });
+    case StepKind::request:
+      return with_sample<idl::channel::AuxiliaryRequest>(step, [&](const auto& s) { core_.set_request(s); });
+    case StepKind::alarms:
+      core_.set_alarms((step.value & 1) != 0, (step.value & 2) != 0);
+      return true;
+    case StepKind::panel:
+      return with_sample<idl::plc::PanelRequest>(
+          step, [&](const auto& s) { core_.panel(s.kind, s.address, s.value); });
+    case StepKind::reset:
+      core_.press_reset();
+      return true;
+    case StepKind::give_up:
+      core_.give_up_waiting();
+      return true;
+    case StepKind::advance:
+      core_.advance(step.value);
+      return true;
+  }
+  return false;
+}
+
+Rehearsal::Outcome Rehearsal::compare(const Round& round, const Registers& before) {
+  if (const auto own = changes(before, core_.memory().registers); own != round.changed)
+    return differ(round.tick, before, round.changed, own);
+  if (core_.outputs() != round.outputs) return differ(round.tick, "the outputs");
+  if (core_.take_done() != round.done) return differ(round.tick, "the functions finished");
+  if (state_digest(core_.snapshot()) != round.state)
+    return differ(round.tick, "a timer, counter or edge that no register shows yet");
+  return Outcome::equal;
+}
+
+Rehearsal::Outcome Rehearsal::differ(std::uint64_t tick, const std::string& what) {
+  difference_ = "tick " + std::to_string(tick) + ", " + what;
+  return Outcome::differs;
+}
+
+// The first register of the image whose value is not the same; what only one of the two has changed has kept
+// its value with the other.
+Rehearsal::Outcome Rehearsal::differ(std::uint64_t tick, const Registers& before, const Changes& running,
+                                     const Changes& own) {
+  const auto order = [](const RegisterValue& a, const RegisterValue& b) {
+    return std::pair(a.area, a.index) < std::pair(b.area, b.index);
+  };
+  Changes all = running;
+  all.insert(all.end(), own.begin(), own.end());
+  std::stable_sort(all.begin(), all.end(), order);
+  for (const RegisterValue& at : all) {
+    const auto value = [&](const Changes& changes) {
+      const auto* changed = find(changes, at);
+      return changed != nullptr ? changed->value : value_in(before, at);
+    };
+    if (value(running) != value(own))
+      return differ(tick, "register " + register_name(at) + ": " + std::to_string(value(running)) + " and " +
+                              std::to_string(value(own)));
+  }
+  return differ(tick, "the registers");
+}
+
+}  // namespace trunnion::plc

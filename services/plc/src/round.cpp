@@ -1,0 +1,73 @@
+#include "round.hpp"
+
+#include <type_traits>
+
+namespace trunnion::plc {
+namespace {
+
+template <class Values>
+void compare(Area area, const Values& before, const Values& after, Changes& changes) {
+  for (std::size_t i = 0; i < after.size(); ++i)
+    if (before[i] != after[i])
+      changes.push_back({static_cast<std::uint8_t>(area), static_cast<std::uint16_t>(i), after[i]});
+}
+
+// FNV-1a over the values: what lies between them in memory does not count.
+class Digest {
+ public:
+  template <class T>
+  void add(const T& value) {
+    static_assert(std::has_unique_object_representations_v<T> || std::is_same_v<T, double>);
+    const auto* bytes = reinterpret_cast<const unsigned char*>(&value);
+    for (std::size_t i = 0; i < sizeof(T); ++i) hash_ = (hash_ ^ bytes[i]) * 1099511628211u;
+  }
+  std::uint64_t value() const { return hash_; }
+
+ private:
+  std::uint64_t hash_ = 14695981039346656037u;
+};
+
+}  // namespace
+
+Changes changes(const Registers& before, const Registers& after) {
+  Changes result;
+  compare(Area::x, before.x, after.x, result);
+  compare(Area::y, before.y, after.y, result);
+  compare(Area::f, before.f, after.f, result);
+  compare(Area::g, before.g, after.g, result);
+  compare(Area::r, before.r, after.r, result);
+  compare(Area::b, before.b, after.b, result);
+  return result;
+}
+
+std::string register_name(const RegisterValue& value) {
+  constexpr const char* letters = "XYFGRB";
+  return (value.area < 6 ? letters[value.area] : '?') + std::to_string(value.index);
+}
+
+std::uint64_t state_digest(const Snapshot& snapshot) {
+  Digest digest;
+  const auto& m = snapshot.memory;
+  for (const auto& timer : m.blocks.timers) {
+    digest.add(timer.end);
+    for (const auto part : {timer.running, timer.input, timer.output}) digest.add(part);
+  }
+  for (const auto& counter : m.blocks.counters) digest.add(counter.value), digest.add(counter.input);
+  digest.add(m.blocks.edges);
+  for (const auto& h : m.handshakes) {
+    digest.add(h.state), digest.add(h.number), digest.add(h.kind), digest.add(h.code);
+    digest.add(h.value), digest.add(h.cycle), digest.add(h.failed);
+  }
+  digest.add(m.now_us), digest.add(m.scans), digest.add(m.tick);
+  for (const double order : m.spindle_order) digest.add(order);
+  digest.add(m.spindle_since);
+  const auto& view = snapshot.view;
+  for (const auto& channel : view.channels)
+    digest.add(channel.seen), digest.add(channel.active), digest.add(channel.resets);
+  for (const double speed : view.spindle_actual) digest.add(speed);
+  digest.add(view.spindles_heard), digest.add(view.executed), digest.add(view.drive_seen);
+  digest.add(view.gave_up), digest.add(view.changed);
+  return digest.value();
+}
+
+}  // namespace trunnion::plc
