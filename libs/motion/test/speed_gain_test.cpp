@@ -40,25 +40,5 @@ TEST(SpeedGain, speed_reaches_the_fastest_level_where_each_cell_allows_a_little_
   EXPECT_LE(static_cast<double>(cycles) * cycle, 1.961 + 2 * 0.125);
 }
 
-// A place of 0.2 um behind which 1 mm/s2 at 0.006 mm/s is all that is left, reached from cells that stand a
-// thousand times more. It takes 1 s to cross 1 um of it at that speed, so some tenths of a second here;
-// before it and behind it are 1 mm at 50 mm/s, each in 50 ms and two ramps of less than 60 ms.
-TEST(SpeedGain, a_cell_that_stands_next_to_no_acceleration_is_passed) {
-  for (int offset = 0; offset < 20; ++offset) {
-    SpeedStage stage(cycle);
-    const double edge = 1 + 0.0137 * offset;
-    stage.cells().push(curved(0, edge, 50));
-    LimitCell weak = curved(edge, edge + 0.0002, 0.006);
-    weak.ramps = {{{0.05, 28}, {0.08, 45}, {0.15, 59}, {0.27, 68}}};
-    stage.cells().push(weak);
-    stage.cells().push(curved(edge + 0.0002, 2.5, 50));
-    stage.set_finished(true);
-    stage.extended();
-    const std::size_t cycles = cycles_to_the_end(stage, 20000);
-    EXPECT_TRUE(stage.at_end()) << offset;
-    EXPECT_LE(cycles, 500U) << offset;
-  }
-}
-
 }  // namespace
 }  // namespace trunnion::motion
