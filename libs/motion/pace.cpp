@@ -47,8 +47,10 @@ PacePhase next_phase(const PathState& state, const CellRing& cells, std::uint64_
   std::uint64_t next = cell;
   while (next + 1 < cells.size() && !cells[next + 1].stop && ahead.s > cells[next].end) ++next;
   const Range now = turned(capped(acceleration_range(here, part, state.v), pacing.acceleration));
+  // Where the curve takes some of an axis' load off, less of it is left at the lower speed of the end.
+  const double v_then = std::max(0.0, state.v + state.a * time);
   const Range then = turned(
-      capped(acceleration_range(cells[next], part_of(cells[next], ahead.s), state.v), pacing.acceleration));
+      capped(acceleration_range(cells[next], part_of(cells[next], ahead.s), v_then), pacing.acceleration));
   const double most = std::max(0.0, std::min(now.high, then.high));
   double used = std::clamp((most - a) / time, j.low, j.high);
   // What is allowed at the end of the step.
