@@ -1,5 +1,5 @@
 // How the speed stage gains speed on cells written by hand that leave less to acceleration the faster they
-// are run over, and comes through cells that leave next to nothing.
+// are run over.
 #include <gtest/gtest.h>
 
 #include "motion/speed_stage.hpp"
