@@ -10,7 +10,7 @@ namespace {
 constexpr double range_share = 0.999;
 constexpr double judged_share = 1.0003;
 // Jerk that stays free when an acceleration is chosen.
-constexpr double kept_jerk = 0.1;
+constexpr double kept_jerk = 0.05;
 constexpr double rounding = 1e-7;
 constexpr double rounding_distance = 2e-9;
 
