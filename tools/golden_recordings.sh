@@ -46,8 +46,15 @@ verify() {  # SERVICE [CHANNEL]
   timeout 60 "$trunnion" verify --service "$1" --channel "${2:-0}" --recording "$work/golden.mcap" > "$work/log" 2>&1
 }
 
+# The lines of the operator journal count from 1: none is missing.
+is_journal_whole() {
+  "$trunnion" export "$work/golden.mcap" --csv operator_request 2> "$work/log" |
+    awk -F, '/^[0-9]+,[0-9]+,[A-Z_]+,/ { ++lines; last = $2 } END { exit !(lines > 0 && lines == last) }'
+}
+
 verify_all() {  # CHANNELS
   local service channel
+  is_journal_whole || { echo "lines of the operator journal are missing" >> "$work/log"; return 1; }
   for service in gateway parameters program plc kinematics compensation gantry drive; do verify $service || return 1; done
   for ((channel = 0; channel < $1; ++channel)); do verify channel "$channel" || return 1; done
 }
