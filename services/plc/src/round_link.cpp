@@ -7,6 +7,7 @@
 #include <atomic>
 #include <cerrno>
 #include <cstring>
+#include <filesystem>
 
 #include "storage/file.hpp"
 
@@ -53,8 +54,10 @@ void make_file(const std::string& path) {
 
 }  // namespace
 
+// The file of one that died is used again: the other side has it mapped already.
 RoundReader::RoundReader(const std::string& path) : path_(path) {
-  make_file(path);
+  std::error_code missing;
+  if (std::filesystem::file_size(path, missing) != sizeof(RoundRing) || missing) make_file(path);
   file_.emplace(path, sizeof(RoundRing));
   ring_ = static_cast<RoundRing*>(file_->data());
   ask();
@@ -103,7 +106,7 @@ void RoundWriter::open() {
   if (ring_->layout != RoundRing::own_layout) file_.reset(), ring_ = nullptr;
 }
 
-// Whoever asked has died. Another may have put a file of its own in that place.
+// Whoever asked has died, or has taken its file away: then another one may be in that place.
 void RoundWriter::close() {
   ring_->asked = 0;
   file_.reset();

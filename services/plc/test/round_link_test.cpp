@@ -85,18 +85,35 @@ TEST_F(RoundLink, NobodyAsksUntilThereIsAReaderAndNobodyAfterItHasStoppedBreathi
   EXPECT_EQ(writer.wanted(13), 0u);
 }
 
-TEST_F(RoundLink, AReaderThatFollowsADeadOneKeepsItsFile) {
-  auto dead = std::make_unique<RoundReader>(path_);
+// Killed, it has not taken its file away.
+TEST_F(RoundLink, AReaderThatFollowsADeadOneIsHeardAtOnceAndReadsNothingOfBefore) {
+  auto* dead = new RoundReader(path_);
   RoundWriter writer(path_);
-  ASSERT_NE(writer.wanted(10), 0u);
+  const auto generation = writer.wanted(10);
+  ASSERT_TRUE(writer.write(record(3, 4)));
   RoundReader next(path_);
-  EXPECT_EQ(writer.wanted(11.1), 0u);
+  EXPECT_EQ(writer.wanted(10.01), generation + 1);
+  bus::Bytes bytes;
+  EXPECT_FALSE(next.read(bytes));
+  ASSERT_TRUE(writer.write(record(5, 6)));
+  EXPECT_TRUE(next.read(bytes));
+  EXPECT_EQ(bytes, record(5, 6));
+  delete dead;
+}
+
+TEST_F(RoundLink, OneThatTookItsFileAwayDoesNotTakeThatOfTheNext) {
+  RoundWriter writer(path_);
+  {
+    RoundReader first(path_);
+    ASSERT_NE(writer.wanted(10), 0u);
+  }
+  RoundReader next(path_);
+  EXPECT_EQ(writer.wanted(11.1), 0u) << "the first has stopped breathing";
   EXPECT_TRUE(std::filesystem::exists(path_));
   EXPECT_NE(writer.wanted(11.3), 0u);
   ASSERT_TRUE(writer.write(record(3, 4)));
   bus::Bytes bytes;
   EXPECT_TRUE(next.read(bytes));
-  EXPECT_FALSE(dead->read(bytes)) << "it is on its own";
 }
 
 TEST_F(RoundLink, AFileThatIsNoRingIsNotTakenForOne) {
