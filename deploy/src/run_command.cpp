@@ -39,8 +39,8 @@ int run(const Common& common, RunOptions options, const std::string& report_dire
 
 // Times the cone over the vendors in virtual time, each layout several times in turn, so that a noisy machine
 // is noisy for all; or counts starved cycles in real time.
-int bench(const Common& common, const std::string& machine, const std::string& program, int rounds,
-          bool real_time) {
+int bench(const Common& common, const std::string& machine, const std::string& program,
+          const std::vector<std::string>& vendors, int rounds, bool real_time) {
   const auto recording =
       (fs::temp_directory_path() / ("trunnion-bench-" + std::to_string(getpid()) + ".mcap")).string();
   bus::Json rows = bus::Json::array();
@@ -48,7 +48,7 @@ int bench(const Common& common, const std::string& machine, const std::string& p
     std::printf("%-11s %5s %12s %14s %10s %18s\n", "vendor", "round", "cycles", "x real time", "starved",
                 "command hash");
   for (int round = 0; round < rounds; ++round)
-    for (const char* vendor : {"cyclonedds", "mixed", "fastdds"}) {
+    for (const auto& vendor : vendors) {
       RunOptions options;
       options.machine = machine, options.programs = {program}, options.vendor = vendor;
       options.recording = recording, options.quiet = true, options.real_time = real_time;
@@ -63,7 +63,7 @@ int bench(const Common& common, const std::string& machine, const std::string& p
                       {"starved_periods", r.starved},
                       {"ready_seconds", result.start_seconds}});
       if (!common.json)
-        std::printf("%-11s %5d %12llu %14.1f %10llu   %016llx\n", vendor, round,
+        std::printf("%-11s %5d %12llu %14.1f %10llu   %016llx\n", vendor.c_str(), round,
                     static_cast<unsigned long long>(r.executed), r.speed,
                     static_cast<unsigned long long>(r.starved),
                     static_cast<unsigned long long>(r.command_hash));
@@ -80,13 +80,13 @@ double median(std::vector<double> values) {
 
 // What a recorder of every topic costs the stream, by turns in one cluster for each vendor.
 int bench_recording(const Common& common, const std::string& machine, const std::string& program,
-                    int rounds) {
+                    const std::vector<std::string>& vendors, int rounds) {
   const auto recording =
       (fs::temp_directory_path() / ("trunnion-bench-" + std::to_string(getpid()) + ".mcap")).string();
   bus::Json rows = bus::Json::array();
   if (!common.json)
     std::printf("%-11s %24s %24s %8s\n", "vendor", "cycles/s, not recorded", "cycles/s, recorded", "ratio");
-  for (const char* vendor : {"cyclonedds", "mixed", "fastdds"}) {
+  for (const auto& vendor : vendors) {
     RunOptions options;
     options.machine = machine, options.programs = {program}, options.vendor = vendor;
     options.recording = recording, options.domain = common.domain;
@@ -97,7 +97,8 @@ int bench_recording(const Common& common, const std::string& machine, const std:
                     {"cycles_per_second_recorded", with},
                     {"ratio", with / without},
                     {"rounds", rounds}});
-    if (!common.json) std::printf("%-11s %24.0f %24.0f %8.3f\n", vendor, without, with, with / without);
+    if (!common.json)
+      std::printf("%-11s %24.0f %24.0f %8.3f\n", vendor.c_str(), without, with, with / without);
     std::fflush(stdout);
   }
   if (common.json) std::cout << rows.dump(2) << "\n";
@@ -133,21 +134,26 @@ void add_run_command(CLI::App& app, Common& common) {
 
   auto machine = std::make_shared<std::string>("ac-table"),
        program = std::make_shared<std::string>("nas979_cone");
+  auto vendors =
+      std::make_shared<std::vector<std::string>>(std::vector<std::string>{"cyclonedds", "mixed", "fastdds"});
   auto rounds = std::make_shared<int>(3);
   auto real_time = std::make_shared<bool>(false), recording = std::make_shared<bool>(false);
   auto subject = std::make_shared<std::string>("stream");
   command = add_command(app, common, "bench",
                         "Measure the stream: the speed of a program in virtual time over the DDS vendors, or "
                         "starved cycles in real time; or the planner: the reference motions and its speed",
-                        [&common, machine, program, rounds, real_time, recording, subject] {
+                        [&common, machine, program, vendors, rounds, real_time, recording, subject] {
                           if (*subject == "motion") return bench_motion(common, *machine);
-                          if (*recording) return bench_recording(common, *machine, *program, *rounds);
-                          return bench(common, *machine, *program, *rounds, *real_time);
+                          if (*recording)
+                            return bench_recording(common, *machine, *program, *vendors, *rounds);
+                          return bench(common, *machine, *program, *vendors, *rounds, *real_time);
                         });
   command->add_option("subject", *subject, "stream (default) or motion")
       ->check(CLI::IsMember({"stream", "motion"}));
   command->add_option("--machine", *machine, "Machine (default ac-table)");
   command->add_option("--program", *program, "Program (default nas979_cone)");
+  command->add_option("--vendor", *vendors, "DDS vendors to run with (default: each alone, and mixed)")
+      ->check(CLI::IsMember({"fastdds", "cyclonedds", "mixed"}));
   command->add_option("--rounds", *rounds, "Rounds over the vendors")->check(CLI::Range(1, 1000));
   command->add_flag("--real-time", *real_time, "Run in real time and count starved cycles");
   command->add_flag("--recording", *recording, "What a recorder costs: runs with and without one by turns");

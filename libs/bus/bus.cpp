@@ -1,7 +1,10 @@
 #include "bus/bus.hpp"
 
+#include <sys/resource.h>
+
 #include <chrono>
 #include <stdexcept>
+#include <thread>
 
 namespace trunnion::bus {
 
@@ -19,6 +22,24 @@ bool Signal::wait(double seconds) {
       condition_.wait_for(lock, std::chrono::duration<double>(seconds), [this] { return set_; });
   set_ = false;
   return notified;
+}
+
+namespace {
+// How often this thread has waited for something of its own accord.
+long waits_of_this_thread() {
+  rusage usage{};
+  getrusage(RUSAGE_THREAD, &usage);
+  return usage.ru_nvcsw;
+}
+}  // namespace
+
+void Gathering::notify() {
+  constexpr auto pause = std::chrono::milliseconds(2);
+  thread_local long waits = -1;
+  // While it has not waited there was always a next packet, and those are to be taken in without a break.
+  if (waits_of_this_thread() == waits) return;
+  std::this_thread::sleep_for(pause);
+  waits = waits_of_this_thread();
 }
 
 const char* to_string(Vendor vendor) { return vendor == Vendor::fastdds ? "fastdds" : "cyclonedds"; }

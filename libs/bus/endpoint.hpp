@@ -18,7 +18,11 @@ namespace trunnion::bus {
 /// both vendors.
 class Signal {
  public:
-  void notify();
+  Signal() = default;
+  virtual ~Signal() = default;
+  Signal(const Signal&) = delete;
+  Signal& operator=(const Signal&) = delete;
+  virtual void notify();
   /// True when notified since the last wait, false after `seconds`.
   bool wait(double seconds);
 
@@ -26,6 +30,15 @@ class Signal {
   std::mutex mutex_;
   std::condition_variable condition_;
   bool set_ = false;
+};
+
+/// For readers in no hurry, nobody waits for it. A packet that woke the vendor's receiving thread makes that
+/// thread sleep for 2 ms, so that the packets which follow gather in the socket's buffer and are taken in
+/// together, as the interrupt coalescing of a network card does. Otherwise every packet costs its *sender* a
+/// wake-up, which is more than the sending itself.
+class Gathering : public Signal {
+ public:
+  void notify() override;
 };
 
 using KeyHash = std::array<std::uint8_t, 16>;

@@ -28,7 +28,8 @@ constexpr double match_seconds = 1.0;    // how long to wait for the writers of 
 constexpr double cluster_seconds = 5.0;  // the same when a launcher says which services there are
 // To wake up for every message would take as much of the processor as a stage of the stream does.
 constexpr auto pause = std::chrono::milliseconds(5);
-constexpr int priority = -10;  // of the threads that take samples; they use little
+constexpr int priority = -10;        // of the threads that take samples; they use little
+constexpr int writer_priority = 10;  // of the one that compresses: what it does can wait, the stream cannot
 
 volatile sig_atomic_t stop_requested = 0;
 
@@ -66,6 +67,9 @@ struct Topic {
   const bus::TopicEntry* entry = nullptr;
   std::unique_ptr<bus::RawReader> reader;
   std::uint32_t sequence = 0;
+  std::vector<std::uint8_t> newest = {};  // frame from before the recording
+  std::int64_t newest_time = 0;
+  bool is_stream() const { return entry->qos == bus::QosKind::frame; }
 };
 
 // The thread that compresses and writes. It reads what it has to know of the stream from the bytes it writes.
@@ -97,6 +101,7 @@ class FileThread {
 
  private:
   void run() {
+    setpriority(PRIO_PROCESS, 0, writer_priority);  // of this thread alone
     std::vector<Message> messages;
     while (queue_.pop_all(messages, 0.2)) {
       const double now = node::monotonic_seconds();
@@ -136,27 +141,50 @@ class FileThread {
   std::thread thread_;
 };
 
-// Takes what has arrived at every reader; true when there was anything.
-bool drain(std::vector<Topic>& topics, MessageQueue& queue, Message& message) {
+void record_message(Topic& topic, std::size_t index, MessageQueue& queue, Message& message) {
+  message.topic = static_cast<std::uint16_t>(index);
+  message.sequence = ++topic.sequence;
+  queue.push(message);
+}
+
+// Takes what has arrived at every reader; true when there was anything. Until the recording has `begun`, of
+// frames only the newest is kept: where the machine stands.
+bool drain(std::vector<Topic>& topics, MessageQueue& queue, Message& message, bool begun) {
   bool any = false;
   bus::SampleInfo info;
   for (std::size_t i = 0; i < topics.size(); ++i) {
+    auto& topic = topics[i];
     // A bounded number at a time, so that one topic in full flow does not keep the others waiting.
-    for (int n = 0; n < 256 && topics[i].reader->take(message.cdr, info); ++n) {
+    for (int n = 0; n < 256 && topic.reader->take(message.cdr, info); ++n) {
       any = true;
-      message.topic = static_cast<std::uint16_t>(i);
-      message.sequence = ++topics[i].sequence;
       message.source_time = info.source_timestamp;
-      queue.push(message);
+      if (begun || !topic.is_stream()) {
+        record_message(topic, i, queue, message);
+      } else {
+        topic.newest.swap(message.cdr);
+        topic.newest_time = message.source_time;
+      }
     }
   }
+  if (any) queue.wake();
   return any;
+}
+
+// The frames kept until now, the stream's first.
+void begin(std::vector<Topic>& topics, MessageQueue& queue, Message& message) {
+  for (std::size_t i = 0; i < topics.size(); ++i) {
+    if (topics[i].newest.empty()) continue;
+    message.cdr.swap(topics[i].newest);
+    message.source_time = topics[i].newest_time;
+    record_message(topics[i], i, queue, message);
+  }
 }
 
 // Motion that begins before the stream's writers know of our readers would be missing from the recording. A
 // writer learns of a participant's readers in the order in which they were made; so a service whose state
-// reaches a reader made last knows of all the others. Without a launcher nobody says which services there
-// are, and a matched writer must do.
+// reaches a reader made last knows of all the others. Where the machine stands is in the feedback, so one
+// frame of it must have come. Without a launcher nobody says which services there are, and a matched writer
+// must do.
 template <class Drain>
 void wait_for_writers(bus::Bus& bus, const std::vector<Topic>& topics, Drain&& drain_all) {
   auto clusters = bus.reader(topics::cluster);
@@ -175,9 +203,12 @@ void wait_for_writers(bus::Bus& bus, const std::vector<Topic>& topics, Drain&& d
         std::all_of(cluster.services.begin(), cluster.services.end(),
                     [&](const auto& service) { return heard.count(service.instance) != 0; });
     const bool matched = std::all_of(topics.begin(), topics.end(), [](const Topic& topic) {
-      return topic.entry->qos != bus::QosKind::frame || topic.reader->matched() > 0;
+      return !topic.is_stream() || topic.reader->matched() > 0;
     });
-    if (known && all_heard && matched) return;
+    const bool placed = std::all_of(topics.begin(), topics.end(), [](const Topic& topic) {
+      return topic.entry->description.name != topics::feedback_frame.name || !topic.newest.empty();
+    });
+    if (known && all_heard && matched && placed) return;
     const double waited = node::monotonic_seconds() - began;
     if (waited > (known ? cluster_seconds : match_seconds) ||
         (!known && matched && waited > match_seconds / 2))
@@ -246,23 +277,26 @@ int record(const Options& options) {
                            {"version", TRUNNION_VERSION}}};
   FileThread file(options, header, queue);
   // A stream faster than real time keeps only some milliseconds for whoever is late, so the threads that take
-  // samples go first where that is allowed; the one that compresses has begun before and stays as it is.
+  // samples go first where that is allowed.
   setpriority(PRIO_PROCESS, 0, priority);
+  bus::Gathering gathering;
   bus::Bus bus(options.vendor, options.network);
   std::vector<Topic> topics;
   for (const auto* entry : entries) {
-    const bool late = bus::reader_qos(entry->qos).transient_local;
-    topics.push_back({entry, bus.backend().reader(entry->description, {late, 0}, &bus.signal()), 0});
+    // A recording begins with the states that hold, but not with the thousand frames that writers keep.
+    const bool late = bus::reader_qos(entry->qos).transient_local && entry->qos != bus::QosKind::frame;
+    topics.push_back({entry, bus.backend().reader(entry->description, {late, 0}, &gathering), 0});
   }
   Message message;
-  wait_for_writers(bus, topics, [&] { drain(topics, queue, message); });
+  wait_for_writers(bus, topics, [&] { drain(topics, queue, message, false); });
+  begin(topics, queue, message);
   std::cout << "recording " << options.output << std::endl;
 
   const double started = node::monotonic_seconds();
   std::uint64_t told = 0;
   while (stop_requested == 0 &&
          (options.duration <= 0 || node::monotonic_seconds() - started < options.duration)) {
-    if (drain(topics, queue, message)) {
+    if (drain(topics, queue, message, true)) {
       if (queue.dropped() != 0 && told == 0) {
         told = queue.dropped();
         std::cerr << "trunnion-recorder: warning: messages are dropped: the disk is slower than the stream\n";
@@ -272,7 +306,7 @@ int record(const Options& options) {
   }
   // What has arrived by now belongs to the recording; a stream in full flow does not keep us for ever.
   const double until = node::monotonic_seconds() + 2;
-  while (drain(topics, queue, message) && node::monotonic_seconds() < until) {
+  while (drain(topics, queue, message, true) && node::monotonic_seconds() < until) {
   }
   topics.clear();
   file.join();

@@ -292,7 +292,9 @@ std::string configuration(const NetworkSettings& network) {
   xml << "<CycloneDDS><Domain id=\"any\"><General><Interfaces><NetworkInterface address=\""
       << network.interface_address << "\"/></Interfaces><AllowMulticast>"
       << (network.multicast ? "spdp" : "false")
-      << "</AllowMulticast></General>"
+      << "</AllowMulticast>"
+         // A frame in one piece: fragments of a history that is asked for are sent several times over.
+         "<FragmentSize>12000B</FragmentSize></General>"
          "<Discovery><ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>39</"
          "MaxAutoParticipantIndex><Peers>";
   std::istringstream peers(network.multicast ? "" : network.peers);

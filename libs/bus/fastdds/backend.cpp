@@ -128,7 +128,9 @@ class Reader : public RawReader, DataReaderListener {
     DataReaderQos in = DATAREADER_QOS_DEFAULT;
     apply(in, qos, keyed);
     in.reliable_reader_qos().times.heartbeatResponseDelay = duration(0);
-    in.reliable_reader_qos().times.initialAcknackDelay = duration(0);
+    // Repeated at this interval until the writer's first heartbeat, which one of Cyclone that has written
+    // nothing never sends: with 0 every such pair would keep a core busy for ever.
+    in.reliable_reader_qos().times.initialAcknackDelay = duration(0.05);
     StatusMask mask = StatusMask::none();
     if (signal_ != nullptr) mask << StatusMask::data_available();
     reader_ = subscriber_->create_datareader(topic, in, signal_ != nullptr ? this : nullptr, mask);

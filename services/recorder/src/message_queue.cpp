@@ -11,24 +11,21 @@ constexpr std::size_t overhead = sizeof(Message) + 32;
 }  // namespace
 
 bool MessageQueue::push(Message& message) {
-  {
-    const std::lock_guard lock(mutex_);
-    const std::size_t size = message.cdr.size() + overhead;
-    if (closed_ || bytes_ + taken_ + size > most_bytes_) {
-      ++dropped_;
-      return false;
-    }
-    bytes_ += size;
-    most_used_ = std::max(most_used_, bytes_ + taken_);
-    std::vector<std::uint8_t> buffer;
-    if (!buffers_.empty()) {
-      buffer = std::move(buffers_.back());
-      buffers_.pop_back();
-    }
-    messages_.push_back({message.topic, message.sequence, message.source_time,
-                         std::exchange(message.cdr, std::move(buffer))});
+  const std::lock_guard lock(mutex_);
+  const std::size_t size = message.cdr.size() + overhead;
+  if (closed_ || bytes_ + taken_ + size > most_bytes_) {
+    ++dropped_;
+    return false;
   }
-  arrived_.notify_one();
+  bytes_ += size;
+  most_used_ = std::max(most_used_, bytes_ + taken_);
+  std::vector<std::uint8_t> buffer;
+  if (!buffers_.empty()) {
+    buffer = std::move(buffers_.back());
+    buffers_.pop_back();
+  }
+  messages_.push_back(
+      {message.topic, message.sequence, message.source_time, std::exchange(message.cdr, std::move(buffer))});
   return true;
 }
 

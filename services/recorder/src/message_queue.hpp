@@ -24,6 +24,9 @@ class MessageQueue {
   /// Takes the message's bytes and leaves a used buffer in their place. False, and nothing taken, when the
   /// queue is full: the message is counted as dropped.
   bool push(Message& message);
+  /// Lets pop_all() return. Once for all that was pushed: to wake the other thread for each would cost more
+  /// than the messages.
+  void wake() { arrived_.notify_one(); }
   /// Everything queued, waiting up to `seconds` for something to come; `messages` are given back for their
   /// buffers. False when the queue was closed and is empty.
   bool pop_all(std::vector<Message>& messages, double seconds);
