@@ -208,7 +208,7 @@ class Verification {
                       : "status " + std::to_string(answer.status);
             return off.empty();
           }))
-        return "GET " + target + ": " + off;
+        return std::string("GET ").append(target).append(": ").append(off);
     }
     return "";
   }

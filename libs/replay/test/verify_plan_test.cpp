@@ -273,7 +273,8 @@ TEST(TickPlan, FeedbackThatBringsNoNewTickIsFedToThePlcWhereItWasWritten) {
   idl::stream::InputLog log;
   log.tick = 8;
   log.applied = {{Input::AUXILIARY_REQUEST, 8, 20}};
-  recording.messages = {parameters(1, 1), stored(topics::feedback_frame, feedback_frame(0, 8), 10),
+  recording.messages = {parameters(1, 1),
+                        stored(topics::feedback_frame, feedback_frame(0, 8), 10),
                         stored(topics::auxiliary_request, idl::channel::AuxiliaryRequest{}, 20),
                         stored(topics::plc_input_log, log, 21),
                         stored(topics::auxiliary_done, idl::plc::AuxiliaryDone{}, 22),
