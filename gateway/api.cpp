@@ -24,6 +24,25 @@ Answer refused(std::uint32_t alarm, const std::string& reason) {
   return json_answer(409, {{"accepted", false}, {"alarm", alarm}, {"reason", reason}});
 }
 
+template <class Reply>
+std::uint32_t alarm_of(const Reply& reply) {
+  if constexpr (requires { reply.alarm; })
+    return reply.alarm;
+  else
+    return 0;
+}
+
+/// What `who` made of one request; `accepted` gives the body when it was that.
+template <class Request, class Reply, class Accepted>
+Answer answer_to(const Request& asked, const std::optional<Reply>& reply, const char* who,
+                 Accepted accepted) {
+  auto answer = !reply             ? silent(who)
+                : !reply->accepted ? refused(alarm_of(*reply), reply->reason)
+                                   : json_answer(200, accepted());
+  answer.asked = {asked.client, asked.number, 1};
+  return answer;
+}
+
 Answer published(const Json& answer, const char* who) {
   return answer.is_null() ? error_answer(504, std::string("the ") + who + " service has not published yet")
                           : json_answer(200, answer);
@@ -32,6 +51,13 @@ Answer published(const Json& answer, const char* who) {
 template <class T>
 Answer published(const std::shared_ptr<const T>& value, const char* who) {
   return published(value ? bus::to_json(*value) : Json(nullptr), who);
+}
+
+void submit(Mailbox& mailbox, idl::program::ProgramRequest request, ProgramDone done) {
+  mailbox.post([request = std::move(request), done = std::move(done)](Links& links, double now) {
+    links.program.submit(
+        request, [done](const auto&, const ProgramReply& reply) { done(reply); }, now);
+  });
 }
 
 std::size_t count_in_query(const std::string& query, const char* name, std::uint32_t fallback) {
@@ -77,8 +103,9 @@ void Api::handle(const Match& match, const std::string& query, const std::string
       case Operation::alarms_reset: {
         const auto reset = alarm_reset_order(parse_body(body));
         mailbox_.post([reset, respond](Links& links, double) {
-          links.alarm_reset.write(reset);
-          respond(json_answer(200, {{"accepted", true}}));
+          auto answer = json_answer(200, {{"accepted", true}});
+          answer.asked = links.alarm_resets.write(reset);
+          respond(std::move(answer));
         });
         return;
       }
@@ -176,11 +203,11 @@ void Api::order_channel(const Match& match, const Json& body, const Respond& res
     if (request.command == CommandKind::JOG_STOP) links.jog.forget(request.channel, request.axis);
     links.channel.submit(
         request,
-        [&links, request, continuous, respond](const std::optional<idl::channel::ChannelReply>& reply) {
-          if (continuous && reply && !reply->accepted) links.jog.forget(request.channel, request.axis);
-          if (!reply) return respond(silent("channel"));
-          if (!reply->accepted) return respond(refused(reply->alarm, reply->reason));
-          respond(json_answer(200, {{"accepted", true}, {"cycle", reply->cycle}}));
+        [&links, continuous, respond](const auto& asked, const auto& reply) {
+          if (continuous && reply && !reply->accepted) links.jog.forget(asked.channel, asked.axis);
+          respond(answer_to(asked, reply, "channel", [&] {
+            return Json{{"accepted", true}, {"cycle", reply->cycle}};
+          }));
         },
         now);
   });
@@ -190,10 +217,8 @@ void Api::order_panel(Operation operation, const Json& body, const Respond& resp
   mailbox_.post([request = panel_order(operation, body), respond](Links& links, double now) {
     links.panel.submit(
         request,
-        [respond](const std::optional<idl::plc::PanelReply>& reply) {
-          if (!reply) return respond(silent("plc"));
-          if (!reply->accepted) return respond(refused(0, reply->reason));
-          respond(json_answer(200, {{"accepted", true}}));
+        [respond](const auto& asked, const auto& reply) {
+          respond(answer_to(asked, reply, "plc", [] { return Json{{"accepted", true}}; }));
         },
         now);
   });
@@ -212,11 +237,10 @@ void Api::order_parameters(const Match& match, const Json& body, const Respond& 
   mailbox_.post([request, respond](Links& links, double now) {
     links.parameters.submit(
         request,
-        [respond](const std::optional<idl::parameters::ParameterReply>& reply) {
-          if (!reply) return respond(silent("parameters"));
-          if (!reply->accepted) return respond(refused(reply->alarm, reply->reason));
-          respond(json_answer(
-              200, {{"accepted", true}, {"revision", reply->revision}, {"pending", reply->pending}}));
+        [respond](const auto& asked, const auto& reply) {
+          respond(answer_to(asked, reply, "parameters", [&] {
+            return Json{{"accepted", true}, {"revision", reply->revision}, {"pending", reply->pending}};
+          }));
         },
         now);
   });
@@ -230,8 +254,8 @@ void Api::remove_program(const std::string& name, const Respond& respond) {
   mailbox_.post([request, respond](Links& links, double now) {
     links.program.submit(
         request,
-        [respond](const ProgramReply& reply) {
-          respond(reply && reply->accepted ? json_answer(200, {{"accepted", true}}) : program_refusal(reply));
+        [respond](const auto& asked, const auto& reply) {
+          respond(answer_to(asked, reply, "program", [] { return Json{{"accepted", true}}; }));
         },
         now);
   });
@@ -261,9 +285,7 @@ idl::program::ProgramRequest ProgramUpload::request(idl::program::Operation oper
 }
 
 void ProgramUpload::send(idl::program::ProgramRequest sent, ProgramDone done) {
-  mailbox_.post([sent = std::move(sent), done = std::move(done)](Links& links, double now) {
-    links.program.submit(sent, done, now);
-  });
+  submit(mailbox_, std::move(sent), std::move(done));
 }
 
 void ProgramUpload::begin(ProgramDone done) {
@@ -290,17 +312,16 @@ void ProgramUpload::abort() {
   send(request(idl::program::Operation::ABORT_UPLOAD), [](const ProgramReply&) {});
 }
 
-void read_program(Mailbox& mailbox, const std::string& name, std::uint64_t revision, std::uint64_t offset,
-                  ProgramDone done) {
+void ProgramDownload::read(std::uint64_t revision, std::uint64_t offset, ProgramDone done) {
   idl::program::ProgramRequest request{};
+  request.client = client_;
+  request.number = ++number_;
   request.operation = idl::program::Operation::READ;
-  request.name = name;
+  request.name = name_;
   request.revision = revision;
   request.offset = offset;
   request.length = chunk_bytes;
-  mailbox.post([request, done = std::move(done)](Links& links, double now) {
-    links.program.submit(request, done, now);
-  });
+  submit(mailbox_, std::move(request), std::move(done));
 }
 
 }  // namespace trunnion::gateway

@@ -20,6 +20,7 @@ struct Answer {
   std::string body;
   std::string type = "application/json";
   std::string cache = "no-store";
+  Asked asked = {};  ///< for the journal
 };
 
 /// Called once, on either thread.
@@ -73,6 +74,8 @@ class ProgramUpload {
   void write(std::vector<std::uint8_t> data, ProgramDone done);
   void commit(ProgramDone done);
   void abort();
+  /// So far.
+  Asked asked() const { return {client_, 1, static_cast<std::uint32_t>(number_)}; }
 
  private:
   idl::program::ProgramRequest request(idl::program::Operation operation);
@@ -83,8 +86,20 @@ class ProgramUpload {
   std::uint32_t crc_ = 0;
 };
 
-/// Reads chunk_bytes of a program at `offset`; `revision` 0 is the newest.
-void read_program(Mailbox& mailbox, const std::string& name, std::uint64_t revision, std::uint64_t offset,
-                  ProgramDone done);
+/// One download, part by part. One call at a time.
+class ProgramDownload {
+ public:
+  ProgramDownload(Mailbox& mailbox, std::string name) : mailbox_(mailbox), name_(std::move(name)) {}
+  /// Reads chunk_bytes at `offset`; `revision` 0 is the newest.
+  void read(std::uint64_t revision, std::uint64_t offset, ProgramDone done);
+  const std::string& name() const { return name_; }
+  /// So far.
+  Asked asked() const { return {client_, 1, static_cast<std::uint32_t>(number_)}; }
+
+ private:
+  Mailbox& mailbox_;
+  std::string name_;
+  std::uint64_t client_ = node::make_client_id(), number_ = 0;
+};
 
 }  // namespace trunnion::gateway

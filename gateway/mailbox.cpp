@@ -7,7 +7,8 @@ Links::Links(bus::Bus& bus)
       panel(bus, topics::panel_request, topics::panel_reply),
       parameters(bus, topics::parameter_request, topics::parameter_reply),
       program(bus, topics::program_request, topics::program_reply),
-      alarm_reset(bus.writer(topics::alarm_reset)) {}
+      alarm_resets(bus),
+      journal(bus) {}
 
 void Links::pump(double now) {
   for (const auto& [number, axis] : jog.expired(now)) {
@@ -16,7 +17,11 @@ void Links::pump(double now) {
     stop.axis = axis;
     stop.command = idl::channel::CommandKind::JOG_STOP;
     channel.submit(
-        stop, [](const auto&) {}, now);
+        stop,
+        [this](const auto& asked, const auto&) {
+          journal.write(jog_stop_line(asked.channel, asked.axis, {asked.client, asked.number, 1}));
+        },
+        now);
   }
   channel.pump(now);
   panel.pump(now);

@@ -10,9 +10,41 @@
 #include "contracts/topics.hpp"
 #include "request_lanes.hpp"
 #include "src/jog_guard.hpp"
+#include "src/journal.hpp"
 #include "src/snapshot.hpp"
 
 namespace trunnion::gateway {
+
+/// Numbers the lines and writes them.
+class Journal {
+ public:
+  explicit Journal(bus::Bus& bus) : writer_(bus.writer(topics::operator_request)) {}
+  void write(JournalLine line) {
+    line.line = ++lines_;
+    writer_.write(line);
+  }
+
+ private:
+  bus::Writer<JournalLine> writer_;
+  std::uint64_t lines_ = 0;
+};
+
+/// Nobody answers them.
+class AlarmResets {
+ public:
+  explicit AlarmResets(bus::Bus& bus)
+      : writer_(bus.writer(topics::alarm_reset)), client_(node::make_client_id()) {}
+  Asked write(idl::service::AlarmReset reset) {
+    reset.client = client_;
+    reset.number = ++number_;
+    writer_.write(reset);
+    return {client_, number_, 1};
+  }
+
+ private:
+  bus::Writer<idl::service::AlarmReset> writer_;
+  std::uint64_t client_, number_ = 0;
+};
 
 /// The writing side of the bus. Only the bus thread touches it.
 struct Links {
@@ -25,7 +57,8 @@ struct Links {
   RequestLanes<idl::plc::PanelRequest, idl::plc::PanelReply> panel;
   RequestLanes<idl::parameters::ParameterRequest, idl::parameters::ParameterReply> parameters;
   RequestLanes<idl::program::ProgramRequest, idl::program::ProgramReply> program;
-  bus::Writer<idl::service::AlarmReset> alarm_reset;
+  AlarmResets alarm_resets;
+  Journal journal;
   JogGuard jog;
 };
 

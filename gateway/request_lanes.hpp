@@ -18,7 +18,8 @@ inline constexpr double resend_after = 0.2, give_up_after = 2.0;
 template <class Request, class Reply>
 class RequestLanes {
  public:
-  using Done = std::function<void(const std::optional<Reply>&)>;
+  /// What was asked, with its client and number, and the reply when there was one.
+  using Done = std::function<void(const Request&, const std::optional<Reply>&)>;
 
   RequestLanes(bus::Bus& bus, const bus::Topic<Request>& request, const bus::Topic<Reply>& reply)
       : writer_(bus.writer(request)), reader_(bus.reader(reply)) {}
@@ -72,9 +73,9 @@ class RequestLanes {
   };
   void finish(typename std::list<UnderWay>::iterator one, const std::optional<Reply>& reply) {
     if (one->lane) idle_.push_back(*one->lane);
-    const auto done = std::move(one->done);
+    const auto over = std::move(*one);
     under_way_.erase(one);
-    done(reply);
+    over.done(over.request, reply);
   }
 
   bus::Writer<Request> writer_;

@@ -14,7 +14,7 @@ start() {  # SERVICE CHANNEL
 }
 names=()
 pids=()
-for service in parameters program plc kinematics compensation gantry drive; do start $service 0; done
+for service in gateway parameters program plc kinematics compensation gantry drive; do start $service 0; done
 for ((channel = 0; channel < channels; ++channel)); do start channel "$channel"; done
 failed=0
 for i in "${!pids[@]}"; do

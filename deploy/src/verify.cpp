@@ -1,52 +1,26 @@
 #include "verify.hpp"
 
-#include <unistd.h>
-
 #include <algorithm>
-#include <filesystem>
 #include <map>
 #include <stdexcept>
 #include <thread>
 
 #include "bus/bus.hpp"
 #include "child_process.hpp"
-#include "cluster_files.hpp"
 #include "contracts/topics.hpp"
 #include "node/node.hpp"
 #include "replay/answers.hpp"
 #include "replay/verify_plan.hpp"
+#include "verify_gateway.hpp"
+#include "verify_place.hpp"
 
 namespace trunnion::deploy {
-namespace fs = std::filesystem;
 namespace {
 
 constexpr int stream_frames = 4096;       // that a writer of the stream keeps
 constexpr double match_patience = 5;      // s for a reader that must not miss the first message
 constexpr double answer_patience = 0.01;  // s that a service is given to take what it may not answer
 constexpr double last_words = 0.05;       // s for what a service writes beyond what is recorded
-
-// A domain and a directory that nobody else has while this lives.
-class Place {
- public:
-  explicit Place(std::optional<std::uint32_t> domain) : run_{domain ? *domain : free_domain()} {
-    directory_ = run_.path() + "/verify-" + std::to_string(getpid());
-    fs::create_directories(directory_ + "/state");
-  }
-  ~Place() {
-    std::error_code ignored;
-    fs::remove_all(directory_, ignored);
-    if (fs::is_empty(run_.path(), ignored)) run_.remove();
-  }
-  Place(const Place&) = delete;
-  Place& operator=(const Place&) = delete;
-  std::uint32_t domain() const { return run_.domain; }
-  std::string state() const { return directory_ + "/state"; }
-  std::string log() const { return directory_ + "/service.log"; }
-
- private:
-  RunDirectory run_;
-  std::string directory_;
-};
 
 class Feeding {
  public:
@@ -203,49 +177,19 @@ class Feeding {
   double began_ = 0, ended_ = 0;
 };
 
-std::string unexpected_alarm(const std::vector<replay::StoredMessage>& recorded,
-                             const std::vector<replay::StoredMessage>& produced, const std::string& service) {
-  const auto known = replay::raised_alarms(recorded, service);
-  for (const auto& [key, text] : replay::raised_alarms(produced, service))
-    if (!known.contains(key))
-      return "alarm " + std::to_string(key.first) + ", which the recording does not have: " + text;
-  return "";
-}
-
 }  // namespace
 
 VerifyResult verify(const VerifyOptions& options) {
   const auto recording = replay::load_recording(options.recording);
+  if (options.service == "gateway") return verify_gateway(options, recording);
   const auto plan = replay::plan_verification(recording, options.service, options.channel);
-  std::string machine = options.machine;
-  if (const auto name = recording.metadata.find("machine");
-      machine.empty() && name != recording.metadata.end())
-    machine = name->second;
-  if (machine.empty())
-    throw std::runtime_error(options.recording + ": it names no machine: say which with --machine");
 
   VerifyResult result;
   std::vector<replay::StoredMessage> produced;
   {
-    const Place place(options.domain);
-    std::vector<std::string> arguments{
-        options.executable.empty() ? binary_directory() + "/trunnion-" + options.service : options.executable,
-        "--machine",
-        find_machine(machine),
-        "--state",
-        place.state(),
-        "--instance",
-        std::to_string(plan.instance),
-        "--channel",
-        std::to_string(options.channel),
-        "--domain",
-        std::to_string(place.domain()),
-        "--vendor",
-        options.vendor.empty() ? "cyclonedds" : options.vendor,
-        "--parent-bound"};
-    if (plan.virtual_time) arguments.emplace_back("--virtual-time");
+    const VerifyPlace place(options.domain);
     bus::Bus bus(bus::Vendor::cyclonedds, {place.domain()}, {stream_frames});
-    ChildProcess process(std::move(arguments), place.log());
+    ChildProcess process(command_line(options, recording, plan, place), place.log());
     Feeding feeding(options, recording, plan, bus, process);
     result.problem = feeding.run();
     result.seconds = feeding.seconds();
@@ -257,7 +201,7 @@ VerifyResult verify(const VerifyOptions& options) {
   if (result.seconds > 0)
     result.times_real_time = static_cast<double>(plan.cycles) * plan.cycle_seconds / result.seconds;
   if (result.problem.empty())
-    result.problem = unexpected_alarm(recording.messages, produced, options.service);
+    result.problem = replay::unexpected_alarm(recording.messages, produced, options.service);
   result.unrecorded = plan.drop_unrecorded(produced);
   auto comparison = options.comparison;
   comparison.topics = plan.topics;

@@ -25,6 +25,9 @@ struct VerifyResult {
   replay::Difference difference;
   std::string problem;  ///< that kept the service from answering everything, or an alarm; one line
   std::size_t inputs = 0, outputs = 0, unrecorded = 0;
+  /// Of the gateway: requests over HTTP, lines of its journal that could not be sent again, and how often
+  /// what it shows was compared.
+  std::size_t requests = 0, left_out = 0, looks = 0;
   std::uint64_t cycles = 0;
   double seconds = 0;          ///< from the first input to the last output
   double times_real_time = 0;  ///< cycles of the stream against the cycle time

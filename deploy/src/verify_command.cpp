@@ -22,6 +22,9 @@ int run(const Common& common, VerifyOptions options, const std::vector<std::stri
     json["inputs"] = result.inputs;
     json["outputs"] = result.outputs;
     json["unrecorded"] = result.unrecorded;
+    json["requests"] = result.requests;
+    json["left_out"] = result.left_out;
+    json["looks"] = result.looks;
     json["cycles"] = result.cycles;
     json["seconds"] = result.seconds;
     json["times_real_time"] = result.times_real_time;
@@ -32,6 +35,9 @@ int run(const Common& common, VerifyOptions options, const std::vector<std::stri
   if (!result.problem.empty()) std::cout << "problem: " << result.problem << "\n";
   std::printf("%s: %s; %zu messages in, %zu out", options.service.c_str(),
               result.equal() ? "as recorded" : "NOT as recorded", result.inputs, result.outputs);
+  if (result.looks > 0)
+    std::printf(", %zu requests over HTTP, %zu looks at the state", result.requests, result.looks);
+  if (result.left_out > 0) std::printf(", %zu requests left out", result.left_out);
   if (result.cycles > 0 && result.seconds > 0)
     std::printf(", %llu cycles in %.3f s, %.0f times real time",
                 static_cast<unsigned long long>(result.cycles), result.seconds, result.times_real_time);

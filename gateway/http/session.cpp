@@ -53,18 +53,25 @@ void HttpSession::on_header() {
   const auto mark = target.find('?');
   const auto path = target.substr(0, mark);
   query_ = mark == std::string::npos ? "" : target.substr(mark + 1);
-  if (foreign_origin(view(request[http::field::origin]), view(request[http::field::host])))
+  line_.reset();
+  const bool is_api = path.starts_with("/api/");
+  match_ = is_api ? match(view(request.method_string()), path) : Match{};
+  if (match_.result == RouteResult::found && is_journaled(match_.operation)) {
+    beast::error_code error;
+    const auto peer = stream_.socket().remote_endpoint(error);
+    line_ = std::make_unique<JournalLine>(
+        begin_line(sender(), error ? "" : peer.address().to_string(), view(request.method_string()), target));
+  }
+  if (sender() == idl::gateway::Sender::FOREIGN_PAGE)
     return answer_and_close(error_answer(403, "a page of another site must not operate this machine"));
-  if (!path.starts_with("/api/")) {
+  if (!is_api) {
     if (request.method() != http::verb::get) return answer_and_close(unrouted(RouteResult::no_method));
     return answer(api_.page(path));
   }
-  match_ = match(view(request.method_string()), path);
   if (match_.result != RouteResult::found) return answer_and_close(unrouted(match_.result));
   if (match_.operation == Operation::write_program) return continue_then(&HttpSession::begin_upload);
   const auto length = header_->content_length();
-  if (length && *length > largest_body)
-    return answer_and_close(error_answer(413, "the body is larger than 1 MiB"));
+  if (length && *length > largest_body) return too_large("the body is larger than 1 MiB");
   continue_then(&HttpSession::read_body);
 }
 
@@ -83,7 +90,7 @@ void HttpSession::read_body() {
   http::async_read(stream_, buffer_, *body_,
                    [self = shared_from_this()](beast::error_code error, std::size_t) {
                      if (error == http::error::body_limit)
-                       return self->answer_and_close(error_answer(413, "the body is larger than 1 MiB"));
+                       return self->too_large("the body is larger than 1 MiB");
                      if (!error) self->dispatch();
                    });
 }
@@ -96,6 +103,7 @@ void HttpSession::dispatch() {
     std::make_shared<StreamSession>(std::move(stream_), hub_)->accept(body_->get());
     return;
   }
+  if (line_) add_body(*line_, body_->get().body());
   if (match_.operation == Operation::read_program) return begin_download();
   api_.handle(match_, query_, body_->get().body(), [self = shared_from_this()](Answer made) {
     net::post(self->stream_.get_executor(),
@@ -103,7 +111,35 @@ void HttpSession::dispatch() {
   });
 }
 
+idl::gateway::Sender HttpSession::sender() const {
+  const auto& request = header_->get();
+  const auto origin = view(request[http::field::origin]);
+  using idl::gateway::Sender;
+  if (origin.empty()) return Sender::TOOL;
+  return foreign_origin(origin, view(request[http::field::host])) ? Sender::FOREIGN_PAGE : Sender::PAGE;
+}
+
+void HttpSession::journal(unsigned status, const Asked& asked, std::function<void()> then) {
+  line_->status = static_cast<std::uint16_t>(status);
+  set_asked(*line_, asked);
+  // The callback of a request must be copyable, a line is not shared.
+  const std::shared_ptr<JournalLine> line = std::move(line_);
+  api_.mailbox().post([self = shared_from_this(), line, then = std::move(then)](Links& links, double) {
+    links.journal.write(*line);
+    net::post(self->stream_.get_executor(), then);
+  });
+}
+
 void HttpSession::answer(Answer made) {
+  if (!line_) return send(std::move(made));
+  add_answer(*line_, made.body);
+  const auto status = made.status;
+  const auto asked = made.asked;
+  journal(status, asked,
+          [self = shared_from_this(), made = std::move(made)]() mutable { self->send(std::move(made)); });
+}
+
+void HttpSession::send(Answer made) {
   response_ = {static_cast<http::status>(made.status), http_version};
   response_.set(http::field::content_type, made.type);
   response_.set(http::field::cache_control, made.cache);
@@ -124,6 +160,12 @@ void HttpSession::answer(Answer made) {
 void HttpSession::answer_and_close(Answer made) {
   keep_alive_ = false;
   answer(std::move(made));
+}
+
+void HttpSession::too_large(const char* why) {
+  // Not read, so nothing can come of it.
+  line_.reset();
+  answer_and_close(error_answer(413, why));
 }
 
 ProgramDone HttpSession::here(Completion next) {
@@ -147,8 +189,10 @@ void HttpSession::begin_upload() {
 }
 
 void HttpSession::upload_begun(const ProgramReply& reply) {
-  if (!reply || !reply->accepted) return answer_and_close(program_refusal(reply));
-  read_part();
+  if (reply && reply->accepted) return read_part();
+  auto made = program_refusal(reply);
+  made.asked = upload_->asked();
+  answer_and_close(std::move(made));
 }
 
 void HttpSession::read_part() {
@@ -162,33 +206,42 @@ void HttpSession::read_part() {
       stream_, buffer_, *parts_, [self = shared_from_this()](beast::error_code error, std::size_t) {
         if (error == http::error::need_buffer) error = {};
         if (error) {
-          self->abort_upload();
-          if (error == http::error::body_limit)
-            self->answer_and_close(error_answer(413, "a program must not be larger than 128 MiB"));
-          return;
+          const auto asked = self->abort_upload();
+          if (error != http::error::body_limit) return self->journal_unanswered(asked);
+          auto made = error_answer(413, "a program must not be larger than 128 MiB");
+          made.asked = asked;
+          return self->answer_and_close(std::move(made));
         }
         self->part_.resize(chunk_bytes - self->parts_->get().body().size);
         if (self->part_.empty()) return self->read_part();
+        add_body(*self->line_, {reinterpret_cast<const char*>(self->part_.data()), self->part_.size()});
         self->upload_->write(std::move(self->part_), self->here(&HttpSession::part_stored));
       });
 }
 
 void HttpSession::part_stored(const ProgramReply& reply) {
   if (reply && reply->accepted) return read_part();
-  abort_upload();
-  answer_and_close(program_refusal(reply));
+  upload_refused(reply);
 }
 
 void HttpSession::upload_stored(const ProgramReply& reply) {
-  if (reply && reply->accepted)
-    return answer(json_answer(200, {{"accepted", true}, {"program", bus::to_json(reply->entry)}}));
-  abort_upload();
-  answer_and_close(program_refusal(reply));
+  if (!reply || !reply->accepted) return upload_refused(reply);
+  auto made = json_answer(200, {{"accepted", true}, {"program", bus::to_json(reply->entry)}});
+  made.asked = upload_->asked();
+  answer(std::move(made));
 }
 
-void HttpSession::abort_upload() {
+void HttpSession::upload_refused(const ProgramReply& reply) {
+  auto made = program_refusal(reply);
+  made.asked = abort_upload();
+  answer_and_close(std::move(made));
+}
+
+Asked HttpSession::abort_upload() {
   upload_->abort();
+  const auto asked = upload_->asked();
   upload_.reset();
+  return asked;
 }
 
 // --- Download: each part is asked for when the one before has left.
@@ -201,23 +254,27 @@ bool HttpSession::listed(const std::string& name) const {
 }
 
 void HttpSession::begin_download() {
-  download_ = std::make_unique<Download>();
-  download_->name = match_.parts.at(0);
+  const auto& name = match_.parts.at(0);
   try {
-    check_program_name(download_->name);
+    check_program_name(name);
   } catch (const BadRequest&) {
-    return answer(error_answer(404, "no program " + download_->name));
+    return answer(error_answer(404, "no program " + name));
   }
-  read_program(api_.mailbox(), download_->name, 0, 0, here(&HttpSession::download_part));
+  download_ = std::make_unique<Download>(ProgramDownload(api_.mailbox(), name));
+  download_->source.read(0, 0, here(&HttpSession::download_part));
 }
 
 void HttpSession::download_part(const ProgramReply& reply) {
   auto& download = *download_;
   const bool good = reply && reply->accepted && reply->offset == download.offset;
   if (!download.serializer) {
-    if (reply && !reply->accepted && !listed(download.name))
-      return answer(error_answer(404, "no program " + download.name));
-    if (!good) return answer(program_refusal(reply));
+    if (!good) {
+      const auto& name = download.source.name();
+      auto made = reply && !reply->accepted && !listed(name) ? error_answer(404, "no program " + name)
+                                                             : program_refusal(reply);
+      made.asked = download.source.asked();
+      return answer(std::move(made));
+    }
     download.revision = reply->entry.revision;
     download.size = reply->entry.size;
     download.response.version(http_version);
@@ -231,13 +288,19 @@ void HttpSession::download_part(const ProgramReply& reply) {
   } else if (!good) {
     // The status has gone out already: only a short body can tell that the program changed or its keeper is
     // gone.
-    return stream_.close();
+    return download_broken();
   }
   download.part = reply->data;
   const auto left = download.size - download.offset;
-  if (download.part.size() > left || (download.part.empty() && left > 0)) return stream_.close();
+  if (download.part.size() > left || (download.part.empty() && left > 0)) return download_broken();
   download.offset += download.part.size();
+  add_answer(*line_, {reinterpret_cast<const char*>(download.part.data()), download.part.size()});
   send_part();
+}
+
+void HttpSession::download_broken() {
+  journal_unanswered(download_->source.asked());
+  stream_.close();
 }
 
 void HttpSession::send_part() {
@@ -249,13 +312,16 @@ void HttpSession::send_part() {
   http::async_write(stream_, *download_->serializer,
                     [self = shared_from_this()](beast::error_code error, std::size_t) {
                       if (error == http::error::need_buffer) error = {};
-                      if (error) return;
                       auto& download = *self->download_;
+                      const auto asked = download.source.asked();
+                      if (error) return self->journal_unanswered(asked);
                       if (download.offset < download.size)
-                        return read_program(self->api_.mailbox(), download.name, download.revision,
-                                            download.offset, self->here(&HttpSession::download_part));
+                        return download.source.read(download.revision, download.offset,
+                                                    self->here(&HttpSession::download_part));
                       self->download_.reset();
-                      if (self->keep_alive_) self->read_header();
+                      self->journal(200, asked, [self] {
+                        if (self->keep_alive_) self->read_header();
+                      });
                     });
 }
 

@@ -26,14 +26,24 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
   using Parser = boost::beast::http::request_parser<Body>;
   using Completion = void (HttpSession::*)(const ProgramReply&);
 
+  idl::gateway::Sender sender() const;
+  /// Completes the line and hands it to the bus; `then` is called here afterwards.
+  void journal(unsigned status, const Asked& asked, std::function<void()> then);
+  /// The other side is gone, or what was sent to it is not whole.
+  void journal_unanswered(const Asked& asked) {
+    journal(0, asked, [] {});
+  }
   void read_header();
   void on_header();
   void continue_then(void (HttpSession::*next)());
   void read_body();
   void dispatch();
+  /// Writes the line of the journal first when the request has one.
   void answer(Answer answer);
+  void send(Answer answer);
   /// Answers a request whose body has not been read; the connection ends with it.
   void answer_and_close(Answer answer);
+  void too_large(const char* why);
   /// A callback for the bus thread that goes on here, on the thread of the connection.
   ProgramDone here(Completion next);
 
@@ -42,13 +52,16 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
   void read_part();
   void part_stored(const ProgramReply& reply);
   void upload_stored(const ProgramReply& reply);
-  void abort_upload();
+  void upload_refused(const ProgramReply& reply);
+  /// Returns what was asked of the store until then.
+  Asked abort_upload();
 
   /// Whether the store's list, which is a moment behind the store, has the program.
   bool listed(const std::string& name) const;
   void begin_download();
   void download_part(const ProgramReply& reply);
   void send_part();
+  void download_broken();
 
   boost::beast::tcp_stream stream_;
   boost::beast::flat_buffer buffer_;
@@ -63,12 +76,14 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
   Match match_;
   std::string query_;
   bool keep_alive_ = false;
+  std::unique_ptr<JournalLine> line_;  ///< of the request under way, when it is one for the journal
 
   std::unique_ptr<ProgramUpload> upload_;
   std::vector<std::uint8_t> part_;
 
   struct Download {
-    std::string name;
+    explicit Download(ProgramDownload from) : source(std::move(from)) {}
+    ProgramDownload source;
     std::uint64_t revision = 0, size = 0, offset = 0;
     boost::beast::http::response<boost::beast::http::buffer_body> response;
     boost::optional<boost::beast::http::response_serializer<boost::beast::http::buffer_body>> serializer;

@@ -10,7 +10,7 @@ namespace {
 constexpr double range_share = 0.999;
 constexpr double judged_share = 1.0003;
 // Jerk that stays free when an acceleration is chosen.
-constexpr double kept_jerk = 0.1;
+constexpr double kept_jerk = 0.05;
 constexpr double rounding = 1e-7;
 constexpr double rounding_distance = 2e-9;
 
@@ -19,7 +19,7 @@ struct Rates {
 };
 
 // The first derivative is taken with the third, which is nearly constant on a cell.
-Rates rates_at(const AxisOnCell& axis, double part, double length) {
+inline Rates rates_at(const AxisOnCell& axis, double part, double length) {
   const auto mix = [part, &axis](std::size_t n) {
     return static_cast<double>(axis.begin[n]) +
            part * (static_cast<double>(axis.end[n]) - static_cast<double>(axis.begin[n]));
@@ -28,16 +28,15 @@ Rates rates_at(const AxisOnCell& axis, double part, double length) {
   return {mix(0) - third * length * length * part * (1 - part) / 2, mix(1), third};
 }
 
-// Narrows the range of x so that low <= offset + factor x <= high.
-void narrow(Range& range, double offset, double factor, double limit) {
+// Narrows the range of x so that |offset + factor x| <= limit.
+inline void narrow(Range& range, double offset, double factor, double limit) {
   if (std::abs(factor) < 1e-12) {
     if (std::abs(offset) > limit) range = {1, -1};
     return;
   }
-  double low = (-limit - offset) / factor, high = (limit - offset) / factor;
-  if (low > high) std::swap(low, high);
-  range.low = std::max(range.low, low);
-  range.high = std::min(range.high, high);
+  const double inverse = 1 / factor, middle = -offset * inverse, reach = std::abs(limit * inverse);
+  range.low = std::max(range.low, middle - reach);
+  range.high = std::min(range.high, middle + reach);
 }
 
 bool stands(const LimitCell& cell, double part, const PathState& state, double jerk) {

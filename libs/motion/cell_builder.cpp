@@ -20,6 +20,8 @@ constexpr double top_bend_share = 0.95;
 constexpr double mixed_share = 0.4;
 // Through a chain the derivatives vary between the ends of a cell, which are all that is looked at.
 constexpr double chained_share = 0.995;
+// Arcs, radians: the highest speed of a cell is that of its slowest place.
+constexpr double arc_cell_angle = 0.025;
 constexpr double fastest = 1e5;
 // Cells of one call, so that a long path known at once does not take long in one cycle.
 constexpr std::uint64_t most_at_once = 2048;
@@ -205,11 +207,11 @@ double CellBuilder::overlap_time(const BlendedPath& path, const LimitCell& befor
   return std::min(time, longest);
 }
 
-// Longest cell at s: arcs by 3 degrees, turns of the rotary axes by 2 degrees through a chain.
+// Longest cell at s: arcs by 1.4 degrees, turns of the rotary axes by 2 degrees through a chain.
 double CellBuilder::longest(const BlendedPath& path) const {
   const PathBlock& block = path[block_];
   double most = 1e9;
-  if (block.path.is_arc() && block.path.curvature() > 0) most = 0.05 / block.path.curvature();
+  if (block.path.is_arc() && block.path.curvature() > 0) most = arc_cell_angle / block.path.curvature();
   if (chain_ != nullptr) {
     const auto d = block.path.derivatives(0);
     const double turn = std::hypot(d[0][language::A], d[0][language::B], d[0][language::C]);

@@ -46,10 +46,13 @@ struct LimitCell {
     while (k > 0 && v > shares[k] * speed) --k;
     return ramps[k];
   }
-  /// Speed of the slowest level that reaches v.
+  /// A level counts as reached at this share of its speed: on a curve each cell's level may be a little
+  /// faster than that of the one before, and would never be.
+  static constexpr double reached_share = 0.99;
+  /// Speed of the slowest level above v that v has not reached.
   double level_speed(double v) const {
     std::size_t k = levels - 1;
-    while (k > 0 && v >= shares[k] * speed * (1 - 1e-9)) --k;
+    while (k > 0 && v >= reached_share * shares[k] * speed) --k;
     return shares[k] * speed;
   }
 };

@@ -10,6 +10,11 @@ namespace {
 constexpr double kept_share = 0.5;
 constexpr double near_share = 0.985;
 constexpr double tiny = 1e-9;
+constexpr int take_back_steps = 6;
+// Taking back is not followed to where less than this share of the jerk is left.
+constexpr double least_jerk = 0.1;
+// Where much more jerk than this would be needed, the acceleration has to be taken back at once.
+constexpr double near_take_back = 0.3;
 
 double part_of(const LimitCell& cell, double s) {
   const double length = cell.end - cell.at;
@@ -17,6 +22,26 @@ double part_of(const LimitCell& cell, double s) {
 }
 
 Range capped(Range range, double cap) { return {std::max(range.low, -cap), std::min(range.high, cap)}; }
+
+// The constant jerk that would take the acceleration back with the same change of speed as the jerk the axes
+// allow from place to place. `sign` is that of the acceleration, `down` the jerk here.
+double mean_take_back(const PathState& state, const CellRing& cells, std::uint64_t cell, double sign,
+                      double down, const Pacing& pacing) {
+  PathState at = state;
+  double jerk = down;
+  for (int n = take_back_steps; n > 0; --n) {
+    const double left = at.a * sign;
+    at = integrate(at, -sign * jerk, left / (jerk * n));
+    if (at.v <= 0 || n == 1) break;
+    while (cell + 1 < cells.size() && !cells[cell + 1].stop && at.s > cells[cell].end) ++cell;
+    const Range range =
+        capped(jerk_range(cells[cell], part_of(cells[cell], at.s), at.v, at.a), pacing.jerk);
+    jerk = sign > 0 ? -range.low : range.high;
+    if (!(jerk > least_jerk * down)) return down;
+  }
+  const double change = std::abs(at.v - state.v), gone = state.a * state.a - at.a * at.a;
+  return change > 0 ? gone / (2 * change) : down;
+}
 
 }  // namespace
 
@@ -34,10 +59,13 @@ PacePhase next_phase(const PathState& state, const CellRing& cells, std::uint64_
   const auto turned = [sign](Range r) { return sign > 0 ? r : Range{-r.high, -r.low}; };
   Range j = turned(jerk);
   const double down = -j.low;
+  double mean = down;
   const double share = here.uniform ? std::min(pacing.take_back, 0.99) : pacing.take_back;
   if (a > 0) {
     const double needed = change_left > 0 ? a * a / (2 * change_left) : 1e300;
-    if (needed >= (taking_back ? kept_share : near_share * share) * down) {
+    if (down > 0 && !here.uniform && needed > near_take_back * down)
+      mean = std::max(down, mean_take_back(state, cells, cell, sign, down, pacing));
+    if (needed >= (taking_back ? kept_share * down : near_share * share * mean)) {
       if (!(down > 0)) return {};
       const double used = std::min(needed, down);
       return {std::min(time, a / used), -sign * used, true};
@@ -47,8 +75,10 @@ PacePhase next_phase(const PathState& state, const CellRing& cells, std::uint64_
   std::uint64_t next = cell;
   while (next + 1 < cells.size() && !cells[next + 1].stop && ahead.s > cells[next].end) ++next;
   const Range now = turned(capped(acceleration_range(here, part, state.v), pacing.acceleration));
+  // Where the curve takes some of an axis' load off, less of it is left at the lower speed of the end.
+  const double v_then = std::max(0.0, state.v + state.a * time);
   const Range then = turned(
-      capped(acceleration_range(cells[next], part_of(cells[next], ahead.s), state.v), pacing.acceleration));
+      capped(acceleration_range(cells[next], part_of(cells[next], ahead.s), v_then), pacing.acceleration));
   const double most = std::max(0.0, std::min(now.high, then.high));
   double used = std::clamp((most - a) / time, j.low, j.high);
   // What is allowed at the end of the step.
@@ -60,7 +90,7 @@ PacePhase next_phase(const PathState& state, const CellRing& cells, std::uint64_
   // Not beyond the moment at which the acceleration has to be taken back.
   const auto late = [&](double t) {
     const double a_then = a + used * t, left = change_left - t * (a + used * t / 2);
-    return a_then > 0 && a_then * a_then >= 2 * share * down * left;
+    return a_then > 0 && a_then * a_then >= 2 * share * mean * left;
   };
   if (down > 0 && late(time)) {
     double low = 0, high = time;

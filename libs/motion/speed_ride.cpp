@@ -14,7 +14,7 @@ constexpr double rounding = 1e-7;
 // Below this share of what the ramps of a cell were made for they give next to nothing away.
 constexpr double easy_share = 0.4;
 // A way to a standstill has about this many steps, and none is shorter than a cycle.
-constexpr double stop_steps = 50;
+constexpr double stop_steps = 60;
 // A stop is met when what is left of the path is less, mm or degrees.
 // When braking fails, the acceleration is taken back earlier, down to this share of the jerk.
 constexpr double least_take_back = 0.75;
@@ -182,7 +182,7 @@ bool SpeedStage::ride(const Look& look, bool hold) {
   PathState best;
   std::uint64_t best_cell = 0;
   PhaseList best_stop;
-  int tries = why == Braked::beyond ? 34 : standing() ? 30 : 10;
+  int tries = why == Braked::beyond ? 34 : standing() ? 30 : 6;
   for (int k = 0; k <= tries; ++k) {
     const double time = k == 0 ? 0 : 0.5 * (low + high);
     action.clear();

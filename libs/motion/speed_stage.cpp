@@ -167,69 +167,6 @@ SpeedStage::Outcome SpeedStage::judge(const PathState& state, const Look& look) 
   return outcome;
 }
 
-// A way to a standstill from `state`: braking with what all cells on the way allow; where a slower cell would
-// be entered too fast, down to its speed first and on from there.
-bool SpeedStage::find_stop(const PathState& state, std::uint64_t cell, PhaseList& stop) const {
-  stop.clear();
-  PathState at = state;
-  std::uint64_t here = cell;
-  for (int leg = 0; leg < 8; ++leg) {
-    if (at.v <= 0 && at.a == 0) return true;
-    // The least ramp limits over the distance that braking with them takes.
-    RampLimits ramp = cells_[here].ramp(at.v);
-    Obstacle slower;
-    double distance_needed = braking_distance(at.v, at.a, 0, ramp);
-    for (std::uint64_t k = here + 1; k < cells_.size() && !cells_[k].stop; ++k) {
-      const double distance = cells_[k].at - at.s;
-      if (distance > distance_needed) break;
-      if (!slower.found && at.v > cells_[k].speed * (1 + rounding))
-        slower = {true, cells_[k].speed, ramp, k, false};
-      const RampLimits& own = cells_[k].ramp(at.v);
-      if (own.acceleration < ramp.acceleration || own.jerk < ramp.jerk) {
-        ramp.acceleration = std::min(ramp.acceleration, own.acceleration);
-        ramp.jerk = std::min(ramp.jerk, own.jerk);
-        distance_needed = braking_distance(at.v, at.a, 0, ramp);
-      }
-    }
-    PhaseList whole;
-    whole.add(Transition(at.v, at.a, 0, ramp));
-    std::uint64_t end = here;
-    if (keeps_limits(whole, at, cells_, end)) {
-      for (std::size_t k = 0; k < whole.size(); ++k) {
-        if (!stop.add(whole[k])) return false;
-      }
-      return true;
-    }
-    if (!slower.found) return false;
-    PhaseList part;
-    part.add(Transition(at.v, at.a, slower.speed, slower.ramp));
-    end = here;
-    if (part.size() == 0 || !keeps_limits(part, at, cells_, end)) return false;
-    for (std::size_t k = 0; k < part.size(); ++k) {
-      if (!stop.add(part[k])) return false;
-    }
-    at = part.after(at);
-    at.v = slower.speed;
-    at.a = 0;
-    here = end;
-  }
-  return false;
-}
-
-// Takes a cycle when it keeps the limits and leaves a way to stop.
-bool SpeedStage::accept(const PhaseList& action) {
-  std::uint64_t cell = current_;
-  if (!keeps_limits(action, state_, cells_, cell)) return false;
-  PathState next = action.after(state_);
-  if (std::abs(next.v) < 1e-9 && std::abs(next.a) < 1e-6) next.v = next.a = 0;
-  PhaseList stop;
-  if (!find_stop(next, cell, stop)) return false;
-  state_ = next;
-  current_ = cell;
-  stop_ = stop;
-  return true;
-}
-
 // A cycle at constant speed, when nothing within the distance that is looked at asks for another: what the
 // search would find as well, but cells are looked at once and not in every cycle.
 bool SpeedStage::cruises(const Overrides& now, const Look& look) {
@@ -309,16 +246,30 @@ bool SpeedStage::follow(const Transition& wished, const Look& look, int depth) {
       (part(middle, strict).obstacle.found ? high : low) = middle;
     }
   }
+  if (take_part(wished, obstacle, low, whole.obstacle.found)) return true;
+  // The ramp to an obstacle is that of the way to it, which begins where the cycle ends; the cells before
+  // that may stand less.
+  const RampLimits near = local_ramp(std::max(state_.v, whole.state.v), whole.state.s - state_.s);
+  const RampLimits least{std::min(obstacle.ramp.acceleration, near.acceleration),
+                         std::min(obstacle.ramp.jerk, near.jerk)};
+  if (least.acceleration == obstacle.ramp.acceleration && least.jerk == obstacle.ramp.jerk) return false;
+  obstacle.ramp = least;
+  return take_part(wished, obstacle, low, false);
+}
+
+// The wish for `most` seconds of the cycle, or less when that is not accepted, and braking for the obstacle.
+bool SpeedStage::take_part(const Transition& wished, const Obstacle& obstacle, double most, bool keep) {
+  PhaseList action;
   const int attempts = standing() ? 30 : 5;
   for (int k = 0; k <= attempts; ++k) {
-    const double time = k < attempts ? std::ldexp(low, -k) : 0;
+    const double time = k < attempts ? std::ldexp(most, -k) : 0;
     action.clear();
     action.add(wished, time);
     const PathState at = wished.after(state_, time);
     action.add(Transition(at.v, at.a, obstacle.speed, obstacle.ramp), cycle_ - time);
     if (!accept(action)) continue;
     braking_for_.reset();
-    if (whole.obstacle.found && !obstacle.momentary && k == 0) braking_for_ = obstacle;
+    if (keep && !obstacle.momentary && k == 0) braking_for_ = obstacle;
     return true;
   }
   return false;
@@ -349,6 +300,12 @@ void SpeedStage::arrive() {
   if (cells_[current_].end - state_.s > arrival_distance) return;
   state_.s = cells_[current_].end;
   braking_for_.reset();
+}
+
+// At a stop or the end of what is known.
+bool SpeedStage::at_stop() const {
+  return (current_ + 1 >= cells_.size() || cells_[current_ + 1].stop) &&
+         cells_[current_].end - state_.s <= arrival_distance;
 }
 
 void SpeedStage::begin_tail() {
@@ -394,6 +351,22 @@ void SpeedStage::step(const Overrides& overrides) {
   if (now.feed <= 0) look.feed = 1e-3;  // what follows a rapid that goes on is approached slowly
   if (now.rapid <= 0) look.rapid = 1e-3;
   if (!hold && !braking_for_ && cruises(now, look)) return;
+  const PathState before = state_;
+  const std::uint64_t cell_before = current_;
+  advance(look, hold);
+  if (!hold && before.v == 0 && before.a == 0 && standing() && !tail_ && !at_stop()) {
+    const PathState bold = std::exchange(state_, before);
+    const std::uint64_t bold_cell = std::exchange(current_, cell_before);
+    stop_.clear();
+    if (!creep(look)) {
+      state_ = bold;
+      current_ = bold_cell;
+      stop_.clear();
+    }
+  }
+}
+
+void SpeedStage::advance(const Look& look, bool hold) {
   if (rides(look) && ride(look, hold)) {
     braking_for_.reset();
     arrive();

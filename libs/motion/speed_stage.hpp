@@ -98,6 +98,7 @@ class SpeedStage {
   Outcome judge(const PathState& state, const Look& look) const;
   bool cruises(const Overrides& now, const Look& look);
   bool follow(const Transition& wished, const Look& look, int depth);
+  bool take_part(const Transition& wished, const Obstacle& obstacle, double most, bool keep);
   void move(const Transition& wished, const Look& look);
   bool accept(const PhaseList& action);
   bool find_stop(const PathState& state, std::uint64_t cell, PhaseList& stop) const;
@@ -110,6 +111,9 @@ class SpeedStage {
   bool find_curved_stop(const PathState& state, std::uint64_t cell, PhaseList& stop, Braked& why) const;
   std::optional<std::uint64_t> critical_cell(const PathState& state, std::uint64_t cell,
                                              const Look& look) const;
+  bool creep(const Look& look);
+  bool at_stop() const;
+  void advance(const Look& look, bool hold);
   void follow_stop();
   void arrive();
   void begin_tail();

@@ -5,6 +5,7 @@
 #include <optional>
 #include <set>
 #include <stdexcept>
+#include <tuple>
 
 #include "bus/cdr.hpp"
 #include "contracts/topics.hpp"
@@ -22,11 +23,9 @@ class TickPlan {
   void make() {
     sort_messages();
     for (std::size_t i = 0; i < stamps_.size(); ++i) find_message(i);
-    if (!drive_)
-      for (const auto& told : told_)
-        due_.push_back({told.second.minor, cyclic_before, told.first, told.first->time});
+    if (!drive_) add_feedback();
     std::stable_sort(due_.begin(), due_.end(), [](const Due& a, const Due& b) {
-      return std::pair(a.tick, a.rank) < std::pair(b.tick, b.rank);
+      return std::tuple(a.tick, a.rank, a.after) < std::tuple(b.tick, b.rank, b.after);
     });
     weave_in_the_rest();
     for (const auto& due : due_) feed(due);
@@ -44,7 +43,21 @@ class TickPlan {
     const StoredMessage* message = nullptr;
     std::uint64_t time = 0;
     bool stamped = false;
+    std::uint64_t after = 0;  // of one tick and rank: in this order
   };
+
+  // Feedback that brings no new tick (a channel is given its place while time stands still) goes between the
+  // inputs of its tick as it was written.
+  void add_feedback() {
+    std::uint64_t newest = 0;
+    for (auto& due : due_) due.after = newest = std::max(newest, due.time);
+    std::set<std::uint64_t> ticks;
+    for (const auto& [message, place] : told_) {
+      const bool brings_tick = ticks.insert(place.minor).second;
+      due_.push_back({place.minor, brings_tick ? cyclic_before : order, message, message->time, false,
+                      brings_tick ? 0 : message->time});
+    }
+  }
 
   void sort_messages() {
     idl::stream::InputLog log;

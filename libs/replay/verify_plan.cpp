@@ -24,28 +24,6 @@ bool names(const std::vector<std::string>& services, const std::string& service)
   return std::find(services.begin(), services.end(), service) != services.end();
 }
 
-void read_surroundings(const StoredRecording& recording, const std::string& service, std::uint16_t channel,
-                       VerifyPlan& plan) {
-  idl::parameters::ParameterSet set;
-  idl::service::Cluster cluster;
-  for (const auto& message : recording.messages) {
-    if (message.topic->handle == "parameter_set" && bus::decode(message.cdr, set)) {
-      machine::Parameters parameters;
-      for (const auto& value : set.values) parameters.values[value.number] = {value.value, value.text};
-      plan.cycle_seconds = parameters.get("interpolation_cycle") * 1e-6;
-    } else if (message.topic->handle == "cluster" && bus::decode(message.cdr, cluster)) {
-      plan.virtual_time = cluster.virtual_time;
-      // Channels are listed in their order; of copies the first is meant.
-      std::uint16_t others = service == "channel" ? channel : 0;
-      for (const auto& entry : cluster.services)
-        if (entry.service == service && others-- == 0) {
-          plan.instance = entry.instance;
-          break;
-        }
-    }
-  }
-}
-
 // While another channel moves, the cycle at which a channel at rest asks the PLC is the one it has just heard
 // of: relative phase of free-running channels is recorded, not computed.
 bool has_several_channels(const StoredRecording& recording) {
@@ -150,9 +128,37 @@ class OrderedPlan {
 
 }  // namespace
 
+VerifyPlan surroundings(const StoredRecording& recording, const std::string& service, std::uint16_t channel) {
+  VerifyPlan plan;
+  bool found = false;
+  idl::parameters::ParameterSet set;
+  idl::service::Cluster cluster;
+  for (const auto& message : recording.messages) {
+    if (message.topic->handle == "parameter_set" && bus::decode(message.cdr, set)) {
+      machine::Parameters parameters;
+      for (const auto& value : set.values) parameters.values[value.number] = {value.value, value.text};
+      plan.cycle_seconds = parameters.get("interpolation_cycle") * 1e-6;
+    } else if (message.topic->handle == "cluster" && bus::decode(message.cdr, cluster)) {
+      plan.virtual_time = cluster.virtual_time;
+      // Channels are listed in their order; of copies the first is meant.
+      std::uint16_t others = service == "channel" ? channel : 0;
+      for (const auto& entry : cluster.services)
+        if (entry.service == service && others-- == 0) {
+          plan.instance = entry.instance;
+          found = true;
+          break;
+        }
+      if (!found)
+        for (const auto& entry : cluster.services)
+          plan.instance = std::max(plan.instance, entry.instance + 1);
+    }
+  }
+  return plan;
+}
+
 VerifyPlan plan_verification(const StoredRecording& recording, const std::string& service,
                              std::uint16_t channel) {
-  VerifyPlan plan;
+  auto plan = surroundings(recording, service, channel);
   bool exists = false;
   for (const auto& topic : bus::all_topics()) {
     if (!names(topic.writers, service)) continue;
@@ -164,7 +170,6 @@ VerifyPlan plan_verification(const StoredRecording& recording, const std::string
   if (!exists) throw std::runtime_error("no service is called '" + service + "'");
   if (plan.topics.empty())
     throw std::runtime_error("service " + service + " writes nothing that can be compared");
-  read_surroundings(recording, service, channel, plan);
   if (const auto* stage = find_stage(service))
     plan_stage(recording, *stage, plan);
   else if (says_when(service))
@@ -212,6 +217,15 @@ std::map<std::pair<std::uint32_t, std::uint32_t>, std::string> raised_alarms(
         alarm.source == service)
       raised.try_emplace({alarm.number, alarm.part}, alarm.text);
   return raised;
+}
+
+std::string unexpected_alarm(const std::vector<StoredMessage>& recorded,
+                             const std::vector<StoredMessage>& produced, const std::string& service) {
+  const auto known = raised_alarms(recorded, service);
+  for (const auto& [key, text] : raised_alarms(produced, service))
+    if (!known.contains(key))
+      return "alarm " + std::to_string(key.first) + ", which the recording does not have: " + text;
+  return "";
 }
 
 }  // namespace trunnion::replay

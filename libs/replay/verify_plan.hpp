@@ -46,8 +46,17 @@ VerifyPlan plan_verification(const StoredRecording& recording, const std::string
 VerifyPlan plan_verification(StoredRecording&&, const std::string&,
                              std::uint16_t) = delete;  // steps point into it
 
+/// A plan that has only what a recording says of the cluster: cycle time, kind of time, instance. A service
+/// that is not in it gets a number that no other has.
+VerifyPlan surroundings(const StoredRecording& recording, const std::string& service,
+                        std::uint16_t channel = 0);
+
 /// Alarms that `service` raises in `messages`: number, part and text of the first.
 std::map<std::pair<std::uint32_t, std::uint32_t>, std::string> raised_alarms(
     const std::vector<StoredMessage>& messages, const std::string& service);
+
+/// The first alarm of `service` in `produced` that `recorded` does not have, in one line; empty when none.
+std::string unexpected_alarm(const std::vector<StoredMessage>& recorded,
+                             const std::vector<StoredMessage>& produced, const std::string& service);
 
 }  // namespace trunnion::replay

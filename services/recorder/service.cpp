@@ -67,9 +67,11 @@ struct Topic {
   const bus::TopicEntry* entry = nullptr;
   std::unique_ptr<bus::RawReader> reader;
   std::uint32_t sequence = 0;
-  std::vector<std::uint8_t> newest = {};  // frame from before the recording
-  std::int64_t newest_time = 0;
   bool is_stream() const { return entry->qos == bus::QosKind::frame; }
+  bool is_feedback() const { return entry->description.name == topics::feedback_frame.name; }
+  // What was before the recording counts: states, and with the feedback where the machine stands and what the
+  // drive was told. Of setpoints it would only be a thousand frames for each stage.
+  bool has_past() const { return !is_stream() || is_feedback(); }
 };
 
 // The thread that compresses and writes. It reads what it has to know of the stream from the bytes it writes.
@@ -141,14 +143,8 @@ class FileThread {
   std::thread thread_;
 };
 
-void record_message(Topic& topic, std::size_t index, MessageQueue& queue, Message& message) {
-  message.topic = static_cast<std::uint16_t>(index);
-  message.sequence = ++topic.sequence;
-  queue.push(message);
-}
-
-// Takes what has arrived at every reader; true when there was anything. Until the recording has `begun`, of
-// frames only the newest is kept: where the machine stands.
+// Takes what has arrived at every reader; true when there was anything. Until the recording has `begun` it
+// leaves out what has no past, so that all stages begin together.
 bool drain(std::vector<Topic>& topics, MessageQueue& queue, Message& message, bool begun) {
   bool any = false;
   bus::SampleInfo info;
@@ -157,27 +153,15 @@ bool drain(std::vector<Topic>& topics, MessageQueue& queue, Message& message, bo
     // A bounded number at a time, so that one topic in full flow does not keep the others waiting.
     for (int n = 0; n < 256 && topic.reader->take(message.cdr, info); ++n) {
       any = true;
+      if (!begun && !topic.has_past()) continue;
+      message.topic = static_cast<std::uint16_t>(i);
+      message.sequence = ++topic.sequence;
       message.source_time = info.source_timestamp;
-      if (begun || !topic.is_stream()) {
-        record_message(topic, i, queue, message);
-      } else {
-        topic.newest.swap(message.cdr);
-        topic.newest_time = message.source_time;
-      }
+      queue.push(message);
     }
   }
   if (any) queue.wake();
   return any;
-}
-
-// The frames kept until now, the stream's first.
-void begin(std::vector<Topic>& topics, MessageQueue& queue, Message& message) {
-  for (std::size_t i = 0; i < topics.size(); ++i) {
-    if (topics[i].newest.empty()) continue;
-    message.cdr.swap(topics[i].newest);
-    message.source_time = topics[i].newest_time;
-    record_message(topics[i], i, queue, message);
-  }
 }
 
 // Motion that begins before the stream's writers know of our readers would be missing from the recording. A
@@ -206,7 +190,7 @@ void wait_for_writers(bus::Bus& bus, const std::vector<Topic>& topics, Drain&& d
       return !topic.is_stream() || topic.reader->matched() > 0;
     });
     const bool placed = std::all_of(topics.begin(), topics.end(), [](const Topic& topic) {
-      return topic.entry->description.name != topics::feedback_frame.name || !topic.newest.empty();
+      return !topic.is_feedback() || topic.sequence > 0;
     });
     if (known && all_heard && matched && placed) return;
     const double waited = node::monotonic_seconds() - began;
@@ -283,13 +267,12 @@ int record(const Options& options) {
   bus::Bus bus(options.vendor, options.network);
   std::vector<Topic> topics;
   for (const auto* entry : entries) {
-    // A recording begins with the states that hold, but not with the thousand frames that writers keep.
-    const bool late = bus::reader_qos(entry->qos).transient_local && entry->qos != bus::QosKind::frame;
-    topics.push_back({entry, bus.backend().reader(entry->description, {late, 0}, &gathering), 0});
+    topics.push_back({entry, nullptr});
+    const bool late = bus::reader_qos(entry->qos).transient_local && topics.back().has_past();
+    topics.back().reader = bus.backend().reader(entry->description, {late, 0}, &gathering);
   }
   Message message;
   wait_for_writers(bus, topics, [&] { drain(topics, queue, message, false); });
-  begin(topics, queue, message);
   std::cout << "recording " << options.output << std::endl;
 
   const double started = node::monotonic_seconds();

@@ -301,7 +301,8 @@ TEST(Robustness, jogs_let_go_of_at_any_cycle_under_any_override_keep_the_limits_
 }
 
 TEST(Robustness, mixed_noise_of_every_kind_ends_and_keeps_the_limits) {
-  for (std::uint64_t seed = 0; seed < 8; ++seed) {
+  // In 171 a cell that stands next to no acceleration follows one that stands much.
+  for (const std::uint64_t seed : {0, 1, 2, 3, 4, 5, 6, 7, 171}) {
     std::mt19937_64 random(seed);
     std::uniform_real_distribution<double> unit(-1, 1);
     const Limits limits = uniform_limits(100, 1000, static_cast<int>(1 + random() % 64));

@@ -262,6 +262,30 @@ TEST(TickPlan, OutputsOfThePlcThatWereOverwrittenBeforeTheRecordingAreStoodInFor
   EXPECT_EQ(plan.steps[2].needs.size(), 2u) << "tick 12, and the stand-in was taken";
 }
 
+TEST(TickPlan, FeedbackThatBringsNoNewTickIsFedToThePlcWhereItWasWritten) {
+  using idl::stream::Input;
+  // At tick 8 the PLC takes a request; later, at the same tick, the drive gives a channel its next place.
+  StoredRecording recording;
+  auto place = feedback_frame(8, 0);
+  place.tick = 8;
+  place.channels.resize(1);
+  place.channels[0].active = true;
+  idl::stream::InputLog log;
+  log.tick = 8;
+  log.applied = {{Input::AUXILIARY_REQUEST, 8, 20}};
+  recording.messages = {parameters(1, 1),
+                        stored(topics::feedback_frame, feedback_frame(0, 8), 10),
+                        stored(topics::auxiliary_request, idl::channel::AuxiliaryRequest{}, 20),
+                        stored(topics::plc_input_log, log, 21),
+                        stored(topics::auxiliary_done, idl::plc::AuxiliaryDone{}, 22),
+                        stored(topics::feedback_frame, place, 50)};
+  std::string fed;
+  const auto plan = plan_verification(recording, "plc", 0);
+  for (const auto& step : plan.steps)
+    fed += step.message->topic->handle + "@" + std::to_string(step.message->time) + " ";
+  EXPECT_EQ(fed, "parameter_set@1 feedback_frame@10 auxiliary_request@20 feedback_frame@50 ");
+}
+
 TEST(TickPlan, ARecordingThatDoesNotSayWhenIsRefused) {
   StoredRecording recording;
   recording.messages = {parameters(1, 1), stored(topics::feedback_frame, feedback_frame(0, 8), 5)};

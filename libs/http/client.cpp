@@ -1,4 +1,4 @@
-#include "test/client.hpp"
+#include "http/client.hpp"
 
 #include <arpa/inet.h>
 #include <sys/socket.h>
@@ -6,9 +6,14 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <charconv>
+#include <utility>
 
-namespace trunnion::gateway {
+namespace trunnion::http {
 namespace {
+
+constexpr int opcode_binary = 2, opcode_close = 8, opcode_ping = 9;  // RFC 6455, 5.2
+constexpr std::size_t longest_frame = 64u << 20;                     // bytes
 
 sockaddr_in loopback(std::uint16_t port) {
   sockaddr_in address{};
@@ -54,8 +59,15 @@ std::string raw_exchange(std::uint16_t port, const std::string& text) {
   return answer;
 }
 
-Response http(std::uint16_t port, const std::string& method, const std::string& target,
-              const std::string& body, const std::string& headers) {
+void send_and_go(std::uint16_t port, const std::string& text) {
+  const int fd = connect_to(port, 0);
+  if (fd < 0) return;
+  send_all(fd, text);
+  ::close(fd);
+}
+
+Response request(std::uint16_t port, const std::string& method, const std::string& target,
+                 const std::string& body, const std::string& headers) {
   const bool has_length = headers.find("Content-Length") != std::string::npos;
   const auto answer =
       raw_exchange(port, method + " " + target + " HTTP/1.1\r\nHost: 127.0.0.1:" + std::to_string(port) +
@@ -65,13 +77,17 @@ Response http(std::uint16_t port, const std::string& method, const std::string& 
   Response response;
   const auto end = answer.find("\r\n\r\n");
   if (end == std::string::npos || answer.size() < 12) return response;
-  response.status = std::stoi(answer.substr(9, 3));
+  if (!answer.starts_with("HTTP/1.") ||
+      std::from_chars(&answer[9], &answer[12], response.status).ec != std::errc{})
+    return response;
   for (std::size_t at = answer.find("\r\n") + 2; at < end;) {
     const auto stop = answer.find("\r\n", at);
     const auto colon = answer.find(':', at);
+    if (colon >= stop) break;
     auto name = answer.substr(at, colon - at);
     std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return std::tolower(c); });
-    response.headers[name] = answer.substr(colon + 2, stop - colon - 2);
+    const auto value = answer.find_first_not_of(' ', colon + 1);
+    response.headers[name] = answer.substr(value, stop - std::min(value, stop));
     at = stop + 2;
   }
   response.body = answer.substr(end + 4);
@@ -106,8 +122,15 @@ bool WebSocketClient::fill(std::size_t bytes) {
   return true;
 }
 
-std::optional<std::string> WebSocketClient::next() {
-  std::string message;
+void WebSocketClient::pong(const std::string& payload) {
+  // A client masks what it sends (RFC 6455, 5.3); a mask of zeros leaves it as it is.
+  send_all(socket_, std::string{'\x8A', static_cast<char>(0x80 | payload.size()), 0, 0, 0, 0} + payload);
+}
+
+std::optional<std::string> WebSocketClient::next(double patience) {
+  const auto whole = static_cast<time_t>(patience);
+  const timeval time{whole, static_cast<suseconds_t>((patience - static_cast<double>(whole)) * 1e6)};
+  setsockopt(socket_, SOL_SOCKET, SO_RCVTIMEO, &time, sizeof time);
   while (true) {
     if (!fill(2)) return {};
     const auto byte = [&](std::size_t i) { return static_cast<std::uint8_t>(buffer_[i]); };
@@ -121,13 +144,14 @@ std::optional<std::string> WebSocketClient::next() {
       for (std::size_t i = 0; i < width; ++i) length = length << 8 | byte(head + i);
       head += width;
     }
-    if (!fill(head + length)) return {};
+    if (length > longest_frame || !fill(head + length)) return {};
     const auto payload = buffer_.substr(head, length);
     buffer_.erase(0, head + length);
-    if (opcode == 8) return {};
-    if (opcode > 2) continue;  // pings need no answer here: the test is shorter than the server's patience
-    message += payload;
-    if (last) return message;
+    if (opcode == opcode_close) return {};
+    if (opcode == opcode_ping && payload.size() <= 125) pong(payload);
+    if (opcode > opcode_binary) continue;
+    message_ += payload;
+    if (last) return std::exchange(message_, {});
   }
 }
 
@@ -141,4 +165,4 @@ std::uint16_t free_port() {
   return ntohs(address.sin_port);
 }
 
-}  // namespace trunnion::gateway
+}  // namespace trunnion::http

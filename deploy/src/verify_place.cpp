@@ -1,0 +1,49 @@
+#include "verify_place.hpp"
+
+#include <unistd.h>
+
+#include <filesystem>
+#include <stdexcept>
+
+namespace trunnion::deploy {
+namespace fs = std::filesystem;
+
+VerifyPlace::VerifyPlace(std::optional<std::uint32_t> domain) : run_{domain ? *domain : free_domain()} {
+  directory_ = run_.path() + "/verify-" + std::to_string(getpid());
+  fs::create_directories(directory_ + "/state");
+}
+
+VerifyPlace::~VerifyPlace() {
+  std::error_code ignored;
+  fs::remove_all(directory_, ignored);
+  if (fs::is_empty(run_.path(), ignored)) run_.remove();
+}
+
+std::vector<std::string> command_line(const VerifyOptions& options, const replay::StoredRecording& recording,
+                                      const replay::VerifyPlan& plan, const VerifyPlace& place) {
+  std::string machine = options.machine;
+  if (const auto name = recording.metadata.find("machine");
+      machine.empty() && name != recording.metadata.end())
+    machine = name->second;
+  if (machine.empty())
+    throw std::runtime_error(options.recording + ": it names no machine: say which with --machine");
+  std::vector<std::string> arguments{
+      options.executable.empty() ? binary_directory() + "/trunnion-" + options.service : options.executable,
+      "--machine",
+      find_machine(machine),
+      "--state",
+      place.state(),
+      "--instance",
+      std::to_string(plan.instance),
+      "--channel",
+      std::to_string(options.channel),
+      "--domain",
+      std::to_string(place.domain()),
+      "--vendor",
+      options.vendor.empty() ? "cyclonedds" : options.vendor,
+      "--parent-bound"};
+  if (plan.virtual_time) arguments.emplace_back("--virtual-time");
+  return arguments;
+}
+
+}  // namespace trunnion::deploy

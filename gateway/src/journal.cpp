@@ -1,0 +1,61 @@
+#include "src/journal.hpp"
+
+#include "storage/crc32.hpp"
+
+namespace trunnion::gateway {
+namespace {
+
+// Bounds of the strings in gateway.idl.
+constexpr std::size_t address_bytes = 48, method_bytes = 8, target_bytes = 256, text_bytes = 1024;
+
+void add(std::string& kept, std::uint64_t& size, std::uint32_t& crc, std::string_view part) {
+  crc = storage::crc32(crc, {reinterpret_cast<const std::uint8_t*>(part.data()), part.size()});
+  size += part.size();
+  if (size <= text_bytes)
+    kept += part;
+  else
+    kept.clear();
+}
+
+}  // namespace
+
+bool is_journaled(Operation operation) {
+  if (operation == Operation::read_program) return true;
+  for (const auto& route : routes())
+    if (route.operation == operation) return route.method != "GET";
+  return false;
+}
+
+JournalLine begin_line(idl::gateway::Sender sender, std::string_view address, std::string_view method,
+                       std::string_view target) {
+  JournalLine line{};
+  line.sender = sender;
+  line.address = address.substr(0, address_bytes);
+  line.method = method.substr(0, method_bytes);
+  line.target = target.substr(0, target_bytes);
+  return line;
+}
+
+void add_body(JournalLine& line, std::string_view part) {
+  add(line.body, line.body_size, line.body_crc32, part);
+}
+
+void add_answer(JournalLine& line, std::string_view part) {
+  add(line.answer, line.answer_size, line.answer_crc32, part);
+}
+
+void set_asked(JournalLine& line, const Asked& asked) {
+  line.client = asked.client;
+  line.number = asked.number;
+  line.requests = asked.requests;
+}
+
+JournalLine jog_stop_line(std::uint16_t channel, std::uint8_t axis, const Asked& asked) {
+  auto line = begin_line(idl::gateway::Sender::ITSELF, "", "POST",
+                         "/api/channels/" + std::to_string(channel) + "/jog-stop");
+  add_body(line, "{\"axis\":" + std::to_string(axis) + "}");
+  set_asked(line, asked);
+  return line;
+}
+
+}  // namespace trunnion::gateway

@@ -1,0 +1,64 @@
+#include "src/journal.hpp"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "bus/cdr.hpp"
+#include "storage/crc32.hpp"
+
+namespace trunnion::gateway {
+namespace {
+
+using idl::gateway::Sender;
+
+TEST(Journal, KeepsWhatMakesTheGatewayWriteToTheBusAndNoMereReading) {
+  std::set<std::string> read;
+  for (const auto& route : routes())
+    if (!is_journaled(route.operation)) read.insert(std::string(route.pattern));
+  EXPECT_EQ(read, (std::set<std::string>{
+                      "/api/status", "/api/alarms", "/api/channels", "/api/channels/{channel}",
+                      "/api/parameters", "/api/parameters/{number}", "/api/tools", "/api/work-offsets",
+                      "/api/programs", "/api/plc/image", "/api/openapi.json", "/api/stream"}));
+  EXPECT_TRUE(is_journaled(Operation::read_program)) << "it asks the program service";
+}
+
+TEST(Journal, ATextThatFitsIsKeptInPartsAndALongerOneIsItsSizeAndSumAlone) {
+  auto line = begin_line(Sender::TOOL, "127.0.0.1", "PUT", "/api/programs/A");
+  const std::string part(512, 'x');
+  add_body(line, part);
+  add_body(line, part);
+  EXPECT_EQ(line.body, part + part) << "1024 bytes are the bound";
+  EXPECT_EQ(line.body_crc32, storage::crc32(part + part));
+  add_body(line, "y");
+  EXPECT_EQ(line.body, "");
+  EXPECT_EQ(line.body_size, 1025u);
+  EXPECT_EQ(line.body_crc32, storage::crc32(part + part + "y"));
+  add_answer(line, "{}");
+  EXPECT_EQ(line.answer, "{}");
+  EXPECT_EQ(line.answer_size, 2u);
+}
+
+TEST(Journal, NoRequestHoweverLongIsBeyondTheBoundsOfTheLine) {
+  const std::string text(100000, '/');
+  auto line = begin_line(Sender::PAGE, text, text, text);
+  add_body(line, text);
+  add_answer(line, text);
+  bus::Bytes bytes;
+  EXPECT_NO_THROW(bus::encode(line, bytes));
+  EXPECT_EQ(line.target.size(), 256u);
+}
+
+TEST(Journal, AJogThatNobodyRenewedIsALineOfItsOwn) {
+  const auto line = jog_stop_line(2, 4, {77, 5, 1});
+  EXPECT_EQ(line.sender, Sender::ITSELF);
+  EXPECT_EQ(line.target, "/api/channels/2/jog-stop");
+  EXPECT_EQ(line.body, "{\"axis\":4}");
+  EXPECT_EQ(line.status, 0) << "nobody was answered";
+  EXPECT_EQ(line.client, 77u);
+  EXPECT_EQ(line.number, 5u);
+  EXPECT_EQ(line.requests, 1u);
+}
+
+}  // namespace
+}  // namespace trunnion::gateway

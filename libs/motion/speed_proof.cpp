@@ -1,0 +1,94 @@
+// The speed stage: what proves a cycle before it is taken, and the gentlest of all cycles.
+#include <cmath>
+
+#include "motion/speed_stage.hpp"
+
+namespace trunnion::motion {
+namespace {
+
+constexpr double rounding = 1e-7;
+constexpr int most_halvings = 40;
+
+}  // namespace
+
+// A way to a standstill from `state`: braking with what all cells on the way allow; where a slower cell would
+// be entered too fast, down to its speed first and on from there.
+bool SpeedStage::find_stop(const PathState& state, std::uint64_t cell, PhaseList& stop) const {
+  stop.clear();
+  PathState at = state;
+  std::uint64_t here = cell;
+  for (int leg = 0; leg < 8; ++leg) {
+    if (at.v <= 0 && at.a == 0) return true;
+    // The least ramp limits over the distance that braking with them takes.
+    RampLimits ramp = cells_[here].ramp(at.v);
+    Obstacle slower;
+    double distance_needed = braking_distance(at.v, at.a, 0, ramp);
+    for (std::uint64_t k = here + 1; k < cells_.size() && !cells_[k].stop; ++k) {
+      const double distance = cells_[k].at - at.s;
+      if (distance > distance_needed) break;
+      if (!slower.found && at.v > cells_[k].speed * (1 + rounding))
+        slower = {true, cells_[k].speed, ramp, k, false};
+      const RampLimits& own = cells_[k].ramp(at.v);
+      if (own.acceleration < ramp.acceleration || own.jerk < ramp.jerk) {
+        ramp.acceleration = std::min(ramp.acceleration, own.acceleration);
+        ramp.jerk = std::min(ramp.jerk, own.jerk);
+        distance_needed = braking_distance(at.v, at.a, 0, ramp);
+      }
+    }
+    PhaseList whole;
+    whole.add(Transition(at.v, at.a, 0, ramp));
+    std::uint64_t end = here;
+    if (keeps_limits(whole, at, cells_, end)) {
+      for (std::size_t k = 0; k < whole.size(); ++k) {
+        if (!stop.add(whole[k])) return false;
+      }
+      return true;
+    }
+    if (!slower.found) return false;
+    PhaseList part;
+    part.add(Transition(at.v, at.a, slower.speed, slower.ramp));
+    end = here;
+    if (part.size() == 0 || !keeps_limits(part, at, cells_, end)) return false;
+    for (std::size_t k = 0; k < part.size(); ++k) {
+      if (!stop.add(part[k])) return false;
+    }
+    at = part.after(at);
+    at.v = slower.speed;
+    at.a = 0;
+    here = end;
+  }
+  return false;
+}
+
+// Takes a cycle when it keeps the limits and leaves a way to stop.
+bool SpeedStage::accept(const PhaseList& action) {
+  std::uint64_t cell = current_;
+  if (!keeps_limits(action, state_, cells_, cell)) return false;
+  PathState next = action.after(state_);
+  if (std::abs(next.v) < 1e-9 && std::abs(next.a) < 1e-6) next.v = next.a = 0;
+  PhaseList stop;
+  if (!find_stop(next, cell, stop)) return false;
+  state_ = next;
+  current_ = cell;
+  stop_ = stop;
+  return true;
+}
+
+// From a standstill, so gently that every cell within the way to the next standstill stands it. The bold ways
+// may come to rest again and again in front of a cell that stands next to no acceleration.
+bool SpeedStage::creep(const Look& look) {
+  double speed = speed_of(cells_[current_], look);
+  for (int n = 0; n < most_halvings; ++n, speed /= 2) {
+    const RampLimits own = cells_[current_].ramp(speed);
+    const double reach = 2 * speed * (speed / own.acceleration + own.acceleration / own.jerk + cycle_);
+    const RampLimits ramp = local_ramp(speed, reach);
+    PhaseList action;
+    action.add(Transition(0, 0, speed, ramp), cycle_);
+    if (!accept(action)) continue;
+    braking_for_.reset();
+    return !standing();
+  }
+  return false;
+}
+
+}  // namespace trunnion::motion
