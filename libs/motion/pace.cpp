@@ -34,8 +34,7 @@ double mean_take_back(const PathState& state, const CellRing& cells, std::uint64
     at = integrate(at, -sign * jerk, left / (jerk * n));
     if (at.v <= 0 || n == 1) break;
     while (cell + 1 < cells.size() && !cells[cell + 1].stop && at.s > cells[cell].end) ++cell;
-    const Range range =
-        capped(jerk_range(cells[cell], part_of(cells[cell], at.s), at.v, at.a), pacing.jerk);
+    const Range range = capped(jerk_range(cells[cell], part_of(cells[cell], at.s), at.v, at.a), pacing.jerk);
     jerk = sign > 0 ? -range.low : range.high;
     if (!(jerk > least_jerk * down)) return down;
   }
