@@ -28,8 +28,7 @@ constexpr double match_seconds = 1.0;    // how long to wait for the writers of 
 constexpr double cluster_seconds = 5.0;  // the same when a launcher says which services there are
 // To wake up for every message would take as much of the processor as a stage of the stream does.
 constexpr auto pause = std::chrono::milliseconds(5);
-constexpr int priority = -10;        // of the threads that take samples; they use little
-constexpr int writer_priority = 10;  // of the one that compresses: what it does can wait, the stream cannot
+constexpr int priority = 10;  // whatever it does can wait, the stream cannot
 
 volatile sig_atomic_t stop_requested = 0;
 
@@ -103,7 +102,6 @@ class FileThread {
 
  private:
   void run() {
-    setpriority(PRIO_PROCESS, 0, writer_priority);  // of this thread alone
     std::vector<Message> messages;
     while (queue_.pop_all(messages, 0.2)) {
       const double now = node::monotonic_seconds();
@@ -259,10 +257,10 @@ int record(const Options& options) {
                            {"domain", std::to_string(options.network.domain)},
                            {"contract", topics::contract_hash},
                            {"version", TRUNNION_VERSION}}};
-  FileThread file(options, header, queue);
-  // A stream faster than real time keeps only some milliseconds for whoever is late, so the threads that take
-  // samples go first where that is allowed.
+  // A recorder that puts a stage aside whenever packets come slows the stream. What writers keep for whoever
+  // is late, a thousand frames, lasts much longer than its turn to come.
   setpriority(PRIO_PROCESS, 0, priority);
+  FileThread file(options, header, queue);
   bus::Gathering gathering;
   bus::Bus bus(options.vendor, options.network);
   std::vector<Topic> topics;
