@@ -1,5 +1,7 @@
 // What an operator does to a program beside starting it, in a whole cluster: start from a line, dry run, axis
 // lock, retrace, handwheel, and the line that is offered after the control was switched off.
+#include <fstream>
+
 #include "cluster_harness.hpp"
 
 namespace trunnion::integration {
@@ -141,8 +143,13 @@ TEST(LiveControl, TheHandwheelMovesAnAxisAndShiftsAProgram) {
 // As after a power failure: every process is gone at once, and only the state directory is left.
 TEST(LiveControl, TheLineOfThePowerFailureIsOfferedAndTheProgramStartsFromIt) {
   const auto state = std::filesystem::temp_directory_path() / ("trunnion-live-" + std::to_string(getpid()));
+  // A lead of 128 ms: tests that run beside this one may keep a computer that is not a real-time one away for
+  // longer than the 32 of the machine.
+  const auto machine = state.string() + "-machine";
+  std::filesystem::copy(deploy::find_machine("ac-table"), machine, std::filesystem::copy_options::recursive);
+  std::ofstream(machine + "/parameters.yaml", std::ios::app) << "\"000900\": 128\n";
   deploy::UpOptions up;
-  up.machine = "ac-table";
+  up.machine = machine;
   up.state_directory = state.string();
   up.domain = 74;
   up.virtual_time = false;
@@ -163,17 +170,8 @@ TEST(LiveControl, TheLineOfThePowerFailureIsOfferedAndTheProgramStartsFromIt) {
     auto states = client.bus().reader(topics::channel_state);
     const double end = node::monotonic_seconds() + 30;
     idl::channel::ChannelState newest;
-    auto reset = client.bus().writer(topics::alarm_reset);
     while (node::monotonic_seconds() < end && newest.line < 6) {
       while (states.take(newest)) {
-      }
-      // A computer that is put aside for as long as the lead makes the drive stop on the path (alarm 110),
-      // which is not what this test is about: reset, and on.
-      if (newest.state == RunState::INTERRUPTED) {
-        reset.write({});
-        std::this_thread::sleep_for(std::chrono::milliseconds(300));
-        client.channel(0, CommandKind::CYCLE_START);
-        newest.state = RunState::RUNNING;
       }
       std::this_thread::sleep_for(std::chrono::milliseconds(10));
     }
@@ -216,6 +214,7 @@ TEST(LiveControl, TheLineOfThePowerFailureIsOfferedAndTheProgramStartsFromIt) {
   }
   deploy::stop_cluster(cluster.run);
   std::filesystem::remove_all(state);
+  std::filesystem::remove_all(machine);
 }
 
 }  // namespace

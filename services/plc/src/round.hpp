@@ -12,7 +12,7 @@
 
 namespace trunnion::plc {
 
-/// The calls of PlcCore that change it. `value` and `sample` of the step are
+/// The calls of PlcCore that change it, and what `value` or `sample` of the step is with each.
 enum class StepKind : std::uint8_t {
   parameters,  ///< the revision
   feedback,    ///< a FeedbackFrame without its rows
