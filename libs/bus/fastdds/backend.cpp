@@ -98,7 +98,12 @@ class Writer : public RawWriter {
     apply(out, qos, keyed);
     out.writer_data_lifecycle().autodispose_unregistered_instances = false;
     auto& times = out.reliable_writer_qos().times;
-    times.heartbeatPeriod = duration(0.1);
+    // A history that is kept for whoever is late is always full, and Fast DDS then adds a heartbeat to every
+    // sample for each of its readers, which every one of them answers. Twenty milliseconds find a lost packet
+    // as well.
+    const bool always_full = qos.transient_local && qos.depth > 1 && !keyed;
+    out.reliable_writer_qos().disable_heartbeat_piggyback = always_full;
+    times.heartbeatPeriod = duration(always_full ? 0.02 : 0.1);
     times.nackResponseDelay = duration(0);
     times.initialHeartbeatDelay = duration(0);
     writer_ = publisher_->create_datawriter(topic, out);
