@@ -306,7 +306,7 @@ std::string configuration(const NetworkSettings& network) {
          // cable costs after it is whole again. A writer of Fast DDS asks for an acknowledgement more often than
          // it needs one: what is missing is told within NackDelay anyway.
          "<Internal><Watermarks><WhcHigh>64MB</WhcHigh></Watermarks><NackDelay>5ms</NackDelay>"
-         "<AckDelay>100ms</AckDelay>"
+         "<AckDelay>100ms</AckDelay><GenerateKeyhash>true</GenerateKeyhash>"
          "<HeartbeatInterval max=\"100ms\">20ms</HeartbeatInterval>"
          // A reader that is there answers a heartbeat at once; when the whole cluster ends nobody does, and
          // every process would wait this long.
