@@ -268,6 +268,74 @@ TEST_F(Hosts, ACableCutForFiftyMillisecondsIsNotNoticedAndForASecondIsAStopOnThe
   hosts.leave();
 }
 
+TEST_F(Hosts, ServicesOfEachHostAreSwappedInMotionFromAnyOfThemAndAreStillKnownToAll) {
+  const Machines machines(64);
+  std::string rounds = "G21 G17 G90 G54\nG0 X0 Y0 A0 C0\nG43.4 H1\nG1 X0 Y0 Z80 F6000\n";
+  for (int i = 0; i < 3000; ++i) rounds += "X60 Y30 A20 C40\nX-60 Y-30 A-10 C-20\n";
+  rounds += "M30\n";
+  ThreeHosts hosts;
+  start(hosts, domain, machines.three(), "--time virtual");
+  hosts.enter("control");
+  Rows rows;
+  {
+    Cluster cluster(on_control(domain));
+    const auto swap = [&](const std::string& service, const std::string& asked_on,
+                          const std::string& options) {
+      auto command = std::async(std::launch::async, [&] {
+        return hosts.exec(asked_on, deploy::binary_directory() + "/trunnion swap " + service + options);
+      });
+      cluster.until([&] { return command.wait_for(std::chrono::seconds(0)) == std::future_status::ready; },
+                    60);
+      return command.get();
+    };
+    cluster.keep_rows = true;
+    cluster.start_text(rounds);
+    ASSERT_TRUE(cluster.until([&] { return cluster.expected_cycle > 500; })) << cluster.told();
+    for (const auto& [service, asked_on] : {std::pair<std::string, std::string>{"kinematics", "control"},
+                                            {"gantry", "drives"},
+                                            {"plc", "motion"},
+                                            {"gateway", "drives"}}) {
+      const auto before = *cluster.service(service);
+      const auto swapped = swap(service, asked_on, " --vendor fastdds");
+      ASSERT_EQ(swapped.status, 0) << swapped.text << cluster.told();
+      EXPECT_NE(swapped.text.find("of the state directory on the service's host"), std::string::npos)
+          << swapped.text;
+      EXPECT_NE(kill(before.pid, 0), 0) << "the old one is gone";
+      ASSERT_TRUE(cluster.until([&] {
+        return cluster.service(service)->vendor == "fastdds" && cluster.ready();
+      })) << service
+          << cluster.told();
+      EXPECT_NE(cluster.service(service)->pid, before.pid);
+      EXPECT_EQ(cluster.service(service)->restarts, before.restarts) << "a swap is no restart";
+    }
+    const auto refused = swap("compensation", "drives", " --exec /nowhere/at/all");
+    EXPECT_NE(refused.status, 0);
+    EXPECT_NE(refused.text.find("/nowhere/at/all: cannot be started"), std::string::npos) << refused.text;
+    expect_all_processes_in_the_status_of_each_host(hosts);
+    EXPECT_EQ(cluster.state(), RunState::RUNNING) << cluster.told();
+    EXPECT_TRUE(cluster.history.empty()) << cluster.told();
+    rows = cluster.rows;
+
+    // The new one is watched as the old one was: by its host's launcher, and the first host's list shows it.
+    const auto before = *cluster.service("kinematics");
+    kill(before.pid, SIGKILL);
+    ASSERT_TRUE(cluster.until([&] { return cluster.has_alarm(100, "kinematics"); })) << cluster.told();
+    ASSERT_TRUE(cluster.until([&] {
+      return cluster.service("kinematics")->pid != before.pid && cluster.ready();
+    })) << cluster.told();
+    EXPECT_EQ(cluster.service("kinematics")->restarts, before.restarts + 1);
+    EXPECT_EQ(cluster.service("kinematics")->vendor, "fastdds");
+  }
+  hosts.leave();
+  Cluster undisturbed(machines.one());
+  undisturbed.keep_rows = true;
+  undisturbed.start_text(rounds);
+  ASSERT_TRUE(undisturbed.until([&] { return undisturbed.rows.size() >= rows.size(); }, 100));
+  undisturbed.rows.resize(rows.size());
+  EXPECT_GT(rows.size(), 5000u);
+  EXPECT_EQ(first_difference(rows, undisturbed.rows), "") << "over " << rows.size() << " cycles";
+}
+
 // Not a check but a measurement: docs/hosts.md has its numbers.
 TEST_F(Hosts, DISABLED_HowOftenTheDriveWaitsInRealTimeForEachLead) {
   for (const int lead : {32, 48, 64, 128}) {

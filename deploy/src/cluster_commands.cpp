@@ -10,6 +10,7 @@
 #include "cluster.hpp"
 #include "commands.hpp"
 #include "machine/alarms.hpp"
+#include "service_process.hpp"
 #include "stream/copy_watch.hpp"
 #include "stream/stage_names.hpp"
 
@@ -72,7 +73,7 @@ int down(const Common& common) {
 
 std::string host_of(const machine::MachineConfig& config, std::uint32_t instance) {
   for (const auto& entry : config.services)
-    if (entry.instance == instance) return entry.host;
+    if (entry.instance == place_of(instance)) return entry.host;
   return "";
 }
 

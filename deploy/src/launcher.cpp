@@ -113,7 +113,32 @@ bool Launcher::reap(std::string& failure) {
   return true;
 }
 
+// Another host's launcher has put another process in this one's place, or begins anew with the numbers of
+// machine.yaml. One that is only compared does not take part yet.
+void Launcher::follow(ServiceProcess& process, const idl::service::ServiceState& state, double now) {
+  if (process.local || place_of(state.instance) != place_of(process.entry.instance) ||
+      state.service != process.entry.service || state.lifecycle != idl::service::Lifecycle::ACTIVE ||
+      !state.in_step || (process.pid != 0 && state.instance < process.entry.instance))
+    return;
+  for (const char* alarm : {"service_lost", "redundancy_lost", "contract_mismatch"})
+    alarms_.clear(alarm, process.entry.instance);
+  process.lost = false;
+  process.entry.instance = state.instance;
+  process.entry.vendor = state.vendor;
+  process.pid = state.pid;
+  process.policy.started(now);
+}
+
+bool Launcher::is_candidate(std::uint32_t instance) const {
+  return (swap_ && swap_->is_fresh(instance)) ||
+         std::any_of(processes_.begin(), processes_.end(), [&](const ServiceProcess& p) {
+           return !p.local && place_of(instance) == place_of(p.entry.instance) &&
+                  instance != p.entry.instance;
+         });
+}
+
 void Launcher::hear(ServiceProcess& process, const idl::service::ServiceState& state, double now) {
+  if (process.entry.instance != state.instance) follow(process, state, now);
   if (process.entry.instance != state.instance) return;
   if (state.service != process.entry.service) {
     alarms_.raise("machine_differs", state.instance,
@@ -164,7 +189,7 @@ void Launcher::listen() {
   idl::service::Announcement announcement;
   while (announcements_.take(announcement)) {
     announced_[announcement.instance] = announcement;
-    if (swap_ && swap_->is_fresh(announcement.instance)) continue;  // it is refused, which is no alarm
+    if (is_candidate(announcement.instance)) continue;  // it is refused, which is no alarm
     if (announcement.contract != topics::contract_hash)
       alarms_.raise("contract_mismatch", announcement.instance,
                     "Service " + announcement.service + " (" + announcement.version +
@@ -241,6 +266,14 @@ void Launcher::publish() {
   if (is_first_host()) cluster_writer_.write(cluster);
 }
 
+ServiceProcess* Launcher::whom_to_swap(const idl::service::SwapRequest& request) {
+  const auto found = std::find_if(processes_.begin(), processes_.end(), [&](const ServiceProcess& p) {
+    return p.entry.service == request.service && p.entry.copy == request.copy &&
+           (p.entry.service != "channel" || p.entry.channel == request.channel);
+  });
+  return found == processes_.end() ? nullptr : &*found;
+}
+
 void Launcher::serve_swaps() {
   idl::service::SwapRequest request;
   while (swaps_.take(request)) {
@@ -249,23 +282,24 @@ void Launcher::serve_swaps() {
       reply.reason = why.substr(0, 250);
       swaps_.reply(request, reply);
     };
-    if (!options_.machine.hosts.empty()) {
-      if (is_first_host()) refuse("Services of a cluster over several hosts cannot be swapped");
+    auto* process = whom_to_swap(request);
+    const bool ours = process != nullptr ? process->local : is_first_host();
+    if (!ours) {
+      // Nobody else would say so.
+      if (process != nullptr && process->pid == 0 && is_first_host())
+        refuse("Host " + process->entry.host + ", where the " + request.service + " runs, is silent");
       continue;
     }
-    const auto found = std::find_if(processes_.begin(), processes_.end(), [&](const ServiceProcess& p) {
-      return p.entry.service == request.service && p.entry.copy == request.copy &&
-             (p.entry.service != "channel" || p.entry.channel == request.channel);
-    });
     if (swap_)
       refuse("Another service is being swapped");
-    else if (found == processes_.end())
+    else if (process == nullptr)
       refuse("The cluster has no " + request.service + " of this number");
-    else if (found->pid == 0 || found->lifecycle != idl::service::Lifecycle::ACTIVE)
+    else if (process->pid == 0 || process->lifecycle != idl::service::Lifecycle::ACTIVE)
       refuse("The " + request.service + " that runs now is not active");
     else {
       swap_request_ = request;
-      swap_ = std::make_unique<Swap>(bus_, options_, *found, request, next_instance_++, announced_);
+      const auto instance = place_of(process->entry.instance) + ++generation_ * generation_step;
+      swap_ = std::make_unique<Swap>(bus_, options_, *process, request, instance, announced_);
     }
   }
   if (!swap_) return;

@@ -18,8 +18,6 @@
 
 namespace trunnion::deploy {
 
-inline constexpr std::uint32_t launcher_instance = 1000;  // and one more for each host after the first
-
 struct LaunchOptions {
   machine::MachineConfig machine;
   std::string state_directory;
@@ -45,6 +43,8 @@ class Launcher {
   void listen();
   void watch();
   void hear(ServiceProcess& process, const idl::service::ServiceState& state, double now);
+  void follow(ServiceProcess& process, const idl::service::ServiceState& state, double now);
+  bool is_candidate(std::uint32_t instance) const;
   void watch_local(ServiceProcess& process, double now, bool judge);
   void watch_remote(ServiceProcess& process, double now, bool judge);
   bool all_ready() const;
@@ -53,6 +53,7 @@ class Launcher {
   void publish();
   bool has_live_twin(const ServiceProcess& process) const;
   void serve_swaps();
+  ServiceProcess* whom_to_swap(const idl::service::SwapRequest& request);
 
   LaunchOptions options_;
   bus::Bus bus_;
@@ -67,7 +68,7 @@ class Launcher {
   std::map<std::uint32_t, idl::service::Announcement> announced_;  // by instance
   std::unique_ptr<Swap> swap_;                                     // the one under way
   idl::service::SwapRequest swap_request_;
-  std::uint32_t next_instance_ = launcher_instance + 100;  // of processes that machine.yaml does not number
+  std::uint32_t generation_ = 0;  // swaps that were begun on this host
   bool ready_ = false, was_ready_ = false;
   double last_published_ = 0, last_watch_ = 0;
 };

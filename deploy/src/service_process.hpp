@@ -1,6 +1,7 @@
 // One process of a cluster: how it is started, what it says of itself.
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 #include "contracts/types.hpp"
@@ -10,6 +11,14 @@
 namespace trunnion::deploy {
 
 struct LaunchOptions;
+
+/// Instances, the numbers of processes: services count from 1 in the order of machine.yaml, launchers from
+/// here on in the order of its hosts.
+inline constexpr std::uint32_t launcher_instance = 1000;
+/// What is swapped in has the number of the first process in its place and this much more for every swap its
+/// launcher has begun. So every host's launcher sees whose place it takes.
+inline constexpr std::uint32_t generation_step = 10000;
+inline std::uint32_t place_of(std::uint32_t instance) { return instance % generation_step; }
 
 struct ServiceProcess {
   machine::ServiceEntry entry;

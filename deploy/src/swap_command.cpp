@@ -17,6 +17,8 @@ namespace {
 int swap(const Common& common, idl::service::SwapRequest request, double timeout) {
   const auto cluster = find_cluster(common.domain);
   if (!request.executable.empty()) {
+    if (cluster.host.empty() && !std::filesystem::is_regular_file(request.executable))
+      throw std::runtime_error("--exec: there is no file " + request.executable);
     request.executable = std::filesystem::absolute(request.executable).lexically_normal().string();
     if (request.executable.size() > 255)
       throw std::runtime_error("the path of --exec is longer than 255 characters");
@@ -39,7 +41,8 @@ int swap(const Common& common, idl::service::SwapRequest request, double timeout
               reply->seconds, static_cast<unsigned long long>(reply->cycle), reply->compared,
               reply->gap > 0 ? ("nobody served for " + std::to_string(reply->gap).substr(0, 5) + " s").c_str()
                              : "no gap");
-  std::printf("Written down in %s/%s\n", cluster.state_directory.c_str(), swap_journal_file);
+  std::printf("Written down in %s of the state directory%s\n", swap_journal_file,
+              cluster.host.empty() ? (", " + cluster.state_directory).c_str() : " on the service's host");
   if (!reply->reason.empty()) std::fprintf(stderr, "warning: %s\n", reply->reason.c_str());
   return 0;
 }
@@ -56,8 +59,8 @@ void add_swap_command(CLI::App& app, Common& common) {
                   "kept when the new one differs; exit status 0 when the new one has taken over",
                   [&common, request, timeout] { return swap(common, *request, *timeout); });
   command->add_option("service", request->service, "Service, as in machine.yaml")->required();
-  command->add_option("--exec", request->executable, "Executable of the new one (default: the one that runs)")
-      ->check(CLI::ExistingFile);
+  command->add_option("--exec", request->executable,
+                      "Executable of the new one, on the host of the service (default: the one that runs)");
   command->add_option("--vendor", request->vendor, "DDS vendor of the new one (default: the one that runs)")
       ->check(CLI::IsMember({"fastdds", "cyclonedds"}));
   command->add_option("--copy", request->copy, "Which copy of a stage that has two (default 0)")
