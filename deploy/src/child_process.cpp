@@ -7,6 +7,10 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <optional>
 #include <stdexcept>
 #include <thread>
 
@@ -51,6 +55,32 @@ std::string ChildProcess::ended() {
     if (const auto line = last_line(log_); !line.empty()) how_ += ": " + line;
   }
   return how_;
+}
+
+namespace {
+
+// For each thread how often it has run; nothing when one runs now. Linux: proc(5), /proc/PID/task.
+std::optional<std::map<std::string, std::string>> turns_of_sleepers(int pid) {
+  std::map<std::string, std::string> turns;
+  std::error_code ignored;
+  for (const auto& task :
+       std::filesystem::directory_iterator("/proc/" + std::to_string(pid) + "/task", ignored)) {
+    std::ifstream stat(task.path() / "stat"), schedule(task.path() / "schedstat");
+    std::string line;
+    std::getline(stat, line);
+    const auto name_ends = line.rfind(") ");
+    if (name_ends == std::string::npos || line[name_ends + 2] != 'S') return std::nullopt;
+    if (!std::getline(schedule, turns[task.path().filename()])) return std::nullopt;
+  }
+  if (turns.empty()) return std::nullopt;
+  return turns;
+}
+
+}  // namespace
+
+bool ChildProcess::sleeps() const {
+  const auto first = turns_of_sleepers(pid_);
+  return first && turns_of_sleepers(pid_) == first;
 }
 
 }  // namespace trunnion::deploy

@@ -15,6 +15,9 @@ class ChildProcess {
   ChildProcess& operator=(const ChildProcess&) = delete;
   /// Empty while it runs; then how it ended and what it wrote last, in one line.
   std::string ended();
+  /// Every thread sleeps and none has run while this was looked at: what the process was sent over the
+  /// loopback it has taken. False when that cannot be seen.
+  bool sleeps() const;
 
  private:
   std::string name_, log_;

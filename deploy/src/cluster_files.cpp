@@ -5,11 +5,14 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
 #include <csignal>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <stdexcept>
+#include <thread>
 #include <vector>
 
 namespace trunnion::deploy {
@@ -17,6 +20,7 @@ namespace fs = std::filesystem;
 
 namespace {
 std::string base() { return "/tmp/trunnion-" + std::to_string(getuid()); }
+constexpr const char* verification_mark = "verify-";
 }  // namespace
 
 std::string binary_directory() { return fs::read_symlink("/proc/self/exe").parent_path().string(); }
@@ -74,20 +78,40 @@ void RunDirectory::remove() const {
   fs::remove(base(), ignored);  // only when it is empty
 }
 
-std::uint32_t free_domain() {
-  // A directory is made by one process only, so it reserves the domain.
+std::string RunDirectory::verification() const {
+  return path() + "/" + verification_mark + std::to_string(getpid());
+}
+
+bool RunDirectory::verifies() const {
   std::error_code ignored;
-  fs::create_directories(base(), ignored);
-  const auto first = static_cast<std::uint32_t>(getpid()) % 20;
-  for (std::uint32_t i = 0; i < 20; ++i) {
-    const RunDirectory run{80 + (first + i) % 20};
-    if (fs::exists(run.path()) && !run.launcher() &&
-        fs::last_write_time(run.path()) < fs::file_time_type::clock::now() - std::chrono::minutes(1))
-      run.remove();
-    fs::create_directories(base(), ignored);
-    if (fs::create_directory(run.path(), ignored)) return run.domain;
+  for (const auto& entry : fs::directory_iterator(path(), ignored)) {
+    const auto name = entry.path().filename().string();
+    if (!name.starts_with(verification_mark)) continue;
+    const int pid = std::atoi(name.c_str() + std::strlen(verification_mark));
+    if (pid > 0 && kill(pid, 0) == 0) return true;
   }
-  throw std::runtime_error("domains 80 .. 99 are all taken: stop a cluster with 'trunnion down'");
+  return false;
+}
+
+std::uint32_t free_domain(double patience) {
+  const auto until = std::chrono::steady_clock::now() + std::chrono::duration<double>(patience);
+  const auto first = static_cast<std::uint32_t>(getpid()) % 20;
+  std::error_code ignored;
+  for (;;) {
+    for (std::uint32_t i = 0; i < 20; ++i) {
+      const RunDirectory run{80 + (first + i) % 20};
+      if (fs::exists(run.path()) && !run.launcher() && !run.verifies() &&
+          fs::last_write_time(run.path(), ignored) <
+              fs::file_time_type::clock::now() - std::chrono::minutes(1))
+        run.remove();
+      // A directory is made by one process only, so it reserves the domain.
+      fs::create_directories(base(), ignored);
+      if (fs::create_directory(run.path(), ignored)) return run.domain;
+    }
+    if (std::chrono::steady_clock::now() >= until)
+      throw std::runtime_error("domains 80 .. 99 are all taken: stop a cluster with 'trunnion down'");
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  }
 }
 
 std::vector<RunDirectory> run_directories() {

@@ -31,11 +31,16 @@ struct RunDirectory {
   std::optional<int> launcher() const;
   /// A cluster has run here whose launcher was killed, so that nobody cleared up.
   bool abandoned() const;
+  /// Where this process keeps the files of a verification.
+  std::string verification() const;
+  /// Some process that is alive has such a place here.
+  bool verifies() const;
   void remove() const;
 };
 
-/// A domain in 80 .. 99 that no cluster of this user runs in. Throws std::runtime_error when all are taken.
-std::uint32_t free_domain();
+/// A domain in 80 .. 99 that no cluster of this user runs in. Throws std::runtime_error when all are still
+/// taken after `patience` seconds.
+std::uint32_t free_domain(double patience = 0);
 /// Of every cluster of this user, running or abandoned, by domain.
 std::vector<RunDirectory> run_directories();
 

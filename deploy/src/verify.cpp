@@ -17,10 +17,11 @@
 namespace trunnion::deploy {
 namespace {
 
-constexpr int stream_frames = 4096;       // that a writer of the stream keeps
-constexpr double match_patience = 5;      // s for a reader that must not miss the first message
-constexpr double answer_patience = 0.01;  // s that a service is given to take what it may not answer
-constexpr double last_words = 0.05;       // s for what a service writes beyond what is recorded
+constexpr int stream_frames = 4096;    // that a writer of the stream keeps
+constexpr double match_patience = 5;   // s for a reader that must not miss the first message
+constexpr double start_pause = 0.01;   // s for each message to a service that is not heard of yet
+constexpr double take_patience = 0.5;  // s for a service to take a message and sleep again
+constexpr double last_words = 0.05;    // s for what a service writes beyond what is recorded
 
 class Feeding {
  public:
@@ -56,7 +57,7 @@ class Feeding {
       if (began_ == 0 && replay::is_cyclic(*step.message->topic)) began_ = node::monotonic_seconds();
       drain();
       to.write(step.message->cdr);
-      if (step.apart) await_answer();
+      if (step.apart) await_taken();
     }
     if (!wait_for(plan_.end)) return missing(plan_.end);
     ended_ = node::monotonic_seconds();
@@ -101,14 +102,18 @@ class Feeding {
     return further;
   }
 
-  // Topics have no common order on the way, so what the order matters for is sent one by one.
-  void await_answer() {
+  // Topics have no common order on the way, so what the order matters for is sent one by one: the service has
+  // taken it when it sleeps again. One that is just starting sleeps for other reasons.
+  void await_taken() {
     const auto before = produced_.size();
-    const double until = node::monotonic_seconds() + answer_patience;
-    while (produced_.size() == before && node::monotonic_seconds() < until) {
-      bus_.signal().wait(answer_patience);
+    active();
+    const double until = node::monotonic_seconds() + (heard_ ? take_patience : start_pause);
+    while (node::monotonic_seconds() < until) {
+      if (heard_ ? process_.sleeps() : produced_.size() != before) break;
+      if (!heard_) bus_.signal().wait(start_pause);
       drain();
     }
+    drain();
   }
 
   bool wait_for(const std::vector<replay::Mark>& needs) {
@@ -142,9 +147,11 @@ class Feeding {
   }
   bool active() {
     idl::service::ServiceState state;
-    while (states_.take(state))
-      active_ =
-          active_ || (state.instance == plan_.instance && state.lifecycle == idl::service::Lifecycle::ACTIVE);
+    while (states_.take(state)) {
+      if (state.instance != plan_.instance) continue;
+      heard_ = true;
+      active_ = active_ || state.lifecycle == idl::service::Lifecycle::ACTIVE;
+    }
     return active_;
   }
 
@@ -172,7 +179,7 @@ class Feeding {
   replay::Progress progress_;
   replay::Answers answers_;
   bus::Reader<idl::service::ServiceState> states_;
-  bool active_ = false;
+  bool heard_ = false, active_ = false;
   bus::Bytes bytes_;
   double began_ = 0, ended_ = 0;
 };

@@ -1,15 +1,18 @@
 #include "verify_place.hpp"
 
-#include <unistd.h>
-
 #include <filesystem>
 #include <stdexcept>
 
 namespace trunnion::deploy {
 namespace fs = std::filesystem;
 
-VerifyPlace::VerifyPlace(std::optional<std::uint32_t> domain) : run_{domain ? *domain : free_domain()} {
-  directory_ = run_.path() + "/verify-" + std::to_string(getpid());
+namespace {
+constexpr double domain_patience = 60;  // s: other verifications end soon
+}
+
+VerifyPlace::VerifyPlace(std::optional<std::uint32_t> domain)
+    : run_{domain ? *domain : free_domain(domain_patience)} {
+  directory_ = run_.verification();
   fs::create_directories(directory_ + "/state");
 }
 
