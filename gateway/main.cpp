@@ -1,7 +1,19 @@
 #include <CLI/CLI.hpp>
 #include <iostream>
 
+#include "rehearsal_service.hpp"
 #include "service.hpp"
+
+namespace {
+
+/// False when the process is told to end before it is needed.
+bool stand_by(trunnion::node::Node& node, std::uint16_t port) {
+  if (!node.shadow()) return node.stand_by();
+  trunnion::gateway::RehearsalService rehearsal(node, port);
+  return node.stand_by(&rehearsal);
+}
+
+}  // namespace
 
 int main(int argc, char** argv) {
   using namespace trunnion;
@@ -17,7 +29,8 @@ int main(int argc, char** argv) {
   if (const int status = node::parse_options(app, argc, argv, options); status >= 0) return status;
   try {
     node::Node node(options);
-    if (!node.stand_by()) return 0;
+    if (own.port == 0) own.port = options.machine.port;
+    if (!stand_by(node, own.port)) return 0;
     gateway::GatewayService service(node, own);
     return node.run(service);
   } catch (const std::exception& e) {

@@ -296,6 +296,24 @@ TEST_F(Swapping, WhatCannotBeStartedOrDoesNotExistIsRefused) {
   EXPECT_TRUE(cluster.finish()) << cluster.told();
 }
 
+TEST_F(Swapping, AGatewayThatShowsAnotherPositionIsNotTakenAndOneThatShowsTheSameIs) {
+  Cluster cluster("ac-table", Time::virtual_, "", true);
+  cluster.start_text("G90 G0 X5\nM30\n");
+  ASSERT_TRUE(cluster.finish()) << cluster.told();
+  const auto before = pid(cluster, "gateway");
+  // It shows the actual position of the first axis two micrometres beside where it is.
+  const auto wrong = swap(cluster, "gateway", variant("gateway_wrong_position"));
+  EXPECT_FALSE(wrong.accepted);
+  EXPECT_NE(wrong.reason.find("differs in axes/0/actual: "), std::string::npos) << wrong.reason;
+  EXPECT_EQ(pid(cluster, "gateway"), before);
+  EXPECT_EQ(http_status(cluster.running().port, "/api/status"), "HTTP/1.1 200 OK");
+  const auto right = swap(cluster, "gateway", "", "fastdds");
+  EXPECT_TRUE(right.accepted) << right.reason;
+  EXPECT_TRUE(cluster.until([&] {
+    return cluster.ready() && cluster.service("gateway")->vendor == "fastdds";
+  })) << cluster.told();
+}
+
 struct HandedOver {
   const char* service;
   double gap;  // s in which nobody may serve at most, on a machine that does other things too

@@ -15,9 +15,9 @@ namespace trunnion::deploy {
 /// A stage computes beside the old one, writing to a topic of its own, until enough cycles were equal; then
 /// both take part as twins for a moment, and the old one is retired. Every other service begins as a process
 /// that waits, and takes over when the old one has ended, because its files and its port have one owner at a
-/// time. Meanwhile the PLC repeats what the old one does, over enough cycles, and the keepers of parameters
-/// and programs compare what they would publish; they say in their heartbeat what differs. Whatever goes
-/// wrong, the old one serves.
+/// time. Meanwhile the PLC repeats what the old one does, over enough cycles, the keepers of parameters
+/// and programs compare what they would publish, and the gateway what it would show; they say in their
+/// heartbeat what differs. Whatever goes wrong, the old one serves.
 class Swap {
  public:
   using Announcements = std::map<std::uint32_t, idl::service::Announcement>;

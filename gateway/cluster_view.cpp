@@ -1,0 +1,92 @@
+#include "cluster_view.hpp"
+
+#include <ctime>
+
+#include "contracts/topics.hpp"
+#include "machine/axes.hpp"
+
+namespace trunnion::gateway {
+namespace {
+
+std::string time_of_day() {
+  const std::time_t now = std::time(nullptr);
+  std::tm utc{};
+  gmtime_r(&now, &utc);
+  char text[32];
+  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &utc);
+  return text;
+}
+
+/// Replaces `kept` by the newest sample; true when there was one.
+template <class T>
+bool keep_newest(bus::Reader<T>& reader, std::shared_ptr<const T>& kept) {
+  T value;
+  if (!reader.take_newest(value)) return false;
+  kept = std::make_shared<const T>(std::move(value));
+  return true;
+}
+
+std::vector<std::uint16_t> drive_columns(const idl::parameters::ParameterSet& set) {
+  machine::Parameters parameters;
+  for (const auto& value : set.values) parameters.values[value.number] = {value.value, value.text};
+  std::vector<std::uint16_t> columns;
+  for (const auto& axis : machine::drive_axes(parameters)) columns.push_back(axis.number);
+  return columns;
+}
+
+}  // namespace
+
+ClusterView::ClusterView(bus::Bus& bus)
+    : announcements_(bus.reader(topics::announcement)),
+      service_states_(bus.reader(topics::service_state)),
+      alarms_(bus.reader(topics::alarm)),
+      cluster_(bus.reader(topics::cluster)),
+      channel_states_(bus.reader(topics::channel_state)),
+      feedback_(bus.reader(topics::feedback_frame)),
+      outputs_(bus.reader(topics::plc_outputs)),
+      image_(bus.reader(topics::plc_image)),
+      parameters_(bus.reader(topics::parameter_set)),
+      tools_(bus.reader(topics::tool_table)),
+      offsets_(bus.reader(topics::work_offsets)),
+      programs_(bus.reader(topics::program_list)),
+      document_(topics::contract_hash) {}
+
+void ClusterView::drain(double now) {
+  idl::service::Announcement announcement;
+  while (announcements_.take(announcement)) document_.apply(announcement);
+  idl::service::Alarm alarm;
+  while (alarms_.take(alarm)) document_.apply(alarm, now, time_of_day());
+  idl::service::ServiceState state;
+  while (service_states_.take(state)) document_.apply(state, now);
+  idl::service::Cluster cluster;
+  if (cluster_.take_newest(cluster)) document_.apply(cluster);
+  idl::channel::ChannelState channel;
+  while (channel_states_.take(channel)) {
+    document_.apply(channel);
+    next_.channels[channel.channel] = channel;
+  }
+  idl::stream::FeedbackFrame frame;
+  while (feedback_.take(frame)) {
+    document_.apply(frame);
+    ++frames_;
+  }
+  idl::plc::Outputs outputs;
+  if (outputs_.take_newest(outputs)) document_.apply(outputs);
+  keep_newest(image_, next_.image);
+  if (keep_newest(parameters_, next_.parameters)) {
+    document_.set_revision("parameters", next_.parameters->revision);
+    document_.set_revision("pending", next_.parameters->pending.size());
+    document_.set_drive_axes(drive_columns(*next_.parameters));
+  }
+  if (keep_newest(tools_, next_.tools)) document_.set_revision("tools", next_.tools->revision);
+  if (keep_newest(offsets_, next_.offsets)) document_.set_revision("work_offsets", next_.offsets->revision);
+  if (keep_newest(programs_, next_.programs)) document_.set_revision("programs", next_.programs->revision);
+}
+
+std::shared_ptr<const Snapshot> ClusterView::snapshot(double now) {
+  ++next_.sequence;
+  next_.document = document_.document(now);
+  return std::make_shared<const Snapshot>(next_);
+}
+
+}  // namespace trunnion::gateway

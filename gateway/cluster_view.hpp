@@ -1,0 +1,42 @@
+// What a gateway knows of the cluster: the newest of every topic it shows.
+#pragma once
+
+#include <memory>
+
+#include "bus/bus.hpp"
+#include "src/snapshot.hpp"
+#include "src/state_document.hpp"
+
+namespace trunnion::gateway {
+
+class ClusterView {
+ public:
+  explicit ClusterView(bus::Bus& bus);
+  /// Takes what has come. `now` in monotonic seconds.
+  void drain(double now);
+  /// Everything as it is now; peaks and the trace start afresh with it.
+  std::shared_ptr<const Snapshot> snapshot(double now);
+  std::uint64_t frames() const { return frames_; }
+  /// Of the parameters, 0 = none yet.
+  std::uint64_t revision() const { return next_.parameters ? next_.parameters->revision : 0; }
+
+ private:
+  bus::Reader<idl::service::Announcement> announcements_;
+  bus::Reader<idl::service::ServiceState> service_states_;
+  bus::Reader<idl::service::Alarm> alarms_;
+  bus::Reader<idl::service::Cluster> cluster_;
+  bus::Reader<idl::channel::ChannelState> channel_states_;
+  bus::Reader<idl::stream::FeedbackFrame> feedback_;
+  bus::Reader<idl::plc::Outputs> outputs_;
+  bus::Reader<idl::plc::Image> image_;
+  bus::Reader<idl::parameters::ParameterSet> parameters_;
+  bus::Reader<idl::parameters::ToolTable> tools_;
+  bus::Reader<idl::parameters::WorkOffsets> offsets_;
+  bus::Reader<idl::program::ProgramList> programs_;
+
+  StateDocument document_;
+  Snapshot next_;
+  std::uint64_t frames_ = 0;
+};
+
+}  // namespace trunnion::gateway
