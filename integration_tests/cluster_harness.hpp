@@ -239,7 +239,10 @@ class Cluster {
     feedback_.emplace(client_->bus().reader(topics::feedback_frame));
     clusters_.emplace(client_->bus().reader(topics::cluster));
     resets_.emplace(client_->bus().writer(topics::alarm_reset));
-    EXPECT_TRUE(until([&] { return have_cluster_ && list_.ready && !channels.empty(); })) << told();
+    // A drive that does not know of our reader yet would not tell where a motion begins.
+    EXPECT_TRUE(until([&] {
+      return have_cluster_ && list_.ready && !channels.empty() && feedback.axis_count > 0;
+    })) << told();
   }
 
   bool owned_ = true;
