@@ -22,20 +22,8 @@ Json comparable(Json document) {
   return document;
 }
 
-template <class T>
-Json shown(const std::shared_ptr<const T>& value) {
-  return value ? bus::to_json(*value) : Json(nullptr);
-}
-
-// The state that the page is told, and what is read besides it.
 Json own(const Snapshot& snapshot) {
-  auto json = comparable(snapshot.document);
-  json["/api/parameters"] = parameters_answer(snapshot, {});
-  json["/api/tools"] = shown(snapshot.tools);
-  json["/api/work-offsets"] = shown(snapshot.offsets);
-  json["/api/programs"] = shown(snapshot.programs);
-  json["/api/plc/image"] = shown(snapshot.image);
-  return Json::parse(bus::text_of(json));  // numbers as they come over the line
+  return Json::parse(bus::text_of(comparable(snapshot.document)));  // numbers as they come over the line
 }
 
 // Null when nobody answers there.
@@ -43,13 +31,7 @@ Json running(std::uint16_t port) {
   auto first = http::WebSocketClient(port, "/api/stream").next(1);
   auto message = first ? Json::parse(*first, nullptr, false) : Json();
   if (!message.is_object() || !message.contains("state")) return nullptr;
-  auto json = comparable(std::move(message["state"]));
-  for (const char* path :
-       {"/api/parameters", "/api/tools", "/api/work-offsets", "/api/programs", "/api/plc/image"}) {
-    const auto answer = http::request(port, "GET", path);
-    json[path] = answer.status == 200 ? Json::parse(answer.body, nullptr, false) : Json(nullptr);
-  }
-  return json;
+  return comparable(std::move(message["state"]));
 }
 
 }  // namespace
@@ -57,12 +39,13 @@ Json running(std::uint16_t port) {
 RehearsalService::RehearsalService(node::Node& node, std::uint16_t port) : view_(node.bus()), port_(port) {}
 
 void RehearsalService::look(double now) {
+  const auto before = own(*view_.snapshot(now));
   const auto theirs = running(port_);
   nobody_answers_ = theirs.is_null();
   if (nobody_answers_) return;
   const double then = node::monotonic_seconds();
   view_.drain(then);
-  comparison_.look(theirs, own(*view_.snapshot(then)), now);
+  comparison_.look(theirs, before, own(*view_.snapshot(then)), then);
 }
 
 void RehearsalService::pump() {

@@ -1,35 +1,40 @@
 #include "src/lasting_difference.hpp"
 
+#include <set>
+
 namespace trunnion::gateway {
 namespace {
 
-constexpr const char* absent = "nothing";
+std::string value_at(const bus::Json& flat, const std::string& path) {
+  const auto found = flat.find(path);
+  return found != flat.end() ? found->dump() : "nothing";
+}
 
 }  // namespace
 
-void LastingDifference::look(const bus::Json& running, const bus::Json& own, double now) {
+void LastingDifference::look(const bus::Json& running, const bus::Json& before, const bus::Json& after,
+                             double now) {
   if (looks_++ == 0) began_ = now;
-  const auto here = running.flatten(), there = own.flatten();
-  std::erase_if(values_, [&](const auto& value) {
-    return !here.contains(value.first) && !there.contains(value.first);
-  });
-  for (const auto& [path, value] : here.items()) {
-    const auto other = there.find(path);
-    look_at(path, value.dump(), other != there.end() ? other->dump() : absent, now);
+  const auto theirs = running.flatten(), first = before.flatten(), last = after.flatten();
+  std::set<std::string> paths;
+  for (const auto* flat : {&theirs, &first, &last})
+    for (const auto& [path, value] : flat->items()) paths.insert(path);
+  std::erase_if(differing_, [&](const auto& one) { return !paths.contains(one.first); });
+  for (const auto& path : paths) {
+    const auto here = value_at(theirs, path), own = value_at(last, path), earlier = value_at(first, path);
+    if (earlier != own || here == own)
+      differing_.erase(path);
+    else
+      look_at(path, here, own, now);
   }
-  for (const auto& [path, value] : there.items())
-    if (!here.contains(path)) look_at(path, absent, value.dump(), now);
 }
 
 void LastingDifference::look_at(const std::string& path, const std::string& running, const std::string& own,
                                 double now) {
-  const auto [found, fresh] = values_.try_emplace(path);
-  auto& value = found->second;
-  if (fresh || value.running != running) value.running = running, value.running_since = now;
-  if (fresh || value.own != own) value.own = own, value.own_since = now;
-  if (fresh || running == own) value.equal_at = now;
-  const bool one_rests = now - value.running_since >= patience || now - value.own_since >= patience;
-  if (difference_.empty() && now - value.equal_at >= patience && one_rests)
+  auto& one = differing_[path];
+  if (one.looks == 0 || one.own != own) one = {own, now, 0};
+  ++one.looks;
+  if (difference_.empty() && one.looks >= looks_in_a_row && now - one.since >= patience)
     difference_ = (path.empty() ? "all" : path.substr(1)) + ": " + running + " and " + own;
 }
 
