@@ -1,21 +1,11 @@
 #include "cluster_view.hpp"
 
-#include <ctime>
-
 #include "contracts/topics.hpp"
 #include "machine/axes.hpp"
+#include "node/node.hpp"
 
 namespace trunnion::gateway {
 namespace {
-
-std::string time_of_day() {
-  const std::time_t now = std::time(nullptr);
-  std::tm utc{};
-  gmtime_r(&now, &utc);
-  char text[32];
-  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &utc);
-  return text;
-}
 
 /// Replaces `kept` by the newest sample; true when there was one.
 template <class T>
@@ -55,7 +45,7 @@ void ClusterView::drain(double now) {
   idl::service::Announcement announcement;
   while (announcements_.take(announcement)) document_.apply(announcement);
   idl::service::Alarm alarm;
-  while (alarms_.take(alarm)) document_.apply(alarm, now, time_of_day());
+  while (alarms_.take(alarm)) document_.apply(alarm, now, node::time_of_day());
   idl::service::ServiceState state;
   while (service_states_.take(state)) document_.apply(state, now);
   idl::service::Cluster cluster;

@@ -88,6 +88,8 @@ bool use_real_time_scheduling();
 
 /// Monotonic seconds, for time-outs and statistics only.
 double monotonic_seconds();
+/// ISO 8601 in UTC, to the second, for people to read.
+std::string time_of_day();
 
 /// main() of a service: parse, make the node and the service, run. One line on stderr and status 1 on
 /// failure.

@@ -1,6 +1,5 @@
 #include "service.hpp"
 
-#include <ctime>
 #include <filesystem>
 
 #include "machine/alarms.hpp"
@@ -23,16 +22,6 @@ namespace {
 std::string make_directory(const std::string& path) {
   std::filesystem::create_directories(path);
   return path;
-}
-
-/// ISO 8601 in UTC, to the second.
-std::string wall_time() {
-  const std::time_t now = std::time(nullptr);
-  std::tm parts{};
-  gmtime_r(&now, &parts);
-  char text[32];
-  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &parts);
-  return text;
 }
 
 }  // namespace
@@ -68,7 +57,7 @@ void ParameterService::pump() {
   }
   idl::parameters::ParameterRequest request;
   while (requests_.take(request)) {
-    const auto reply = store_.apply(request, wall_time());
+    const auto reply = store_.apply(request, node::time_of_day());
     if (reply.accepted)
       node_.alarms().release("storage_failed", 0);
     else if (reply.alarm == machine::alarm_definition("storage_failed").number)

@@ -304,7 +304,8 @@ std::string configuration(const NetworkSettings& network) {
          // A packet that a full socket buffer dropped is asked for again within milliseconds, before it is
          // overwritten. The interval between heartbeats doubles while nobody answers; its bound is what a cut
          // cable costs after it is whole again. A writer of Fast DDS asks for an acknowledgement more often
-         // than it needs one: what is missing is told within NackDelay anyway.
+         // than it needs one: what is missing is told within NackDelay anyway. Fast DDS 2.9 understands that
+         // somebody has left only by the key hash, and would go on sending until the lease ends.
          "<Internal><Watermarks><WhcHigh>64MB</WhcHigh></Watermarks><NackDelay>5ms</NackDelay>"
          "<AckDelay>100ms</AckDelay><GenerateKeyhash>true</GenerateKeyhash>"
          "<HeartbeatInterval max=\"100ms\">20ms</HeartbeatInterval>"

@@ -81,6 +81,17 @@ TEST_P(BusOverVendors, ASampleOf60KilobytesIsDelivered) {
   EXPECT_EQ(in, reply);
 }
 
+// The participant lives on, so no lease ends the match: only the word that the reader is gone does.
+TEST_P(BusOverVendors, AWriterHearsThatAReaderHasLeft) {
+  const auto [from, to, domain] = GetParam();
+  Bus a(from, {domain + 16}), b(to, {domain + 16});
+  auto writer = a.backend().writer(describe(topics::gantry_frame), {true, 16});
+  auto reader = std::make_unique<Reader<idl::stream::AxisFrame>>(b.reader(topics::gantry_frame));
+  ASSERT_TRUE(eventually([&] { return writer->matched() == 1; }));
+  reader.reset();
+  EXPECT_TRUE(eventually([&] { return writer->matched() == 0; }));
+}
+
 INSTANTIATE_TEST_SUITE_P(Vendors, BusOverVendors,
                          testing::Values(Pair{Vendor::cyclonedds, Vendor::cyclonedds, 20},
                                          Pair{Vendor::fastdds, Vendor::fastdds, 21},
