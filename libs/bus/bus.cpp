@@ -42,6 +42,11 @@ void Gathering::notify() {
   waits = waits_of_this_thread();
 }
 
+std::int64_t source_time() {
+  const auto now = std::chrono::system_clock::now().time_since_epoch();
+  return rounded_source_time(std::chrono::duration_cast<std::chrono::nanoseconds>(now).count());
+}
+
 const char* to_string(Vendor vendor) { return vendor == Vendor::fastdds ? "fastdds" : "cyclonedds"; }
 
 Vendor vendor_from(const std::string& name) {
@@ -57,6 +62,16 @@ std::unique_ptr<Backend> make_backend(Vendor vendor, const NetworkSettings& netw
 }  // namespace
 
 Bus::Bus(Vendor vendor, const NetworkSettings& network, StreamDepth depth)
-    : vendor_(vendor), backend_(make_backend(vendor, network)), depth_(depth) {}
+    : vendor_(vendor),
+      secured_(!network.security.empty()),
+      backend_(make_backend(vendor, network)),
+      depth_(depth) {}
+
+std::unique_ptr<SharedHistory> Bus::share(QosKind kind, EndpointQos& qos) const {
+  if (kind != QosKind::frame || secured_) return nullptr;
+  auto history = SharedHistory::make();
+  if (history != nullptr) qos.user_data = history->address();
+  return history;
+}
 
 }  // namespace trunnion::bus

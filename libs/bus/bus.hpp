@@ -6,6 +6,7 @@
 
 #include "bus/cdr.hpp"
 #include "bus/endpoint.hpp"
+#include "bus/shared_history.hpp"
 #include "bus/topic.hpp"
 
 namespace trunnion::bus {
@@ -63,15 +64,20 @@ inline EndpointQos reader_qos(QosKind kind) {
 template <class T>
 class Writer {
  public:
-  explicit Writer(std::unique_ptr<RawWriter> raw) : raw_(std::move(raw)) {}
+  explicit Writer(std::unique_ptr<RawWriter> raw, std::unique_ptr<SharedHistory> history = nullptr)
+      : history_(std::move(history)), raw_(std::move(raw)) {}
   /// Throws CdrError when a field is beyond its bound; false when the vendor could not send.
   bool write(const T& value) {
     encode(value, buffer_);
-    return raw_->write(buffer_);
+    const std::int64_t now = source_time();
+    // First, so that nobody has a frame which a recorder does not find.
+    if (history_ != nullptr) history_->write(now, buffer_);
+    return raw_->write(buffer_, now);
   }
   int matched() const { return raw_->matched(); }
 
  private:
+  std::unique_ptr<SharedHistory> history_;
   std::unique_ptr<RawWriter> raw_;
   Bytes buffer_;
 };
@@ -112,7 +118,9 @@ class Bus {
 
   template <class T>
   Writer<T> writer(const Topic<T>& topic) {
-    return Writer<T>(backend_->writer(describe(topic), writer_qos(topic.qos, depth_)));
+    EndpointQos qos = writer_qos(topic.qos, depth_);
+    auto history = share(topic.qos, qos);
+    return Writer<T>(backend_->writer(describe(topic), qos), std::move(history));
   }
   template <class T>
   Reader<T> reader(const Topic<T>& topic) {
@@ -124,7 +132,11 @@ class Bus {
   void set_depth(StreamDepth depth) { depth_ = depth; }
 
  private:
+  // Frames can be recorded from memory, unless the cluster is secured: then certificates decide who reads.
+  std::unique_ptr<SharedHistory> share(QosKind kind, EndpointQos& qos) const;
+
   Vendor vendor_;
+  bool secured_;
   Signal signal_;
   std::unique_ptr<Backend> backend_;
   StreamDepth depth_;

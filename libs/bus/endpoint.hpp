@@ -8,6 +8,7 @@
 #include <mutex>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "bus/cdr.hpp"
 #include "bus/topic.hpp"
@@ -54,18 +55,38 @@ struct TopicDescription {
 
 struct EndpointQos {
   bool transient_local = false;
-  int depth = 1;  ///< KEEP_LAST; 0 = KEEP_ALL (readers only)
+  int depth = 1;               ///< KEEP_LAST; 0 = KEEP_ALL (readers only)
+  std::string user_data = {};  ///< what a writer tells those who discover it
+};
+
+/// Tells the writers of a domain apart; it means something to the participant alone that gives it.
+using WriterId = std::array<std::uint8_t, 16>;
+
+/// A writer in the domain, this process's own or another's.
+struct DiscoveredWriter {
+  WriterId id{};
+  std::string topic, wire_type;
+  std::string user_data;
 };
 
 struct SampleInfo {
   std::int64_t source_timestamp =
       0;  ///< ns since the epoch, the writer's clock: for statistics, never for order
+  WriterId writer{};
 };
+
+/// The source time stamp of a message written now. The time on the wire counts in 2^-32 s, and each vendor
+/// rounds in its own way: in steps of 8 ns every reader finds the same.
+std::int64_t source_time();
+/// The step nearest to what a vendor has read.
+constexpr std::int64_t rounded_source_time(std::int64_t nanoseconds) { return (nanoseconds + 4) / 8 * 8; }
 
 class RawWriter {
  public:
   virtual ~RawWriter() = default;
-  virtual bool write(std::span<const std::uint8_t> cdr) = 0;
+  /// `time` is a source_time().
+  virtual bool write(std::span<const std::uint8_t> cdr, std::int64_t time) = 0;
+  bool write(std::span<const std::uint8_t> cdr) { return write(cdr, source_time()); }
   virtual int matched() = 0;
 };
 
@@ -101,6 +122,8 @@ class Backend {
   /// `signal` may be null; it is notified whenever data arrives.
   virtual std::unique_ptr<RawReader> reader(const TopicDescription& topic, const EndpointQos& qos,
                                             Signal* signal) = 0;
+  /// False when nothing has changed since the last call. Otherwise `writers` are all that are known now.
+  virtual bool discover(std::vector<DiscoveredWriter>& writers) = 0;
 };
 
 /// Throws std::runtime_error with the vendor's reason.

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <chrono>
 #include <iostream>
+#include <optional>
 #include <set>
 #include <stdexcept>
 #include <thread>
@@ -20,14 +21,16 @@
 #include "node/node.hpp"
 #include "part_files.hpp"
 #include "replay/stream_tally.hpp"
+#include "topic_source.hpp"
 
 namespace trunnion::recorder {
 namespace {
 
 constexpr double match_seconds = 1.0;    // how long to wait for the writers of the stream
 constexpr double cluster_seconds = 5.0;  // the same when a launcher says which services there are
-// To wake up for every message would take as much of the processor as a stage of the stream does.
-constexpr auto pause = std::chrono::milliseconds(5);
+// To wake up for every message would take as much of the processor as a stage of the stream does. What
+// writers keep lasts for a thousand frames.
+constexpr auto pause = std::chrono::milliseconds(20);
 constexpr int priority = 10;  // whatever it does can wait, the stream cannot
 
 volatile sig_atomic_t stop_requested = 0;
@@ -62,16 +65,62 @@ std::int64_t nanoseconds_since_epoch() {
       .count();
 }
 
-struct Topic {
-  const bus::TopicEntry* entry = nullptr;
-  std::unique_ptr<bus::RawReader> reader;
-  std::uint32_t sequence = 0;
-  bool is_stream() const { return entry->qos == bus::QosKind::frame; }
-  bool is_feedback() const { return entry->description.name == topics::feedback_frame.name; }
-  // What was before the recording counts: states, and with the feedback where the machine stands and what the
-  // drive was told. Of setpoints it would only be a thousand frames for each stage.
-  bool has_past() const { return !is_stream() || is_feedback(); }
+// All topics of the recording, by the numbers that messages name.
+class Sources {
+ public:
+  Sources(bus::Backend& backend, const std::vector<const bus::TopicEntry*>& entries, bus::Signal* signal)
+      : backend_(backend), sequences_(entries.size()) {
+    for (const auto* entry : entries) topics_.emplace_back(backend, *entry, signal);
+  }
+
+  void begin(std::int64_t now) {
+    for (auto& topic : topics_) topic.begin(now);
+  }
+  /// Takes what has arrived; true when there was anything.
+  bool drain(MessageQueue& queue);
+
+  // Of the topics that carry the stream:
+  bool all_have_writers() const {
+    return std::all_of(topics_.begin(), topics_.end(),
+                       [](const TopicSource& topic) { return !topic.is_stream() || topic.has_writer(); });
+  }
+  bool feedback_has_come() const {
+    for (std::size_t i = 0; i < topics_.size(); ++i)
+      if (topics_[i].is_feedback() && sequences_[i] == 0) return false;
+    return true;
+  }
+  std::uint64_t overwritten() const {
+    std::uint64_t sum = 0;
+    for (const auto& topic : topics_) sum += topic.overwritten();
+    return sum;
+  }
+
+ private:
+  bus::Backend& backend_;
+  std::vector<TopicSource> topics_;
+  std::vector<std::uint32_t> sequences_;
+  std::vector<bus::DiscoveredWriter> writers_;
+  Message message_;
 };
+
+bool Sources::drain(MessageQueue& queue) {
+  if (backend_.discover(writers_))
+    for (auto& topic : topics_) topic.see(writers_);
+  bool any = false;
+  bus::SampleInfo info;
+  for (std::size_t i = 0; i < topics_.size(); ++i) {
+    // A bounded number at a time, so that one topic in full flow does not keep the others waiting.
+    for (int n = 0; n < 256 && topics_[i].take(message_.cdr, info); ++n) {
+      any = true;
+      message_.topic = static_cast<std::uint16_t>(i);
+      message_.sequence = ++sequences_[i];
+      message_.source_time = info.source_timestamp;
+      queue.push(message_);
+    }
+  }
+  if (any) queue.wake();
+  return any;
+}
 
 // The thread that compresses and writes. It reads what it has to know of the stream from the bytes it writes.
 class FileThread {
@@ -141,34 +190,12 @@ class FileThread {
   std::thread thread_;
 };
 
-// Takes what has arrived at every reader; true when there was anything. Until the recording has `begun` it
-// leaves out what has no past, so that all stages begin together.
-bool drain(std::vector<Topic>& topics, MessageQueue& queue, Message& message, bool begun) {
-  bool any = false;
-  bus::SampleInfo info;
-  for (std::size_t i = 0; i < topics.size(); ++i) {
-    auto& topic = topics[i];
-    // A bounded number at a time, so that one topic in full flow does not keep the others waiting.
-    for (int n = 0; n < 256 && topic.reader->take(message.cdr, info); ++n) {
-      any = true;
-      if (!begun && !topic.has_past()) continue;
-      message.topic = static_cast<std::uint16_t>(i);
-      message.sequence = ++topic.sequence;
-      message.source_time = info.source_timestamp;
-      queue.push(message);
-    }
-  }
-  if (any) queue.wake();
-  return any;
-}
-
 // Motion that begins before the stream's writers know of our readers would be missing from the recording. A
 // writer learns of a participant's readers in the order in which they were made; so a service whose state
 // reaches a reader made last knows of all the others. Where the machine stands is in the feedback, so one
 // frame of it must have come. Without a launcher nobody says which services there are, and a matched writer
 // must do.
-template <class Drain>
-void wait_for_writers(bus::Bus& bus, const std::vector<Topic>& topics, Drain&& drain_all) {
+void wait_for_writers(bus::Bus& bus, Sources& sources, MessageQueue& queue) {
   auto clusters = bus.reader(topics::cluster);
   auto states = bus.reader(topics::service_state);
   idl::service::Cluster cluster;
@@ -176,7 +203,7 @@ void wait_for_writers(bus::Bus& bus, const std::vector<Topic>& topics, Drain&& d
   std::set<std::uint32_t> heard;
   const double began = node::monotonic_seconds();
   while (stop_requested == 0) {
-    drain_all();
+    sources.drain(queue);
     while (clusters.take(cluster)) {
     }
     while (states.take(state)) heard.insert(state.instance);
@@ -184,13 +211,8 @@ void wait_for_writers(bus::Bus& bus, const std::vector<Topic>& topics, Drain&& d
     const bool all_heard =
         std::all_of(cluster.services.begin(), cluster.services.end(),
                     [&](const auto& service) { return heard.count(service.instance) != 0; });
-    const bool matched = std::all_of(topics.begin(), topics.end(), [](const Topic& topic) {
-      return !topic.is_stream() || topic.reader->matched() > 0;
-    });
-    const bool placed = std::all_of(topics.begin(), topics.end(), [](const Topic& topic) {
-      return !topic.is_feedback() || topic.sequence > 0;
-    });
-    if (known && all_heard && matched && placed) return;
+    const bool matched = sources.all_have_writers();
+    if (known && all_heard && matched && sources.feedback_has_come()) return;
     const double waited = node::monotonic_seconds() - began;
     if (waited > (known ? cluster_seconds : match_seconds) ||
         (!known && matched && waited > match_seconds / 2))
@@ -199,7 +221,12 @@ void wait_for_writers(bus::Bus& bus, const std::vector<Topic>& topics, Drain&& d
   }
 }
 
-void print_summary(const Options& options, const FileThread& thread, std::uint64_t dropped) {
+struct Losses {
+  std::uint64_t dropped = 0, overwritten = 0;
+  bool none() const { return dropped == 0 && overwritten == 0; }
+};
+
+void print_summary(const Options& options, const FileThread& thread, const Losses& losses) {
   const auto& tally = thread.tally();
   const auto& destination = thread.destination();
   const auto& files = destination.files();
@@ -209,7 +236,8 @@ void print_summary(const Options& options, const FileThread& thread, std::uint64
     bus::Json summary = {{"file", options.output},
                          {"bytes", bytes},
                          {"messages", tally.messages()},
-                         {"dropped_messages", dropped},
+                         {"dropped_messages", losses.dropped},
+                         {"overwritten_messages", losses.overwritten},
                          {"unwritten_messages", destination.unwritten()},
                          {"problem", destination.problem()},
                          {"files", bus::Json::array()}};
@@ -238,8 +266,10 @@ void print_summary(const Options& options, const FileThread& thread, std::uint64
     if (tally.cycles(handle) != 0)
       std::cout << "  " << handle << ": " << tally.cycles(handle) << " cycles, " << tally.lost(handle)
                 << " lost\n";
-  if (dropped != 0)
-    std::cout << "  " << dropped << " messages dropped: the disk was slower than the stream\n";
+  if (losses.dropped != 0)
+    std::cout << "  " << losses.dropped << " messages dropped: the disk was slower than the stream\n";
+  if (losses.overwritten != 0)
+    std::cout << "  " << losses.overwritten << " messages overwritten: the recorder got too little time\n";
   if (destination.unwritten() != 0)
     std::cout << "  " << destination.unwritten() << " messages not written: " << destination.problem()
               << "\n";
@@ -263,21 +293,16 @@ int record(const Options& options) {
   FileThread file(options, header, queue);
   bus::Gathering gathering;
   bus::Bus bus(options.vendor, options.network);
-  std::vector<Topic> topics;
-  for (const auto* entry : entries) {
-    topics.push_back({entry, nullptr});
-    const bool late = bus::reader_qos(entry->qos).transient_local && topics.back().has_past();
-    topics.back().reader = bus.backend().reader(entry->description, {late, 0}, &gathering);
-  }
-  Message message;
-  wait_for_writers(bus, topics, [&] { drain(topics, queue, message, false); });
+  std::optional<Sources> sources(std::in_place, bus.backend(), entries, &gathering);
+  wait_for_writers(bus, *sources, queue);
+  sources->begin(bus::source_time());
   std::cout << "recording " << options.output << std::endl;
 
   const double started = node::monotonic_seconds();
   std::uint64_t told = 0;
   while (stop_requested == 0 &&
          (options.duration <= 0 || node::monotonic_seconds() - started < options.duration)) {
-    if (drain(topics, queue, message, true)) {
+    if (sources->drain(queue)) {
       if (queue.dropped() != 0 && told == 0) {
         told = queue.dropped();
         std::cerr << "trunnion-recorder: warning: messages are dropped: the disk is slower than the stream\n";
@@ -287,12 +312,13 @@ int record(const Options& options) {
   }
   // What has arrived by now belongs to the recording; a stream in full flow does not keep us for ever.
   const double until = node::monotonic_seconds() + 2;
-  while (drain(topics, queue, message, true) && node::monotonic_seconds() < until) {
+  while (sources->drain(queue) && node::monotonic_seconds() < until) {
   }
-  topics.clear();
+  const Losses losses{queue.dropped(), sources->overwritten()};
+  sources.reset();
   file.join();
-  print_summary(options, file, queue.dropped());
-  return queue.dropped() == 0 && file.destination().problem().empty() ? 0 : 1;
+  print_summary(options, file, losses);
+  return losses.none() && file.destination().problem().empty() ? 0 : 1;
 }
 
 }  // namespace trunnion::recorder

@@ -11,6 +11,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <map>
 #include <sstream>
 #include <stdexcept>
 #include <string_view>
@@ -216,6 +217,7 @@ std::unique_ptr<dds_qos_t, QosDeleter> make_qos(const EndpointQos& qos, bool wri
       dds_qset_durability_service(result.get(), 0, DDS_HISTORY_KEEP_LAST, depth, DDS_LENGTH_UNLIMITED,
                                   DDS_LENGTH_UNLIMITED, DDS_LENGTH_UNLIMITED);
     dds_qset_writer_data_lifecycle(result.get(), false);
+    if (!qos.user_data.empty()) dds_qset_userdata(result.get(), qos.user_data.data(), qos.user_data.size());
   }
   return result;
 }
@@ -231,8 +233,8 @@ class Writer : public RawWriter {
     dds_delete(writer_);
     dds_delete(topic_);
   }
-  bool write(std::span<const std::uint8_t> cdr) override {
-    return dds_write(writer_, &cdr) == DDS_RETCODE_OK;
+  bool write(std::span<const std::uint8_t> cdr, std::int64_t time) override {
+    return dds_write_ts(writer_, &cdr, time) == DDS_RETCODE_OK;
   }
   int matched() override {
     dds_publication_matched_status_t status{};
@@ -243,6 +245,12 @@ class Writer : public RawWriter {
  private:
   dds_entity_t topic_, writer_;
 };
+
+WriterId id_of(dds_instance_handle_t handle) {
+  WriterId id{};
+  std::memcpy(id.data(), &handle, sizeof handle);
+  return id;
+}
 
 class Reader : public RawReader {
  public:
@@ -271,7 +279,8 @@ class Reader : public RawReader {
       const bool valid = sample.valid_data && data->kind == SDK_DATA;
       if (valid) {
         cdr.assign(data->bytes, data->bytes + data->size);
-        info.source_timestamp = sample.source_timestamp;
+        info.source_timestamp = rounded_source_time(sample.source_timestamp);
+        info.writer = id_of(sample.publication_handle);
       }
       ddsi_serdata_unref(base);
       if (valid) return true;
@@ -381,9 +390,45 @@ class CycloneBackend : public Backend {
                                     Signal* signal) override {
     return std::make_unique<Reader>(participant_, topic, qos, signal);
   }
+  bool discover(std::vector<DiscoveredWriter>& writers) override {
+    if (publications_ < 0) {
+      publications_ = dds_create_reader(participant_, DDS_BUILTIN_TOPIC_DCPSPUBLICATION, nullptr, nullptr);
+      if (publications_ < 0) fail("reader of publications", publications_);
+    }
+    constexpr int most = 32;
+    bool any = false;
+    void* samples[most] = {};
+    dds_sample_info_t infos[most];
+    for (int count; (count = dds_take(publications_, samples, infos, most, most)) > 0;) {
+      for (int i = 0; i < count; ++i) keep(infos[i], *static_cast<dds_builtintopic_endpoint_t*>(samples[i]));
+      dds_return_loan(publications_, samples, count);
+      any = true;
+    }
+    if (!any) return false;
+    writers.clear();
+    for (const auto& [handle, writer] : discovered_) writers.push_back(writer);
+    return true;
+  }
 
  private:
+  // The handle of a publication is the same in this topic and with the samples it has written.
+  void keep(const dds_sample_info_t& info, const dds_builtintopic_endpoint_t& endpoint) {
+    if (info.instance_state != DDS_IST_ALIVE || !info.valid_data) {
+      discovered_.erase(info.instance_handle);
+      return;
+    }
+    auto& writer = discovered_[info.instance_handle];
+    writer = {id_of(info.instance_handle), endpoint.topic_name, endpoint.type_name, {}};
+    void* data = nullptr;
+    std::size_t size = 0;
+    if (dds_qget_userdata(endpoint.qos, &data, &size) && size > 0)
+      writer.user_data.assign(static_cast<const char*>(data), size);
+    dds_free(data);
+  }
+
   dds_entity_t participant_;
+  dds_entity_t publications_ = -1;  // made when somebody wants to know
+  std::map<dds_instance_handle_t, DiscoveredWriter> discovered_;
 };
 
 }  // namespace

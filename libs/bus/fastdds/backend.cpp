@@ -1,9 +1,11 @@
 // Fast DDS 2.9 back end: one TopicDataType that carries CDR bytes. UDP only (shared memory leaves stale
 // segments after kill -9), no TypeObjects, short heartbeats so that a late joiner gets the history at once.
 #include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
+#include <fastdds/rtps/writer/WriterDiscoveryInfo.h>
 #include <fastrtps/utils/IPLocator.h>
 #include <fastdds/dds/domain/DomainParticipant.hpp>
 #include <fastdds/dds/domain/DomainParticipantFactory.hpp>
+#include <fastdds/dds/domain/DomainParticipantListener.hpp>
 #include <fastdds/dds/publisher/DataWriter.hpp>
 #include <fastdds/dds/publisher/Publisher.hpp>
 #include <fastdds/dds/subscriber/DataReader.hpp>
@@ -14,6 +16,8 @@
 #include <fastdds/dds/topic/TypeSupport.hpp>
 
 #include <cstring>
+#include <map>
+#include <mutex>
 #include <sstream>
 #include <stdexcept>
 
@@ -26,6 +30,7 @@ namespace {
 using namespace eprosima::fastdds::dds;
 using eprosima::fastrtps::rtps::InstanceHandle_t;
 using eprosima::fastrtps::rtps::SerializedPayload_t;
+using eprosima::fastrtps::rtps::WriterDiscoveryInfo;
 using eprosima::fastrtps::types::ReturnCode_t;
 using DdsTopic = eprosima::fastdds::dds::Topic;  // not our own Topic
 
@@ -106,13 +111,17 @@ class Writer : public RawWriter {
     times.heartbeatPeriod = duration(always_full ? 0.02 : 0.1);
     times.nackResponseDelay = duration(0);
     times.initialHeartbeatDelay = duration(0);
+    out.user_data().data_vec({qos.user_data.begin(), qos.user_data.end()});
     writer_ = publisher_->create_datawriter(topic, out);
     if (writer_ == nullptr) throw std::runtime_error("Fast DDS: writer of " + topic->get_name());
   }
   ~Writer() override { publisher_->delete_datawriter(writer_); }
-  bool write(std::span<const std::uint8_t> cdr) override {
+  bool write(std::span<const std::uint8_t> cdr, std::int64_t time) override {
     buffer_.assign(cdr.begin(), cdr.end());
-    return writer_->write(&buffer_);
+    constexpr std::int64_t second = 1'000'000'000;
+    const eprosima::fastrtps::Time_t stamp(static_cast<std::int32_t>(time / second),
+                                           static_cast<std::uint32_t>(time % second));
+    return writer_->write_w_timestamp(&buffer_, InstanceHandle_t(), stamp) == ReturnCode_t::RETCODE_OK;
   }
   int matched() override {
     PublicationMatchedStatus status;
@@ -124,6 +133,43 @@ class Writer : public RawWriter {
   Publisher* publisher_;
   DataWriter* writer_;
   Bytes buffer_;
+};
+
+WriterId id_of(const InstanceHandle_t& handle) {
+  WriterId id;
+  for (std::size_t i = 0; i < id.size(); ++i) id[i] = handle.value[i];
+  return id;
+}
+
+// Called by the vendor's threads, which take no other lock while they hold this one.
+class Discovery : public DomainParticipantListener {
+ public:
+  void on_publisher_discovery(DomainParticipant*, WriterDiscoveryInfo&& found) override {
+    const WriterId id = id_of(InstanceHandle_t(found.info.guid()));
+    const std::lock_guard lock(mutex_);
+    changed_ = true;
+    if (found.status == WriterDiscoveryInfo::REMOVED_WRITER) {
+      writers_.erase(id);
+      return;
+    }
+    const auto& data = found.info.m_qos.m_userData.data_vec();
+    writers_[id] = {id,
+                    found.info.topicName().to_string(),
+                    found.info.typeName().to_string(),
+                    {data.begin(), data.end()}};
+  }
+  bool take_changes(std::vector<DiscoveredWriter>& writers) {
+    const std::lock_guard lock(mutex_);
+    if (!std::exchange(changed_, false)) return false;
+    writers.clear();
+    for (const auto& [id, writer] : writers_) writers.push_back(writer);
+    return true;
+  }
+
+ private:
+  std::mutex mutex_;
+  bool changed_ = false;
+  std::map<WriterId, DiscoveredWriter> writers_;
 };
 
 class Reader : public RawReader, DataReaderListener {
@@ -147,7 +193,8 @@ class Reader : public RawReader, DataReaderListener {
     eprosima::fastdds::dds::SampleInfo sample;
     while (reader_->take_next_sample(&cdr, &sample) == ReturnCode_t::RETCODE_OK) {
       if (!sample.valid_data) continue;
-      info.source_timestamp = sample.source_timestamp.to_ns();
+      info.source_timestamp = rounded_source_time(sample.source_timestamp.to_ns());
+      info.writer = id_of(sample.publication_handle);
       return true;
     }
     return false;
@@ -208,7 +255,8 @@ class FastBackend : public Backend {
     builtin.discovery_config.leaseDuration = duration(3);
     builtin.discovery_config.leaseDuration_announcementperiod = duration(0.5);
     secure(qos, network);
-    participant_ = DomainParticipantFactory::get_instance()->create_participant(network.domain, qos);
+    participant_ = DomainParticipantFactory::get_instance()->create_participant(
+        network.domain, qos, &discovery_, StatusMask::none());
     if (participant_ == nullptr)
       throw std::runtime_error("Fast DDS: participant in domain " + std::to_string(network.domain));
     publisher_ = participant_->create_publisher(PUBLISHER_QOS_DEFAULT);
@@ -225,6 +273,7 @@ class FastBackend : public Backend {
                                     Signal* signal) override {
     return std::make_unique<Reader>(subscriber_, topic(description), qos, description.keyed, signal);
   }
+  bool discover(std::vector<DiscoveredWriter>& writers) override { return discovery_.take_changes(writers); }
 
  private:
   DdsTopic* topic(const TopicDescription& description) {
@@ -239,6 +288,7 @@ class FastBackend : public Backend {
     return result;
   }
 
+  Discovery discovery_;
   DomainParticipant* participant_;
   Publisher* publisher_;
   Subscriber* subscriber_;

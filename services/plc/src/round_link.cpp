@@ -3,43 +3,26 @@
 #include <fcntl.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
 
 #include "storage/file.hpp"
+#include "storage/record_ring.hpp"
 
 namespace trunnion::plc {
 
-/// `begun` and `written` count bytes since the ring was made: a record may be read when it is below `written`
-/// and has still been there after reading, which `begun` tells.
 struct RoundRing {
-  static constexpr std::uint64_t capacity = std::uint64_t{1} << 22;
-  static constexpr std::uint64_t own_layout = 0x504c4352494e4701;
+  static constexpr std::uint64_t own_layout = 0x504c4352494e4702;
   std::uint64_t layout;
   std::atomic<std::uint32_t> asked, breath;
-  std::atomic<std::uint64_t> begun, written;
-  std::uint8_t bytes[capacity];
-
-  void put(std::uint64_t at, const void* data, std::size_t size) {
-    const auto from = at % capacity, first = std::min<std::uint64_t>(size, capacity - from);
-    std::memcpy(bytes + from, data, first);
-    std::memcpy(bytes, static_cast<const std::uint8_t*>(data) + first, size - first);
-  }
-  void get(std::uint64_t at, void* data, std::size_t size) const {
-    const auto from = at % capacity, first = std::min<std::uint64_t>(size, capacity - from);
-    std::memcpy(data, bytes + from, first);
-    std::memcpy(static_cast<std::uint8_t*>(data) + first, bytes, size - first);
-  }
+  storage::RecordRing<std::uint64_t{1} << 22> rounds;
 };
-static_assert(std::atomic<std::uint64_t>::is_always_lock_free);
 
 namespace {
 
 constexpr double look_period = 0.1, breath_patience = 1;  // s
-using Length = std::uint32_t;
 
 // With every block on the disk: whoever writes into the mapping must not meet a full one.
 void make_file(const std::string& path) {
@@ -68,7 +51,7 @@ RoundReader::RoundReader(const std::string& path) : path_(path) {
 RoundReader::~RoundReader() { unlink(path_.c_str()); }
 
 void RoundReader::ask() {
-  at_ = ring_->written;
+  at_ = ring_->rounds.end();
   lost_ = false;
   ++ring_->asked;
 }
@@ -78,21 +61,12 @@ std::uint32_t RoundReader::generation() const { return ring_->asked; }
 void RoundReader::breathe() { ++ring_->breath; }
 
 bool RoundReader::read(bus::Bytes& bytes) {
-  const std::uint64_t written = ring_->written;
-  if (lost_ || written == at_) return false;
-  Length length = 0;
-  lost_ = ring_->begun - at_ > RoundRing::capacity;
+  using Ring = decltype(RoundRing::rounds);
+  Ring::Header header;
   if (lost_) return false;
-  ring_->get(at_, &length, sizeof length);
-  // The length is trusted only when it had not been overwritten before it was read.
-  lost_ = ring_->begun - at_ > RoundRing::capacity || length > written - at_ - sizeof length;
-  if (lost_) return false;
-  bytes.resize(length);
-  ring_->get(at_ + sizeof length, bytes.data(), length);
-  std::atomic_thread_fence(std::memory_order_seq_cst);
-  lost_ = ring_->begun - at_ > RoundRing::capacity;
-  at_ += sizeof length + length;
-  return !lost_;
+  const auto outcome = ring_->rounds.read(at_, header, bytes);
+  lost_ = outcome == Ring::Read::overwritten;
+  return outcome == Ring::Read::record;
 }
 
 void RoundWriter::open() {
@@ -138,16 +112,6 @@ std::uint32_t RoundWriter::wanted(double now) {
   return ring_->asked;
 }
 
-bool RoundWriter::write(const bus::Bytes& bytes) {
-  const auto length = static_cast<Length>(bytes.size());
-  if (ring_ == nullptr || sizeof length + bytes.size() > RoundRing::capacity) return false;
-  const std::uint64_t at = ring_->written;
-  ring_->begun = at + sizeof length + length;
-  std::atomic_thread_fence(std::memory_order_seq_cst);
-  ring_->put(at, &length, sizeof length);
-  ring_->put(at + sizeof length, bytes.data(), length);
-  ring_->written = at + sizeof length + length;
-  return true;
-}
+bool RoundWriter::write(const bus::Bytes& bytes) { return ring_ != nullptr && ring_->rounds.write(0, bytes); }
 
 }  // namespace trunnion::plc

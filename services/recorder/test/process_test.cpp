@@ -4,6 +4,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <array>
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
@@ -14,6 +15,7 @@
 #include "contracts/topics.hpp"
 #include "recording/file_stream.hpp"
 #include "recording/mcap_reader.hpp"
+#include "testing_support/eventually.hpp"
 
 namespace trunnion::recorder {
 namespace {
@@ -78,8 +80,8 @@ TEST_P(RecorderProcess, WritesEveryMessageAndFinishesOnSigterm) {
   Process recorder({RECORDER, "--output", file, "--domain", std::to_string(domain), "--vendor",
                     bus::to_string(vendor), "--machine", "bench", "--json"});
   ASSERT_EQ(recorder.line(), "recording " + file + "\n");
-  for (int i = 0; i < 5000 && (frames.matched() == 0 || alarms.matched() == 0); ++i)
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  ASSERT_TRUE(testing_support::eventually([&] { return alarms.matched() > 0; }));
+  EXPECT_EQ(frames.matched(), 0) << "frames of this host are not sent to it";
   idl::stream::PathFrame frame;
   frame.count = 8;
   constexpr std::uint64_t count = 500;
@@ -125,6 +127,88 @@ TEST_P(RecorderProcess, WritesEveryMessageAndFinishesOnSigterm) {
   ASSERT_EQ(reader.metadata().size(), 1u);
   EXPECT_EQ(reader.metadata()[0].values.at("machine"), "bench");
   EXPECT_EQ(reader.metadata()[0].values.at("contract"), topics::contract_hash);
+}
+
+// One writer is in memory, the other not, as a service from elsewhere; and it comes while the recording runs.
+TEST_P(RecorderProcess, TakesEachFrameOnceWhetherItComesFromMemoryOrByDds) {
+  const auto [vendor, domain] = GetParam();
+  bus::Bus bus(vendor, {domain + 3}, {64});
+  auto in_memory = bus.writer(topics::path_frame);
+  Process recorder({RECORDER, "--output", file, "--domain", std::to_string(domain + 3), "--vendor",
+                    bus::to_string(vendor), "--json"});
+  ASSERT_EQ(recorder.line(), "recording " + file + "\n");
+  idl::stream::PathFrame frame;
+  frame.count = 8;
+  bus::Bytes bytes;
+  std::unique_ptr<bus::RawWriter> by_dds;
+  for (int phase = 0; phase < 3; ++phase) {
+    if (phase == 1) {
+      by_dds = bus.backend().writer(bus::describe(topics::path_frame), {true, 64});
+      frame.copy = 1;
+      bus::encode(frame, bytes);
+      by_dds->write(bytes);  // before the recorder knows of it
+      ASSERT_TRUE(testing_support::eventually([&] { return by_dds->matched() > 0; }));
+    }
+    for (int i = 0; i < 100; ++i) {
+      frame.copy = 0;
+      in_memory.write(frame);
+      frame.copy = 1;
+      bus::encode(frame, bytes);
+      if (phase == 1) by_dds->write(bytes);
+      frame.first += 8;
+      std::this_thread::sleep_for(std::chrono::microseconds(200));
+    }
+    if (phase == 1) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(300));
+      by_dds.reset();
+      EXPECT_TRUE(testing_support::eventually([&] { return in_memory.matched() == 0; }))
+          << "it is no longer sent to the recorder when nobody needs that";
+    }
+  }
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  recorder.signal(SIGTERM);
+  const auto summary = bus::Json::parse(recorder.line());
+  EXPECT_EQ(recorder.wait(), 0);
+  EXPECT_EQ(summary["overwritten_messages"], 0);
+  recording::FileSource source(file);
+  recording::Reader reader(source);
+  recording::MessageView message;
+  std::array<int, 2> seen{};
+  while (reader.next(message)) {
+    if (message.channel->topic != topics::path_frame.name) continue;
+    ASSERT_TRUE(bus::decode(message.data, frame));
+    ++seen.at(frame.copy);
+  }
+  EXPECT_EQ(seen[0], 300);
+  EXPECT_EQ(seen[1], 101);
+}
+
+// A recorder that stands still, as when it gets no processor, loses the oldest and says so.
+TEST_P(RecorderProcess, SaysHowManyFramesWereOverwrittenBeforeItCouldTakeThem) {
+  const auto [vendor, domain] = GetParam();
+  bus::Bus bus(vendor, {domain + 4}, {64});
+  auto frames = bus.writer(topics::path_frame);
+  Process recorder({RECORDER, "--output", file, "--domain", std::to_string(domain + 4), "--vendor",
+                    bus::to_string(vendor), "--json"});
+  ASSERT_EQ(recorder.line(), "recording " + file + "\n");
+  idl::stream::PathFrame frame;
+  frames.write(frame);
+  std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  recorder.signal(SIGSTOP);
+  frame.count = 64;
+  frame.setpoints.assign(576, 1);
+  bus::Bytes bytes;
+  bus::encode(frame, bytes);
+  const std::size_t written = (std::size_t{6} << 20) / bytes.size();  // half as much again as there is room
+  for (std::size_t i = 0; i < written; ++i) frames.write(frame);
+  recorder.signal(SIGCONT);
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  recorder.signal(SIGTERM);
+  const auto summary = bus::Json::parse(recorder.line());
+  EXPECT_EQ(recorder.wait(), 1) << "something is missing";
+  const auto taken = summary["topics"]["path_frame"]["messages"].get<std::size_t>();
+  EXPECT_GT(taken, written / 2);
+  EXPECT_EQ(taken + summary["overwritten_messages"].get<std::size_t>(), written + 1);
 }
 
 TEST_P(RecorderProcess, TakesOnlyTheTopicsAskedForAndStopsAfterItsDuration) {

@@ -1,0 +1,60 @@
+// Where the messages of one topic come from: out of the memory of writers on this host, by DDS from all
+// others.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <vector>
+
+#include "bus/registry.hpp"
+#include "bus/shared_history.hpp"
+
+namespace trunnion::recorder {
+
+/// A topic without frames is read by DDS alone. One with frames has a DDS reader only while some writer needs
+/// it, because its cost is borne by all writers of the topic.
+class TopicSource {
+ public:
+  /// `signal` is notified by the vendor's threads.
+  TopicSource(bus::Backend& backend, const bus::TopicEntry& entry, bus::Signal* signal);
+
+  /// Call whenever the writers of the domain have changed: `writers` are all of them.
+  void see(const std::vector<bus::DiscoveredWriter>& writers);
+  /// From `now`, a bus::source_time(), on everything is recorded. Before, setpoints are left out: of them it
+  /// would only be a thousand frames for each stage. With the feedback comes where the machine stands and
+  /// what the drive was told.
+  void begin(std::int64_t now) { began_ = now; }
+
+  /// The next message to be recorded; false when there is none yet.
+  bool take(bus::Bytes& cdr, bus::SampleInfo& info);
+  /// True when somebody writes the topic and is read.
+  bool has_writer() const;
+  /// Messages that were overwritten in memory before they were taken.
+  std::uint64_t overwritten() const;
+
+  const bus::TopicEntry& entry() const { return *entry_; }
+  bool is_stream() const { return entry_->qos == bus::QosKind::frame; }
+  bool is_feedback() const;
+
+ private:
+  struct History {
+    std::unique_ptr<bus::SharedHistoryReader> reader;
+    bool ended = false;  // nothing more will be written
+  };
+  bool has_past() const { return !is_stream() || is_feedback(); }
+  void open_reader();
+  bool take_from_memory(bus::Bytes& cdr, bus::SampleInfo& info);
+  bool take_by_dds(bus::Bytes& cdr, bus::SampleInfo& info);
+
+  bus::Backend* backend_;
+  const bus::TopicEntry* entry_;
+  bus::Signal* signal_;
+  std::map<bus::WriterId, History> histories_;
+  std::unique_ptr<bus::RawReader> reader_;
+  bool reader_needed_ = false, reader_came_late_ = false;
+  std::int64_t began_ = 0;         // 0 = not yet
+  std::uint64_t overwritten_ = 0;  // of histories that have ended
+};
+
+}  // namespace trunnion::recorder
