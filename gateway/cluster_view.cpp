@@ -17,10 +17,8 @@ bool keep_newest(bus::Reader<T>& reader, std::shared_ptr<const T>& kept) {
 }
 
 std::vector<std::uint16_t> drive_columns(const idl::parameters::ParameterSet& set) {
-  machine::Parameters parameters;
-  for (const auto& value : set.values) parameters.values[value.number] = {value.value, value.text};
   std::vector<std::uint16_t> columns;
-  for (const auto& axis : machine::drive_axes(parameters)) columns.push_back(axis.number);
+  for (const auto& axis : machine::drive_axes(machine::parameters_of(set))) columns.push_back(axis.number);
   return columns;
 }
 

@@ -27,11 +27,8 @@ std::uint32_t parse_number(const std::string& text) {
 
 machine::Parameters active(Client& client, std::vector<std::uint32_t>* pending = nullptr) {
   const auto set = client.newest(topics::parameter_set);
-  machine::Parameters parameters;
-  parameters.revision = set.revision;
-  for (const auto& value : set.values) parameters.values[value.number] = {value.value, value.text};
   if (pending != nullptr) *pending = set.pending;
-  return parameters;
+  return machine::parameters_of(set);
 }
 
 bus::Json row(std::uint32_t number, const machine::Parameters& parameters) {

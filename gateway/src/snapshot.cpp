@@ -25,10 +25,8 @@ const char* group_of(std::uint32_t number) {
 }
 
 std::map<std::uint32_t, machine::ParameterValue> values_of(const Snapshot& snapshot) {
-  std::map<std::uint32_t, machine::ParameterValue> values;
-  if (snapshot.parameters)
-    for (const auto& value : snapshot.parameters->values) values[value.number] = {value.value, value.text};
-  return values;
+  if (!snapshot.parameters) return {};
+  return machine::parameters_of(*snapshot.parameters).values;
 }
 
 Json number_json(double value) {

@@ -90,6 +90,16 @@ class Parameters {
   std::uint64_t revision = 0;
 };
 
+/// Those of an active set as the parameters service publishes it (ParameterSet of idl/parameters.idl, which
+/// this library does not know).
+template <class Set>
+Parameters parameters_of(const Set& set) {
+  Parameters parameters;
+  parameters.revision = set.revision;
+  for (const auto& value : set.values) parameters.values[value.number] = {value.value, value.text};
+  return parameters;
+}
+
 /// `number: value` lines (numbers quoted, six digits) of a map; nothing of an empty node. Values that the
 /// catalogue refuses are an error when `strict`, else left out. Throws std::runtime_error with
 /// file:line:column.

@@ -7,11 +7,8 @@ bool ParameterClient::poll() {
   idl::parameters::ParameterSet set;
   while (reader_.take(set)) {
     if (newest_ && set.revision == newest_->revision) continue;
-    auto parameters = std::make_shared<machine::Parameters>();
-    parameters->revision = set.revision;
-    for (const auto& value : set.values) parameters->values[value.number] = {value.value, value.text};
     previous_ = newest_;
-    newest_ = parameters;
+    newest_ = std::make_shared<const machine::Parameters>(machine::parameters_of(set));
     any = true;
   }
   return any;

@@ -95,10 +95,8 @@ void ShownState::observe(const StoredMessage& message) {
   } else if (is(message, "parameter_set", set)) {
     revisions_["parameters"] = set.revision;
     revisions_["pending"] = set.pending.size();
-    machine::Parameters parameters;
-    for (const auto& value : set.values) parameters.values[value.number] = {value.value, value.text};
     columns_.clear();
-    for (const auto& axis : machine::drive_axes(parameters)) columns_.push_back(axis.number);
+    for (const auto& axis : machine::drive_axes(machine::parameters_of(set))) columns_.push_back(axis.number);
   } else if (is(message, "tool_table", tools)) {
     revisions_["tools"] = tools.revision;
     newest_["/api/tools"] = bus::to_json(tools);

@@ -75,10 +75,9 @@ class StagePlan {
       } else if (handle == "parameter_set") {
         idl::parameters::ParameterSet set;
         if (!bus::decode(message.cdr, set)) continue;
-        machine::Parameters parameters;
-        for (const auto& value : set.values) parameters.values[value.number] = {value.value, value.text};
         revisions_.push_back(
-            {&message, set.revision, static_cast<std::uint64_t>(parameters.integer("stream_lead"))});
+            {&message, set.revision,
+             static_cast<std::uint64_t>(machine::parameters_of(set).integer("stream_lead"))});
       }
     }
     if (revisions_.empty()) throw std::runtime_error("the recording has no parameters");

@@ -135,9 +135,7 @@ VerifyPlan surroundings(const StoredRecording& recording, const std::string& ser
   idl::service::Cluster cluster;
   for (const auto& message : recording.messages) {
     if (message.topic->handle == "parameter_set" && bus::decode(message.cdr, set)) {
-      machine::Parameters parameters;
-      for (const auto& value : set.values) parameters.values[value.number] = {value.value, value.text};
-      plan.cycle_seconds = parameters.get("interpolation_cycle") * 1e-6;
+      plan.cycle_seconds = machine::parameters_of(set).get("interpolation_cycle") * 1e-6;
     } else if (message.topic->handle == "cluster" && bus::decode(message.cdr, cluster)) {
       plan.virtual_time = cluster.virtual_time;
       // Channels are listed in their order; of copies the first is meant.

@@ -112,10 +112,7 @@ class Collector {
   }
 
   bool on_parameters() {
-    out_.tables.parameters = {};
-    out_.tables.parameters.revision = parameters_.revision;
-    for (const auto& value : parameters_.values)
-      out_.tables.parameters.values[value.number] = {value.value, value.text};
+    out_.tables.parameters = machine::parameters_of(parameters_);
     return out_.has_parameters = true;
   }
 
