@@ -22,48 +22,61 @@ void TopicSource::open_reader() {
   reader_ = backend_->reader(entry_->description, {with_past, 0}, signal_);
 }
 
+// A process that stands still for longer than its lease is no writer for DDS until it goes on; its memory is
+// there all the time.
 void TopicSource::see(const std::vector<bus::DiscoveredWriter>& writers) {
+  using bus::SharedHistoryReader;
   if (!is_stream()) return;
-  for (auto& [id, history] : histories_)
-    history.ended = std::none_of(writers.begin(), writers.end(),
-                                 [id = id](const bus::DiscoveredWriter& writer) { return writer.id == id; });
+  for (auto& [address, history] : histories_)
+    history.ended = SharedHistoryReader::find(address).place == SharedHistoryReader::Place::gone;
   reader_needed_ = false;
   for (const auto& writer : writers) {
     // One of another contract is not matched either.
-    if (writer.topic != entry_->description.name || writer.wire_type != entry_->description.wire_type ||
-        histories_.count(writer.id) != 0)
+    if (writer.topic != entry_->description.name || writer.wire_type != entry_->description.wire_type)
       continue;
-    auto found = bus::SharedHistoryReader::find(writer.user_data);
-    if (found.place == bus::SharedHistoryReader::Place::here)
-      histories_[writer.id].reader = std::move(found.reader);
-    else if (found.place == bus::SharedHistoryReader::Place::elsewhere)
+    const auto known = histories_.find(writer.user_data);
+    if (known != histories_.end()) {
+      known->second.writer = writer.id;
+      continue;
+    }
+    auto found = SharedHistoryReader::find(writer.user_data);
+    if (found.place == SharedHistoryReader::Place::here)
+      histories_[writer.user_data] = {writer.id, std::move(found.reader)};
+    else if (found.place == SharedHistoryReader::Place::elsewhere)
       open_reader();
   }
 }
 
 bool TopicSource::take(bus::Bytes& cdr, bus::SampleInfo& info) {
-  return take_from_memory(cdr, info) || take_by_dds(cdr, info);
+  if (take_from_memory(cdr, info) || take_by_dds(cdr, info)) return true;
+  // Not before: as long as there are samples of theirs, it must be known whose they are.
+  close_ended();
+  if (!reader_needed_) reader_.reset();
+  return false;
 }
 
 bool TopicSource::take_from_memory(bus::Bytes& cdr, bus::SampleInfo& info) {
-  for (auto at = histories_.begin(); at != histories_.end();) {
-    auto& [reader, ended] = at->second;
-    while (reader->take(cdr, info))
+  for (auto& [address, history] : histories_)
+    while (history.reader->take(cdr, info))
       if (has_past() || (began_ != 0 && info.source_timestamp >= began_)) return true;
-    if (ended) overwritten_ += reader->lost();
-    at = ended ? histories_.erase(at) : std::next(at);
-  }
   return false;
 }
 
 bool TopicSource::take_by_dds(bus::Bytes& cdr, bus::SampleInfo& info) {
   if (reader_ == nullptr) return false;
+  const auto in_memory = [&](const auto& entry) { return entry.second.writer == info.writer; };
   while (reader_->take(cdr, info)) {
-    if (histories_.count(info.writer) != 0) continue;
+    if (std::any_of(histories_.begin(), histories_.end(), in_memory)) continue;
     if (has_past() || (began_ != 0 && (!reader_came_late_ || info.source_timestamp >= began_))) return true;
   }
-  if (!reader_needed_) reader_.reset();
   return false;
+}
+
+void TopicSource::close_ended() {
+  for (auto at = histories_.begin(); at != histories_.end();) {
+    if (at->second.ended) overwritten_ += at->second.reader->lost();
+    at = at->second.ended ? histories_.erase(at) : std::next(at);
+  }
 }
 
 bool TopicSource::has_writer() const {

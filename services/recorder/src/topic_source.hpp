@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "bus/registry.hpp"
@@ -39,18 +40,20 @@ class TopicSource {
 
  private:
   struct History {
+    bus::WriterId writer{};
     std::unique_ptr<bus::SharedHistoryReader> reader;
     bool ended = false;  // nothing more will be written
   };
   bool has_past() const { return !is_stream() || is_feedback(); }
   void open_reader();
+  void close_ended();
   bool take_from_memory(bus::Bytes& cdr, bus::SampleInfo& info);
   bool take_by_dds(bus::Bytes& cdr, bus::SampleInfo& info);
 
   bus::Backend* backend_;
   const bus::TopicEntry* entry_;
   bus::Signal* signal_;
-  std::map<bus::WriterId, History> histories_;
+  std::map<std::string, History> histories_;  // by address
   std::unique_ptr<bus::RawReader> reader_;
   bool reader_needed_ = false, reader_came_late_ = false;
   std::int64_t began_ = 0;         // 0 = not yet
