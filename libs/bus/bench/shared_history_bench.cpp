@@ -21,7 +21,7 @@ idl::stream::PathFrame frame() {
 void encoding(benchmark::State& state) {
   const auto value = frame();
   Bytes bytes;
-  for (auto _ : state) {
+  for ([[maybe_unused]] auto _ : state) {
     encode(value, bytes);
     benchmark::DoNotOptimize(bytes.data());
   }
@@ -32,7 +32,7 @@ void encoding_and_keeping(benchmark::State& state) {
   const auto value = frame();
   const auto history = SharedHistory::make();
   Bytes bytes;
-  for (auto _ : state) {
+  for ([[maybe_unused]] auto _ : state) {
     encode(value, bytes);
     history->write(8, bytes);
   }
