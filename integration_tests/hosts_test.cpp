@@ -279,14 +279,21 @@ TEST_F(Hosts, ServicesOfEachHostAreSwappedInMotionFromAnyOfThemAndAreStillKnownT
   Rows rows;
   {
     Cluster cluster(on_control(domain));
-    const auto swap = [&](const std::string& service, const std::string& asked_on,
-                          const std::string& options) {
-      auto command = std::async(std::launch::async, [&] {
+    const auto begin_swap = [&](const std::string& service, const std::string& asked_on,
+                                const std::string& options) {
+      return std::async(std::launch::async, [&hosts, service, asked_on, options] {
         return hosts.exec(asked_on, deploy::binary_directory() + "/trunnion swap " + service + options);
       });
+    };
+    const auto end_of = [&](auto& command) {
       cluster.until([&] { return command.wait_for(std::chrono::seconds(0)) == std::future_status::ready; },
                     60);
       return command.get();
+    };
+    const auto swap = [&](const std::string& service, const std::string& asked_on,
+                          const std::string& options) {
+      auto command = begin_swap(service, asked_on, options);
+      return end_of(command);
     };
     cluster.keep_rows = true;
     cluster.start_text(rounds);
@@ -308,6 +315,18 @@ TEST_F(Hosts, ServicesOfEachHostAreSwappedInMotionFromAnyOfThemAndAreStillKnownT
       EXPECT_NE(cluster.service(service)->pid, before.pid);
       EXPECT_EQ(cluster.service(service)->restarts, before.restarts) << "a swap is no restart";
     }
+    // Two at once, each by the launcher of its own host.
+    auto one = begin_swap("kinematics", "drives", " --vendor cyclonedds");
+    auto other = begin_swap("plc", "motion", " --vendor cyclonedds");
+    for (auto* command : {&one, &other}) {
+      const auto swapped = end_of(*command);
+      ASSERT_EQ(swapped.status, 0) << swapped.text << cluster.told();
+    }
+    for (const std::string service : {"kinematics", "plc"})
+      ASSERT_TRUE(cluster.until([&] {
+        return cluster.service(service)->vendor == "cyclonedds" && cluster.ready();
+      })) << service
+          << cluster.told();
     const auto refused = swap("compensation", "drives", " --exec /nowhere/at/all");
     EXPECT_NE(refused.status, 0);
     EXPECT_NE(refused.text.find("/nowhere/at/all: cannot be started"), std::string::npos) << refused.text;
@@ -324,7 +343,7 @@ TEST_F(Hosts, ServicesOfEachHostAreSwappedInMotionFromAnyOfThemAndAreStillKnownT
       return cluster.service("kinematics")->pid != before.pid && cluster.ready();
     })) << cluster.told();
     EXPECT_EQ(cluster.service("kinematics")->restarts, before.restarts + 1);
-    EXPECT_EQ(cluster.service("kinematics")->vendor, "fastdds");
+    EXPECT_EQ(cluster.service("kinematics")->vendor, "cyclonedds");
   }
   hosts.leave();
   Cluster undisturbed(machines.one());

@@ -73,8 +73,16 @@ TEST_P(StageLost, StopsOnThePathWithinTheLeadAndTheWorkpieceDoesNotShowIt) {
   Cluster cluster("ac-table", Time::real);
   cluster.keep_rows = true;
   cluster.start_text(sweep());
-  ASSERT_TRUE(cluster.until([&] { return cluster.channels[0].line >= 6; }));
+  // A virtual machine's processor may be away for longer than half the lead before there is anything to see.
+  for (int i = 0; i < 5 && cluster.channels[0].line < 6; ++i) {
+    if (i > 0) {
+      ASSERT_TRUE(cluster.go_on()) << cluster.told();
+    }
+    cluster.until([&] { return cluster.channels[0].line >= 6 || cluster.state() == RunState::INTERRUPTED; });
+  }
+  ASSERT_GE(cluster.channels[0].line, 6) << cluster.told();
   ASSERT_EQ(cluster.state(), RunState::RUNNING) << cluster.told();
+  ASSERT_FALSE(cluster.has_alarm(110)) << cluster.told();
   cluster.history.clear();
   const auto killed = cluster.expected_cycle;
   ASSERT_EQ(kill(cluster.service(victim)->pid, SIGKILL), 0);

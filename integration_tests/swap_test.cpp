@@ -232,7 +232,9 @@ TEST_F(Swapping, ThePlcIsComparedTickByTickOverMCodesAndItsSwapChangesNoBitOfThe
 }
 
 TEST_F(Swapping, InRealTimeThePlcIsComparedAtTheTicksTheClockGaveTheOldOne) {
-  Cluster cluster("ac-table", Time::real);
+  const OwnMachine machine;
+  machine.append("parameters.yaml") << "\"000900\": " << lead_beyond_stalls << "\n";
+  Cluster cluster(machine.path(), Time::real);
   cluster.start_text(functions(4000));
   ASSERT_TRUE(cluster.until([&] { return cluster.channels[0].line > 4; })) << cluster.told();
   const auto before = pid(cluster, "plc");

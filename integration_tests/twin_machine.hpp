@@ -29,6 +29,10 @@ class TwinMachine {
     }
     std::ofstream(directory_ / "machine.yaml") << text;
   }
+  /// Parameter 000900, cycles.
+  void set_lead(int cycles) const {
+    std::ofstream(directory_ / "parameters.yaml", std::ios::app) << "\"000900\": " << cycles << "\n";
+  }
   ~TwinMachine() { std::filesystem::remove_all(directory_); }
   TwinMachine(const TwinMachine&) = delete;
   TwinMachine& operator=(const TwinMachine&) = delete;

@@ -94,6 +94,7 @@ void expect_no_bit_changed(Time time, const std::string& second, const std::vect
                            int turns) {
   const auto program = sweep(longer_than_any_test);
   const TwinMachine machine(stages, second);
+  if (time == Time::real) machine.set_lead(lead_beyond_stalls);
   std::vector<Rows> disturbed;
   std::size_t longest = 0;
   for (const auto seed : seeds) {
