@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <atomic>
 #include <cstdint>
-#include <cstring>
 #include <span>
 #include <vector>
 
@@ -74,14 +73,16 @@ class RecordRing {
   }
 
   void put(std::uint64_t at, const void* data, std::size_t size) {
+    const auto* source = static_cast<const std::uint8_t*>(data);
     const auto from = at % capacity, first = std::min<std::uint64_t>(size, capacity - from);
-    std::memcpy(bytes_ + from, data, first);
-    std::memcpy(bytes_, static_cast<const std::uint8_t*>(data) + first, size - first);
+    std::copy_n(source, first, bytes_ + from);
+    std::copy_n(source + first, size - first, bytes_);
   }
   void get(std::uint64_t at, void* data, std::size_t size) const {
+    auto* target = static_cast<std::uint8_t*>(data);
     const auto from = at % capacity, first = std::min<std::uint64_t>(size, capacity - from);
-    std::memcpy(data, bytes_ + from, first);
-    std::memcpy(static_cast<std::uint8_t*>(data) + first, bytes_, size - first);
+    std::copy_n(bytes_ + from, first, target);
+    std::copy_n(bytes_, size - first, target + first);
   }
 
   static_assert(std::atomic<std::uint64_t>::is_always_lock_free);
