@@ -44,7 +44,7 @@ void Gathering::notify() {
 
 std::int64_t source_time() {
   const auto now = std::chrono::system_clock::now().time_since_epoch();
-  return rounded_source_time(std::chrono::duration_cast<std::chrono::nanoseconds>(now).count());
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(now).count();
 }
 
 const char* to_string(Vendor vendor) { return vendor == Vendor::fastdds ? "fastdds" : "cyclonedds"; }

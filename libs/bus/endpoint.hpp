@@ -75,11 +75,8 @@ struct SampleInfo {
   WriterId writer{};
 };
 
-/// The source time stamp of a message written now. The time on the wire counts in 2^-32 s, and each vendor
-/// rounds in its own way: in steps of 8 ns every reader finds the same.
+/// The source time stamp of a message written now. Readers of either vendor find the same number.
 std::int64_t source_time();
-/// The step nearest to what a vendor has read.
-constexpr std::int64_t rounded_source_time(std::int64_t nanoseconds) { return (nanoseconds + 4) / 8 * 8; }
 
 class RawWriter {
  public:

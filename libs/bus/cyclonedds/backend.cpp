@@ -279,7 +279,7 @@ class Reader : public RawReader {
       const bool valid = sample.valid_data && data->kind == SDK_DATA;
       if (valid) {
         cdr.assign(data->bytes, data->bytes + data->size);
-        info.source_timestamp = rounded_source_time(sample.source_timestamp);
+        info.source_timestamp = sample.source_timestamp;
         info.writer = id_of(sample.publication_handle);
       }
       ddsi_serdata_unref(base);

@@ -193,7 +193,7 @@ class Reader : public RawReader, DataReaderListener {
     eprosima::fastdds::dds::SampleInfo sample;
     while (reader_->take_next_sample(&cdr, &sample) == ReturnCode_t::RETCODE_OK) {
       if (!sample.valid_data) continue;
-      info.source_timestamp = rounded_source_time(sample.source_timestamp.to_ns());
+      info.source_timestamp = sample.source_timestamp.to_ns();
       info.writer = id_of(sample.publication_handle);
       return true;
     }
