@@ -67,6 +67,10 @@ class RecorderProcess : public testing::TestWithParam<std::pair<bus::Vendor, std
   std::string file = testing::TempDir() + "/recorder_" + bus::to_string(GetParam().first) +
                      std::to_string(getpid()) + ".mcap";
   void TearDown() override { std::filesystem::remove(file); }
+  Process start(std::uint32_t domain) const {
+    return Process({RECORDER, "--output", file, "--domain", std::to_string(domain), "--vendor",
+                    bus::to_string(GetParam().first), "--json"});
+  }
 };
 
 TEST_P(RecorderProcess, WritesEveryMessageAndFinishesOnSigterm) {
@@ -134,8 +138,7 @@ TEST_P(RecorderProcess, TakesEachFrameOnceWhetherItComesFromMemoryOrByDds) {
   const auto [vendor, domain] = GetParam();
   bus::Bus bus(vendor, {domain + 3}, {64});
   auto in_memory = bus.writer(topics::path_frame);
-  Process recorder({RECORDER, "--output", file, "--domain", std::to_string(domain + 3), "--vendor",
-                    bus::to_string(vendor), "--json"});
+  Process recorder = start(domain + 3);
   ASSERT_EQ(recorder.line(), "recording " + file + "\n");
   idl::stream::PathFrame frame;
   frame.count = 8;
@@ -188,8 +191,7 @@ TEST_P(RecorderProcess, SaysHowManyFramesWereOverwrittenBeforeItCouldTakeThem) {
   const auto [vendor, domain] = GetParam();
   bus::Bus bus(vendor, {domain + 4}, {64});
   auto frames = bus.writer(topics::path_frame);
-  Process recorder({RECORDER, "--output", file, "--domain", std::to_string(domain + 4), "--vendor",
-                    bus::to_string(vendor), "--json"});
+  Process recorder = start(domain + 4);
   ASSERT_EQ(recorder.line(), "recording " + file + "\n");
   idl::stream::PathFrame frame;
   frames.write(frame);
