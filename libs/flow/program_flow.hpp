@@ -11,6 +11,7 @@
 #include "flow/skip_result.hpp"
 #include "flow/tapping.hpp"
 #include "language/interpreter.hpp"
+#include "machine/alarm_definition.hpp"
 #include "motion/trajectory.hpp"
 #include "setup/channel_setup.hpp"
 
@@ -104,9 +105,9 @@ class ProgramFlow {
   const AuxiliaryMemory& auxiliaries() const { return auxiliaries_; }
   /// Machine coordinates the moves handed to motion go through, since the start with an offset.
   const setup::AxisBox& extent() const { return extent_; }
-  /// Number of the alarm, and its name when it is none of the NC language, else empty.
+  /// Number of the alarm, and the alarm itself when it is none of the NC language, else null.
   std::uint32_t alarm_number() const { return alarm_number_; }
-  const std::string& alarm_name() const { return alarm_name_; }
+  const machine::AlarmDefinition* machine_alarm() const { return machine_alarm_; }
   const std::string& alarm_text() const { return alarm_text_; }
   /// Commands up to the restart point, or the line, are being skipped.
   bool searching() const { return search_ != Search::none; }
@@ -118,7 +119,7 @@ class ProgramFlow {
   FlowState push_move();
   FlowState take_step(language::Step step);
   FlowState arrive_at_line();
-  FlowState fail(const char* alarm, const std::string& text);
+  FlowState fail(const machine::AlarmDefinition& alarm, const std::string& text);
   FlowState fail(language::AlarmNumber number);
   FlowState fail_search(const std::string& why);
   FlowState go_on_from_skip();
@@ -142,7 +143,8 @@ class ProgramFlow {
   std::size_t skips_read_ = 0;
 
   std::uint32_t alarm_number_ = 0;
-  std::string alarm_name_, alarm_text_;
+  const machine::AlarmDefinition* machine_alarm_ = nullptr;
+  std::string alarm_text_;
 };
 
 }  // namespace trunnion::flow
