@@ -7,6 +7,7 @@
 #include <csignal>
 #include <cstdio>
 
+#include "bus/registry.hpp"
 #include "cluster_files.hpp"
 #include "launcher.hpp"
 #include "node/node.hpp"
@@ -31,10 +32,9 @@ constexpr double overlap = 0.15;          // both take part: more than two leads
 constexpr double end_patience = 2;        // until a process that is told to end is killed
 constexpr double take_over_patience = 5;  // until a service that was told to take over is active
 
-const bus::Topic<idl::stream::AxisFrame>& output_of(std::uint8_t stage) {
-  return stage == stream::stage_kinematics     ? topics::kinematics_frame
-         : stage == stream::stage_compensation ? topics::compensation_frame
-                                               : topics::gantry_frame;
+bus::Topic<idl::stream::AxisFrame> output_of(const std::string& service) {
+  const auto* entry = bus::find_topic(machine::find_service(service)->output);
+  return {entry->description.name.c_str(), entry->description.wire_type.c_str(), entry->qos};
 }
 
 ServiceProcess make_fresh(const ServiceProcess& old, const idl::service::SwapRequest& request,
@@ -71,7 +71,7 @@ Swap::Swap(bus::Bus& bus, const LaunchOptions& options, ServiceProcess& old,
       alarm_writer_(bus.writer(topics::alarm)) {
   began_ = entered_ = moved_ = node::monotonic_seconds();
   if (stage_ != 0) {
-    auto topic = output_of(stage_);
+    auto topic = output_of(old.entry.service);
     originals_.emplace(bus.reader(topic));
     shadow_topic_ = stream::shadow_name(topic.name);
     topic.name = shadow_topic_.c_str();

@@ -2,15 +2,15 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <iostream>
-#include <iterator>
+
+#include "machine/services.hpp"
 
 namespace trunnion::node {
 
-/// False when the process is told to end before it is needed.
+/// Waits as a shadow. False when the process is told to end before it is needed.
 template <class S>
-bool wait_for_its_time(Node& node) {
+bool wait_until_needed(Node& node) {
   if constexpr (requires { typename S::Rehearsal; }) {
     if (node.shadow()) {
       typename S::Rehearsal rehearsal(node);
@@ -28,13 +28,11 @@ int service_main(int argc, char** argv, const char* name) {
   add_options(app, options);
   if (const int status = parse_options(app, argc, argv, options); status >= 0) return status;
   // The services of the stream share the cycle; what waits for files or browsers does not.
-  constexpr const char* cyclic[] = {"channel", "kinematics", "compensation", "gantry", "drive", "plc"};
-  const bool is_cyclic =
-      std::any_of(std::begin(cyclic), std::end(cyclic), [&](const char* c) { return options.service == c; });
-  if (is_cyclic && !options.virtual_time) use_real_time_scheduling();
+  const auto* definition = machine::find_service(options.service);
+  if (definition != nullptr && definition->cyclic && !options.virtual_time) use_real_time_scheduling();
   try {
     Node node(options);
-    if (!S::works_as_shadow && !wait_for_its_time<S>(node)) return 0;
+    if (!S::works_as_shadow && !wait_until_needed<S>(node)) return 0;
     S service(node);
     return node.run(service);
   } catch (const std::exception& e) {
