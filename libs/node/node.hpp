@@ -17,6 +17,9 @@ namespace trunnion::node {
 inline constexpr const char* shadow_detail = "shadow";
 inline constexpr const char* differs_detail = "differs in ";
 
+/// Channel of an AlarmReset that is for the whole machine.
+inline constexpr std::uint16_t all_channels = 65535;
+
 /// What a service shows of itself four times a second.
 struct Health {
   idl::service::Lifecycle lifecycle = idl::service::Lifecycle::UNCONFIGURED;
@@ -33,7 +36,8 @@ class Service {
  public:
   /// It can work beside the service it is to replace and be compared with it. One that cannot, because it
   /// owns files or a port, is made only when the other has ended. Until then a member type `Rehearsal`, if it
-  /// has one, is what works as shadow: a Service that writes nothing and tells in its health how it compares.
+  /// has one, is what works as shadow: a Service that writes nothing and reports in its health how it
+  /// compares.
   static constexpr bool works_as_shadow = false;
 
   virtual ~Service() = default;
@@ -42,8 +46,11 @@ class Service {
   /// Longest time in seconds between two calls of pump().
   virtual double period() const { return 0.05; }
   virtual Health health() const = 0;
-  /// Alarms without a cause are being cleared.
-  virtual void alarms_reset() {}
+  /// Alarms without a cause are being cleared: those that concern `channel`, or of the whole machine with
+  /// all_channels.
+  virtual void alarms_reset(std::uint16_t) {}
+  /// Whether an alarm about `axis` (its logical number) concerns `channel`.
+  virtual bool axis_concerns(std::uint16_t /*axis*/, std::uint16_t /*channel*/) const { return false; }
   /// The process is told to end: the last chance to leave something for the next.
   virtual void end() {}
 };
@@ -59,15 +66,17 @@ class Node {
   /// Started beside the service that it is to replace, and not told to take part yet.
   bool shadow() const { return options_.shadow; }
   /// Waits, inactive, until this process is told to take part. False when it is told to end instead.
-  /// Meanwhile `rehearsal`, if there is one, is pumped and tells the health.
+  /// Meanwhile `rehearsal`, if there is one, is pumped and gives the health.
   bool stand_by(Service* rehearsal = nullptr);
   /// Runs until SIGTERM or SIGINT; returns the exit status.
   int run(Service& service);
+  /// Clears the alarms of `service` whose cause is gone: all of them, or those that concern `channel`.
+  void reset_alarms(Service& service, std::uint16_t channel);
 
  private:
   void announce();
   void beat(const Health& health);
-  void obey_take_over();
+  void follow_take_over();
   Options options_;
   bus::Bus bus_;
   AlarmBoard alarms_;
