@@ -10,6 +10,7 @@
 #include "cluster.hpp"
 #include "commands.hpp"
 #include "swap_journal.hpp"
+#include "text/quantity.hpp"
 
 namespace trunnion::deploy {
 namespace {
@@ -39,8 +40,7 @@ int swap(const Common& common, idl::service::SwapRequest request, double timeout
                              std::to_string(reply->compared) + " equal cycles");
   std::printf("%s swapped in %.2f s at cycle %llu: %u cycles compared, %s\n", request.service.c_str(),
               reply->seconds, static_cast<unsigned long long>(reply->cycle), reply->compared,
-              reply->gap > 0 ? ("nobody served for " + std::to_string(reply->gap).substr(0, 5) + " s").c_str()
-                             : "no gap");
+              reply->gap > 0 ? ("no service for " + text::quantity(reply->gap, "s", 3)).c_str() : "no gap");
   std::printf("Written down in %s of the state directory%s\n", swap_journal_file,
               cluster.host.empty() ? (", " + cluster.state_directory).c_str() : " on the service's host");
   if (!reply->reason.empty()) std::fprintf(stderr, "warning: %s\n", reply->reason.c_str());

@@ -13,6 +13,7 @@
 #include "cluster.hpp"
 #include "commands.hpp"
 #include "node/network.hpp"
+#include "text/quantity.hpp"
 
 namespace trunnion::deploy {
 namespace {
@@ -52,8 +53,8 @@ int echo(const Common& common, const std::string& name, int count, double timeou
       ++printed;
     }
     if (timeout > 0 && node::monotonic_seconds() - heard > timeout)
-      throw std::runtime_error("nothing on " + topic.description.name + " for " + std::to_string(timeout) +
-                               " s");
+      throw std::runtime_error("nothing on " + topic.description.name + " for " +
+                               text::quantity(timeout, "s"));
   }
   return 0;
 }

@@ -15,10 +15,10 @@ constexpr double rounding = 1e-7;
 constexpr double easy_share = 0.4;
 // A way to a standstill has about this many steps, and none is shorter than a cycle.
 constexpr double stop_steps = 60;
-// A stop is met when what is left of the path is less, mm or degrees.
+// How far beside a place of the path a motion may end and count as ending there, mm or degrees.
+constexpr double place_tolerance = 1e-9;
 // When braking fails, the acceleration is taken back earlier, down to this share of the jerk.
 constexpr double least_take_back = 0.75;
-constexpr double arrival_distance = 1e-9;
 
 }  // namespace
 
@@ -131,7 +131,7 @@ bool SpeedStage::accept_curved(const PhaseList& action, const Look& look, Braked
       PhaseList leg;
       const BrakeEnd end = brake(next, cells_, cell, top_of(cells_[*slower], look), stop_step(next), {}, leg);
       why = Braked::blocked;
-      if (end.result != Braked::yes || end.state.s > cells_[*slower].at + arrival_distance) return false;
+      if (end.result != Braked::yes || end.state.s > cells_[*slower].at + place_tolerance) return false;
     }
   }
   state_ = next;
@@ -205,7 +205,7 @@ bool SpeedStage::ride(const Look& look, bool hold) {
       std::uint64_t last = best_cell;
       while (last + 1 < cells_.size() && !cells_[last + 1].stop && rest > cells_[last].end) ++last;
       const bool ends = last + 1 < cells_.size() ? cells_[last + 1].stop : finished_;
-      if (ends && cells_[last].end - rest < arrival_distance) {
+      if (ends && cells_[last].end - rest < place_tolerance) {
         arriving_ = true;
         break;
       }
