@@ -11,6 +11,7 @@
 #include "axis_lock.hpp"
 #include "channel_snapshot.hpp"
 #include "contracts/types.hpp"
+#include "exact_stop_check.hpp"
 #include "flow/program_flow.hpp"
 #include "flow/tapping.hpp"
 #include "hand_over.hpp"
@@ -280,6 +281,7 @@ class ChannelCore {
   bool variables_news_ = false;
   std::optional<idl::channel::AuxiliaryRequest> outgoing_auxiliary_;
   SkipMove skip_;
+  ExactStopCheck exact_stop_;
   Tapping tapping_;
   std::uint32_t tool_ = 0;
   double spindle_programmed_ = 0;
