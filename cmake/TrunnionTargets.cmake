@@ -4,7 +4,6 @@
 # compiler's choice of instruction, so contraction is off everywhere.
 add_library(trunnion_options INTERFACE)
 target_compile_options(trunnion_options INTERFACE -Wall -Wextra -Wshadow -Wnon-virtual-dtor -ffp-contract=off)
-target_include_directories(trunnion_options INTERFACE ${CMAKE_SOURCE_DIR}/libs)
 option(TRUNNION_SANITIZE "Build with the address and undefined-behaviour sanitizers" OFF)
 if(TRUNNION_SANITIZE)
   add_compile_options(-fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer)
@@ -23,20 +22,56 @@ endif()
 add_custom_target(unit_tests)
 add_custom_target(fuzzers)
 
+# trunnion_headers(target PUBLIC|INTERFACE): the target and what links it may include the headers of this folder as
+# "<folder>/file.hpp". Every library has an include root of its own in the build directory, with a link to its folder in it,
+# so an include of a library that is not linked does not compile.
+function(trunnion_headers target scope)
+  get_filename_component(folder ${CMAKE_CURRENT_SOURCE_DIR} NAME)
+  set(root ${CMAKE_BINARY_DIR}/include/${folder})
+  file(MAKE_DIRECTORY ${root})
+  file(CREATE_LINK ${CMAKE_CURRENT_SOURCE_DIR} ${root}/${folder} SYMBOLIC)
+  target_include_directories(${target} ${scope} ${root})
+endfunction()
+
+# trunnion_layer(target): refuses what a directory may not link. libs/ links libs/ only; a service, the gateway, the command
+# line and the launcher link libs/ and what is in their own directory; nothing links what is defined after it, so there are
+# no circles. Tests, tools and examples are free.
+function(trunnion_layer target)
+  file(RELATIVE_PATH directory ${CMAKE_SOURCE_DIR} ${CMAKE_CURRENT_SOURCE_DIR})
+  set_target_properties(${target} PROPERTIES TRUNNION_DIRECTORY ${directory})
+  foreach(used IN LISTS ARGN)
+    if(NOT used MATCHES "^trunnion_" OR used STREQUAL trunnion_options)
+      continue()
+    endif()
+    if(NOT TARGET ${used})
+      message(FATAL_ERROR "${directory}: ${target} links ${used}, which is not defined before it in the top CMakeLists.txt")
+    endif()
+    get_target_property(home ${used} TRUNNION_DIRECTORY)
+    if(directory MATCHES "^(libs|services|gateway|deploy)" AND NOT home MATCHES "^libs/" AND NOT home STREQUAL directory)
+      message(FATAL_ERROR "${directory}: ${target} must not link ${used} of ${home}")
+    endif()
+  endforeach()
+endfunction()
+
 # trunnion_library(name SOURCES a.cpp ... [LINK libs...])
 function(trunnion_library name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
   add_library(${name} STATIC ${ARG_SOURCES})
   target_link_libraries(${name} PUBLIC trunnion_options ${ARG_LINK})
+  trunnion_layer(${name} ${ARG_LINK})
+  if(CMAKE_CURRENT_SOURCE_DIR MATCHES "^${CMAKE_SOURCE_DIR}/libs/")
+    trunnion_headers(${name} PUBLIC)
+  endif()
 endfunction()
 
-# trunnion_embed(sources name file): makes the C++ source of the text constant trunnion::machine::<name> from a file of this
-# folder and adds it to the list `sources`.
-function(trunnion_embed sources name file)
+# trunnion_embed(sources namespace name file): makes the C++ source of the text constant <namespace>::<name> from a file of
+# this folder and adds it to the list `sources`.
+function(trunnion_embed sources namespace name file)
   set(out ${CMAKE_CURRENT_BINARY_DIR}/${name}.cpp)
   set(script ${CMAKE_SOURCE_DIR}/cmake/embed.cmake)
   add_custom_command(OUTPUT ${out}
-    COMMAND ${CMAKE_COMMAND} -DINPUT=${CMAKE_CURRENT_SOURCE_DIR}/${file} -DOUTPUT=${out} -DNAME=${name} -P ${script}
+    COMMAND ${CMAKE_COMMAND} -DINPUT=${CMAKE_CURRENT_SOURCE_DIR}/${file} -DOUTPUT=${out} -DNAMESPACE=${namespace} -DNAME=${name}
+            -P ${script}
     DEPENDS ${file} ${script} VERBATIM)
   set(${sources} ${${sources}} ${out} PARENT_SCOPE)
 endfunction()
@@ -48,7 +83,7 @@ function(trunnion_test name)
     set(ARG_LABELS unit)
   endif()
   add_executable(${name} ${ARG_SOURCES})
-  target_link_libraries(${name} PRIVATE trunnion_options ${ARG_LINK} GTest::gmock GTest::gtest_main)
+  target_link_libraries(${name} PRIVATE trunnion_options trunnion_testing_support ${ARG_LINK} GTest::gmock GTest::gtest_main)
   add_test(NAME ${name} COMMAND ${name})
   set_tests_properties(${name} PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT ${trunnion_test_timeout})
   if("unit" IN_LIST ARG_LABELS)
@@ -72,7 +107,7 @@ function(trunnion_fuzzer name)
     file(MAKE_DIRECTORY ${found})
     add_executable(${name} ${ARG_SOURCES})
     target_link_options(${name} PRIVATE -fsanitize=fuzzer)
-    target_link_libraries(${name} PRIVATE trunnion_options ${ARG_LINK})
+    target_link_libraries(${name} PRIVATE trunnion_options trunnion_testing_support ${ARG_LINK})
     add_dependencies(fuzzers ${name})
     add_test(NAME ${name} WORKING_DIRECTORY ${CMAKE_BINARY_DIR}
       COMMAND ${name} -max_total_time=12 -seed=1 -len_control=0 -timeout=10 -verbosity=0 ${found} ${ARG_CORPUS})
@@ -85,4 +120,5 @@ function(trunnion_service name)
   cmake_parse_arguments(ARG "" "" "LINK" ${ARGN})
   add_executable(trunnion-${name} main.cpp service.cpp)
   target_link_libraries(trunnion-${name} PRIVATE trunnion_options trunnion_node ${ARG_LINK})
+  trunnion_layer(trunnion-${name} trunnion_node ${ARG_LINK})
 endfunction()

@@ -1,6 +1,6 @@
 #include "rehearsal_service.hpp"
 
-#include "http/client.hpp"
+#include "http_client/client.hpp"
 
 namespace trunnion::gateway {
 namespace {
@@ -28,7 +28,7 @@ Json own(const Snapshot& snapshot) {
 
 // Null when nobody answers there.
 Json running(std::uint16_t port) {
-  auto first = http::WebSocketClient(port, "/api/stream").next(1);
+  auto first = http_client::WebSocketClient(port, "/api/stream").next(1);
   auto message = first ? Json::parse(*first, nullptr, false) : Json();
   if (!message.is_object() || !message.contains("state")) return nullptr;
   return comparable(std::move(message["state"]));

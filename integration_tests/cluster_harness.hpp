@@ -14,8 +14,8 @@
 #include <functional>
 #include <map>
 
-#include "client.hpp"
-#include "cluster.hpp"
+#include "cluster/client.hpp"
+#include "cluster/cluster.hpp"
 
 namespace trunnion::integration {
 
@@ -82,7 +82,7 @@ class Cluster {
  public:
   explicit Cluster(const std::string& machine, Time time = Time::virtual_, const std::string& vendor = "",
                    bool gateway = false, std::optional<std::uint32_t> domain = std::nullopt) {
-    deploy::UpOptions up;
+    cluster::UpOptions up;
     up.machine = machine;
     up.vendor = vendor;
     up.state_directory = "temporary";
@@ -91,7 +91,7 @@ class Cluster {
     up.virtual_time = time == Time::virtual_;
     up.with_gateway = gateway;
     up.port = free_port();
-    cluster_ = deploy::start_cluster(up);
+    cluster_ = cluster::start_cluster(up);
     join(cluster_.network);
   }
   /// Takes part in a cluster that somebody else starts and stops.
@@ -100,7 +100,7 @@ class Cluster {
     states_.reset(), alarms_.reset(), feedback_.reset(), clusters_.reset(), resets_.reset(), client_.reset();
     if (!owned_) return;
     try {
-      deploy::stop_cluster(cluster_.run);
+      cluster::stop_cluster(cluster_.run);
     } catch (const std::exception& e) {
       ADD_FAILURE() << e.what();
     }
@@ -109,8 +109,8 @@ class Cluster {
       EXPECT_NE(kill(service.pid, 0), 0) << service.service << " is left";
   }
 
-  deploy::Client& client() { return *client_; }
-  const deploy::RunningCluster& running() const { return cluster_; }
+  cluster::Client& client() { return *client_; }
+  const cluster::RunningCluster& running() const { return cluster_; }
 
   void drain() {
     idl::channel::ChannelState state;
@@ -237,7 +237,7 @@ class Cluster {
 
  private:
   void join(const bus::NetworkSettings& network) {
-    client_ = std::make_unique<deploy::Client>(network);
+    client_ = std::make_unique<cluster::Client>(network);
     states_.emplace(client_->bus().reader(topics::channel_state));
     alarms_.emplace(client_->bus().reader(topics::alarm));
     feedback_.emplace(client_->bus().reader(topics::feedback_frame));
@@ -250,8 +250,8 @@ class Cluster {
   }
 
   bool owned_ = true;
-  deploy::RunningCluster cluster_;
-  std::unique_ptr<deploy::Client> client_;
+  cluster::RunningCluster cluster_;
+  std::unique_ptr<cluster::Client> client_;
   std::optional<bus::Reader<idl::channel::ChannelState>> states_;
   std::optional<bus::Reader<idl::service::Alarm>> alarms_;
   std::optional<bus::Reader<idl::stream::FeedbackFrame>> feedback_;

@@ -301,7 +301,7 @@ Way FaultRig::go_on() {
 void FaultRig::start_recorder() {
   int out[2];
   ASSERT_EQ(pipe(out), 0);
-  const auto program = deploy::binary_directory() + "/trunnion-recorder";
+  const auto program = cluster::binary_directory() + "/trunnion-recorder";
   const auto domain = std::to_string(cluster_.running().run.domain);
   recorder_ = fork();
   if (recorder_ == 0) {

@@ -37,7 +37,8 @@ void ProgramFlow::start(language::TextSource& text, const AxisValues& position,
   frames_.clear();
   auxiliaries_.clear();
   const bool rtcp = initial.transformation == language::Transformation::rtcp;
-  extent_ = setup::AxisBox::of(rtcp ? machine_.machine_from_tip(position, initial.tool_length) : position);
+  extent_ =
+      channel_setup::AxisBox::of(rtcp ? machine_.machine_from_tip(position, initial.tool_length) : position);
   alarm_number_ = 0;
   alarm_name_.clear();
   alarm_text_.clear();
@@ -60,7 +61,7 @@ FlowState ProgramFlow::push_move() {
   if (command_.kind != CommandKind::dwell) {
     std::string error;
     if (offset_) {
-      const auto extent = setup::extent_of(from, command_, machine_.chain());
+      const auto extent = channel_setup::extent_of(from, command_, machine_.chain());
       error = machine_.travel_error(extent, *offset_, command_.line);
       if (error.empty()) extent_.include(extent);
     } else {
@@ -132,7 +133,8 @@ FlowState ProgramFlow::arrive_at_line() {
   search_ = Search::none;
   executing_ = modal;
   const bool rtcp = modal.transformation == language::Transformation::rtcp;
-  extent_ = setup::AxisBox::of(rtcp ? machine_.machine_from_tip(position(), modal.tool_length) : position());
+  extent_ = channel_setup::AxisBox::of(rtcp ? machine_.machine_from_tip(position(), modal.tool_length)
+                                            : position());
   return FlowState::found;
 }
 

@@ -6,13 +6,13 @@
 #include <functional>
 #include <optional>
 
+#include "channel_setup/channel_setup.hpp"
 #include "flow/auxiliary_memory.hpp"
 #include "flow/frame_trail.hpp"
 #include "flow/skip_result.hpp"
 #include "flow/tapping.hpp"
 #include "language/interpreter.hpp"
 #include "motion/trajectory.hpp"
-#include "setup/channel_setup.hpp"
 
 namespace trunnion::flow {
 
@@ -43,7 +43,7 @@ struct Entry {
 
 class ProgramFlow {
  public:
-  ProgramFlow(setup::ChannelSetup& machine, motion::Trajectory*& trajectory,
+  ProgramFlow(channel_setup::ChannelSetup& machine, motion::Trajectory*& trajectory,
               language::InterpreterOptions options = {})
       : machine_(machine), trajectory_(trajectory), interpreter_(machine, options) {}
 
@@ -103,7 +103,7 @@ class ProgramFlow {
   /// What the commands that are done, or were skipped, have asked of spindle and coolant.
   const AuxiliaryMemory& auxiliaries() const { return auxiliaries_; }
   /// Machine coordinates the moves handed to motion go through, since the start with an offset.
-  const setup::AxisBox& extent() const { return extent_; }
+  const channel_setup::AxisBox& extent() const { return extent_; }
   /// Number of the alarm, and its name when it is none of the NC language, else empty.
   std::uint32_t alarm_number() const { return alarm_number_; }
   const std::string& alarm_name() const { return alarm_name_; }
@@ -122,7 +122,7 @@ class ProgramFlow {
   FlowState fail(language::AlarmNumber number);
   FlowState fail_search(const std::string& why);
   FlowState go_on_from_skip();
-  setup::ChannelSetup& machine_;
+  channel_setup::ChannelSetup& machine_;
   motion::Trajectory*& trajectory_;
   language::Interpreter interpreter_;
   language::Command command_;
@@ -130,7 +130,7 @@ class ProgramFlow {
   FrameTrail frames_;
   std::uint32_t frame_ = 0;  // of the newest of them
   AuxiliaryMemory auxiliaries_;
-  setup::AxisBox extent_;
+  channel_setup::AxisBox extent_;
   std::optional<AxisValues> offset_;
   double dry_run_feed_ = 0;
   bool have_command_ = false;

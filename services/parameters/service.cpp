@@ -10,10 +10,12 @@ MachineDefaults defaults_of(const machine::MachineConfig& machine) {
   defaults.values = machine::machine_parameters(machine);
   FileStorage files(machine.directory);
   std::uint64_t revision = 0;
-  if (const auto text = files.read(setup::tools_file))
-    defaults.tools = setup::read_tools(*text, machine.directory + "/" + setup::tools_file, revision);
-  if (const auto text = files.read(setup::offsets_file))
-    defaults.offsets = setup::read_offsets(*text, machine.directory + "/" + setup::offsets_file, revision);
+  if (const auto text = files.read(tool_tables::tools_file))
+    defaults.tools =
+        tool_tables::read_tools(*text, machine.directory + "/" + tool_tables::tools_file, revision);
+  if (const auto text = files.read(tool_tables::offsets_file))
+    defaults.offsets =
+        tool_tables::read_offsets(*text, machine.directory + "/" + tool_tables::offsets_file, revision);
   return defaults;
 }
 

@@ -20,7 +20,7 @@
 #include "message_queue.hpp"
 #include "node/node.hpp"
 #include "part_files.hpp"
-#include "replay/stream_tally.hpp"
+#include "recording/stream_tally.hpp"
 #include "topic_source.hpp"
 
 namespace trunnion::recorder {
@@ -146,7 +146,7 @@ class FileThread {
     if (thread_.joinable()) thread_.join();
   }
   /// After join().
-  const replay::StreamTally& tally() const { return tally_; }
+  const recording::StreamTally& tally() const { return tally_; }
   const Destination& destination() const { return *destination_; }
 
  private:
@@ -184,7 +184,7 @@ class FileThread {
   const std::vector<const bus::TopicEntry*>& topics_;
   MessageQueue& queue_;
   std::unique_ptr<Destination> destination_;
-  replay::StreamTally tally_;
+  recording::StreamTally tally_;
   std::size_t told_ = 0;
   bool reported_ = false;
   std::thread thread_;
@@ -246,7 +246,7 @@ void print_summary(const Options& options, const FileThread& thread, const Losse
           {{"file", file.path}, {"bytes", file.bytes}, {"messages", file.messages}, {"because", file.why}});
     for (const auto& [handle, count] : tally.messages_by_topic())
       summary["topics"][handle]["messages"] = count;
-    for (const auto& handle : replay::StreamTally::cyclic()) {
+    for (const auto& handle : recording::StreamTally::cyclic()) {
       if (tally.cycles(handle) == 0) continue;
       summary["topics"][handle]["cycles"] = tally.cycles(handle);
       summary["topics"][handle]["lost_cycles"] = tally.lost(handle);
@@ -262,7 +262,7 @@ void print_summary(const Options& options, const FileThread& thread, const Losse
   else
     std::cout << bytes << " bytes"
               << (options.parts.any() ? " in " + std::to_string(files.size()) + " parts" : "") << "\n";
-  for (const auto& handle : replay::StreamTally::cyclic())
+  for (const auto& handle : recording::StreamTally::cyclic())
     if (tally.cycles(handle) != 0)
       std::cout << "  " << handle << ": " << tally.cycles(handle) << " cycles, " << tally.lost(handle)
                 << " lost\n";

@@ -6,13 +6,13 @@
 
 #include "bus/cdr.hpp"
 #include "bus/registry.hpp"
+#include "channel_setup/channel_setup.hpp"
 #include "contracts/topics.hpp"
 #include "language/interpreter.hpp"
 #include "machine/axes.hpp"
 #include "motion/trajectory.hpp"
 #include "recording/file_stream.hpp"
 #include "recording/mcap_writer.hpp"
-#include "setup/channel_setup.hpp"
 
 namespace trunnion::report::test {
 namespace {
@@ -28,7 +28,7 @@ struct Row {
 
 // What the channel does, without a bus: commands into motion, motion into rows.
 std::vector<Row> rows_of(const std::string& program, const MachineTables& tables) {
-  setup::ChannelSetup environment(tables);
+  channel_setup::ChannelSetup environment(tables);
   const auto chain = machine::make_chain(tables.parameters, 0);
   motion::Limits limits;
   const auto axes = machine::channel_axes(tables.parameters, 0);

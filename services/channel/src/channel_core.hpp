@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "axis_lock.hpp"
+#include "channel_setup/channel_setup.hpp"
 #include "channel_snapshot.hpp"
 #include "contracts/types.hpp"
 #include "flow/program_flow.hpp"
@@ -18,7 +19,6 @@
 #include "preparation.hpp"
 #include "program_record.hpp"
 #include "program_shelf.hpp"
-#include "setup/channel_setup.hpp"
 #include "skip_move.hpp"
 #include "stream_link.hpp"
 
@@ -104,7 +104,7 @@ class ChannelCore {
   bool waits_for_text() const { return run_ == RunState::RUNNING && text_missing_; }
 
   RunState run_state() const { return run_; }
-  const setup::ChannelSetup& machine() const { return machine_; }
+  const channel_setup::ChannelSetup& machine() const { return machine_; }
   const StreamLink& link() const { return link_; }
   bool configured() const { return program_owner_ != nullptr; }
 
@@ -220,7 +220,7 @@ class ChannelCore {
 
   std::uint16_t number_;
   bool virtual_time_;
-  setup::ChannelSetup machine_;
+  channel_setup::ChannelSetup machine_;
   StreamLink link_;
   // The program's motion stays planned while the axes are moved by MDI, by hand or to the program's start.
   std::unique_ptr<motion::Trajectory> program_owner_, manual_owner_;

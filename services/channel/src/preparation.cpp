@@ -30,7 +30,7 @@ std::vector<language::Command> approach_moves(const AxisValues& from, const Axis
   return moves;
 }
 
-std::string approach_error(const setup::ChannelSetup& machine, const AxisValues& from,
+std::string approach_error(const channel_setup::ChannelSetup& machine, const AxisValues& from,
                            const std::vector<language::Command>& moves) {
   AxisValues at = from;
   for (const auto& move : moves) {

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "channel_setup/channel_setup.hpp"
 #include "flow/auxiliary_memory.hpp"
-#include "setup/channel_setup.hpp"
 
 namespace trunnion::channel {
 
@@ -26,7 +26,7 @@ std::vector<language::Command> approach_moves(const AxisValues& from, const Axis
                                               std::uint32_t line);
 
 /// The first thing wrong with the approach: an axis would leave its travel. Empty when it is right.
-std::string approach_error(const setup::ChannelSetup& machine, const AxisValues& from,
+std::string approach_error(const channel_setup::ChannelSetup& machine, const AxisValues& from,
                            const std::vector<language::Command>& moves);
 
 /// In words for the operator, e.g. "S1000 M3 M8, approach X10.0000 Y5.0000, then Z-3.0000".
