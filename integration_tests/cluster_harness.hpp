@@ -142,8 +142,8 @@ class Cluster {
     while (clusters_->take(list_)) have_cluster_ = true;
   }
   bool until(const std::function<bool()>& condition, double seconds = 20) {
-    const double end = node::monotonic_seconds() + seconds;
-    while (node::monotonic_seconds() < end) {
+    const double end = service::monotonic_seconds() + seconds;
+    while (service::monotonic_seconds() < end) {
       drain();
       if (condition()) return true;
       client_->bus().signal().wait(0.01);

@@ -122,11 +122,11 @@ double seconds_to_be_refused(const char* address) {
   there.sin_port = htons(9);
   inet_pton(AF_INET, address, &there.sin_addr);
   const int s = socket(AF_INET, SOCK_STREAM, 0);
-  const double began = node::monotonic_seconds();
+  const double began = service::monotonic_seconds();
   EXPECT_NE(connect(s, reinterpret_cast<const sockaddr*>(&there), sizeof there), 0);
   EXPECT_EQ(errno, ECONNREFUSED);
   close(s);
-  return node::monotonic_seconds() - began;
+  return service::monotonic_seconds() - began;
 }
 
 /// Packets that were lost on the way to a host, and those that were not.
@@ -199,9 +199,9 @@ TEST_F(Hosts, OnePercentLossAndTwoMillisecondsEachWayChangeNoBitOfTheConeAndStat
   EXPECT_GE(there_and_back, 0.004) << "the cables are as long as they should be";
   hosts.leave();
   hosts.expect("loss", "1");
-  const double began = node::monotonic_seconds();
+  const double began = service::monotonic_seconds();
   const auto rows = over_three_hosts(cone, machines, hosts, domain, expected);
-  const double took = node::monotonic_seconds() - began;
+  const double took = service::monotonic_seconds() - began;
   EXPECT_GT(rows.size(), 10000u);
   EXPECT_EQ(first_difference(rows, expected), "");
   for (const auto* host : {"control", "motion", "drives"}) {

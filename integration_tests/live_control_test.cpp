@@ -168,9 +168,9 @@ TEST(LiveControl, TheLineOfThePowerFailureIsOfferedAndTheProgramStartsFromIt) {
       }
     client.channel(0, CommandKind::CYCLE_START);
     auto states = client.bus().reader(topics::channel_state);
-    const double end = node::monotonic_seconds() + 30;
+    const double end = service::monotonic_seconds() + 30;
     idl::channel::ChannelState newest;
-    while (node::monotonic_seconds() < end && newest.line < 6) {
+    while (service::monotonic_seconds() < end && newest.line < 6) {
       while (states.take(newest)) {
       }
       std::this_thread::sleep_for(std::chrono::milliseconds(10));
@@ -191,8 +191,8 @@ TEST(LiveControl, TheLineOfThePowerFailureIsOfferedAndTheProgramStartsFromIt) {
     auto states = client.bus().reader(topics::channel_state);
     idl::channel::ChannelState newest;
     const auto until = [&](const auto& condition) {
-      const double end = node::monotonic_seconds() + 30;
-      while (node::monotonic_seconds() < end) {
+      const double end = service::monotonic_seconds() + 30;
+      while (service::monotonic_seconds() < end) {
         while (states.take(newest)) {
         }
         if (condition()) return true;

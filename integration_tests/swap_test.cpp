@@ -31,7 +31,7 @@ class Swapping : public testing::Test {
     idl::service::SwapRequest request;
     request.service = service, request.executable = executable, request.vendor = vendor,
     request.cycles = cycles;
-    node::RequestClient<idl::service::SwapRequest, idl::service::SwapReply> client(
+    service::RequestClient<idl::service::SwapRequest, idl::service::SwapReply> client(
         cluster.client().bus(), topics::swap_request, topics::swap_reply);
     client.send(request);
     std::optional<SwapReply> reply;

@@ -18,7 +18,7 @@
 
 #include "cluster/cluster_files.hpp"
 #include "cluster_harness.hpp"
-#include "node/node.hpp"
+#include "service/node.hpp"
 
 namespace trunnion::integration {
 namespace {
@@ -68,8 +68,8 @@ class Unit {
   /// Messages that arrive within `seconds`, until one is `wanted` (when it is not empty).
   std::vector<std::string> messages(double seconds, const std::string& wanted = "") {
     std::vector<std::string> all;
-    const double until = node::monotonic_seconds() + seconds;
-    for (double left = 0; (left = until - node::monotonic_seconds()) > 0;) {
+    const double until = service::monotonic_seconds() + seconds;
+    for (double left = 0; (left = until - service::monotonic_seconds()) > 0;) {
       timeval timeout{static_cast<time_t>(left),
                       static_cast<suseconds_t>((left - static_cast<long>(left)) * 1e6)};
       if (timeout.tv_sec == 0 && timeout.tv_usec == 0) break;

@@ -145,7 +145,7 @@ TEST_P(CopiesThatDiffer, StopTheMotionWithAnAlarmThatNamesStageCycleAndBothValue
   idl::service::SwapRequest request;
   request.service = stage, request.copy = 1, request.cycles = 500, request.vendor = "cyclonedds";
   request.executable = cluster::binary_directory() + "/" + stage + "_one_bit";
-  node::RequestClient<idl::service::SwapRequest, idl::service::SwapReply> client(
+  service::RequestClient<idl::service::SwapRequest, idl::service::SwapReply> client(
       cluster.client().bus(), topics::swap_request, topics::swap_reply);
   const auto reply = client.call(request, 30);
   ASSERT_TRUE(reply);

@@ -99,9 +99,9 @@ ChannelRequest request_of(cluster::Client& client, const Order& order) {
   request.channel = order.channel;
   const auto state = [&] {
     auto reader = client.bus().reader(topics::channel_state);
-    const double until = node::monotonic_seconds() + 2;
+    const double until = service::monotonic_seconds() + 2;
     idl::channel::ChannelState newest;
-    while (node::monotonic_seconds() < until) {
+    while (service::monotonic_seconds() < until) {
       while (reader.take(newest))
         if (newest.channel == order.channel) return newest;
       std::this_thread::sleep_for(std::chrono::milliseconds(2));
@@ -144,11 +144,11 @@ ChannelRequest request_of(cluster::Client& client, const Order& order) {
 std::string await_line(cluster::Client& client, std::uint16_t channel) {
   auto states = client.bus().reader(topics::channel_state);
   auto alarms = client.bus().reader(topics::alarm);
-  const double until = node::monotonic_seconds() + 60;
+  const double until = service::monotonic_seconds() + 60;
   std::string alarm;
   idl::channel::ChannelState state;
   int idle = 0;
-  while (node::monotonic_seconds() < until) {
+  while (service::monotonic_seconds() < until) {
     idl::service::Alarm a;
     while (alarms.take(a))
       if (a.source == "channel" && a.part == channel && a.severity >= idl::service::Severity::ERROR)

@@ -107,7 +107,7 @@ int status(const Common& common) {
   std::map<std::uint32_t, idl::service::Announcement> announced;
   std::map<std::uint32_t, idl::service::ServiceState> state;
   std::map<std::array<std::uint32_t, 3>, idl::service::Alarm> alarm;
-  const double until = node::monotonic_seconds() + 1.5;
+  const double until = service::monotonic_seconds() + 1.5;
   do {
     idl::service::Announcement a;
     while (announcements.take(a)) announced[a.instance] = a;
@@ -117,9 +117,9 @@ int status(const Common& common) {
     while (alarms.take(l)) alarm[{l.instance, l.number, l.part}] = l;
     bool all = announced.size() >= list.services.size();
     for (const auto& service : list.services) all = all && state.count(service.instance) != 0;
-    if (all && node::monotonic_seconds() > until - 1.2) break;
+    if (all && service::monotonic_seconds() > until - 1.2) break;
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
-  } while (node::monotonic_seconds() < until);
+  } while (service::monotonic_seconds() < until);
   const auto config = machine::load_machine(cluster.machine_directory);
   Json services = Json::array();
   for (const auto& service : list.services) {

@@ -23,12 +23,12 @@ using idl::channel::RunState;
 void wait_until_idle(cluster::Client& client, std::uint16_t channel, double timeout) {
   auto reader = client.bus().reader(topics::channel_state);
   auto alarms = client.bus().reader(topics::alarm);
-  const double until = node::monotonic_seconds() + timeout;
+  const double until = service::monotonic_seconds() + timeout;
   std::string alarm;
   int idle = 0;  // states in a row
   std::vector<double> before;
   constexpr double settled = 1e-4;  // mm or deg between two states
-  while (node::monotonic_seconds() < until) {
+  while (service::monotonic_seconds() < until) {
     idl::service::Alarm a;
     while (alarms.take(a))
       if (a.active && a.source == "channel" && a.part == channel)
@@ -76,14 +76,14 @@ int alarms(const Common& common, bool reset) {
     for (int i = 0; i < 500 && writer.matched() < 2; ++i)
       std::this_thread::sleep_for(std::chrono::milliseconds(2));
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
-    writer.write({node::make_client_id(), 1, 65535});
+    writer.write({service::make_client_id(), 1, 65535});
     std::this_thread::sleep_for(std::chrono::milliseconds(200));
   }
   auto reader = client.bus().reader(topics::alarm);
   std::map<std::array<std::uint32_t, 3>, idl::service::Alarm> list;
-  const double until = node::monotonic_seconds() + 0.5;
+  const double until = service::monotonic_seconds() + 0.5;
   idl::service::Alarm a;
-  while (node::monotonic_seconds() < until) {
+  while (service::monotonic_seconds() < until) {
     while (reader.take(a)) list[{a.instance, a.number, a.part}] = a;
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   }

@@ -13,7 +13,7 @@
 #include "cluster/cluster.hpp"
 #include "cluster/cluster_files.hpp"
 #include "commands.hpp"
-#include "node/node.hpp"
+#include "service/node.hpp"
 #include "verification/schedule.hpp"
 
 namespace trunnion::cli {
@@ -60,10 +60,10 @@ int run(const Common& common, const ReplayArguments& arguments) {
                                     bus::writer_qos(d.message->topic->qos, {stream_frames}));
   }
   const auto pause = [](double seconds) {
-    const double until = node::monotonic_seconds() + seconds;
-    while (stop_requested == 0 && node::monotonic_seconds() < until)
+    const double until = service::monotonic_seconds() + seconds;
+    while (stop_requested == 0 && service::monotonic_seconds() < until)
       std::this_thread::sleep_for(
-          std::chrono::duration<double>(std::min(0.05, std::max(0.0, until - node::monotonic_seconds()))));
+          std::chrono::duration<double>(std::min(0.05, std::max(0.0, until - service::monotonic_seconds()))));
   };
   const auto anybody = [&] {
     return std::any_of(writers.begin(), writers.end(), [](const auto& w) { return w.second->matched() > 0; });
@@ -71,14 +71,14 @@ int run(const Common& common, const ReplayArguments& arguments) {
   for (double waited = 0; arguments.wait && stop_requested == 0 && !anybody() && waited < match_patience;
        waited += 0.01)
     pause(0.01);
-  const double began = node::monotonic_seconds();
+  const double began = service::monotonic_seconds();
   std::size_t written = 0;
   for (const auto& d : due) {
-    pause(began + d.seconds - node::monotonic_seconds());
+    pause(began + d.seconds - service::monotonic_seconds());
     if (stop_requested != 0) break;
     if (writers[d.message->topic]->write(d.message->cdr)) ++written;
   }
-  const double seconds = node::monotonic_seconds() - began;
+  const double seconds = service::monotonic_seconds() - began;
   if (common.json)
     std::cout << bus::Json{{"messages", written}, {"topics", writers.size()}, {"seconds", seconds}}.dump()
               << std::endl;

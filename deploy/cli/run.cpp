@@ -13,7 +13,7 @@
 
 #include "cluster/client.hpp"
 #include "cluster/cluster.hpp"
-#include "node/network.hpp"
+#include "service/network.hpp"
 
 namespace trunnion::cli {
 namespace fs = std::filesystem;
@@ -37,7 +37,7 @@ class Recorder {
                                   "--domain",
                                   std::to_string(cluster.run.domain),
                                   "--parent-bound"};
-    for (auto& argument : node::network_arguments(cluster.network)) args.push_back(std::move(argument));
+    for (auto& argument : service::network_arguments(cluster.network)) args.push_back(std::move(argument));
     std::vector<char*> argv;
     for (auto& arg : args) argv.push_back(arg.data());
     argv.push_back(nullptr);
@@ -170,9 +170,9 @@ void draw_progress(const std::vector<idl::channel::ChannelState>& states, double
 void search_line(cluster::Client& client, std::uint32_t line) {
   client.channel(0, CommandKind::START_FROM_LINE, "", line);
   auto states = client.bus().reader(topics::channel_state);
-  const double until = node::monotonic_seconds() + 60;
+  const double until = service::monotonic_seconds() + 60;
   int idle = 0;
-  while (node::monotonic_seconds() < until && idle < 4) {
+  while (service::monotonic_seconds() < until && idle < 4) {
     idl::channel::ChannelState state;
     while (states.take(state)) {
       if (state.channel != 0) continue;
@@ -201,7 +201,7 @@ std::string execute(cluster::Client& client, std::size_t channels, const RunOpti
       if (state.channel < channels) newest[state.channel] = state, known[state.channel] = true;
   }
   for (std::uint16_t c = 0; c < channels; ++c) client.channel(c, CommandKind::CYCLE_START);
-  const double began = node::monotonic_seconds();
+  const double began = service::monotonic_seconds();
   double drawn = 0;
   std::string alarm;
   while (std::find(done.begin(), done.end(), false) != done.end()) {
@@ -213,14 +213,14 @@ std::string execute(cluster::Client& client, std::size_t channels, const RunOpti
       if (state.state != RunState::IDLE) ran[c] = true;
       // A short program may be over between two states: then its cycles tell that it ran.
       done[c] = state.state == RunState::IDLE &&
-                (ran[c] || state.cycle > newest[c].cycle || node::monotonic_seconds() - began > 1);
+                (ran[c] || state.cycle > newest[c].cycle || service::monotonic_seconds() - began > 1);
       newest[c] = state;
     }
     idl::service::Alarm a;
     while (alarms.take(a))
       if (a.active && alarm.empty() && a.severity >= idl::service::Severity::ERROR)
         alarm = "alarm " + std::to_string(a.number) + " (" + a.source + "): " + a.text;
-    const double now = node::monotonic_seconds();
+    const double now = service::monotonic_seconds();
     if (bar && now - drawn > 0.1) {
       draw_progress(newest, now - began);
       drawn = now;
@@ -237,7 +237,7 @@ std::string execute(cluster::Client& client, std::size_t channels, const RunOpti
   if (bar) {
     for (auto& state : newest)
       if (alarm.empty()) state.progress = 1;
-    draw_progress(newest, node::monotonic_seconds() - began);
+    draw_progress(newest, service::monotonic_seconds() - began);
     std::fprintf(stderr, "\n");
   }
   return alarm;
@@ -319,10 +319,10 @@ RecordingCost measure_recording(const RunOptions& options, int rounds) {
     std::optional<Recorder> recorder;
     if (record) recorder.emplace(options.recording, cluster.get());
     const auto before = client.newest(topics::channel_state).cycle;
-    const double began = node::monotonic_seconds();
+    const double began = service::monotonic_seconds();
     if (const auto alarm = execute(client, 1, options, false); !alarm.empty())
       throw std::runtime_error(alarm);
-    const double seconds = node::monotonic_seconds() - began;
+    const double seconds = service::monotonic_seconds() - began;
     recorder.reset();
     fs::remove(options.recording);
     const auto cycles = static_cast<double>(client.newest(topics::channel_state).cycle - before);

@@ -23,8 +23,8 @@ int swap(const Common& common, idl::service::SwapRequest request, double timeout
       throw std::runtime_error("the path of --exec is longer than 255 characters");
   }
   bus::Bus bus(bus::Vendor::cyclonedds, cluster.network);
-  node::RequestClient<idl::service::SwapRequest, idl::service::SwapReply> client(bus, topics::swap_request,
-                                                                                 topics::swap_reply);
+  service::RequestClient<idl::service::SwapRequest, idl::service::SwapReply> client(bus, topics::swap_request,
+                                                                                    topics::swap_reply);
   const auto reply = client.call(request, timeout);
   if (!reply)
     throw std::runtime_error("the launcher gave no answer within " +

@@ -12,7 +12,7 @@
 #include "cluster/client.hpp"
 #include "cluster/cluster.hpp"
 #include "commands.hpp"
-#include "node/network.hpp"
+#include "service/network.hpp"
 
 namespace trunnion::cli {
 namespace {
@@ -42,16 +42,16 @@ int echo(const Common& common, const std::string& name, int count, double timeou
   auto reader = bus.backend().reader(topic.description, bus::reader_qos(topic.qos), &bus.signal());
   bus::Bytes bytes;
   bus::SampleInfo info;
-  double heard = node::monotonic_seconds();
+  double heard = service::monotonic_seconds();
   int printed = 0;
   while (count == 0 || printed < count) {
     bus.signal().wait(0.1);
     while ((count == 0 || printed < count) && reader->take(bytes, info)) {
       std::cout << bus::text_of(topic.to_json(bytes), common.json ? -1 : 2) << std::endl;
-      heard = node::monotonic_seconds();
+      heard = service::monotonic_seconds();
       ++printed;
     }
-    if (timeout > 0 && node::monotonic_seconds() - heard > timeout)
+    if (timeout > 0 && service::monotonic_seconds() - heard > timeout)
       throw std::runtime_error("nothing on " + topic.description.name + " for " + std::to_string(timeout) +
                                " s");
   }
@@ -69,12 +69,12 @@ int rate(const Common& common, const std::string& name, double seconds) {
   while (reader->take(bytes, info)) {
   }
   std::uint64_t messages = 0, size = 0;
-  const double began = node::monotonic_seconds();
-  while (node::monotonic_seconds() - began < seconds) {
+  const double began = service::monotonic_seconds();
+  while (service::monotonic_seconds() - began < seconds) {
     bus.signal().wait(0.05);
     while (reader->take(bytes, info)) ++messages, size += bytes.size();
   }
-  const double elapsed = node::monotonic_seconds() - began;
+  const double elapsed = service::monotonic_seconds() - began;
   if (common.json)
     std::cout << bus::Json{{"topic", topic.description.name},
                            {"messages_per_second", messages / elapsed},
@@ -117,7 +117,7 @@ int record(const Common& common, const std::string& file, const RecorderValues& 
                                 std::to_string(cluster.run.domain)};
   for (std::size_t i = 0; i < values.size(); ++i)
     if (!values[i].empty()) args.insert(args.end(), {recorder_options[i].name, values[i]});
-  for (auto& argument : node::network_arguments(cluster.network)) args.push_back(std::move(argument));
+  for (auto& argument : service::network_arguments(cluster.network)) args.push_back(std::move(argument));
   if (common.json) args.emplace_back("--json");
   std::vector<char*> argv;
   for (auto& arg : args) argv.push_back(arg.data());

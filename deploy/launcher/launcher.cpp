@@ -12,7 +12,7 @@
 
 #include "cluster/child_process.hpp"
 #include "cluster/instances.hpp"
-#include "node/node.hpp"
+#include "service/node.hpp"
 
 namespace trunnion::launcher {
 namespace fs = std::filesystem;
@@ -89,7 +89,7 @@ bool Launcher::reap(std::string& failure) {
       if (!process.local || process.pid != pid) continue;
       process.pid = 0;
       process.lifecycle = idl::service::Lifecycle::UNCONFIGURED;
-      process.policy.ended(node::monotonic_seconds());
+      process.policy.ended(service::monotonic_seconds());
       if (process.retiring) continue;
       const auto& e = process.entry;
       const std::string how = WIFSIGNALED(status)
@@ -183,7 +183,7 @@ void Launcher::watch_remote(ServiceProcess& process, double now, bool judge) {
 }
 
 void Launcher::listen() {
-  const double now = node::monotonic_seconds();
+  const double now = service::monotonic_seconds();
   idl::service::ServiceState state;
   while (states_.take(state)) {
     for (auto& process : processes_) hear(process, state, now);
@@ -209,7 +209,7 @@ void Launcher::listen() {
 }
 
 void Launcher::watch() {
-  const double now = node::monotonic_seconds();
+  const double now = service::monotonic_seconds();
   // Who was suspended itself has not heard anybody.
   const bool judge = now - last_watch_ < own_pause;
   last_watch_ = now;
@@ -252,7 +252,7 @@ bool Launcher::begun() const {
 }
 
 void Launcher::publish() {
-  const double now = node::monotonic_seconds();
+  const double now = service::monotonic_seconds();
   const bool ready = all_ready();
   if (ready == ready_ && now - last_published_ < 0.5) return;
   ready_ = ready;
@@ -307,7 +307,7 @@ void Launcher::serve_swaps() {
     }
   }
   if (!swap_) return;
-  if (auto reply = swap_->step(node::monotonic_seconds())) {
+  if (auto reply = swap_->step(service::monotonic_seconds())) {
     swaps_.reply(swap_request_, std::move(*reply));
     swap_.reset();
   }
@@ -315,7 +315,7 @@ void Launcher::serve_swaps() {
 
 int Launcher::run(void (*report)(const std::string&)) {
   std::ofstream(options_.run.pid_file()) << getpid() << "\n";
-  const double began = node::monotonic_seconds();
+  const double began = service::monotonic_seconds();
   for (auto& process : processes_)
     if (process.local) process.start(options_, false);
   std::string failure;
@@ -326,13 +326,13 @@ int Launcher::run(void (*report)(const std::string&)) {
     watch();
     serve_swaps();
     publish();
-    notifier_.alive(node::monotonic_seconds());
+    notifier_.alive(service::monotonic_seconds());
     if (!was_ready_ && begun()) {
       was_ready_ = true;
       report("");
       notifier_.ready();
     }
-    if (!was_ready_ && node::monotonic_seconds() - began > start_patience) {
+    if (!was_ready_ && service::monotonic_seconds() - began > start_patience) {
       for (const auto& p : processes_)
         if (p.local && p.lifecycle != idl::service::Lifecycle::ACTIVE)
           failure += (failure.empty() ? "not ready: " : "; ") + p.entry.service +
@@ -351,7 +351,7 @@ void Launcher::stop_all() {
   swap_.reset();
   for (auto it = processes_.rbegin(); it != processes_.rend(); ++it)
     if (it->local && it->pid > 0) kill(it->pid, SIGTERM);
-  const double until = node::monotonic_seconds() + 2;
+  const double until = service::monotonic_seconds() + 2;
   const auto alive = [&] {
     int status = 0;
     for (int pid; (pid = waitpid(-1, &status, WNOHANG)) > 0;)
@@ -360,7 +360,7 @@ void Launcher::stop_all() {
     return std::any_of(processes_.begin(), processes_.end(),
                        [](const ServiceProcess& p) { return p.local && p.pid > 0; });
   };
-  while (alive() && node::monotonic_seconds() < until)
+  while (alive() && service::monotonic_seconds() < until)
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   for (auto& p : processes_)
     if (p.local && p.pid > 0) {

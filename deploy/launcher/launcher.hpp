@@ -9,9 +9,9 @@
 #include "bus/bus.hpp"
 #include "contracts/topics.hpp"
 #include "launch_options.hpp"
-#include "node/alarm_board.hpp"
-#include "node/notify.hpp"
-#include "node/request.hpp"
+#include "service/alarm_board.hpp"
+#include "service/notify.hpp"
+#include "service/request.hpp"
 #include "service_process.hpp"
 #include "swap.hpp"
 
@@ -46,13 +46,13 @@ class Launcher {
 
   LaunchOptions options_;
   bus::Bus bus_;
-  node::AlarmBoard alarms_;
+  service::AlarmBoard alarms_;
   bus::Reader<idl::service::ServiceState> states_;
   bus::Reader<idl::service::Announcement> announcements_;
   bus::Reader<idl::service::AlarmReset> resets_;
   bus::Writer<idl::service::Cluster> cluster_writer_;
-  node::RequestServer<idl::service::SwapRequest, idl::service::SwapReply> swaps_;
-  node::Notifier notifier_;
+  service::RequestServer<idl::service::SwapRequest, idl::service::SwapReply> swaps_;
+  service::Notifier notifier_;
   std::vector<ServiceProcess> processes_;
   std::map<std::uint32_t, idl::service::Announcement> announced_;  // by instance
   std::unique_ptr<Swap> swap_;                                     // the one under way

@@ -7,7 +7,7 @@
 #include <iostream>
 
 #include "launcher.hpp"
-#include "node/network.hpp"
+#include "service/network.hpp"
 
 namespace {
 
@@ -53,7 +53,7 @@ int main(int argc, char** argv) {
     options.machine = machine::load_machine(machine, vendor);
     options.machine.domain = domain;
     if (one_host) machine::forget_hosts(options.machine);
-    options.network = node::network_of(options.machine, options.host);
+    options.network = service::network_of(options.machine, options.host);
     options.network.identity = "deploy";
     options.run.domain = domain;
     if (options.port == 0)

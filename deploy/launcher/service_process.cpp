@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "cluster/cluster_files.hpp"
-#include "node/network.hpp"
-#include "node/node.hpp"
+#include "service/network.hpp"
+#include "service/node.hpp"
 
 namespace trunnion::launcher {
 
@@ -29,7 +29,7 @@ void ServiceProcess::start(const LaunchOptions& options, bool shadow) {
                                 "--vendor",
                                 e.vendor,
                                 "--parent-bound"};
-  for (auto& argument : node::network_arguments(options.network)) args.push_back(std::move(argument));
+  for (auto& argument : service::network_arguments(options.network)) args.push_back(std::move(argument));
   if (options.virtual_time) args.emplace_back("--virtual-time");
   if (shadow) args.emplace_back("--shadow");
   if (e.service == "gateway") {
@@ -54,7 +54,7 @@ void ServiceProcess::start(const LaunchOptions& options, bool shadow) {
     _exit(127);
   }
   pid = child;
-  policy.started(node::monotonic_seconds());
+  policy.started(service::monotonic_seconds());
   lifecycle = idl::service::Lifecycle::UNCONFIGURED;
   in_step = false;
   frames_out = 0;

@@ -8,7 +8,7 @@
 #include <cstdio>
 
 #include "cluster/child_process.hpp"
-#include "node/node.hpp"
+#include "service/node.hpp"
 #include "storage/file.hpp"
 #include "stream/stage_names.hpp"
 #include "stream/stage_service.hpp"
@@ -68,7 +68,7 @@ Swap::Swap(bus::Bus& bus, const LaunchOptions& options, ServiceProcess& old,
       channels_(bus.reader(topics::channel_state)),
       alarms_(bus.reader(topics::alarm)),
       alarm_writer_(bus.writer(topics::alarm)) {
-  began_ = entered_ = moved_ = node::monotonic_seconds();
+  began_ = entered_ = moved_ = service::monotonic_seconds();
   if (stage_ != 0) {
     auto topic = output_of(stage_);
     originals_.emplace(bus.reader(topic));
@@ -101,7 +101,7 @@ void Swap::enter(Phase phase, double now) {
 }
 
 void Swap::read() {
-  const double now = node::monotonic_seconds();
+  const double now = service::monotonic_seconds();
   idl::stream::FeedbackFrame feedback;
   while (feedback_.take(feedback)) {
     executed_ = std::max(executed_, feedback.first + feedback.count);
@@ -146,7 +146,7 @@ std::uint64_t Swap::compared() const {
 
 std::optional<std::string> Swap::difference() const {
   if (const auto& found = comparison_.first_difference()) return where(*found);
-  const std::string mark = node::differs_detail;
+  const std::string mark = service::differs_detail;
   if (stage_ == 0 && fresh_.detail.starts_with(mark)) return fresh_.detail.substr(mark.size());
   return std::nullopt;
 }
@@ -156,7 +156,7 @@ SwapReply Swap::keep(const std::string& reason) {
   reply.reason = reason.substr(0, 250);
   reply.compared = static_cast<std::uint32_t>(compared());
   reply.cycle = executed_;
-  reply.seconds = node::monotonic_seconds() - began_;
+  reply.seconds = service::monotonic_seconds() - began_;
   return reply;
 }
 
@@ -181,7 +181,8 @@ std::optional<SwapReply> Swap::after_start(double now) {
   if (announced != announced_.end() && announced->second.contract != topics::contract_hash)
     return keep("The new " + old_.entry.service + " was built with contract " + announced->second.contract +
                 ", this cluster with " + topics::contract_hash);
-  const bool there = announced != announced_.end() && fresh_.detail == node::shadow_detail && fresh_.in_step;
+  const bool there =
+      announced != announced_.end() && fresh_.detail == service::shadow_detail && fresh_.in_step;
   if (!there) {
     if (now - entered_ > start_patience)
       return keep("The new " + old_.entry.service + " does not find its way into the cluster" +

@@ -3,17 +3,17 @@
 #include <algorithm>
 #include <memory>
 
-#include "flow/program_flow.hpp"
-#include "flow/tapping.hpp"
 #include "language/codes.hpp"
 #include "motion/axis_motion.hpp"
+#include "program_execution/program_flow.hpp"
+#include "program_execution/tapping.hpp"
 
 namespace trunnion::analysis {
 namespace {
 
-using flow::FlowState;
 using language::Command;
 using language::CommandKind;
+using program_execution::FlowState;
 
 bool is_move(const Command& command) {
   return command.kind == CommandKind::rapid || command.kind == CommandKind::line ||
@@ -154,9 +154,9 @@ class Runner {
   motion::Trajectory trajectory_;
   motion::Trajectory* trajectory_pointer_ = &trajectory_;
   language::VariableStore variables_;
-  flow::ProgramFlow flow_;
+  program_execution::ProgramFlow flow_;
   FlowState state_ = FlowState::full;
-  flow::Tapping tapping_;
+  program_execution::Tapping tapping_;
   bool skip_on_its_way_ = false;
   FrameMoves frame_;
   ProgramResult result_;

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "contracts/topics.hpp"
-#include "node/request.hpp"
+#include "service/request.hpp"
 
 namespace trunnion::cluster {
 
@@ -35,18 +35,18 @@ class Client {
 
  private:
   bus::Bus bus_;
-  node::RequestClient<ChannelRequest, ChannelReply> channel_;
-  node::RequestClient<idl::program::ProgramRequest, idl::program::ProgramReply> program_;
-  node::RequestClient<idl::parameters::ParameterRequest, idl::parameters::ParameterReply> parameter_;
-  node::RequestClient<idl::plc::PanelRequest, idl::plc::PanelReply> panel_;
+  service::RequestClient<ChannelRequest, ChannelReply> channel_;
+  service::RequestClient<idl::program::ProgramRequest, idl::program::ProgramReply> program_;
+  service::RequestClient<idl::parameters::ParameterRequest, idl::parameters::ParameterReply> parameter_;
+  service::RequestClient<idl::plc::PanelRequest, idl::plc::PanelReply> panel_;
 };
 
 template <class T>
 T Client::newest(const bus::Topic<T>& topic, double timeout) {
   auto reader = bus_.reader(topic);
   T value;
-  const double until = node::monotonic_seconds() + timeout;
-  while (node::monotonic_seconds() < until) {
+  const double until = service::monotonic_seconds() + timeout;
+  while (service::monotonic_seconds() < until) {
     if (reader.take_newest(value)) return value;
     std::this_thread::sleep_for(std::chrono::milliseconds(2));
   }

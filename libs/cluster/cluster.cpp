@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "machine/parameters.hpp"
-#include "node/network.hpp"
-#include "node/node.hpp"
+#include "service/network.hpp"
+#include "service/node.hpp"
 
 namespace trunnion::cluster {
 namespace fs = std::filesystem;
@@ -49,13 +49,13 @@ std::vector<std::string> launcher_arguments(const UpOptions& up, const RunningCl
 }  // namespace
 
 RunningCluster start_cluster(const UpOptions& up) {
-  const double began = node::monotonic_seconds();
+  const double began = service::monotonic_seconds();
   auto config = machine::load_machine(find_machine(up.machine), up.vendor);
   machine::machine_parameters(config);
   if (up.one_host) machine::forget_hosts(config);
   RunningCluster cluster;
-  cluster.host = up.host.empty() ? node::local_host(config) : up.host;
-  cluster.network = node::network_of(config, cluster.host);
+  cluster.host = up.host.empty() ? service::local_host(config) : up.host;
+  cluster.network = service::network_of(config, cluster.host);
   cluster.run.domain = up.own_domain ? free_domain() : up.domain.value_or(config.domain);
   cluster.network.domain = cluster.run.domain;
   cluster.network.identity = "deploy";
@@ -117,7 +117,7 @@ RunningCluster start_cluster(const UpOptions& up) {
     throw std::runtime_error(answer.rfind("error ", 0) == 0 ? answer.substr(6)
                                                             : "the launcher ended without a word");
   }
-  cluster.start_seconds = node::monotonic_seconds() - began;
+  cluster.start_seconds = service::monotonic_seconds() - began;
   return cluster;
 }
 

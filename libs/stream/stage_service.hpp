@@ -7,8 +7,8 @@
 #include <optional>
 
 #include "machine/kinematics.hpp"
-#include "node/node.hpp"
-#include "node/parameter_client.hpp"
+#include "service/node.hpp"
+#include "service/parameter_client.hpp"
 #include "stream/frame_window.hpp"
 #include "stream/stage_core.hpp"
 
@@ -25,7 +25,7 @@ inline int stream_depth(int lead, int frame_cycles, int channels) {
 inline std::string shadow_name(const std::string& topic) { return topic + "/shadow"; }
 
 /// Raises the alarm of copies that differ, once until it is reset: it stops the machine.
-inline void raise_difference(node::AlarmBoard& alarms, const auto& first, const auto& second) {
+inline void raise_difference(service::AlarmBoard& alarms, const auto& first, const auto& second) {
   if (alarms.active("copies_differ", first.channel)) return;
   const auto what = difference(first, second);
   if (!what) return;
@@ -34,11 +34,11 @@ inline void raise_difference(node::AlarmBoard& alarms, const auto& first, const 
 }
 
 template <class In>
-class StageService : public node::Service {
+class StageService : public service::Service {
  public:
   using MakeCore = std::function<std::unique_ptr<StageCore<In>>()>;
 
-  StageService(node::Node& node, std::uint8_t stage, const bus::Topic<In>& in,
+  StageService(service::Node& node, std::uint8_t stage, const bus::Topic<In>& in,
                const bus::Topic<idl::stream::AxisFrame>& out, MakeCore make_core)
       : node_(node),
         parameters_(node.bus()),
@@ -80,9 +80,9 @@ class StageService : public node::Service {
   }
   double period() const override { return 0.02; }
 
-  node::Health health() const override {
+  service::Health health() const override {
     using idl::service::Lifecycle;
-    node::Health health;
+    service::Health health;
     health.lifecycle = !reader_                     ? Lifecycle::UNCONFIGURED
                        : have_feedback_ && !shadow_ ? Lifecycle::ACTIVE
                                                     : Lifecycle::INACTIVE;
@@ -106,8 +106,8 @@ class StageService : public node::Service {
   virtual bool needs_feedback() const { return false; }
   /// For supervision that does not belong to a setpoint.
   virtual void on_feedback(const idl::stream::FeedbackFrame&) {}
-  node::Node& node_;
-  node::ParameterClient parameters_;
+  service::Node& node_;
+  service::ParameterClient parameters_;
 
  private:
   struct Lane {
@@ -180,7 +180,7 @@ class StageService : public node::Service {
     const auto& told = lane.told;
     const bool news = twins_ && (progress.in_step != told.in_step || progress.epoch != told.epoch ||
                                  progress.next >= told.next + lead_ || lane.at_rest != lane.told_at_rest);
-    const double now = node::monotonic_seconds();
+    const double now = service::monotonic_seconds();
     if (!news && now - lane.told_at <= 0.1) return;
     lane.told = progress;
     lane.told_at = now;
@@ -190,7 +190,7 @@ class StageService : public node::Service {
 
   // Every reader of the feedback costs the drive a message and this process a wake-up per frame.
   void follow_feedback() {
-    bool wanted = needs_feedback() || !have_feedback_ || node::monotonic_seconds() < feedback_until_;
+    bool wanted = needs_feedback() || !have_feedback_ || service::monotonic_seconds() < feedback_until_;
     for (const auto& [channel, lane] : lanes_) wanted = wanted || !lane.in_step;
     if (wanted && !feedback_reader_) {
       newest_feedback_.channels.clear();
@@ -235,7 +235,7 @@ class StageService : public node::Service {
     if (lane.revision == revision) return true;
     const auto parameters = parameters_.find(revision);
     if (!parameters) {
-      const double now = node::monotonic_seconds();
+      const double now = service::monotonic_seconds();
       if (unknown_since_ == 0) unknown_since_ = now;
       if (now - unknown_since_ > 1)
         node_.alarms().raise("revision_unknown", channel,
@@ -293,7 +293,7 @@ class StageService : public node::Service {
     }
     // The next frame is missing while later ones are here: it will not come any more, so go on from the cut.
     if (lane.window.gap()) {
-      const double now = node::monotonic_seconds();
+      const double now = service::monotonic_seconds();
       if (lane.gap_since == 0) lane.gap_since = now;
       if (now - lane.gap_since > 0.02) {
         ++frames_lost_;

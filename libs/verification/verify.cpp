@@ -8,7 +8,7 @@
 #include "bus/bus.hpp"
 #include "cluster/child_process.hpp"
 #include "contracts/topics.hpp"
-#include "node/node.hpp"
+#include "service/node.hpp"
 #include "verification/answers.hpp"
 #include "verification/verify_gateway.hpp"
 #include "verification/verify_place.hpp"
@@ -54,14 +54,14 @@ class Feeding {
       if (is_request(*step.message->topic) && !await_reader(to))
         return process_.ended().empty() ? "the service does not read " + step.message->topic->handle
                                         : process_.ended();
-      if (began_ == 0 && is_cyclic(*step.message->topic)) began_ = node::monotonic_seconds();
+      if (began_ == 0 && is_cyclic(*step.message->topic)) began_ = service::monotonic_seconds();
       drain();
       to.write(step.message->cdr);
       if (step.apart) await_taken();
     }
     if (!wait_for(plan_.end)) return missing(plan_.end);
-    ended_ = node::monotonic_seconds();
-    while (node::monotonic_seconds() - ended_ < last_words) {
+    ended_ = service::monotonic_seconds();
+    while (service::monotonic_seconds() - ended_ < last_words) {
       bus_.signal().wait(last_words / 5);
       drain();
     }
@@ -107,8 +107,8 @@ class Feeding {
   void await_taken() {
     const auto before = produced_.size();
     active();
-    const double until = node::monotonic_seconds() + (heard_ ? take_patience : start_pause);
-    while (node::monotonic_seconds() < until) {
+    const double until = service::monotonic_seconds() + (heard_ ? take_patience : start_pause);
+    while (service::monotonic_seconds() < until) {
       if (heard_ ? process_.sleeps() : produced_.size() != before) break;
       if (!heard_) bus_.signal().wait(start_pause);
       drain();
@@ -117,14 +117,14 @@ class Feeding {
   }
 
   bool wait_for(const std::vector<Mark>& needs) {
-    double heard = node::monotonic_seconds();
+    double heard = service::monotonic_seconds();
     while (!progress_.reached(needs)) {
       if (drain()) {
-        heard = node::monotonic_seconds();
+        heard = service::monotonic_seconds();
         continue;
       }
       bus_.signal().wait(0.02);
-      if (!process_.ended().empty() || node::monotonic_seconds() - heard > options_.patience) {
+      if (!process_.ended().empty() || service::monotonic_seconds() - heard > options_.patience) {
         drain();
         return progress_.reached(needs);
       }
@@ -137,8 +137,8 @@ class Feeding {
     return topic.qos == bus::QosKind::event || topic.handle.ends_with("_request");
   }
   bool await_reader(bus::RawWriter& to) {
-    const double until = node::monotonic_seconds() + match_patience;
-    while ((to.matched() == 0 || !active()) && node::monotonic_seconds() < until &&
+    const double until = service::monotonic_seconds() + match_patience;
+    while ((to.matched() == 0 || !active()) && service::monotonic_seconds() < until &&
            process_.ended().empty()) {
       drain();
       std::this_thread::sleep_for(std::chrono::milliseconds(1));

@@ -8,7 +8,7 @@
 #include "cluster/child_process.hpp"
 #include "contracts/topics.hpp"
 #include "http_client/client.hpp"
-#include "node/node.hpp"
+#include "service/node.hpp"
 #include "storage/crc32.hpp"
 #include "verification/gateway_plan.hpp"
 #include "verification/shown_state.hpp"
@@ -71,12 +71,12 @@ class Verification {
   // Empty when everything was as recorded but for the outputs on the bus, else what was not.
   std::string run() {
     auto problem = connect();
-    began_ = node::monotonic_seconds();
+    began_ = service::monotonic_seconds();
     for (auto step = plan_.steps.begin(); problem.empty() && step != plan_.steps.end(); ++step)
       problem = go(*step);
     if (problem.empty()) problem = compare_answers();
-    ended_ = node::monotonic_seconds();
-    while (node::monotonic_seconds() - ended_ < last_words) {
+    ended_ = service::monotonic_seconds();
+    while (service::monotonic_seconds() - ended_ < last_words) {
       bus_.signal().wait(short_wait);
       drain();
     }
@@ -104,9 +104,9 @@ class Verification {
   // Calls `ready` until it holds; false when the gateway has ended or its patience has.
   template <class Ready>
   bool wait_for(Ready ready) {
-    const double until = node::monotonic_seconds() + options_.patience;
+    const double until = service::monotonic_seconds() + options_.patience;
     while (!ready()) {
-      if (!process_.ended().empty() || node::monotonic_seconds() > until) return false;
+      if (!process_.ended().empty() || service::monotonic_seconds() > until) return false;
       bus_.signal().wait(short_wait);
       drain();
     }
@@ -185,7 +185,7 @@ class Verification {
     auto expected = shown_.document();
     take_out_clock(expected, plan_.outputs.instance);
     std::string off;
-    const double until = node::monotonic_seconds() + options_.patience;
+    const double until = service::monotonic_seconds() + options_.patience;
     do {
       const bool news = stream_->take(looks_ == 1 && stream_->state().is_null() ? options_.patience : 0.1);
       drain();
@@ -193,7 +193,7 @@ class Verification {
       auto shown = stream_->state();
       take_out_clock(shown, plan_.outputs.instance);
       off = shown_difference(expected, shown);
-    } while (!off.empty() && node::monotonic_seconds() < until);
+    } while (!off.empty() && service::monotonic_seconds() < until);
     return off.empty() ? "" : "what it shows after " + std::to_string(fed_) + " messages: " + off;
   }
 

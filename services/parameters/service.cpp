@@ -28,7 +28,7 @@ std::string make_directory(const std::string& path) {
 
 }  // namespace
 
-ParameterService::ParameterService(node::Node& node)
+ParameterService::ParameterService(service::Node& node)
     : node_(node),
       storage_(make_directory(node.options().state_directory)),
       store_(storage_, defaults_of(node.options().machine), storage_.read("cluster.boot").value_or("")),
@@ -59,7 +59,7 @@ void ParameterService::pump() {
   }
   idl::parameters::ParameterRequest request;
   while (requests_.take(request)) {
-    const auto reply = store_.apply(request, node::time_of_day());
+    const auto reply = store_.apply(request, service::time_of_day());
     if (reply.accepted)
       node_.alarms().release("storage_failed", 0);
     else if (reply.alarm == machine::alarm_definition("storage_failed").number)
@@ -69,8 +69,8 @@ void ParameterService::pump() {
   }
 }
 
-node::Health ParameterService::health() const {
-  node::Health health;
+service::Health ParameterService::health() const {
+  service::Health health;
   health.lifecycle = idl::service::Lifecycle::ACTIVE;
   health.revision = store_.revision();
   return health;

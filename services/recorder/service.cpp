@@ -18,9 +18,9 @@
 #include "contracts/topics.hpp"
 #include "flight_recorder.hpp"
 #include "message_queue.hpp"
-#include "node/node.hpp"
 #include "part_files.hpp"
 #include "recording/stream_tally.hpp"
+#include "service/node.hpp"
 #include "topic_source.hpp"
 
 namespace trunnion::recorder {
@@ -134,7 +134,7 @@ class FileThread {
           nanoseconds_since_epoch());
     else
       destination_ =
-          std::make_unique<PartFiles>(options.output, header, options.parts, node::monotonic_seconds());
+          std::make_unique<PartFiles>(options.output, header, options.parts, service::monotonic_seconds());
     thread_ = std::thread([this] { run(); });
   }
   ~FileThread() { join(); }
@@ -153,7 +153,7 @@ class FileThread {
   void run() {
     std::vector<Message> messages;
     while (queue_.pop_all(messages, 0.2)) {
-      const double now = node::monotonic_seconds();
+      const double now = service::monotonic_seconds();
       for (auto& message : messages) {
         tally_.add(topics_[message.topic]->handle, message.cdr);
         destination_->take(message, now);
@@ -161,7 +161,7 @@ class FileThread {
       destination_->idle(now);
       tell();
     }
-    destination_->finish(node::monotonic_seconds());
+    destination_->finish(service::monotonic_seconds());
     tell();
   }
 
@@ -201,7 +201,7 @@ void wait_for_writers(bus::Bus& bus, Sources& sources, MessageQueue& queue) {
   idl::service::Cluster cluster;
   idl::service::ServiceState state;
   std::set<std::uint32_t> heard;
-  const double began = node::monotonic_seconds();
+  const double began = service::monotonic_seconds();
   while (stop_requested == 0) {
     sources.drain(queue);
     while (clusters.take(cluster)) {
@@ -213,7 +213,7 @@ void wait_for_writers(bus::Bus& bus, Sources& sources, MessageQueue& queue) {
                     [&](const auto& service) { return heard.count(service.instance) != 0; });
     const bool matched = sources.all_have_writers();
     if (known && all_heard && matched && sources.feedback_has_come()) return;
-    const double waited = node::monotonic_seconds() - began;
+    const double waited = service::monotonic_seconds() - began;
     if (waited > (known ? cluster_seconds : match_seconds) ||
         (!known && matched && waited > match_seconds / 2))
       return;
@@ -298,10 +298,10 @@ int record(const Options& options) {
   sources->begin(bus::source_time());
   std::cout << "recording " << options.output << std::endl;
 
-  const double started = node::monotonic_seconds();
+  const double started = service::monotonic_seconds();
   std::uint64_t told = 0;
   while (stop_requested == 0 &&
-         (options.duration <= 0 || node::monotonic_seconds() - started < options.duration)) {
+         (options.duration <= 0 || service::monotonic_seconds() - started < options.duration)) {
     if (sources->drain(queue)) {
       if (queue.dropped() != 0 && told == 0) {
         told = queue.dropped();
@@ -311,8 +311,8 @@ int record(const Options& options) {
     std::this_thread::sleep_for(pause);
   }
   // What has arrived by now belongs to the recording; a stream in full flow does not keep us for ever.
-  const double until = node::monotonic_seconds() + 2;
-  while (sources->drain(queue) && node::monotonic_seconds() < until) {
+  const double until = service::monotonic_seconds() + 2;
+  while (sources->drain(queue) && service::monotonic_seconds() < until) {
   }
   const Losses losses{queue.dropped(), sources->overwritten()};
   sources.reset();

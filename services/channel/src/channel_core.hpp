@@ -12,11 +12,11 @@
 #include "channel_setup/channel_setup.hpp"
 #include "channel_snapshot.hpp"
 #include "contracts/types.hpp"
-#include "flow/program_flow.hpp"
-#include "flow/tapping.hpp"
 #include "hand_over.hpp"
 #include "handwheel.hpp"
 #include "preparation.hpp"
+#include "program_execution/program_flow.hpp"
+#include "program_execution/tapping.hpp"
 #include "program_record.hpp"
 #include "program_shelf.hpp"
 #include "skip_move.hpp"
@@ -24,14 +24,14 @@
 
 namespace trunnion::channel {
 
-using flow::AuxiliaryMemory;
-using flow::Entry;
-using flow::FlowState;
-using flow::ProgramFlow;
-using flow::RestartPoint;
-using flow::Tapping;
 using idl::channel::Mode;
 using idl::channel::RunState;
+using program_execution::AuxiliaryMemory;
+using program_execution::Entry;
+using program_execution::FlowState;
+using program_execution::ProgramFlow;
+using program_execution::RestartPoint;
+using program_execution::Tapping;
 
 struct Answer {
   bool accepted = true;

@@ -5,12 +5,12 @@
 #include <vector>
 
 #include "channel_setup/channel_setup.hpp"
-#include "flow/auxiliary_memory.hpp"
+#include "program_execution/auxiliary_memory.hpp"
 
 namespace trunnion::channel {
 
-using flow::AuxiliaryOrder;
 using language::AxisValues;
+using program_execution::AuxiliaryOrder;
 
 /// What is done, in this order, before a program goes on.
 struct Preparation {

@@ -4,7 +4,7 @@
 
 #include <string>
 
-namespace trunnion::node {
+namespace trunnion::service {
 
 class Notifier {
  public:
@@ -35,4 +35,4 @@ class Notifier {
   std::string status_;
 };
 
-}  // namespace trunnion::node
+}  // namespace trunnion::service

@@ -11,7 +11,7 @@ namespace CLI {
 class App;
 }
 
-namespace trunnion::node {
+namespace trunnion::service {
 
 /// The host of `config` this computer is: the one whose address is an address of this computer, or else the
 /// first. Empty when the machine has no hosts.
@@ -27,4 +27,4 @@ void add_network_options(CLI::App& app, bus::NetworkSettings& network);
 /// What add_network_options() reads back. The domain and the identity are not in it.
 std::vector<std::string> network_arguments(const bus::NetworkSettings& network);
 
-}  // namespace trunnion::node
+}  // namespace trunnion::service

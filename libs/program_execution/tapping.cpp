@@ -1,10 +1,10 @@
-#include "flow/tapping.hpp"
+#include "program_execution/tapping.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-namespace trunnion::flow {
+namespace trunnion::program_execution {
 
 void Tapping::begin(const AxisValues& start, const language::Command& stroke) {
   active_ = true;
@@ -44,4 +44,4 @@ language::Command Tapping::line(language::Command stroke) {
   return stroke;
 }
 
-}  // namespace trunnion::flow
+}  // namespace trunnion::program_execution

@@ -1,10 +1,10 @@
-#include "node/comparison_clock.hpp"
+#include "service/comparison_clock.hpp"
 
 #include <gtest/gtest.h>
 
 #include <stdexcept>
 
-namespace trunnion::node {
+namespace trunnion::service {
 namespace {
 
 struct Watch {
@@ -71,4 +71,4 @@ TEST(ComparisonClock, AFileThatCannotBeReadIsADifference) {
 }
 
 }  // namespace
-}  // namespace trunnion::node
+}  // namespace trunnion::service

@@ -1,8 +1,8 @@
-#include "flow/program_flow.hpp"
+#include "program_execution/program_flow.hpp"
 
 #include "machine/alarms.hpp"
 
-namespace trunnion::flow {
+namespace trunnion::program_execution {
 
 using language::CommandKind;
 
@@ -218,4 +218,4 @@ FlowState ProgramFlow::fill(bool single_block) {
   return FlowState::waiting;
 }
 
-}  // namespace trunnion::flow
+}  // namespace trunnion::program_execution

@@ -7,14 +7,14 @@
 #include <optional>
 
 #include "channel_setup/channel_setup.hpp"
-#include "flow/auxiliary_memory.hpp"
-#include "flow/frame_trail.hpp"
-#include "flow/skip_result.hpp"
-#include "flow/tapping.hpp"
 #include "language/interpreter.hpp"
 #include "motion/trajectory.hpp"
+#include "program_execution/auxiliary_memory.hpp"
+#include "program_execution/frame_trail.hpp"
+#include "program_execution/skip_result.hpp"
+#include "program_execution/tapping.hpp"
 
-namespace trunnion::flow {
+namespace trunnion::program_execution {
 
 using language::AxisValues;
 
@@ -145,4 +145,4 @@ class ProgramFlow {
   std::string alarm_name_, alarm_text_;
 };
 
-}  // namespace trunnion::flow
+}  // namespace trunnion::program_execution

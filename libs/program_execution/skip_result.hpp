@@ -3,7 +3,7 @@
 
 #include "language/canonical.hpp"
 
-namespace trunnion::flow {
+namespace trunnion::program_execution {
 
 using language::AxisValues;
 
@@ -13,4 +13,4 @@ struct SkipResult {
   AxisValues stopped{}, touched{};
 };
 
-}  // namespace trunnion::flow
+}  // namespace trunnion::program_execution

@@ -1,6 +1,6 @@
-#include "node/parameter_client.hpp"
+#include "service/parameter_client.hpp"
 
-namespace trunnion::node {
+namespace trunnion::service {
 
 bool ParameterClient::poll() {
   bool any = false;
@@ -20,4 +20,4 @@ std::shared_ptr<const machine::Parameters> ParameterClient::find(std::uint64_t r
   return nullptr;
 }
 
-}  // namespace trunnion::node
+}  // namespace trunnion::service

@@ -1,8 +1,8 @@
-#include "flow/auxiliary_memory.hpp"
+#include "program_execution/auxiliary_memory.hpp"
 
 #include "language/codes.hpp"
 
-namespace trunnion::flow {
+namespace trunnion::program_execution {
 
 using language::CommandKind;
 
@@ -61,4 +61,4 @@ std::vector<AuxiliaryOrder> AuxiliaryMemory::orders_touched_by(const AuxiliaryMe
   return undo;
 }
 
-}  // namespace trunnion::flow
+}  // namespace trunnion::program_execution

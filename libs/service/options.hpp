@@ -10,7 +10,7 @@ namespace CLI {
 class App;
 }
 
-namespace trunnion::node {
+namespace trunnion::service {
 
 struct Options {
   std::string service;  ///< name of the executable without "trunnion-"
@@ -35,4 +35,4 @@ void add_options(CLI::App& app, Options& options);
 /// Parses, loads the machine, returns -1 to go on or the exit status. Prints one line on errors.
 int parse_options(CLI::App& app, int argc, char** argv, Options& options);
 
-}  // namespace trunnion::node
+}  // namespace trunnion::service

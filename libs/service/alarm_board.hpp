@@ -7,7 +7,7 @@
 #include "bus/bus.hpp"
 #include "contracts/topics.hpp"
 
-namespace trunnion::node {
+namespace trunnion::service {
 
 class AlarmBoard {
  public:
@@ -44,4 +44,4 @@ class AlarmBoard {
   std::map<std::pair<std::uint32_t, std::uint32_t>, Entry> entries_;
 };
 
-}  // namespace trunnion::node
+}  // namespace trunnion::service

@@ -5,7 +5,7 @@
 #include "language/canonical.hpp"
 #include "motion/limits.hpp"
 
-namespace trunnion::flow {
+namespace trunnion::program_execution {
 
 using language::AxisValues;
 
@@ -30,4 +30,4 @@ class Tapping {
   bool along_axis_ = false;
 };
 
-}  // namespace trunnion::flow
+}  // namespace trunnion::program_execution

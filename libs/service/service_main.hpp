@@ -6,7 +6,7 @@
 #include <iostream>
 #include <iterator>
 
-namespace trunnion::node {
+namespace trunnion::service {
 
 /// False when the process is told to end before it is needed.
 template <class S>
@@ -43,4 +43,4 @@ int service_main(int argc, char** argv, const char* name) {
   }
 }
 
-}  // namespace trunnion::node
+}  // namespace trunnion::service

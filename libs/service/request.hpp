@@ -10,9 +10,9 @@
 #include <thread>
 
 #include "bus/bus.hpp"
-#include "node/node.hpp"
+#include "service/node.hpp"
 
-namespace trunnion::node {
+namespace trunnion::service {
 
 /// A client id that no other process has.
 inline std::uint64_t make_client_id() {
@@ -115,4 +115,4 @@ class RequestServer {
   std::map<std::uint64_t, Last> clients_;
 };
 
-}  // namespace trunnion::node
+}  // namespace trunnion::service

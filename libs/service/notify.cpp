@@ -1,4 +1,4 @@
-#include "node/notify.hpp"
+#include "service/notify.hpp"
 
 #include <sys/socket.h>
 #include <sys/un.h>
@@ -8,7 +8,7 @@
 #include <cstdlib>
 #include <cstring>
 
-namespace trunnion::node {
+namespace trunnion::service {
 namespace {
 
 std::string take_from_environment(const char* name) {
@@ -65,4 +65,4 @@ void Notifier::alive(double now) {
   send("WATCHDOG=1");
 }
 
-}  // namespace trunnion::node
+}  // namespace trunnion::service

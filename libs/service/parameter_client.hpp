@@ -7,7 +7,7 @@
 #include "contracts/topics.hpp"
 #include "machine/parameters.hpp"
 
-namespace trunnion::node {
+namespace trunnion::service {
 
 class ParameterClient {
  public:
@@ -24,4 +24,4 @@ class ParameterClient {
   std::shared_ptr<const machine::Parameters> newest_, previous_;
 };
 
-}  // namespace trunnion::node
+}  // namespace trunnion::service

@@ -7,11 +7,11 @@
 
 #include "bus/bus.hpp"
 #include "contracts/topics.hpp"
-#include "node/alarm_board.hpp"
-#include "node/notify.hpp"
-#include "node/options.hpp"
+#include "service/alarm_board.hpp"
+#include "service/notify.hpp"
+#include "service/options.hpp"
 
-namespace trunnion::node {
+namespace trunnion::service {
 
 /// Health::detail of a shadow that has found no difference yet, and the beginning of that of one that has.
 inline constexpr const char* shadow_detail = "shadow";
@@ -96,6 +96,6 @@ std::string time_of_day();
 template <class S>
 int service_main(int argc, char** argv, const char* name);
 
-}  // namespace trunnion::node
+}  // namespace trunnion::service
 
-#include "node/service_main.hpp"
+#include "service/service_main.hpp"

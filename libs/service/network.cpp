@@ -1,4 +1,4 @@
-#include "node/network.hpp"
+#include "service/network.hpp"
 
 #include <arpa/inet.h>
 #include <ifaddrs.h>
@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-namespace trunnion::node {
+namespace trunnion::service {
 namespace {
 
 std::vector<std::string> own_addresses() {
@@ -87,4 +87,4 @@ std::vector<std::string> network_arguments(const bus::NetworkSettings& network) 
   return arguments;
 }
 
-}  // namespace trunnion::node
+}  // namespace trunnion::service

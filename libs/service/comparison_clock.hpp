@@ -5,9 +5,9 @@
 #include <exception>
 #include <string>
 
-#include "node/node.hpp"
+#include "service/node.hpp"
 
-namespace trunnion::node {
+namespace trunnion::service {
 
 class ComparisonClock {
  public:
@@ -50,4 +50,4 @@ class ComparisonClock {
   std::string difference_;
 };
 
-}  // namespace trunnion::node
+}  // namespace trunnion::service

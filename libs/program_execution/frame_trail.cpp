@@ -1,8 +1,8 @@
-#include "flow/frame_trail.hpp"
+#include "program_execution/frame_trail.hpp"
 
 #include <algorithm>
 
-namespace trunnion::flow {
+namespace trunnion::program_execution {
 
 void FrameTrail::add(std::uint32_t sequence, const language::ProgramFrame& frame) {
   (*entries_)[count_ % capacity] = {sequence, frame};
@@ -27,4 +27,4 @@ const language::ProgramFrame* FrameTrail::newest() const {
   return count_ == 0 ? nullptr : &entry(count_ - 1).frame;
 }
 
-}  // namespace trunnion::flow
+}  // namespace trunnion::program_execution

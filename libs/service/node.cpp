@@ -1,4 +1,4 @@
-#include "node/node.hpp"
+#include "service/node.hpp"
 
 #include <sched.h>
 #include <sys/mman.h>
@@ -11,7 +11,7 @@
 #include <ctime>
 #include <filesystem>
 
-namespace trunnion::node {
+namespace trunnion::service {
 namespace {
 
 constexpr double beat_period = 0.25;  // s
@@ -163,4 +163,4 @@ int Node::run(Service& service) {
   return 0;
 }
 
-}  // namespace trunnion::node
+}  // namespace trunnion::service

@@ -8,7 +8,7 @@
 
 #include "language/program_frame.hpp"
 
-namespace trunnion::flow {
+namespace trunnion::program_execution {
 
 /// Keeps the newest `capacity` frames. Allocates when it is made and never again.
 class FrameTrail {
@@ -34,4 +34,4 @@ class FrameTrail {
   std::uint64_t count_ = 0;  // added since clear()
 };
 
-}  // namespace trunnion::flow
+}  // namespace trunnion::program_execution

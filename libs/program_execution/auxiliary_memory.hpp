@@ -6,7 +6,7 @@
 
 #include "language/canonical.hpp"
 
-namespace trunnion::flow {
+namespace trunnion::program_execution {
 
 /// One M, S or T of the handshake with the PLC (idl/channel.idl, AuxiliaryRequest).
 struct AuxiliaryOrder {
@@ -41,4 +41,4 @@ class AuxiliaryMemory {
   std::uint32_t not_repeated_ = 0;
 };
 
-}  // namespace trunnion::flow
+}  // namespace trunnion::program_execution

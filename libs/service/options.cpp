@@ -1,11 +1,11 @@
-#include "node/options.hpp"
+#include "service/options.hpp"
 
 #include <CLI/CLI.hpp>
 #include <iostream>
 
-#include "node/network.hpp"
+#include "service/network.hpp"
 
-namespace trunnion::node {
+namespace trunnion::service {
 
 void add_options(CLI::App& app, Options& options) {
   app.add_option("--machine", options.machine_directory, "Directory with machine.yaml")->required();
@@ -39,4 +39,4 @@ int parse_options(CLI::App& app, int argc, char** argv, Options& options) {
   return -1;
 }
 
-}  // namespace trunnion::node
+}  // namespace trunnion::service

@@ -1,8 +1,8 @@
-#include "node/alarm_board.hpp"
+#include "service/alarm_board.hpp"
 
 #include "machine/alarms.hpp"
 
-namespace trunnion::node {
+namespace trunnion::service {
 
 AlarmBoard::AlarmBoard(bus::Bus& bus, std::uint32_t instance, std::string service)
     : instance_(instance), service_(std::move(service)), writer_(bus.writer(topics::alarm)) {}
@@ -87,4 +87,4 @@ bool AlarmBoard::any() const {
   return false;
 }
 
-}  // namespace trunnion::node
+}  // namespace trunnion::service
