@@ -8,7 +8,7 @@
 namespace trunnion::motion {
 namespace {
 
-using language::axis_count;
+using canonical::axis_count;
 
 // Part of the tolerance that is used; the rest covers rounding.
 constexpr double tolerance_share = 0.98;
@@ -17,7 +17,7 @@ constexpr double tolerance_share = 0.98;
 double weigh(const AxisValues& change, const BlendRules& rules) {
   double linear = 0, rotary = 0;
   for (std::size_t i = 0; i < axis_count; ++i) {
-    (i >= language::A && i <= language::C ? rotary : linear) += change[i] * change[i];
+    (canonical::is_rotary(i) ? rotary : linear) += change[i] * change[i];
   }
   const auto part = [](double square, double tolerance) {
     if (square <= 0) return 0.0;

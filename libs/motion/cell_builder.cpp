@@ -7,7 +7,7 @@
 namespace trunnion::motion {
 namespace {
 
-using language::axis_count;
+using canonical::axis_count;
 
 // What of an axis' limits the path's own curvature may take at the highest speed; the rest accelerates.
 constexpr double normal_share = 0.72;
@@ -194,7 +194,7 @@ double CellBuilder::overlap_time(const BlendedPath& path, const LimitCell& befor
     const double q1 = std::abs(first[0][i]), q2 = std::abs(second[0][i]);
     if (q1 * a.acceleration + q2 * b.acceleration > axes[i].acceleration * (1 + 1e-9)) return 0;
     if (q1 * a.jerk + q2 * b.jerk > axes[i].jerk * (1 + 1e-9)) return 0;
-    double& part = i >= language::A && i <= language::C ? rotary : linear;
+    double& part = canonical::is_rotary(i) ? rotary : linear;
     part = std::max({part, q1, q2});
   }
   if (path[after.block].path.unit() == LengthUnit::degree) linear = 1e-9;
@@ -214,7 +214,7 @@ double CellBuilder::longest(const BlendedPath& path) const {
   if (block.path.is_arc() && block.path.curvature() > 0) most = arc_cell_angle / block.path.curvature();
   if (chain_ != nullptr) {
     const auto d = block.path.derivatives(0);
-    const double turn = std::hypot(d[0][language::A], d[0][language::B], d[0][language::C]);
+    const double turn = std::hypot(d[0][canonical::A], d[0][canonical::B], d[0][canonical::C]);
     if (turn > 0) most = std::min(most, 2 / turn);
   }
   return most;

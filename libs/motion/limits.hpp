@@ -3,11 +3,11 @@
 
 #include <array>
 
-#include "language/canonical.hpp"
+#include "canonical/canonical.hpp"
 
 namespace trunnion::motion {
 
-using language::AxisValues;
+using canonical::AxisValues;
 
 /// Limits of one machine axis. Units per axis: mm or degrees, seconds. All above zero.
 struct AxisLimits {
@@ -30,7 +30,7 @@ struct PathMode {
 
 /// Limits of a trajectory. Its own PathMode is that of G5.1 Q0.
 struct Limits : PathMode {
-  std::array<AxisLimits, language::axis_count> axes{};
+  std::array<AxisLimits, canonical::axis_count> axes{};
   double arc_tolerance = 0.005;     ///< mm by which the pieces of a curve and what joins them may leave it
   std::array<PathMode, 2> modes{};  ///< of G5.1 Q1 and Q2
 };

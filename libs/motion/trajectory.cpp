@@ -8,9 +8,9 @@
 namespace trunnion::motion {
 namespace {
 
-using language::axis_count;
-using language::Command;
-using language::CommandKind;
+using canonical::axis_count;
+using canonical::Command;
+using canonical::CommandKind;
 
 constexpr double longest_dwell_cycles = 1e9;
 // Blocks kept behind the oldest that may be moved on, since roundings reach back.
@@ -55,12 +55,12 @@ Trajectory::Trajectory(const Limits& limits, const geometry::Chain* chain, doubl
       speed_(cycle_seconds),
       back_(cycle_seconds),
       interpolation_(cycle_seconds) {
-  start({}, language::Transformation::none, 0);
+  start({}, canonical::Transformation::none, 0);
 }
 
-void Trajectory::start(const AxisValues& position, language::Transformation transformation,
+void Trajectory::start(const AxisValues& position, canonical::Transformation transformation,
                        double tool_length) {
-  active_chain_ = transformation == language::Transformation::rtcp ? chain_ : nullptr;
+  active_chain_ = transformation == canonical::Transformation::rtcp ? chain_ : nullptr;
   tool_length_ = tool_length;
   end_ = joined_ = position;
   interpolation_.start(position);
@@ -102,7 +102,7 @@ bool Trajectory::push_from(const Command& command, double fraction) {
 // Every axis that has to move needs limits above zero; through a chain any move may move X Y Z.
 bool Trajectory::movable(const AxisValues& from, const AxisValues& to) const {
   for (std::size_t i = 0; i < axis_count; ++i) {
-    if (from[i] == to[i] && (active_chain_ == nullptr || i > language::Z)) continue;
+    if (from[i] == to[i] && (active_chain_ == nullptr || i > canonical::Z)) continue;
     const AxisLimits& axis = limits_[mode_].axes[i];
     if (!(axis.velocity > 0 && axis.rapid_velocity > 0 && axis.acceleration > 0 && axis.jerk > 0))
       return false;
@@ -117,7 +117,7 @@ bool Trajectory::joins_to_last(const PathSegment& segment) const {
   double linear = 0, rotary = 0;
   for (std::size_t i = 0; i < axis_count; ++i) {
     const double travel = std::abs(segment.target()[i] - segment.start()[i]);
-    double& part = i >= language::A && i <= language::C ? rotary : linear;
+    double& part = canonical::is_rotary(i) ? rotary : linear;
     part = std::max(part, travel);
   }
   return linear <= merge_share * rules_.contour_tolerance &&
@@ -164,7 +164,7 @@ bool Trajectory::push_move(const Command& command, double fraction) {
   }
   if (!is_finite(command.target)) return false;
   if (command.kind == CommandKind::arc) {
-    language::Arc arc = command.arc;
+    canonical::Arc arc = command.arc;
     if (!(arc.sweep >= 0) || !std::isfinite(arc.sweep)) return false;
     if (fraction > 0) arc.sweep = remaining_sweep(end_, command.target, arc, fraction);
     if (!std::all_of(arc.centre.begin(), arc.centre.end(), [](double v) { return std::isfinite(v); }))
@@ -177,7 +177,7 @@ bool Trajectory::push_move(const Command& command, double fraction) {
     return false;
   }
   block.rapid = command.kind == CommandKind::rapid;
-  const bool inverse = command.modal.feed_mode == language::FeedMode::inverse_time;
+  const bool inverse = command.modal.feed_mode == canonical::FeedMode::inverse_time;
   const double length = block.path.length();
   // Inverse time is the feed of the whole command: what is left of it takes its share of the time.
   const double whole = fraction < 1 ? length / (1 - fraction) : length;
@@ -204,7 +204,7 @@ bool Trajectory::push_move(const Command& command, double fraction) {
       append(block);
     }
   }
-  if (command.modal.path_control == language::PathControl::exact_stop) {
+  if (command.modal.path_control == canonical::PathControl::exact_stop) {
     flush();
     stop_next_ = exact_next_ = true;
   }

@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "geometry/chain.hpp"
-#include "language/canonical.hpp"
+#include "canonical/canonical.hpp"
 #include "motion/blended_path.hpp"
 #include "motion/cell_builder.hpp"
 #include "motion/interpolation.hpp"
@@ -29,7 +29,7 @@ class Trajectory {
   /// Stand still at `position` in the frame of `transformation`, with `tool_length` in mm. Drops everything
   /// pushed. A change of frame or tool length is: finish, wait for at_rest, start with the same place in the
   /// new frame.
-  void start(const AxisValues& position, language::Transformation transformation, double tool_length);
+  void start(const AxisValues& position, canonical::Transformation transformation, double tool_length);
 
   /// Other limits, from the next start() on.
   void set_limits(const Limits& limits);
@@ -41,11 +41,11 @@ class Trajectory {
   /// known. False, and nothing changed, when there is no room, the kind is another, or the numbers make no
   /// move (not finite, feed or sweep not above 0, an axis without limits above 0). A move without length is
   /// accepted and does nothing. per_revolution feeds must have been converted to mm/min.
-  bool push(const language::Command& command);
+  bool push(const canonical::Command& command);
 
   /// Appends what is left of a command of which `fraction` (0..1) is done, from the end of what was pushed: a
   /// line from there to the target, an arc with the remaining sweep, a dwell of the remaining time.
-  bool push_from(const language::Command& command, double fraction);
+  bool push_from(const canonical::Command& command, double fraction);
 
   /// Nothing follows yet: lets the motion run to the end of the last command and stop there. Commands may
   /// be pushed afterwards; they start behind that stop.
@@ -76,7 +76,7 @@ class Trajectory {
   std::uint64_t stopping_cycles() const { return speed_.stopping_cycles(); }
 
  private:
-  bool push_move(const language::Command& command, double fraction);
+  bool push_move(const canonical::Command& command, double fraction);
   bool movable(const AxisValues& from, const AxisValues& to) const;
   bool joins_to_last(const PathSegment& segment) const;
   void append(PathBlock block);
@@ -90,8 +90,8 @@ class Trajectory {
   std::uint64_t current_block() const;
   double current_s() const;
 
-  BlendRules rules_of(const language::Command& command) const;
-  void change_mode(const language::Command& command);
+  BlendRules rules_of(const canonical::Command& command) const;
+  void change_mode(const canonical::Command& command);
 
   double cycle_;
   ModeLimits limits_;

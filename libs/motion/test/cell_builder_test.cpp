@@ -10,9 +10,9 @@
 namespace trunnion::motion {
 namespace {
 
-using language::A;
-using language::Y;
-using language::Z;
+using canonical::A;
+using canonical::Y;
+using canonical::Z;
 
 constexpr double degree = std::numbers::pi / 180;
 constexpr double feed_limit = 100, rapid_limit = 200, acceleration = 1000, jerk = 60000;
@@ -32,7 +32,7 @@ PathBlock block_of(const PathSegment& segment, double feed = 1000) {
 
 PathSegment circle(double radius, double sweep) {
   const double end = sweep * degree;
-  language::Arc arc;
+  canonical::Arc arc;
   arc.sweep = sweep;
   return PathSegment::arc({radius}, {radius * std::cos(end), radius * std::sin(end)}, arc);
 }

@@ -47,7 +47,7 @@ TEST(Modes, each_keeps_its_own_contour_tolerance_and_uses_it) {
                                              {0, 0.05, 0.05},
                                              {1, 0.05, 0.05},
                                              {2, 0.003, 0.003}}) {
-    t.start({}, language::Transformation::none, 0);
+    t.start({}, canonical::Transformation::none, 0);
     const Motion result = run(t, in_mode(bends.program, static_cast<std::uint8_t>(mode), own));
     ASSERT_TRUE(result.stopped);
     const double error = contour_error(result, bends.points);
@@ -63,7 +63,7 @@ TEST(Modes, smoothing_cycles_of_a_mode_bound_its_jerk) {
   limits.axes[0].acceleration = 1000;
   Trajectory t(limits, nullptr, cycle);
   const auto jerk = [&](std::uint8_t mode) {
-    t.start({}, language::Transformation::none, 0);
+    t.start({}, canonical::Transformation::none, 0);
     double x1 = 0, x2 = 0, x3 = 0, worst = 0;
     for (const Setpoint& s : run(t, in_mode({line_to({50}, 9000)}, mode)).setpoints) {
       worst = std::max(worst, std::abs(s.position[0] - 3 * x1 + 3 * x2 - x3) / (cycle * cycle * cycle));
@@ -84,7 +84,7 @@ TEST(Modes, smooth_corner_angle_of_a_mode_decides_where_motion_stands) {
   limits.contour_tolerance = 0.1;
   Trajectory t(limits, nullptr, cycle);
   const auto slowest_on_the_way = [&](std::uint8_t mode) {
-    t.start({}, language::Transformation::none, 0);
+    t.start({}, canonical::Transformation::none, 0);
     double slowest = 1e9;
     for (const Setpoint& s :
          run(t, in_mode({line_to({10}, 600, 1), line_to({10, 10}, 600, 2)}, mode)).setpoints)
@@ -101,7 +101,7 @@ TEST(Modes, smooth_corner_angle_of_a_mode_decides_where_motion_stands) {
 TEST(Modes, centripetal_acceleration_of_a_mode_bounds_the_speed_in_curves) {
   Trajectory t(three_modes(), nullptr, cycle);
   const auto fastest = [&](std::uint8_t mode) {
-    t.start({10}, language::Transformation::none, 0);
+    t.start({10}, canonical::Transformation::none, 0);
     double speed = 0;
     for (const Setpoint& s : run(t, in_mode({arc_to({10}, 0, 0, 1440, false, 12000)}, mode)).setpoints)
       speed = std::max(speed, s.path_speed);

@@ -8,7 +8,7 @@
 namespace trunnion::motion::test {
 namespace {
 
-using language::Transformation;
+using canonical::Transformation;
 
 void expect_sound(const Motion& result, const AxisValues& start, const AxisValues& end, const Limits& limits,
                   const geometry::Chain* chain = nullptr) {
@@ -118,7 +118,7 @@ TEST(Robustness, rotary_move_with_a_trace_of_linear_travel_ends) {
     Trajectory t(limits, &chain, cycle);
     t.start({20, 0, 0}, Transformation::rtcp, 0);
     AxisValues a{20, 0, 0}, b{20 + trace, 0, 0};
-    b[language::C] = 30;
+    b[canonical::C] = 30;
     AxisValues c = b;
     c[0] += 10;
     const Motion result = run(t, {line_to(b, 6000), line_to(c, 6000)}, 200000);
@@ -156,7 +156,7 @@ TEST(Robustness, feeds_that_make_no_motion_are_refused_before_anything_moves) {
 TEST(Robustness, an_axis_without_limits_refuses_to_move_and_the_others_do_not_care) {
   for (const auto limit : {&AxisLimits::velocity, &AxisLimits::acceleration, &AxisLimits::jerk}) {
     Limits limits = uniform_limits(100, 1000, 20);
-    limits.axes[language::Y].*limit = 0;
+    limits.axes[canonical::Y].*limit = 0;
     Trajectory t(limits, nullptr, cycle);
     EXPECT_FALSE(t.push(line_to({10, 10}, 6000)));
     EXPECT_TRUE(t.push(line_to({10}, 6000)));
@@ -178,8 +178,8 @@ TEST(Robustness, flips_of_the_orientation_run_at_the_pace_of_the_rotary_axis) {
   AxisValues p = start;
   for (int k = 0; k < 6; ++k) {
     p[0] += 1;
-    p[language::A] = -p[language::A];
-    p[language::C] += k % 2 == 0 ? 180 : -180;
+    p[canonical::A] = -p[canonical::A];
+    p[canonical::C] += k % 2 == 0 ? 180 : -180;
     program.push_back(line_to(p, 6000));
   }
   const Motion result = run(t, program, 200000);
@@ -326,7 +326,7 @@ TEST(Robustness, mixed_noise_of_every_kind_ends_and_keeps_the_limits) {
       } else {
         program.push_back(line_to(p, 3000 + 2900 * unit(random)));
       }
-      if (random() % 20 == 0) program.back().modal.path_control = language::PathControl::exact_stop;
+      if (random() % 20 == 0) program.back().modal.path_control = canonical::PathControl::exact_stop;
     }
     const Motion result = run(t, program, 400000);
     SCOPED_TRACE(seed);
