@@ -5,13 +5,14 @@ Markdown: no line over 120 columns outside tables and code blocks. Markdown, ala
 words that docs/glossary.md refuses. Prints file:line: what, and exits with status 1 when something is found.
 With --wrap FILES the prose of these Markdown files is wrapped instead.
 """
-import argparse, os, re, subprocess, sys, textwrap
+import argparse, os, re, sys, textwrap
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 WIDTH = 120
 GLOSSARY = "docs/glossary.md"
 TEXTS = ("libs/machine/alarms.yaml", "libs/machine/catalogue.yaml", "services/plc/registers.yaml", "libs/language/alarms.hpp")
 FENCE = re.compile(r"\s*(```|~~~)")
+WHOLE = re.compile(r"`[^`]*`|\[[^\]]*\]\([^)]*\)")  # code and links, which stay on one line
 ENTRY = re.compile(r"(\s*)((?:[-*+]|\d+\.)\s+)")
 
 
@@ -19,9 +20,10 @@ def read(path):
     with open(os.path.join(ROOT, path), encoding="utf-8") as f: return f.read().split("\n")
 
 
-def tracked(pattern):
-    return subprocess.run(["git", "-C", ROOT, "ls-files", "--cached", "--others", "--exclude-standard", pattern],
-                          capture_output=True, text=True, check=True).stdout.split()
+def markdown_files():
+    for folder, folders, files in os.walk(ROOT):
+        folders[:] = sorted(f for f in folders if f not in ("build", "node_modules", "out") and not f.startswith("."))
+        yield from (os.path.relpath(os.path.join(folder, f), ROOT) for f in sorted(files) if f.endswith(".md"))
 
 
 def refused_words():
@@ -52,7 +54,7 @@ def check():
         for word, instead in words:
             match = word.search(text)
             if match: found.append(f"{path}:{number}: '{match.group()}': write {instead}")
-    for path in tracked("*.md"):
+    for path in markdown_files():
         refused_table = False
         for number, line, is_table in prose(read(path)):
             refused_table = path == GLOSSARY and (refused_table or line.startswith("| refused |"))
@@ -74,17 +76,23 @@ def wrap(path):
     def flush():
         nonlocal paragraph
         if paragraph:
-            out.extend(textwrap.wrap(" ".join(paragraph), WIDTH, initial_indent=indent, subsequent_indent=hanging,
-                                     break_long_words=False, break_on_hyphens=False))
+            text = WHOLE.sub(lambda match: match.group().replace(" ", "\0"), " ".join(paragraph))
+            out.extend(line.replace("\0", " ") for line in
+                       textwrap.wrap(text, WIDTH, initial_indent=indent, subsequent_indent=hanging, break_long_words=False, break_on_hyphens=False))
         paragraph = []
 
     code = False
     for line in read(path):
         fence = FENCE.match(line)
         if fence: code = not code
-        if fence or code or not line.strip() or re.match(r"\s*(\||#|!\[|>|<)", line):
+        if fence or code or not line.strip() or re.match(r"\s*(\||#|!\[|<)|>$", line):
             flush()
             out.append(line)
+            continue
+        if line.startswith("> "):
+            if indent != "> ": flush()
+            indent = hanging = "> "
+            paragraph.append(line[2:].strip())
             continue
         entry = ENTRY.match(line)
         if entry or not paragraph:
