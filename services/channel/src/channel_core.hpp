@@ -182,7 +182,7 @@ class ChannelCore {
 
   // channel_orders.cpp: what a program asks of the rest of the control.
   void run_pending(FlowState state);
-  void begin_auxiliary(const AuxiliaryOrder& order);
+  void begin_auxiliary(const program_execution::AuxiliaryFunction& function);
 
   // channel_cycles.cpp: moves that a skip input ends, and those a spindle follows.
   void begin_skip();
