@@ -1,6 +1,6 @@
 #include "program_execution/program_flow.hpp"
 
-#include "machine/alarms.hpp"
+#include "machine/alarm_constants.hpp"
 
 namespace trunnion::program_execution {
 
@@ -42,20 +42,20 @@ void ProgramFlow::start(motion::Trajectory& trajectory, language::TextSource& te
   extent_ =
       channel_setup::AxisBox::of(rtcp ? machine_.machine_from_tip(position, initial.tool_length) : position);
   alarm_number_ = 0;
-  alarm_name_.clear();
+  machine_alarm_ = nullptr;
   alarm_text_.clear();
 }
 
-FlowState ProgramFlow::fail(const char* alarm, const std::string& text) {
-  alarm_number_ = machine::alarm_definition(alarm).number;
-  alarm_name_ = alarm;
+FlowState ProgramFlow::fail(const machine::AlarmDefinition& alarm, const std::string& text) {
+  alarm_number_ = alarm.number;
+  machine_alarm_ = &alarm;
   alarm_text_ = text;
   trajectory_->finish();
   return FlowState::alarm;
 }
 
 FlowState ProgramFlow::fail_search(const std::string& why) {
-  return fail("search_failed", std::to_string(entry_.line) + ": " + why);
+  return fail(alarm::search_failed, std::to_string(entry_.line) + ": " + why);
 }
 
 FlowState ProgramFlow::push_move() {
@@ -69,7 +69,7 @@ FlowState ProgramFlow::push_move() {
     } else {
       error = machine_.travel_error(from, command_);
     }
-    if (!error.empty()) return fail("travel_limit", error);
+    if (!error.empty()) return fail(alarm::travel_limit, error);
   }
   auto move = command_.kind == CommandKind::tap ? Tapping::line(command_) : command_;
   if (move.kind == CommandKind::skip) move.kind = CommandKind::line;
@@ -105,7 +105,7 @@ void ProgramFlow::refuse_pending(language::AlarmNumber number) {
 
 FlowState ProgramFlow::fail(language::AlarmNumber number, std::string_view text) {
   alarm_number_ = static_cast<std::uint32_t>(number);
-  alarm_name_.clear();
+  machine_alarm_ = nullptr;
   alarm_text_ = place(command_.program, command_.line) + ": " + std::string(text);
   trajectory_->finish();
   return FlowState::alarm;

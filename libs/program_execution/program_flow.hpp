@@ -8,6 +8,7 @@
 
 #include "channel_setup/channel_setup.hpp"
 #include "language/interpreter.hpp"
+#include "machine/alarm_definition.hpp"
 #include "motion/trajectory.hpp"
 #include "program_execution/auxiliary_memory.hpp"
 #include "program_execution/frame_trail.hpp"
@@ -106,9 +107,9 @@ class ProgramFlow {
   const AuxiliaryMemory& auxiliaries() const { return auxiliaries_; }
   /// Machine coordinates the moves handed to motion go through, since the start with an offset.
   const channel_setup::AxisBox& extent() const { return extent_; }
-  /// Number of the alarm, and its name; the name is empty for alarms of the NC language.
+  /// Number of the alarm, and the alarm itself when it is none of the NC language, else null.
   std::uint32_t alarm_number() const { return alarm_number_; }
-  const std::string& alarm_name() const { return alarm_name_; }
+  const machine::AlarmDefinition* machine_alarm() const { return machine_alarm_; }
   const std::string& alarm_text() const { return alarm_text_; }
   /// Commands up to the restart point, or the line, are being skipped.
   bool searching() const { return search_ != Search::none; }
@@ -120,7 +121,7 @@ class ProgramFlow {
   FlowState push_move();
   FlowState take_step(language::Step step);
   FlowState arrive_at_line();
-  FlowState fail(const char* alarm, const std::string& text);
+  FlowState fail(const machine::AlarmDefinition& alarm, const std::string& text);
   FlowState fail(language::AlarmNumber number, std::string_view text);
   FlowState fail(language::AlarmNumber number) { return fail(number, language::alarm_text(number)); }
   FlowState fail_search(const std::string& why);
@@ -145,7 +146,8 @@ class ProgramFlow {
   std::size_t skips_read_ = 0;
 
   std::uint32_t alarm_number_ = 0;
-  std::string alarm_name_, alarm_text_;
+  const machine::AlarmDefinition* machine_alarm_ = nullptr;
+  std::string alarm_text_;
 };
 
 }  // namespace trunnion::program_execution

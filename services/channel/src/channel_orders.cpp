@@ -1,6 +1,7 @@
 // What a program asks of the rest of the control while the axes stand: the PLC, the tables, the operator.
 #include "channel_core.hpp"
 #include "language/codes.hpp"
+#include "machine/alarm_constants.hpp"
 #include "table_order.hpp"
 
 namespace trunnion::channel {
@@ -14,7 +15,7 @@ void ChannelCore::run_pending(FlowState state) {
   switch (state) {
     case FlowState::alarm:
       events_.push_back(
-          {flow().alarm_name(), flow().alarm_number(), program_name() + ":" + flow().alarm_text()});
+          {flow().machine_alarm(), flow().alarm_number(), program_name() + ":" + flow().alarm_text()});
       finish(false);
       return;
     case FlowState::end:
@@ -57,8 +58,8 @@ void ChannelCore::run_pending(FlowState state) {
       run_ = RunState::WAITING;
       return;
     case CommandKind::message:
-      event("program_message", program_name() + ":" + std::to_string(command.line) + ": message " +
-                                   std::to_string(command.number) + ", see the comment of the line");
+      event(alarm::program_message, program_name() + ":" + std::to_string(command.line) + ": message " +
+                                        std::to_string(command.number) + ", see the comment of the line");
       flow().finish_pending();
       return;
     case CommandKind::tool:
@@ -100,7 +101,7 @@ void ChannelCore::on_auxiliary_done(const idl::plc::AuxiliaryDone& done) {
   if (!auxiliary_open_ || done.number != auxiliary_.number) return;
   auxiliary_open_ = false;
   if (done.failed) {
-    event("auxiliary_refused",
+    event(alarm::auxiliary_refused,
           program_name() + ":" + std::to_string(flow().pending().line) + ": the PLC could not carry it out");
     auxiliary_.kind = 0;
     outgoing_auxiliary_ = auxiliary_;
@@ -141,7 +142,7 @@ void ChannelCore::on_table_changed(const std::string& reason) {
   if (!table_open_) return;
   table_open_ = false;
   if (!reason.empty()) {
-    event("table_refused", program_name() + ":" + std::to_string(flow().pending().line) + ": " + reason);
+    event(alarm::table_refused, program_name() + ":" + std::to_string(flow().pending().line) + ": " + reason);
     stop_activity();
     return;
   }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "channel_fixture.hpp"
+#include "machine/alarm_constants.hpp"
 
 namespace trunnion::channel {
 namespace {
@@ -55,7 +56,7 @@ TEST_F(FromLine, RestoresModesVariablesAndFunctionsThenApproachesAndGoesOn) {
   EXPECT_TRUE(drive.rows.empty()) << "nothing moves before cycle start";
   EXPECT_TRUE(auxiliaries.empty());
   ASSERT_FALSE(events.empty());
-  EXPECT_EQ(events.back().alarm, "search_done");
+  EXPECT_EQ(events.back().alarm, &alarm::search_done);
   // X 20 + 5 by the variable, Z 20 up first.
   EXPECT_EQ(events.back().text, "part.nc:10: S1000 M3 M8, approach Z20.0000, then X25.0000");
   ASSERT_TRUE(ask(Request::CYCLE_START).accepted);
@@ -99,7 +100,7 @@ TEST_F(FromLine, ANewToolMustBeInTheSpindleAlready) {
   run();
   EXPECT_EQ(core->run_state(), RunState::IDLE);
   ASSERT_EQ(events.size(), 1u);
-  EXPECT_EQ(events[0].alarm, "search_failed");
+  EXPECT_EQ(events[0].alarm, &alarm::search_failed);
   EXPECT_EQ(events[0].text, "part.nc:6: needs tool T1, T0 is in the spindle: change it by MDI first");
 }
 
@@ -133,7 +134,7 @@ TEST_F(FromLine, AnApproachOutOfTravelIsSeenBeforeAnythingMoves) {
   run();
   EXPECT_EQ(core->run_state(), RunState::IDLE);
   ASSERT_EQ(events.size(), 1u);
-  EXPECT_EQ(events[0].alarm, "travel_limit");
+  EXPECT_EQ(events[0].alarm, &alarm::travel_limit);
   EXPECT_TRUE(drive.rows.empty());
 }
 
