@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-namespace trunnion::http {
+namespace trunnion::http_client {
 
 struct Response {
   int status = 0;                              ///< 0 = no answer
@@ -49,4 +49,4 @@ class WebSocketClient {
 /// A port nothing listens on.
 std::uint16_t free_port();
 
-}  // namespace trunnion::http
+}  // namespace trunnion::http_client
