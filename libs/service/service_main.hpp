@@ -8,11 +8,11 @@
 
 namespace trunnion::service {
 
-/// False when the process is told to end before it is needed.
+/// Waits until the process is promoted, if it is on standby. False when it is told to end instead.
 template <class S>
-bool wait_for_its_time(Node& node) {
+bool wait_for_promotion(Node& node) {
   if constexpr (requires { typename S::Rehearsal; }) {
-    if (node.shadow()) {
+    if (node.on_standby()) {
       typename S::Rehearsal rehearsal(node);
       return node.stand_by(&rehearsal);
     }
@@ -34,7 +34,7 @@ int service_main(int argc, char** argv, const char* name) {
   if (is_cyclic && !options.virtual_time) use_real_time_scheduling();
   try {
     Node node(options);
-    if (!S::works_as_shadow && !wait_for_its_time<S>(node)) return 0;
+    if (!S::works_on_standby && !wait_for_promotion<S>(node)) return 0;
     S service(node);
     return node.run(service);
   } catch (const std::exception& e) {
