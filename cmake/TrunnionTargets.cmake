@@ -1,4 +1,4 @@
-# The few functions every room uses, so that a room's CMakeLists.txt says only what is in it.
+# The functions of every directory's CMakeLists.txt, which then says only what is in it.
 
 # What every target of ours is compiled with. Fused multiply-add would make the stream depend on the
 # compiler's choice of instruction, so contraction is off everywhere.

@@ -8,7 +8,7 @@ namespace {
 
 /// False when the process is told to end before it is needed.
 bool stand_by(trunnion::service::Node& node, std::uint16_t port) {
-  if (!node.shadow()) return node.stand_by();
+  if (!node.on_standby()) return node.stand_by();
   trunnion::gateway::RehearsalService rehearsal(node, port);
   return node.stand_by(&rehearsal);
 }

@@ -1,6 +1,6 @@
 #include "rehearsal_service.hpp"
 
-#include "http_client/client.hpp"
+#include "http/first_message.hpp"
 
 namespace trunnion::gateway {
 namespace {
@@ -28,7 +28,7 @@ Json own(const Snapshot& snapshot) {
 
 // Null when nobody answers there.
 Json running(std::uint16_t port) {
-  auto first = http_client::WebSocketClient(port, "/api/stream").next(1);
+  const auto first = first_message(port, "/api/stream", 1);
   auto message = first ? Json::parse(*first, nullptr, false) : Json();
   if (!message.is_object() || !message.contains("state")) return nullptr;
   return comparable(std::move(message["state"]));
@@ -62,8 +62,7 @@ service::Health RehearsalService::health() const {
   health.lifecycle = idl::service::Lifecycle::INACTIVE;
   health.frames_in = view_.frames();
   health.revision = view_.revision();
-  const auto& difference = comparison_.difference();
-  health.detail = difference.empty() ? service::shadow_detail : service::differs_detail + difference;
+  health.difference = comparison_.difference();
   // Of a gateway that does not answer there is nothing that could be compared.
   health.in_step = nobody_answers_ || comparison_.settled(service::monotonic_seconds());
   return health;

@@ -1,11 +1,8 @@
 // A real cluster for a test: its own domain, its own state, nothing left behind.
 #pragma once
 
-#include <arpa/inet.h>
 #include <gtest/gtest.h>
-#include <netinet/in.h>
 #include <signal.h>
-#include <sys/socket.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -16,6 +13,7 @@
 
 #include "cluster/client.hpp"
 #include "cluster/cluster.hpp"
+#include "http_client/client.hpp"
 
 namespace trunnion::integration {
 
@@ -28,37 +26,6 @@ enum class Time { real, virtual_ };
 /// Parameter 000900, cycles, for tests in real time whose subject is not the lead. On a virtual machine even
 /// the highest priority is without its processor for 17 ms now and then, and half a lead of 32 covers 16.
 constexpr int lead_beyond_stalls = 128;
-
-/// A TCP port of this host that nobody listens on.
-inline std::uint16_t free_port() {
-  const int s = socket(AF_INET, SOCK_STREAM, 0);
-  sockaddr_in address{};
-  address.sin_family = AF_INET;
-  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-  socklen_t size = sizeof address;
-  EXPECT_EQ(bind(s, reinterpret_cast<sockaddr*>(&address), size), 0);
-  getsockname(s, reinterpret_cast<sockaddr*>(&address), &size);
-  close(s);
-  return ntohs(address.sin_port);
-}
-
-/// First line of the answer to GET `path`, empty when nobody answers.
-inline std::string http_status(std::uint16_t port, const std::string& path) {
-  const int s = socket(AF_INET, SOCK_STREAM, 0);
-  sockaddr_in address{};
-  address.sin_family = AF_INET;
-  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-  address.sin_port = htons(port);
-  std::string answer;
-  if (connect(s, reinterpret_cast<sockaddr*>(&address), sizeof address) == 0) {
-    const std::string request = "GET " + path + " HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n";
-    char c = 0;
-    if (write(s, request.data(), request.size()) == static_cast<ssize_t>(request.size()))
-      while (read(s, &c, 1) == 1 && c != '\r') answer += c;
-  }
-  close(s);
-  return answer;
-}
 
 using Rows = std::vector<std::vector<double>>;
 
@@ -90,7 +57,7 @@ class Cluster {
     up.domain = domain;
     up.virtual_time = time == Time::virtual_;
     up.with_gateway = gateway;
-    up.port = free_port();
+    up.port = http_client::free_port();
     cluster_ = cluster::start_cluster(up);
     join(cluster_.network);
   }

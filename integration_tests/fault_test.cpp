@@ -45,7 +45,7 @@ TEST_P(KillInMotion, StopsNamesTheServiceBecomesReadyAndTheProgramGoesOn) {
     }
   if (victim == "gateway") {
     EXPECT_TRUE(cluster.until([&] {
-      return http_status(cluster.running().port, "/api/status") == "HTTP/1.1 200 OK";
+      return http_client::request(cluster.running().port, "GET", "/api/status").status == 200;
     })) << "the page is served again";
   }
   const auto stopped_at = cluster.channels[0].machine;

@@ -120,8 +120,8 @@ TEST(Systemd, TheLauncherSaysReadyOncePingsStopsWhenItHangsAndSaysThatItStops) {
   const auto directory =
       std::filesystem::temp_directory_path() / ("trunnion-systemd-" + std::to_string(getpid()));
   Unit unit({cluster::binary_directory() + "/trunnion", "up", "ac-table", "--foreground", "--time", "virtual",
-             "--domain", std::to_string(domain), "--port", std::to_string(free_port()), "--state",
-             directory.string()});
+             "--domain", std::to_string(domain), "--port", std::to_string(http_client::free_port()),
+             "--state", directory.string()});
   const auto start = unit.messages(30, "READY=1");
   ASSERT_FALSE(start.empty());
   ASSERT_EQ(start.back(), "READY=1");
@@ -214,8 +214,8 @@ TEST(Systemd, ASystemdStartsTheUnitKillsAndRestartsItWhenItHangsAndStopsIt) {
          ">>"
       << results.string() << "'\nEnvironment=TRUNNION_CONFIGS="
       << std::filesystem::path(cluster::find_machine("ac-table")).parent_path().string()
-      << "\nEnvironment=\"TRUNNION_OPTIONS=--time virtual --port " << free_port() << " --domain " << domain
-      << "\"\n";
+      << "\nEnvironment=\"TRUNNION_OPTIONS=--time virtual --port " << http_client::free_port() << " --domain "
+      << domain << "\"\n";
   int status = 0;
   const auto told = output_of(std::string(TRUNNION_TESTS) + "/systemd_instance.sh " +
                                   directory.path.string() + " " + TRUNNION_TESTS + "/systemd_unit.sh " +

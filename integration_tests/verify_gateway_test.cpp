@@ -140,7 +140,7 @@ class VerifyGateway : public testing::Test {
         (fs::temp_directory_path() / ("trunnion-operator-" + std::to_string(getpid()) + ".mcap")).string();
     write(recording, options_.recording);
     options_.service = "gateway";
-    options_.patience = 20;
+    options_.timeout = 20;
   }
   void TearDown() override { fs::remove(options_.recording); }
 
@@ -155,7 +155,7 @@ TEST_F(VerifyGateway, DoesShowsAndAnswersWhatIsRecordedOnEitherVendor) {
                                 << text_of(result.difference, "recorded", "written now");
     EXPECT_EQ(result.requests, 7u);
     EXPECT_EQ(result.left_out, 0u);
-    EXPECT_GE(result.looks, 2u) << "before the first request and at the end at least";
+    EXPECT_GE(result.samples, 2u) << "before the first request and at the end at least";
     std::size_t compared = 0;
     for (const auto& topic : result.difference.topics) compared += topic.compared;
     EXPECT_EQ(compared, 7u + 3u + 3u) << "lines, orders to the channel, requests to the program service";
@@ -174,7 +174,7 @@ TEST_F(VerifyGateway, AnOrderThatIsNotTheOneAskedForIsFoundAtItsField) {
 
 TEST_F(VerifyGateway, APositionThatIsNotTheOneRecordedIsFoundWhereItIsShown) {
   options_.executable = cluster::binary_directory() + "/gateway_wrong_position";
-  options_.patience = 1;
+  options_.timeout = 1;
   const auto result = verification::verify(options_);
   EXPECT_NE(result.problem.find("axes.0.actual: expected "), std::string::npos) << result.problem;
   EXPECT_FALSE(result.equal());

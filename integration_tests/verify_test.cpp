@@ -19,7 +19,7 @@ VerifyOptions golden(const std::string& machine, const std::string& service) {
   VerifyOptions options;
   options.recording = cluster::find_machine(machine) + "/recordings/golden.mcap";
   options.service = service;
-  options.patience = 20;
+  options.timeout = 20;
   return options;
 }
 
@@ -65,7 +65,7 @@ TEST(Verify, AServiceThatAnswersNothingIsAProblemAfterItsPatience) {
   fs::permissions(script, fs::perms::owner_all);
   auto options = golden("ac-table", "compensation");
   options.executable = script.string();
-  options.patience = 0.5;
+  options.timeout = 0.5;
   const auto result = verification::verify(options);
   fs::remove(script);
   EXPECT_NE(result.problem.find("wrote nothing more of compensation_frame"), std::string::npos)

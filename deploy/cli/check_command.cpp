@@ -35,7 +35,7 @@ std::optional<analysis::ToolRows> tool_rows(const std::string& path) {
   return analysis::read_tool_rows(text.str(), path);
 }
 
-/// The tools of the rows, with what they say alone.
+/// The tools of the rows, with these values only.
 idl::parameters::ToolTable tool_table(const analysis::ToolRows& rows) {
   idl::parameters::ToolTable table;
   for (const auto& [number, row] : rows) {
@@ -48,42 +48,43 @@ idl::parameters::ToolTable tool_table(const analysis::ToolRows& rows) {
   return table;
 }
 
-int run_check(const Check& order) {
-  analysis::FileSource text(order.program);
-  const auto rows = tool_rows(order.tools);
-  std::vector<std::string> folders{std::filesystem::path(order.program).parent_path().string()};
+int run_check(const Check& options) {
+  analysis::FileSource text(options.program);
+  const auto rows = tool_rows(options.tools);
+  std::vector<std::string> folders{std::filesystem::path(options.program).parent_path().string()};
   if (folders[0].empty()) folders[0] = ".";
   std::string directory;
-  if (!order.machine.empty()) {
-    directory = cluster::find_machine(order.machine);
+  if (!options.machine.empty()) {
+    directory = cluster::find_machine(options.machine);
     folders.push_back(directory + "/programs");
     folders.push_back(directory + "/cycles");
   }
   analysis::ProgramFolders programs(folders);
   const auto resolve = [&programs](std::string_view name) { return programs.find(name); };
   const auto name = [&](std::uint32_t program) {
-    return program == 0 ? order.program : programs.path(language::ProgramName(program).view());
+    return program == 0 ? options.program : programs.path(language::ProgramName(program).view());
   };
-  const analysis::CheckOptions options{order.json_lines, order.skip_blocks};
+  const analysis::CheckOptions check_options{options.json_lines, options.skip_blocks};
   bool good = false;
-  if (order.machine.empty()) {
+  if (options.machine.empty()) {
     analysis::DefaultMachine machine(rows);
     machine.resolve = resolve;
-    good = analysis::check_program(text, machine, {}, options, name, std::cout);
+    good = analysis::check_program(text, machine, {}, check_options, name, std::cout);
   } else {
     channel_setup::ChannelSetup machine(tool_tables::load_machine_tables(directory));
     machine.resolve = resolve;
     if (rows) machine.set_tools(tool_table(*rows));
-    good = analysis::check_program(text, machine, machine.reference_position(), options, name, std::cout);
+    good =
+        analysis::check_program(text, machine, machine.reference_position(), check_options, name, std::cout);
   }
   return good ? 0 : 1;
 }
 
 /// What keeps a program from being read at all is an error line too, when lines are asked for.
-int run_check_as_asked(const Check& order) {
-  if (!order.json_lines) return run_check(order);
+int run_check_as_asked(const Check& options) {
+  if (!options.json_lines) return run_check(options);
   try {
-    return run_check(order);
+    return run_check(options);
   } catch (const std::exception& error) {
     std::cout << "{\"error\":{\"line\":0,\"column\":0,\"number\":"
               << static_cast<unsigned>(language::AlarmNumber::text_unreadable)
@@ -95,20 +96,20 @@ int run_check_as_asked(const Check& order) {
 }  // namespace
 
 void add_check_command(CLI::App& app, Common& common) {
-  auto order = std::make_shared<Check>();
+  auto options = std::make_shared<Check>();
   auto* command =
-      add_command(app, common, "check", "Interpret a program without a cluster and say what it does",
-                  [order] { return run_check_as_asked(*order); });
-  command->add_option("program", order->program, "The program's file")->required();
+      add_command(app, common, "check", "Interpret a program without a cluster and report what it does",
+                  [options] { return run_check_as_asked(*options); });
+  command->add_option("program", options->program, "The program's file")->required();
   command->add_option(
-      "--machine", order->machine,
+      "--machine", options->machine,
       "Folder or name of a machine: its axes, offsets and tools, from its reference position; else three "
       "linear axes from 0, offsets 0");
   command->add_option(
-      "--tools", order->tools,
+      "--tools", options->tools,
       "CSV file number,length,radius in place of the tools; without it and a machine every tool is 0 long");
-  command->add_flag("--skip-blocks", order->skip_blocks, "Leave out blocks that begin with /");
-  command->add_flag("--jsonl", order->json_lines, "One JSON object per motion instead of a summary");
+  command->add_flag("--skip-blocks", options->skip_blocks, "Leave out blocks that begin with /");
+  command->add_flag("--jsonl", options->json_lines, "One JSON object per motion instead of a summary");
 }
 
 }  // namespace trunnion::cli

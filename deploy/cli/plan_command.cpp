@@ -48,22 +48,22 @@ void write_row(std::FILE* file, const analysis::PlannedCycle& cycle, const machi
                cycle.setpoint->feed * 60);
 }
 
-int run_plan(const Plan& order) {
-  const std::string directory = cluster::find_machine(order.machine);
+int run_plan(const Plan& plan) {
+  const std::string directory = cluster::find_machine(plan.machine);
   auto tables = tool_tables::load_machine_tables(directory);
-  for (const auto& setting : order.settings) apply(setting, tables.parameters);
+  for (const auto& setting : plan.settings) apply(setting, tables.parameters);
   channel_setup::ChannelSetup machine(tables);
-  std::string own = std::filesystem::path(order.program).parent_path().string();
+  std::string own = std::filesystem::path(plan.program).parent_path().string();
   analysis::ProgramFolders programs(
       {own.empty() ? "." : own, directory + "/programs", directory + "/cycles"});
   machine.resolve = [&programs](std::string_view name) { return programs.find(name); };
-  analysis::FileSource text(order.program);
+  analysis::FileSource text(plan.program);
 
   std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(nullptr, &std::fclose);
   const auto& axes = machine.channel_axes();
-  if (!order.csv.empty()) {
-    file.reset(std::fopen(order.csv.c_str(), "w"));
-    if (!file) throw std::runtime_error(order.csv + ": cannot be written");
+  if (!plan.csv.empty()) {
+    file.reset(std::fopen(plan.csv.c_str(), "w"));
+    if (!file) throw std::runtime_error(plan.csv + ": cannot be written");
     std::fprintf(file.get(), "cycle,line");
     for (const char letter : axes.letters) std::fprintf(file.get(), ",%c", letter);
     std::fprintf(file.get(), ",tip_x,tip_y,tip_z,feed\n");
@@ -72,7 +72,7 @@ int run_plan(const Plan& order) {
                                              [&](const analysis::PlannedCycle& cycle) {
                                                if (file) write_row(file.get(), cycle, axes);
                                              });
-  if (file && std::ferror(file.get()) != 0) throw std::runtime_error(order.csv + ": cannot be written");
+  if (file && std::ferror(file.get()) != 0) throw std::runtime_error(plan.csv + ": cannot be written");
   // A second time without rows and checks, for the speed of the planner itself.
   const auto begin = std::chrono::steady_clock::now();
   const auto timed = analysis::run_program(text, machine, machine.reference_position(), {}, {});
@@ -95,22 +95,22 @@ int run_plan(const Plan& order) {
   }
   std::printf("}}\n");
   if (report.result.good) return 0;
-  std::cerr << order.program << ":" << report.result.alarm << "\n";
+  std::cerr << plan.program << ":" << report.result.alarm << "\n";
   return 1;
 }
 
 }  // namespace
 
 void add_plan_command(CLI::App& app, Common& common) {
-  auto order = std::make_shared<Plan>();
+  auto plan = std::make_shared<Plan>();
   auto* command =
       add_command(app, common, "plan",
-                  "Plan a program's motion without a cluster and say what it asks of the axes, as JSON",
-                  [order] { return run_plan(*order); });
-  command->add_option("program", order->program, "The program's file")->required();
-  command->add_option("--machine", order->machine, "Folder or name of the machine")->required();
-  command->add_option("--csv", order->csv, "File for one row per cycle");
-  command->add_option("--set", order->settings,
+                  "Plan a program's motion without a cluster and report what it demands of the axes, as JSON",
+                  [plan] { return run_plan(*plan); });
+  command->add_option("program", plan->program, "The program's file")->required();
+  command->add_option("--machine", plan->machine, "Folder or name of the machine")->required();
+  command->add_option("--csv", plan->csv, "File for one row per cycle");
+  command->add_option("--set", plan->settings,
                       "NUMBER=VALUE instead of the machine's parameter; may be repeated");
 }
 

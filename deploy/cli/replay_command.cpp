@@ -27,8 +27,8 @@ struct ReplayArguments {
   bool wait = false;
 };
 
-constexpr int stream_frames = 4096;    // that a writer of the stream keeps, for late joiners
-constexpr double match_patience = 60;  // s for somebody to read
+constexpr int stream_frames = 4096;   // that a writer of the stream keeps, for late joiners
+constexpr double match_timeout = 60;  // s for a first reader
 
 volatile sig_atomic_t stop_requested = 0;
 
@@ -68,7 +68,7 @@ int run(const Common& common, const ReplayArguments& arguments) {
   const auto anybody = [&] {
     return std::any_of(writers.begin(), writers.end(), [](const auto& w) { return w.second->matched() > 0; });
   };
-  for (double waited = 0; arguments.wait && stop_requested == 0 && !anybody() && waited < match_patience;
+  for (double waited = 0; arguments.wait && stop_requested == 0 && !anybody() && waited < match_timeout;
        waited += 0.01)
     pause(0.01);
   const double began = service::monotonic_seconds();
@@ -105,7 +105,7 @@ void add_replay_command(CLI::App& app, Common& common) {
       ->check(CLI::Range(1e-3, 1e6));
   command->add_option("--linger", arguments->linger, "Seconds to stay afterwards, for late joiners")
       ->check(CLI::NonNegativeNumber);
-  command->add_flag("--wait", arguments->wait, "Begin when somebody reads, or after a minute");
+  command->add_flag("--wait", arguments->wait, "Begin when there is a reader, or after a minute");
 }
 
 }  // namespace trunnion::cli

@@ -1,8 +1,5 @@
 #include "run.hpp"
 
-#include <fcntl.h>
-#include <signal.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <cstdio>
@@ -11,6 +8,7 @@
 #include <sstream>
 #include <thread>
 
+#include "cluster/child_process.hpp"
 #include "cluster/client.hpp"
 #include "cluster/cluster.hpp"
 #include "service/network.hpp"
@@ -26,51 +24,37 @@ using idl::channel::RunState;
 // Stops what a run has started, however it ends.
 class Recorder {
  public:
-  Recorder(const std::string& file, const cluster::RunningCluster& cluster) {
-    int out[2];
-    if (pipe(out) != 0) throw std::runtime_error("no pipe");
-    std::vector<std::string> args{cluster::binary_directory() + "/trunnion-recorder",
-                                  "--output",
-                                  file,
-                                  "--machine",
-                                  cluster.machine,
-                                  "--domain",
-                                  std::to_string(cluster.run.domain),
-                                  "--parent-bound"};
-    for (auto& argument : service::network_arguments(cluster.network)) args.push_back(std::move(argument));
-    std::vector<char*> argv;
-    for (auto& arg : args) argv.push_back(arg.data());
-    argv.push_back(nullptr);
-    pid_ = fork();
-    if (pid_ == 0) {
-      dup2(out[1], 1);
-      close(out[0]);
-      execv(argv[0], argv.data());
-      _exit(127);
-    }
-    close(out[1]);
-    out_ = out[0];
-    std::string line;
-    char c = 0;
-    while (read(out_, &c, 1) == 1 && c != '\n') line += c;
-    if (line.rfind("recording", 0) != 0) {
-      stop();
+  Recorder(const std::string& file, const cluster::RunningCluster& cluster)
+      : process_(options_for(file, cluster)) {
+    if (const auto line = process_.read_line(); !line.starts_with("recording"))
       throw std::runtime_error("the recorder did not start: " + line);
-    }
   }
   ~Recorder() { stop(); }
   Recorder(const Recorder&) = delete;
   Recorder& operator=(const Recorder&) = delete;
-  void stop() {
-    if (pid_ <= 0) return;
-    kill(pid_, SIGTERM);
-    waitpid(pid_, nullptr, 0);
-    close(out_);
-    pid_ = 0;
-  }
+  /// Returns when the file is complete.
+  void stop() { process_.stop(longest_write); }
 
  private:
-  int pid_ = 0, out_ = -1;
+  static constexpr double longest_write = 60;  // s
+
+  static cluster::ChildOptions options_for(const std::string& file, const cluster::RunningCluster& cluster) {
+    cluster::ChildOptions options;
+    options.arguments = {cluster::binary_directory() + "/trunnion-recorder",
+                         "--output",
+                         file,
+                         "--machine",
+                         cluster.machine,
+                         "--domain",
+                         std::to_string(cluster.run.domain),
+                         "--parent-bound"};
+    for (auto& argument : service::network_arguments(cluster.network))
+      options.arguments.push_back(std::move(argument));
+    options.read_from = 1;
+    return options;
+  }
+
+  cluster::ChildProcess process_;
 };
 
 class ClusterGuard {
@@ -130,7 +114,7 @@ std::string place_program(cluster::Client& client, const machine::MachineConfig&
 }
 
 // Requests are not kept for late readers: the recorder must know of our writers before the first one, or the
-// recording has answers to questions that nobody asked.
+// recording has replies to requests that it does not have.
 void await_recorder(cluster::Client& client) {
   const auto programs = client.bus().backend().writer(bus::describe(topics::program_request), {false, 1});
   const auto channels = client.bus().backend().writer(bus::describe(topics::channel_request), {false, 1});
@@ -243,7 +227,7 @@ std::string execute(cluster::Client& client, std::size_t channels, const RunOpti
   return alarm;
 }
 
-// A cluster for this run alone, on this computer, whatever machine.yaml says of hosts.
+// A cluster for this run alone, on this computer, whatever hosts machine.yaml names.
 cluster::UpOptions up_options(const std::string& directory, const RunOptions& options) {
   cluster::UpOptions up;
   up.machine = directory;

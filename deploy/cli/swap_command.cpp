@@ -38,7 +38,7 @@ int swap(const Common& common, idl::service::SwapRequest request, double timeout
                              std::to_string(reply->compared) + " equal cycles");
   std::printf("%s swapped in %.2f s at cycle %llu: %u cycles compared, %s\n", request.service.c_str(),
               reply->seconds, static_cast<unsigned long long>(reply->cycle), reply->compared,
-              reply->gap > 0 ? ("nobody served for " + std::to_string(reply->gap).substr(0, 5) + " s").c_str()
+              reply->gap > 0 ? ("no service for " + std::to_string(reply->gap).substr(0, 5) + " s").c_str()
                              : "no gap");
   std::printf("Written down in %s of the state directory%s\n", cluster::swap_journal_file,
               cluster.host.empty() ? (", " + cluster.state_directory).c_str() : " on the service's host");
@@ -62,7 +62,7 @@ void add_swap_command(CLI::App& app, Common& common) {
                       "Executable of the new one, on the host of the service (default: the one that runs)");
   command->add_option("--vendor", request->vendor, "DDS vendor of the new one (default: the one that runs)")
       ->check(CLI::IsMember({"fastdds", "cyclonedds"}));
-  command->add_option("--copy", request->copy, "Which copy of a stage that has two (default 0)")
+  command->add_option("--copy", request->copy, "Which replica of a stage that has two (default 0)")
       ->check(CLI::Range(0, 1));
   command->add_option("--channel", request->channel, "Which channel, for service channel (default 0)")
       ->check(CLI::Range(0, 31));

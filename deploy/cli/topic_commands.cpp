@@ -9,6 +9,7 @@
 #include <memory>
 
 #include "bus/registry.hpp"
+#include "cluster/child_process.hpp"
 #include "cluster/client.hpp"
 #include "cluster/cluster.hpp"
 #include "commands.hpp"
@@ -119,10 +120,7 @@ int record(const Common& common, const std::string& file, const RecorderValues& 
     if (!values[i].empty()) args.insert(args.end(), {recorder_options[i].name, values[i]});
   for (auto& argument : service::network_arguments(cluster.network)) args.push_back(std::move(argument));
   if (common.json) args.emplace_back("--json");
-  std::vector<char*> argv;
-  for (auto& arg : args) argv.push_back(arg.data());
-  argv.push_back(nullptr);
-  execv(argv[0], argv.data());
+  cluster::replace_process(args);
   throw std::runtime_error(args[0] + ": cannot be started");
 }
 

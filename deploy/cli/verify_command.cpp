@@ -25,7 +25,7 @@ int run(const Common& common, verification::VerifyOptions options,
     json["unrecorded"] = result.unrecorded;
     json["requests"] = result.requests;
     json["left_out"] = result.left_out;
-    json["looks"] = result.looks;
+    json["samples"] = result.samples;
     json["cycles"] = result.cycles;
     json["seconds"] = result.seconds;
     json["times_real_time"] = result.times_real_time;
@@ -36,8 +36,8 @@ int run(const Common& common, verification::VerifyOptions options,
   if (!result.problem.empty()) std::cout << "problem: " << result.problem << "\n";
   std::printf("%s: %s; %zu messages in, %zu out", options.service.c_str(),
               result.equal() ? "as recorded" : "NOT as recorded", result.inputs, result.outputs);
-  if (result.looks > 0)
-    std::printf(", %zu requests over HTTP, %zu looks at the state", result.requests, result.looks);
+  if (result.samples > 0)
+    std::printf(", %zu requests over HTTP, %zu comparisons of the state", result.requests, result.samples);
   if (result.left_out > 0) std::printf(", %zu requests left out", result.left_out);
   if (result.cycles > 0 && result.seconds > 0)
     std::printf(", %llu cycles in %.3f s, %.0f times real time",
@@ -51,10 +51,11 @@ int run(const Common& common, verification::VerifyOptions options,
 void add_verify_command(CLI::App& app, Common& common) {
   auto options = std::make_shared<verification::VerifyOptions>();
   auto tolerances = std::make_shared<std::vector<std::string>>();
-  auto* command = add_command(app, common, "verify",
-                              "Start one service alone, feed it what a recording says it was given, compare "
-                              "what it writes; status 0: equal",
-                              [&common, options, tolerances] { return run(common, *options, *tolerances); });
+  auto* command =
+      add_command(app, common, "verify",
+                  "Start one service alone, feed it what a recording says was sent to it, compare "
+                  "what it writes; status 0: equal",
+                  [&common, options, tolerances] { return run(common, *options, *tolerances); });
   command->add_option("--service", options->service, "Service, as in machine.yaml")->required();
   command->add_option("--recording", options->recording, "Recording")->required()->check(CLI::ExistingFile);
   command->add_option("--exec", options->executable, "Executable to verify (default: the one of this build)");
@@ -69,7 +70,9 @@ void add_verify_command(CLI::App& app, Common& common) {
           "--tolerance", *tolerances,
           "Largest difference of numbers, or FIELD=NUMBER for fields that begin so (default: the same bits)")
       ->delimiter(',');
-  command->add_option("--patience", options->patience, "Seconds without an answer after which it has failed")
+  command
+      ->add_option("--timeout,--patience", options->timeout,
+                   "Seconds without an answer after which it has failed")
       ->check(CLI::PositiveNumber);
 }
 

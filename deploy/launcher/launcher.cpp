@@ -19,8 +19,8 @@ namespace trunnion::launcher {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr double start_patience = 15;  // s until a cluster that is not ready has failed
-constexpr double own_pause = 0.5;      // s the launcher itself may not run and still judge others
+constexpr double start_timeout = 15;  // s until a cluster that is not ready has failed
+constexpr double own_pause = 0.5;     // s the launcher itself may not run and still judge others
 volatile std::sig_atomic_t stop_requested = 0;
 void request_stop(int) { stop_requested = 1; }
 
@@ -80,39 +80,35 @@ void Launcher::lose(ServiceProcess& process, const std::string& how) {
                 "Service " + process.name() + " " + how);
 }
 
-// Collects dead children. Before the first readiness one that ended by itself is a failed start; one that was
-// ended by a signal is started again as later, while `up` waits.
-bool Launcher::reap(std::string& failure) {
-  int status = 0;
-  for (int pid; (pid = waitpid(-1, &status, WNOHANG)) > 0;) {
-    if (swap_ && swap_->ended(pid)) continue;
-    for (auto& process : processes_) {
-      if (!process.local || process.pid != pid) continue;
-      process.pid = 0;
-      process.lifecycle = idl::service::Lifecycle::UNCONFIGURED;
-      process.policy.ended(service::monotonic_seconds());
-      if (process.retiring) continue;
-      const auto& e = process.entry;
-      const std::string how = WIFSIGNALED(status)
-                                  ? "was ended by signal " + std::to_string(WTERMSIG(status))
-                                  : "ended with status " + std::to_string(WEXITSTATUS(status));
-      if (!was_ready_ && WIFSIGNALED(status)) {
-        ++process.restarts;
-        continue;
-      }
-      if (!was_ready_) {
-        const auto line = cluster::last_line(process.log);
-        failure = line.empty() ? e.service + " " + how : line;
-        return false;
-      }
-      lose(process, how);
-      if (process.policy.gave_up())
-        alarms_.raise(alarm::service_not_staying, e.instance,
-                      "Service " + process.name() + " does not stay up: it ended " +
-                          std::to_string(process.policy.short_lives()) +
-                          " times in a row. A reset of the alarms starts it again");
+// Before the first readiness a process that ended by itself is a failed start, reported in `failure`; one
+// that was ended by a signal is started again as later, while `up` waits.
+bool Launcher::collect_ended(std::string& failure) {
+  for (auto& process : processes_) {
+    const auto status = process.local ? process.ended() : std::nullopt;
+    if (!status) continue;
+    process.lifecycle = idl::service::Lifecycle::UNCONFIGURED;
+    process.policy.ended(service::monotonic_seconds());
+    if (process.retiring) continue;
+    const auto& e = process.entry;
+    const std::string how = WIFSIGNALED(*status)
+                                ? "was ended by signal " + std::to_string(WTERMSIG(*status))
+                                : "ended with status " + std::to_string(WEXITSTATUS(*status));
+    if (!was_ready_ && WIFSIGNALED(*status)) {
       ++process.restarts;
+      continue;
     }
+    if (!was_ready_) {
+      const auto line = cluster::last_line(process.log);
+      failure = line.empty() ? e.service + " " + how : line;
+      return false;
+    }
+    lose(process, how);
+    if (process.policy.gave_up())
+      alarms_.raise(alarm::service_not_staying, e.instance,
+                    "Service " + process.name() + " does not stay up: it ended " +
+                        std::to_string(process.policy.short_lives()) +
+                        " times in a row. A reset of the alarms starts it again");
+    ++process.restarts;
   }
   return true;
 }
@@ -164,13 +160,13 @@ void Launcher::watch_local(ServiceProcess& process, double now, bool judge) {
   const auto pulse = process.policy.pulse(now);
   if (pulse != Pulse::beating && !process.lost && was_ready_) lose(process, "gives no sign of life");
   if (pulse == Pulse::hung) {
-    kill(process.pid, SIGKILL);  // replaced like one that died
+    process.child.signal(SIGKILL);  // replaced like one that died
     process.policy.wait(now);
   }
 }
 
-// Silence is all that can be seen of another host. Its own launcher tells of a process that died; the first
-// host's tells of the others' silence, and they of the first host's.
+// Silence is all that can be seen of another host. Its own launcher reports a process that died; the first
+// host's reports the others' silence, and they report the first host's.
 void Launcher::watch_remote(ServiceProcess& process, double now, bool judge) {
   if (process.pid == 0) return;
   if (!judge) process.policy.wait(now);
@@ -211,7 +207,7 @@ void Launcher::listen() {
 
 void Launcher::watch() {
   const double now = service::monotonic_seconds();
-  // Who was suspended itself has not heard anybody.
+  // Who was suspended itself has received no heartbeat.
   const bool judge = now - last_watch_ < own_pause;
   last_watch_ = now;
   for (auto& process : processes_) {
@@ -229,7 +225,7 @@ void Launcher::watch() {
       alarms_.release(alarm::service_lost, process.entry.instance);
       alarms_.release(alarm::service_not_staying, process.entry.instance);
     }
-    // Nobody needs to acknowledge that there are two again.
+    // That there are two again needs no acknowledgement.
     if (!process.lost && process.in_step) alarms_.clear(alarm::redundancy_lost, process.entry.instance);
   }
 }
@@ -246,7 +242,7 @@ bool Launcher::is_first_host() const {
 
 // What `up` waits for: the whole cluster; of several hosts, which start in any order, that the processes of
 // this one are alive.
-bool Launcher::begun() const {
+bool Launcher::started() const {
   if (options_.machine.hosts.empty()) return ready_;
   return std::all_of(processes_.begin(), processes_.end(),
                      [](const ServiceProcess& p) { return !p.local || p.alive; });
@@ -283,13 +279,14 @@ void Launcher::serve_swaps() {
   while (swaps_.take(request)) {
     const auto refuse = [&](const std::string& why) {
       idl::service::SwapReply reply;
-      reply.reason = why.substr(0, 250);
+      reply.outcome = idl::service::SwapOutcome::REFUSED;
+      reply.reason = why.substr(0, 256);
       swaps_.reply(request, reply);
     };
     auto* process = whom_to_swap(request);
     const bool ours = process != nullptr ? process->local : is_first_host();
     if (!ours) {
-      // Nobody else would say so.
+      // No other host answers.
       if (process != nullptr && process->pid == 0 && is_first_host())
         refuse("Host " + process->entry.host + ", where the " + request.service + " runs, is silent");
       continue;
@@ -322,18 +319,18 @@ int Launcher::run(void (*report)(const std::string&)) {
   std::string failure;
   while (stop_requested == 0) {
     bus_.signal().wait(0.02);
-    if (!reap(failure)) break;
+    if (!collect_ended(failure)) break;
     listen();
     watch();
     serve_swaps();
     publish();
     notifier_.alive(service::monotonic_seconds());
-    if (!was_ready_ && begun()) {
+    if (!was_ready_ && started()) {
       was_ready_ = true;
       report("");
       notifier_.ready();
     }
-    if (!was_ready_ && service::monotonic_seconds() - began > start_patience) {
+    if (!was_ready_ && service::monotonic_seconds() - began > start_timeout) {
       for (const auto& p : processes_)
         if (p.local && p.lifecycle != idl::service::Lifecycle::ACTIVE)
           failure += (failure.empty() ? "not ready: " : "; ") + p.entry.service +
@@ -351,22 +348,19 @@ int Launcher::run(void (*report)(const std::string&)) {
 void Launcher::stop_all() {
   swap_.reset();
   for (auto it = processes_.rbegin(); it != processes_.rend(); ++it)
-    if (it->local && it->pid > 0) kill(it->pid, SIGTERM);
+    if (it->local) it->child.signal(SIGTERM);
   const double until = service::monotonic_seconds() + 2;
   const auto alive = [&] {
-    int status = 0;
-    for (int pid; (pid = waitpid(-1, &status, WNOHANG)) > 0;)
-      for (auto& p : processes_)
-        if (p.local && p.pid == pid) p.pid = 0;
+    for (auto& p : processes_)
+      if (p.local) p.ended();
     return std::any_of(processes_.begin(), processes_.end(),
                        [](const ServiceProcess& p) { return p.local && p.pid > 0; });
   };
   while (alive() && service::monotonic_seconds() < until)
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   for (auto& p : processes_)
-    if (p.local && p.pid > 0) {
-      kill(p.pid, SIGKILL);
-      waitpid(p.pid, nullptr, 0);
+    if (p.local) {
+      p.child.kill();
       p.pid = 0;
     }
 }

@@ -1,4 +1,4 @@
-// Starts the processes of a machine, watches them, starts them again, says what is lost.
+// Starts the processes of a machine, watches them, starts them again, reports what is lost.
 #pragma once
 
 #include <map>
@@ -27,7 +27,7 @@ class Launcher {
 
  private:
   void stop_all();
-  bool reap(std::string& failure);
+  bool collect_ended(std::string& failure);
   void lose(ServiceProcess& process, const std::string& how);
   void listen();
   void watch();
@@ -38,7 +38,7 @@ class Launcher {
   void watch_remote(ServiceProcess& process, double now, bool judge);
   bool all_ready() const;
   bool is_first_host() const;
-  bool begun() const;
+  bool started() const;
   void publish();
   bool has_live_twin(const ServiceProcess& process) const;
   void serve_swaps();
@@ -57,7 +57,7 @@ class Launcher {
   std::map<std::uint32_t, idl::service::Announcement> announced_;  // by instance
   std::unique_ptr<Swap> swap_;                                     // the one under way
   idl::service::SwapRequest swap_request_;
-  std::uint32_t generation_ = 0;  // swaps that were begun on this host
+  std::uint32_t generation_ = 0;  // swaps that were started on this host
   bool ready_ = false, was_ready_ = false;
   double last_published_ = 0, last_watch_ = 0;
 };

@@ -42,11 +42,12 @@ int main(int argc, char** argv) {
   app.add_option("--state", options.state_directory, "Directory for what must survive")->required();
   app.add_option("--domain", domain, "DDS domain")->required();
   app.add_option("--port", options.port, "Port of the gateway, 0 = no gateway");
-  app.add_flag("--virtual-time", options.virtual_time, "Time goes on with the setpoints, not with the clock");
+  app.add_flag("--virtual-time", options.virtual_time,
+               "Time advances with the setpoints, not with the clock");
   app.add_option("--host", options.host, "Which host of machine.yaml this is");
   bool one_host = false;
-  app.add_flag("--one-host", one_host, "Start everything here, whatever machine.yaml says of hosts");
-  app.add_option("--report", report_pipe, "File descriptor that is told 'ready' or 'error ...'");
+  app.add_flag("--one-host", one_host, "Start everything here, whatever hosts machine.yaml names");
+  app.add_option("--report", report_pipe, "File descriptor to which 'ready' or 'error ...' is written");
   CLI11_PARSE(app, argc, argv);
   if (report_pipe >= 0) fcntl(report_pipe, F_SETFD, FD_CLOEXEC);
   try {

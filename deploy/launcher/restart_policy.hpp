@@ -1,12 +1,12 @@
-// When a process that ended is started again, and what its silence means. No clock: the caller says what time
-// it is.
+// When a process that ended is started again, and what its silence means. No clock: the caller gives the
+// time.
 #pragma once
 
 namespace trunnion::launcher {
 
 enum class Pulse {
   beating,
-  silent,  ///< nobody may rely on it; it may still come back by itself
+  silent,  ///< it cannot be relied on; it may still come back by itself
   hung     ///< it will not come back: to be killed
 };
 

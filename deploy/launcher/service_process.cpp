@@ -1,8 +1,5 @@
 #include "service_process.hpp"
 
-#include <fcntl.h>
-#include <unistd.h>
-
 #include <vector>
 
 #include "cluster/cluster_files.hpp"
@@ -11,7 +8,7 @@
 
 namespace trunnion::launcher {
 
-void ServiceProcess::start(const LaunchOptions& options, bool shadow) {
+void ServiceProcess::start(const LaunchOptions& options, bool on_standby) {
   const auto& e = entry;
   std::vector<std::string> args{executable,
                                 "--machine",
@@ -31,34 +28,30 @@ void ServiceProcess::start(const LaunchOptions& options, bool shadow) {
                                 "--parent-bound"};
   for (auto& argument : service::network_arguments(options.network)) args.push_back(std::move(argument));
   if (options.virtual_time) args.emplace_back("--virtual-time");
-  if (shadow) args.emplace_back("--shadow");
+  if (on_standby) args.emplace_back("--shadow");
   if (e.service == "gateway") {
     args.insert(args.end(), {"--port", std::to_string(options.port)});
     if (const auto web = cluster::web_directory(); !web.empty()) args.insert(args.end(), {"--web", web});
   }
-  std::vector<char*> argv;
-  for (auto& arg : args) argv.push_back(arg.data());
-  argv.push_back(nullptr);
-  const int child = fork();
-  if (child == 0) {
-    const int out = open(log.c_str(), O_WRONLY | O_CREAT | O_APPEND, 0644);
-    if (out >= 0) {
-      dup2(out, 1);
-      dup2(out, 2);
-    }
-    const int null = open("/dev/null", O_RDONLY);
-    if (null >= 0) dup2(null, 0);
-    for (int fd = 3; fd < 256; ++fd) close(fd);
-    execv(argv[0], argv.data());
-    dprintf(2, "%s: cannot be started\n", argv[0]);
-    _exit(127);
-  }
-  pid = child;
+  cluster::ChildOptions child_options;
+  child_options.arguments = std::move(args);
+  child_options.log = log;
+  child = cluster::ChildProcess(child_options);
+  pid = child.pid();
   policy.started(service::monotonic_seconds());
   lifecycle = idl::service::Lifecycle::UNCONFIGURED;
   in_step = false;
-  frames_out = 0;
   alive = false;
+  standby = idl::service::StandbyState::JOINING;
+  compared = 0;
+  difference.clear();
+}
+
+std::optional<int> ServiceProcess::ended() {
+  if (pid == 0) return std::nullopt;
+  const auto status = child.status();
+  if (status) pid = 0;
+  return status;
 }
 
 bool ServiceProcess::hear(const idl::service::ServiceState& state, double now) {
@@ -68,7 +61,9 @@ bool ServiceProcess::hear(const idl::service::ServiceState& state, double now) {
   lifecycle = state.lifecycle;
   detail = state.detail;
   in_step = state.in_step;
-  frames_out = state.frames_out;
+  standby = state.standby;
+  compared = state.compared;
+  difference = state.difference;
   return true;
 }
 

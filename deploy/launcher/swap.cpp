@@ -1,6 +1,5 @@
 #include "swap.hpp"
 
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -18,22 +17,20 @@ namespace trunnion::launcher {
 namespace {
 
 using idl::channel::RunState;
-using idl::service::Lifecycle;
+using idl::service::StandbyState;
+using idl::service::SwapOutcome;
 using idl::service::SwapReply;
-
-// All in seconds.
-constexpr double start_patience = 8;      // until the new process has found the cluster
-constexpr double compare_patience = 3;    // without a cycle that both have computed
-constexpr double rest_patience = 0.5;     // without a frame: the stream does not move
-constexpr double promote_patience = 3;    // until the new one is in step as a twin
-constexpr double overlap = 0.15;          // both take part: more than two leads in real time
-constexpr double end_patience = 2;        // until a process that is told to end is killed
-constexpr double take_over_patience = 5;  // until a service that was told to take over is active
 
 const bus::Topic<idl::stream::AxisFrame>& output_of(std::uint8_t stage) {
   return stage == stream::stage_kinematics     ? topics::kinematics_frame
          : stage == stream::stage_compensation ? topics::compensation_frame
                                                : topics::gantry_frame;
+}
+
+Comparison comparison_of(const std::string& service) {
+  return stream::stage_of(service) != 0 ? Comparison::frames
+         : service == "plc"             ? Comparison::ticks
+                                        : Comparison::once;
 }
 
 ServiceProcess make_fresh(const ServiceProcess& old, const idl::service::SwapRequest& request,
@@ -48,64 +45,57 @@ ServiceProcess make_fresh(const ServiceProcess& old, const idl::service::SwapReq
   return fresh;
 }
 
-std::string where(const stream::FrameDifference& difference) {
-  return "cycle " + std::to_string(difference.cycle) + ", " + difference.values;
+SwapOutcome outcome_of(SwapFailure failure) {
+  switch (failure) {
+    case SwapFailure::no_executable:
+    case SwapFailure::ended:
+      return SwapOutcome::ENDED;
+    case SwapFailure::differs:
+      return SwapOutcome::DIFFERENT;
+    case SwapFailure::may_not_end:
+      return SwapOutcome::REFUSED;
+    default:
+      return SwapOutcome::NOT_READY;
+  }
 }
 
 }  // namespace
 
 Swap::Swap(bus::Bus& bus, const LaunchOptions& options, ServiceProcess& old,
            const idl::service::SwapRequest& request, std::uint32_t instance, const Announcements& announced)
-    : bus_(bus),
-      options_(options),
+    : options_(options),
       old_(old),
       fresh_(make_fresh(old, request, instance)),
       announced_(announced),
       request_(request),
-      stage_(stream::stage_of(old.entry.service)),
-      counts_ticks_(old.entry.service == "plc"),
+      comparison_(comparison_of(old.entry.service)),
       feedback_(bus.reader(topics::feedback_frame)),
       channels_(bus.reader(topics::channel_state)),
       alarms_(bus.reader(topics::alarm)),
-      alarm_writer_(bus.writer(topics::alarm)) {
-  began_ = entered_ = moved_ = service::monotonic_seconds();
-  if (stage_ != 0) {
-    auto topic = output_of(stage_);
+      alarm_writer_(bus.writer(topics::alarm)),
+      promotions_(bus.writer(topics::promotion)),
+      began_(service::monotonic_seconds()),
+      moved_(began_),
+      sequence_(comparison_, request.cycles, began_) {
+  if (comparison_ == Comparison::frames) {
+    auto topic = output_of(stream::stage_of(old.entry.service));
     originals_.emplace(bus.reader(topic));
-    shadow_topic_ = stream::shadow_name(topic.name);
-    topic.name = shadow_topic_.c_str();
+    standby_topic_ = stream::standby_name(topic.name);
+    topic.name = standby_topic_.c_str();
     shadows_.emplace(bus.reader(topic));
   }
-  if (access(fresh_.executable.c_str(), X_OK) == 0)
-    fresh_.start(options_, true);
-  else
-    fresh_ended_ = true;
+  if (access(fresh_.executable.c_str(), X_OK) == 0) fresh_.start(options_, true);
 }
 
 Swap::~Swap() {
-  if (taken_over_ || fresh_.pid == 0) return;
-  kill(fresh_.pid, SIGKILL);
-  waitpid(fresh_.pid, nullptr, 0);
+  if (!succeeded_) fresh_.child.kill();
 }
 
-bool Swap::ended(int pid) {
-  if (taken_over_ || pid != fresh_.pid) return false;
-  fresh_.pid = 0;
-  fresh_ended_ = true;
-  return true;
-}
-
-void Swap::enter(Phase phase, double now) {
-  phase_ = phase;
-  entered_ = now;
-}
-
-void Swap::read() {
-  const double now = service::monotonic_seconds();
+void Swap::read(double now) {
   idl::stream::FeedbackFrame feedback;
   while (feedback_.take(feedback)) {
     executed_ = std::max(executed_, feedback.first + feedback.count);
-    if (counts_ticks_ && feedback.tick > tick_) moved_ = now;
+    if (comparison_ == Comparison::ticks && feedback.tick > tick_) moved_ = now;
     tick_ = std::max(tick_, feedback.tick);
   }
   idl::channel::ChannelState state;
@@ -119,55 +109,73 @@ void Swap::read() {
       active_alarms_.erase(key);
   }
   idl::stream::AxisFrame frame;
-  while (shadows_ && shadows_->take(frame)) comparison_.shadow(frame);
+  while (shadows_ && shadows_->take(frame)) frames_.shadow(frame);
   while (originals_ && originals_->take(frame)) {
-    comparison_.original(frame);
+    frames_.original(frame);
     moved_ = now;
   }
 }
 
-// Why the service cannot be replaced now; nothing when it can.
-std::optional<std::string> Swap::at_rest() const {
+// Why the service cannot be replaced now; empty when it can.
+std::string Swap::why_not_at_rest() const {
   const auto& service = old_.entry.service;
-  if (service != "channel" && service != "drive") return std::nullopt;
+  if (service != "channel" && service != "drive") return "";
   for (const auto& [channel, state] : run_states_)
     if ((service == "drive" || channel == old_.entry.channel) && state != RunState::IDLE &&
         state != RunState::HELD)
       return "The " + service + " can be swapped at rest only: channel " + std::to_string(channel) + " is " +
              bus::to_string(state);
-  return std::nullopt;
+  return "";
 }
 
-std::uint64_t Swap::compared() const {
-  if (!counts_ticks_) return comparison_.equal_cycles();
-  // Once it takes part the heartbeat counts other things.
-  return phase_ == Phase::starting || phase_ == Phase::comparing ? fresh_.frames_out : compared_before_;
+std::string Swap::difference() const {
+  if (const auto& found = frames_.first_difference())
+    return ("cycle " + std::to_string(found->cycle) + ", " + found->values).substr(0, 192);
+  return fresh_.standby == StandbyState::DIFFERING ? fresh_.difference : "";
 }
 
-std::optional<std::string> Swap::difference() const {
-  if (const auto& found = comparison_.first_difference()) return where(*found);
-  const std::string mark = service::differs_detail;
-  if (stage_ == 0 && fresh_.detail.starts_with(mark)) return fresh_.detail.substr(mark.size());
-  return std::nullopt;
+SwapView Swap::view(double now) {
+  fresh_.ended();
+  SwapView view;
+  view.now = now;
+  view.executable = access(fresh_.executable.c_str(), X_OK) == 0;
+  view.new_runs = fresh_.pid != 0;
+  view.old_runs = old_.pid != 0;
+  if (const auto announced = announced_.find(fresh_.entry.instance); announced != announced_.end()) {
+    view.announced = true;
+    view.contract_matches = announced->second.contract == topics::contract_hash;
+  }
+  view.standby = fresh_.standby;
+  view.lifecycle = fresh_.lifecycle;
+  view.in_step = fresh_.in_step;
+  view.compared = comparison_ == Comparison::frames ? frames_.equal_cycles() : fresh_.compared;
+  view.differs = !difference().empty();
+  view.moved = moved_;
+  view.may_end = why_not_at_rest().empty();
+  return view;
 }
 
-SwapReply Swap::keep(const std::string& reason) {
-  SwapReply reply;
-  reply.reason = reason.substr(0, 250);
-  reply.compared = static_cast<std::uint32_t>(compared());
-  reply.cycle = executed_;
-  reply.seconds = service::monotonic_seconds() - began_;
-  return reply;
+void Swap::start_new() {
+  std::fprintf(stderr, "swap: the new %s %s: it is started again\n", old_.entry.service.c_str(),
+               fresh_.pid == 0 ? "ended" : ("does not take part (" + fresh_.detail + ")").c_str());
+  fresh_.child.kill();
+  clear_alarms(fresh_.entry.instance);
+  fresh_.detail.clear();
+  frames_ = {};
+  fresh_.start(options_, true);
 }
 
-void Swap::retire(double now) {
+void Swap::promote_new() {
+  promotions_.write({fresh_.entry.instance, fresh_.pid});
+  promoted_cycle_ = executed_;
+}
+
+void Swap::end_old() {
   old_.retiring = true;
-  if (old_.pid != 0) kill(old_.pid, SIGTERM);
-  retired_at_ = now;
-  enter(Phase::retiring, now);
+  old_.child.signal(SIGTERM);
 }
 
-// What a process that is gone has raised, nobody else would end.
+// The alarms of a process that is gone: it cannot end them itself.
 void Swap::clear_alarms(std::uint32_t instance) {
   for (auto& [key, alarm] : active_alarms_) {
     if (alarm.instance != instance) continue;
@@ -176,62 +184,50 @@ void Swap::clear_alarms(std::uint32_t instance) {
   }
 }
 
-std::optional<SwapReply> Swap::after_start(double now) {
-  const auto announced = announced_.find(fresh_.entry.instance);
-  if (announced != announced_.end() && announced->second.contract != topics::contract_hash)
-    return keep("The new " + old_.entry.service + " was built with contract " + announced->second.contract +
-                ", this cluster with " + topics::contract_hash);
-  const bool there =
-      announced != announced_.end() && fresh_.detail == service::shadow_detail && fresh_.in_step;
-  if (!there) {
-    if (now - entered_ > start_patience)
-      return keep("The new " + old_.entry.service + " does not find its way into the cluster" +
-                  (fresh_.detail.empty() ? "" : ": " + fresh_.detail));
-    return std::nullopt;
+std::string Swap::reason(SwapFailure failure) const {
+  const auto fresh = "The new " + old_.entry.service;
+  const auto detail = fresh_.detail.empty() ? "" : ": " + fresh_.detail;
+  switch (failure) {
+    case SwapFailure::no_executable:
+      return fresh_.executable + ": cannot be started";
+    case SwapFailure::ended:
+      return fresh + " ended: " + cluster::last_line(fresh_.log);
+    case SwapFailure::other_contract:
+      return fresh + " was built with contract " + announced_.at(fresh_.entry.instance).contract +
+             ", this cluster with " + topics::contract_hash;
+    case SwapFailure::did_not_join:
+      return fresh + " did not reach the state of the running one" + detail;
+    case SwapFailure::nothing_to_compare:
+      return fresh + " does nothing that could be compared";
+    case SwapFailure::differs:
+      return fresh + " differs in " + difference() + " (the first is the running one's)";
+    case SwapFailure::may_not_end:
+      return why_not_at_rest();
+    case SwapFailure::takes_no_part:
+      return fresh + " does not take part" + detail;
+    case SwapFailure::none:
+      break;
   }
-  if (compares()) {
-    compared_at_ = now;
-    enter(Phase::comparing, now);
-    return std::nullopt;
-  }
-  if (const auto why = at_rest()) return keep(*why);
-  retire(now);
-  return std::nullopt;
+  return "";
 }
 
-std::optional<SwapReply> Swap::after_comparison(double now) {
-  const auto equal = compared();
-  if (equal > compared_before_) compared_at_ = now;
-  compared_before_ = equal;
-  const bool rests = now - moved_ > rest_patience && now - entered_ > rest_patience;
-  if (equal < request_.cycles && !rests) {
-    if (now - compared_at_ > compare_patience)
-      return keep("The new " + old_.entry.service + " does nothing that could be compared");
-    return std::nullopt;
-  }
-  if (counts_ticks_) {
-    retire(now);
-    return std::nullopt;
-  }
-  kill(fresh_.pid, SIGUSR1);
-  promoted_cycle_ = executed_;
-  enter(Phase::promoting, now);
-  return std::nullopt;
+SwapReply Swap::reply(double now) const {
+  SwapReply reply;
+  reply.compared = static_cast<std::uint32_t>(sequence_.compared());
+  reply.seconds = now - began_;
+  return reply;
 }
 
-std::optional<SwapReply> Swap::after_retirement(double now) {
-  if (old_.pid != 0) {
-    if (now - retired_at_ > end_patience) kill(old_.pid, SIGKILL);
-    return std::nullopt;
-  }
-  if (stage_ != 0) return done(now);
-  kill(fresh_.pid, SIGUSR1);
-  promoted_cycle_ = executed_;
-  enter(Phase::taking_over, now);
-  return std::nullopt;
+SwapReply Swap::kept(SwapFailure failure, double now) const {
+  auto result = reply(now);
+  result.outcome = outcome_of(failure);
+  result.reason = reason(failure).substr(0, 256);
+  if (failure == SwapFailure::differs) result.difference = difference();
+  result.cycle = executed_;
+  return result;
 }
 
-SwapReply Swap::done(double now) {
+SwapReply Swap::succeeded(double now) {
   clear_alarms(old_.entry.instance);
   const auto side = [&](const ServiceProcess& process) {
     SwapSide result{process.executable, process.entry.vendor, "", ""};
@@ -240,89 +236,50 @@ SwapReply Swap::done(double now) {
       result.version = announced->second.version, result.contract = announced->second.contract;
     return result;
   };
-  SwapReply reply = keep("");
-  reply.accepted = true;
-  reply.cycle = promoted_cycle_;
-  reply.seconds = now - began_;
-  reply.gap = gap_;
+  auto result = reply(now);
+  result.accepted = true;
+  result.outcome = SwapOutcome::SWAPPED;
+  result.cycle = promoted_cycle_;
+  result.gap = sequence_.gap();
   try {
-    append_swap(options_.state_directory, swap_line(request_, reply, side(old_), side(fresh_)));
+    append_swap(options_.state_directory, swap_line(request_, result, side(old_), side(fresh_)));
   } catch (const storage::StorageError& e) {
-    reply.reason = e.what();
+    result.reason = std::string(e.what()).substr(0, 256);
   }
-  old_ = fresh_;
-  taken_over_ = true;
-  return reply;
-}
-
-// Until the old one is told to end nobody depends on the new one, so a second try costs nothing: a vendor's
-// library may end a process that begins while others of its topics leave (Fast DDS 2.9: an assertion of its
-// reader).
-bool Swap::start_again(const char* why, double now) {
-  if (started_again_) return false;
-  std::fprintf(stderr, "swap: the new %s %s (%s): it is started again\n", old_.entry.service.c_str(), why,
-               fresh_.detail.c_str());
-  started_again_ = true;
-  if (fresh_.pid != 0) {
-    kill(fresh_.pid, SIGKILL);
-    waitpid(fresh_.pid, nullptr, 0);
-    clear_alarms(fresh_.entry.instance);
-  }
-  fresh_ended_ = false;
-  fresh_.detail.clear();
-  fresh_.start(options_, true);
-  comparison_ = {};
-  compared_before_ = 0;
-  enter(Phase::starting, now);
-  return true;
+  old_ = std::move(fresh_);
+  succeeded_ = true;
+  return result;
 }
 
 std::optional<SwapReply> Swap::step(double now) {
-  read();
-  if (fresh_ended_ && !old_.retiring && access(fresh_.executable.c_str(), X_OK) == 0 &&
-      start_again("ended", now))
-    return std::nullopt;
-  if (fresh_ended_) {
-    // An old one that has ended already is started again like one that died, only at once.
-    const bool gone = old_.retiring;
-    old_.retiring = false;
-    if (gone) old_.start(options_, false);
-    return keep(access(fresh_.executable.c_str(), X_OK) != 0
-                    ? fresh_.executable + ": cannot be started"
-                    : "The new " + old_.entry.service + " ended: " + cluster::last_line(fresh_.log));
-  }
-  if (const auto what = difference(); what && (phase_ == Phase::starting || phase_ == Phase::comparing))
-    return keep("The new " + old_.entry.service + " differs in " + *what +
-                " (the first is the running one's)");
-  switch (phase_) {
-    case Phase::starting:
-      return after_start(now);
-    case Phase::comparing:
-      return after_comparison(now);
-    case Phase::promoting:
-      if (fresh_.lifecycle != Lifecycle::ACTIVE || !fresh_.in_step) {
-        active_at_ = now;
-        if (now - entered_ > promote_patience && !start_again("does not take part", now))
-          return keep("The new " + old_.entry.service + " does not take part" +
-                      (fresh_.detail.empty() ? "" : ": " + fresh_.detail));
-      } else if (now - active_at_ > overlap) {
-        retire(now);
-      }
-      return std::nullopt;
-    case Phase::retiring:
-      return after_retirement(now);
-    case Phase::taking_over:
-      if (fresh_.lifecycle == Lifecycle::ACTIVE) {
-        gap_ = now - retired_at_;
-        return done(now);
-      }
-      if (now - entered_ > take_over_patience) {
-        kill(fresh_.pid, SIGKILL);
-        waitpid(fresh_.pid, nullptr, 0);
-        fresh_.pid = 0;
-        fresh_ended_ = true;
-      }
-      return std::nullopt;
+  read(now);
+  const auto step = sequence_.step(view(now));
+  switch (step.action) {
+    case SwapAction::wait:
+      break;
+    case SwapAction::start_new:
+      start_new();
+      break;
+    case SwapAction::promote_new:
+      promote_new();
+      break;
+    case SwapAction::end_old:
+      end_old();
+      break;
+    case SwapAction::kill_old:
+      old_.child.signal(SIGKILL);
+      break;
+    case SwapAction::kill_new:
+      fresh_.child.signal(SIGKILL);
+      break;
+    case SwapAction::start_old:
+      old_.retiring = false;
+      old_.start(options_, false);
+      break;
+    case SwapAction::succeed:
+      return succeeded(now);
+    case SwapAction::fail:
+      return kept(step.failure, now);
   }
   return std::nullopt;
 }

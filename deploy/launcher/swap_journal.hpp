@@ -14,7 +14,8 @@ struct SwapSide {
   std::string version, contract;  ///< as it announced itself
 };
 
-/// A line for the journal. The build is told by the CRC-32 of the executable's bytes besides its version.
+/// A line for the journal. The build is identified by the CRC-32 of the executable's bytes besides its
+/// version.
 std::string swap_line(const idl::service::SwapRequest& request, const idl::service::SwapReply& reply,
                       const SwapSide& before, const SwapSide& after);
 /// Appends the line and returns when it is on the disk. Throws storage::StorageError.

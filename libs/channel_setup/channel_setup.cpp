@@ -15,7 +15,7 @@ constexpr std::uint32_t most_vector_pieces = 1024;
 
 }  // namespace
 
-ChannelSetup::ChannelSetup(const MachineTables& tables) : ChannelSetup(tables.channel) {
+ChannelSetup::ChannelSetup(const tool_tables::MachineTables& tables) : ChannelSetup(tables.channel) {
   configure(tables.parameters);
   set_tools(tables.tools);
   set_offsets(tables.offsets);

@@ -28,7 +28,7 @@ class ChannelSetup : public language::Environment {
  public:
   explicit ChannelSetup(std::uint16_t channel) : channel_(channel) {}
   /// Configured with the tables. Throws as configure() does.
-  explicit ChannelSetup(const MachineTables& tables);
+  explicit ChannelSetup(const tool_tables::MachineTables& tables);
 
   /// Throws std::runtime_error when the kinematic parameters make no chain.
   void configure(const machine::Parameters& parameters);

@@ -7,7 +7,7 @@
 
 namespace trunnion::cluster {
 namespace {
-constexpr double patience = 3;  // s for an answer
+constexpr double timeout = 3;  // s for an answer
 }
 
 Client::Client(std::uint32_t domain) : Client(network_in(domain)) {}
@@ -28,7 +28,7 @@ void Client::channel(std::uint16_t channel, idl::channel::CommandKind command, c
 }
 
 void Client::channel(const ChannelRequest& request) {
-  const auto reply = channel_.call(request, patience);
+  const auto reply = channel_.call(request, timeout);
   if (!reply) throw std::runtime_error("channel " + std::to_string(request.channel) + " does not answer");
   if (!reply->accepted)
     throw std::runtime_error(reply->reason +
@@ -36,14 +36,14 @@ void Client::channel(const ChannelRequest& request) {
 }
 
 idl::program::ProgramReply Client::program(idl::program::ProgramRequest request) {
-  const auto reply = program_.call(std::move(request), patience);
+  const auto reply = program_.call(std::move(request), timeout);
   if (!reply) throw std::runtime_error("the program service does not answer");
   if (!reply->accepted) throw std::runtime_error(reply->reason);
   return *reply;
 }
 
 idl::parameters::ParameterReply Client::parameter(idl::parameters::ParameterRequest request) {
-  const auto reply = parameter_.call(std::move(request), patience);
+  const auto reply = parameter_.call(std::move(request), timeout);
   if (!reply) throw std::runtime_error("the parameters service does not answer");
   if (!reply->accepted) throw std::runtime_error(reply->reason);
   return *reply;
@@ -52,7 +52,7 @@ idl::parameters::ParameterReply Client::parameter(idl::parameters::ParameterRequ
 idl::plc::PanelReply Client::panel(std::uint8_t kind) {
   idl::plc::PanelRequest request;
   request.kind = kind;
-  const auto reply = panel_.call(request, patience);
+  const auto reply = panel_.call(request, timeout);
   if (!reply) throw std::runtime_error("the PLC does not answer");
   if (!reply->accepted) throw std::runtime_error(reply->reason);
   return *reply;

@@ -1,9 +1,5 @@
 #include "cluster/cluster.hpp"
 
-#include <fcntl.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include <csignal>
 #include <filesystem>
 #include <fstream>
@@ -12,6 +8,7 @@
 #include <thread>
 #include <vector>
 
+#include "cluster/child_process.hpp"
 #include "machine/parameters.hpp"
 #include "service/network.hpp"
 #include "service/node.hpp"
@@ -35,15 +32,6 @@ std::vector<std::string> launcher_arguments(const UpOptions& up, const RunningCl
   if (!up.vendor.empty()) args.insert(args.end(), {"--vendor", up.vendor});
   if (cluster.virtual_time) args.emplace_back("--virtual-time");
   return args;
-}
-
-[[noreturn]] void become(std::vector<std::string> args) {
-  std::vector<char*> argv;
-  for (auto& arg : args) argv.push_back(arg.data());
-  argv.push_back(nullptr);
-  execv(argv[0], argv.data());
-  std::perror(argv[0]);
-  _exit(127);
 }
 
 }  // namespace
@@ -84,31 +72,20 @@ RunningCluster start_cluster(const UpOptions& up) {
                                                            {"domain", cluster.run.domain}}
                                          << "\n";
   auto args = launcher_arguments(up, cluster);
-  if (up.foreground) become(std::move(args));
+  if (up.foreground) {
+    replace_process(args);
+    throw std::runtime_error(args[0] + ": cannot be started");
+  }
   // The launcher is a program of its own, not a copy of this process: threads and DDS participants do not
   // survive a fork.
-  int pipes[2];
-  if (pipe(pipes) != 0) throw std::runtime_error("no pipe");
-  args.insert(args.end(), {"--report", std::to_string(pipes[1])});
-  const auto log_file = cluster.run.log_file("launcher");
-  const int pid = fork();
-  if (pid == 0) {
-    setsid();
-    if (fork() != 0) _exit(0);
-    const int null = open("/dev/null", O_RDWR);
-    const int log = open(log_file.c_str(), O_WRONLY | O_CREAT | O_APPEND, 0644);
-    dup2(null, 0), dup2(log, 1), dup2(log, 2);
-    for (int fd = 3; fd < 256; ++fd)
-      if (fd != pipes[1]) close(fd);
-    become(std::move(args));
-  }
-  close(pipes[1]);
-  waitpid(pid, nullptr, 0);
-  std::string answer;
-  char buffer[512];
-  for (ssize_t n; (n = read(pipes[0], buffer, sizeof buffer)) > 0;)
-    answer.append(buffer, static_cast<std::size_t>(n));
-  close(pipes[0]);
+  constexpr int report = 3;
+  args.insert(args.end(), {"--report", std::to_string(report)});
+  ChildOptions options;
+  options.arguments = std::move(args);
+  options.log = cluster.run.log_file("launcher");
+  options.read_from = report;
+  options.detached = true;
+  auto answer = ChildProcess(options).read_all();
   while (!answer.empty() && answer.back() == '\n') answer.pop_back();
   if (answer != "ready") {
     for (int i = 0; i < 300 && cluster.run.launcher(); ++i)

@@ -93,8 +93,8 @@ bool RunDirectory::verifies() const {
   return false;
 }
 
-std::uint32_t free_domain(double patience) {
-  const auto until = std::chrono::steady_clock::now() + std::chrono::duration<double>(patience);
+std::uint32_t free_domain(double timeout) {
+  const auto until = std::chrono::steady_clock::now() + std::chrono::duration<double>(timeout);
   const auto first = static_cast<std::uint32_t>(getpid()) % 20;
   std::error_code ignored;
   for (;;) {

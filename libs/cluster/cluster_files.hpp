@@ -42,8 +42,8 @@ struct RunDirectory {
 };
 
 /// A domain in 80 .. 99 that no cluster of this user runs in. Throws std::runtime_error when all are still
-/// taken after `patience` seconds.
-std::uint32_t free_domain(double patience = 0);
+/// taken after `timeout` seconds.
+std::uint32_t free_domain(double timeout = 0);
 /// Of every cluster of this user, running or abandoned, by domain.
 std::vector<RunDirectory> run_directories();
 

@@ -26,9 +26,9 @@ sockaddr_in loopback(std::uint16_t port) {
 int connect_to(std::uint16_t port, int receive_buffer) {
   const int fd = ::socket(AF_INET, SOCK_STREAM, 0);
   if (receive_buffer > 0) setsockopt(fd, SOL_SOCKET, SO_RCVBUF, &receive_buffer, sizeof receive_buffer);
-  const timeval patience{5, 0};
-  setsockopt(fd, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
-  setsockopt(fd, SOL_SOCKET, SO_SNDTIMEO, &patience, sizeof patience);
+  const timeval timeout{5, 0};
+  setsockopt(fd, SOL_SOCKET, SO_RCVTIMEO, &timeout, sizeof timeout);
+  setsockopt(fd, SOL_SOCKET, SO_SNDTIMEO, &timeout, sizeof timeout);
   const auto address = loopback(port);
   if (::connect(fd, reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0) {
     ::close(fd);
@@ -127,9 +127,9 @@ void WebSocketClient::pong(const std::string& payload) {
   send_all(socket_, std::string{'\x8A', static_cast<char>(0x80 | payload.size()), 0, 0, 0, 0} + payload);
 }
 
-std::optional<std::string> WebSocketClient::next(double patience) {
-  const auto whole = static_cast<time_t>(patience);
-  const timeval time{whole, static_cast<suseconds_t>((patience - static_cast<double>(whole)) * 1e6)};
+std::optional<std::string> WebSocketClient::next(double timeout) {
+  const auto whole = static_cast<time_t>(timeout);
+  const timeval time{whole, static_cast<suseconds_t>((timeout - static_cast<double>(whole)) * 1e6)};
   setsockopt(socket_, SOL_SOCKET, SO_RCVTIMEO, &time, sizeof time);
   while (true) {
     if (!fill(2)) return {};

@@ -34,9 +34,9 @@ class WebSocketClient {
   WebSocketClient(const WebSocketClient&) = delete;
   WebSocketClient& operator=(const WebSocketClient&) = delete;
   bool open() const { return open_; }
-  /// The next text message, or nothing after `patience` (s) or when the connection ended; what has come of a
+  /// The next text message, or nothing after `timeout` (s) or when the connection ended; what has come of a
   /// message is kept for the next call.
-  std::optional<std::string> next(double patience = 5);
+  std::optional<std::string> next(double timeout = 5);
 
  private:
   bool fill(std::size_t bytes);

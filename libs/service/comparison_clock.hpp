@@ -32,11 +32,11 @@ class ComparisonClock {
     }
   }
 
-  /// Of the rehearsal that looks: in step when there was no difference, until there is one that lasts.
+  /// Of the rehearsal that compares: in step when there was no difference, until there is one that lasts.
   Health health() const {
     Health health;
     health.lifecycle = idl::service::Lifecycle::INACTIVE;
-    health.detail = lasting() ? differs_detail + difference_ : shadow_detail;
+    if (lasting()) health.difference = difference_;
     health.in_step = equal_ && !pending_;
     return health;
   }

@@ -17,8 +17,6 @@ namespace {
 constexpr double beat_period = 0.25;  // s
 volatile std::sig_atomic_t stop_requested = 0;
 void request_stop(int) { stop_requested = 1; }
-volatile std::sig_atomic_t take_over_requested = 0;
-void request_take_over(int) { take_over_requested = 1; }
 
 bool real_time_wanted = false;
 
@@ -69,9 +67,10 @@ Node::Node(Options options)
   sigaction(SIGTERM, &action, nullptr);
   sigaction(SIGINT, &action, nullptr);
   signal(SIGPIPE, SIG_IGN);
-  action.sa_handler = request_take_over;
-  sigaction(SIGUSR1, &action, nullptr);
-  if (options_.shadow) alarms_.mute();
+  if (options_.shadow) {
+    alarms_.mute();
+    promotions_.emplace(bus_.reader(topics::promotion));
+  }
   if (options_.parent_bound) {
     prctl(PR_SET_PDEATHSIG, SIGTERM);
     if (getppid() == 1) stop_requested = 1;
@@ -90,22 +89,26 @@ void Node::announce() {
                        getpid(), topics::contract_hash, "0.1.0"});
 }
 
-void Node::obey_take_over() {
-  if (take_over_requested == 0 || !options_.shadow) return;
+void Node::take_promotion() {
+  idl::service::Promotion promotion;
+  bool promoted = false;
+  while (promotions_ && promotions_->take(promotion))
+    promoted = promoted || (promotion.instance == options_.instance && promotion.pid == getpid());
+  if (!promoted) return;
   options_.shadow = false;
+  promotions_.reset();
   alarms_.speak();
 }
 
 bool Node::stand_by(Service* rehearsal) {
   Health health;
   health.lifecycle = idl::service::Lifecycle::INACTIVE;
-  health.detail = shadow_detail;
   while (stop_requested == 0 && options_.shadow) {
     if (rehearsal != nullptr) rehearsal->pump();
     if (monotonic_seconds() - last_beat_ >= beat_period)
       beat(rehearsal != nullptr ? rehearsal->health() : health);
     bus_.signal().wait(0.005);
-    obey_take_over();
+    take_promotion();
   }
   return stop_requested == 0;
 }
@@ -122,6 +125,13 @@ void Node::beat(const Health& health) {
       last_beat_ > 0 ? static_cast<double>(health.frames_out - last_frames_) / elapsed : 0;
   state_.revision = health.revision;
   state_.in_step = health.in_step;
+  using idl::service::StandbyState;
+  state_.standby = !options_.shadow             ? StandbyState::TAKES_PART
+                   : !health.difference.empty() ? StandbyState::DIFFERING
+                   : health.in_step             ? StandbyState::MATCHING
+                                                : StandbyState::JOINING;
+  state_.compared = health.compared;
+  state_.difference = health.difference.substr(0, 192);
   state_.uptime = now - started_;
   ++state_.beats;
   state_writer_.write(state_);
@@ -142,7 +152,7 @@ int Node::run(Service& service) {
       service.alarms_reset();
       alarms_.reset();
     }
-    obey_take_over();
+    take_promotion();
     service.pump();
     notifier_.alive(monotonic_seconds());
     if (const double now = monotonic_seconds(); now - last_beat_ >= beat_period) {

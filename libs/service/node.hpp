@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "bus/bus.hpp"
@@ -13,10 +14,6 @@
 
 namespace trunnion::service {
 
-/// Health::detail of a shadow that has found no difference yet, and the beginning of that of one that has.
-inline constexpr const char* shadow_detail = "shadow";
-inline constexpr const char* differs_detail = "differs in ";
-
 /// What a service shows of itself four times a second.
 struct Health {
   idl::service::Lifecycle lifecycle = idl::service::Lifecycle::UNCONFIGURED;
@@ -24,6 +21,10 @@ struct Health {
   std::uint64_t frames_in = 0, frames_out = 0, frames_lost = 0;
   std::uint64_t revision = 0;
   bool in_step = true;
+  /// Of a process on standby: ticks in which it has done the same as the one it is to replace, and what
+  /// differs with both values, the running one's first; empty = nothing.
+  std::uint64_t compared = 0;
+  std::string difference;
 };
 
 class Node;
@@ -31,10 +32,11 @@ class Node;
 /// One service. Its constructor makes its readers and writers from the node's bus.
 class Service {
  public:
-  /// It can work beside the service it is to replace and be compared with it. One that cannot, because it
-  /// owns files or a port, is made only when the other has ended. Until then a member type `Rehearsal`, if it
-  /// has one, is what works as shadow: a Service that writes nothing and tells in its health how it compares.
-  static constexpr bool works_as_shadow = false;
+  /// It can work on standby: beside the service it is to replace, compared with it. One that cannot, because
+  /// it owns files or a port, is made only when the other has ended. Until then a member type `Rehearsal`, if
+  /// it has one, is what works on standby: a Service that writes nothing and reports in its health how it
+  /// compares.
+  static constexpr bool works_on_standby = false;
 
   virtual ~Service() = default;
   /// Data has arrived or `period()` has passed: take everything, compute, write.
@@ -56,10 +58,10 @@ class Node {
   bus::Bus& bus() { return bus_; }
   AlarmBoard& alarms() { return alarms_; }
 
-  /// Started beside the service that it is to replace, and not told to take part yet.
-  bool shadow() const { return options_.shadow; }
-  /// Waits, inactive, until this process is told to take part. False when it is told to end instead.
-  /// Meanwhile `rehearsal`, if there is one, is pumped and tells the health.
+  /// Started beside the service that it is to replace, and not promoted yet.
+  bool on_standby() const { return options_.shadow; }
+  /// Waits, inactive, until this process is promoted. False when it is told to end instead.
+  /// Meanwhile `rehearsal`, if there is one, is pumped and reports the health.
   bool stand_by(Service* rehearsal = nullptr);
   /// Runs until SIGTERM or SIGINT; returns the exit status.
   int run(Service& service);
@@ -67,13 +69,14 @@ class Node {
  private:
   void announce();
   void beat(const Health& health);
-  void obey_take_over();
+  void take_promotion();
   Options options_;
   bus::Bus bus_;
   AlarmBoard alarms_;
   bus::Writer<idl::service::Announcement> announcement_;
   bus::Writer<idl::service::ServiceState> state_writer_;
   bus::Reader<idl::service::AlarmReset> alarm_reset_;
+  std::optional<bus::Reader<idl::service::Promotion>> promotions_;  // while on standby
   idl::service::ServiceState state_;
   Notifier notifier_;
   double started_ = 0;
@@ -96,7 +99,7 @@ struct ServiceType {
   using Make = std::unique_ptr<Service> (*)(Node& node);
   Make service = nullptr;
   Make rehearsal = nullptr;  ///< null when there is none
-  bool works_as_shadow = false;
+  bool works_on_standby = false;
 };
 
 template <class S>
@@ -107,7 +110,7 @@ constexpr ServiceType service_type() {
     type.rehearsal = [](Node& node) -> std::unique_ptr<Service> {
       return std::make_unique<typename S::Rehearsal>(node);
     };
-  type.works_as_shadow = S::works_as_shadow;
+  type.works_on_standby = S::works_as_shadow;
   return type;
 }
 

@@ -21,7 +21,7 @@ void add_options(CLI::App& app, Options& options) {
       ->check(CLI::IsMember({"fastdds", "cyclonedds"}));
   app.add_flag("--virtual-time", options.virtual_time, "Time goes on with the setpoints, not with the clock");
   app.add_flag("--shadow", options.shadow,
-               "Begin beside the service that this one replaces, take part on SIGUSR1");
+               "Begin on standby beside the service that this one replaces, until the launcher promotes it");
   app.add_flag("--parent-bound", options.parent_bound, "Stop when the parent process is gone");
 }
 

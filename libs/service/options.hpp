@@ -24,7 +24,7 @@ struct Options {
   bus::NetworkSettings network;
   bool virtual_time = false;
   bool parent_bound = false;  ///< stop when the launcher is gone
-  bool shadow = false;        ///< begin beside the one that it replaces, take part on SIGUSR1
+  bool shadow = false;        ///< begin on standby beside the one that it replaces
 
   machine::MachineConfig machine;  ///< loaded from machine_directory
 };

@@ -8,9 +8,9 @@
 namespace trunnion::service {
 namespace {
 
-/// False when the process is told to end before it is needed.
-bool wait_until_needed(Node& node, const ServiceType& type) {
-  if (type.rehearsal == nullptr || !node.shadow()) return node.stand_by();
+/// Waits until the process is promoted, if it is on standby. False when it is told to end instead.
+bool wait_for_promotion(Node& node, const ServiceType& type) {
+  if (type.rehearsal == nullptr || !node.on_standby()) return node.stand_by();
   const auto rehearsal = type.rehearsal(node);
   return node.stand_by(rehearsal.get());
 }
@@ -30,7 +30,7 @@ int run_service(int argc, char** argv, const char* name, const ServiceType& type
   if (is_cyclic && !options.virtual_time) use_real_time_scheduling();
   try {
     Node node(options);
-    if (!type.works_as_shadow && !wait_until_needed(node, type)) return 0;
+    if (!type.works_on_standby && !wait_for_promotion(node, type)) return 0;
     const auto service = type.service(node);
     return node.run(*service);
   } catch (const std::exception& e) {

@@ -23,8 +23,8 @@ inline int stream_depth(int lead, int frame_cycles, int channels) {
   return std::max(1024, (2 * lead / std::max(1, frame_cycles) + 6) * std::max(1, channels));
 }
 
-/// Topic on which a stage writes while it is only compared with the one it is to replace.
-inline std::string shadow_name(const std::string& topic) { return topic + "/shadow"; }
+/// Topic on which a stage writes while it is on standby, only compared with the one it is to replace.
+inline std::string standby_name(const std::string& topic) { return topic + topics::standby_suffix; }
 
 /// Raises the alarm of copies that differ, once until it is reset: it stops the machine.
 inline void raise_difference(service::AlarmBoard& alarms, const auto& first, const auto& second) {
@@ -50,8 +50,8 @@ class StageService : public service::Service {
         make_core_(std::move(make_core)),
         progress_writer_(node.bus().writer(topics::stage_progress)) {}
 
-  /// As a shadow it computes what it would if it took part, and writes it beside the stream (shadow_name).
-  static constexpr bool works_as_shadow = true;
+  /// On standby it computes what it would if it took part, and writes it beside the stream (standby_name).
+  static constexpr bool works_on_standby = true;
 
   void pump() override {
     parameters_.poll();
@@ -59,7 +59,7 @@ class StageService : public service::Service {
       if (!parameters_.newest()) return;
       start();
     }
-    if (shadow_ && !node_.shadow()) take_part();
+    if (standby_ && !node_.on_standby()) take_part();
     follow_feedback();
     idl::stream::FeedbackFrame feedback;
     while (feedback_reader_ && feedback_reader_->take(feedback)) {
@@ -85,19 +85,19 @@ class StageService : public service::Service {
   service::Health health() const override {
     using idl::service::Lifecycle;
     service::Health health;
-    health.lifecycle = !reader_                     ? Lifecycle::UNCONFIGURED
-                       : have_feedback_ && !shadow_ ? Lifecycle::ACTIVE
-                                                    : Lifecycle::INACTIVE;
+    health.lifecycle = !reader_                      ? Lifecycle::UNCONFIGURED
+                       : have_feedback_ && !standby_ ? Lifecycle::ACTIVE
+                                                     : Lifecycle::INACTIVE;
     health.detail = !fault_.empty()   ? fault_
                     : !reader_        ? "waiting for parameters"
                     : !have_feedback_ ? "waiting for the drive"
-                    : shadow_         ? "shadow"
                                       : waiting_for();
     if (!fault_.empty()) health.lifecycle = Lifecycle::FAULT;
     health.frames_in = frames_in_;
     health.frames_out = frames_out_;
     health.frames_lost = frames_lost_;
     health.revision = parameters_.newest() ? parameters_.newest()->revision : 0;
+    if (node_.on_standby()) health.in_step = reader_ && have_feedback_ && fault_.empty();
     for (const auto& [channel, lane] : lanes_)
       health.in_step = health.in_step && lane.in_step && lane.settled;
     return health;
@@ -136,10 +136,10 @@ class StageService : public service::Service {
     const auto& services = node_.options().machine.services;
     twins_ = std::count_if(services.begin(), services.end(),
                            [&](const auto& entry) { return entry.service == stage_name(stage_); }) > 1;
-    shadow_ = node_.shadow();
-    const auto shadow_topic = shadow_name(out_topic_.name);
+    standby_ = node_.on_standby();
+    const auto standby_topic = standby_name(out_topic_.name);
     auto out = out_topic_;
-    if (shadow_) out.name = shadow_topic.c_str();
+    if (standby_) out.name = standby_topic.c_str();
     writer_.emplace(node_.bus().writer(out));
     feedback_reader_.emplace(node_.bus().reader(topics::feedback_frame));
     reader_.emplace(node_.bus().reader(in_topic_));
@@ -147,10 +147,10 @@ class StageService : public service::Service {
       if (entry.service == "channel") lane(static_cast<std::uint16_t>(entry.channel));
   }
 
-  // From the frame it computes next on; what it wrote as a shadow the others have from the service it
+  // From the frame it computes next on; what it wrote on standby the others have from the service it
   // replaces.
   void take_part() {
-    shadow_ = false;
+    standby_ = false;
     writer_.emplace(node_.bus().writer(out_topic_));
     for (auto& [channel, lane] : lanes_) lane.settled = false;
   }
@@ -172,7 +172,7 @@ class StageService : public service::Service {
   // it.
   void report_progress(std::uint16_t channel, Lane& lane) {
     if (lane.in_step && !lane.settled) lane.settled = !lane.window.has_next() && writer_->matched() > 0;
-    if (shadow_) return;
+    if (standby_) return;
     const idl::stream::StageProgress progress{stage_,
                                               static_cast<std::uint8_t>(node_.options().copy),
                                               channel,
@@ -324,7 +324,7 @@ class StageService : public service::Service {
   std::uint64_t frames_in_ = 0, frames_out_ = 0, frames_lost_ = 0;
   double unknown_since_ = 0, feedback_until_ = 0;
   std::uint64_t lead_ = 0;
-  bool twins_ = false, shadow_ = false;
+  bool twins_ = false, standby_ = false;
   std::string fault_;
 };
 

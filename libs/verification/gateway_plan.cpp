@@ -66,8 +66,8 @@ std::map<Asker, const StoredMessage*> requests_of(const std::vector<StoredMessag
 
 class Plan {
  public:
-  Plan(const StoredRecording& recording, std::size_t look_every)
-      : recording_(recording), look_every_(look_every), requests_(requests_of(recording.messages)) {}
+  Plan(const StoredRecording& recording, std::size_t sample_every)
+      : recording_(recording), sample_every_(sample_every), requests_(requests_of(recording.messages)) {}
 
   GatewayPlan make() {
     plan_.outputs = surroundings(recording_, "gateway");
@@ -117,10 +117,10 @@ class Plan {
   // What the recorded process said of itself.
   bool is_of_gateway(const StoredMessage& message) const {
     bool own = false;
-    const auto look = [&](const auto& value) { own = value.instance == plan_.outputs.instance; };
-    act_on<idl::service::Announcement>(message, "announcement", look) ||
-        act_on<idl::service::ServiceState>(message, "service_state", look) ||
-        act_on<idl::service::Alarm>(message, "alarm", look);
+    const auto check_own = [&](const auto& value) { own = value.instance == plan_.outputs.instance; };
+    act_on<idl::service::Announcement>(message, "announcement", check_own) ||
+        act_on<idl::service::ServiceState>(message, "service_state", check_own) ||
+        act_on<idl::service::Alarm>(message, "alarm", check_own);
     return own;
   }
 
@@ -154,20 +154,20 @@ class Plan {
     for (const auto* message : feeds_) {
       for (; next != lines_.end() && next->begin < message->time; ++next) ask(std::move(next->request));
       const bool apart = is_apart(*message);
-      if (apart) look();
+      if (apart) sample();
       plan_.steps.push_back({GatewayStep::Kind::feed, message, nullptr});
       seen_ = false;
-      if (++fed_ % look_every_ == 0 || apart) look();
+      if (++fed_ % sample_every_ == 0 || apart) sample();
     }
     for (; next != lines_.end(); ++next) ask(std::move(next->request));
     held_.clear();
-    look();
+    sample();
   }
 
-  void look() {
+  void sample() {
     // A jog that is not renewed in time would be stopped, so nothing takes time while there is one.
     if (seen_ || !held_.empty()) return;
-    plan_.steps.push_back({GatewayStep::Kind::look, nullptr, nullptr});
+    plan_.steps.push_back({GatewayStep::Kind::sample, nullptr, nullptr});
     seen_ = true;
   }
 
@@ -184,7 +184,7 @@ class Plan {
   }
 
   void ask(OperatorRequest request) {
-    look();
+    sample();
     const auto& line = request.line;
     for (std::uint32_t i = 0; i < line.requests; ++i) {
       const Asker asker{line.client, line.number + i};
@@ -207,7 +207,7 @@ class Plan {
   }
 
   const StoredRecording& recording_;
-  const std::size_t look_every_;
+  const std::size_t sample_every_;
   GatewayPlan plan_;
   std::map<Asker, const StoredMessage*> requests_, replies_;
   std::vector<Line> lines_;
@@ -215,13 +215,13 @@ class Plan {
   std::set<std::pair<std::uint16_t, std::uint8_t>> held_;  // channel and axis that are jogged continuously
   std::map<std::uint32_t, std::int32_t> processes_;
   std::size_t fed_ = 0;
-  bool seen_ = false;  // nothing has been fed since the last look
+  bool seen_ = false;  // nothing has been fed since the last sample
 };
 
 }  // namespace
 
-GatewayPlan plan_gateway(const StoredRecording& recording, std::size_t look_every) {
-  return Plan(recording, look_every).make();
+GatewayPlan plan_gateway(const StoredRecording& recording, std::size_t sample_every) {
+  return Plan(recording, sample_every).make();
 }
 
 std::vector<StoredMessage> by_line(const std::vector<StoredMessage>& messages,

@@ -23,7 +23,7 @@ struct GatewayStep {
     feed,   ///< write `message`
     ask,    ///< send `request` over HTTP; what the gateway then asks on the bus is answered with its replies
     await,  ///< the gateway does `request` of itself
-    look    ///< what it shows must be what follows from what it was fed
+    sample  ///< what it shows must be what follows from what it was fed
   };
   Kind kind = Kind::feed;
   const StoredMessage* message = nullptr;
@@ -39,9 +39,9 @@ struct GatewayPlan {
 };
 
 /// Everything in the order of the writers' clocks, requests at the place where the gateway acted on them, one
-/// at a time. It looks before a request (not while a continuous jog must be renewed), around alarms, every
-/// `look_every` messages and at the end. Throws std::runtime_error when the recording has nothing to show.
-GatewayPlan plan_gateway(const StoredRecording& recording, std::size_t look_every = 256);
+/// at a time. It samples before a request (not while a continuous jog must be renewed), around alarms, every
+/// `sample_every` messages and at the end. Throws std::runtime_error when the recording has nothing to show.
+GatewayPlan plan_gateway(const StoredRecording& recording, std::size_t sample_every = 256);
 GatewayPlan plan_gateway(StoredRecording&&, std::size_t = 0) = delete;  // steps point into it
 
 /// The gateway's outputs among `messages` in a form that two processes have in common: the journal's lines

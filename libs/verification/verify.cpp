@@ -17,11 +17,11 @@
 namespace trunnion::verification {
 namespace {
 
-constexpr int stream_frames = 4096;    // that a writer of the stream keeps
-constexpr double match_patience = 5;   // s for a reader that must not miss the first message
-constexpr double start_pause = 0.01;   // s for each message to a service that is not heard of yet
-constexpr double take_patience = 0.5;  // s for a service to take a message and sleep again
-constexpr double last_words = 0.05;    // s for what a service writes beyond what is recorded
+constexpr int stream_frames = 4096;      // that a writer of the stream keeps
+constexpr double match_timeout = 5;      // s for a reader that must not miss the first message
+constexpr double start_pause = 0.01;     // s for each message to a service that is not heard of yet
+constexpr double take_timeout = 0.5;     // s for a service to take a message and sleep again
+constexpr double final_messages = 0.05;  // s for what a service writes beyond what is recorded
 
 class Feeding {
  public:
@@ -61,8 +61,8 @@ class Feeding {
     }
     if (!wait_for(plan_.end)) return missing(plan_.end);
     ended_ = service::monotonic_seconds();
-    while (service::monotonic_seconds() - ended_ < last_words) {
-      bus_.signal().wait(last_words / 5);
+    while (service::monotonic_seconds() - ended_ < final_messages) {
+      bus_.signal().wait(final_messages / 5);
       drain();
     }
     return process_.ended();
@@ -107,7 +107,7 @@ class Feeding {
   void await_taken() {
     const auto before = produced_.size();
     active();
-    const double until = service::monotonic_seconds() + (heard_ ? take_patience : start_pause);
+    const double until = service::monotonic_seconds() + (heard_ ? take_timeout : start_pause);
     while (service::monotonic_seconds() < until) {
       if (heard_ ? process_.sleeps() : produced_.size() != before) break;
       if (!heard_) bus_.signal().wait(start_pause);
@@ -124,7 +124,7 @@ class Feeding {
         continue;
       }
       bus_.signal().wait(0.02);
-      if (!process_.ended().empty() || service::monotonic_seconds() - heard > options_.patience) {
+      if (!process_.ended().empty() || service::monotonic_seconds() - heard > options_.timeout) {
         drain();
         return progress_.reached(needs);
       }
@@ -137,7 +137,7 @@ class Feeding {
     return topic.qos == bus::QosKind::event || topic.handle.ends_with("_request");
   }
   bool await_reader(bus::RawWriter& to) {
-    const double until = service::monotonic_seconds() + match_patience;
+    const double until = service::monotonic_seconds() + match_timeout;
     while ((to.matched() == 0 || !active()) && service::monotonic_seconds() < until &&
            process_.ended().empty()) {
       drain();
@@ -196,7 +196,7 @@ VerifyResult verify(const VerifyOptions& options) {
   {
     const VerifyPlace place(options.domain);
     bus::Bus bus(bus::Vendor::cyclonedds, {place.domain()}, {stream_frames});
-    cluster::ChildProcess process(command_line(options, recording, plan, place), place.log());
+    cluster::ChildProcess process(child_options(command_line(options, recording, plan, place), place));
     Feeding feeding(options, recording, plan, bus, process);
     result.problem = feeding.run();
     result.seconds = feeding.seconds();

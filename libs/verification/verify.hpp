@@ -17,7 +17,7 @@ struct VerifyOptions {
   std::string machine;        ///< name or directory; empty: the name the recording has
   std::uint16_t channel = 0;  ///< of a channel service
   std::optional<std::uint32_t> domain;
-  double patience = 5;  ///< s without progress after which the service has failed
+  double timeout = 5;  ///< s without progress after which the service has failed
   DiffOptions comparison;
 };
 
@@ -27,7 +27,7 @@ struct VerifyResult {
   std::size_t inputs = 0, outputs = 0, unrecorded = 0;
   /// Of the gateway: requests over HTTP, lines of its journal that could not be sent again, and how often
   /// what it shows was compared.
-  std::size_t requests = 0, left_out = 0, looks = 0;
+  std::size_t requests = 0, left_out = 0, samples = 0;
   std::uint64_t cycles = 0;
   double seconds = 0;          ///< from the first input to the last output
   double times_real_time = 0;  ///< cycles of the stream against the cycle time

@@ -21,9 +21,9 @@ using GatewayStep;
 using bus::Json;
 using idl::gateway::Sender;
 
-constexpr int stream_frames = 4096;   // that the writer of the drive's feedback keeps
-constexpr double last_words = 0.05;   // s for what the gateway writes beyond what is recorded
-constexpr double short_wait = 0.005;  // s
+constexpr int stream_frames = 4096;      // that the writer of the drive's feedback keeps
+constexpr double final_messages = 0.05;  // s for what the gateway writes beyond what is recorded
+constexpr double short_wait = 0.005;     // s
 constexpr std::size_t shown_text = 200;
 
 std::string shortened(const std::string& text) {
@@ -37,8 +37,8 @@ class StateStream {
   bool open() const { return client_.open(); }
   const Json& state() const { return state_; }
   // False when nothing came in time, or nothing that can be meant.
-  bool take(double patience) {
-    const auto text = client_.next(patience);
+  bool take(double timeout) {
+    const auto text = client_.next(timeout);
     if (!text) return false;
     auto message = Json::parse(*text, nullptr, false);
     if (!message.is_object()) return false;
@@ -76,7 +76,7 @@ class Verification {
       problem = go(*step);
     if (problem.empty()) problem = compare_answers();
     ended_ = service::monotonic_seconds();
-    while (service::monotonic_seconds() - ended_ < last_words) {
+    while (service::monotonic_seconds() - ended_ < final_messages) {
       bus_.signal().wait(short_wait);
       drain();
     }
@@ -85,7 +85,7 @@ class Verification {
   }
 
   double seconds() const { return ended_ - began_; }
-  std::size_t looks() const { return looks_; }
+  std::size_t samples() const { return samples_; }
   std::vector<StoredMessage>& produced() { return produced_; }
   const std::vector<OperatorLine>& lines() const { return lines_; }
 
@@ -101,10 +101,10 @@ class Verification {
     return *writer;
   }
 
-  // Calls `ready` until it holds; false when the gateway has ended or its patience has.
+  // Calls `ready` until it holds; false when the gateway has ended or the time is over.
   template <class Ready>
   bool wait_for(Ready ready) {
-    const double until = service::monotonic_seconds() + options_.patience;
+    const double until = service::monotonic_seconds() + options_.timeout;
     while (!ready()) {
       if (!process_.ended().empty() || service::monotonic_seconds() > until) return false;
       bus_.signal().wait(short_wait);
@@ -141,8 +141,8 @@ class Verification {
         current_ = step.request;
         answered_ = 0;
         return await_line(*step.request);
-      case GatewayStep::Kind::look:
-        return look();
+      case GatewayStep::Kind::sample:
+        return sample();
     }
     return "";
   }
@@ -180,14 +180,14 @@ class Verification {
     return "the gateway's journal has no line of " + name_of(request.line);
   }
 
-  std::string look() {
-    ++looks_;
+  std::string sample() {
+    ++samples_;
     auto expected = shown_.document();
     take_out_clock(expected, plan_.outputs.instance);
     std::string off;
-    const double until = service::monotonic_seconds() + options_.patience;
+    const double until = service::monotonic_seconds() + options_.timeout;
     do {
-      const bool news = stream_->take(looks_ == 1 && stream_->state().is_null() ? options_.patience : 0.1);
+      const bool news = stream_->take(samples_ == 1 && stream_->state().is_null() ? options_.timeout : 0.1);
       drain();
       if (!news && !process_.ended().empty()) return process_.ended();
       auto shown = stream_->state();
@@ -246,7 +246,7 @@ class Verification {
   std::vector<OperatorLine> lines_;
   std::set<std::pair<std::uint64_t, std::uint64_t>> asked_;
   const OperatorRequest* current_ = nullptr;  ///< whose replies are due
-  std::size_t answered_ = 0, wanted_lines_ = 0, looks_ = 0, fed_ = 0;
+  std::size_t answered_ = 0, wanted_lines_ = 0, samples_ = 0, fed_ = 0;
   bus::Bytes bytes_;
   double began_ = 0, ended_ = 0;
 };
@@ -263,17 +263,17 @@ VerifyResult verify_gateway(const VerifyOptions& options, const StoredRecording&
     auto arguments = command_line(options, recording, plan.outputs, place);
     arguments.insert(arguments.end(), {"--port", std::to_string(port)});
     bus::Bus bus(bus::Vendor::cyclonedds, {place.domain()}, {stream_frames});
-    cluster::ChildProcess process(std::move(arguments), place.log());
+    cluster::ChildProcess process(child_options(std::move(arguments), place));
     Verification verification(options, plan, bus, process, port);
     result.problem = verification.run();
     result.seconds = verification.seconds();
-    result.looks = verification.looks();
+    result.samples = verification.samples();
     result.outputs = verification.produced().size();
     if (result.problem.empty())
       result.problem = unexpected_alarm(recording.messages, verification.produced(), options.service);
     produced = by_line(verification.produced(), verification.lines(), true);
   }
-  result.inputs = plan.steps.size() - result.looks;
+  result.inputs = plan.steps.size() - result.samples;
   result.requests = plan.requests.size();
   result.left_out = plan.left_out;
   result.cycles = plan.outputs.cycles;

@@ -7,7 +7,7 @@
 namespace trunnion::verification {
 
 /// As verify(), for the service gateway: compared are what it asks on the bus, its journal, every answer, and
-/// at each look of the plan the state it sends to its WebSocket clients.
+/// at each sample of the plan the state it sends to its WebSocket clients.
 VerifyResult verify_gateway(const VerifyOptions& options, const StoredRecording& recording);
 
 }  // namespace trunnion::verification

@@ -1,5 +1,7 @@
 #include "verification/verify_place.hpp"
 
+#include <unistd.h>
+
 #include <filesystem>
 #include <stdexcept>
 
@@ -7,11 +9,11 @@ namespace trunnion::verification {
 namespace fs = std::filesystem;
 
 namespace {
-constexpr double domain_patience = 60;  // s: other verifications end soon
+constexpr double domain_timeout = 60;  // s: other verifications end soon
 }
 
 VerifyPlace::VerifyPlace(std::optional<std::uint32_t> domain)
-    : run_{domain ? *domain : cluster::free_domain(domain_patience)} {
+    : run_{domain ? *domain : cluster::free_domain(domain_timeout)} {
   directory_ = run_.verification();
   fs::create_directories(directory_ + "/state");
 }
@@ -48,6 +50,16 @@ std::vector<std::string> command_line(const VerifyOptions& options, const Stored
                                      "--parent-bound"};
   if (plan.virtual_time) arguments.emplace_back("--virtual-time");
   return arguments;
+}
+
+cluster::ChildOptions child_options(std::vector<std::string> arguments, const VerifyPlace& place) {
+  if (access(arguments.at(0).c_str(), X_OK) != 0)
+    throw std::runtime_error(arguments[0] + ": cannot be started");
+  cluster::ChildOptions options;
+  options.arguments = std::move(arguments);
+  options.log = place.log();
+  options.ends_with_parent = true;
+  return options;
 }
 
 }  // namespace trunnion::verification

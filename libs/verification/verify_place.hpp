@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "cluster/child_process.hpp"
 #include "cluster/cluster_files.hpp"
 #include "verification/verify.hpp"
 #include "verification/verify_plan.hpp"
@@ -30,5 +31,8 @@ class VerifyPlace {
 /// Of the service, on the recorded machine. Throws std::runtime_error when the recording names none.
 std::vector<std::string> command_line(const VerifyOptions& options, const StoredRecording& recording,
                                       const VerifyPlan& plan, const VerifyPlace& place);
+
+/// How the service is started in its place. Throws std::runtime_error when it cannot be.
+cluster::ChildOptions child_options(std::vector<std::string> arguments, const VerifyPlace& place);
 
 }  // namespace trunnion::verification

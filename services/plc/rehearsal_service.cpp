@@ -47,11 +47,10 @@ void RehearsalService::pump() {
 service::Health RehearsalService::health() const {
   service::Health health;
   health.lifecycle = idl::service::Lifecycle::INACTIVE;
-  health.detail = rehearsal_.difference().empty() ? service::shadow_detail
-                                                  : service::differs_detail + rehearsal_.difference();
+  health.difference = rehearsal_.difference();
+  health.compared = rehearsal_.equal_ticks();
   health.in_step = rehearsal_.in_step();
   health.frames_in = rounds_in_;
-  health.frames_out = rehearsal_.equal_ticks();
   health.frames_lost = rounds_lost_;
   return health;
 }

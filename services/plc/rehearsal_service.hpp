@@ -7,8 +7,8 @@
 
 namespace trunnion::plc {
 
-/// The PLC as long as another one is the machine's: it repeats in private what that one does and says in its
-/// heartbeat how many ticks were equal (frames_out) and what was not (detail). It writes nothing else.
+/// The PLC as long as another one is the machine's: it repeats in private what that one does and reports in
+/// its heartbeat how many ticks were equal and what was not. It writes nothing else.
 class RehearsalService : public service::Service {
  public:
   /// Throws what load_programs() and RoundReader throw.

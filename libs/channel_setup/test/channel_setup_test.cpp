@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 const std::string ac_table = MACHINES_DIRECTORY "/ac-table";
 
 TEST(ChannelSetup, ReadsAxesToolsOffsetsAndTravelOfAMachineFolder) {
-  const ChannelSetup setup(load_machine_tables(ac_table));
+  const ChannelSetup setup(tool_tables::load_machine_tables(ac_table));
   EXPECT_EQ(setup.channel_axes().letters, "XYZAC");
   EXPECT_EQ(setup.axes(), 0b101111);  // bit 0 = X .. bit 5 = C, no B
   // tools.yaml: tool 1 is 100 mm long; there is no tool 9. work_offsets.yaml: G54 lies at Z -380.
@@ -31,7 +31,7 @@ TEST(ChannelSetup, ReadsAxesToolsOffsetsAndTravelOfAMachineFolder) {
 }
 
 TEST(ChannelSetup, WearCountsInTheToolLength) {
-  auto tables = load_machine_tables(ac_table);
+  auto tables = tool_tables::load_machine_tables(ac_table);
   tables.tools.tools[0].length_wear = -0.25;
   EXPECT_EQ(ChannelSetup(tables).tool_length(1), 99.75);
   const auto tool = ChannelSetup(tables).tool_offset(1);
@@ -42,7 +42,7 @@ TEST(ChannelSetup, WearCountsInTheToolLength) {
 }
 
 TEST(ChannelSetup, MCodesOfUserCyclesAreParameters) {
-  auto tables = load_machine_tables(ac_table);
+  auto tables = tool_tables::load_machine_tables(ac_table);
   EXPECT_EQ(ChannelSetup(tables).cycle_m_code(3), 0);
   tables.parameters.values[10173] = {130, ""};  // 010173: M code of G1010
   EXPECT_EQ(ChannelSetup(tables).cycle_m_code(3), 130);
@@ -50,7 +50,7 @@ TEST(ChannelSetup, MCodesOfUserCyclesAreParameters) {
 }
 
 TEST(ChannelSetup, ToolOffsetsCarryLengthRadiusAndWear) {
-  auto tables = load_machine_tables(ac_table);
+  auto tables = tool_tables::load_machine_tables(ac_table);
   tables.tools.tools[0].radius_wear = 0.02;
   const auto tool = ChannelSetup(tables).tool_offset(1);
   ASSERT_TRUE(tool);
@@ -61,7 +61,7 @@ TEST(ChannelSetup, ToolOffsetsCarryLengthRadiusAndWear) {
 }
 
 TEST(ChannelSetup, FurtherWorkOffsetsFollowTheFirstSix) {
-  auto tables = load_machine_tables(ac_table);
+  auto tables = tool_tables::load_machine_tables(ac_table);
   idl::parameters::WorkOffset offset;
   offset.index = 6;  // G54.1 P1
   offset.values = {1, 2, 3, 0, 0, 0, 0, 0, 0};
@@ -72,7 +72,7 @@ TEST(ChannelSetup, FurtherWorkOffsetsFollowTheFirstSix) {
 }
 
 TEST(ChannelSetup, ATiltedToolDirectionGivesTheRotaryAnglesOfTheMachine) {
-  const ChannelSetup setup(load_machine_tables(ac_table));
+  const ChannelSetup setup(tool_tables::load_machine_tables(ac_table));
   // A turns about -X: a table at A30 lifts the workpiece's +Y towards the spindle, so the tool points along
   // (0, sin 30, cos 30) or its opposite with C turned by 180 degrees.
   const double s = std::sin(std::numbers::pi / 6), c = std::cos(std::numbers::pi / 6);
@@ -88,7 +88,7 @@ TEST(ChannelSetup, ATiltedToolDirectionGivesTheRotaryAnglesOfTheMachine) {
 }
 
 TEST(ChannelSetup, PlanesNobodyHasEnteredDoNotExist) {
-  auto tables = load_machine_tables(ac_table);
+  auto tables = tool_tables::load_machine_tables(ac_table);
   // Plane 2: origin 1 2 3, X towards 2 2 3, Y towards 1 3 3; 04c500 + 9 .. 04c500 + 17.
   const double points[] = {1, 2, 3, 2, 2, 3, 1, 3, 3};
   for (std::uint32_t i = 0; i < 9; ++i) tables.parameters.values[40509 + i] = {points[i], ""};
@@ -100,7 +100,7 @@ TEST(ChannelSetup, PlanesNobodyHasEnteredDoNotExist) {
 }
 
 TEST(ChannelSetup, ATableThatTurnsCarriesTheTipAlong) {
-  const ChannelSetup setup(load_machine_tables(ac_table));
+  const ChannelSetup setup(tool_tables::load_machine_tables(ac_table));
   // C turns about -Z through X0 Y0: at C90 the workpiece point X10 Y0 lies at X0 Y-10, and the spindle face
   // 100 mm above the tip.
   const auto machine = setup.machine_from_tip({10, 0, -400, 0, 0, 90}, 100);
@@ -113,7 +113,7 @@ TEST(ChannelSetup, ATableThatTurnsCarriesTheTipAlong) {
 }
 
 TEST(ChannelSetup, AMoveOutOfTravelIsToldWithLineAxisAndLimits) {
-  const ChannelSetup setup(load_machine_tables(ac_table));
+  const ChannelSetup setup(tool_tables::load_machine_tables(ac_table));
   language::Command move;
   move.kind = language::CommandKind::line;
   move.line = 7;
@@ -121,25 +121,6 @@ TEST(ChannelSetup, AMoveOutOfTravelIsToldWithLineAxisAndLimits) {
   EXPECT_EQ(setup.travel_error({}, move), "7: X would go to 500.0000, its travel is -400.0000 .. 400.0000");
   move.target = {400};
   EXPECT_EQ(setup.travel_error({}, move), "");
-}
-
-TEST(MachineTables, AChannelTheMachineDoesNotHaveIsRefused) {
-  EXPECT_THROW(load_machine_tables(ac_table, 1), std::runtime_error);
-  EXPECT_EQ(load_machine_tables(MACHINES_DIRECTORY "/two-channel", 1).channel, 1);
-}
-
-TEST(MachineTables, AWrongTableIsRefusedWithItsPlace) {
-  const fs::path copy = fs::temp_directory_path() / ("setup_test_" + std::to_string(getpid()));
-  fs::copy(ac_table, copy, fs::copy_options::recursive);
-  std::ofstream(copy / tools_file) << "- {number: 1, length: long}\n";
-  std::string message;
-  try {
-    load_machine_tables(copy.string());
-  } catch (const std::runtime_error& e) {
-    message = e.what();
-  }
-  fs::remove_all(copy);
-  EXPECT_NE(message.find("tools.yaml:1:23: error: 'length'"), std::string::npos) << message;
 }
 
 }  // namespace

@@ -27,7 +27,7 @@ void PrintTo(const Parameter& p, std::ostream* out) { *out << p.name; }
 class BadParameters : public testing::TestWithParam<Parameter> {};
 
 TEST_P(BadParameters, HaveAnAlarmOfTheirOwn) {
-  auto tables = load_machine_tables(std::string(MACHINES_DIRECTORY) + "/ac-table");
+  auto tables = tool_tables::load_machine_tables(std::string(MACHINES_DIRECTORY) + "/ac-table");
   for (const auto& [number, value] : GetParam().values) tables.parameters.values[number] = {value, ""};
   try {
     const ChannelSetup setup(std::move(tables));
@@ -57,7 +57,7 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& one) { return std::string(one.param.name); });
 
 TEST(BadParameters, ADirectionThatIsNotOneLongIsNormalizedWithAWarning) {
-  auto tables = load_machine_tables(std::string(MACHINES_DIRECTORY) + "/ac-table");
+  auto tables = tool_tables::load_machine_tables(std::string(MACHINES_DIRECTORY) + "/ac-table");
   tables.parameters.values[40426] = {-0.5, ""};
   EXPECT_EQ(machine::kinematics_warnings(tables.parameters, 0).size(), 1u);
   EXPECT_EQ(alarm::direction_not_unit.number, 148u);

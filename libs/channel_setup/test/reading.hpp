@@ -49,7 +49,7 @@ inline Reading read(ChannelSetup& setup, const std::string& text) {
 }
 
 inline ChannelSetup setup_of(const std::string& machine) {
-  return ChannelSetup(load_machine_tables(std::string(MACHINES_DIRECTORY) + "/" + machine));
+  return ChannelSetup(tool_tables::load_machine_tables(std::string(MACHINES_DIRECTORY) + "/" + machine));
 }
 
 }  // namespace trunnion::channel_setup::test

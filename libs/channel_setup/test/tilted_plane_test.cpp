@@ -14,7 +14,7 @@ namespace {
 class TiltedPlane : public testing::TestWithParam<std::uint32_t> {};
 
 TEST_P(TiltedPlane, OfThreePointsIsTheOneOfItsParameters) {
-  auto tables = load_machine_tables(std::string(MACHINES_DIRECTORY) + "/ac-table");
+  auto tables = tool_tables::load_machine_tables(std::string(MACHINES_DIRECTORY) + "/ac-table");
   const std::uint32_t first = 40500 + 9 * (GetParam() - 1);
   const double points[] = {10, 20, 30, 11, 20, 30, 10, 21, 31};
   for (std::uint32_t i = 0; i < 9; ++i) tables.parameters.values[first + i] = {points[i], ""};

@@ -209,7 +209,7 @@ TEST(ToolVectors, FaultsOfTheWayAreAlarmsBeforeItsFirstMove) {
   EXPECT_EQ(alarm(ac_table, "I1\nI0 J0 K0\n"), AlarmNumber::tool_vector_zero);
   auto nutating = setup_of("nutating-b-head-c-table");
   EXPECT_EQ(alarm(nutating, "I1 K1\nI1 K-0.5\n"), AlarmNumber::orientation_impossible);
-  auto tables = load_machine_tables(std::string(MACHINES_DIRECTORY) + "/ac-table");
+  auto tables = tool_tables::load_machine_tables(std::string(MACHINES_DIRECTORY) + "/ac-table");
   tables.parameters.values[40100] = {1, ""};
   ChannelSetup careful(tables);
   EXPECT_EQ(alarm(careful, "G0 J-0.3 K1\nG1 X1 J0.3 K1\n"), AlarmNumber::tool_vector_pole)

@@ -79,7 +79,7 @@ INSTANTIATE_TEST_SUITE_P(
 // B60 takes X to about 10 + 180 sin 60 / cos 60 = 322, whatever the tool. At B90 no position of X, Y and Z
 // holds the tip, and on the way there they have left their travel.
 TEST(TravelOfAQuill, EndsWhereItCannotHoldTheTip) {
-  auto tables = load_machine_tables(std::string(MACHINES_DIRECTORY) + "/b-head-c-table");
+  auto tables = tool_tables::load_machine_tables(std::string(MACHINES_DIRECTORY) + "/b-head-c-table");
   tables.parameters.values[40907] = {1, ""};
   ChannelSetup setup(std::move(tables));
   const std::string start = "G43.4 H1\nG0 X0 Y0 Z700\n";

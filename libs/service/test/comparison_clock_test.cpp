@@ -24,7 +24,7 @@ TEST(ComparisonClock, InStepAfterALookThatFindsNothingAndThenOnlyNewsIsLookedAt)
   EXPECT_FALSE(watch.clock.health().in_step);
   watch.at(10);
   EXPECT_TRUE(watch.clock.health().in_step);
-  EXPECT_EQ(watch.clock.health().detail, "shadow");
+  EXPECT_EQ(watch.clock.health().difference, "");
   for (int k = 0; k < 100; ++k) watch.at(10 + 0.05 * k);
   EXPECT_EQ(watch.looks, 1);
   watch.at(20, true);
@@ -38,14 +38,14 @@ TEST(ComparisonClock, ADifferenceCountsOnceItHasLastedASecond) {
   for (int k = 0; k < 19; ++k) {  // 0.9 s
     watch.at(10 + 0.05 * k);
     EXPECT_FALSE(watch.clock.health().in_step);
-    EXPECT_EQ(watch.clock.health().detail, "shadow");
+    EXPECT_EQ(watch.clock.health().difference, "");
   }
   for (int k = 19; k < 24; ++k) watch.at(10 + 0.05 * k);
-  EXPECT_EQ(watch.clock.health().detail, "differs in the tool table");
+  EXPECT_EQ(watch.clock.health().difference, "the tool table");
   EXPECT_FALSE(watch.clock.health().in_step);
   watch.differs = "";
   watch.at(20, true);
-  EXPECT_EQ(watch.clock.health().detail, "differs in the tool table") << "it stays found";
+  EXPECT_EQ(watch.clock.health().difference, "the tool table") << "it stays found";
 }
 
 TEST(ComparisonClock, WhatWasOnlyNotThereYetIsNoDifference) {
@@ -60,14 +60,14 @@ TEST(ComparisonClock, WhatWasOnlyNotThereYetIsNoDifference) {
   EXPECT_TRUE(watch.clock.health().in_step);
   watch.differs = "the revision: 8 and 7";
   watch.at(12.5, true);  // the second begins anew
-  EXPECT_EQ(watch.clock.health().detail, "shadow");
+  EXPECT_EQ(watch.clock.health().difference, "");
 }
 
 TEST(ComparisonClock, AFileThatCannotBeReadIsADifference) {
   ComparisonClock clock;
   const auto fails = []() -> std::string { throw std::runtime_error("tools.yaml:3:1: error"); };
   for (int k = 0; k < 12; ++k) clock.look(false, 10 + 0.1 * k, fails);
-  EXPECT_EQ(clock.health().detail, "differs in tools.yaml:3:1: error");
+  EXPECT_EQ(clock.health().difference, "tools.yaml:3:1: error");
 }
 
 }  // namespace

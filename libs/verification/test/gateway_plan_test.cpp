@@ -18,8 +18,8 @@ std::string text_of(const GatewayPlan& plan) {
   std::string text;
   for (const auto& step : plan.steps)
     text += step.kind == Kind::feed ? step.message->topic->handle + " "
-            : step.kind == Kind::look
-                ? "look "
+            : step.kind == Kind::sample
+                ? "sample "
                 : (step.kind == Kind::ask ? "ask " : "await ") + step.request->line.target + " ";
   return text;
 }
@@ -39,7 +39,7 @@ TEST(GatewayPlan, ARequestIsSentWhereTheGatewayActedOnItAndAnsweredAsRecorded) {
   const auto recording = one_order();
   const auto plan = plan_gateway(recording);
   EXPECT_EQ(text_of(plan),
-            "cluster parameter_set service_state channel_state look ask /a channel_state look ")
+            "cluster parameter_set service_state channel_state sample ask /a channel_state sample ")
       << "the heartbeat of the recorded gateway is not fed";
   EXPECT_EQ(plan.outputs.instance, gateway_instance);
   ASSERT_EQ(plan.requests.size(), 1u);
@@ -153,8 +153,8 @@ TEST(GatewayPlan, NothingTakesTimeWhileAJogMustBeRenewedAndItsStopIsWaitedFor) {
   recording.messages.push_back(stored(topics::operator_request, stop, 26));
   const auto plan = plan_gateway(recording);
   const auto text = text_of(plan);
-  EXPECT_EQ(text.substr(text.find("look")),
-            "look ask /jog channel_state ask /jog channel_state await /jog-stop look ");
+  EXPECT_EQ(text.substr(text.find("sample")),
+            "sample ask /jog channel_state ask /jog channel_state await /jog-stop sample ");
 }
 
 TEST(GatewayPlan, ItLooksAroundAlarmsAndEverySoOften) {
@@ -167,9 +167,10 @@ TEST(GatewayPlan, ItLooksAroundAlarmsAndEverySoOften) {
   recording.messages.push_back(stored(topics::alarm, alarm, 20));
   recording.messages.push_back(stored(topics::channel_state, channel_state(2), 21));
   EXPECT_EQ(text_of(plan_gateway(recording)),
-            "cluster parameter_set service_state channel_state look alarm look channel_state look ");
-  EXPECT_EQ(text_of(plan_gateway(recording, 2)),
-            "cluster parameter_set look service_state channel_state look alarm look channel_state look ");
+            "cluster parameter_set service_state channel_state sample alarm sample channel_state sample ");
+  EXPECT_EQ(
+      text_of(plan_gateway(recording, 2)),
+      "cluster parameter_set sample service_state channel_state sample alarm sample channel_state sample ");
 }
 
 TEST(GatewayPlan, ARecordingWithNothingToShowIsRefused) {
