@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "bus/registry.hpp"
+#include "cluster/cluster_files.hpp"
 #include "cluster_harness.hpp"
 #include "machine/services.hpp"
 
@@ -146,7 +147,7 @@ TEST(Rights, EveryRightIsUsedAndNothingIsOpenedWithoutOne) {
   Cluster cluster(machine.path(), Time::virtual_, "mixed", true);
   const auto domain = cluster.running().run.domain;
   Discovery discovery(domain);
-  const auto here = deploy::binary_directory();
+  const auto here = cluster::binary_directory();
   const auto more = " --domain " + std::to_string(domain);
   const auto recording = machine.path() + "/day.mcap";
   EXPECT_EQ(run(here + "/trunnion record " + recording + " --duration 1" + more), 0);

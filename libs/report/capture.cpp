@@ -4,7 +4,7 @@
 #include <numeric>
 #include <tuple>
 
-#include "bus/cdr.hpp"
+#include "bus/codec.hpp"
 #include "bus/registry.hpp"
 #include "contracts/topics.hpp"
 

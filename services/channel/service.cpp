@@ -17,7 +17,7 @@ constexpr double record_seconds = 0.2;  // between two records of the executed l
 constexpr double text_patience = 0.5;   // without the text that motion waits for, before somebody is told
 }  // namespace
 
-ChannelService::ChannelService(node::Node& node)
+ChannelService::ChannelService(service::Node& node)
     : node_(node),
       parameters_(node.bus()),
       core_(static_cast<std::uint16_t>(node.options().channel), node.options().virtual_time),
@@ -41,7 +41,7 @@ ChannelService::ChannelService(node::Node& node)
       record_file_(node.options().state_directory + "/channel-" + std::to_string(node.options().channel) +
                    ".program"),
       record_(record_file_) {
-  copies_ = stream::CopyWatch(node.options().machine.services, node::monotonic_seconds());
+  copies_ = stream::CopyWatch(node.options().machine.services, service::monotonic_seconds());
   if (!copies_.copies().empty()) progress_reader_.emplace(node.bus().reader(topics::stage_progress));
   std::ifstream boot(node.options().state_directory + "/cluster.boot");
   std::getline(boot, boot_);
@@ -68,7 +68,7 @@ void ChannelService::read_record() {
 
 // The line is written now and then, the beginning and the end of a program at once.
 void ChannelService::keep_record() {
-  const double now = node::monotonic_seconds();
+  const double now = service::monotonic_seconds();
   if (core_.program_under_way() == (kept_.line != 0) && now - kept_at_ < record_seconds) return;
   const auto program = core_.running_program();
   if (program == kept_) return;
@@ -86,7 +86,7 @@ void ChannelService::keep_record() {
 
 void ChannelService::watch_text() {
   const auto channel = static_cast<std::uint32_t>(node_.options().channel);
-  const double now = node::monotonic_seconds();
+  const double now = service::monotonic_seconds();
   if (!core_.waits_for_text()) {
     if (text_missing_since_ < 0) node_.alarms().release(alarm::text_late, channel);
     text_missing_since_ = 0;
@@ -201,7 +201,7 @@ void ChannelService::watch_alarms() {
 // Twins: a start waits for both copies; in virtual time no copy is left farther behind than 2 * lead.
 void ChannelService::watch_copies() {
   if (!progress_reader_) return;
-  const double now = node::monotonic_seconds();
+  const double now = service::monotonic_seconds();
   idl::stream::StageProgress progress;
   while (progress_reader_->take(progress))
     if (progress.channel == node_.options().channel) copies_.heard(progress, now);
@@ -274,7 +274,7 @@ void ChannelService::recover() {
   if (!have_present_) have_present_ = present_reader_->take(present_);
   const bool caught_up = have_present_ && feedback_.tick >= present_.tick &&
                          feedback_.first + feedback_.count >= present_.first + present_.count;
-  if (!caught_up && (have_present_ || node::monotonic_seconds() - last_feedback_ < history_pause)) return;
+  if (!caught_up && (have_present_ || service::monotonic_seconds() - last_feedback_ < history_pause)) return;
   if (hand_over_) core_.take_over(*hand_over_);
   hand_over_.reset();
   core_.recover();
@@ -287,7 +287,7 @@ void ChannelService::pump() {
   if (!frame_writer_) start_stream();
   while (feedback_reader_->take(feedback_)) {
     ++frames_in_;
-    last_feedback_ = node::monotonic_seconds();
+    last_feedback_ = service::monotonic_seconds();
     core_.on_feedback(feedback_);
   }
   recover();
@@ -318,7 +318,7 @@ void ChannelService::pump() {
 }
 
 void ChannelService::publish() {
-  const double now = node::monotonic_seconds();
+  const double now = service::monotonic_seconds();
   if (!changed_ && last_run_ == core_.run_state() && now - last_state_ < 0.05) return;
   state_writer_.write(core_.state());
   last_state_ = now;
@@ -326,9 +326,9 @@ void ChannelService::publish() {
   changed_ = false;
 }
 
-node::Health ChannelService::health() const {
+service::Health ChannelService::health() const {
   using idl::service::Lifecycle;
-  node::Health health;
+  service::Health health;
   const bool tables = have_tools_ && have_offsets_ && have_programs_;
   health.lifecycle = !core_.configured() || !tables ? Lifecycle::UNCONFIGURED
                      : core_.recovered()            ? Lifecycle::ACTIVE

@@ -19,7 +19,7 @@ std::uint64_t identity(const bus::Reader<T>& reader) {
 }
 }  // namespace
 
-DriveService::DriveService(node::Node& node)
+DriveService::DriveService(service::Node& node)
     : node_(node),
       parameters_(node.bus()),
       encoders_(node.options().state_directory + "/encoders.bin", sizeof(Memory)),
@@ -40,7 +40,7 @@ void DriveService::start() {
   alarms_.emplace(node_.bus().reader(topics::alarm));
   requests_.emplace(node_.bus().reader(topics::stream_request));
   frames_.emplace(node_.bus().reader(topics::gantry_frame));
-  next_tick_ = node::monotonic_seconds();
+  next_tick_ = service::monotonic_seconds();
   send();
 }
 
@@ -58,7 +58,7 @@ void DriveService::applied(idl::stream::Input input, std::uint64_t identity) {
 void DriveService::drain() {
   using idl::stream::Input;
   if (parameters_.poll() && core_.configured() && !core_.any_active()) configure(*parameters_.newest());
-  const double now = node::monotonic_seconds();
+  const double now = service::monotonic_seconds();
   while (frames_->take(frame_)) {
     ++frames_in_;
     // The revision of the frames that move it is the one the drive runs with.
@@ -125,14 +125,14 @@ void DriveService::send() {
   writer_->write(feedback_);
   ++frames_out_;
   *memory_ = core_.memory();
-  last_sent_ = node::monotonic_seconds();
+  last_sent_ = service::monotonic_seconds();
   changed_ = false;
 }
 
 void DriveService::run_virtual() {
   bool give_up = false;
   if (core_.waiting()) {
-    const double now = node::monotonic_seconds();
+    const double now = service::monotonic_seconds();
     if (waiting_since_ == 0) waiting_since_ = now;
     give_up = now - waiting_since_ > patience;
   } else {
@@ -154,7 +154,7 @@ void DriveService::run_virtual() {
 }
 
 void DriveService::run_real() {
-  const double now = node::monotonic_seconds();
+  const double now = service::monotonic_seconds();
   if (now - next_tick_ > 0.5) next_tick_ = now;  // suspended: time that nobody lived through is not made up
   while (next_tick_ <= now) {
     core_.step();
@@ -178,17 +178,17 @@ void DriveService::pump() {
     node_.alarms().raise(*event.alarm, event.part, event.text, core_.next());
     node_.alarms().release(*event.alarm, event.part);
   }
-  if (changed_ || mode != core_.mode() || node::monotonic_seconds() - last_sent_ > idle_feedback) send();
+  if (changed_ || mode != core_.mode() || service::monotonic_seconds() - last_sent_ > idle_feedback) send();
 }
 
 double DriveService::period() const {
   if (!core_.configured() || node_.options().virtual_time) return 0.02;
-  return std::max(0.0, next_tick_ - node::monotonic_seconds());
+  return std::max(0.0, next_tick_ - service::monotonic_seconds());
 }
 
-node::Health DriveService::health() const {
+service::Health DriveService::health() const {
   using idl::service::Lifecycle;
-  node::Health health;
+  service::Health health;
   health.lifecycle = !core_.configured() ? Lifecycle::UNCONFIGURED
                      : have_plc_         ? Lifecycle::ACTIVE
                                          : Lifecycle::INACTIVE;

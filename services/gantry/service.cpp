@@ -8,7 +8,7 @@
 
 namespace trunnion::gantry {
 
-GantryService::GantryService(node::Node& node)
+GantryService::GantryService(service::Node& node)
     : StageService(node, stream::stage_gantry, topics::compensation_frame, topics::gantry_frame,
                    [] { return std::make_unique<GantryCore>(); }) {}
 

@@ -34,7 +34,7 @@ std::string in_directory(const std::string& directory, const char* name) {
 
 }  // namespace
 
-PlcService::PlcService(node::Node& node)
+PlcService::PlcService(service::Node& node)
     : node_(node),
       retained_(in_directory(node.options().state_directory, "plc.image")),
       boot_(read_file(node.options().state_directory + "/cluster.boot").substr(0, 63)),
@@ -68,7 +68,7 @@ PlcService::PlcService(node::Node& node)
 
 void PlcService::begin_round() {
   if (!core_.configured()) return;
-  const auto generation = round_writer_.wanted(node::monotonic_seconds());
+  const auto generation = round_writer_.wanted(service::monotonic_seconds());
   if (!rounds_.begin_round(generation, core_, parameters_.newest()->revision)) return;
   bus::encode(rounds_.first_round(), round_bytes_);
   round_writer_.write(round_bytes_);
@@ -87,7 +87,7 @@ void PlcService::advance(std::uint64_t tick) {
 
 void PlcService::applied(idl::stream::Input input, std::int64_t source_time) {
   inputs_.applied.push_back({input, core_.memory().tick, static_cast<std::uint64_t>(source_time)});
-  if (inputs_.applied.size() == most_applied) tell_inputs(node::monotonic_seconds());
+  if (inputs_.applied.size() == most_applied) tell_inputs(service::monotonic_seconds());
 }
 
 void PlcService::tell_inputs(double now) {
@@ -110,7 +110,7 @@ void PlcService::take_inputs() {
     advance(node_.options().virtual_time ? frame_.tick : std::max(frame_.tick, core_.memory().tick));
     if (frame_.tick != tick_) {
       tick_ = frame_.tick;
-      tick_seen_ = node::monotonic_seconds();
+      tick_seen_ = service::monotonic_seconds();
     }
   }
   idl::channel::ChannelState state;
@@ -167,7 +167,7 @@ void PlcService::pump() {
   }
   take_inputs();
   if (!core_.configured()) return;
-  const double now = node::monotonic_seconds();
+  const double now = service::monotonic_seconds();
   if (!core_.waits_for_standstill()) {
     waiting_since_ = 0;
   } else if (waiting_since_ == 0) {
@@ -225,9 +225,9 @@ void PlcService::publish(double now) {
   }
 }
 
-node::Health PlcService::health() const {
+service::Health PlcService::health() const {
   using idl::service::Lifecycle;
-  node::Health health;
+  service::Health health;
   health.lifecycle = !fault_.empty()       ? Lifecycle::FAULT
                      : !core_.configured() ? Lifecycle::UNCONFIGURED
                                            : Lifecycle::ACTIVE;

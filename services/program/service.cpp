@@ -15,7 +15,7 @@ std::string make_directory(const std::string& path) {
 
 }  // namespace
 
-ProgramService::ProgramService(node::Node& node)
+ProgramService::ProgramService(service::Node& node)
     : node_(node),
       programs_(make_directory(node.options().state_directory + "/programs")),
       state_(node.options().state_directory),
@@ -36,7 +36,7 @@ ProgramService::ProgramService(node::Node& node)
 }
 
 void ProgramService::pump() {
-  const double now = node::monotonic_seconds();
+  const double now = service::monotonic_seconds();
   idl::program::ProgramRequest request;
   while (requests_.take(request)) {
     auto reply = store_.apply(request, now);
@@ -55,8 +55,8 @@ void ProgramService::pump() {
   if (store_.take_change()) list_.write(store_.list());
 }
 
-node::Health ProgramService::health() const {
-  node::Health health;
+service::Health ProgramService::health() const {
+  service::Health health;
   health.lifecycle = idl::service::Lifecycle::ACTIVE;
   return health;
 }

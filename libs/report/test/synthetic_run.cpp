@@ -4,8 +4,9 @@
 
 #include <array>
 
-#include "bus/cdr.hpp"
+#include "bus/codec.hpp"
 #include "bus/registry.hpp"
+#include "channel_setup/channel_setup.hpp"
 #include "contracts/topics.hpp"
 #include "language/interpreter.hpp"
 #include "machine/axes.hpp"
@@ -13,7 +14,6 @@
 #include "motion/trajectory.hpp"
 #include "recording/file_stream.hpp"
 #include "recording/mcap_writer.hpp"
-#include "setup/channel_setup.hpp"
 
 namespace trunnion::report::test {
 namespace {
@@ -29,7 +29,7 @@ struct Row {
 
 // What the channel does, without a bus: commands into motion, motion into rows.
 std::vector<Row> rows_of(const std::string& program, const MachineTables& tables) {
-  setup::ChannelSetup environment(tables);
+  channel_setup::ChannelSetup environment(tables);
   const auto chain = machine::make_chain(tables.parameters, 0);
   motion::Limits limits;
   const auto axes = machine::channel_axes(tables.parameters, 0);

@@ -12,8 +12,8 @@ ChannelCore::ChannelCore(std::uint16_t channel, bool virtual_time)
       virtual_time_(virtual_time),
       machine_(channel),
       link_(channel),
-      program_flow_(machine_, program_trajectory_),
-      mdi_flow_(machine_, manual_trajectory_),
+      program_flow_(machine_),
+      mdi_flow_(machine_),
       written_(history) {
   machine_.resolve = [this](std::string_view name) {
     return (activity_ == Activity::mdi ? mdi_shelf_ : program_shelf_).call(programs_, name);

@@ -63,21 +63,21 @@ void ChannelCore::run_pending(FlowState state) {
       flow().finish_pending();
       return;
     case CommandKind::tool:
-      begin_auxiliary({3, command.number, 0});
+      begin_auxiliary({program_execution::AuxiliaryKind::t, command.number, 0});
       return;
     case CommandKind::spindle_speed:
       spindle_programmed_ = command.value;
-      begin_auxiliary({2, 0, command.value});
+      begin_auxiliary({program_execution::AuxiliaryKind::s, 0, command.value});
       return;
     case CommandKind::auxiliary:
       if (command.number == 1 && !optional_stop_) {
         flow().finish_pending();
         return;
       }
-      begin_auxiliary({1, command.number, 0});
+      begin_auxiliary({program_execution::AuxiliaryKind::m, command.number, 0});
       return;
     case CommandKind::end:
-      begin_auxiliary({1, command.number, 0});
+      begin_auxiliary({program_execution::AuxiliaryKind::m, command.number, 0});
       return;
     default:
       flow().finish_pending();
@@ -89,8 +89,9 @@ std::optional<idl::channel::AuxiliaryRequest> ChannelCore::take_auxiliary() {
   return std::exchange(outgoing_auxiliary_, std::nullopt);
 }
 
-void ChannelCore::begin_auxiliary(const AuxiliaryOrder& order) {
-  auxiliary_ = {number_, ++auxiliary_number_, order.kind, order.code, order.value, link_.executed()};
+void ChannelCore::begin_auxiliary(const program_execution::AuxiliaryFunction& function) {
+  auxiliary_ = {number_,       ++auxiliary_number_, static_cast<std::uint8_t>(function.kind),
+                function.code, function.value,      link_.executed()};
   outgoing_auxiliary_ = auxiliary_;
   auxiliary_open_ = true;
   run_ = RunState::WAITING;

@@ -43,7 +43,7 @@ Answer ChannelCore::start_program(const Entry& entry) {
   program_flow_.set_offset(offset_on_ ? std::optional(offset_.target()) : std::nullopt);
   frames_kept_ = false;
   forget_sequences();
-  program_flow_.start(text, program_start_, modal, *variables_, entry);
+  program_flow_.start(*trajectory_, text, program_start_, modal, *variables_, entry);
   restart_ = restart.sequence != 0 ? std::optional(restart) : std::nullopt;
   preparation_.reset();
   preparing_motion_ = retracing_ = false;
@@ -84,7 +84,7 @@ void ChannelCore::prepare_entry() {
   };
   const auto line = shown_.line;
   Preparation preparation;
-  if (by_line) preparation.orders = program_flow_.auxiliaries().orders();
+  if (by_line) preparation.functions = program_flow_.auxiliaries().functions();
   preparation.moves = approach_moves(machine_start_, target, line);
   if (restart_ && is_near(machine_start_, target) && preparation.moves.size() > 1)
     preparation.moves.erase(preparation.moves.begin());
@@ -118,11 +118,11 @@ bool ChannelCore::run_preparation() {
     run_ = RunState::HELD;
     return false;
   }
-  auto& orders = preparation_->orders;
-  if (!orders.empty()) {
-    const auto order = orders.front();
-    orders.erase(orders.begin());
-    if (!auxiliary_lock_) begin_auxiliary(order);
+  auto& functions = preparation_->functions;
+  if (!functions.empty()) {
+    const auto function = functions.front();
+    functions.erase(functions.begin());
+    if (!auxiliary_lock_) begin_auxiliary(function);
     return run_ == RunState::RUNNING;
   }
   if (!preparing_motion_) {
@@ -183,7 +183,7 @@ Answer ChannelCore::go_on_after_suspension() {
                                             " is in the spindle");
   adopt_position();
   Preparation preparation;
-  preparation.orders = program_flow_.auxiliaries().orders_touched_by(suspended_->by_hand);
+  preparation.functions = program_flow_.auxiliaries().functions_changed_by(suspended_->by_hand);
   preparation.moves = approach_moves(machine_start_, suspended_->machine, suspended_->shown.line);
   if (const auto error = approach_error(machine_, machine_start_, preparation.moves); !error.empty())
     return refuse(alarm::travel_limit, "On the way back to line " + error);
@@ -223,7 +223,8 @@ Answer ChannelCore::start_mdi(const std::string& line) {
   mdi_flow_.set_dry_run_feed(dry_run_ ? machine_.dry_run_feed() : 0);
   mdi_flow_.set_offset(offset_on_ ? std::optional(offset_.target()) : std::nullopt);
   forget_sequences();
-  mdi_flow_.start(*mdi_source_, position, modal_, suspended_ ? program_flow_.variables() : *variables_, {},
+  mdi_flow_.start(*trajectory_, *mdi_source_, position, modal_,
+                  suspended_ ? program_flow_.variables() : *variables_, {},
                   frames_kept_ ? language::Beginning::line : language::Beginning::program);
   // What is wrong with the line is the answer to whoever typed it.
   const auto state = mdi_flow_.fill(false);

@@ -119,7 +119,7 @@ Answer ChannelCore::turn_handwheel(const ChannelRequest& request) {
     added = wheel_.turn(axis, distance, travel.negative - at, travel.positive - at);
   } else {
     // The path that is planned already must keep its travel with the new offset.
-    const auto box = in_motion ? flow().extent() : setup::AxisBox::of(machine_start_);
+    const auto box = in_motion ? flow().extent() : channel_setup::AxisBox::of(machine_start_);
     added = offset_.turn(axis, distance, travel.negative - box.low[axis], travel.positive - box.high[axis]);
     if (in_motion) flow().set_offset(offset_.target());
   }

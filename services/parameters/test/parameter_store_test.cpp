@@ -305,12 +305,12 @@ TEST(Tables, ErrorsSayFileLineColumn) {
     }
     return std::string();
   };
-  EXPECT_THAT(message(setup::read_tools, "- {number: 1, length: long}\n"),
+  EXPECT_THAT(message(tool_tables::read_tools, "- {number: 1, length: long}\n"),
               HasSubstr("f.yaml:1:23: error: 'length'"));
-  EXPECT_THAT(message(setup::read_tools, "- {number: 0}\n"), HasSubstr("f.yaml:1:3: error: tool 0"));
-  EXPECT_THAT(message(setup::read_offsets, "- {channel: 0, offset: G60}\n"),
+  EXPECT_THAT(message(tool_tables::read_tools, "- {number: 0}\n"), HasSubstr("f.yaml:1:3: error: tool 0"));
+  EXPECT_THAT(message(tool_tables::read_offsets, "- {channel: 0, offset: G60}\n"),
               HasSubstr("f.yaml:1:24: error: 'G60' is not"));
-  EXPECT_THAT(message(setup::read_offsets, "- {channel: 0, offset: G54, Q: 1}\n"),
+  EXPECT_THAT(message(tool_tables::read_offsets, "- {channel: 0, offset: G54, Q: 1}\n"),
               HasSubstr("f.yaml:1:29: error: unknown"));
 }
 
