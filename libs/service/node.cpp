@@ -65,7 +65,7 @@ Node::Node(Options options)
       announcement_(bus_.writer(topics::announcement)),
       state_writer_(bus_.writer(topics::service_state)),
       alarm_reset_(bus_.reader(topics::alarm_reset)) {
-  stop_requested = take_over_requested = 0;
+  stop_requested = 0;
   struct sigaction action {};
   action.sa_handler = request_stop;
   sigaction(SIGTERM, &action, nullptr);
