@@ -10,7 +10,7 @@
 #include "cluster/cluster.hpp"
 #include "cluster/instances.hpp"
 #include "commands.hpp"
-#include "machine/alarms.hpp"
+#include "machine/alarm_constants.hpp"
 #include "stream/copy_watch.hpp"
 #include "stream/stage_names.hpp"
 
@@ -89,7 +89,7 @@ std::string replica_state(const idl::service::ClusterService& service, bool in_s
   const auto stage = stream::stage_of(service.service);
   if (stage == 0 || service.pid == 0) return "";
   const auto part = stream::copy_part(stage, service.copy);
-  const auto number = machine::alarm_definition("redundancy_lost").number;
+  const auto number = alarm::redundancy_lost.number;
   for (const auto& [key, alarm] : alarms)
     if (alarm.active && alarm.number == number && alarm.part == part &&
         alarm.source == stream::stage_name(stream::stage_channel))

@@ -12,6 +12,7 @@
 
 #include "cluster/child_process.hpp"
 #include "cluster/instances.hpp"
+#include "machine/alarm_constants.hpp"
 #include "service/node.hpp"
 
 namespace trunnion::launcher {
@@ -75,7 +76,7 @@ bool Launcher::has_live_twin(const ServiceProcess& process) const {
 void Launcher::lose(ServiceProcess& process, const std::string& how) {
   process.lost = true;
   process.lifecycle = idl::service::Lifecycle::UNCONFIGURED;
-  alarms_.raise(has_live_twin(process) ? "redundancy_lost" : "service_lost", process.entry.instance,
+  alarms_.raise(has_live_twin(process) ? alarm::redundancy_lost : alarm::service_lost, process.entry.instance,
                 "Service " + process.name() + " " + how);
 }
 
@@ -103,7 +104,7 @@ bool Launcher::collect_ended(std::string& failure) {
     }
     lose(process, how);
     if (process.policy.gave_up())
-      alarms_.raise("service_not_staying", e.instance,
+      alarms_.raise(alarm::service_not_staying, e.instance,
                     "Service " + process.name() + " does not stay up: it ended " +
                         std::to_string(process.policy.short_lives()) +
                         " times in a row. A reset of the alarms starts it again");
@@ -119,8 +120,8 @@ void Launcher::follow(ServiceProcess& process, const idl::service::ServiceState&
       state.service != process.entry.service || state.lifecycle != idl::service::Lifecycle::ACTIVE ||
       !state.in_step || (process.pid != 0 && state.instance < process.entry.instance))
     return;
-  for (const char* alarm : {"service_lost", "redundancy_lost", "contract_mismatch"})
-    alarms_.clear(alarm, process.entry.instance);
+  for (const auto* alarm : {&alarm::service_lost, &alarm::redundancy_lost, &alarm::contract_mismatch})
+    alarms_.clear(*alarm, process.entry.instance);
   process.lost = false;
   process.entry.instance = state.instance;
   process.entry.vendor = state.vendor;
@@ -140,7 +141,7 @@ void Launcher::hear(ServiceProcess& process, const idl::service::ServiceState& s
   if (process.entry.instance != state.instance) follow(process, state, now);
   if (process.entry.instance != state.instance) return;
   if (state.service != process.entry.service) {
-    alarms_.raise("machine_differs", state.instance,
+    alarms_.raise(alarm::machine_differs, state.instance,
                   "Instance " + std::to_string(state.instance) + " is " + process.entry.service +
                       " in this host's machine.yaml, a service " + state.service +
                       " has this number elsewhere");
@@ -190,12 +191,12 @@ void Launcher::listen() {
     announced_[announcement.instance] = announcement;
     if (is_candidate(announcement.instance)) continue;  // it is refused, which is no alarm
     if (announcement.contract != topics::contract_hash)
-      alarms_.raise("contract_mismatch", announcement.instance,
+      alarms_.raise(alarm::contract_mismatch, announcement.instance,
                     "Service " + announcement.service + " (" + announcement.version +
                         ") was built with contract " + announcement.contract + ", this cluster with " +
                         topics::contract_hash);
     else
-      alarms_.clear("contract_mismatch", announcement.instance);
+      alarms_.clear(alarm::contract_mismatch, announcement.instance);
   }
   idl::service::AlarmReset reset;
   while (resets_.take(reset)) {
@@ -221,11 +222,11 @@ void Launcher::watch() {
     }
     if (process.lost && process.lifecycle == idl::service::Lifecycle::ACTIVE) {
       process.lost = false;
-      alarms_.release("service_lost", process.entry.instance);
-      alarms_.release("service_not_staying", process.entry.instance);
+      alarms_.release(alarm::service_lost, process.entry.instance);
+      alarms_.release(alarm::service_not_staying, process.entry.instance);
     }
     // That there are two again needs no acknowledgement.
-    if (!process.lost && process.in_step) alarms_.clear("redundancy_lost", process.entry.instance);
+    if (!process.lost && process.in_step) alarms_.clear(alarm::redundancy_lost, process.entry.instance);
   }
 }
 

@@ -35,7 +35,7 @@ class Runner {
         moves_(moves),
         most_(most_cycles),
         trajectory_(machine.limits(), &machine.chain(), machine.cycle_seconds()),
-        flow_(machine, trajectory_pointer_, {0, false}) {
+        flow_(machine, {0, false}) {
     frame_.start = start;
     flow_.on_move = [this](const Command& move) {
       ++result_.blocks;
@@ -46,7 +46,7 @@ class Runner {
 
   ProgramResult run(language::TextSource& text) {
     trajectory_.start(frame_.start, frame_.transformation, 0);
-    flow_.start(text, frame_.start, {}, variables_);
+    flow_.start(trajectory_, text, frame_.start, {}, variables_);
     do {
       flow_.set_cycle(result_.cycles);
       state_ = skip_on_its_way_ ? FlowState::full : flow_.fill(false);
@@ -152,7 +152,6 @@ class Runner {
   std::uint64_t most_;
   int reads_ = 0;
   motion::Trajectory trajectory_;
-  motion::Trajectory* trajectory_pointer_ = &trajectory_;
   language::VariableStore variables_;
   program_execution::ProgramFlow flow_;
   FlowState state_ = FlowState::full;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "machine/parameter_constants.hpp"
 #include "motion/path_segment.hpp"
 
 namespace trunnion::channel_setup {
@@ -33,56 +34,60 @@ void ChannelSetup::configure(const machine::Parameters& p) {
     const auto a = channel_axes_.number[i];
     columns_.push_back(machine::column_of(drive, a));
     mask_ = static_cast<std::uint16_t>(mask_ | (1u << index));
-    limits_.axes[index] = {p.get("maximum_feed", a) / 60, p.get("rapid_feed", a) / 60,
-                           p.get("maximum_acceleration", a), p.get("maximum_jerk", a)};
-    travel_[index] = {p.get("negative_limit", a), p.get("positive_limit", a)};
-    reference_[index] = p.get("reference_coordinate", a);
-    jog_feed_[index] = p.get("jog_feed", a);
-    reference_feed_[index] = p.get("reference_feed", a);
-    approach_[index] = p.get("single_direction_approach", a);
-    for (std::uint32_t k = 0; k < 3; ++k) numbered_references_[k][index] = p.get("numbered_reference", a, k);
+    limits_.axes[index] = {p.get(parameter::maximum_feed, a) / 60, p.get(parameter::rapid_feed, a) / 60,
+                           p.get(parameter::maximum_acceleration, a), p.get(parameter::maximum_jerk, a)};
+    travel_[index] = {p.get(parameter::negative_limit, a), p.get(parameter::positive_limit, a)};
+    reference_[index] = p.get(parameter::reference_coordinate, a);
+    jog_feed_[index] = p.get(parameter::jog_feed, a);
+    reference_feed_[index] = p.get(parameter::reference_feed, a);
+    approach_[index] = p.get(parameter::single_direction_approach, a);
+    for (std::uint32_t k = 0; k < 3; ++k)
+      numbered_references_[k][index] = p.get(parameter::numbered_reference, a, k);
   }
   tapping_spindle_ = {};
-  const int wanted_spindle = p.integer("tapping_spindle", channel_);
+  const int wanted_spindle = p.integer(parameter::tapping_spindle, channel_);
   for (const auto& spindle : machine::spindles(p)) {
     if (tapping_spindle_.axis || (wanted_spindle >= 0 && spindle.number != wanted_spindle)) continue;
-    tapping_spindle_ = {spindle.number, p.get("maximum_acceleration", spindle.number)};
+    tapping_spindle_ = {spindle.number, p.get(parameter::maximum_acceleration, spindle.number)};
   }
   solver_.emplace(*chain_);
   rotary_travel_ = machine::rotary_travels(p, channel_);
-  avoid_poles_ = p.integer("pole_handling", channel_) != 0;
-  pole_range_ = p.get("pole_range", channel_);
-  diameter_programming_ = p.integer("diameter_programming", channel_) != 0;
-  default_feed_ = p.get("default_feed", channel_);
-  dry_run_feed_ = p.get("dry_run_feed", channel_);
-  handwheel_share_ = p.get("handwheel_share", channel_);
-  cycles_ = {p.get("cycle_retract", channel_), p.get("cycle_clearance", channel_),
-             p.integer("cycle_shift_axis", channel_)};
-  cutter_ = {p.integer("cutter_feed_at_contour") != 0, p.integer("cutter_wear_sign") != 0 ? 1 : -1,
-             p.integer("cutter_interference_check") != 0,
-             static_cast<unsigned>(p.integer("cutter_check_blocks"))};
+  avoid_poles_ = p.integer(parameter::pole_handling, channel_) != 0;
+  pole_range_ = p.get(parameter::pole_range, channel_);
+  diameter_programming_ = p.integer(parameter::diameter_programming, channel_) != 0;
+  default_feed_ = p.get(parameter::default_feed, channel_);
+  dry_run_feed_ = p.get(parameter::dry_run_feed, channel_);
+  handwheel_share_ = p.get(parameter::handwheel_share, channel_);
+  cycles_ = {p.get(parameter::cycle_retract, channel_), p.get(parameter::cycle_clearance, channel_),
+             p.integer(parameter::cycle_shift_axis, channel_)};
+  cutter_ = {p.integer(parameter::cutter_feed_at_contour) != 0,
+             p.integer(parameter::cutter_wear_sign) != 0 ? 1 : -1,
+             p.integer(parameter::cutter_interference_check) != 0,
+             static_cast<unsigned>(p.integer(parameter::cutter_check_blocks))};
   for (std::uint32_t i = 0; i < 180; ++i)
-    planes_[i / 9][i / 3 % 3][i % 3] = p.get("tilted_plane_points", channel_, i);
+    planes_[i / 9][i / 3 % 3][i % 3] = p.get(parameter::tilted_plane_points, channel_, i);
   for (std::uint32_t i = 0; i < cycle_m_codes_.size(); ++i)
-    cycle_m_codes_[i] = static_cast<std::uint16_t>(p.integer("cycle_m_code", 0, i));
-  limits_.smoothing_cycles = p.integer("smoothing_cycles", channel_);
-  limits_.contour_tolerance = p.get("contour_tolerance", channel_);
-  limits_.arc_tolerance = p.get("arc_tolerance");
-  limits_.smooth_corner_angle = p.get("smooth_corner_angle", channel_);
-  limits_.centripetal_acceleration = p.get("centripetal_acceleration", channel_);
-  limits_.orientation_tolerance = p.get("orientation_tolerance", channel_);
+    cycle_m_codes_[i] = static_cast<std::uint16_t>(p.integer(parameter::cycle_m_code, 0, i));
+  limits_.smoothing_cycles = p.integer(parameter::smoothing_cycles, channel_);
+  limits_.contour_tolerance = p.get(parameter::contour_tolerance, channel_);
+  limits_.arc_tolerance = p.get(parameter::arc_tolerance);
+  limits_.smooth_corner_angle = p.get(parameter::smooth_corner_angle, channel_);
+  limits_.centripetal_acceleration = p.get(parameter::centripetal_acceleration, channel_);
+  limits_.orientation_tolerance = p.get(parameter::orientation_tolerance, channel_);
   for (std::uint32_t k = 0; k < limits_.modes.size(); ++k)
-    limits_.modes[k] = {
-        p.integer("mode_smoothing_cycles", channel_, k), p.get("mode_contour_tolerance", channel_, k),
-        p.get("mode_orientation_tolerance", channel_, k), p.get("mode_smooth_corner_angle", channel_, k),
-        p.get("mode_centripetal_acceleration", channel_, k)};
-  radius_deviation_ = p.get("radius_deviation");
-  cycle_seconds_ = p.get("interpolation_cycle") * 1e-6;
-  lead_ = static_cast<std::uint64_t>(p.integer("stream_lead"));
+    limits_.modes[k] = {p.integer(parameter::mode_smoothing_cycles, channel_, k),
+                        p.get(parameter::mode_contour_tolerance, channel_, k),
+                        p.get(parameter::mode_orientation_tolerance, channel_, k),
+                        p.get(parameter::mode_smooth_corner_angle, channel_, k),
+                        p.get(parameter::mode_centripetal_acceleration, channel_, k)};
+  radius_deviation_ = p.get(parameter::radius_deviation);
+  cycle_seconds_ = p.get(parameter::interpolation_cycle) * 1e-6;
+  lead_ = static_cast<std::uint64_t>(p.integer(parameter::stream_lead));
   // Two frames must fit into the lead, or the credits would never let the second be written.
   const auto most = static_cast<std::uint32_t>(std::max<std::uint64_t>(1, lead_ / 2));
-  frame_real_ = std::min(most, static_cast<std::uint32_t>(p.integer("frame_cycles_real_time")));
-  frame_virtual_ = std::min(most, static_cast<std::uint32_t>(p.integer("frame_cycles_virtual_time")));
+  frame_real_ = std::min(most, static_cast<std::uint32_t>(p.integer(parameter::frame_cycles_real_time)));
+  frame_virtual_ =
+      std::min(most, static_cast<std::uint32_t>(p.integer(parameter::frame_cycles_virtual_time)));
   revision_ = p.revision;
 }
 

@@ -9,25 +9,6 @@
 
 namespace trunnion::language {
 
-/// Axes of a plane: an anticlockwise turn about `normal` goes from `first` to `second`.
-struct PlaneAxes {
-  std::uint8_t first;
-  std::uint8_t second;
-  std::uint8_t normal;
-};
-
-constexpr PlaneAxes plane_axes(Plane plane) {
-  switch (plane) {
-    case Plane::zx:
-      return {Z, X, Y};
-    case Plane::yz:
-      return {Y, Z, X};
-    case Plane::xy:
-      break;
-  }
-  return {X, Y, Z};
-}
-
 inline constexpr double degrees_per_radian = 180.0 / std::numbers::pi;
 
 /// Ends of an arc nearer to each other in the plane than this (mm) are one point: a full circle.

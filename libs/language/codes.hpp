@@ -95,7 +95,7 @@ inline constexpr std::array g_codes = {
     GCode{310, Group::one_block, "line that ends when skip input L (1 without L) comes", Origin::hnc, "0.2",
           "G31 L1 X1 F100"},
     GCode{400, Group::cutter_compensation,
-          "cutter radius compensation off; I J K: the direction in which the contour would go on",
+          "cutter radius compensation off; I J K: the direction in which the contour would continue",
           Origin::iso, "0.1", "G40"},
     GCode{410, Group::cutter_compensation, "cutter radius compensation, tool left of the path; D radius",
           Origin::iso, "0.2", "G41 D1"},

@@ -13,6 +13,4 @@ constexpr std::uint32_t letter_bits(const char* letters) {
 }
 inline constexpr std::uint32_t axis_bits = letter_bits(axis_letters);
 
-constexpr bool is_rotary(std::size_t axis) { return axis == A || axis == B || axis == C; }
-
 }  // namespace trunnion::language

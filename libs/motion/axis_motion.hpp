@@ -4,11 +4,11 @@
 #include <array>
 
 #include "geometry/chain.hpp"
-#include "language/canonical.hpp"
+#include "canonical/canonical.hpp"
 
 namespace trunnion::motion {
 
-using language::AxisValues;
+using canonical::AxisValues;
 
 /// First to third derivative by the path length.
 using PathRates = std::array<AxisValues, 3>;

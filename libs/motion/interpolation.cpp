@@ -4,7 +4,7 @@
 
 namespace trunnion::motion {
 
-using language::axis_count;
+using canonical::axis_count;
 
 void Interpolation::start(const AxisValues& position) {
   position_ = position;

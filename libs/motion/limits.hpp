@@ -1,13 +1,13 @@
-// What the axes and the path tolerate.
+// The limits of the axes and the tolerances of the path.
 #pragma once
 
 #include <array>
 
-#include "language/canonical.hpp"
+#include "canonical/canonical.hpp"
 
 namespace trunnion::motion {
 
-using language::AxisValues;
+using canonical::AxisValues;
 
 /// Limits of one machine axis. Units per axis: mm or degrees, seconds. All above zero.
 struct AxisLimits {
@@ -17,8 +17,8 @@ struct AxisLimits {
   double jerk = 60000;          ///< unit/s^3
 };
 
-/// What a machining mode asks of the path. The tolerances bound how far the smoothed path may leave the
-/// programmed one.
+/// What a machining mode requires of the path. The tolerances bound the distance of the smoothed path from
+/// the programmed one.
 struct PathMode {
   /// An acceleration takes at least this many cycles to build up: jerk stays below acceleration / (N dt).
   int smoothing_cycles = 1;             ///< 1..64
@@ -30,7 +30,7 @@ struct PathMode {
 
 /// Limits of a trajectory. Its own PathMode is that of G5.1 Q0.
 struct Limits : PathMode {
-  std::array<AxisLimits, language::axis_count> axes{};
+  std::array<AxisLimits, canonical::axis_count> axes{};
   double arc_tolerance = 0.005;     ///< mm by which the pieces of a curve and what joins them may leave it
   std::array<PathMode, 2> modes{};  ///< of G5.1 Q1 and Q2
 };

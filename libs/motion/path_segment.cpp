@@ -7,7 +7,7 @@
 namespace trunnion::motion {
 namespace {
 
-using language::axis_count;
+using canonical::axis_count;
 
 double norm3(const AxisValues& v, std::size_t first) {
   return std::hypot(v[first], v[first + 1], v[first + 2]);
@@ -20,8 +20,8 @@ PathSegment PathSegment::line(const AxisValues& start, const AxisValues& target)
   segment.start_ = start;
   segment.target_ = target;
   for (std::size_t i = 0; i < axis_count; ++i) segment.slope_[i] = target[i] - start[i];
-  const double rotary = norm3(segment.slope_, language::A);
-  const double main = norm3(segment.slope_, language::X), secondary = norm3(segment.slope_, language::U);
+  const double rotary = norm3(segment.slope_, canonical::A);
+  const double main = norm3(segment.slope_, canonical::X), secondary = norm3(segment.slope_, canonical::U);
   const double trace = 1e-6 * std::max(rotary, secondary);
   const double counted = main > trace ? main : secondary > 1e-6 * rotary ? secondary : rotary;
   const double longest = std::max({main, secondary, rotary});
@@ -36,13 +36,9 @@ PathSegment PathSegment::line(const AxisValues& start, const AxisValues& target)
   return segment;
 }
 
-namespace {
-constexpr std::array<std::array<std::size_t, 3>, 3> planes{{{0, 1, 2}, {2, 0, 1}, {1, 2, 0}}};
-}
-
-PathSegment PathSegment::arc(const AxisValues& start, const AxisValues& target, const language::Arc& arc) {
-  if (arc.normal != language::Vector3{}) return tilted_arc(start, target, arc);
-  const auto& [p, q, along] = planes[static_cast<std::size_t>(arc.plane)];
+PathSegment PathSegment::arc(const AxisValues& start, const AxisValues& target, const canonical::Arc& arc) {
+  if (arc.normal != canonical::Vector3{}) return tilted_arc(start, target, arc);
+  const auto [p, q, along] = canonical::plane_axes(arc.plane);
   const double start_radius = std::hypot(start[p] - arc.centre[p], start[q] - arc.centre[q]);
   const double end_radius = std::hypot(target[p] - arc.centre[p], target[q] - arc.centre[q]);
   const double sweep = arc.sweep * (std::numbers::pi / 180.0) * (arc.clockwise ? -1 : 1);
@@ -74,8 +70,8 @@ PathSegment PathSegment::arc(const AxisValues& start, const AxisValues& target, 
 }
 
 PathSegment PathSegment::tilted_arc(const AxisValues& start, const AxisValues& target,
-                                    const language::Arc& arc) {
-  using language::Vector3;
+                                    const canonical::Arc& arc) {
+  using canonical::Vector3;
   const Vector3& n = arc.normal;
   const auto dot = [](const Vector3& a, const Vector3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; };
   // From the axis of the circle, at right angles to it.
@@ -183,16 +179,16 @@ std::array<AxisValues, 3> PathSegment::derivatives(double s) const {
   return d;
 }
 
-double remaining_sweep(const AxisValues& position, const AxisValues& target, const language::Arc& arc,
+double remaining_sweep(const AxisValues& position, const AxisValues& target, const canonical::Arc& arc,
                        double fraction) {
-  language::Vector3 n = arc.normal;
-  if (n == language::Vector3{}) n[planes[static_cast<std::size_t>(arc.plane)][2]] = 1;
+  canonical::Vector3 n = arc.normal;
+  if (n == canonical::Vector3{}) n[canonical::plane_axes(arc.plane).normal] = 1;
   const auto arm = [&](const AxisValues& p) {
-    return language::Vector3{p[0] - arc.centre[0], p[1] - arc.centre[1], p[2] - arc.centre[2]};
+    return canonical::Vector3{p[0] - arc.centre[0], p[1] - arc.centre[1], p[2] - arc.centre[2]};
   };
   const auto dot = [](const auto& a, const auto& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; };
   const auto a = arm(position), b = arm(target);
-  const language::Vector3 cross{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2],
+  const canonical::Vector3 cross{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2],
                                 a[0] * b[1] - a[1] * b[0]};
   // What lies along the axis of a helix is no part of the angle.
   const double between = std::atan2(dot(cross, n), dot(a, b) - dot(a, n) * dot(b, n)) *

@@ -3,15 +3,15 @@
 
 #include <array>
 
-#include "language/canonical.hpp"
+#include "canonical/canonical.hpp"
 
 namespace trunnion::motion {
 
-using language::AxisValues;
+using canonical::AxisValues;
 
 /// What a path length of a segment counts.
 enum class LengthUnit : std::uint8_t {
-  millimetre,  ///< travel of X Y Z, or of U V W when X Y Z stand
+  millimetre,  ///< travel of X Y Z, or of U V W when X Y Z are at rest
   degree,      ///< of the rotary axes together, when no linear axis moves
 };
 
@@ -28,7 +28,7 @@ class PathSegment {
   /// Arc by centre and sweep (degrees, above 0). Where start and target lie at different radii the radius
   /// runs linearly between them; what then remains between the end of the sweep and the target is closed in
   /// proportion.
-  static PathSegment arc(const AxisValues& start, const AxisValues& target, const language::Arc& arc);
+  static PathSegment arc(const AxisValues& start, const AxisValues& target, const canonical::Arc& arc);
 
   double length() const { return length_; }
   /// Path length per unit of travel that a feed counts, 1 or more.
@@ -52,7 +52,7 @@ class PathSegment {
   double curvature() const { return curvature_; }
 
  private:
-  static PathSegment tilted_arc(const AxisValues& start, const AxisValues& target, const language::Arc& arc);
+  static PathSegment tilted_arc(const AxisValues& start, const AxisValues& target, const canonical::Arc& arc);
 
   AxisValues start_{}, target_{}, slope_{};  // slope: change of the proportional part per unit of length
   double length_ = 0, feed_scale_ = 1;
@@ -60,7 +60,7 @@ class PathSegment {
   LengthUnit unit_ = LengthUnit::millimetre;
   bool is_arc_ = false;
   bool is_tilted_ = false;  // the circle lies in the plane of first_ and second_, about hub_
-  language::Vector3 first_{}, second_{}, hub_{};
+  canonical::Vector3 first_{}, second_{}, hub_{};
   std::array<std::size_t, 2> plane_{0, 1};
   std::array<double, 2> centre_{};
   double radius_ = 0, radius_slope_ = 0;  // mm, mm per mm
@@ -70,7 +70,7 @@ class PathSegment {
 /// Sweep in degrees that is left of `arc` from `position` on to `target`, when about `fraction` (0..1) of it
 /// is done: the angle between the two, with the turns that come nearest. Not above 0 when the target is
 /// passed.
-double remaining_sweep(const AxisValues& position, const AxisValues& target, const language::Arc& arc,
+double remaining_sweep(const AxisValues& position, const AxisValues& target, const canonical::Arc& arc,
                        double fraction);
 
 }  // namespace trunnion::motion

@@ -8,9 +8,9 @@
 namespace trunnion::motion {
 namespace {
 
-using language::axis_count;
-using language::Command;
-using language::CommandKind;
+using canonical::axis_count;
+using canonical::Command;
+using canonical::CommandKind;
 
 constexpr double longest_dwell_cycles = 1e9;
 // Blocks kept behind the oldest that may be moved on, since roundings reach back.
@@ -35,8 +35,8 @@ ModeLimits effective(const Limits& limits, double cycle) {
   return modes;
 }
 
-// The pieces of a curve stray from it by half of the tolerance of arcs. What joins them has the rest, also
-// where corners are exact.
+// The pieces of a curve deviate from it by half of the tolerance of arcs. The joins between them have the
+// rest, also where corners are exact.
 double inside_curve(const BlendRules& rules, const Limits& limits) {
   const double pieces = limits.arc_tolerance / 2;
   return std::max(rules.contour_tolerance - pieces, pieces);
@@ -55,12 +55,12 @@ Trajectory::Trajectory(const Limits& limits, const geometry::Chain* chain, doubl
       speed_(cycle_seconds),
       back_(cycle_seconds),
       interpolation_(cycle_seconds) {
-  start({}, language::Transformation::none, 0);
+  start({}, canonical::Transformation::none, 0);
 }
 
-void Trajectory::start(const AxisValues& position, language::Transformation transformation,
+void Trajectory::start(const AxisValues& position, canonical::Transformation transformation,
                        double tool_length) {
-  active_chain_ = transformation == language::Transformation::rtcp ? chain_ : nullptr;
+  active_chain_ = transformation == canonical::Transformation::rtcp ? chain_ : nullptr;
   tool_length_ = tool_length;
   end_ = joined_ = position;
   interpolation_.start(position);
@@ -76,7 +76,7 @@ void Trajectory::restart_path() {
   pending_.reset();
   interpolation_.drop_tail();
   stop_next_ = exact_next_ = true;
-  curve_goes_on_ = false;
+  curve_continues_ = false;
   aborting_ = retrace_wanted_ = retracing_ = false;
 }
 
@@ -102,7 +102,7 @@ bool Trajectory::push_from(const Command& command, double fraction) {
 // Every axis that has to move needs limits above zero; through a chain any move may move X Y Z.
 bool Trajectory::movable(const AxisValues& from, const AxisValues& to) const {
   for (std::size_t i = 0; i < axis_count; ++i) {
-    if (from[i] == to[i] && (active_chain_ == nullptr || i > language::Z)) continue;
+    if (from[i] == to[i] && (active_chain_ == nullptr || i > canonical::Z)) continue;
     const AxisLimits& axis = limits_[mode_].axes[i];
     if (!(axis.velocity > 0 && axis.rapid_velocity > 0 && axis.acceleration > 0 && axis.jerk > 0))
       return false;
@@ -110,14 +110,13 @@ bool Trajectory::movable(const AxisValues& from, const AxisValues& to) const {
   return true;
 }
 
-// A move that is lost in the tolerance is left to the next one: short segments have no direction worth
-// keeping.
+// A move far below the tolerance is merged with the next one: so short a segment has no usable direction.
 bool Trajectory::joins_to_last(const PathSegment& segment) const {
   if (segment.is_arc() || path_.size() == 0) return false;
   double linear = 0, rotary = 0;
   for (std::size_t i = 0; i < axis_count; ++i) {
     const double travel = std::abs(segment.target()[i] - segment.start()[i]);
-    double& part = i >= language::A && i <= language::C ? rotary : linear;
+    double& part = canonical::is_rotary(i) ? rotary : linear;
     part = std::max(part, travel);
   }
   return linear <= merge_share * rules_.contour_tolerance &&
@@ -164,7 +163,7 @@ bool Trajectory::push_move(const Command& command, double fraction) {
   }
   if (!is_finite(command.target)) return false;
   if (command.kind == CommandKind::arc) {
-    language::Arc arc = command.arc;
+    canonical::Arc arc = command.arc;
     if (!(arc.sweep >= 0) || !std::isfinite(arc.sweep)) return false;
     if (fraction > 0) arc.sweep = remaining_sweep(end_, command.target, arc, fraction);
     if (!std::all_of(arc.centre.begin(), arc.centre.end(), [](double v) { return std::isfinite(v); }))
@@ -177,7 +176,7 @@ bool Trajectory::push_move(const Command& command, double fraction) {
     return false;
   }
   block.rapid = command.kind == CommandKind::rapid;
-  const bool inverse = command.modal.feed_mode == language::FeedMode::inverse_time;
+  const bool inverse = command.modal.feed_mode == canonical::FeedMode::inverse_time;
   const double length = block.path.length();
   // Inverse time is the feed of the whole command: what is left of it takes its share of the time.
   const double whole = fraction < 1 ? length / (1 - fraction) : length;
@@ -190,8 +189,8 @@ bool Trajectory::push_move(const Command& command, double fraction) {
     change_mode(command);
     block.mode = mode_;
     block.rules = rules_;
-    if (curve_goes_on_) block.rules.contour_tolerance = inside_curve(rules_, limits_[mode_]);
-    curve_goes_on_ = command.chord;
+    if (curve_continues_) block.rules.contour_tolerance = inside_curve(rules_, limits_[mode_]);
+    curve_continues_ = command.chord;
     if (pending_ && block.path.is_arc()) flush();
     if (pending_) block.path = PathSegment::line(joined_, command.target);
     end_ = command.target;
@@ -204,7 +203,7 @@ bool Trajectory::push_move(const Command& command, double fraction) {
       append(block);
     }
   }
-  if (command.modal.path_control == language::PathControl::exact_stop) {
+  if (command.modal.path_control == canonical::PathControl::exact_stop) {
     flush();
     stop_next_ = exact_next_ = true;
   }
@@ -243,8 +242,8 @@ void Trajectory::plan_back() {
   back_.extended();
 }
 
-// At a standstill: the other stage goes on from here.
-void Trajectory::turn_round() {
+// At a standstill: the other stage continues from here.
+void Trajectory::reverse() {
   const std::uint64_t block = current_block();
   const double s = current_s();
   retracing_ = !retracing_;
@@ -283,14 +282,14 @@ bool Trajectory::done() const {
 }
 
 Setpoint Trajectory::step(double feed_override, double rapid_override, bool hold) {
-  // A ring that is full of blocks none of which is known well enough becomes a path of its own.
+  // When the ring is full and no block is settled, its content becomes a path of its own.
   if (path_.size() > 0 && !can_accept() && !aborting_ && path_.settled_blocks() == 0) finish();
   if (builder_.next_block() < path_.settled_blocks()) plan();
   interpolation_.pass_cycle();
   if (path_.size() == 0) retrace_wanted_ = retracing_ = false;
   bool turning = retrace_wanted_ != retracing_;
-  if (turning && !interpolation_.overlapping() && moving().standing() && !aborting_) {
-    turn_round();
+  if (turning && !interpolation_.overlapping() && moving().at_standstill() && !aborting_) {
+    reverse();
     turning = false;
   }
   if (retracing_ && !back_complete_) plan_back();
@@ -303,7 +302,7 @@ Setpoint Trajectory::step(double feed_override, double rapid_override, bool hold
   Setpoint setpoint = moves ? interpolation_.follow(path_, {current_block(), current_s(), stage.state().v,
                                                             stage.started(), stage.waiting()})
                             : interpolation_.stay();
-  if (aborting_ && (!moves || (stage.standing() && !interpolation_.overlapping()))) {
+  if (aborting_ && (!moves || (stage.at_standstill() && !interpolation_.overlapping()))) {
     restart_path();
     end_ = joined_ = setpoint.position;
     setpoint.distance_to_go = {};

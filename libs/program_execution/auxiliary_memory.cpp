@@ -35,28 +35,28 @@ void AuxiliaryMemory::pass(const language::Command& command) {
   }
 }
 
-std::vector<AuxiliaryOrder> AuxiliaryMemory::orders(bool speed, bool spindle, bool coolant) const {
-  std::vector<AuxiliaryOrder> list;
-  if (speed && has_speed_) list.push_back({2, 0, speed_});
-  if (spindle && has_spindle_) list.push_back({1, spindle_, 0});
+std::vector<AuxiliaryFunction> AuxiliaryMemory::functions(bool speed, bool spindle, bool coolant) const {
+  std::vector<AuxiliaryFunction> list;
+  if (speed && has_speed_) list.push_back({AuxiliaryKind::s, 0, speed_});
+  if (spindle && has_spindle_) list.push_back({AuxiliaryKind::m, spindle_, 0});
   if (coolant && has_coolant_) {
-    if (mist_) list.push_back({1, 7, 0});
-    if (flood_) list.push_back({1, 8, 0});
-    if (!mist_ && !flood_) list.push_back({1, 9, 0});
+    if (mist_) list.push_back({AuxiliaryKind::m, 7, 0});
+    if (flood_) list.push_back({AuxiliaryKind::m, 8, 0});
+    if (!mist_ && !flood_) list.push_back({AuxiliaryKind::m, 9, 0});
   }
   return list;
 }
 
-std::vector<AuxiliaryOrder> AuxiliaryMemory::orders() const { return orders(true, true, true); }
+std::vector<AuxiliaryFunction> AuxiliaryMemory::functions() const { return functions(true, true, true); }
 
 // M9 ends both coolants, so that one of them cannot be brought back without ending the other first.
-std::vector<AuxiliaryOrder> AuxiliaryMemory::orders_touched_by(const AuxiliaryMemory& other) const {
-  const auto list = orders(other.has_speed_, other.has_spindle_, other.has_coolant_);
-  std::vector<AuxiliaryOrder> undo;
+std::vector<AuxiliaryFunction> AuxiliaryMemory::functions_changed_by(const AuxiliaryMemory& other) const {
+  const auto list = functions(other.has_speed_, other.has_spindle_, other.has_coolant_);
+  std::vector<AuxiliaryFunction> undo;
   undo.reserve(list.size() + 2);
-  if (other.has_spindle_ && !has_spindle_) undo.push_back({1, 5, 0});
+  if (other.has_spindle_ && !has_spindle_) undo.push_back({AuxiliaryKind::m, 5, 0});
   if (other.has_coolant_ && (!has_coolant_ || (other.mist_ && !mist_) || (other.flood_ && !flood_)))
-    undo.push_back({1, 9, 0});
+    undo.push_back({AuxiliaryKind::m, 9, 0});
   undo.insert(undo.end(), list.begin(), list.end());
   return undo;
 }

@@ -1,5 +1,5 @@
-// In which frame each command of a program was written, for the display: it shows what is being executed, and
-// the program has been read on.
+// The coordinate frame in which each command of a program was programmed. The display needs the frame of the
+// command being executed, and the interpreter is ahead of it.
 #pragma once
 
 #include <array>

@@ -1,6 +1,6 @@
 #include "program_execution/program_flow.hpp"
 
-#include "machine/alarms.hpp"
+#include "machine/alarm_constants.hpp"
 
 namespace trunnion::program_execution {
 
@@ -21,9 +21,11 @@ bool is_path(CommandKind kind) {
 
 }  // namespace
 
-void ProgramFlow::start(language::TextSource& text, const AxisValues& position,
-                        const language::ModalState& initial, const language::VariableStore& variables,
-                        const Entry& entry, language::Beginning beginning) {
+void ProgramFlow::start(motion::Trajectory& trajectory, language::TextSource& text,
+                        const AxisValues& position, const language::ModalState& initial,
+                        const language::VariableStore& variables, const Entry& entry,
+                        language::Beginning beginning) {
+  trajectory_ = &trajectory;
   interpreter_.start(text, position, initial, variables, beginning);
   interpreter_.stop_before_line(entry.line);
   have_command_ = false;
@@ -40,20 +42,20 @@ void ProgramFlow::start(language::TextSource& text, const AxisValues& position,
   extent_ =
       channel_setup::AxisBox::of(rtcp ? machine_.machine_from_tip(position, initial.tool_length) : position);
   alarm_number_ = 0;
-  alarm_name_.clear();
+  machine_alarm_ = nullptr;
   alarm_text_.clear();
 }
 
-FlowState ProgramFlow::fail(const char* alarm, const std::string& text) {
-  alarm_number_ = machine::alarm_definition(alarm).number;
-  alarm_name_ = alarm;
+FlowState ProgramFlow::fail(const machine::AlarmDefinition& alarm, const std::string& text) {
+  alarm_number_ = alarm.number;
+  machine_alarm_ = &alarm;
   alarm_text_ = text;
   trajectory_->finish();
   return FlowState::alarm;
 }
 
 FlowState ProgramFlow::fail_search(const std::string& why) {
-  return fail("search_failed", std::to_string(entry_.line) + ": " + why);
+  return fail(alarm::search_failed, std::to_string(entry_.line) + ": " + why);
 }
 
 FlowState ProgramFlow::push_move() {
@@ -67,7 +69,7 @@ FlowState ProgramFlow::push_move() {
     } else {
       error = machine_.travel_error(from, command_);
     }
-    if (!error.empty()) return fail("travel_limit", error);
+    if (!error.empty()) return fail(alarm::travel_limit, error);
   }
   auto move = command_.kind == CommandKind::tap ? Tapping::line(command_) : command_;
   if (move.kind == CommandKind::skip) move.kind = CommandKind::line;
@@ -80,12 +82,9 @@ FlowState ProgramFlow::push_move() {
   }
   const bool partly = entry_.restart.sequence == command_.sequence && entry_.restart.sequence > 0;
   const bool taken = partly ? trajectory_->push_from(move, entry_.restart.fraction) : trajectory_->push(move);
-  if (!taken) {
-    alarm_number_ = 1112;
-    alarm_text_ = std::to_string(command_.line) +
-                  ": feed must be above zero (per revolution: with the spindle turning)";
-    return FlowState::alarm;
-  }
+  if (!taken)
+    return fail(language::AlarmNumber::feed_not_positive,
+                "feed must be above zero (per revolution: with the spindle turning)");
   executing_ = command_.modal;
   have_command_ = false;
   if (on_move) on_move(move);
@@ -104,16 +103,16 @@ void ProgramFlow::refuse_pending(language::AlarmNumber number) {
   refused_ = true;
 }
 
-FlowState ProgramFlow::fail(language::AlarmNumber number) {
+FlowState ProgramFlow::fail(language::AlarmNumber number, std::string_view text) {
   alarm_number_ = static_cast<std::uint32_t>(number);
-  alarm_name_.clear();
-  alarm_text_ = place(command_.program, command_.line) + ": " + std::string(language::alarm_text(number));
+  machine_alarm_ = nullptr;
+  alarm_text_ = place(command_.program, command_.line) + ": " + std::string(text);
   trajectory_->finish();
   return FlowState::alarm;
 }
 
-// A skip move has ended, now or before the restart: the interpreter is told where.
-FlowState ProgramFlow::go_on_from_skip() {
+// A skip move has ended, now or before the restart: the interpreter continues from where it ended.
+FlowState ProgramFlow::continue_after_skip() {
   if (search_ == Search::line)
     return fail_search("line " + std::to_string(command_.line) +
                        " measures (G31), and what follows depends on it");
@@ -123,8 +122,8 @@ FlowState ProgramFlow::go_on_from_skip() {
   return FlowState::full;
 }
 
-// The blocks of a contour with cutter radius compensation, and of a curve, hang together: in the middle the
-// tool is at no point that a block by itself says.
+// The blocks of a contour with cutter radius compensation, and of a curve, depend on each other: in the
+// middle no block by itself gives the position of the tool.
 FlowState ProgramFlow::arrive_at_line() {
   const auto& modal = interpreter_.modal();
   if (modal.cutter_side != language::CutterSide::off)
@@ -138,7 +137,7 @@ FlowState ProgramFlow::arrive_at_line() {
   return FlowState::found;
 }
 
-// What to do without a command; full: there is one.
+// Handles a step that may have brought no command. Full: continue.
 FlowState ProgramFlow::take_step(language::Step step) {
   switch (step) {
     case language::Step::command:
@@ -150,7 +149,7 @@ FlowState ProgramFlow::take_step(language::Step step) {
       text_missing_ = true;
       return FlowState::waiting;
     case language::Step::position:
-      return go_on_from_skip();
+      return continue_after_skip();
     case language::Step::line:
       return arrive_at_line();
     case language::Step::end:
@@ -173,7 +172,7 @@ FlowState ProgramFlow::take_step(language::Step step) {
 FlowState ProgramFlow::fill(bool single_block) {
   text_missing_ = false;
   if (refused_) return FlowState::alarm;
-  constexpr int most_commands = 4096;  // a long search for the restart point must not keep the channel deaf
+  constexpr int most_commands = 4096;  // a long search for the restart point must leave time for messages
   for (int i = 0; i < most_commands; ++i) {
     if (!searching() && !trajectory_->can_accept()) return FlowState::full;
     if (!have_command_) {
@@ -190,7 +189,7 @@ FlowState ProgramFlow::fill(bool single_block) {
         finish_pending();
         continue;
       }
-      // The spindle has lost its place in the thread.
+      // The spindle is no longer coupled to the position in the thread.
       if (drilling) return fail(language::AlarmNumber::not_resumable);
       search_ = Search::none;
       trajectory_->start(entry_.restart.position, command_.modal.transformation, command_.modal.tool_length);
@@ -210,10 +209,7 @@ FlowState ProgramFlow::fill(bool single_block) {
       trajectory_->finish();
       return command_.kind == CommandKind::end && command_.number == 0 ? FlowState::end : FlowState::command;
     }
-    if (const auto state = push_move(); state == FlowState::alarm) {
-      trajectory_->finish();
-      return state;
-    }
+    if (const auto state = push_move(); state == FlowState::alarm) return state;
   }
   return FlowState::waiting;
 }

@@ -21,9 +21,9 @@ void Tapping::begin(const AxisValues& start, const language::Command& stroke) {
 }
 
 double Tapping::revolutions(const AxisValues& position) const {
-  double way = 0;
-  for (std::size_t i = 0; i < 3; ++i) way += (position[i] - start_[i]) * direction_[i];
-  return way / lead_;
+  double depth = 0;
+  for (std::size_t i = 0; i < 3; ++i) depth += (position[i] - start_[i]) * direction_[i];
+  return depth / lead_;
 }
 
 // Of a direction askew to the machine's axes the largest component is at least 1 / sqrt 3, so that share for

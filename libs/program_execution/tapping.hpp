@@ -1,4 +1,4 @@
-// Rigid tapping: the spindle follows the tool's way into the hole and out of it through the same stream of
+// Rigid tapping: the spindle follows the tool's path into the hole and out of it through the same stream of
 // setpoints, so that both keep the lead through every acceleration, reversal and stop on the path.
 #pragma once
 
@@ -11,7 +11,7 @@ using language::AxisValues;
 
 class Tapping {
  public:
-  /// The first stroke of a hole, of kind tap, begins at `start`. Its direction is the way in.
+  /// The first stroke of a hole, of kind tap, begins at `start`. Its direction is that into the hole.
   void begin(const AxisValues& start, const language::Command& stroke);
   void end() { active_ = false; }
   bool active() const { return active_; }

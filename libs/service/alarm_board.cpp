@@ -1,7 +1,5 @@
 #include "service/alarm_board.hpp"
 
-#include "machine/alarms.hpp"
-
 namespace trunnion::service {
 
 AlarmBoard::AlarmBoard(bus::Bus& bus, std::uint32_t instance, std::string service)
@@ -24,17 +22,16 @@ std::string cut(std::string text) {
 }
 }  // namespace
 
-void AlarmBoard::raise(const std::string& name, std::uint32_t part, const std::string& text,
+void AlarmBoard::raise(const machine::AlarmDefinition& alarm, std::uint32_t part, const std::string& text,
                        std::uint64_t cycle) {
-  const auto& definition = machine::alarm_definition(name);
-  auto& entry = entries_[{definition.number, part}];
+  auto& entry = entries_[{alarm.number, part}];
   const bool news = !entry.alarm.active || entry.alarm.text != cut(text);
   entry.cause = true;
   if (!news) return;
   auto& a = entry.alarm;
-  a.instance = instance_, a.number = definition.number, a.part = part;
-  a.severity = static_cast<idl::service::Severity>(definition.severity);
-  a.reaction = static_cast<idl::service::Reaction>(definition.reaction);
+  a.instance = instance_, a.number = alarm.number, a.part = part;
+  a.severity = static_cast<idl::service::Severity>(alarm.severity);
+  a.reaction = static_cast<idl::service::Reaction>(alarm.reaction);
   a.source = service_, a.text = cut(text), a.cycle = cycle;
   a.active = true;
   ++a.occurrences;
@@ -55,13 +52,13 @@ void AlarmBoard::raise_number(std::uint32_t number, std::uint32_t part, const st
   publish(entry);
 }
 
-void AlarmBoard::release(const std::string& name, std::uint32_t part) {
-  const auto found = entries_.find({machine::alarm_definition(name).number, part});
+void AlarmBoard::release(const machine::AlarmDefinition& alarm, std::uint32_t part) {
+  const auto found = entries_.find({alarm.number, part});
   if (found != entries_.end()) found->second.cause = false;
 }
 
-void AlarmBoard::clear(const std::string& name, std::uint32_t part) {
-  const auto found = entries_.find({machine::alarm_definition(name).number, part});
+void AlarmBoard::clear(const machine::AlarmDefinition& alarm, std::uint32_t part) {
+  const auto found = entries_.find({alarm.number, part});
   if (found == entries_.end() || !found->second.alarm.active) return;
   found->second.alarm.active = false;
   found->second.cause = false;
@@ -76,8 +73,8 @@ void AlarmBoard::reset() {
     }
 }
 
-bool AlarmBoard::active(const std::string& name, std::uint32_t part) const {
-  const auto found = entries_.find({machine::alarm_definition(name).number, part});
+bool AlarmBoard::active(const machine::AlarmDefinition& alarm, std::uint32_t part) const {
+  const auto found = entries_.find({alarm.number, part});
   return found != entries_.end() && found->second.alarm.active;
 }
 

@@ -6,6 +6,7 @@
 
 #include "bus/bus.hpp"
 #include "contracts/topics.hpp"
+#include "machine/alarm_definition.hpp"
 
 namespace trunnion::service {
 
@@ -13,22 +14,23 @@ class AlarmBoard {
  public:
   AlarmBoard(bus::Bus& bus, std::uint32_t instance, std::string service);
 
-  /// Raises (or repeats) the alarm called `name` in alarms.yaml about `part` (axis, channel, instance).
-  void raise(const std::string& name, std::uint32_t part, const std::string& text, std::uint64_t cycle = 0);
+  /// Raises (or repeats) an alarm of machine/alarm_constants.hpp about `part` (axis, channel, instance).
+  void raise(const machine::AlarmDefinition& alarm, std::uint32_t part, const std::string& text,
+             std::uint64_t cycle = 0);
   /// The same for alarms of the NC language, which carry their own number; always an error that stops the
   /// program.
   void raise_number(std::uint32_t number, std::uint32_t part, const std::string& text,
                     std::uint64_t cycle = 0);
   /// The cause is gone; the alarm stays until it is reset.
-  void release(const std::string& name, std::uint32_t part);
+  void release(const machine::AlarmDefinition& alarm, std::uint32_t part);
   /// Gone at once, for causes that nobody needs to acknowledge.
-  void clear(const std::string& name, std::uint32_t part);
+  void clear(const machine::AlarmDefinition& alarm, std::uint32_t part);
   /// Clears every alarm whose cause is gone. Call when an AlarmReset arrives.
   void reset();
   /// Nobody is told of the alarms until speak(): what a shadow finds wrong is not the machine's.
   void mute() { muted_ = true; }
   void speak();
-  bool active(const std::string& name, std::uint32_t part) const;
+  bool active(const machine::AlarmDefinition& alarm, std::uint32_t part) const;
   bool any() const;
 
  private:

@@ -6,7 +6,9 @@
 #include <map>
 #include <optional>
 
+#include "machine/alarm_constants.hpp"
 #include "machine/kinematics.hpp"
+#include "machine/parameter_constants.hpp"
 #include "service/node.hpp"
 #include "service/parameter_client.hpp"
 #include "stream/frame_window.hpp"
@@ -26,11 +28,11 @@ inline std::string standby_name(const std::string& topic) { return topic + topic
 
 /// Raises the alarm of copies that differ, once until it is reset: it stops the machine.
 inline void raise_difference(service::AlarmBoard& alarms, const auto& first, const auto& second) {
-  if (alarms.active("copies_differ", first.channel)) return;
+  if (alarms.active(alarm::copies_differ, first.channel)) return;
   const auto what = difference(first, second);
   if (!what) return;
-  alarms.raise("copies_differ", first.channel, what->text, what->cycle);
-  alarms.release("copies_differ", first.channel);
+  alarms.raise(alarm::copies_differ, first.channel, what->text, what->cycle);
+  alarms.release(alarm::copies_differ, first.channel);
 }
 
 template <class In>
@@ -126,11 +128,11 @@ class StageService : public service::Service {
 
   void start() {
     const auto& p = *parameters_.newest();
-    const int frame =
-        p.integer(node_.options().virtual_time ? "frame_cycles_virtual_time" : "frame_cycles_real_time");
-    node_.bus().set_depth(
-        {stream_depth(p.integer("stream_lead"), frame, static_cast<int>(node_.options().machine.channels))});
-    lead_ = static_cast<std::uint64_t>(p.integer("stream_lead"));
+    const int frame = p.integer(node_.options().virtual_time ? parameter::frame_cycles_virtual_time
+                                                             : parameter::frame_cycles_real_time);
+    node_.bus().set_depth({stream_depth(p.integer(parameter::stream_lead), frame,
+                                        static_cast<int>(node_.options().machine.channels))});
+    lead_ = static_cast<std::uint64_t>(p.integer(parameter::stream_lead));
     const auto& services = node_.options().machine.services;
     twins_ = std::count_if(services.begin(), services.end(),
                            [&](const auto& entry) { return entry.service == stage_name(stage_); }) > 1;
@@ -238,13 +240,13 @@ class StageService : public service::Service {
       const double now = service::monotonic_seconds();
       if (unknown_since_ == 0) unknown_since_ = now;
       if (now - unknown_since_ > 1)
-        node_.alarms().raise("revision_unknown", channel,
+        node_.alarms().raise(alarm::revision_unknown, channel,
                              "Frames are made with parameter revision " + std::to_string(revision) +
                                  ", which has not arrived");
       return false;
     }
     unknown_since_ = 0;
-    node_.alarms().clear("revision_unknown", channel);
+    node_.alarms().clear(alarm::revision_unknown, channel);
     StateValues state;
     if (lane.cut)
       state = *lane.cut;

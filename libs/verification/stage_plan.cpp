@@ -7,6 +7,7 @@
 
 #include "bus/cdr.hpp"
 #include "contracts/topics.hpp"
+#include "machine/parameter_constants.hpp"
 #include "machine/parameters.hpp"
 #include "recording/cycle_coverage.hpp"
 
@@ -77,7 +78,7 @@ class StagePlan {
         if (!bus::decode(message.cdr, set)) continue;
         revisions_.push_back(
             {&message, set.revision,
-             static_cast<std::uint64_t>(machine::parameters_of(set).integer("stream_lead"))});
+             static_cast<std::uint64_t>(machine::parameters_of(set).integer(parameter::stream_lead))});
       }
     }
     if (revisions_.empty()) throw std::runtime_error("the recording has no parameters");

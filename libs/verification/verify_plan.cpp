@@ -5,6 +5,7 @@
 
 #include "bus/cdr.hpp"
 #include "contracts/topics.hpp"
+#include "machine/parameter_constants.hpp"
 #include "machine/parameters.hpp"
 #include "verification/stage_plan.hpp"
 #include "verification/tick_plan.hpp"
@@ -135,7 +136,7 @@ VerifyPlan surroundings(const StoredRecording& recording, const std::string& ser
   idl::service::Cluster cluster;
   for (const auto& message : recording.messages) {
     if (message.topic->handle == "parameter_set" && bus::decode(message.cdr, set)) {
-      plan.cycle_seconds = machine::parameters_of(set).get("interpolation_cycle") * 1e-6;
+      plan.cycle_seconds = machine::parameters_of(set).get(parameter::interpolation_cycle) * 1e-6;
     } else if (message.topic->handle == "cluster" && bus::decode(message.cdr, cluster)) {
       plan.virtual_time = cluster.virtual_time;
       // Channels are listed in their order; of copies the first is meant.

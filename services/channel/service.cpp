@@ -4,6 +4,8 @@
 #include <fstream>
 #include <sstream>
 
+#include "machine/alarm_constants.hpp"
+#include "machine/parameter_constants.hpp"
 #include "storage/file.hpp"
 #include "stream/stage_service.hpp"
 #include "variable_text.hpp"
@@ -58,7 +60,8 @@ void ChannelService::read_record() {
     kept_ = channel::read_record(text.str(), record_file_);
     core_.set_interrupted(kept_);
   } catch (const std::exception& e) {
-    node_.alarms().raise("storage_failed", static_cast<std::uint32_t>(node_.options().channel), e.what());
+    node_.alarms().raise(alarm::storage_failed, static_cast<std::uint32_t>(node_.options().channel),
+                         e.what());
     std::rename(record_file_.c_str(), (record_file_ + ".damaged").c_str());
   }
 }
@@ -75,9 +78,9 @@ void ChannelService::keep_record() {
   const auto error = record_.error();
   const auto channel = static_cast<std::uint32_t>(node_.options().channel);
   if (!error.empty())
-    node_.alarms().raise("storage_failed", channel, error);
+    node_.alarms().raise(alarm::storage_failed, channel, error);
   else if (record_failed_)
-    node_.alarms().release("storage_failed", channel);
+    node_.alarms().release(alarm::storage_failed, channel);
   record_failed_ = !error.empty();
 }
 
@@ -85,12 +88,13 @@ void ChannelService::watch_text() {
   const auto channel = static_cast<std::uint32_t>(node_.options().channel);
   const double now = service::monotonic_seconds();
   if (!core_.waits_for_text()) {
-    if (text_missing_since_ < 0) node_.alarms().release("text_late", channel);
+    if (text_missing_since_ < 0) node_.alarms().release(alarm::text_late, channel);
     text_missing_since_ = 0;
   } else if (text_missing_since_ == 0) {
     text_missing_since_ = now;
   } else if (text_missing_since_ > 0 && now - text_missing_since_ > text_patience) {
-    node_.alarms().raise("text_late", channel, "The program's text does not arrive: see the program service");
+    node_.alarms().raise(alarm::text_late, channel,
+                         "The program's text does not arrive: see the program service");
     text_missing_since_ = -1;  // told
   }
 }
@@ -106,8 +110,9 @@ void ChannelService::read_hand_over() {
   try {
     if (channel::read_hand_over(text.str(), hand_over_file_, boot_, from)) hand_over_ = std::move(from);
   } catch (const std::exception& e) {
-    node_.alarms().raise("storage_failed", static_cast<std::uint32_t>(node_.options().channel), e.what());
-    node_.alarms().release("storage_failed", static_cast<std::uint32_t>(node_.options().channel));
+    node_.alarms().raise(alarm::storage_failed, static_cast<std::uint32_t>(node_.options().channel),
+                         e.what());
+    node_.alarms().release(alarm::storage_failed, static_cast<std::uint32_t>(node_.options().channel));
   }
 }
 
@@ -133,7 +138,8 @@ void ChannelService::read_variables() {
     channel::read_variables(text.str(), variables_file_, boot_, *variables);
     core_.set_variables(*variables);
   } catch (const std::exception& e) {
-    node_.alarms().raise("storage_failed", static_cast<std::uint32_t>(node_.options().channel), e.what());
+    node_.alarms().raise(alarm::storage_failed, static_cast<std::uint32_t>(node_.options().channel),
+                         e.what());
     std::rename(variables_file_.c_str(), (variables_file_ + ".damaged").c_str());
   }
 }
@@ -147,9 +153,9 @@ void ChannelService::save_variables() {
     if (text == saved_variables_) return;
     storage::replace_file(variables_file_, text);
     saved_variables_ = text;
-    node_.alarms().release("storage_failed", channel);
+    node_.alarms().release(alarm::storage_failed, channel);
   } catch (const storage::StorageError& e) {
-    node_.alarms().raise("storage_failed", channel, e.what());
+    node_.alarms().raise(alarm::storage_failed, channel, e.what());
   }
 }
 
@@ -161,7 +167,7 @@ void ChannelService::change_tables() {
 void ChannelService::start_stream() {
   const auto& p = *parameters_.newest();
   const int frame = static_cast<int>(core_.machine().frame_cycles(node_.options().virtual_time));
-  node_.bus().set_depth({stream::stream_depth(p.integer("stream_lead"), frame, 1)});
+  node_.bus().set_depth({stream::stream_depth(p.integer(parameter::stream_lead), frame, 1)});
   frame_writer_.emplace(node_.bus().writer(topics::path_frame));
   auto& bus = node_.bus();
   present_reader_.emplace(
@@ -203,12 +209,12 @@ void ChannelService::watch_copies() {
   for (const auto& change : copies_.judge(lead, now)) {
     const auto part = stream::copy_part(change.stage, change.copy);
     if (change.lost)
-      node_.alarms().raise("redundancy_lost", part,
+      node_.alarms().raise(alarm::redundancy_lost, part,
                            "Copy " + std::to_string(change.copy) + " of " + stream::stage_name(change.stage) +
                                " was dropped: it makes no progress",
                            core_.link().executed());
     else
-      node_.alarms().clear("redundancy_lost", part);
+      node_.alarms().clear(alarm::redundancy_lost, part);
   }
   core_.set_copies(copies_.may_start(now),
                    node_.options().virtual_time ? copies_.floor() : stream::CopyWatch::everywhere);
@@ -301,11 +307,11 @@ void ChannelService::pump() {
   watch_text();
   for (const auto& event : core_.take_events()) {
     const auto channel = static_cast<std::uint32_t>(node_.options().channel);
-    if (event.number != 0 && event.alarm.empty()) {
+    if (event.alarm == nullptr) {
       node_.alarms().raise_number(event.number, channel, event.text, core_.link().executed());
     } else {
-      node_.alarms().raise(event.alarm, channel, event.text, core_.link().executed());
-      node_.alarms().release(event.alarm, channel);
+      node_.alarms().raise(*event.alarm, channel, event.text, core_.link().executed());
+      node_.alarms().release(*event.alarm, channel);
     }
   }
   publish();

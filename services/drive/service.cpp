@@ -2,6 +2,9 @@
 
 #include "stream/stage_service.hpp"
 
+#include "machine/alarm_constants.hpp"
+#include "machine/parameter_constants.hpp"
+
 namespace trunnion::drive {
 namespace {
 constexpr double patience = 1.0;           // s of wall time that virtual time waits for a missing setpoint
@@ -26,9 +29,11 @@ void DriveService::start() {
   const auto& p = *parameters_.newest();
   configure(p);
   core_.restore(*memory_);
-  frame_cycles_ = static_cast<std::uint32_t>(
-      p.integer(node_.options().virtual_time ? "frame_cycles_virtual_time" : "frame_cycles_real_time"));
-  node_.bus().set_depth({stream::stream_depth(p.integer("stream_lead"), static_cast<int>(frame_cycles_), 1)});
+  frame_cycles_ =
+      static_cast<std::uint32_t>(p.integer(node_.options().virtual_time ? parameter::frame_cycles_virtual_time
+                                                                        : parameter::frame_cycles_real_time));
+  node_.bus().set_depth(
+      {stream::stream_depth(p.integer(parameter::stream_lead), static_cast<int>(frame_cycles_), 1)});
   writer_.emplace(node_.bus().writer(topics::feedback_frame));
   outputs_.emplace(node_.bus().reader(topics::plc_outputs));
   services_.emplace(node_.bus().reader(topics::service_state));
@@ -61,7 +66,7 @@ void DriveService::drain() {
       if (const auto p = parameters_.find(frame_.revision)) {
         configure(*p);
       } else {
-        node_.alarms().raise("revision_unknown", frame_.channel,
+        node_.alarms().raise(alarm::revision_unknown, frame_.channel,
                              "Frames are made with parameter revision " + std::to_string(frame_.revision) +
                                  ", which has not arrived",
                              frame_.first);
@@ -103,13 +108,13 @@ void DriveService::drain() {
   last_drain_ = now;
   // An emergency stop is also the drive's own reaction to the silence of the one who could order it.
   if (have_plc_ && now - plc_seen_ > plc_patience) {
-    node_.alarms().raise("plc_absent", 0, "No sign of the PLC for " + std::to_string(plc_patience) + " s",
-                         core_.next());
+    node_.alarms().raise(alarm::plc_absent, 0,
+                         "No sign of the PLC for " + std::to_string(plc_patience) + " s", core_.next());
     core_.set_enables({}, true);
     have_plc_ = false;
     changed_ = true;
   } else if (have_plc_) {
-    node_.alarms().release("plc_absent", 0);
+    node_.alarms().release(alarm::plc_absent, 0);
   }
 }
 
@@ -170,8 +175,8 @@ void DriveService::pump() {
   else
     run_real();
   for (const auto& event : core_.take_events()) {
-    node_.alarms().raise(event.alarm, event.part, event.text, core_.next());
-    node_.alarms().release(event.alarm, event.part);
+    node_.alarms().raise(*event.alarm, event.part, event.text, core_.next());
+    node_.alarms().release(*event.alarm, event.part);
   }
   if (changed_ || mode != core_.mode() || service::monotonic_seconds() - last_sent_ > idle_feedback) send();
 }

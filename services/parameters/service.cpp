@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "machine/alarms.hpp"
+#include "machine/alarm_constants.hpp"
 
 namespace trunnion::parameters {
 MachineDefaults defaults_of(const machine::MachineConfig& machine) {
@@ -53,7 +53,7 @@ void ParameterService::pump() {
     try {
       store_.channel_reset_count(state.channel, state.reset_count);
     } catch (const StorageError& e) {
-      node_.alarms().raise("storage_failed", 0, e.what(), state.cycle);
+      node_.alarms().raise(alarm::storage_failed, 0, e.what(), state.cycle);
     }
     publish();
   }
@@ -61,9 +61,9 @@ void ParameterService::pump() {
   while (requests_.take(request)) {
     const auto reply = store_.apply(request, service::time_of_day());
     if (reply.accepted)
-      node_.alarms().release("storage_failed", 0);
-    else if (reply.alarm == machine::alarm_definition("storage_failed").number)
-      node_.alarms().raise("storage_failed", 0, reply.reason);
+      node_.alarms().release(alarm::storage_failed, 0);
+    else if (reply.alarm == alarm::storage_failed.number)
+      node_.alarms().raise(alarm::storage_failed, 0, reply.reason);
     publish();
     requests_.reply(request, reply);
   }

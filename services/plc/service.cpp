@@ -6,6 +6,8 @@
 #include <iostream>
 #include <sstream>
 
+#include "machine/alarm_constants.hpp"
+#include "machine/parameter_constants.hpp"
 #include "program_files.hpp"
 
 namespace trunnion::plc {
@@ -60,7 +62,7 @@ PlcService::PlcService(service::Node& node)
   } catch (const std::runtime_error& e) {
     fault_ = e.what();
     std::cerr << fault_ << "\n";
-    node_.alarms().raise("plc_program", 0, fault_);
+    node_.alarms().raise(alarm::plc_program, 0, fault_);
   }
 }
 
@@ -161,7 +163,7 @@ void PlcService::pump() {
   if (parameters_.poll()) {
     core_.configure(*parameters_.newest(), node_.options().virtual_time);
     rounds_.told(StepKind::parameters, parameters_.newest()->revision);
-    period_ = parameters_.newest()->integer("interpolation_cycle") * 1e-6;
+    period_ = parameters_.newest()->integer(parameter::interpolation_cycle) * 1e-6;
   }
   take_inputs();
   if (!core_.configured()) return;
@@ -200,17 +202,19 @@ void PlcService::publish(double now) {
   end_round(finished);
   for (const auto& done : finished) {
     if (done.failed)
-      node_.alarms().raise("auxiliary_refused", done.channel, "An auxiliary function was not carried out",
+      node_.alarms().raise(alarm::auxiliary_refused, done.channel,
+                           "An auxiliary function was not carried out",
                            core_.memory().handshakes[done.channel].cycle);
-    node_.alarms().release("auxiliary_refused", done.channel);
+    node_.alarms().release(alarm::auxiliary_refused, done.channel);
     done_.write(done);
   }
   first_ = false;
   if (fault_.empty()) {
     if (core_.emergency_stop())
-      node_.alarms().raise("emergency_stop", 0, "Emergency stop: release the button and reset", outputs.tick);
+      node_.alarms().raise(alarm::emergency_stop, 0, "Emergency stop: release the button and reset",
+                           outputs.tick);
     else
-      node_.alarms().clear("emergency_stop", 0);
+      node_.alarms().clear(alarm::emergency_stop, 0);
   }
   if (now - image_written_ >= image_period) {
     auto image = core_.image();

@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <iostream>
 
-#include "machine/alarms.hpp"
+#include "machine/alarm_constants.hpp"
 
 namespace trunnion::program {
 namespace {
@@ -40,17 +40,17 @@ void ProgramService::pump() {
   idl::program::ProgramRequest request;
   while (requests_.take(request)) {
     auto reply = store_.apply(request, now);
-    if (reply.alarm == machine::alarm_definition("storage_failed").number)
-      node_.alarms().raise("storage_failed", 0, reply.reason);
+    if (reply.alarm == alarm::storage_failed.number)
+      node_.alarms().raise(alarm::storage_failed, 0, reply.reason);
     else if (reply.accepted)
-      node_.alarms().release("storage_failed", 0);
+      node_.alarms().release(alarm::storage_failed, 0);
     if (store_.take_change()) list_.write(store_.list());
     requests_.reply(request, std::move(reply));
   }
   try {
     store_.drop_stale_uploads(now);
   } catch (const StorageError& e) {
-    node_.alarms().raise("storage_failed", 0, e.what());
+    node_.alarms().raise(alarm::storage_failed, 0, e.what());
   }
   if (store_.take_change()) list_.write(store_.list());
 }

@@ -4,7 +4,7 @@
 
 #include <limits>
 
-#include "machine/alarms.hpp"
+#include "machine/alarm_constants.hpp"
 #include "machine/kinematics.hpp"
 #include "reading.hpp"
 
@@ -33,7 +33,7 @@ TEST_P(BadParameters, HaveAnAlarmOfTheirOwn) {
     const ChannelSetup setup(std::move(tables));
     FAIL();
   } catch (const std::exception& e) {
-    EXPECT_EQ(machine::alarm_definition(machine::alarm_of(e)).number, GetParam().alarm);
+    EXPECT_EQ(machine::alarm_of(e).number, GetParam().alarm);
     EXPECT_NE(std::string(e.what()).find(GetParam().text), std::string::npos) << e.what();
   }
 }
@@ -60,7 +60,7 @@ TEST(BadParameters, ADirectionThatIsNotOneLongIsNormalizedWithAWarning) {
   auto tables = tool_tables::load_machine_tables(std::string(MACHINES_DIRECTORY) + "/ac-table");
   tables.parameters.values[40426] = {-0.5, ""};
   EXPECT_EQ(machine::kinematics_warnings(tables.parameters, 0).size(), 1u);
-  EXPECT_EQ(machine::alarm_definition("direction_not_unit").number, 148u);
+  EXPECT_EQ(alarm::direction_not_unit.number, 148u);
   const ChannelSetup setup(std::move(tables));
   EXPECT_TRUE(setup.configured());
 }

@@ -1,4 +1,4 @@
-// The planner allocates when it is made and never again, whatever it is asked for.
+// The planner allocates when it is constructed and never afterwards.
 #include <gtest/gtest.h>
 
 #include "motion_fixture.hpp"
@@ -14,13 +14,13 @@ TEST(Allocation, none_while_planning_stepping_holding_going_back_and_aborting) {
   const Limits limits = uniform_limits(300, 3000, 4);
   Trajectory t(limits, &chain, cycle);
   const std::size_t before = allocations;
-  for (const auto frame : {language::Transformation::none, language::Transformation::rtcp}) {
+  for (const auto frame : {canonical::Transformation::none, canonical::Transformation::rtcp}) {
     AxisValues p{};
     t.start(p, frame, 80);
     for (std::uint32_t k = 1; k <= 300; ++k) {
       p[0] += 0.2;
       p[1] = std::sin(0.1 * k);
-      p[language::C] += 0.2;
+      p[canonical::C] += 0.2;
       ASSERT_TRUE(t.push(line_to(p, 3000, k)));
     }
     const double x = p[0], y = p[1];

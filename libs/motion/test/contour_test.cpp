@@ -10,7 +10,7 @@
 namespace trunnion::motion::test {
 namespace {
 
-using language::Transformation;
+using canonical::Transformation;
 
 constexpr double allowed_ratio = 1.001;
 
@@ -79,7 +79,7 @@ TEST_P(DenseCircle,
   expect_within(result, path.points[0], limits, nullptr, 0);
   EXPECT_LE(contour_error(result, path.points), tolerance);
   // Where the chords are short against the window the polyline is an arc: v = sqrt(24 tol r) / T, or the
-  // feed, or what half of the acceleration allows. 70 % of it is asked for: the plan keeps margins for
+  // feed, or what half of the acceleration allows. 70 % of it is programmed: the plan keeps margins for
   // tolerance, cycles and corners.
   const double window = cycles * cycle;
   const double formula =
@@ -133,8 +133,8 @@ TEST_P(FiveAxis, wavy_cap_with_rtcp_keeps_the_limits_of_the_machine_axes_and_the
   for (int i = 0; i <= 600; ++i) {
     const double f = i * 2 * std::numbers::pi / 600;
     AxisValues p{30 * std::cos(f) + 5, 30 * std::sin(f) - 4, 2 * std::sin(6 * f)};
-    p[language::A] = 20 + 15 * std::sin(9 * f);
-    p[language::C] = 360 * i / 600.0;
+    p[canonical::A] = 20 + 15 * std::sin(9 * f);
+    p[canonical::C] = 360 * i / 600.0;
     path.add(p, feed);
   }
   Trajectory t(limits, &chain, cycle);
@@ -148,7 +148,7 @@ INSTANTIATE_TEST_SUITE_P(feeds, FiveAxis,
                          testing::Combine(testing::Values(5, 20, 50),
                                           testing::Values(1000.0, 4000.0, 20000.0)));
 
-// A follows X degree by millimetre up to X10 and then stands: its corner may be rounded by the orientation
+// A follows X degree by millimetre up to X10 and then rests: its corner may be rounded by the orientation
 // tolerance only.
 TEST(Contour, corners_of_a_rotary_axis_keep_the_orientation_tolerance) {
   for (const double tolerance : {0.001, 0.05}) {
@@ -159,7 +159,7 @@ TEST(Contour, corners_of_a_rotary_axis_keep_the_orientation_tolerance) {
     expect_within(result, {}, limits, nullptr, 0);
     double worst = 0;
     for (const Setpoint& s : result.setpoints) {
-      worst = std::max(worst, std::abs(s.position[language::A] - std::min(s.position[0], 10.0)));
+      worst = std::max(worst, std::abs(s.position[canonical::A] - std::min(s.position[0], 10.0)));
     }
     EXPECT_LE(worst, tolerance);
     EXPECT_GE(worst, 0.2 * tolerance);  // the corner is rounded, not stopped at
@@ -177,8 +177,8 @@ TEST(Contour, random_five_axis_corners_with_rtcp_keep_the_limits_and_the_toleran
       Polyline path;
       for (int i = 0; i < 60; ++i) {
         AxisValues p{i * size * 0.4 + unit(random) * size, unit(random) * size, unit(random) * size};
-        p[language::A] = unit(random) * 3 * size;
-        p[language::C] = unit(random) * 5 * size;
+        p[canonical::A] = unit(random) * 3 * size;
+        p[canonical::C] = unit(random) * 5 * size;
         path.add(p, 6000);
       }
       Trajectory t(limits, &chain, cycle);
@@ -203,8 +203,8 @@ TEST(Contour, fast_rotation_near_the_centre_of_the_table_with_rtcp_keeps_the_lim
     Polyline path;
     for (int i = 0; i < 120; ++i) {
       AxisValues p{5 + unit(random), -4 + unit(random), unit(random)};
-      p[language::A] = 10 * unit(random);
-      p[language::C] = (i % 30 < 15 ? 20.0 : 5.0) * i;
+      p[canonical::A] = 10 * unit(random);
+      p[canonical::C] = (i % 30 < 15 ? 20.0 : 5.0) * i;
       path.add(p, 6000);
     }
     Trajectory t(limits, &chain, cycle);

@@ -47,7 +47,7 @@ TEST(Modes, each_keeps_its_own_contour_tolerance_and_uses_it) {
                                              {0, 0.05, 0.05},
                                              {1, 0.05, 0.05},
                                              {2, 0.003, 0.003}}) {
-    t.start({}, language::Transformation::none, 0);
+    t.start({}, canonical::Transformation::none, 0);
     const Motion result = run(t, in_mode(bends.program, static_cast<std::uint8_t>(mode), own));
     ASSERT_TRUE(result.stopped);
     const double error = contour_error(result, bends.points);
@@ -63,7 +63,7 @@ TEST(Modes, smoothing_cycles_of_a_mode_bound_its_jerk) {
   limits.axes[0].acceleration = 1000;
   Trajectory t(limits, nullptr, cycle);
   const auto jerk = [&](std::uint8_t mode) {
-    t.start({}, language::Transformation::none, 0);
+    t.start({}, canonical::Transformation::none, 0);
     double x1 = 0, x2 = 0, x3 = 0, worst = 0;
     for (const Setpoint& s : run(t, in_mode({line_to({50}, 9000)}, mode)).setpoints) {
       worst = std::max(worst, std::abs(s.position[0] - 3 * x1 + 3 * x2 - x3) / (cycle * cycle * cycle));
@@ -73,18 +73,18 @@ TEST(Modes, smoothing_cycles_of_a_mode_bound_its_jerk) {
   };
   EXPECT_NEAR(jerk(0), 60000, 60);
   EXPECT_NEAR(jerk(1), 1000 / 0.035, 30);
-  EXPECT_NEAR(jerk(2), 60000, 60);  // 1000 / 0.01 is more than the axis stands
+  EXPECT_NEAR(jerk(2), 60000, 60);  // 1000 / 0.01 is more than the axis permits
 }
 
-// At 90 degrees Q1 stands (80); Q2 (120) and Q0 (180) go round, at 10 mm/s, which a rounding by 0.1 mm
-// stands: 6 tolerances / sqrt 2 of reach at 60,000 mm/s3 allow 18.6 mm/s.
-TEST(Modes, smooth_corner_angle_of_a_mode_decides_where_motion_stands) {
+// At 90 degrees Q1 stops (80); Q2 (120) and Q0 (180) go round, at 10 mm/s, which a rounding by 0.1 mm
+// permits: 6 tolerances / sqrt 2 of reach at 60,000 mm/s3 allow 18.6 mm/s.
+TEST(Modes, smooth_corner_angle_of_a_mode_decides_where_motion_stops) {
   Limits limits = three_modes();
   limits.modes[0].contour_tolerance = 0.1;
   limits.contour_tolerance = 0.1;
   Trajectory t(limits, nullptr, cycle);
   const auto slowest_on_the_way = [&](std::uint8_t mode) {
-    t.start({}, language::Transformation::none, 0);
+    t.start({}, canonical::Transformation::none, 0);
     double slowest = 1e9;
     for (const Setpoint& s :
          run(t, in_mode({line_to({10}, 600, 1), line_to({10, 10}, 600, 2)}, mode)).setpoints)
@@ -101,7 +101,7 @@ TEST(Modes, smooth_corner_angle_of_a_mode_decides_where_motion_stands) {
 TEST(Modes, centripetal_acceleration_of_a_mode_bounds_the_speed_in_curves) {
   Trajectory t(three_modes(), nullptr, cycle);
   const auto fastest = [&](std::uint8_t mode) {
-    t.start({10}, language::Transformation::none, 0);
+    t.start({10}, canonical::Transformation::none, 0);
     double speed = 0;
     for (const Setpoint& s : run(t, in_mode({arc_to({10}, 0, 0, 1440, false, 12000)}, mode)).setpoints)
       speed = std::max(speed, s.path_speed);

@@ -12,8 +12,8 @@
 
 namespace trunnion::motion::test {
 
-using language::Command;
-using language::CommandKind;
+using canonical::Command;
+using canonical::CommandKind;
 
 inline constexpr double cycle = 0.001;
 
@@ -44,7 +44,7 @@ inline Command arc_to(const AxisValues& target, double cx, double cy, double swe
                       double feed) {
   Command c = line_to(target, feed);
   c.kind = CommandKind::arc;
-  c.arc = {language::Plane::xy, clockwise, {cx, cy, 0}, sweep};
+  c.arc = {canonical::Plane::xy, clockwise, {cx, cy, 0}, sweep};
   return c;
 }
 

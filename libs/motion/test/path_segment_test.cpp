@@ -9,16 +9,16 @@
 namespace trunnion::motion {
 namespace {
 
-using language::Arc;
-using language::Plane;
+using canonical::Arc;
+using canonical::Plane;
 
 TEST(PathSegment, line_runs_all_axes_in_proportion_and_ends_on_the_target_bit_for_bit) {
   const AxisValues target{0.1, 0.2, 0.2, 30, 0, -60, 0, 0, 9};
   const PathSegment line = PathSegment::line({}, target);
   EXPECT_DOUBLE_EQ(line.length(), 0.3);  // sqrt(0.01 + 0.04 + 0.04): rotary and further axes add no length
   EXPECT_EQ(line.position(line.length()), target);
-  EXPECT_NEAR(line.position(0.15)[language::C], -30, 1e-12);
-  EXPECT_NEAR(line.derivative(0)[language::A], 100, 1e-9);
+  EXPECT_NEAR(line.position(0.15)[canonical::C], -30, 1e-12);
+  EXPECT_NEAR(line.derivative(0)[canonical::A], 100, 1e-9);
 }
 
 TEST(PathSegment, length_of_a_purely_rotary_move_is_degrees_and_of_u_v_w_alone_millimetres) {
@@ -67,7 +67,7 @@ TEST(PathSegment, tilted_arcs_turn_about_their_normal) {
   EXPECT_NEAR(same.curvature(), plain.curvature(), 1e-12);
   for (int k = 0; k <= 10; ++k) {
     const double s = plain.length() * k / 10;
-    for (std::size_t i = 0; i < language::axis_count; ++i) {
+    for (std::size_t i = 0; i < canonical::axis_count; ++i) {
       EXPECT_NEAR(same.position(s)[i], plain.position(s)[i], 1e-12);
       EXPECT_NEAR(same.derivative(s)[i], plain.derivative(s)[i], 1e-12);
     }
@@ -130,7 +130,7 @@ TEST(PathSegment, arc_around_its_own_start_falls_back_to_a_line) {
 }
 
 TEST(RemainingSweep, IsTheAngleToTheTargetWhateverTheFractionSaysButForWholeTurns) {
-  language::Arc arc;
+  canonical::Arc arc;
   arc.sweep = 270 + 720;
   arc.clockwise = true;
   // Clockwise about the origin from 0 deg, two turns and 270 deg to 90 deg. At -45 deg of the second turn 405

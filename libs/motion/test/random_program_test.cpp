@@ -10,7 +10,7 @@
 namespace trunnion::motion::test {
 namespace {
 
-using language::Transformation;
+using canonical::Transformation;
 
 struct Scenario {
   Limits limits;
@@ -28,7 +28,7 @@ Limits random_limits(std::mt19937_64& random, bool rtcp) {
   limits.orientation_tolerance = std::pow(10, -2 + 2 * unit(random));
   for (std::size_t i = 0; i < 9; ++i) {
     if (!rtcp) limits.axes[i].acceleration *= std::pow(10, unit(random) - 0.5);
-    if (rtcp && i >= language::A && i <= language::C) {
+    if (rtcp && i >= canonical::A && i <= canonical::C) {
       limits.axes[i] = {30 + 80 * unit(random), 200, 200 + 600 * unit(random)};
     }
   }
@@ -73,9 +73,9 @@ Scenario random_scenario(std::uint64_t seed) {
         p[1] += 0.01 * size * unit(random);
       }
       if (s.rtcp || kind == 0) {
-        p[language::A] = std::clamp(
-            p[language::A] + size * (kind == 0 ? 3 * unit(random) : 0.3 * std::sin(i * 0.2)), -60., 60.);
-        p[language::C] += kind == 0 ? size * 4 * unit(random) : size * 0.5;
+        p[canonical::A] = std::clamp(
+            p[canonical::A] + size * (kind == 0 ? 3 * unit(random) : 0.3 * std::sin(i * 0.2)), -60., 60.);
+        p[canonical::C] += kind == 0 ? size * 4 * unit(random) : size * 0.5;
       }
       s.program.push_back(line_to(p, 5000 + 4000 * unit(random)));
     }

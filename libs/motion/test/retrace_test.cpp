@@ -9,7 +9,7 @@
 namespace trunnion::motion::test {
 namespace {
 
-using language::Transformation;
+using canonical::Transformation;
 
 // Lines, corners, arcs and a dwell.
 std::vector<Command> mixed_program() {
@@ -130,8 +130,8 @@ TEST(Retrace, turning_at_any_cycle_under_any_override_keeps_the_limits_through_a
     for (std::uint32_t k = 1; k <= 60; ++k) {
       p[0] += 0.5;
       p[1] = 3 * std::sin(0.2 * k);
-      p[language::A] = 20 * std::sin(0.1 * k);
-      p[language::C] += 1;
+      p[canonical::A] = 20 * std::sin(0.1 * k);
+      p[canonical::C] += 1;
       program.push_back(line_to(p, 3000, k));
     }
     feed(t, program);

@@ -8,7 +8,7 @@
 namespace trunnion::motion::test {
 namespace {
 
-using language::Transformation;
+using canonical::Transformation;
 
 void expect_sound(const Motion& result, const AxisValues& start, const AxisValues& end, const Limits& limits,
                   const geometry::Chain* chain = nullptr) {
@@ -118,7 +118,7 @@ TEST(Robustness, rotary_move_with_a_trace_of_linear_travel_ends) {
     Trajectory t(limits, &chain, cycle);
     t.start({20, 0, 0}, Transformation::rtcp, 0);
     AxisValues a{20, 0, 0}, b{20 + trace, 0, 0};
-    b[language::C] = 30;
+    b[canonical::C] = 30;
     AxisValues c = b;
     c[0] += 10;
     const Motion result = run(t, {line_to(b, 6000), line_to(c, 6000)}, 200000);
@@ -127,7 +127,7 @@ TEST(Robustness, rotary_move_with_a_trace_of_linear_travel_ends) {
   }
 }
 
-// 3.6 million cycles. The motion stands on the path where it stopped and goes on to the same end.
+// 3.6 million cycles. The motion rests on the path where it stopped and continues to the same end.
 TEST(Robustness, an_override_of_zero_for_an_hour_loses_nothing) {
   const Limits limits = uniform_limits(100, 1000, 20);
   Trajectory t(limits, nullptr, cycle);
@@ -136,9 +136,9 @@ TEST(Robustness, an_override_of_zero_for_an_hour_loses_nothing) {
   t.finish();
   for (int k = 0; k < 300; ++k) t.step(1, 1, false);
   for (int k = 0; k < 1000; ++k) t.step(0, 1, false);
-  const AxisValues stood = t.position();
+  const AxisValues stopped = t.position();
   for (int k = 0; k < 3600000; ++k) t.step(0, 1, false);
-  EXPECT_EQ(t.position(), stood);
+  EXPECT_EQ(t.position(), stopped);
   EXPECT_FALSE(t.at_rest());
   int cycles = 0;
   while (!t.step(1, 1, false).at_rest && ++cycles < 5000) {
@@ -156,7 +156,7 @@ TEST(Robustness, feeds_that_make_no_motion_are_refused_before_anything_moves) {
 TEST(Robustness, an_axis_without_limits_refuses_to_move_and_the_others_do_not_care) {
   for (const auto limit : {&AxisLimits::velocity, &AxisLimits::acceleration, &AxisLimits::jerk}) {
     Limits limits = uniform_limits(100, 1000, 20);
-    limits.axes[language::Y].*limit = 0;
+    limits.axes[canonical::Y].*limit = 0;
     Trajectory t(limits, nullptr, cycle);
     EXPECT_FALSE(t.push(line_to({10, 10}, 6000)));
     EXPECT_TRUE(t.push(line_to({10}, 6000)));
@@ -178,8 +178,8 @@ TEST(Robustness, flips_of_the_orientation_run_at_the_pace_of_the_rotary_axis) {
   AxisValues p = start;
   for (int k = 0; k < 6; ++k) {
     p[0] += 1;
-    p[language::A] = -p[language::A];
-    p[language::C] += k % 2 == 0 ? 180 : -180;
+    p[canonical::A] = -p[canonical::A];
+    p[canonical::C] += k % 2 == 0 ? 180 : -180;
     program.push_back(line_to(p, 6000));
   }
   const Motion result = run(t, program, 200000);
@@ -191,9 +191,9 @@ TEST(Robustness, flips_of_the_orientation_run_at_the_pace_of_the_rotary_axis) {
   EXPECT_LE(ratios.jerk, 1.001);
 }
 
-// Nothing says that the program is over: the motion stops by itself on the end of what it knows, within the
-// limits, and says that it is not at rest. A block is known when no rounding behind it can change any more:
-// two reaches and a block of 1 mm before the end.
+// The end of the program is not reported: the motion stops by itself at the end of the known path, within the
+// limits, and reports that it is not at rest. A block is known when no rounding behind it can change any
+// more: two reaches and a block of 1 mm before the end.
 TEST(Robustness, a_program_that_ends_in_motion_without_an_end_stops_on_its_path) {
   const Limits limits = uniform_limits(100, 1000, 20);
   Trajectory t(limits, nullptr, cycle);
@@ -301,7 +301,7 @@ TEST(Robustness, jogs_let_go_of_at_any_cycle_under_any_override_keep_the_limits_
 }
 
 TEST(Robustness, mixed_noise_of_every_kind_ends_and_keeps_the_limits) {
-  // In 171 a cell that stands next to no acceleration follows one that stands much.
+  // In 171 a cell that permits almost no acceleration follows one that permits much.
   for (const std::uint64_t seed : {0, 1, 2, 3, 4, 5, 6, 7, 171}) {
     std::mt19937_64 random(seed);
     std::uniform_real_distribution<double> unit(-1, 1);
@@ -326,7 +326,7 @@ TEST(Robustness, mixed_noise_of_every_kind_ends_and_keeps_the_limits) {
       } else {
         program.push_back(line_to(p, 3000 + 2900 * unit(random)));
       }
-      if (random() % 20 == 0) program.back().modal.path_control = language::PathControl::exact_stop;
+      if (random() % 20 == 0) program.back().modal.path_control = canonical::PathControl::exact_stop;
     }
     const Motion result = run(t, program, 400000);
     SCOPED_TRACE(seed);

@@ -11,7 +11,7 @@
 namespace trunnion::motion::test {
 namespace {
 
-using language::Transformation;
+using canonical::Transformation;
 
 Command rapid_to(const AxisValues& target) {
   Command c = line_to(target, 0);
@@ -99,7 +99,7 @@ TEST(Trajectory, feed_is_reached_and_never_exceeded_on_a_long_line) {
 // 30 mm and 90 degrees of C in F2 1/min: half a minute, 1 mm/s along the path.
 TEST(Trajectory, inverse_time_feed_gives_the_time_of_the_whole_command) {
   Command c = line_to({30, 0, 0, 0, 0, 90}, 2);
-  c.modal.feed_mode = language::FeedMode::inverse_time;
+  c.modal.feed_mode = canonical::FeedMode::inverse_time;
   Trajectory t(uniform_limits(500, 3000, 10), nullptr, cycle);
   const Motion whole = run(t, {c});
   EXPECT_NEAR(static_cast<double>(whole.setpoints.size()) * cycle, 30, 0.1);
@@ -162,14 +162,14 @@ TEST(Trajectory, exact_stop_reaches_the_corner_bit_for_bit_before_the_next_line_
   Trajectory t(uniform_limits(500, 3000, 30), nullptr, cycle);
   const AxisValues corner{10.1, 0.3};
   std::vector<Command> program{line_to(corner, 6000, 1), line_to({10.1, 20}, 6000, 2)};
-  program[0].modal.path_control = language::PathControl::exact_stop;
+  program[0].modal.path_control = canonical::PathControl::exact_stop;
   const Motion result = run(t, program);
   bool met = false;
   for (const Setpoint& s : result.setpoints) met = met || s.position == corner;
   EXPECT_TRUE(met);
   // Without it the corner is rounded within the tolerance.
   t.start({}, Transformation::none, 0);
-  program[0].modal.path_control = language::PathControl::continuous;
+  program[0].modal.path_control = canonical::PathControl::continuous;
   met = false;
   for (const Setpoint& s : run(t, program).setpoints) met = met || s.position == corner;
   EXPECT_FALSE(met);

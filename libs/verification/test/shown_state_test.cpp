@@ -1,4 +1,5 @@
 #include "verification/shown_state.hpp"
+#include "machine/parameter_constants.hpp"
 
 #include <gtest/gtest.h>
 
@@ -40,7 +41,7 @@ TEST(ShownState, AxesAreTheLastRowOfTheFeedbackUnderTheirLogicalNumbers) {
   StoredRecording recording;
   idl::parameters::ParameterSet set;
   set.revision = 1;
-  const auto name = machine::Catalogue::instance().by_name("axis_name").number();
+  const auto name = parameter::axis_name.number();
   set.values = {{name, 0, "X"}, {name + 3000, 0, "A"}};
   recording.messages.push_back(stored(topics::parameter_set, set, 1));
   auto frame = feedback_frame(100, 2);

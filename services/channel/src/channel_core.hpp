@@ -14,6 +14,7 @@
 #include "contracts/types.hpp"
 #include "hand_over.hpp"
 #include "handwheel.hpp"
+#include "machine/alarm_definition.hpp"
 #include "preparation.hpp"
 #include "program_execution/program_flow.hpp"
 #include "program_execution/tapping.hpp"
@@ -39,9 +40,9 @@ struct Answer {
   std::string reason;
 };
 
-/// Something to raise as an alarm: a name of alarms.yaml, or a number of the NC language.
+/// Something to raise as an alarm: one of alarms.yaml, or a number of the NC language.
 struct ChannelEvent {
-  std::string alarm;
+  const machine::AlarmDefinition* alarm = nullptr;  ///< null: `number` is one of the NC language
   std::uint32_t number = 0;
   std::string text;
 };
@@ -139,7 +140,7 @@ class ChannelCore {
   };
 
   // channel_commands.cpp: what an operator may ask, and when.
-  Answer refuse(const char* alarm, std::string reason) const;
+  Answer refuse(const machine::AlarmDefinition& alarm, std::string reason) const;
   Answer startable() const;
   Answer set_mode(Mode mode);
   Answer select(const std::string& name);
@@ -182,7 +183,7 @@ class ChannelCore {
 
   // channel_orders.cpp: what a program asks of the rest of the control.
   void run_pending(FlowState state);
-  void begin_auxiliary(const AuxiliaryOrder& order);
+  void begin_auxiliary(const program_execution::AuxiliaryFunction& function);
 
   // channel_cycles.cpp: moves that a skip input ends, and those a spindle follows.
   void begin_skip();
@@ -214,8 +215,8 @@ class ChannelCore {
   void show_positions();
   std::string detail() const;
   std::string program_name() const { return activity_ == Activity::program ? selected_.name : "MDI"; }
-  void event(std::string alarm, std::string text) {
-    events_.push_back({std::move(alarm), 0, std::move(text)});
+  void event(const machine::AlarmDefinition& alarm, std::string text) {
+    events_.push_back({&alarm, 0, std::move(text)});
   }
 
   std::uint16_t number_;

@@ -1,4 +1,4 @@
-// The way to a point of a program at which the machine does not stand: orders first, then moves.
+// What brings the machine to a point of a program away from its position: functions first, then moves.
 #pragma once
 
 #include <string>
@@ -9,12 +9,12 @@
 
 namespace trunnion::channel {
 
+using program_execution::AuxiliaryFunction;
 using language::AxisValues;
-using program_execution::AuxiliaryOrder;
 
-/// What is done, in this order, before a program goes on.
+/// What is done, in this sequence, before a program continues.
 struct Preparation {
-  std::vector<AuxiliaryOrder> orders;
+  std::vector<AuxiliaryFunction> functions;
   std::vector<language::Command> moves;  ///< rapids in machine coordinates, with a stop between them
 };
 

@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "machine/alarms.hpp"
+#include "machine/alarm_constants.hpp"
 
 namespace trunnion::parameters {
 namespace {
@@ -250,7 +250,7 @@ idl::parameters::ParameterReply ParameterStore::apply(const ParameterRequest& re
       error = "more than 4096 values would wait for a reset: reset a channel first";
   }
   if (!error.empty()) {
-    reply.alarm = machine::alarm_definition("request_invalid").number;
+    reply.alarm = alarm::request_invalid.number;
     reply.reason = error;
   } else {
     if (next.tools != state_.tools) ++next.tools_revision;
@@ -259,7 +259,7 @@ idl::parameters::ParameterReply ParameterStore::apply(const ParameterRequest& re
       if (!journal.empty()) commit(next, active, journal);
       reply.accepted = true;
     } catch (const StorageError& e) {
-      reply.alarm = machine::alarm_definition("storage_failed").number;
+      reply.alarm = alarm::storage_failed.number;
       reply.reason = e.what();
     }
   }

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "machine/alarms.hpp"
+#include "machine/alarm_constants.hpp"
 #include "parameter_store.hpp"
 
 namespace trunnion::parameters {
@@ -173,7 +173,7 @@ TEST(ParameterStore, SeveralValuesAreAllOrNothing) {
   const auto before = storage.files;
   const auto reply = store.apply(set({{name, 0, "Z"}, {cycle, 100, ""}}), time_text);
   EXPECT_FALSE(reply.accepted);
-  EXPECT_EQ(reply.alarm, machine::alarm_definition("request_invalid").number);
+  EXPECT_EQ(reply.alarm, alarm::request_invalid.number);
   EXPECT_THAT(reply.reason, HasSubstr("000001 (interpolation_cycle): 100 is outside 250 .. 10000"));
   EXPECT_EQ(store.set().values[0].text, "X");
   EXPECT_EQ(storage.files, before);
@@ -224,7 +224,7 @@ TEST(ParameterStore, AFullJournalRefusesTheChange) {
   const auto before = store.set();
   const auto reply = store.apply(set({{name, 0, "Y"}}), time_text);
   EXPECT_FALSE(reply.accepted);
-  EXPECT_EQ(reply.alarm, machine::alarm_definition("storage_failed").number);
+  EXPECT_EQ(reply.alarm, alarm::storage_failed.number);
   EXPECT_EQ(store.set(), before);
 }
 
@@ -233,8 +233,7 @@ TEST(ParameterStore, AFullDiskRefusesTheChangeAndTakesTheJournalBack) {
   ParameterStore store(storage, defaults(), "one");
   const auto before = store.set();
   storage.full = true;
-  EXPECT_EQ(store.apply(set({{name, 0, "Y"}}), time_text).alarm,
-            machine::alarm_definition("storage_failed").number);
+  EXPECT_EQ(store.apply(set({{name, 0, "Y"}}), time_text).alarm, alarm::storage_failed.number);
   EXPECT_EQ(store.set(), before);
   EXPECT_TRUE(storage.files[journal_file].empty());
   EXPECT_THROW(store.channel_reset_count(0, 1), StorageError);

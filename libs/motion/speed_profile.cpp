@@ -1,6 +1,7 @@
-// The speed stage where the path is curved and speed comes near what the axes stand: instead of closed forms
-// over whole cells, each cycle takes as much of the wish as leaves a way to a standstill that is followed
-// step by step (pace.hpp). So the limits themselves are what is ridden along.
+// The speed stage where the path is curved and the speed is near the limits of the axes. Closed forms over
+// whole cells would give too much away there. Instead the speed profile is integrated step by step along the
+// limits of each axis (pace.hpp): each cycle takes as much of the demanded change of speed as leaves a proved
+// stop.
 #include <algorithm>
 #include <cmath>
 
@@ -11,20 +12,20 @@ namespace trunnion::motion {
 namespace {
 
 constexpr double rounding = 1e-7;
-// Below this share of what the ramps of a cell were made for they give next to nothing away.
+// Below this share of the speed of a cell its ramps give almost nothing away.
 constexpr double easy_share = 0.4;
-// A way to a standstill has about this many steps, and none is shorter than a cycle.
+// A stop has about this many steps, and none is shorter than a cycle.
 constexpr double stop_steps = 60;
 // A stop is met when what is left of the path is less, mm or degrees.
-// When braking fails, the acceleration is taken back earlier, down to this share of the jerk.
-constexpr double least_take_back = 0.75;
+// When braking fails, the acceleration is reduced earlier, down to this share of the jerk.
+constexpr double least_ramp_down = 0.75;
 constexpr double arrival_distance = 1e-9;
 
 }  // namespace
 
-double SpeedStage::top_of(const LimitCell& cell, const Look& look) const {
-  if (!look.soft) return cell.top;
-  return cell.rapid ? cell.top * look.rapid : std::min(cell.top, cell.feed * look.feed);
+double SpeedStage::top_of(const LimitCell& cell, const SpeedDemand& demand) const {
+  if (!demand.programmed) return cell.top;
+  return cell.rapid ? cell.top * demand.rapid : std::min(cell.top, cell.feed * demand.feed);
 }
 
 double SpeedStage::stop_step(const PathState& state) const {
@@ -33,26 +34,26 @@ double SpeedStage::stop_step(const PathState& state) const {
   return std::max(cycle_, time / stop_steps);
 }
 
-// Curved cells within the way to a standstill on which the speed there is, or is wished for, is not an easy
-// one.
-bool SpeedStage::rides(const Look& look) const {
-  const double wished = look.soft ? top_of(cells_[current_], look) : 0;
+// True when a curved cell within the braking distance has, or is to have, a speed near the limits of its
+// axes.
+bool SpeedStage::needs_speed_profile(const SpeedDemand& demand) const {
+  const double demanded = demand.programmed ? top_of(cells_[current_], demand) : 0;
   const double fastest =
       std::max({state_.v, settled_speed(state_.v, state_.a, cells_[current_].ramps[0].jerk),
-                std::min(wished, state_.v + 0.05 * wished)});
+                std::min(demanded, state_.v + 0.05 * demanded)});
   const double reach =
       state_.s + braking_distance(fastest, 0, 0, cells_[current_].ramps[LimitCell::levels - 1]);
   for (std::uint64_t k = current_; k < cells_.size() && (k == current_ || !cells_[k].stop); ++k) {
     const LimitCell& cell = cells_[k];
     if (k > current_ && cell.at > reach) break;
     if (cell.uniform || cell.axis_count == 0) continue;
-    if (std::max(fastest, top_of(cell, look)) > easy_share * cell.speed) return true;
+    if (std::max(fastest, top_of(cell, demand)) > easy_share * cell.speed) return true;
   }
   return false;
 }
 
-// Braking to a standstill, first to the speed of a cell that does not stand it otherwise, and more gently
-// where a rough cell is on the way.
+// Braking to a standstill: first to the speed of a cell that does not permit more, and with less acceleration
+// and jerk where a cell on the path permits less.
 bool SpeedStage::find_curved_stop(const PathState& state, std::uint64_t cell, PhaseList& stop,
                                   Braked& why) const {
   stop.clear();
@@ -76,8 +77,8 @@ bool SpeedStage::find_curved_stop(const PathState& state, std::uint64_t cell, Ph
       here = slower.cell;
       continue;
     }
-    if (pacing.take_back > least_take_back) {
-      pacing.take_back *= 0.88;
+    if (pacing.ramp_down > least_ramp_down) {
+      pacing.ramp_down *= 0.88;
       continue;
     }
     const RampLimits& gentle = rough.ramp(v);
@@ -88,9 +89,9 @@ bool SpeedStage::find_curved_stop(const PathState& state, std::uint64_t cell, Ph
   return false;
 }
 
-// The cell ahead that is nearest to being too slow for `state`, by its closed form.
+// The cell ahead whose speed is most critical for `state`, by its closed form.
 std::optional<std::uint64_t> SpeedStage::critical_cell(const PathState& state, std::uint64_t cell,
-                                                       const Look& look) const {
+                                                       const SpeedDemand& demand) const {
   std::optional<std::uint64_t> found;
   double worst = 0.5;
   const double highest = std::max(state.v, settled_speed(state.v, state.a, cells_[cell].ramps[0].jerk));
@@ -101,7 +102,7 @@ std::optional<std::uint64_t> SpeedStage::critical_cell(const PathState& state, s
   for (std::uint64_t k = cell + 1; k < cells_.size() && !cells_[k].stop; ++k) {
     const double distance = cells_[k].at - state.s;
     if (distance > 2 * stop) break;
-    const double speed = top_of(cells_[k], look);
+    const double speed = top_of(cells_[k], demand);
     if (highest <= speed * (1 + rounding)) continue;
     const double needed = braking_distance(highest, 0, speed, ramp) / std::max(distance, 1e-9);
     if (needed > worst) worst = needed, found = k;
@@ -109,9 +110,9 @@ std::optional<std::uint64_t> SpeedStage::critical_cell(const PathState& state, s
   return found;
 }
 
-// Takes the action when it keeps all limits, a way to a standstill follows, and slower cells ahead can be
-// entered at their speed without acceleration.
-bool SpeedStage::accept_curved(const PhaseList& action, const Look& look, Braked& why) {
+// Accepts the action when it keeps all limits, a stop exists behind it, and slower cells ahead can be entered
+// at their speed without acceleration.
+bool SpeedStage::accept_curved(const PhaseList& action, const SpeedDemand& demand, Braked& why) {
   PathState next = state_;
   std::uint64_t cell = current_;
   why = Braked::blocked;
@@ -126,10 +127,11 @@ bool SpeedStage::accept_curved(const PhaseList& action, const Look& look, Braked
   if (std::abs(next.v) < 1e-9 && std::abs(next.a) < 1e-6) next.v = next.a = 0;
   PhaseList stop;
   if (!find_curved_stop(next, cell, stop, why)) return false;
-  if (look.soft) {
-    if (const auto slower = critical_cell(next, cell, look)) {
+  if (demand.programmed) {
+    if (const auto slower = critical_cell(next, cell, demand)) {
       PhaseList leg;
-      const BrakeEnd end = brake(next, cells_, cell, top_of(cells_[*slower], look), stop_step(next), {}, leg);
+      const BrakeEnd end =
+          brake(next, cells_, cell, top_of(cells_[*slower], demand), stop_step(next), {}, leg);
       why = Braked::blocked;
       if (end.result != Braked::yes || end.state.s > cells_[*slower].at + arrival_distance) return false;
     }
@@ -160,21 +162,21 @@ void SpeedStage::follow_stop() {
     ++current_;
 }
 
-bool SpeedStage::ride(const Look& look, bool hold) {
+bool SpeedStage::integrate_speed_profile(const SpeedDemand& demand, bool hold) {
   const LimitCell& here = cells_[current_];
   if (arriving_ && stop_.size() > 0) {
     follow_stop();
     return true;
   }
   arriving_ = false;
-  const double target = hold ? 0 : top_of(here, look);
-  Look judged = look;
-  judged.soft = !hold;
+  const double target = hold ? 0 : top_of(here, demand);
+  SpeedDemand checked = demand;
+  checked.programmed = !hold;
   Braked why = Braked::yes;
-  PhaseList wish, action;
-  fill_cycle(state_, cycle_, target, wish);
-  if (state_.v > target * (1 + rounding)) judged.soft = false;
-  if (accept_curved(wish, judged, why)) return true;
+  PhaseList demanded, action;
+  fill_cycle(state_, cycle_, target, demanded);
+  if (state_.v > target * (1 + rounding)) checked.programmed = false;
+  if (accept_curved(demanded, checked, why)) return true;
   double low = 0, high = cycle_;
   bool taken = false;
   const PathState before = state_;
@@ -182,21 +184,21 @@ bool SpeedStage::ride(const Look& look, bool hold) {
   PathState best;
   std::uint64_t best_cell = 0;
   PhaseList best_stop;
-  int tries = why == Braked::beyond ? 34 : standing() ? 30 : 6;
+  int tries = why == Braked::beyond ? 34 : at_standstill() ? 30 : 6;
   for (int k = 0; k <= tries; ++k) {
     const double time = k == 0 ? 0 : 0.5 * (low + high);
     action.clear();
     PathState at = before;
     double left = time;
-    for (std::size_t n = 0; n < wish.size() && left > 0; ++n) {
-      const double part = std::min(left, wish[n].time);
-      action.add(JerkPhase{part, wish[n].jerk});
-      at = integrate(at, wish[n].jerk, part);
+    for (std::size_t n = 0; n < demanded.size() && left > 0; ++n) {
+      const double part = std::min(left, demanded[n].time);
+      action.add(JerkPhase{part, demanded[n].jerk});
+      at = integrate(at, demanded[n].jerk, part);
       left -= part;
     }
     fill_cycle(at, cycle_ - time, 0, action);
     Braked reason = Braked::yes;
-    if (accept_curved(action, judged, reason)) {
+    if (accept_curved(action, checked, reason)) {
       low = time;
       taken = true;
       best = state_, best_cell = current_, best_stop = stop_;
@@ -219,12 +221,12 @@ bool SpeedStage::ride(const Look& look, bool hold) {
     state_ = best, current_ = best_cell, stop_ = best_stop;
     return true;
   }
-  // What is only wished ahead comes too late: braking is all there is to do about it.
-  if (judged.soft) {
-    judged.soft = false;
+  // A demanded speed ahead cannot be met any more: brake within the limits.
+  if (checked.programmed) {
+    checked.programmed = false;
     action.clear();
     fill_cycle(state_, cycle_, 0, action);
-    if (accept_curved(action, judged, why)) return true;
+    if (accept_curved(action, checked, why)) return true;
   }
   return false;
 }
