@@ -4,7 +4,7 @@
 
 #include <filesystem>
 
-#include "bus/cdr.hpp"
+#include "bus/codec.hpp"
 #include "bus/json.hpp"
 #include "cluster/cluster_files.hpp"
 #include "contracts/topics.hpp"

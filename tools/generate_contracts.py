@@ -220,8 +220,20 @@ def generate(args):
     handles.append("}")
     registry += ["  };", "  return entries;", "}", "}"]
 
+    # One source per IDL file instantiates what walks over the fields of its types, so that no other source has to.
+    codecs = {}
+    for t in types:
+        lines = codecs.setdefault(t.module.split("::")[1], ['#include "bus/cdr.hpp"', '#include "bus/json_fields.hpp"', '#include "contracts/types.hpp"', "",
+                                                            "namespace trunnion::bus {"])
+        if isinstance(t, Struct):
+            c = cpp_name(t)
+            lines += [f"template void encode(const {c}&, Bytes&);", f"template bool decode(std::span<const std::uint8_t>, {c}&);",
+                      f"template bool key_of<{c}>(std::span<const std::uint8_t>, KeyHash&);", f"template Json struct_to_json(const {c}&);"]
+    for lines in codecs.values(): lines.append("}")
+
     os.makedirs(args.out, exist_ok=True)
-    for name, lines in (("types.hpp", hpp), ("topics.hpp", handles), ("registry.cpp", registry), ("topics.md", doc)):
+    for name, lines in (("types.hpp", hpp), ("topics.hpp", handles), ("registry.cpp", registry), ("topics.md", doc),
+                        *((f"codec_{module}.cpp", lines) for module, lines in codecs.items())):
         text = "\n".join(lines) + "\n"
         path = os.path.join(args.out, name)
         if not os.path.exists(path) or open(path).read() != text:

@@ -1,6 +1,6 @@
 #include "recording/stream_tally.hpp"
 
-#include "bus/cdr.hpp"
+#include "bus/codec.hpp"
 #include "contracts/types.hpp"
 
 namespace trunnion::recording {

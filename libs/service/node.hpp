@@ -94,11 +94,33 @@ double monotonic_seconds();
 /// ISO 8601 in UTC, to the second, for people to read.
 std::string time_of_day();
 
+/// How main() makes a service and, if it has one, what works beside the service that it is to replace.
+struct ServiceType {
+  using Make = std::unique_ptr<Service> (*)(Node& node);
+  Make service = nullptr;
+  Make rehearsal = nullptr;  ///< null when there is none
+  bool works_on_standby = false;
+};
+
+template <class S>
+constexpr ServiceType service_type() {
+  ServiceType type;
+  type.service = [](Node& node) -> std::unique_ptr<Service> { return std::make_unique<S>(node); };
+  if constexpr (requires { typename S::Rehearsal; })
+    type.rehearsal = [](Node& node) -> std::unique_ptr<Service> {
+      return std::make_unique<typename S::Rehearsal>(node);
+    };
+  type.works_on_standby = S::works_as_shadow;
+  return type;
+}
+
 /// main() of a service: parse, make the node and the service, run. One line on stderr and status 1 on
 /// failure.
+int run_service(int argc, char** argv, const char* name, const ServiceType& type);
+
 template <class S>
-int service_main(int argc, char** argv, const char* name);
+int service_main(int argc, char** argv, const char* name) {
+  return run_service(argc, argv, name, service_type<S>());
+}
 
 }  // namespace trunnion::service
-
-#include "service/service_main.hpp"

@@ -1,6 +1,6 @@
 #include "verification/answers.hpp"
 
-#include "bus/cdr.hpp"
+#include "bus/codec.hpp"
 
 namespace trunnion::verification {
 

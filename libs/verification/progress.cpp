@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "bus/cdr.hpp"
+#include "bus/codec.hpp"
 #include "contracts/topics.hpp"
 
 namespace trunnion::verification {

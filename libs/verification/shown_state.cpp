@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bus/cdr.hpp"
+#include "bus/codec.hpp"
 #include "contracts/topics.hpp"
 #include "machine/axes.hpp"
 

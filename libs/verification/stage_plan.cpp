@@ -5,7 +5,7 @@
 #include <optional>
 #include <stdexcept>
 
-#include "bus/cdr.hpp"
+#include "bus/codec.hpp"
 #include "contracts/topics.hpp"
 #include "machine/parameter_constants.hpp"
 #include "machine/parameters.hpp"

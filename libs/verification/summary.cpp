@@ -4,7 +4,7 @@
 #include <cinttypes>
 #include <cstdio>
 
-#include "bus/cdr.hpp"
+#include "bus/codec.hpp"
 #include "contracts/topics.hpp"
 #include "recording/stream_tally.hpp"
 

@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <tuple>
 
-#include "bus/cdr.hpp"
+#include "bus/codec.hpp"
 #include "contracts/topics.hpp"
 
 namespace trunnion::verification {

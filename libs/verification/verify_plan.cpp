@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "bus/cdr.hpp"
+#include "bus/codec.hpp"
 #include "contracts/topics.hpp"
 #include "machine/parameter_constants.hpp"
 #include "machine/parameters.hpp"

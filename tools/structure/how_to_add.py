@@ -174,7 +174,7 @@ def add_stage(s):
     s.write(f"services/{STAGE}/service.cpp", s.read(f"services/{STAGE}/service.cpp").replace("STAGE_NUMBER", f"stage_{STAGE}"))
     s.edit("libs/machine/machine.cpp", r'"drive",\s+"gantry"', rf'\g<0>, "{STAGE}"')
     s.edit("deploy/security/documents.py", r'"gantry", ', rf'\g<0>"{STAGE}", ')
-    s.edit("libs/service/service_main.hpp", r'"gantry", ', rf'\g<0>"{STAGE}", ')
+    s.edit("libs/service/service_main.cpp", r'"gantry", ', rf'\g<0>"{STAGE}", ')
     s.edit("libs/testing_support/running_service.hpp", r'"gantry", ', rf'\g<0>"{STAGE}", ')
     s.edit("libs/stream/stage_names.hpp", r"stage_gantry = 4", f"stage_gantry = 4, stage_{STAGE} = 5")
     s.edit("libs/stream/stage_names.hpp", r'"gantry"', rf'\g<0>, "{STAGE}"')

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "bus/cdr.hpp"
+#include "bus/codec.hpp"
 #include "contracts/types.hpp"
 
 namespace trunnion::recording {

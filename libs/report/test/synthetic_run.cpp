@@ -4,7 +4,7 @@
 
 #include <array>
 
-#include "bus/cdr.hpp"
+#include "bus/codec.hpp"
 #include "bus/registry.hpp"
 #include "channel_setup/channel_setup.hpp"
 #include "contracts/topics.hpp"

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "bus/cdr.hpp"
+#include "bus/codec.hpp"
 #include "contracts/topics.hpp"
 #include "recording/mcap_writer.hpp"
 #include "verification/stored_recording.hpp"

@@ -1,27 +1,23 @@
-// Included by node/node.hpp.
-#pragma once
-
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <iostream>
 #include <iterator>
 
+#include "service/node.hpp"
+
 namespace trunnion::service {
+namespace {
 
 /// Waits until the process is promoted, if it is on standby. False when it is told to end instead.
-template <class S>
-bool wait_for_promotion(Node& node) {
-  if constexpr (requires { typename S::Rehearsal; }) {
-    if (node.on_standby()) {
-      typename S::Rehearsal rehearsal(node);
-      return node.stand_by(&rehearsal);
-    }
-  }
-  return node.stand_by();
+bool wait_for_promotion(Node& node, const ServiceType& type) {
+  if (type.rehearsal == nullptr || !node.on_standby()) return node.stand_by();
+  const auto rehearsal = type.rehearsal(node);
+  return node.stand_by(rehearsal.get());
 }
 
-template <class S>
-int service_main(int argc, char** argv, const char* name) {
+}  // namespace
+
+int run_service(int argc, char** argv, const char* name, const ServiceType& type) {
   Options options;
   options.service = name;
   CLI::App app(std::string("trunnion-") + name + ": a service of the Trunnion controller");
@@ -34,9 +30,9 @@ int service_main(int argc, char** argv, const char* name) {
   if (is_cyclic && !options.virtual_time) use_real_time_scheduling();
   try {
     Node node(options);
-    if (!S::works_on_standby && !wait_for_promotion<S>(node)) return 0;
-    S service(node);
-    return node.run(service);
+    if (!type.works_on_standby && !wait_for_promotion(node, type)) return 0;
+    const auto service = type.service(node);
+    return node.run(*service);
   } catch (const std::exception& e) {
     std::cerr << "trunnion-" << name << ": error: " << e.what() << "\n";
     return 1;
