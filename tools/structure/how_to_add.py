@@ -29,8 +29,9 @@ class ThermalCore : public stream::StageCore<idl::stream::AxisFrame> {
 }
 """,
     f"src/{STAGE}_core.cpp": """#include "thermal_core.hpp"
+#include "machine/parameter_constants.hpp"
 namespace trunnion::thermal {
-void ThermalCore::configure(const machine::Parameters& parameters, std::uint16_t) { growth_ = parameters.get(PARAMETER); }
+void ThermalCore::configure(const machine::Parameters& parameters, std::uint16_t) { growth_ = parameters.get(parameter::thermal_growth); }
 bool ThermalCore::process(const idl::stream::AxisFrame& in, const stream::FeedbackWindow&, idl::stream::AxisFrame& out) {
   out.axes = in.axes;
   out.setpoints = in.setpoints;
@@ -66,9 +67,10 @@ int main(int argc, char** argv) {
 """,
     "test/added_test.cpp": """#include <gtest/gtest.h>
 #include "language/codes.hpp"
+#include "machine/parameter_constants.hpp"
 #include "machine/parameters.hpp"
 namespace trunnion {
-TEST(Added, TheParameterHasItsDefault) { EXPECT_EQ(machine::Parameters{}.get(PARAMETER), 0.25); }
+TEST(Added, TheParameterHasItsDefault) { EXPECT_EQ(machine::Parameters{}.get(parameter::thermal_growth), 0.25); }
 TEST(Added, TheGCodeIsInTheTable) {
   bool found = false;
   for (const auto& code : language::g_codes) found = found || code.tenths == 41;
@@ -147,9 +149,7 @@ def add_g_code(s):
 
 
 def add_stage(s):
-    parameter = '"thermal_growth"'
-    if s.there("tools/generate_constants.py"): parameter = "machine::parameter::thermal_growth"
-    for name, text in FILES.items(): s.write(f"services/{STAGE}/{name}", text.replace("PARAMETER", parameter))
+    for name, text in FILES.items(): s.write(f"services/{STAGE}/{name}", text)
     s.follow("A service", "A stage")
     topic = ('  - {handle: thermal_frame, name: trunnion/thermal/axis_frame/1, type: "trunnion::stream::AxisFrame", qos: frame, '
              "writers: [thermal], readers: [drive], about: the same with the growth of the spindle}\n")
@@ -174,7 +174,7 @@ def add_stage(s):
     s.write(f"services/{STAGE}/service.cpp", s.read(f"services/{STAGE}/service.cpp").replace("STAGE_NUMBER", f"stage_{STAGE}"))
     s.edit("libs/machine/machine.cpp", r'"drive",\s+"gantry"', rf'\g<0>, "{STAGE}"')
     s.edit("deploy/security/documents.py", r'"gantry", ', rf'\g<0>"{STAGE}", ')
-    s.edit("libs/service/service_main.hpp", r'"gantry", ', rf'\g<0>"{STAGE}", ')
+    s.edit("libs/service/service_main.cpp", r'"gantry", ', rf'\g<0>"{STAGE}", ')
     s.edit("libs/testing_support/running_service.hpp", r'"gantry", ', rf'\g<0>"{STAGE}", ')
     s.edit("libs/stream/stage_names.hpp", r"stage_gantry = 4", f"stage_gantry = 4, stage_{STAGE} = 5")
     s.edit("libs/stream/stage_names.hpp", r'"gantry"', rf'\g<0>, "{STAGE}"')
