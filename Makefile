@@ -5,41 +5,57 @@ BUILD := build/$(PRESET)
 TRUNNION := $(BUILD)/bin/trunnion
 JOBS := $(shell nproc)
 
-.PHONY: run test build configure packages unit sanitize fuzz lint format bench faults soak clean
+# Ninja shows how many of how many steps are done, and for how long it has been at it.
+export NINJA_STATUS := [%f/%t, %es]$(subst ,, )
 
-run: build
+.PHONY: run test build product configure packages unit sanitize threads fuzz lint format bench faults soak package clean
+
+run: product
 	$(TRUNNION) run ac-table nas979_cone --report out
 
 test: build
 	ctest --test-dir $(BUILD) --output-on-failure -j $(JOBS)
 
 packages:
-	@deploy/install-packages.sh
+	@deploy/install-packages.sh test
 
 configure: packages
-	@mkdir -p build
-	@cmake --preset $(PRESET) > $(BUILD)-configure.log || { cat $(BUILD)-configure.log; exit 1; }
+	@$(call cmake_configure,$(PRESET))
 
 build: configure
-	@cmake --build --preset $(PRESET) -- --quiet
+	@cmake --build --preset $(PRESET)
+
+# The programs and the page only: what `make run` needs, without the packages of the tests.
+product:
+	@deploy/install-packages.sh run
+	@$(call cmake_configure,$(PRESET))
+	@cmake --build --preset product
+
+# $(call cmake_configure,PRESET)
+cmake_configure = mkdir -p build; echo "Configuring build/$(1)"; \
+  cmake --preset $(1) > build/$(1)-configure.log || { cat build/$(1)-configure.log; exit 1; }
 
 # The unit tests under the address and undefined-behaviour sanitizers.
 sanitize: packages
-	@mkdir -p build
-	@cmake --preset sanitize > build/sanitize-configure.log || { cat build/sanitize-configure.log; exit 1; }
-	cmake --build --preset sanitize -- --quiet
+	@$(call cmake_configure,sanitize)
+	cmake --build --preset sanitize
 	ctest --test-dir build/sanitize --output-on-failure -j $(JOBS) -L unit
+
+# The tests of bus, service shell and stream under the thread sanitizer.
+threads: packages
+	@$(call cmake_configure,threads)
+	cmake --build --preset threads
+	ctest --test-dir build/threads --output-on-failure -j $(JOBS) -R '^(bus|service|stream)_test$$'
 
 # A short run of every fuzzer.
 fuzz: packages
-	@mkdir -p build
-	@cmake --preset fuzz > build/fuzz-configure.log || { cat build/fuzz-configure.log; exit 1; }
-	cmake --build --preset fuzz -- --quiet
+	@$(call cmake_configure,fuzz)
+	cmake --build --preset fuzz
 	ctest --test-dir build/fuzz --output-on-failure -j $(JOBS) -L fuzz
 
 # Needs the generated headers, not the programs.
 lint: configure
-	@cmake --build --preset $(PRESET) --target contracts_generated -- --quiet
+	@cmake --build --preset $(PRESET) --target contracts_generated
 	tools/lint.sh $(BUILD)
 
 format:
@@ -57,6 +73,10 @@ SEED ?= 1
 MINUTES ?= 10
 soak: build
 	TRUNNION_SOAK_SEED=$(SEED) TRUNNION_SOAK_SECONDS=$$(( $(MINUTES) * 60 )) $(BUILD)/bin/fault_soak_test
+
+# Debian packages, in build/release/packages.
+package: build
+	cd $(BUILD) && cpack --config CPackConfig.cmake
 
 clean:
 	rm -rf build out

@@ -1,10 +1,9 @@
-# The few functions every room uses, so that a room's CMakeLists.txt says only what is in it.
+# The functions of every directory's CMakeLists.txt, which then says only what is in it.
 
 # What every target of ours is compiled with. Fused multiply-add would make the stream depend on the
 # compiler's choice of instruction, so contraction is off everywhere.
 add_library(trunnion_options INTERFACE)
 target_compile_options(trunnion_options INTERFACE -Wall -Wextra -Wshadow -Wnon-virtual-dtor -ffp-contract=off)
-target_include_directories(trunnion_options INTERFACE ${CMAKE_SOURCE_DIR}/libs)
 option(TRUNNION_SANITIZE "Build with the address and undefined-behaviour sanitizers" OFF)
 if(TRUNNION_SANITIZE)
   add_compile_options(-fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer)
@@ -13,30 +12,96 @@ if(TRUNNION_SANITIZE)
 else()
   set(trunnion_test_timeout 120)
 endif()
+option(TRUNNION_THREAD_SANITIZE "Build with the thread sanitizer" OFF)
+if(TRUNNION_THREAD_SANITIZE)
+  add_compile_options(-fsanitize=thread -fno-omit-frame-pointer)
+  add_link_options(-fsanitize=thread)
+  set(trunnion_test_timeout 900)
+endif()
 option(TRUNNION_FUZZ "Build the libFuzzer targets (needs clang)" OFF)
 if(TRUNNION_FUZZ)
   # Without coverage of the libraries themselves a fuzzer searches blindly.
   add_compile_options(-fsanitize=fuzzer-no-link)
 endif()
 
+# Headers that nearly every source reads are compiled once: those of the standard library and Eigen for the product, the
+# test framework besides for tests. Only names in angle brackets, so that every checkout has the same bytes and the compiler
+# cache serves them all. A header of ours must still include what it uses: `make lint` compiles without these.
+set(common_headers <algorithm> <array> <atomic> <chrono> <cmath> <condition_variable> <cstdint> <cstring> <deque> <filesystem>
+  <fstream> <functional> <iostream> <map> <memory> <mutex> <optional> <set> <span> <sstream> <stdexcept> <string> <string_view>
+  <thread> <utility> <variant> <vector> <Eigen/Dense>)
+file(GENERATE OUTPUT ${CMAKE_BINARY_DIR}/precompiled.cpp CONTENT "")
+function(trunnion_precompiled name)
+  add_library(${name} OBJECT ${CMAKE_BINARY_DIR}/precompiled.cpp)
+  target_link_libraries(${name} PRIVATE trunnion_options Eigen3::Eigen)
+  target_precompile_headers(${name} PRIVATE ${ARGN})
+endfunction()
+
 # What the presets sanitize and fuzz build: neither needs the executables, the benchmarks or the page.
 add_custom_target(unit_tests)
+# What `make run` builds: the programs and the page, no test and no benchmark.
+add_custom_target(product)
 add_custom_target(fuzzers)
+# What the preset threads builds: the tests of all that has more than one thread.
+add_custom_target(thread_tests)
+
+# trunnion_headers(target PUBLIC|INTERFACE): the target and what links it may include the headers of this folder as
+# "<folder>/file.hpp". Every library has an include root of its own in the build directory, with a link to its folder in it,
+# so an include of a library that is not linked does not compile.
+function(trunnion_headers target scope)
+  get_filename_component(folder ${CMAKE_CURRENT_SOURCE_DIR} NAME)
+  set(root ${CMAKE_BINARY_DIR}/include/${folder})
+  file(MAKE_DIRECTORY ${root})
+  file(CREATE_LINK ${CMAKE_CURRENT_SOURCE_DIR} ${root}/${folder} SYMBOLIC)
+  target_include_directories(${target} ${scope} $<BUILD_INTERFACE:${root}> $<INSTALL_INTERFACE:include/trunnion>)
+endfunction()
+
+# trunnion_layer(target): refuses what a directory may not link. libs/ links libs/ only; a service, the gateway, the command
+# line and the launcher link libs/ and what is in their own directory; nothing links what is defined after it, so there are
+# no circles. Tests, tools and examples are free.
+function(trunnion_layer target)
+  file(RELATIVE_PATH directory ${CMAKE_SOURCE_DIR} ${CMAKE_CURRENT_SOURCE_DIR})
+  set_target_properties(${target} PROPERTIES TRUNNION_DIRECTORY ${directory})
+  foreach(used IN LISTS ARGN)
+    if(NOT used MATCHES "^trunnion_" OR used STREQUAL trunnion_options)
+      continue()
+    endif()
+    if(NOT TARGET ${used})
+      message(FATAL_ERROR "${directory}: ${target} links ${used}, which is not defined before it in the top CMakeLists.txt")
+    endif()
+    get_target_property(home ${used} TRUNNION_DIRECTORY)
+    if(directory MATCHES "^(libs|services|gateway|deploy)" AND NOT home MATCHES "^libs/" AND NOT home STREQUAL directory)
+      message(FATAL_ERROR "${directory}: ${target} must not link ${used} of ${home}")
+    endif()
+  endforeach()
+endfunction()
+
+# trunnion_use_precompiled(target header-set): header-set is precompiled_product or precompiled_tests.
+function(trunnion_use_precompiled target headers)
+  target_link_libraries(${target} PRIVATE Eigen3::Eigen)
+  target_precompile_headers(${target} REUSE_FROM ${headers})
+endfunction()
 
 # trunnion_library(name SOURCES a.cpp ... [LINK libs...])
 function(trunnion_library name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
   add_library(${name} STATIC ${ARG_SOURCES})
   target_link_libraries(${name} PUBLIC trunnion_options ${ARG_LINK})
+  trunnion_use_precompiled(${name} precompiled_product)
+  trunnion_layer(${name} ${ARG_LINK})
+  if(CMAKE_CURRENT_SOURCE_DIR MATCHES "^${CMAKE_SOURCE_DIR}/libs/")
+    trunnion_headers(${name} PUBLIC)
+  endif()
 endfunction()
 
-# trunnion_embed(sources name file): makes the C++ source of the text constant trunnion::machine::<name> from a file of this
-# folder and adds it to the list `sources`.
-function(trunnion_embed sources name file)
+# trunnion_embed(sources namespace name file): makes the C++ source of the text constant <namespace>::<name> from a file of
+# this folder and adds it to the list `sources`.
+function(trunnion_embed sources namespace name file)
   set(out ${CMAKE_CURRENT_BINARY_DIR}/${name}.cpp)
   set(script ${CMAKE_SOURCE_DIR}/cmake/embed.cmake)
   add_custom_command(OUTPUT ${out}
-    COMMAND ${CMAKE_COMMAND} -DINPUT=${CMAKE_CURRENT_SOURCE_DIR}/${file} -DOUTPUT=${out} -DNAME=${name} -P ${script}
+    COMMAND ${CMAKE_COMMAND} -DINPUT=${CMAKE_CURRENT_SOURCE_DIR}/${file} -DOUTPUT=${out} -DNAMESPACE=${namespace} -DNAME=${name}
+            -P ${script}
     DEPENDS ${file} ${script} VERBATIM)
   set(${sources} ${${sources}} ${out} PARENT_SCOPE)
 endfunction()
@@ -48,7 +113,8 @@ function(trunnion_test name)
     set(ARG_LABELS unit)
   endif()
   add_executable(${name} ${ARG_SOURCES})
-  target_link_libraries(${name} PRIVATE trunnion_options ${ARG_LINK} GTest::gmock GTest::gtest_main)
+  target_link_libraries(${name} PRIVATE trunnion_options trunnion_testing_support ${ARG_LINK} GTest::gmock GTest::gtest_main)
+  trunnion_use_precompiled(${name} precompiled_tests)
   add_test(NAME ${name} COMMAND ${name})
   set_tests_properties(${name} PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT ${trunnion_test_timeout})
   if("unit" IN_LIST ARG_LABELS)
@@ -61,6 +127,7 @@ function(trunnion_benchmark name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
   add_executable(${name} ${ARG_SOURCES})
   target_link_libraries(${name} PRIVATE trunnion_options ${ARG_LINK} benchmark::benchmark_main)
+  trunnion_use_precompiled(${name} precompiled_product)
 endfunction()
 
 # trunnion_fuzzer(name SOURCES a_fuzz.cpp CORPUS dir [LINK libs...]): a libFuzzer target; only with TRUNNION_FUZZ. The
@@ -72,7 +139,7 @@ function(trunnion_fuzzer name)
     file(MAKE_DIRECTORY ${found})
     add_executable(${name} ${ARG_SOURCES})
     target_link_options(${name} PRIVATE -fsanitize=fuzzer)
-    target_link_libraries(${name} PRIVATE trunnion_options ${ARG_LINK})
+    target_link_libraries(${name} PRIVATE trunnion_options trunnion_testing_support ${ARG_LINK})
     add_dependencies(fuzzers ${name})
     add_test(NAME ${name} WORKING_DIRECTORY ${CMAKE_BINARY_DIR}
       COMMAND ${name} -max_total_time=12 -seed=1 -len_control=0 -timeout=10 -verbosity=0 ${found} ${ARG_CORPUS})
@@ -84,5 +151,8 @@ endfunction()
 function(trunnion_service name)
   cmake_parse_arguments(ARG "" "" "LINK" ${ARGN})
   add_executable(trunnion-${name} main.cpp service.cpp)
-  target_link_libraries(trunnion-${name} PRIVATE trunnion_options trunnion_node ${ARG_LINK})
+  target_link_libraries(trunnion-${name} PRIVATE trunnion_options trunnion_service ${ARG_LINK})
+  trunnion_use_precompiled(trunnion-${name} precompiled_product)
+  add_dependencies(product trunnion-${name})
+  trunnion_layer(trunnion-${name} trunnion_service ${ARG_LINK})
 endfunction()

@@ -1,4 +1,4 @@
-# Turns a text file into a C++ string constant: cmake -DINPUT= -DOUTPUT= -DNAME= -P embed.cmake
+# Turns a text file into a C++ string constant: cmake -DINPUT= -DOUTPUT= -DNAMESPACE= -DNAME= -P embed.cmake
 file(READ ${INPUT} text)
 string(LENGTH "${text}" length)
 set(parts "")
@@ -8,4 +8,4 @@ while(at LESS length)  # raw string literals have a portable limit, so the text 
   string(APPEND parts "R\"__text(${part})__text\"\n")
   math(EXPR at "${at} + 8000")
 endwhile()
-file(WRITE ${OUTPUT} "namespace trunnion::machine {\nextern const char* const ${NAME};\nconst char* const ${NAME} =\n${parts};\n}\n")
+file(WRITE ${OUTPUT} "namespace ${NAMESPACE} {\nextern const char* const ${NAME};\nconst char* const ${NAME} =\n${parts};\n}\n")

@@ -1,15 +1,24 @@
 #!/usr/bin/env bash
-# Installs what building, running and testing Trunnion needs on Debian 12. Does nothing when all of it is there.
+# install-packages.sh [run|test]: installs what building and running Trunnion needs on Debian 12 (run), or what its tests,
+# benchmarks and checks need besides (test, the default). Does nothing when all of it is there.
 set -euo pipefail
 
 packages=(
   build-essential cmake ninja-build ccache mold git python3 python3-yaml pkg-config
-  libfastrtps-dev libfastcdr-dev libasio-dev libtinyxml2-dev libssl-dev cyclonedds-dev cyclonedds-tools
-  libeigen3-dev libyaml-cpp-dev nlohmann-json3-dev libcli11-dev libboost-dev libzstd-dev
-  libgtest-dev libgmock-dev libbenchmark-dev librapidcheck-dev
-  clang-14 clang-tidy-14 clang-format-14 clang-tools-14 libclang-rt-14-dev
-  chromium procps iproute2 iptables util-linux openssl hostname systemd
+  libfastrtps-dev libfastcdr-dev libasio-dev libtinyxml2-dev libssl-dev cyclonedds-dev
+  libeigen3-dev libyaml-cpp-dev nlohmann-json3-dev libcli11-dev libboost-dev libzstd-dev procps
 )
+case "${1:-test}" in
+  run) ;;
+  test)
+    packages+=(
+      cyclonedds-tools libgtest-dev libgmock-dev libbenchmark-dev librapidcheck-dev
+      clang-14 clang-tidy-14 clang-format-14 clang-tools-14 libclang-rt-14-dev
+      chromium iproute2 iptables util-linux openssl hostname systemd
+    )
+    ;;
+  *) echo "usage: $0 [run|test]" >&2; exit 2 ;;
+esac
 
 # Another Node.js than Debian's (18) will do from version 18 on.
 node_version=$(node --version 2>/dev/null | sed 's/^v\([0-9]*\).*/\1/' || true)
@@ -36,5 +45,15 @@ if [ "$(id -u)" -ne 0 ]; then
   sudo=(sudo)
 fi
 echo "Installing ${#missing[@]} packages: ${missing[*]}"
+# Shows how far apt is: every package it brings along is unpacked once and set up once.
+progress() {
+  awk '/newly installed/ { total = 2 * ($1 + $3) }
+    /^(Unpacking|Setting up) / { ++done; if (done % 20 == 0 || done == total) print "  packages: step " done " of " total; fflush() }'
+}
 "${sudo[@]}" apt-get update -qq
-"${sudo[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null
+"${sudo[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends "${missing[@]}" 2>&1 > >(progress) |
+  grep -v '^debconf: delaying' >&2 || true
+for package in "${missing[@]}"; do
+  dpkg-query -W -f='${Status}' "$package" 2>/dev/null | grep -q 'install ok installed' ||
+    { echo "$package could not be installed; run: apt-get install $package" >&2; exit 1; }
+done

@@ -6,12 +6,8 @@
 #include "src/static_files.hpp"
 #include "storage/crc32.hpp"
 
-namespace trunnion::machine {
-// gateway/openapi.json, embedded by the same script as the catalogue.
-extern const char* const openapi_text;
-}  // namespace trunnion::machine
-
 namespace trunnion::gateway {
+extern const char* const openapi_text;  // gateway/openapi.json, embedded
 namespace {
 
 using bus::Json;
@@ -144,7 +140,7 @@ void Api::handle(const Match& match, const std::string& query, const std::string
 }
 
 Answer Api::read(const Match& match, const std::string& query) const {
-  if (match.operation == Operation::openapi) return {200, machine::openapi_text};
+  if (match.operation == Operation::openapi) return {200, openapi_text};
   const auto snapshot = mailbox_.newest();
   if (!snapshot) return error_answer(503, "the gateway is starting");
   switch (match.operation) {

@@ -82,7 +82,7 @@ class ProgramUpload {
   void send(idl::program::ProgramRequest request, ProgramDone done);
   Mailbox& mailbox_;
   std::string name_;
-  std::uint64_t client_ = node::make_client_id(), number_ = 0, size_ = 0;
+  std::uint64_t client_ = service::make_client_id(), number_ = 0, size_ = 0;
   std::uint32_t crc_ = 0;
 };
 
@@ -99,7 +99,7 @@ class ProgramDownload {
  private:
   Mailbox& mailbox_;
   std::string name_;
-  std::uint64_t client_ = node::make_client_id(), number_ = 0;
+  std::uint64_t client_ = service::make_client_id(), number_ = 0;
 };
 
 }  // namespace trunnion::gateway

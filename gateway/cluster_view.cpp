@@ -2,7 +2,7 @@
 
 #include "contracts/topics.hpp"
 #include "machine/axes.hpp"
-#include "node/node.hpp"
+#include "service/node.hpp"
 
 namespace trunnion::gateway {
 namespace {
@@ -43,7 +43,7 @@ void ClusterView::drain(double now) {
   idl::service::Announcement announcement;
   while (announcements_.take(announcement)) document_.apply(announcement);
   idl::service::Alarm alarm;
-  while (alarms_.take(alarm)) document_.apply(alarm, now, node::time_of_day());
+  while (alarms_.take(alarm)) document_.apply(alarm, now, service::time_of_day());
   idl::service::ServiceState state;
   while (service_states_.take(state)) document_.apply(state, now);
   idl::service::Cluster cluster;

@@ -33,7 +33,7 @@ class Journal {
 class AlarmResets {
  public:
   explicit AlarmResets(bus::Bus& bus)
-      : writer_(bus.writer(topics::alarm_reset)), client_(node::make_client_id()) {}
+      : writer_(bus.writer(topics::alarm_reset)), client_(service::make_client_id()) {}
   Asked write(idl::service::AlarmReset reset) {
     reset.client = client_;
     reset.number = ++number_;

@@ -7,8 +7,8 @@
 namespace {
 
 /// False when the process is told to end before it is needed.
-bool stand_by(trunnion::node::Node& node, std::uint16_t port) {
-  if (!node.shadow()) return node.stand_by();
+bool stand_by(trunnion::service::Node& node, std::uint16_t port) {
+  if (!node.on_standby()) return node.stand_by();
   trunnion::gateway::RehearsalService rehearsal(node, port);
   return node.stand_by(&rehearsal);
 }
@@ -17,18 +17,18 @@ bool stand_by(trunnion::node::Node& node, std::uint16_t port) {
 
 int main(int argc, char** argv) {
   using namespace trunnion;
-  node::Options options;
+  service::Options options;
   options.service = "gateway";
   gateway::GatewayOptions own;
   CLI::App app("trunnion-gateway: the cluster's HTTP and WebSocket side");
-  node::add_options(app, options);
+  service::add_options(app, options);
   app.add_option("--address", own.address,
                  "Address to listen on; anything but 127.0.0.1 opens the machine to a network");
   app.add_option("--port", own.port, "Port to listen on (default: the one of machine.yaml)");
   app.add_option("--web", own.web, "Directory of the built page");
-  if (const int status = node::parse_options(app, argc, argv, options); status >= 0) return status;
+  if (const int status = service::parse_options(app, argc, argv, options); status >= 0) return status;
   try {
-    node::Node node(options);
+    service::Node node(options);
     if (own.port == 0) own.port = options.machine.port;
     if (!stand_by(node, own.port)) return 0;
     gateway::GatewayService service(node, own);

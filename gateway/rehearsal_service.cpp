@@ -1,6 +1,6 @@
 #include "rehearsal_service.hpp"
 
-#include "http/client.hpp"
+#include "http/first_message.hpp"
 
 namespace trunnion::gateway {
 namespace {
@@ -28,7 +28,7 @@ Json own(const Snapshot& snapshot) {
 
 // Null when nobody answers there.
 Json running(std::uint16_t port) {
-  auto first = http::WebSocketClient(port, "/api/stream").next(1);
+  const auto first = first_message(port, "/api/stream", 1);
   auto message = first ? Json::parse(*first, nullptr, false) : Json();
   if (!message.is_object() || !message.contains("state")) return nullptr;
   return comparable(std::move(message["state"]));
@@ -36,35 +36,35 @@ Json running(std::uint16_t port) {
 
 }  // namespace
 
-RehearsalService::RehearsalService(node::Node& node, std::uint16_t port) : view_(node.bus()), port_(port) {}
+RehearsalService::RehearsalService(service::Node& node, std::uint16_t port)
+    : view_(node.bus()), port_(port) {}
 
 void RehearsalService::look(double now) {
   const auto before = own(*view_.snapshot(now));
   const auto theirs = running(port_);
   nobody_answers_ = theirs.is_null();
   if (nobody_answers_) return;
-  const double then = node::monotonic_seconds();
+  const double then = service::monotonic_seconds();
   view_.drain(then);
   comparison_.look(theirs, before, own(*view_.snapshot(then)), then);
 }
 
 void RehearsalService::pump() {
-  const double now = node::monotonic_seconds();
+  const double now = service::monotonic_seconds();
   view_.drain(now);
   if (now - looked_ < look_period || !comparison_.difference().empty()) return;
   looked_ = now;
   look(now);
 }
 
-node::Health RehearsalService::health() const {
-  node::Health health;
+service::Health RehearsalService::health() const {
+  service::Health health;
   health.lifecycle = idl::service::Lifecycle::INACTIVE;
   health.frames_in = view_.frames();
   health.revision = view_.revision();
-  const auto& difference = comparison_.difference();
-  health.detail = difference.empty() ? node::shadow_detail : node::differs_detail + difference;
+  health.difference = comparison_.difference();
   // Of a gateway that does not answer there is nothing that could be compared.
-  health.in_step = nobody_answers_ || comparison_.settled(node::monotonic_seconds());
+  health.in_step = nobody_answers_ || comparison_.settled(service::monotonic_seconds());
   return health;
 }
 

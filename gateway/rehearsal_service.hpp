@@ -1,19 +1,19 @@
 #pragma once
 
 #include "cluster_view.hpp"
-#include "node/node.hpp"
+#include "service/node.hpp"
 #include "src/lasting_difference.hpp"
 
 namespace trunnion::gateway {
 
 /// The gateway as long as another one has the port: it looks at the same cluster and compares what it would
 /// show with what the other one shows its clients. It writes nothing.
-class RehearsalService : public node::Service {
+class RehearsalService : public service::Service {
  public:
   /// `port` of the running gateway on this computer.
-  RehearsalService(node::Node& node, std::uint16_t port);
+  RehearsalService(service::Node& node, std::uint16_t port);
   void pump() override;
-  node::Health health() const override;
+  service::Health health() const override;
 
  private:
   void look(double now);

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "bus/bus.hpp"
-#include "node/request.hpp"
+#include "service/request.hpp"
 
 namespace trunnion::gateway {
 
@@ -29,7 +29,7 @@ class RequestLanes {
   void submit(Request request, Done done, double now) {
     std::optional<Lane> lane;
     if (request.client == 0) {
-      if (idle_.empty()) idle_.push_back({node::make_client_id(), 0});
+      if (idle_.empty()) idle_.push_back({service::make_client_id(), 0});
       lane = idle_.back();
       idle_.pop_back();
       request.client = lane->client;

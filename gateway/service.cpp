@@ -2,7 +2,7 @@
 
 namespace trunnion::gateway {
 
-GatewayService::GatewayService(node::Node& node, const GatewayOptions& options)
+GatewayService::GatewayService(service::Node& node, const GatewayOptions& options)
     : mailbox_([&node] { node.bus().signal().notify(); }), links_(node.bus()), view_(node.bus()) {
   api_ = std::make_unique<Api>(mailbox_, topics::contract_hash, options.web);
   server_ = std::make_unique<HttpServer>(options.address, options.port, *api_);
@@ -13,8 +13,8 @@ GatewayService::~GatewayService() { server_->stop(); }
 
 double GatewayService::period() const { return links_.busy() ? 0.02 : snapshot_period; }
 
-node::Health GatewayService::health() const {
-  node::Health health;
+service::Health GatewayService::health() const {
+  service::Health health;
   health.lifecycle = idl::service::Lifecycle::ACTIVE;
   health.detail = where_ + ", " + std::to_string(server_->clients()) + " viewing";
   health.frames_in = view_.frames();
@@ -28,7 +28,7 @@ void GatewayService::publish(double now) {
 }
 
 void GatewayService::pump() {
-  const double now = node::monotonic_seconds();
+  const double now = service::monotonic_seconds();
   view_.drain(now);
   for (const auto& job : mailbox_.take()) job(links_, now);
   links_.pump(now);

@@ -6,8 +6,8 @@
 #include "api.hpp"
 #include "cluster_view.hpp"
 #include "http/server.hpp"
-#include "node/node.hpp"
-#include "node/parameter_client.hpp"
+#include "service/node.hpp"
+#include "service/parameter_client.hpp"
 
 namespace trunnion::gateway {
 
@@ -17,13 +17,13 @@ struct GatewayOptions {
   std::filesystem::path web;  ///< the built page
 };
 
-class GatewayService : public node::Service {
+class GatewayService : public service::Service {
  public:
-  GatewayService(node::Node& node, const GatewayOptions& options);
+  GatewayService(service::Node& node, const GatewayOptions& options);
   ~GatewayService() override;
   void pump() override;
   double period() const override;
-  node::Health health() const override;
+  service::Health health() const override;
 
  private:
   /// Seconds between two snapshots.

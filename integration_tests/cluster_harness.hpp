@@ -1,11 +1,8 @@
 // A real cluster for a test: its own domain, its own state, nothing left behind.
 #pragma once
 
-#include <arpa/inet.h>
 #include <gtest/gtest.h>
-#include <netinet/in.h>
 #include <signal.h>
-#include <sys/socket.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -14,8 +11,9 @@
 #include <functional>
 #include <map>
 
-#include "client.hpp"
-#include "cluster.hpp"
+#include "cluster/client.hpp"
+#include "cluster/cluster.hpp"
+#include "http_client/client.hpp"
 
 namespace trunnion::integration {
 
@@ -28,37 +26,6 @@ enum class Time { real, virtual_ };
 /// Parameter 000900, cycles, for tests in real time whose subject is not the lead. On a virtual machine even
 /// the highest priority is without its processor for 17 ms now and then, and half a lead of 32 covers 16.
 constexpr int lead_beyond_stalls = 128;
-
-/// A TCP port of this host that nobody listens on.
-inline std::uint16_t free_port() {
-  const int s = socket(AF_INET, SOCK_STREAM, 0);
-  sockaddr_in address{};
-  address.sin_family = AF_INET;
-  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-  socklen_t size = sizeof address;
-  EXPECT_EQ(bind(s, reinterpret_cast<sockaddr*>(&address), size), 0);
-  getsockname(s, reinterpret_cast<sockaddr*>(&address), &size);
-  close(s);
-  return ntohs(address.sin_port);
-}
-
-/// First line of the answer to GET `path`, empty when nobody answers.
-inline std::string http_status(std::uint16_t port, const std::string& path) {
-  const int s = socket(AF_INET, SOCK_STREAM, 0);
-  sockaddr_in address{};
-  address.sin_family = AF_INET;
-  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-  address.sin_port = htons(port);
-  std::string answer;
-  if (connect(s, reinterpret_cast<sockaddr*>(&address), sizeof address) == 0) {
-    const std::string request = "GET " + path + " HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n";
-    char c = 0;
-    if (write(s, request.data(), request.size()) == static_cast<ssize_t>(request.size()))
-      while (read(s, &c, 1) == 1 && c != '\r') answer += c;
-  }
-  close(s);
-  return answer;
-}
 
 using Rows = std::vector<std::vector<double>>;
 
@@ -82,7 +49,7 @@ class Cluster {
  public:
   explicit Cluster(const std::string& machine, Time time = Time::virtual_, const std::string& vendor = "",
                    bool gateway = false, std::optional<std::uint32_t> domain = std::nullopt) {
-    deploy::UpOptions up;
+    cluster::UpOptions up;
     up.machine = machine;
     up.vendor = vendor;
     up.state_directory = "temporary";
@@ -90,8 +57,8 @@ class Cluster {
     up.domain = domain;
     up.virtual_time = time == Time::virtual_;
     up.with_gateway = gateway;
-    up.port = free_port();
-    cluster_ = deploy::start_cluster(up);
+    up.port = http_client::free_port();
+    cluster_ = cluster::start_cluster(up);
     join(cluster_.network);
   }
   /// Takes part in a cluster that somebody else starts and stops.
@@ -100,7 +67,7 @@ class Cluster {
     states_.reset(), alarms_.reset(), feedback_.reset(), clusters_.reset(), resets_.reset(), client_.reset();
     if (!owned_) return;
     try {
-      deploy::stop_cluster(cluster_.run);
+      cluster::stop_cluster(cluster_.run);
     } catch (const std::exception& e) {
       ADD_FAILURE() << e.what();
     }
@@ -109,8 +76,8 @@ class Cluster {
       EXPECT_NE(kill(service.pid, 0), 0) << service.service << " is left";
   }
 
-  deploy::Client& client() { return *client_; }
-  const deploy::RunningCluster& running() const { return cluster_; }
+  cluster::Client& client() { return *client_; }
+  const cluster::RunningCluster& running() const { return cluster_; }
 
   void drain() {
     idl::channel::ChannelState state;
@@ -142,8 +109,8 @@ class Cluster {
     while (clusters_->take(list_)) have_cluster_ = true;
   }
   bool until(const std::function<bool()>& condition, double seconds = 20) {
-    const double end = node::monotonic_seconds() + seconds;
-    while (node::monotonic_seconds() < end) {
+    const double end = service::monotonic_seconds() + seconds;
+    while (service::monotonic_seconds() < end) {
       drain();
       if (condition()) return true;
       client_->bus().signal().wait(0.01);
@@ -237,7 +204,7 @@ class Cluster {
 
  private:
   void join(const bus::NetworkSettings& network) {
-    client_ = std::make_unique<deploy::Client>(network);
+    client_ = std::make_unique<cluster::Client>(network);
     states_.emplace(client_->bus().reader(topics::channel_state));
     alarms_.emplace(client_->bus().reader(topics::alarm));
     feedback_.emplace(client_->bus().reader(topics::feedback_frame));
@@ -250,8 +217,8 @@ class Cluster {
   }
 
   bool owned_ = true;
-  deploy::RunningCluster cluster_;
-  std::unique_ptr<deploy::Client> client_;
+  cluster::RunningCluster cluster_;
+  std::unique_ptr<cluster::Client> client_;
   std::optional<bus::Reader<idl::channel::ChannelState>> states_;
   std::optional<bus::Reader<idl::service::Alarm>> alarms_;
   std::optional<bus::Reader<idl::stream::FeedbackFrame>> feedback_;

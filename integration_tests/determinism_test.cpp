@@ -8,7 +8,7 @@ namespace trunnion::integration {
 namespace {
 
 std::string program_of_ac_table(const std::string& name) {
-  return deploy::find_machine("ac-table") + "/programs/" + name;
+  return cluster::find_machine("ac-table") + "/programs/" + name;
 }
 
 std::string recording_file() {

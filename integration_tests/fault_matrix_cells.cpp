@@ -18,7 +18,7 @@ std::string numbers(const std::set<unsigned>& alarms) {
 const char* text_of(Machine machine) {
   switch (machine) {
     case Machine::goes_on:
-      return "goes on";
+      return "continues";
     case Machine::stops_on_path:
       return "stops on the path";
     case Machine::stops_axes_off:
@@ -42,7 +42,7 @@ const char* text_of(Way way) {
 // Who stops the machine decides within how many cycles.
 std::string bound(const std::string& service, const Expectation& e) {
   if (e.machine == Machine::goes_on) return "0";
-  if (service == "drive") return "0: the simulated axes stand where they are";
+  if (service == "drive") return "0: the simulated axes stop where they are";
   if (is_stage(service) || service == "channel")
     return "the setpoints at hand (lead, 32), or the channel's hold";
   return "the channel's hold";
@@ -131,18 +131,19 @@ std::string matrix_document() {
     text += std::string("\n## ") + (in_motion ? "In motion" : "At rest") + "\n\n";
     text +=
         in_motion
-            ? "| service | fault | machine | within, cycles | alarms | perhaps also | process | going on |\n"
+            ? "| service | fault | machine | within, cycles | alarms | perhaps also | process | to continue "
+              "|\n"
               "|---|---|---|---|---|---|---|---|\n"
             : "| service | fault | machine | alarms | perhaps also | process |\n|---|---|---|---|---|---|\n";
     for (const auto& service : matrix_services())
       for (const auto fault : every_fault) {
         const auto e = expectation(service, fault, in_motion);
         const std::string process = service == "recorder"       ? "as its user wants"
-                                    : fault == Fault::suspended ? "goes on"
+                                    : fault == Fault::suspended ? "continues"
                                     : fault == Fault::restarts  ? "given up, started again by the reset"
                                                                 : "a new one";
         text += "| " + service + " | " + name_of(fault) + " | " +
-                (in_motion ? std::string(text_of(e.machine)) + " | " + bound(service, e) : "stands still") +
+                (in_motion ? std::string(text_of(e.machine)) + " | " + bound(service, e) : "standstill") +
                 " | " + numbers(e.must) + " | " + numbers(e.may) + " | " + process;
         if (in_motion)
           text += std::string(" | ") + text_of(e.way) +

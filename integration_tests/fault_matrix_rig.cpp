@@ -10,9 +10,9 @@
 namespace trunnion::integration {
 namespace {
 
-constexpr double ready_patience = 40;  // s; on a busy machine a process takes some seconds to come up
-constexpr double run_patience = 300;   // s; a run takes two, but on a computer that others have nearly all of
-constexpr double suspension = 2;       // s
+constexpr double ready_timeout = 40;  // s; on a busy machine a process takes some seconds to come up
+constexpr double run_timeout = 300;   // s; a run takes two, but on a computer that others have nearly all of
+constexpr double suspension = 2;      // s
 constexpr int kept_tool = 77;
 constexpr unsigned kept_number = 500;
 constexpr double kept_value = 7.25;
@@ -146,7 +146,7 @@ Rows FaultRig::undisturbed(double& runs) {
 }
 
 bool FaultRig::finish() {
-  const bool finished = cluster_.finish(0, run_patience);
+  const bool finished = cluster_.finish(0, run_timeout);
   settle();
   return finished;
 }
@@ -179,7 +179,7 @@ void FaultRig::restart_loop(const std::string& service) {
     pids_[service] = pid_of(service);
     ASSERT_EQ(kill(pids_[service], SIGKILL), 0);
     ASSERT_TRUE(cluster_.until([&] { return watch(), cluster_.has_alarm(105, service) || replaced(service); },
-                               ready_patience))
+                               ready_timeout))
         << "comes up again; " << cluster_.active_alarms();
   }
   EXPECT_TRUE(cluster_.has_alarm(105, service)) << "does not stay up; " << cluster_.active_alarms();
@@ -233,7 +233,7 @@ Observation FaultRig::await(const std::string& service, Fault fault, bool in_mot
     EXPECT_TRUE(cluster_.until([&] { return watch(), cluster_.has_alarm(100, service); }))
         << "alarm 100 names it";
     EXPECT_TRUE(cluster_.until(
-        [&] { return watch(), cluster_.ready() && (!new_process || replaced(service)); }, ready_patience))
+        [&] { return watch(), cluster_.ready() && (!new_process || replaced(service)); }, ready_timeout))
         << "the cluster is ready again; " << cluster_.active_alarms();
     if (in_motion) {
       EXPECT_TRUE(cluster_.until([&] { return watch(), stands(); })) << cluster_.told();
@@ -301,7 +301,7 @@ Way FaultRig::go_on() {
 void FaultRig::start_recorder() {
   int out[2];
   ASSERT_EQ(pipe(out), 0);
-  const auto program = deploy::binary_directory() + "/trunnion-recorder";
+  const auto program = cluster::binary_directory() + "/trunnion-recorder";
   const auto domain = std::to_string(cluster_.running().run.domain);
   recorder_ = fork();
   if (recorder_ == 0) {

@@ -141,7 +141,7 @@ TEST_P(FaultMatrix, Cell) {
     EXPECT_GT(cell.fault == Fault::suspended ? rig.stop_recorder() : rig.recorded_messages(), 0u);
   }
   if (cell.service == "gateway") {
-    EXPECT_EQ(http_status(rig.cluster().running().port, "/api/status"), "HTTP/1.1 200 OK");
+    EXPECT_EQ(http_client::request(rig.cluster().running().port, "GET", "/api/status").status, 200);
   }
   EXPECT_EQ(rig.kept_variable(501), runs_) << "each run has counted once";
   EXPECT_EQ(rig.kept_variable(502), 2 * runs_);
@@ -149,26 +149,24 @@ TEST_P(FaultMatrix, Cell) {
 }
 
 std::string document() {
-  return "# The fault matrix\n\n"
-         "Written by `make faults`, which loses every service in every way, on clusters of all Fast DDS, all "
-         "Cyclone DDS and both mixed, and\n"
-         "checks what is written here in each cell. The machine is ac-table in virtual time, feed 3000 "
-         "mm/min. Cycles are those that are still\n"
-         "executed: from the one at which the channel learns of the loss, or the drive of the missing "
-         "setpoint, to the standstill. The channel's hold is lead (32),\n"
-         "two frames (16 each) and at most 0.1 s for the braking on the path.\n\n"
-         "- *killed*: SIGKILL. *terminated*: SIGTERM; a service ends in order, and because nobody told the "
-         "launcher, it is a loss like any other.\n"
-         "- *suspended*: SIGSTOP for 2 s. After 1.5 s without a heartbeat the launcher says so; only after 4 "
-         "s would it replace the process.\n"
-         "- *restarts*: SIGKILL each time it has come up. The fifth life in a row that is shorter than 10 s "
-         "is the last: alarm 105.\n\n"
-         "In every cell: the cluster becomes ready without another restart; no parameter (active or "
-         "waiting), tool, work offset, stored\n"
-         "program, kept variable or position is lost; every setpoint that is executed lies within 0.02 mm "
-         "and degrees of the undisturbed run,\n"
-         "in its order, and the program arrives at its end.\n" +
-         matrix_document();
+  return R"(# The fault matrix
+
+Written by `make faults`, which causes the loss of every service in every way, on clusters of all Fast DDS, all Cyclone
+DDS and both mixed, and checks each cell of these tables. The machine is ac-table in virtual time, feed 3000 mm/min.
+Cycles are those that are still executed: from the one at which the channel detects the loss, or the drive the missing
+setpoint, to the standstill. The channel's hold is lead (32), two setpoint batches (16 each) and at most 0.1 s for the
+braking on the path.
+
+- *killed*: SIGKILL. *terminated*: SIGTERM that the launcher did not send; the service ends in order, and the launcher
+  treats it as a loss.
+- *suspended*: SIGSTOP for 2 s. After 1.5 s without a heartbeat the launcher raises alarm 100; it would replace the
+  process after 4 s.
+- *restarts*: SIGKILL after each start. After the fifth run in succession shorter than 10 s: alarm 105.
+
+In every cell: the cluster becomes ready without another restart; no parameter (active or waiting), tool, work offset,
+stored program, kept variable or position is lost; every setpoint that is executed lies within 0.02 mm and degrees of
+the undisturbed run, in its order, and the program reaches its end.
+)" + matrix_document();
 }
 
 TEST(FaultMatrixDocument, IsWhatTheMatrixChecks) {

@@ -139,9 +139,9 @@ void Soak::one_program() {
 }
 
 void Soak::run(double seconds) {
-  const double end = node::monotonic_seconds() + seconds;
+  const double end = service::monotonic_seconds() + seconds;
   ASSERT_NO_FATAL_FAILURE(prepare());
-  while (node::monotonic_seconds() < end && !testing::Test::HasFailure())
+  while (service::monotonic_seconds() < end && !testing::Test::HasFailure())
     ASSERT_NO_FATAL_FAILURE(one_program()) << "after the last stroke";
   std::printf(
       "%d faults, %.0f programs finished of %.0f begun, largest deviation from the path %.6f mm, %.0f cycles "

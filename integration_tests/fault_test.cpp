@@ -45,7 +45,7 @@ TEST_P(KillInMotion, StopsNamesTheServiceBecomesReadyAndTheProgramGoesOn) {
     }
   if (victim == "gateway") {
     EXPECT_TRUE(cluster.until([&] {
-      return http_status(cluster.running().port, "/api/status") == "HTTP/1.1 200 OK";
+      return http_client::request(cluster.running().port, "GET", "/api/status").status == 200;
     })) << "the page is served again";
   }
   const auto stopped_at = cluster.channels[0].machine;
@@ -124,16 +124,16 @@ TEST(Faults, EmergencyStopStopsSwitchesOffAndNeedsAReset) {
 }
 
 TEST(Faults, AKilledLauncherTakesItsServicesWithItAndTheNextCommandSaysSo) {
-  deploy::UpOptions up;
+  cluster::UpOptions up;
   up.machine = "ac-table";
   up.state_directory = "temporary";
   up.own_domain = true;
   up.virtual_time = true;
   up.with_gateway = false;
-  const auto cluster = deploy::start_cluster(up);
+  const auto cluster = cluster::start_cluster(up);
   std::vector<int> pids;
   {
-    deploy::Client client(cluster.run.domain);
+    cluster::Client client(cluster.run.domain);
     for (const auto& service : client.newest(topics::cluster).services) pids.push_back(service.pid);
   }
   ASSERT_EQ(pids.size(), 8u);
@@ -148,7 +148,7 @@ TEST(Faults, AKilledLauncherTakesItsServicesWithItAndTheNextCommandSaysSo) {
   EXPECT_TRUE(std::none_of(pids.begin(), pids.end(), alive));
   std::string message;
   try {
-    deploy::find_cluster(cluster.run.domain);
+    cluster::find_cluster(cluster.run.domain);
   } catch (const std::exception& e) {
     message = e.what();
   }

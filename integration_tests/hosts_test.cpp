@@ -18,7 +18,7 @@ class Machines {
     fs::remove_all(directory_);
     for (const auto& name : {"one", "three"}) {
       fs::create_directories(directory_);
-      fs::copy(deploy::find_machine("ac-table"), directory_ / name, fs::copy_options::recursive);
+      fs::copy(cluster::find_machine("ac-table"), directory_ / name, fs::copy_options::recursive);
       std::ofstream(directory_ / name / "parameters.yaml", std::ios::app) << "\"000900\": " << lead << "\n";
     }
     const auto file = directory_ / "three" / "machine.yaml";
@@ -49,7 +49,7 @@ class Machines {
 void start(const ThreeHosts& hosts, std::uint32_t domain, const std::string& machine,
            const std::string& options) {
   auto ups = hosts.exec_on_all([&](const std::string& host) {
-    return deploy::binary_directory() + "/trunnion up " + machine + " --port 18477 --domain " +
+    return cluster::binary_directory() + "/trunnion up " + machine + " --port 18477 --domain " +
            std::to_string(domain) + " --state " + machine + "/state-" + host + " " + options;
   });
   for (auto& [host, running] : ups) {
@@ -122,11 +122,11 @@ double seconds_to_be_refused(const char* address) {
   there.sin_port = htons(9);
   inet_pton(AF_INET, address, &there.sin_addr);
   const int s = socket(AF_INET, SOCK_STREAM, 0);
-  const double began = node::monotonic_seconds();
+  const double began = service::monotonic_seconds();
   EXPECT_NE(connect(s, reinterpret_cast<const sockaddr*>(&there), sizeof there), 0);
   EXPECT_EQ(errno, ECONNREFUSED);
   close(s);
-  return node::monotonic_seconds() - began;
+  return service::monotonic_seconds() - began;
 }
 
 /// Packets that were lost on the way to a host, and those that were not.
@@ -144,7 +144,7 @@ std::pair<double, double> lost_and_received(const ThreeHosts& hosts, const char*
 
 void expect_all_processes_in_the_status_of_each_host(const ThreeHosts& hosts) {
   auto all = hosts.exec_on_all(
-      [](const std::string&) { return deploy::binary_directory() + "/trunnion status --json"; });
+      [](const std::string&) { return cluster::binary_directory() + "/trunnion status --json"; });
   for (auto& [host, running] : all) {
     const auto status = running.get();
     EXPECT_EQ(status.status, 0) << status.text;
@@ -164,7 +164,7 @@ void expect_all_processes_in_the_status_of_each_host(const ThreeHosts& hosts) {
 
 void expect_each_mistake_in_one_line(const ThreeHosts& hosts, const std::string& machine) {
   const auto up = [&](const std::string& options) {
-    return hosts.exec("motion", deploy::binary_directory() + "/trunnion up " + machine + " " + options).text;
+    return hosts.exec("motion", cluster::binary_directory() + "/trunnion up " + machine + " " + options).text;
   };
   EXPECT_NE(up("--host printer").find("has no host 'printer': there is control, motion, drives\n"),
             std::string::npos);
@@ -199,9 +199,9 @@ TEST_F(Hosts, OnePercentLossAndTwoMillisecondsEachWayChangeNoBitOfTheConeAndStat
   EXPECT_GE(there_and_back, 0.004) << "the cables are as long as they should be";
   hosts.leave();
   hosts.expect("loss", "1");
-  const double began = node::monotonic_seconds();
+  const double began = service::monotonic_seconds();
   const auto rows = over_three_hosts(cone, machines, hosts, domain, expected);
-  const double took = node::monotonic_seconds() - began;
+  const double took = service::monotonic_seconds() - began;
   EXPECT_GT(rows.size(), 10000u);
   EXPECT_EQ(first_difference(rows, expected), "");
   for (const auto* host : {"control", "motion", "drives"}) {
@@ -282,7 +282,7 @@ TEST_F(Hosts, ServicesOfEachHostAreSwappedInMotionFromAnyOfThemAndAreStillKnownT
     const auto begin_swap = [&](const std::string& service, const std::string& asked_on,
                                 const std::string& options) {
       return std::async(std::launch::async, [&hosts, service, asked_on, options] {
-        return hosts.exec(asked_on, deploy::binary_directory() + "/trunnion swap " + service + options);
+        return hosts.exec(asked_on, cluster::binary_directory() + "/trunnion swap " + service + options);
       });
     };
     const auto end_of = [&](auto& command) {

@@ -2,10 +2,10 @@
 // of the library.
 #include <fstream>
 
+#include "analysis/part_path.hpp"
 #include "cluster_harness.hpp"
 #include "machine/axes.hpp"
 #include "machine/machine.hpp"
-#include "planning/part_path.hpp"
 #include "report_run.hpp"
 
 namespace trunnion::integration {
@@ -42,7 +42,7 @@ class ExactStopProgram {
   ExactStopProgram(const std::string& machine, const std::string& program)
       : path_(std::filesystem::temp_directory_path() /
               ("trunnion-exact-" + std::to_string(getpid()) + ".nc")) {
-    std::ifstream in(deploy::find_machine(machine) + "/programs/" + program);
+    std::ifstream in(cluster::find_machine(machine) + "/programs/" + program);
     std::string text((std::istreambuf_iterator<char>(in)), {});
     text.replace(text.find("G64"), 3, "G61");
     std::ofstream(path_) << text;
@@ -85,21 +85,21 @@ INSTANTIATE_TEST_SUITE_P(Pieces, TestPiece,
 // machine happens to be, until the tool has left the piece.
 TEST_P(TestPiece, WithRoundedJoinsIsTheCurveOfEveryOtherMachineWithin1e6) {
   const auto [machine, program] = GetParam();
-  const auto folder = deploy::find_machine("ac-table");
+  const auto folder = cluster::find_machine("ac-table");
   std::ifstream in(folder + "/programs/" + program);
   const std::string text((std::istreambuf_iterator<char>(in)), {});
   const auto line_of = [&](const char* word) {
     const auto at = static_cast<std::ptrdiff_t>(text.find(word));
     return static_cast<std::uint32_t>(1 + std::count(text.begin(), text.begin() + at, '\n'));
   };
-  setup::ChannelSetup planned(setup::load_machine_tables(folder));
-  const auto curve = planning::part_path(text, planned, line_of("G9 G0"), line_of("\nG49"));
+  channel_setup::ChannelSetup planned(tool_tables::load_machine_tables(folder));
+  const auto curve = analysis::part_path(text, planned, line_of("G9 G0"), line_of("\nG49"));
 
   Cluster cluster(machine);
   cluster.keep_rows = true;
   cluster.start(program);
   ASSERT_TRUE(cluster.finish(0, 100)) << cluster.active_alarms();
-  const setup::ChannelSetup setup(setup::load_machine_tables(deploy::find_machine(machine)));
+  const channel_setup::ChannelSetup setup(tool_tables::load_machine_tables(cluster::find_machine(machine)));
   const auto zero = setup.work_offset(0);
   std::vector<Vec3> tips;
   std::size_t begin = 0, end = 0;
@@ -116,7 +116,7 @@ TEST_P(TestPiece, WithRoundedJoinsIsTheCurveOfEveryOtherMachineWithin1e6) {
   ASSERT_GT(end, begin + 10000) << "and the whole piece behind it";
   const std::vector<Vec3> piece(tips.begin() + static_cast<std::ptrdiff_t>(begin),
                                 tips.begin() + static_cast<std::ptrdiff_t>(end));
-  EXPECT_LT(planning::farthest_from(curve, piece), 1e-6);
+  EXPECT_LT(analysis::farthest_from(curve, piece), 1e-6);
 }
 
 // One program with tool vectors for every machine: lines over which the tool goes round a cone, through the
@@ -151,7 +151,7 @@ INSTANTIATE_TEST_SUITE_P(Machines, VectorProgram,
 TEST(Kinematics, TheServiceComputesTheBitsOfTheLibrary) {
   const std::string name = "nutating-b-head-c-table";
   machine::Parameters parameters;
-  parameters.values = machine::machine_parameters(machine::load_machine(deploy::find_machine(name)));
+  parameters.values = machine::machine_parameters(machine::load_machine(cluster::find_machine(name)));
   const auto chain = machine::make_chain(parameters, 0);
   const auto axes = machine::channel_axes(parameters, 0);
   Cluster cluster(name);
@@ -227,7 +227,7 @@ struct Said {
 // Standard output and, after it, standard error.
 Said kins(const std::string& arguments, const std::string& input) {
   const std::string command =
-      "printf '" + input + "' | " + deploy::binary_directory() + "/trunnion kins " + arguments + " 2>&1";
+      "printf '" + input + "' | " + cluster::binary_directory() + "/trunnion kins " + arguments + " 2>&1";
   FILE* pipe = popen(command.c_str(), "r");
   Said said;
   std::array<char, 4096> buffer;
@@ -261,7 +261,7 @@ TEST(KinsCommand, AnswersLineByLineAndStopsAtABadLine) {
   said = kins("ac-table orient --set CORR_C=0,0,1", "0 0 1\\n");
   EXPECT_EQ(said.out.substr(0, 10), "trunnion: ") << "no correction of that name, and no number";
   EXPECT_EQ(said.status, 1);
-  said = kins(deploy::find_machine("four-axis") + "/machine.yaml orient", "0 -0.6 0.8\\n");
+  said = kins(cluster::find_machine("four-axis") + "/machine.yaml orient", "0 -0.6 0.8\\n");
   EXPECT_EQ(said.out, "36.869897645844\n");
 }
 

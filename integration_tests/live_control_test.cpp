@@ -29,7 +29,7 @@ const char* const part =
 
 void ask(Cluster& cluster, CommandKind command, double value = 0, std::uint8_t axis = 0,
          double increment = 0) {
-  deploy::ChannelRequest request;
+  cluster::ChannelRequest request;
   request.command = command, request.value = value, request.axis = axis, request.increment = increment;
   cluster.client().channel(request);
 }
@@ -146,9 +146,9 @@ TEST(LiveControl, TheLineOfThePowerFailureIsOfferedAndTheProgramStartsFromIt) {
   // A lead of 128 ms: tests that run beside this one may keep a computer that is not a real-time one away for
   // longer than the 32 of the machine.
   const auto machine = state.string() + "-machine";
-  std::filesystem::copy(deploy::find_machine("ac-table"), machine, std::filesystem::copy_options::recursive);
+  std::filesystem::copy(cluster::find_machine("ac-table"), machine, std::filesystem::copy_options::recursive);
   std::ofstream(machine + "/parameters.yaml", std::ios::app) << "\"000900\": 128\n";
-  deploy::UpOptions up;
+  cluster::UpOptions up;
   up.machine = machine;
   up.state_directory = state.string();
   up.domain = 74;
@@ -156,8 +156,8 @@ TEST(LiveControl, TheLineOfThePowerFailureIsOfferedAndTheProgramStartsFromIt) {
   up.with_gateway = false;
   std::uint32_t line = 0;
   {
-    const auto cluster = deploy::start_cluster(up);
-    deploy::Client client(cluster.run.domain);
+    const auto cluster = cluster::start_cluster(up);
+    cluster::Client client(cluster.run.domain);
     client.upload("live.nc", long_program());
     client.channel(0, CommandKind::SET_MODE, "", 0, Mode::AUTO);
     for (int i = 0; i < 100; ++i) try {
@@ -168,9 +168,9 @@ TEST(LiveControl, TheLineOfThePowerFailureIsOfferedAndTheProgramStartsFromIt) {
       }
     client.channel(0, CommandKind::CYCLE_START);
     auto states = client.bus().reader(topics::channel_state);
-    const double end = node::monotonic_seconds() + 30;
+    const double end = service::monotonic_seconds() + 30;
     idl::channel::ChannelState newest;
-    while (node::monotonic_seconds() < end && newest.line < 6) {
+    while (service::monotonic_seconds() < end && newest.line < 6) {
       while (states.take(newest)) {
       }
       std::this_thread::sleep_for(std::chrono::milliseconds(10));
@@ -185,14 +185,14 @@ TEST(LiveControl, TheLineOfThePowerFailureIsOfferedAndTheProgramStartsFromIt) {
     cluster.run.remove();
   }
   up.virtual_time = true;
-  const auto cluster = deploy::start_cluster(up);
+  const auto cluster = cluster::start_cluster(up);
   {
-    deploy::Client client(cluster.run.domain);
+    cluster::Client client(cluster.run.domain);
     auto states = client.bus().reader(topics::channel_state);
     idl::channel::ChannelState newest;
     const auto until = [&](const auto& condition) {
-      const double end = node::monotonic_seconds() + 30;
-      while (node::monotonic_seconds() < end) {
+      const double end = service::monotonic_seconds() + 30;
+      while (service::monotonic_seconds() < end) {
         while (states.take(newest)) {
         }
         if (condition()) return true;
@@ -212,7 +212,7 @@ TEST(LiveControl, TheLineOfThePowerFailureIsOfferedAndTheProgramStartsFromIt) {
     EXPECT_TRUE(until([&] { return newest.state == RunState::RUNNING && newest.line > line + 4; }));
     client.channel(0, CommandKind::RESET);
   }
-  deploy::stop_cluster(cluster.run);
+  cluster::stop_cluster(cluster.run);
   std::filesystem::remove_all(state);
   std::filesystem::remove_all(machine);
 }

@@ -90,18 +90,18 @@ std::string broken_machine(const std::function<void(const std::filesystem::path&
   const auto directory =
       std::filesystem::temp_directory_path() / ("trunnion-broken-" + std::to_string(getpid()));
   std::filesystem::remove_all(directory);
-  std::filesystem::copy(deploy::find_machine("ac-table"), directory,
+  std::filesystem::copy(cluster::find_machine("ac-table"), directory,
                         std::filesystem::copy_options::recursive);
   spoil(directory);
-  deploy::UpOptions up;
+  cluster::UpOptions up;
   up.machine = directory;
   up.state_directory = "temporary";
   up.own_domain = true;
   up.with_gateway = false;
   std::string error;
   try {
-    const auto cluster = deploy::start_cluster(up);
-    deploy::stop_cluster(cluster.run);
+    const auto cluster = cluster::start_cluster(up);
+    cluster::stop_cluster(cluster.run);
   } catch (const std::exception& e) {
     error = e.what();
   }
@@ -124,7 +124,7 @@ TEST(BadInput, AWrongMachineFileIsOneLineWithItsPlace) {
 }
 
 TEST(BadInput, AnUnknownMachineIsNamed) {
-  EXPECT_THROW(deploy::find_machine("no-such-machine"), std::runtime_error);
+  EXPECT_THROW(cluster::find_machine("no-such-machine"), std::runtime_error);
 }
 
 TEST(BadInput, AServiceOfAnotherContractIsReported) {

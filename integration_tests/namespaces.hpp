@@ -16,7 +16,7 @@
 #include <string>
 #include <vector>
 
-#include "cluster_files.hpp"
+#include "cluster/cluster_files.hpp"
 
 namespace trunnion::integration {
 
@@ -61,7 +61,7 @@ class ThreeHosts {
     script("down");
     expect(cables == Cables::short_ ? "up" : "bare", pairs);
     if (cables == Cables::short_) return;
-    switch_ = popen((deploy::binary_directory() + "/tap-switch 2000 " + prefix_ + "-control " + prefix_ +
+    switch_ = popen((cluster::binary_directory() + "/tap-switch 2000 " + prefix_ + "-control " + prefix_ +
                      "-motion " + prefix_ + "-drives > " + switch_log())
                         .c_str(),
                     "w");
@@ -71,7 +71,7 @@ class ThreeHosts {
   ~ThreeHosts() {
     leave();
     for (auto& down :
-         exec_on_all([](const std::string&) { return deploy::binary_directory() + "/trunnion down"; }))
+         exec_on_all([](const std::string&) { return cluster::binary_directory() + "/trunnion down"; }))
       (void)down.second.get();
     if (switch_ != nullptr) pclose(switch_);
     std::filesystem::remove(switch_log());

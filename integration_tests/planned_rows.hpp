@@ -21,7 +21,7 @@ struct PlannedRow {
 inline std::vector<PlannedRow> planned_rows(const std::string& machine, const std::string& program) {
   const auto file =
       std::filesystem::temp_directory_path() / ("trunnion-plan-" + std::to_string(getpid()) + ".csv");
-  const std::string command = deploy::binary_directory() + "/trunnion plan " + program + " --machine " +
+  const std::string command = cluster::binary_directory() + "/trunnion plan " + program + " --machine " +
                               machine + " --csv " + file.string() + " > /dev/null";
   EXPECT_EQ(std::system(command.c_str()), 0);
   std::ifstream in(file);

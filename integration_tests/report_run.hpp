@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "cluster.hpp"
+#include "cluster/cluster.hpp"
 
 namespace trunnion::integration {
 
@@ -17,7 +17,7 @@ inline nlohmann::json run(const std::string& arguments) {
   const auto directory =
       std::filesystem::temp_directory_path() / ("trunnion-report-" + std::to_string(getpid()));
   const std::string command =
-      deploy::binary_directory() + "/trunnion run " + arguments + " --json --report " + directory.string();
+      cluster::binary_directory() + "/trunnion run " + arguments + " --json --report " + directory.string();
   FILE* pipe = popen(command.c_str(), "r");
   std::string text;
   std::array<char, 4096> buffer;

@@ -8,8 +8,8 @@
 
 #include "bus/bus.hpp"
 #include "contracts/topics.hpp"
-#include "node/network.hpp"
-#include "node/node.hpp"
+#include "service/network.hpp"
+#include "service/node.hpp"
 
 namespace {
 
@@ -23,7 +23,7 @@ void take_part(bus::Bus& bus, const bus::Topic<T>& topic, bool write, std::uint6
   T value;
   int matched = 0;
   std::map<std::uint64_t, int> samples;
-  for (const double end = node::monotonic_seconds() + seconds; node::monotonic_seconds() < end;) {
+  for (const double end = service::monotonic_seconds() + seconds; service::monotonic_seconds() < end;) {
     matched = std::max(matched, write ? writer->matched() : reader->matched());
     if (write) {
       value.first = mark;
@@ -47,7 +47,7 @@ int main(int argc, char** argv) {
   std::string vendor = "cyclonedds", action, topic;
   double seconds = 3;
   std::uint64_t mark = 0;
-  node::add_network_options(app, network);
+  service::add_network_options(app, network);
   app.add_option("--domain", network.domain);
   app.add_option("--identity", network.identity);
   app.add_option("--vendor", vendor);

@@ -54,7 +54,7 @@ struct Result {
 std::future<Result> start(const Peer& peer, const std::string& action, std::uint32_t domain, int mark = 0,
                           const std::string& topic = "path_frame", double seconds = 4) {
   const std::string command =
-      deploy::binary_directory() + "/security-peer --domain " + std::to_string(domain) + " --vendor " +
+      cluster::binary_directory() + "/security-peer --domain " + std::to_string(domain) + " --vendor " +
       peer.vendor + " --mark " + std::to_string(mark) + " --seconds " + std::to_string(seconds) +
       (peer.security.empty() ? "" : " --security " + peer.security + " --identity " + peer.identity) + " " +
       action + " " + topic;
@@ -80,7 +80,7 @@ std::set<int> heard(const Result& result) {
 // All of them take part at once, so that what the rightful ones reach shows that the others could have.
 TEST(Security, OnlyTheChannelWritesThePathAndOnlyTheKinematicsReadsItOnBothVendorsAndAcrossThem) {
   const Authority ours("security"), foreign("rogue");
-  const auto domain = deploy::free_domain();
+  const auto domain = cluster::free_domain();
   const std::vector<std::string> vendors{"cyclonedds", "fastdds"};
   // Whoever has its certificate from `stolen` is the program service and shows the permissions of the
   // channel.
@@ -128,7 +128,7 @@ TEST(Security, OnlyTheChannelWritesThePathAndOnlyTheKinematicsReadsItOnBothVendo
       const auto result = writers[i].running[v].get();
       EXPECT_EQ(result.matched, matched[i]) << writers[i].name << " on " << vendors[v] << ": " << result.text;
     }
-  deploy::RunDirectory{domain}.remove();
+  cluster::RunDirectory{domain}.remove();
 }
 
 /// The services with `topic` in the part `verb` of their permissions, on both vendors.
@@ -198,7 +198,7 @@ class SecureCluster : public testing::TestWithParam<const char*> {
 
 TEST_P(SecureCluster, RunsAProgramAndTakesARestartedServiceBackWhileARogueNeitherReadsNorWritesSetpoints) {
   const auto directory = authority_->path() + "/machine-" + GetParam();
-  fs::copy(deploy::find_machine("ac-table"), directory, fs::copy_options::recursive);
+  fs::copy(cluster::find_machine("ac-table"), directory, fs::copy_options::recursive);
   std::ofstream(directory + "/machine.yaml", std::ios::app) << "security: " << authority_->path() << "\n";
   Cluster cluster(directory, Time::virtual_, GetParam());
   const auto domain = cluster.running().run.domain;

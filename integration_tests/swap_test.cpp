@@ -2,7 +2,6 @@
 #include <nlohmann/json.hpp>
 
 #include "cluster_harness.hpp"
-#include "swap_journal.hpp"
 
 namespace trunnion::integration {
 namespace {
@@ -32,7 +31,7 @@ class Swapping : public testing::Test {
     idl::service::SwapRequest request;
     request.service = service, request.executable = executable, request.vendor = vendor,
     request.cycles = cycles;
-    node::RequestClient<idl::service::SwapRequest, idl::service::SwapReply> client(
+    service::RequestClient<idl::service::SwapRequest, idl::service::SwapReply> client(
         cluster.client().bus(), topics::swap_request, topics::swap_reply);
     client.send(request);
     std::optional<SwapReply> reply;
@@ -49,12 +48,12 @@ class Swapping : public testing::Test {
   }
   static int pid(Cluster& cluster, const std::string& service) { return cluster.service(service)->pid; }
   static nlohmann::json last_line(const Cluster& cluster) {
-    std::ifstream in(cluster.running().state_directory + "/" + deploy::swap_journal_file);
+    std::ifstream in(cluster.running().state_directory + "/" + cluster::swap_journal_file);
     std::string line, last;
     while (std::getline(in, line)) last = line;
     return nlohmann::json::parse(last, nullptr, false);
   }
-  static std::string variant(const std::string& name) { return deploy::binary_directory() + "/" + name; }
+  static std::string variant(const std::string& name) { return cluster::binary_directory() + "/" + name; }
 
   // The first `count` cycles of the program on a machine that nothing happens to.
   static Rows reference(const std::string& program, std::size_t count,
@@ -118,7 +117,7 @@ TEST_F(Swapping, AStageThatComputesOtherwiseIsNotTaken) {
     EXPECT_EQ(cluster.state(), RunState::RUNNING) << cluster.told();
   }
   EXPECT_TRUE(cluster.history.empty()) << cluster.told();
-  EXPECT_FALSE(std::filesystem::exists(cluster.running().state_directory + "/" + deploy::swap_journal_file));
+  EXPECT_FALSE(std::filesystem::exists(cluster.running().state_directory + "/" + cluster::swap_journal_file));
 }
 
 // ac-table in a place where its files may be changed.
@@ -128,7 +127,7 @@ class OwnMachine {
       : directory_(std::filesystem::temp_directory_path() /
                    ("trunnion-machine-" + std::to_string(getpid()))) {
     std::filesystem::remove_all(directory_);
-    std::filesystem::copy(deploy::find_machine("ac-table"), directory_,
+    std::filesystem::copy(cluster::find_machine("ac-table"), directory_,
                           std::filesystem::copy_options::recursive);
   }
   ~OwnMachine() { std::filesystem::remove_all(directory_); }
@@ -283,7 +282,7 @@ TEST_F(Swapping, APlcAndKeepersThatWouldDoOtherwiseAreNotTaken) {
   const auto after = cluster.expected_cycle + 500;
   EXPECT_TRUE(cluster.until([&] { return cluster.expected_cycle > after; })) << cluster.told();
   EXPECT_TRUE(cluster.history.empty()) << cluster.told();
-  EXPECT_FALSE(std::filesystem::exists(cluster.running().state_directory + "/" + deploy::swap_journal_file));
+  EXPECT_FALSE(std::filesystem::exists(cluster.running().state_directory + "/" + cluster::swap_journal_file));
   EXPECT_FALSE(std::filesystem::exists(cluster.running().state_directory + "/plc.rounds"));
 }
 
@@ -308,7 +307,7 @@ TEST_F(Swapping, AGatewayThatShowsAnotherPositionIsNotTakenAndOneThatShowsTheSam
   EXPECT_FALSE(wrong.accepted);
   EXPECT_NE(wrong.reason.find("differs in axes/0/actual: "), std::string::npos) << wrong.reason;
   EXPECT_EQ(pid(cluster, "gateway"), before);
-  EXPECT_EQ(http_status(cluster.running().port, "/api/status"), "HTTP/1.1 200 OK");
+  EXPECT_EQ(http_client::request(cluster.running().port, "GET", "/api/status").status, 200);
   const auto right = swap(cluster, "gateway", "", "fastdds");
   EXPECT_TRUE(right.accepted) << right.reason;
   EXPECT_TRUE(cluster.until([&] {
@@ -343,7 +342,7 @@ TEST_P(SwappingInMotion, TheMotionGoesOnAndTheNewOneAnswers) {
   EXPECT_EQ(cluster.state(), RunState::RUNNING) << cluster.told();
   EXPECT_TRUE(cluster.history.empty()) << cluster.told();
   if (service == "gateway") {
-    EXPECT_EQ(http_status(cluster.running().port, "/api/status"), "HTTP/1.1 200 OK");
+    EXPECT_EQ(http_client::request(cluster.running().port, "GET", "/api/status").status, 200);
   } else if (service == "program") {
     cluster.client().upload("late.nc", "G0 X1\nM30\n");
     EXPECT_EQ(cluster.client().download("late.nc"), "G0 X1\nM30\n");

@@ -16,9 +16,9 @@
 #include <fstream>
 #include <functional>
 
-#include "cluster_files.hpp"
+#include "cluster/cluster_files.hpp"
 #include "cluster_harness.hpp"
-#include "node/node.hpp"
+#include "service/node.hpp"
 
 namespace trunnion::integration {
 namespace {
@@ -68,8 +68,8 @@ class Unit {
   /// Messages that arrive within `seconds`, until one is `wanted` (when it is not empty).
   std::vector<std::string> messages(double seconds, const std::string& wanted = "") {
     std::vector<std::string> all;
-    const double until = node::monotonic_seconds() + seconds;
-    for (double left = 0; (left = until - node::monotonic_seconds()) > 0;) {
+    const double until = service::monotonic_seconds() + seconds;
+    for (double left = 0; (left = until - service::monotonic_seconds()) > 0;) {
       timeval timeout{static_cast<time_t>(left),
                       static_cast<suseconds_t>((left - static_cast<long>(left)) * 1e6)};
       if (timeout.tv_sec == 0 && timeout.tv_usec == 0) break;
@@ -116,12 +116,12 @@ void expect_pings_until_it_hangs(Unit& unit) {
 }
 
 TEST(Systemd, TheLauncherSaysReadyOncePingsStopsWhenItHangsAndSaysThatItStops) {
-  const auto domain = deploy::free_domain();
+  const auto domain = cluster::free_domain();
   const auto directory =
       std::filesystem::temp_directory_path() / ("trunnion-systemd-" + std::to_string(getpid()));
-  Unit unit({deploy::binary_directory() + "/trunnion", "up", "ac-table", "--foreground", "--time", "virtual",
-             "--domain", std::to_string(domain), "--port", std::to_string(free_port()), "--state",
-             directory.string()});
+  Unit unit({cluster::binary_directory() + "/trunnion", "up", "ac-table", "--foreground", "--time", "virtual",
+             "--domain", std::to_string(domain), "--port", std::to_string(http_client::free_port()),
+             "--state", directory.string()});
   const auto start = unit.messages(30, "READY=1");
   ASSERT_FALSE(start.empty());
   ASSERT_EQ(start.back(), "READY=1");
@@ -137,11 +137,11 @@ TEST(Systemd, TheLauncherSaysReadyOncePingsStopsWhenItHangsAndSaysThatItStops) {
 }
 
 TEST(Systemd, AServiceStartedAloneSaysReadyWhenItIsActiveAndPings) {
-  const auto domain = deploy::free_domain();
+  const auto domain = cluster::free_domain();
   const auto directory =
       std::filesystem::temp_directory_path() / ("trunnion-systemd-" + std::to_string(getpid()));
-  Unit unit({deploy::binary_directory() + "/trunnion-parameters", "--machine",
-             deploy::find_machine("ac-table"), "--state", directory.string(), "--domain",
+  Unit unit({cluster::binary_directory() + "/trunnion-parameters", "--machine",
+             cluster::find_machine("ac-table"), "--state", directory.string(), "--domain",
              std::to_string(domain)});
   EXPECT_TRUE(unit.told("READY=1", 20));
   expect_pings_until_it_hangs(unit);
@@ -149,7 +149,7 @@ TEST(Systemd, AServiceStartedAloneSaysReadyWhenItIsActiveAndPings) {
   EXPECT_TRUE(unit.told("STOPPING=1", 10));
   EXPECT_EQ(unit.stop(), 0);
   std::filesystem::remove_all(directory);
-  deploy::RunDirectory{domain}.remove();
+  cluster::RunDirectory{domain}.remove();
 }
 
 std::string content(const std::filesystem::path& file) {
@@ -162,7 +162,7 @@ void install_unit(const std::filesystem::path& directory, const std::string& kep
   std::filesystem::create_directories(directory);
   auto text = content(TRUNNION_UNITS "/trunnion@.service");
   for (const auto& [installed, here] :
-       {std::pair<std::string, std::string>{"/usr/bin/trunnion", deploy::binary_directory() + "/trunnion"},
+       {std::pair<std::string, std::string>{"/usr/bin/trunnion", cluster::binary_directory() + "/trunnion"},
         {"/var/lib/trunnion", kept}}) {
     ASSERT_NE(text.find(installed), std::string::npos);
     text.replace(text.find(installed), installed.size(), here);
@@ -204,7 +204,7 @@ TEST(Systemd, ASystemdStartsTheUnitKillsAndRestartsItWhenItHangsAndStopsIt) {
   const Directory directory("trunnion-instance-");
   const auto units = directory.path / "config" / "systemd" / "user";
   install_unit(units, directory.path.string() + "/state");
-  const auto domain = std::to_string(deploy::free_domain());
+  const auto domain = std::to_string(cluster::free_domain());
   std::filesystem::create_directories(units / "trunnion@.service.d");
   const auto results = directory.path / "results";
   // A user's systemd cannot become another user, /etc/trunnion is not this test's, and the programs may lie
@@ -213,15 +213,15 @@ TEST(Systemd, ASystemdStartsTheUnitKillsAndRestartsItWhenItHangsAndStopsIt) {
       << "[Service]\nUser=\nStateDirectory=\nProtectHome=no\nExecStopPost=/bin/sh -c 'echo $$SERVICE_RESULT "
          ">>"
       << results.string() << "'\nEnvironment=TRUNNION_CONFIGS="
-      << std::filesystem::path(deploy::find_machine("ac-table")).parent_path().string()
-      << "\nEnvironment=\"TRUNNION_OPTIONS=--time virtual --port " << free_port() << " --domain " << domain
-      << "\"\n";
+      << std::filesystem::path(cluster::find_machine("ac-table")).parent_path().string()
+      << "\nEnvironment=\"TRUNNION_OPTIONS=--time virtual --port " << http_client::free_port() << " --domain "
+      << domain << "\"\n";
   int status = 0;
-  const auto told =
-      output_of(std::string(TRUNNION_TESTS) + "/systemd_instance.sh " + directory.path.string() + " " +
-                    TRUNNION_TESTS + "/systemd_unit.sh " + deploy::binary_directory() + "/trunnion " + domain,
-                &status);
-  deploy::RunDirectory{static_cast<std::uint32_t>(std::stoul(domain))}.remove();
+  const auto told = output_of(std::string(TRUNNION_TESTS) + "/systemd_instance.sh " +
+                                  directory.path.string() + " " + TRUNNION_TESTS + "/systemd_unit.sh " +
+                                  cluster::binary_directory() + "/trunnion " + domain,
+                              &status);
+  cluster::RunDirectory{static_cast<std::uint32_t>(std::stoul(domain))}.remove();
   if (status == 77) GTEST_SKIP() << told;
   ASSERT_EQ(status, 0) << told;
   EXPECT_NE(told.find("started 0 active ready 0\n"), std::string::npos) << told;

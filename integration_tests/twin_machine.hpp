@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "cluster_files.hpp"
+#include "cluster/cluster_files.hpp"
 
 namespace trunnion::integration {
 
@@ -18,7 +18,7 @@ class TwinMachine {
   explicit TwinMachine(const std::vector<std::string>& stages, const std::string& second = "fastdds")
       : directory_(std::filesystem::temp_directory_path() / ("trunnion-twin-" + std::to_string(getpid()))) {
     std::filesystem::remove_all(directory_);
-    std::filesystem::copy(deploy::find_machine("ac-table"), directory_,
+    std::filesystem::copy(cluster::find_machine("ac-table"), directory_,
                           std::filesystem::copy_options::recursive);
     std::ifstream in(directory_ / "machine.yaml");
     std::string text((std::istreambuf_iterator<char>(in)), {});

@@ -144,8 +144,8 @@ TEST_P(CopiesThatDiffer, StopTheMotionWithAnAlarmThatNamesStageCycleAndBothValue
   // At rest there is nothing to compare, so the wrong one gets in; it is wrong in the last bit of cycle 700.
   idl::service::SwapRequest request;
   request.service = stage, request.copy = 1, request.cycles = 500, request.vendor = "cyclonedds";
-  request.executable = deploy::binary_directory() + "/" + stage + "_one_bit";
-  node::RequestClient<idl::service::SwapRequest, idl::service::SwapReply> client(
+  request.executable = cluster::binary_directory() + "/" + stage + "_one_bit";
+  service::RequestClient<idl::service::SwapRequest, idl::service::SwapReply> client(
       cluster.client().bus(), topics::swap_request, topics::swap_reply);
   const auto reply = client.call(request, 30);
   ASSERT_TRUE(reply);

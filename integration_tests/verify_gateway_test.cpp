@@ -4,15 +4,15 @@
 
 #include <filesystem>
 
-#include "bus/cdr.hpp"
+#include "bus/codec.hpp"
 #include "bus/json.hpp"
-#include "cluster_files.hpp"
+#include "cluster/cluster_files.hpp"
 #include "contracts/topics.hpp"
 #include "recording/file_stream.hpp"
 #include "recording/mcap_writer.hpp"
-#include "replay/stored_recording.hpp"
 #include "storage/crc32.hpp"
-#include "verify.hpp"
+#include "verification/stored_recording.hpp"
+#include "verification/verify.hpp"
 
 namespace trunnion::integration {
 namespace {
@@ -24,13 +24,13 @@ using idl::gateway::Sender;
 // Adds what the gateway and those it asks would have said, a millisecond after each other.
 class Operator {
  public:
-  explicit Operator(replay::StoredRecording& recording) : recording_(recording) {
+  explicit Operator(verification::StoredRecording& recording) : recording_(recording) {
     for (const auto& message : recording.messages) time_ = std::max(time_, message.time);
   }
 
   template <class T>
   void add(const bus::Topic<T>& topic, const T& value) {
-    replay::StoredMessage message{bus::find_topic(topic.name), time_ += 1000000, 0, {}};
+    verification::StoredMessage message{bus::find_topic(topic.name), time_ += 1000000, 0, {}};
     bus::encode(value, message.cdr);
     recording_.messages.push_back(std::move(message));
   }
@@ -98,11 +98,11 @@ class Operator {
 
  private:
   static constexpr std::uint64_t client = 4711;
-  replay::StoredRecording& recording_;
+  verification::StoredRecording& recording_;
   std::uint64_t time_ = 0, number_ = 0, lines_ = 0;
 };
 
-void write(const replay::StoredRecording& recording, const std::string& path) {
+void write(const verification::StoredRecording& recording, const std::string& path) {
   recording::FileSink sink(path);
   recording::Writer writer(sink, {.library = "test"});
   writer.metadata("trunnion", {recording.metadata.begin(), recording.metadata.end()});
@@ -120,7 +120,8 @@ void write(const replay::StoredRecording& recording, const std::string& path) {
 class VerifyGateway : public testing::Test {
  protected:
   void SetUp() override {
-    auto recording = replay::load_recording(deploy::find_machine("ac-table") + "/recordings/golden.mcap");
+    auto recording =
+        verification::load_recording(cluster::find_machine("ac-table") + "/recordings/golden.mcap");
     // Whatever its operator did is taken out: the requests here are all.
     std::erase_if(recording.messages, [](const auto& m) { return m.topic->handle == "operator_request"; });
     Operator with(recording);
@@ -139,22 +140,22 @@ class VerifyGateway : public testing::Test {
         (fs::temp_directory_path() / ("trunnion-operator-" + std::to_string(getpid()) + ".mcap")).string();
     write(recording, options_.recording);
     options_.service = "gateway";
-    options_.patience = 20;
+    options_.timeout = 20;
   }
   void TearDown() override { fs::remove(options_.recording); }
 
-  deploy::VerifyOptions options_;
+  verification::VerifyOptions options_;
 };
 
 TEST_F(VerifyGateway, DoesShowsAndAnswersWhatIsRecordedOnEitherVendor) {
   for (const char* vendor : {"cyclonedds", "fastdds"}) {
     options_.vendor = vendor;
-    const auto result = deploy::verify(options_);
+    const auto result = verification::verify(options_);
     EXPECT_TRUE(result.equal()) << vendor << ": " << result.problem
                                 << text_of(result.difference, "recorded", "written now");
     EXPECT_EQ(result.requests, 7u);
     EXPECT_EQ(result.left_out, 0u);
-    EXPECT_GE(result.looks, 2u) << "before the first request and at the end at least";
+    EXPECT_GE(result.samples, 2u) << "before the first request and at the end at least";
     std::size_t compared = 0;
     for (const auto& topic : result.difference.topics) compared += topic.compared;
     EXPECT_EQ(compared, 7u + 3u + 3u) << "lines, orders to the channel, requests to the program service";
@@ -162,8 +163,8 @@ TEST_F(VerifyGateway, DoesShowsAndAnswersWhatIsRecordedOnEitherVendor) {
 }
 
 TEST_F(VerifyGateway, AnOrderThatIsNotTheOneAskedForIsFoundAtItsField) {
-  options_.executable = deploy::binary_directory() + "/gateway_wrong_order";
-  const auto result = deploy::verify(options_);
+  options_.executable = cluster::binary_directory() + "/gateway_wrong_order";
+  const auto result = verification::verify(options_);
   EXPECT_EQ(result.problem, "") << "it answers everything";
   ASSERT_TRUE(result.difference.first.has_value());
   EXPECT_EQ(result.difference.first->topic, "channel_request");
@@ -172,18 +173,18 @@ TEST_F(VerifyGateway, AnOrderThatIsNotTheOneAskedForIsFoundAtItsField) {
 }
 
 TEST_F(VerifyGateway, APositionThatIsNotTheOneRecordedIsFoundWhereItIsShown) {
-  options_.executable = deploy::binary_directory() + "/gateway_wrong_position";
-  options_.patience = 1;
-  const auto result = deploy::verify(options_);
+  options_.executable = cluster::binary_directory() + "/gateway_wrong_position";
+  options_.timeout = 1;
+  const auto result = verification::verify(options_);
   EXPECT_NE(result.problem.find("axes.0.actual: expected "), std::string::npos) << result.problem;
   EXPECT_FALSE(result.equal());
 }
 
 TEST_F(VerifyGateway, AnAnswerThatIsNotTheOneRecordedIsAProblemThatNamesBoth) {
-  auto recording = replay::load_recording(options_.recording);
+  auto recording = verification::load_recording(options_.recording);
   Operator(recording).line("POST", "/api/channels/31/reset", "", 200, "{}", 0);
   write(recording, options_.recording);
-  const auto result = deploy::verify(options_);
+  const auto result = verification::verify(options_);
   EXPECT_EQ(result.problem,
             "POST /api/channels/31/reset was answered 404 {\"error\":\"no channel 31\"}; recorded is 200 {}");
 }

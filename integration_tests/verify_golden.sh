@@ -8,7 +8,7 @@ channels=$3
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 start() {  # SERVICE CHANNEL
-  "$trunnion" verify --service "$1" --channel "$2" --recording "$recording" --patience 20 > "$work/$1.$2" 2>&1 &
+  "$trunnion" verify --service "$1" --channel "$2" --recording "$recording" --timeout 20 > "$work/$1.$2" 2>&1 &
   names+=("$1.$2")
   pids+=($!)
 }

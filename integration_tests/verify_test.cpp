@@ -4,22 +4,22 @@
 #include <filesystem>
 #include <fstream>
 
-#include "cluster_files.hpp"
-#include "verify.hpp"
+#include "cluster/cluster_files.hpp"
+#include "verification/verify.hpp"
 
 namespace trunnion::integration {
 namespace {
 
 namespace fs = std::filesystem;
-using deploy::VerifyOptions;
+using verification::VerifyOptions;
 
 constexpr std::uint64_t wrong_cycle = 700;  // as in variants/one_bit.hpp
 
 VerifyOptions golden(const std::string& machine, const std::string& service) {
   VerifyOptions options;
-  options.recording = deploy::find_machine(machine) + "/recordings/golden.mcap";
+  options.recording = cluster::find_machine(machine) + "/recordings/golden.mcap";
   options.service = service;
-  options.patience = 20;
+  options.timeout = 20;
   return options;
 }
 
@@ -27,8 +27,8 @@ class Stage : public testing::TestWithParam<std::string> {};
 
 TEST_P(Stage, OneWrongBitIsFoundAtItsCycleAndField) {
   auto options = golden("gantry-cb-head", GetParam());
-  options.executable = deploy::binary_directory() + "/" + GetParam() + "_one_bit";
-  const auto result = deploy::verify(options);
+  options.executable = cluster::binary_directory() + "/" + GetParam() + "_one_bit";
+  const auto result = verification::verify(options);
   EXPECT_EQ(result.problem, "") << "it answers everything";
   ASSERT_TRUE(result.difference.first.has_value());
   EXPECT_EQ(result.difference.first->topic, GetParam() + "_frame");
@@ -43,7 +43,7 @@ TEST_P(Stage, OneWrongBitIsFoundAtItsCycleAndField) {
 TEST_P(Stage, IsAsRecordedOnTheOtherVendorToo) {
   auto options = golden("gantry-cb-head", GetParam());
   options.vendor = "fastdds";
-  const auto result = deploy::verify(options);
+  const auto result = verification::verify(options);
   EXPECT_TRUE(result.equal()) << result.problem << text_of(result.difference, "recorded", "written now");
   EXPECT_GT(result.cycles, 500u);
 }
@@ -54,7 +54,7 @@ INSTANTIATE_TEST_SUITE_P(Stages, Stage, testing::Values("kinematics", "compensat
 TEST(Verify, AServiceThatEndsAtOnceIsAProblemAndNotAWait) {
   auto options = golden("ac-table", "kinematics");
   options.executable = "/bin/false";
-  const auto result = deploy::verify(options);
+  const auto result = verification::verify(options);
   EXPECT_EQ(result.problem, "/bin/false ended with status 1");
   EXPECT_FALSE(result.equal());
 }
@@ -65,8 +65,8 @@ TEST(Verify, AServiceThatAnswersNothingIsAProblemAfterItsPatience) {
   fs::permissions(script, fs::perms::owner_all);
   auto options = golden("ac-table", "compensation");
   options.executable = script.string();
-  options.patience = 0.5;
-  const auto result = deploy::verify(options);
+  options.timeout = 0.5;
+  const auto result = verification::verify(options);
   fs::remove(script);
   EXPECT_NE(result.problem.find("wrote nothing more of compensation_frame"), std::string::npos)
       << result.problem;
@@ -80,7 +80,7 @@ TEST(Verify, ACutOffRecordingIsVerifiedAsFarAsItGoes) {
   fs::resize_file(part, fs::file_size(part) * 3 / 4);
   options.recording = part.string();
   try {
-    const auto result = deploy::verify(options);
+    const auto result = verification::verify(options);
     EXPECT_TRUE(result.equal()) << result.problem;
   } catch (const std::runtime_error& e) {
     // One chunk, and it is not whole.

@@ -166,7 +166,8 @@ def generate(args):
     types = []
     for path in sorted(args.idl): types += Parser(path).parse()
     scope = Scope(types)
-    with open(args.topics) as f: topics = yaml.safe_load(f)["topics"]
+    with open(args.topics) as f: document = yaml.safe_load(f)
+    topics, standby_suffix = document["topics"], document["standby_suffix"]
     qos_names = {"frame", "state", "event", "history"}
     for t in topics:
         if t["type"] not in scope.by_name: sys.exit(f"{args.topics}: error: topic {t['name']} has the unknown type {t['type']}")
@@ -202,7 +203,9 @@ def generate(args):
     hpp.append("}")
 
     handles = ["// Generated from idl/topics.yaml by tools/generate_contracts.py.", "#pragma once", '#include "bus/topic.hpp"', '#include "contracts/types.hpp"', "",
-               "namespace trunnion::topics {", f'inline constexpr const char* contract_hash = "{contract}";']
+               "namespace trunnion::topics {", f'inline constexpr const char* contract_hash = "{contract}";',
+               "/// Behind the name of a stage's topic: where it writes while it is on standby.",
+               f'inline constexpr const char* standby_suffix = "{standby_suffix}";']
     registry = ['#include "contracts/topics.hpp"', '#include "bus/registry.hpp"', '#include "bus/typed_registry.hpp"', "", "namespace trunnion::bus {",
                 "const std::vector<TopicEntry>& all_topics() {", "  static const std::vector<TopicEntry> entries{"]
     doc = ["# Topics", "", "Generated from `idl/topics.yaml`; the types and the meaning and unit of each field are in `idl/`.", "",
@@ -217,8 +220,20 @@ def generate(args):
     handles.append("}")
     registry += ["  };", "  return entries;", "}", "}"]
 
+    # One source per IDL file instantiates what walks over the fields of its types, so that no other source has to.
+    codecs = {}
+    for t in types:
+        lines = codecs.setdefault(t.module.split("::")[1], ['#include "bus/cdr.hpp"', '#include "bus/json_fields.hpp"', '#include "contracts/types.hpp"', "",
+                                                            "namespace trunnion::bus {"])
+        if isinstance(t, Struct):
+            c = cpp_name(t)
+            lines += [f"template void encode(const {c}&, Bytes&);", f"template bool decode(std::span<const std::uint8_t>, {c}&);",
+                      f"template bool key_of<{c}>(std::span<const std::uint8_t>, KeyHash&);", f"template Json struct_to_json(const {c}&);"]
+    for lines in codecs.values(): lines.append("}")
+
     os.makedirs(args.out, exist_ok=True)
-    for name, lines in (("types.hpp", hpp), ("topics.hpp", handles), ("registry.cpp", registry), ("topics.md", doc)):
+    for name, lines in (("types.hpp", hpp), ("topics.hpp", handles), ("registry.cpp", registry), ("topics.md", doc),
+                        *((f"codec_{module}.cpp", lines) for module, lines in codecs.items())):
         text = "\n".join(lines) + "\n"
         path = os.path.join(args.out, name)
         if not os.path.exists(path) or open(path).read() != text:

@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
-"""Writes the reference tables of docs/ from the files that define what they list: parameters, alarms, G and M codes, PLC registers.
+"""Writes the reference tables of docs/ from the files that define their content: parameters, alarms, G and M codes, PLC registers.
 
 With --check nothing is written: differences are printed and the exit status is 1.
 """
-import argparse, difflib, os, re, sys
+import argparse, difflib, os, re, sys, textwrap
 import yaml
 
+WIDTH = 120  # of a line of prose
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 TEXT = r'((?:"(?:[^"\\]|\\.)*"\s*)+)'  # C++ string literals, which the compiler joins
 
@@ -20,12 +21,19 @@ def fail(path, text): sys.exit(f"{path}: error: {text}")
 def cell(value): return str(value).replace("|", "\\|").replace("\n", " ")
 
 
+def wrapped(line):
+    """A paragraph or list entry in lines of at most WIDTH columns; a table row stays as it is."""
+    if line.startswith("|") or not line: return [line]
+    indent = "  " if line.startswith("- ") else ""
+    return textwrap.wrap(line, WIDTH, subsequent_indent=indent, break_long_words=False, break_on_hyphens=False)
+
+
 def table(head, rows):
     return ["| " + " | ".join(head) + " |", "|" + "---|" * len(head)] + ["| " + " | ".join(cell(c) for c in row) + " |" for row in rows]
 
 
 def entries(path, name, pattern):
-    """Every NAME{...} of a C++ table; an entry that the pattern does not understand is an error, never left out."""
+    """Every NAME{...} of a C++ table; an entry that does not match the pattern is an error."""
     text = read(path)
     found = re.findall(name + r"\{\s*" + pattern + r"\s*\}", text)
     there = len(re.findall(name + r"\{", text))
@@ -45,9 +53,11 @@ def parameters():
     path = "libs/machine/catalogue.yaml"
     catalogue = yaml.safe_load(read(path))
     out = ["# Parameters", "", f"Generated from `{path}` by `tools/generate_docs.py`.", "",
-           "A number is the base of its class, plus 1000 for each unit (channel c, axis a), plus the offset: `10a034` is 100034 for axis 0 and 112034 for axis 12.",
-           "Activation: *save* takes effect at once, *reset* at the next reset of a channel, *restart* when the cluster starts. The numbers are those of",
-           "the HNC-8 manual, but offsets 900 and above are Trunnion's own, and 30a020 to 30a024, which the manual leaves open, mirror its straightness tables. Values are changed with `trunnion param`, on the page, or with `PUT /api/parameters/{number}`.", ""]
+           "The number of a parameter is the base of its class, plus 1000 for each unit (channel c, axis a), plus the offset: `10a034` is 100034 "
+           "for axis 0 and 112034 for axis 12. Activation: *save* takes effect at once, *reset* at the next reset of a channel, *restart* at the "
+           "start of the cluster. The numbers are those of the HNC-8 manual, with two exceptions: offsets 900 and above are Trunnion's own, and "
+           "30a020 to 30a024, which the manual does not define, mirror its straightness tables. Values are changed with `trunnion param`, on the "
+           "page, or with `PUT /api/parameters/{number}`.", ""]
     known = set()
     for name, about in catalogue["classes"].items():
         letter = {"channel": "c", "axis": "a", "compensation": "a"}.get(name)
@@ -76,11 +86,12 @@ def alarms():
     texts = {name: joined(text) for name, text in entries(language, "AlarmText", r"AlarmNumber::(\w+),\s*" + TEXT)}
     if set(texts) != set(numbers) - {"none"}: fail(language, "numbers and texts do not match: " + ", ".join(sorted(set(texts) ^ (set(numbers) - {"none"}))))
     out = ["# Alarms", "", f"Generated from `{machine}` and `{language}` by `tools/generate_docs.py`.", "",
-           "An alarm is latched: it stays until it is reset (`trunnion alarms --reset`, or on the page), and a reset clears only what no longer holds. While an alarm with a",
-           "reaction other than *show* is active, every channel holds on its path and nothing can be started. For 110 to 113 the drive brakes by itself as well; for 130 and 133 it brakes and",
-           "switches the axes off. What follows the loss of a process is in [faults.md](faults.md).", "", "## Machine and cluster", ""]
+           "An alarm is latched: it stays until it is reset (`trunnion alarms --reset`, or on the page), and a reset clears only alarms whose cause "
+           "is gone. While an alarm with a reaction other than *show* is active, every channel holds on its path and nothing can be started. For 110 "
+           "to 113 the drive also brakes by itself; for 130 and 133 it brakes and switches the axes off. [faults.md](faults.md) describes the "
+           "reaction to the loss of a process.", "", "## Machine and cluster", ""]
     out += table(("number", "name", "severity", "reaction", "text"), rows)
-    out += ["", "## NC language", "", "Severity *error*, reaction *show*: the program ends where the fault is. The text names the place, `program:line:column`, and the word.", ""]
+    out += ["", "## NC language", "", "Severity *error*, reaction *show*: the program ends at the fault. The text names the place, `program:line:column`, and the word.", ""]
     return out + table(("number", "text"), [(numbers[n], texts[n]) for n in sorted(texts, key=numbers.get)])
 
 
@@ -97,13 +108,15 @@ def codes():
          entries(m_path, "MCode", r"(\d+),\s*When::(\w+),\s*MAction::(\w+),\s*MGroup::(\w+),\s*" + TEXT)]
     name = lambda tenths: f"G{tenths // 10}" + (f".{tenths % 10}" if tenths % 10 else "")
     out = ["# G and M codes", "", f"Generated from `{g_path}`, `{m_path}` and `{calls}` by `tools/generate_docs.py`.", "", "## G codes", "",
-           "A block may hold one code of each group: two would contradict each other, so the second is an alarm. Every group but *one_block* and *exact_stop* is modal: the code stays until another of its group.",
+           "A block may contain one code of each group; a second one is an alarm. Every group except *one_block* and *exact_stop* is modal: the "
+           "code stays active until another code of its group. "
            "A motion code ends a cycle. *Dialect*: ISO 6983, Fanuc or HNC-8 controls; *since*: the version of Trunnion. Each example is a program that a test runs; blocks are separated by /.", ""]
     out += table(("code", "group", "meaning", "dialect", "since", "example"), [(name(t), *rest) for t, *rest in g])
-    out += ["", "## Calls", "", "Such a code stands alone among the codes of its block; see [macros.md](macros.md) for the arguments.", ""]
+    out += ["", "## Calls", "", "Such a code is the only code of its block; see [macros.md](macros.md) for the arguments.", ""]
     out += table(("code", "meaning", "dialect", "since", "example"), [(name(a) + (f" .. {name(b)}" if b != a else ""), *rest) for a, b, *rest in c])
-    out += ["", "## M codes", "", "*before* and *after*: when it acts, seen from the motion of its block. A block may hold one M code of each group, and none twice.",
-            "Every other M code up to M999 goes to the PLC before the motion, but those of parameters 010170 to 010177 call G1007 to G1014.", ""]
+    out += ["", "## M codes", "", "*before* and *after*: the code acts before or after the motion of its block. A block may contain one M code of each group, and none "
+            "twice. Every other M code up to M999 goes to the PLC before the motion, except those of parameters 010170 to 010177, which call G1007 "
+            "to G1014.", ""]
     return out + table(("code", "acts", "group", "handled as", "meaning"), [(f"M{n}", when, "" if group == "none" else group, action, text) for n, when, action, group, text in m])
 
 
@@ -115,36 +128,43 @@ def macros():
     letters = re.findall(r"ArgumentLetter\{'(\w)',\s*(\d+)\}", read(calls))
     out = ["# Macros", "", f"The tables are generated from `{variables}`, `{functions}` and `{calls}` by `tools/generate_docs.py`.", "",
            "## Variables", "",
-           "A variable nobody has written to is vacant: it counts as 0 in a computation, `EQ` and `NE` tell it from 0, and a word whose number is a vacant",
-           "variable is left out. Where Fanuc and HNC-8 number variables differently, this table is what counts. Any number that is not in it is alarm 1509 with",
-           "that number, read or written. Lengths of system variables are mm or inch as G21 or G20 is active. `#[expression]` names a variable by a computed number.", "",
-           "Of HNC-8's own system variables from #1000 on, the manuals at hand name one, #1319 (the angle of G115, which does not exist here either). The numbers of",
-           "the others are not known, so none exists, and a program that uses them stops with that alarm instead of running on with wrong values. What they are for",
-           "is here under Fanuc's numbers: time from #3001, modal state from #4001, positions from #5001, tools from #2001, offsets from #5221 and #7001.", ""]
+           "A variable without a value is vacant: it counts as 0 in a computation, `EQ` and `NE` distinguish it from 0, and a word whose number is a "
+           "vacant variable is ignored. Where Fanuc and HNC-8 number variables differently, this table applies. Reading or writing any number "
+           "that is not in it is alarm 1509 with that number. Lengths of system variables are in mm or inch according to G21 or G20. "
+           "`#[expression]` names a variable by a computed number.", "",
+           "Of HNC-8's own system variables from #1000 on, the available manuals name one, #1319 (the angle of G115, which does not exist here either). "
+           "The numbers of the others are not known. Therefore none exists: a program that uses one stops with that alarm and does not continue with "
+           "wrong values. Their functions exist under Fanuc's numbers: time from #3001, modal state from #4001, positions from #5001, tools from "
+           "#2001, offsets from #5221 and #7001.", ""]
     out += table(("variables", "may be written", "meaning"), [(f"#{a}" + (f" .. #{b}" if b != a else ""), "yes" if w else "no", text) for a, b, w, text in v])
     out += ["", "## Expressions", "",
-            "What binds first: functions and signs; `*` `/` `MOD` `AND`; `+` `-` `OR` `XOR`; the comparisons `EQ NE GT GE LT LE` or `== != <> > >= < <=`,",
-            "which give 1 or 0; `&&`; `||`. `AND` `OR` `XOR` work on the bits of whole numbers; `&&` `||` `NOT` `!` on true (not 0) and false (0). Brackets are `[ ]`, at most 32 deep.",
+            "Precedence, highest first: functions and signs; `*` `/` `MOD` `AND`; `+` `-` `OR` `XOR`; the comparisons `EQ NE GT GE LT LE` or "
+            "`== != <> > >= < <=`, which give 1 or 0; `&&`; `||`. `AND` `OR` `XOR` work on the bits of whole numbers; `&&` `||` `NOT` `!` on true "
+            "(not 0) and false (0). Brackets are `[ ]`, at most 32 deep. "
             "`PI` is a constant. The number of any word may be `#variable` or `[expression]`, with a sign: `X[#1+2]`, `Y-#1`, `G#3`.", ""]
     out += table(("function", "meaning"), f)
     out += ["", "## Instructions", "",
-            "An assignment or instruction stands alone in its block, but for N. Several assignments may follow each other; one to a system variable is the last.", "",
+            "An assignment or instruction is alone in its block, except for N. Several assignments may follow each other; one to a system variable is the last.", "",
             "| form | meaning |", "|---|---|",
             "| `#i = expression` | assignment |",
-            "| `IF condition` .. `ELSEIF condition` .. `ELSE` .. `ENDIF` | the blocks behind the first condition that holds, else those behind `ELSE`; `THEN` may end the line of `IF` and `ELSEIF` |",
-            "| `IF condition GOTO n`, `IF condition THEN ...` | a jump, an assignment or words, when the condition holds |",
+            "| `IF condition` .. `ELSEIF condition` .. `ELSE` .. `ENDIF` | the blocks after the first condition that is true, otherwise those after `ELSE`; `THEN` may end the line of `IF` and `ELSEIF` |",
+            "| `IF condition GOTO n`, `IF condition THEN ...` | a jump, an assignment or words, if the condition is true |",
             "| `WHILE condition` .. `ENDW` | a loop |",
             "| `WHILE condition DO n` .. `END n`, `DO n` .. `END n` | a loop with a number; without `WHILE` until a jump leaves it |",
-            "| `GOTO n` | to the block with that N: looked for forward, then from the top of the program |", "",
+            "| `GOTO n` | to the block with that N: searched forward, then from the start of the program |", "",
             "`IF`, `WHILE` and `DO` nest 16 deep in a program. A jump may leave them but not enter one.", "",
             "## Calls", "",
-            "`M98 P_ L_` calls a subprogram, which shares the local variables of its caller. Without L, and when there is no program of that number, the digits before the last four count the calls, as in",
-            "Fanuc's old form: `M98 P60020` calls O0020 six times. `G65 P_ L_` and `G66 P_ L_` call a macro, `G1000` .. `G1999` and the M codes of parameters",
-            "010170 to 010177 a cycle of `USERDEF.CYC`; both have local variables of their own, which begin with the arguments, each repetition anew. `M99` returns, `M99 P_` to the block of the caller with",
-            "that N; in the main program it goes there or begins again. Calls nest 8 deep.", "",
-            "`G66` calls behind each block that moves, be it a canned cycle. `G66.1` calls instead of each block behind it until `G67`; the block's letters are the arguments, G (the last one), L, N and P are #10, #12, #14 and #16 then.", "",
-            "The letters of a macro become the variables of Fanuc's argument list I; I, J and K may be given up to ten times, and are then #4 #5 #6, #7 #8 #9 and so on to #33 (list II). A letter that does not go on from I to K begins the next",
-            "set. Of two words for one variable the later counts. The letters of a cycle are numbered by the alphabet, as on HNC-8: A is #0, B #1 .. Z #25. G, N and O are no arguments, nor L and P of a macro, nor M of a cycle.", ""]
+            "`M98 P_ L_` calls a subprogram, which shares the local variables of its caller. Without L, and when no program has that number, the "
+            "digits before the last four count the calls, as in Fanuc's old form: `M98 P60020` calls O0020 six times. `G65 P_ L_` and `G66 P_ L_` "
+            "call a macro. `G1000` .. `G1999` and the M codes of parameters 010170 to 010177 call a cycle of `USERDEF.CYC`. Both have local variables "
+            "of their own, which are set to the arguments at the start of each repetition. `M99` returns, `M99 P_` to the block of the caller "
+            "with that N; in the main program `M99 P_` jumps to that block, and `M99` starts the program again. Calls nest 8 deep.", "",
+            "`G66` calls after each block that moves, canned cycles included. `G66.1` calls instead of each following block until `G67`; the letters of the "
+            "block are the arguments, and G (the last one), L, N and P are #10, #12, #14 and #16.", "",
+            "The letters of a macro become the variables of Fanuc's argument list I. I, J and K may be given up to ten times, and are then #4 #5 #6, "
+            "#7 #8 #9 and so on to #33 (list II). A letter that does not continue the order from I to K starts the next set. Of two words for one "
+            "variable the later applies. The letters of a cycle are numbered by the alphabet, as on HNC-8: A is #0, B #1 .. Z #25. G, N and O are "
+            "not arguments, nor are L and P of a macro and M of a cycle.", ""]
     return out + table([l for l, _ in letters], [[f"#{n}" for _, n in letters]])
 
 
@@ -158,8 +178,8 @@ def address(first, index, stride):
 def registers():
     path = "services/plc/registers.yaml"
     out = ["# PLC registers", "", f"Generated from `{path}` by `tools/generate_docs.py`.", "",
-           "The interface between the PLC program and everything else; programs use the names. A name with several registers is `name_0`, `name_1` and so on.",
-           "X inputs, Y outputs (bytes), F from the NC and G to the NC (16 bit), R relays (bytes), B kept through a restart (32 bit).",
+           "The interface between the PLC program and the other services; programs use the names. A name with several registers is `name_0`, `name_1` "
+           "and so on. X: inputs, Y: outputs (bytes), F: from the NC, G: to the NC (16 bit), R: relays (bytes), B: retained through a restart (32 bit). "
            "Free for programs: X16.., Y16.., G300.., all R and all B. The language is described in [services/plc](../services/plc/README.md).", ""]
     rows = []
     for r in yaml.safe_load(read(path))["registers"]:
@@ -181,7 +201,7 @@ def main():
     stale = False
     for name, make in DOCUMENTS.items():
         path = os.path.join(ROOT, "docs", name)
-        text = "\n".join(make()).rstrip("\n") + "\n"
+        text = "\n".join(line for paragraph in make() for line in wrapped(paragraph)).rstrip("\n") + "\n"
         old = ""
         if os.path.exists(path):
             with open(path, encoding="utf-8") as f: old = f.read()
@@ -191,7 +211,7 @@ def main():
             continue
         stale = True
         sys.stdout.writelines(difflib.unified_diff(old.splitlines(True), text.splitlines(True), f"docs/{name}", "as generated"))
-    if stale: sys.exit("docs/ is not what tools/generate_docs.py writes: run it and commit the result")
+    if stale: sys.exit("docs/ differs from the output of tools/generate_docs.py: run it and commit the result")
 
 
 if __name__ == "__main__":

@@ -61,14 +61,14 @@ def common_name(service, vendor):
         if subject_hash(name)[0] >> 7 == VENDORS[vendor]: return name
 
 
-def permissions(service, name, topics, days):
+def permissions(service, name, topics, suffix, days):
     def topic_list(side):
         names = []
         for t in topics:
             if service in t[side] or ("all" in t[side] and service != "recorder") or (side == "readers" and service in OBSERVERS):
                 names.append(t["name"])
                 # A stage that is to replace another writes beside it, for the launcher to compare.
-                if t["qos"] == "frame" and (side == "writers" or service == "deploy"): names.append(t["name"] + "/shadow")
+                if t["qos"] == "frame" and (side == "writers" or service == "deploy"): names.append(t["name"] + suffix)
         verb = "publish" if side == "writers" else "subscribe"
         lines = "".join(f"            <topic>{n}</topic>\n" for n in names)
         return f"        <{verb}>\n          <topics>\n{lines}          </topics>\n        </{verb}>\n" if names else ""
@@ -96,7 +96,8 @@ def main():
     p = argparse.ArgumentParser(description=__doc__)
     p.add_argument("topics"), p.add_argument("directory"), p.add_argument("--days", type=int, default=3650)
     args = p.parse_args()
-    with open(args.topics) as f: topics = yaml.safe_load(f)["topics"]
+    with open(args.topics) as f: document = yaml.safe_load(f)
+    topics, suffix = document["topics"], document["standby_suffix"]
     known = set(SERVICES) | {"all"}
     for t in topics:
         for service in t["writers"] + t["readers"]:
@@ -108,7 +109,7 @@ def main():
             os.makedirs(directory, exist_ok=True)
             name = common_name(service, vendor)
             with open(os.path.join(directory, "name"), "w") as f: f.write(name + "\n")
-            with open(os.path.join(directory, "permissions.xml"), "w") as f: f.write(permissions(service, name, topics, args.days))
+            with open(os.path.join(directory, "permissions.xml"), "w") as f: f.write(permissions(service, name, topics, suffix, args.days))
 
 
 if __name__ == "__main__":

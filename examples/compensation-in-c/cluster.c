@@ -96,20 +96,21 @@ int cluster_open(struct cluster *c, const struct options *o) {
                             TRUNNION_TOPIC_STAGE_PROGRESS, 1);
   c->parameters = make_reader(c, &trunnion_parameters_ParameterSet_desc, TRUNNION_TYPE_PARAMETER_SET,
                               TRUNNION_TOPIC_PARAMETER_SET, 1);
+  c->promotions = make_reader(c, &trunnion_service_Promotion_desc, TRUNNION_TYPE_PROMOTION, TRUNNION_TOPIC_PROMOTION, 1);
   c->feedback = make_reader(c, &trunnion_stream_FeedbackFrame_desc, TRUNNION_TYPE_FEEDBACK_FRAME,
                             TRUNNION_TOPIC_FEEDBACK_FRAME, 0);
   c->input = make_reader(c, &trunnion_stream_AxisFrame_desc, TRUNNION_TYPE_KINEMATICS_FRAME,
                          TRUNNION_TOPIC_KINEMATICS_FRAME, 0);
-  return c->announcement < 0 || c->state < 0 || c->alarm < 0 || c->progress < 0 || c->parameters < 0 ||
+  return c->announcement < 0 || c->state < 0 || c->alarm < 0 || c->progress < 0 || c->parameters < 0 || c->promotions < 0 ||
                  c->feedback < 0 || c->input < 0
              ? -1
              : 0;
 }
 
-int cluster_open_output(struct cluster *c, int shadow) {
+int cluster_open_output(struct cluster *c, int standby) {
   if (c->output > 0) dds_delete(c->output);
   c->output = make_writer(c, &trunnion_stream_AxisFrame_desc, TRUNNION_TYPE_COMPENSATION_FRAME,
-                          shadow ? TRUNNION_TOPIC_COMPENSATION_FRAME "/shadow" : TRUNNION_TOPIC_COMPENSATION_FRAME,
+                          standby ? TRUNNION_TOPIC_COMPENSATION_FRAME TRUNNION_STANDBY_SUFFIX : TRUNNION_TOPIC_COMPENSATION_FRAME,
                           stream_depth);
   return c->output < 0 ? -1 : 0;
 }

@@ -16,14 +16,14 @@ struct options {
 
 struct cluster {
   dds_entity_t participant, waitset;
-  dds_entity_t input, feedback, parameters;            /* readers */
+  dds_entity_t input, feedback, parameters, promotions; /* readers */
   dds_entity_t output, progress, state, announcement, alarm; /* writers; output is 0 until the first parameters */
 };
 
 /* Returns 0, or -1 with a line on stderr. */
 int cluster_open(struct cluster *c, const struct options *o);
-/* The writer of the compensated frames: into the stream, or beside it as a shadow. */
-int cluster_open_output(struct cluster *c, int shadow);
+/* The writer of the compensated frames: into the stream, or beside it on standby. */
+int cluster_open_output(struct cluster *c, int standby);
 void cluster_close(struct cluster *c);
 void cluster_announce(const struct cluster *c, const struct options *o);
 /* Waits for data, at most `milliseconds`. */

@@ -22,19 +22,17 @@ struct service {
   trunnion_stream_StageState states[MAXIMUM_STATES];
   double own_state[MAXIMUM_AXES * STATE_PER_AXIS], setpoints[2048];
   struct lane lanes[LANES];
-  int used[LANES], have_feedback, shadow;
+  int used[LANES], have_feedback, standby;
   uint64_t frames_in, frames_out, frames_lost, beats, lead;
   double started, beaten_at, unknown_since;
   uint64_t frames_beaten;
   int last_active;
 };
 
-static volatile sig_atomic_t stop_requested, take_over_requested;
+static volatile sig_atomic_t stop_requested;
 static void on_signal(int number) {
-  if (number == SIGUSR1)
-    take_over_requested = 1;
-  else
-    stop_requested = 1;
+  (void)number;
+  stop_requested = 1;
 }
 
 static double now_seconds(void) {
@@ -101,7 +99,7 @@ static void raise_unknown_revision(const struct service *s, uint16_t channel, ui
   snprintf(alarm.text, sizeof alarm.text, "Frames are made with parameter revision %llu, which has not arrived",
            (unsigned long long)revision);
   alarm.occurrences = 1;
-  if (!s->shadow) dds_write(s->cluster.alarm, &alarm);
+  if (!s->standby) dds_write(s->cluster.alarm, &alarm);
 }
 
 /* The core is configured with the revision of the frame; its state survives that. 0 when it must wait. */
@@ -191,7 +189,7 @@ static void report_progress(struct service *s, uint16_t channel) {
   trunnion_stream_StageProgress p;
   const double now = now_seconds();
   if (l->in_step && !l->settled) l->settled = lane_peek(l) == NULL && cluster_matched(s->cluster.output) > 0;
-  if (s->shadow) return;
+  if (s->standby) return;
   memset(&p, 0, sizeof p);
   p.stage = STAGE, p.copy = (uint8_t)s->options.copy, p.channel = channel;
   p.in_step = l->in_step && l->settled, p.epoch = l->epoch, p.next = l->next;
@@ -203,7 +201,7 @@ static void report_progress(struct service *s, uint16_t channel) {
 static void beat(struct service *s) {
   trunnion_service_ServiceState state;
   const double now = now_seconds();
-  const int active = s->cluster.output > 0 && s->have_feedback && !s->shadow;
+  const int active = s->cluster.output > 0 && s->have_feedback && !s->standby;
   if (now - s->beaten_at < 0.25 && active == s->last_active) return;
   memset(&state, 0, sizeof state);
   state.instance = s->options.instance;
@@ -215,15 +213,17 @@ static void beat(struct service *s) {
                                             : trunnion_service_UNCONFIGURED;
   strcpy(state.detail, s->cluster.output <= 0 ? "waiting for parameters"
                        : !s->have_feedback    ? "waiting for the drive"
-                       : s->shadow            ? "shadow"
                                               : "");
   state.beats = ++s->beats, state.uptime = now - s->started;
   state.frames_in = s->frames_in, state.frames_out = s->frames_out, state.frames_lost = s->frames_lost;
   state.frames_per_second = s->beaten_at > 0 ? (double)(s->frames_out - s->frames_beaten) / (now - s->beaten_at) : 0;
   state.revision = s->newest.revision;
-  state.in_step = true;
+  state.in_step = !s->standby || (s->cluster.output > 0 && s->have_feedback);
   for (int c = 0; c < LANES; ++c)
     if (s->used[c]) state.in_step = state.in_step && s->lanes[c].in_step && s->lanes[c].settled;
+  state.standby = !s->standby    ? trunnion_service_TAKES_PART
+                  : state.in_step ? trunnion_service_MATCHING
+                                  : trunnion_service_JOINING;
   dds_write(s->cluster.state, &state);
   s->beaten_at = now, s->frames_beaten = s->frames_out, s->last_active = active;
 }
@@ -238,6 +238,14 @@ static void take_parameters(struct service *s) {
   }
 }
 
+static int promoted(struct service *s) {
+  trunnion_service_Promotion promotion;
+  int found = 0;
+  while (cluster_take(s->cluster.promotions, &promotion))
+    found = found || (promotion.instance == s->options.instance && promotion.pid == getpid());
+  return found;
+}
+
 static int pump(struct service *s) {
   take_parameters(s);
   if (s->newest.revision == 0) return 0;
@@ -245,10 +253,10 @@ static int pump(struct service *s) {
     s->lead = 32;
     for (uint32_t i = 0; i < s->newest.values._length; ++i)
       if (s->newest.values._buffer[i].number == LEAD) s->lead = (uint64_t)s->newest.values._buffer[i].value;
-    if (cluster_open_output(&s->cluster, s->shadow) != 0) return -1;
+    if (cluster_open_output(&s->cluster, s->standby) != 0) return -1;
   }
-  if (s->shadow && take_over_requested) {
-    s->shadow = 0;
+  if (s->standby && promoted(s)) {
+    s->standby = 0;
     for (int c = 0; c < LANES; ++c) s->lanes[c].settled = 0;
     if (cluster_open_output(&s->cluster, 0) != 0) return -1;
   }
@@ -281,10 +289,9 @@ int main(int argc, char **argv) {
   action.sa_handler = on_signal;
   sigaction(SIGTERM, &action, NULL);
   sigaction(SIGINT, &action, NULL);
-  sigaction(SIGUSR1, &action, NULL);
   if (s.options.parent_bound) prctl(PR_SET_PDEATHSIG, SIGTERM);
   s.started = now_seconds();
-  s.shadow = s.options.shadow;
+  s.standby = s.options.shadow;
   s.last_active = -1;
   if (cluster_open(&s.cluster, &s.options) != 0) return 1;
   cluster_announce(&s.cluster, &s.options);

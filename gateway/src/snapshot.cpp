@@ -4,6 +4,8 @@
 #include <cctype>
 #include <cmath>
 
+#include "machine/parameter_constants.hpp"
+
 namespace trunnion::gateway {
 namespace {
 
@@ -132,7 +134,7 @@ Json channel_answer(const Snapshot& snapshot, std::uint16_t number) {
 Json parameters_answer(const Snapshot& snapshot, const ParameterQuery& query) {
   if (!snapshot.parameters) return nullptr;
   const auto values = values_of(snapshot);
-  const auto name_number = machine::Catalogue::instance().by_name("axis_name").number();
+  const auto name_number = parameter::axis_name.number();
   std::set<std::uint32_t> axes, channels;
   for (const auto& [number, value] : values)
     if (number >= name_number && number < name_number + 100000 && (number - name_number) % 1000 == 0 &&

@@ -59,7 +59,7 @@ FakeCluster::FakeCluster(const bus::NetworkSettings& network)
   programs["CIRCLE.NC"] = circle_program();
   publish_once();
   publish_programs();
-  started_ = last_motion_ = node::monotonic_seconds();
+  started_ = last_motion_ = service::monotonic_seconds();
 }
 
 void FakeCluster::publish_once() {
@@ -359,7 +359,7 @@ void FakeCluster::step() {
   answer_channel();
   answer_program();
   answer_others();
-  const double now = node::monotonic_seconds();
+  const double now = service::monotonic_seconds();
   if (now - last_motion_ >= 0.02) publish_motion(now);
   if (now - last_beat_ >= 0.25) {
     last_beat_ = now;

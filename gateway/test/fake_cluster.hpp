@@ -8,7 +8,7 @@
 
 #include "bus/bus.hpp"
 #include "contracts/topics.hpp"
-#include "node/request.hpp"
+#include "service/request.hpp"
 
 namespace trunnion::gateway {
 
@@ -40,10 +40,11 @@ class FakeCluster {
   idl::channel::ChannelReply apply(const idl::channel::ChannelRequest& request);
 
   bus::Bus bus_;
-  node::RequestServer<idl::channel::ChannelRequest, idl::channel::ChannelReply> channel_server_;
-  node::RequestServer<idl::plc::PanelRequest, idl::plc::PanelReply> panel_server_;
-  node::RequestServer<idl::parameters::ParameterRequest, idl::parameters::ParameterReply> parameter_server_;
-  node::RequestServer<idl::program::ProgramRequest, idl::program::ProgramReply> program_server_;
+  service::RequestServer<idl::channel::ChannelRequest, idl::channel::ChannelReply> channel_server_;
+  service::RequestServer<idl::plc::PanelRequest, idl::plc::PanelReply> panel_server_;
+  service::RequestServer<idl::parameters::ParameterRequest, idl::parameters::ParameterReply>
+      parameter_server_;
+  service::RequestServer<idl::program::ProgramRequest, idl::program::ProgramReply> program_server_;
   bus::Reader<idl::service::AlarmReset> alarm_reset_;
   bus::Writer<idl::service::Announcement> announcement_;
   bus::Writer<idl::service::ServiceState> service_state_;

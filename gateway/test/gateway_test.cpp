@@ -10,7 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "http/client.hpp"
+#include "http_client/client.hpp"
 #include "storage/crc32.hpp"
 #include "test/fake_cluster.hpp"
 #include "testing_support/eventually.hpp"
@@ -18,11 +18,11 @@
 namespace trunnion::gateway {
 namespace {
 
-using http::free_port;
-using http::raw_exchange;
-using http::Response;
-using http::send_and_go;
-using http::WebSocketClient;
+using http_client::free_port;
+using http_client::raw_exchange;
+using http_client::Response;
+using http_client::send_and_go;
+using http_client::WebSocketClient;
 using nlohmann::json;
 using testing::HasSubstr;
 using testing_support::eventually;
@@ -105,9 +105,9 @@ class Gateway : public testing::Test {
     std::filesystem::remove_all(web_);
   }
 
-  Response get(const std::string& target) const { return http::request(port_, "GET", target); }
+  Response get(const std::string& target) const { return http_client::request(port_, "GET", target); }
   Response post(const std::string& target, const json& body = json::object()) const {
-    return http::request(port_, "POST", target, body.dump());
+    return http_client::request(port_, "POST", target, body.dump());
   }
   /// `look(cluster)` while the cluster stands still.
   template <class Look>
@@ -177,10 +177,10 @@ TEST_F(Gateway, ARefusalIsAnsweredWithAlarmAndReason) {
 }
 
 TEST_F(Gateway, BadInputNeverReachesTheBus) {
-  auto bad = http::request(port_, "POST", "/api/channels/0/jog", "{\"axis\":\"Q\",\"speed\":100}");
+  auto bad = http_client::request(port_, "POST", "/api/channels/0/jog", "{\"axis\":\"Q\",\"speed\":100}");
   EXPECT_EQ(bad.status, 400);
   EXPECT_EQ(json::parse(bad.body)["field"], "axis");
-  bad = http::request(port_, "POST", "/api/channels/0/mdi", "{not json");
+  bad = http_client::request(port_, "POST", "/api/channels/0/mdi", "{not json");
   EXPECT_EQ(bad.status, 400);
   EXPECT_THAT(bad.body, HasSubstr("not JSON"));
   EXPECT_EQ(post("/api/channels/9/reset").status, 404);
@@ -191,21 +191,24 @@ TEST_F(Gateway, BadInputNeverReachesTheBus) {
   EXPECT_EQ(get("/api/programs/NOTHING").status, 404);
   EXPECT_EQ(get("/api/parameters?limit=many").status, 400);
   EXPECT_EQ(get("/api/stream").status, 426);
-  EXPECT_EQ(http::request(port_, "POST", "/api/channels/0/mdi", std::string((1 << 20) + 1, ' ')).status, 413);
-  EXPECT_EQ(http::request(port_, "PUT", "/api/programs/BIG", "", "Content-Length: 200000000\r\n").status,
-            413);
-  EXPECT_EQ(http::request(port_, "PUT", "/api/programs/..%2fX", "G0").status, 400);
+  EXPECT_EQ(
+      http_client::request(port_, "POST", "/api/channels/0/mdi", std::string((1 << 20) + 1, ' ')).status,
+      413);
+  EXPECT_EQ(
+      http_client::request(port_, "PUT", "/api/programs/BIG", "", "Content-Length: 200000000\r\n").status,
+      413);
+  EXPECT_EQ(http_client::request(port_, "PUT", "/api/programs/..%2fX", "G0").status, 400);
   EXPECT_THAT(raw_exchange(port_, "nonsense\r\n\r\n"), HasSubstr("400"));
   cluster([](auto& c) { EXPECT_TRUE(c.channel_requests.empty()); });
 }
 
 TEST_F(Gateway, APageOfAnotherSiteMustNotOperateTheMachine) {
-  EXPECT_EQ(http::request(port_, "POST", "/api/channels/0/cycle-start", "{}",
-                          "Origin: http://elsewhere.example\r\n")
+  EXPECT_EQ(http_client::request(port_, "POST", "/api/channels/0/cycle-start", "{}",
+                                 "Origin: http://elsewhere.example\r\n")
                 .status,
             403);
   const auto own = "Origin: http://127.0.0.1:" + std::to_string(port_) + "\r\n";
-  EXPECT_EQ(http::request(port_, "POST", "/api/channels/0/cycle-start", "{}", own).status, 200);
+  EXPECT_EQ(http_client::request(port_, "POST", "/api/channels/0/cycle-start", "{}", own).status, 200);
   cluster([](auto& c) { EXPECT_EQ(c.channel_requests.size(), 1u); });
 }
 
@@ -234,11 +237,11 @@ class JournalReader {
   bool found(std::uint16_t port) {
     idl::gateway::OperatorRequest line;
     if (!eventually([&] {
-          http::request(port, "POST", "/api/channels/31/reset");
+          http_client::request(port, "POST", "/api/channels/31/reset");
           return reader_.take(line);
         }))
       return false;
-    http::request(port, "POST", "/api/channels/30/reset");
+    http_client::request(port, "POST", "/api/channels/30/reset");
     return eventually([&] { return reader_.take(line) && line.target == "/api/channels/30/reset"; });
   }
   // The line that comes next, empty after some seconds.
@@ -257,8 +260,8 @@ TEST_F(Gateway, EveryOrderIsALineOfTheJournalWithItsAnswerAndItsRequestOnTheBus)
   JournalReader journal;
   ASSERT_TRUE(journal.found(port_));
   const auto own = "Origin: http://127.0.0.1:" + std::to_string(port_) + "\r\nCookie: secret\r\n";
-  const auto answer =
-      http::request(port_, "POST", "/api/channels/0/override", "{\"kind\":\"feed\",\"value\":0.5}", own);
+  const auto answer = http_client::request(port_, "POST", "/api/channels/0/override",
+                                           "{\"kind\":\"feed\",\"value\":0.5}", own);
   auto line = journal.next();
   const auto first = line.line;
   EXPECT_EQ(line.sender, idl::gateway::Sender::PAGE);
@@ -285,7 +288,8 @@ TEST_F(Gateway, EveryOrderIsALineOfTheJournalWithItsAnswerAndItsRequestOnTheBus)
   line = journal.next();
   EXPECT_EQ(line.status, 400);
   EXPECT_EQ(line.requests, 0u);
-  http::request(port_, "POST", "/api/channels/0/cycle-start", "{}", "Origin: http://elsewhere.example\r\n");
+  http_client::request(port_, "POST", "/api/channels/0/cycle-start", "{}",
+                       "Origin: http://elsewhere.example\r\n");
   line = journal.next();
   EXPECT_EQ(line.sender, idl::gateway::Sender::FOREIGN_PAGE);
   EXPECT_EQ(line.status, 403);
@@ -302,7 +306,7 @@ TEST_F(Gateway, AProgramIsInTheJournalBySizeAndSumAndByTheRequestsThatCarriedIt)
   JournalReader journal;
   ASSERT_TRUE(journal.found(port_));
   const std::string text(130000, ';');
-  EXPECT_EQ(http::request(port_, "PUT", "/api/programs/P", text).status, 200);
+  EXPECT_EQ(http_client::request(port_, "PUT", "/api/programs/P", text).status, 200);
   auto line = journal.next();
   EXPECT_EQ(line.body, "");
   EXPECT_EQ(line.body_size, text.size());
@@ -345,7 +349,7 @@ TEST_F(Gateway, ProgramsTravelInChunksAndComeBackAsTheyWere) {
   std::string text;
   while (text.size() < 400000)
     text += "G1 X" + std::to_string(text.size() * 7919 % 100000) + " Y1.5 \xC3\xA4\n";
-  const auto stored = http::request(port_, "PUT", "/api/programs/LARGE%201.NC", text);
+  const auto stored = http_client::request(port_, "PUT", "/api/programs/LARGE%201.NC", text);
   EXPECT_EQ(stored.status, 200) << stored.body;
   EXPECT_EQ(json::parse(stored.body)["program"]["size"], text.size());
   cluster([&](auto& c) {
@@ -356,30 +360,31 @@ TEST_F(Gateway, ProgramsTravelInChunksAndComeBackAsTheyWere) {
   EXPECT_EQ(read.status, 200);
   EXPECT_EQ(read.headers.at("content-length"), std::to_string(text.size()));
   EXPECT_EQ(read.body, text);
-  EXPECT_EQ(http::request(port_, "PUT", "/api/programs/EMPTY", "").status, 200);
+  EXPECT_EQ(http_client::request(port_, "PUT", "/api/programs/EMPTY", "").status, 200);
   EXPECT_EQ(get("/api/programs/EMPTY").status, 200);
   EXPECT_EQ(get("/api/programs/EMPTY").body, "");
   EXPECT_TRUE(eventually([&] { return get("/api/programs").body.find("LARGE 1.NC") != std::string::npos; }));
-  EXPECT_EQ(http::request(port_, "DELETE", "/api/programs/LARGE%201.NC").status, 200);
-  EXPECT_EQ(http::request(port_, "DELETE", "/api/programs/LARGE%201.NC").status, 409);
+  EXPECT_EQ(http_client::request(port_, "DELETE", "/api/programs/LARGE%201.NC").status, 200);
+  EXPECT_EQ(http_client::request(port_, "DELETE", "/api/programs/LARGE%201.NC").status, 409);
   EXPECT_TRUE(eventually([&] { return get("/api/programs/LARGE%201.NC").status == 404; }));
 }
 
 TEST_F(Gateway, ParametersAreReadChangedAndRefusedWithTheReason) {
   EXPECT_EQ(json::parse(get("/api/parameters/100034").body)["value"], 24000);
   EXPECT_EQ(
-      http::request(port_, "PUT", "/api/parameters/100034", "{\"value\":12000.5,\"who\":\"test\"}").status,
+      http_client::request(port_, "PUT", "/api/parameters/100034", "{\"value\":12000.5,\"who\":\"test\"}")
+          .status,
       200);
   EXPECT_TRUE(
       eventually([&] { return json::parse(get("/api/parameters/100034").body)["value"] == 12000.5; }));
   cluster([](auto& c) { EXPECT_EQ(c.parameter_requests.at(0).who, "test"); });
-  const auto refused = http::request(port_, "PUT", "/api/parameters/100034", "{\"value\":5e9}");
+  const auto refused = http_client::request(port_, "PUT", "/api/parameters/100034", "{\"value\":5e9}");
   EXPECT_EQ(refused.status, 409);
   EXPECT_THAT(refused.body, HasSubstr("must be from 1 to 1000000"));
   const auto found = json::parse(get("/api/parameters?class=axis&search=rapid_feed").body);
   EXPECT_EQ(found["total"], 5) << "one for each of X Y Z A C";
-  const auto offset = http::request(port_, "PUT", "/api/work-offsets",
-                                    "{\"channel\":0,\"index\":1,\"values\":[1,2,3,4,5,6,7,8,9]}");
+  const auto offset = http_client::request(port_, "PUT", "/api/work-offsets",
+                                           "{\"channel\":0,\"index\":1,\"values\":[1,2,3,4,5,6,7,8,9]}");
   EXPECT_EQ(offset.status, 200);
   EXPECT_TRUE(
       eventually([&] { return json::parse(get("/api/work-offsets").body)["offsets"][0]["index"] == 1; }));

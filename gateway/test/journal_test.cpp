@@ -4,7 +4,7 @@
 
 #include <set>
 
-#include "bus/cdr.hpp"
+#include "bus/codec.hpp"
 #include "storage/crc32.hpp"
 
 namespace trunnion::gateway {

@@ -7,7 +7,7 @@ using Core = OneBitOff<compensation::CompensationCore, idl::stream::AxisFrame>;
 
 class Service : public stream::StageService<idl::stream::AxisFrame> {
  public:
-  explicit Service(node::Node& node)
+  explicit Service(service::Node& node)
       : StageService(node, stream::stage_compensation, topics::kinematics_frame, topics::compensation_frame,
                      [] { return std::make_unique<Core>(); }) {}
 };
@@ -15,5 +15,5 @@ class Service : public stream::StageService<idl::stream::AxisFrame> {
 }  // namespace trunnion::variants
 
 int main(int argc, char** argv) {
-  return trunnion::node::service_main<trunnion::variants::Service>(argc, argv, "compensation");
+  return trunnion::service::service_main<trunnion::variants::Service>(argc, argv, "compensation");
 }

@@ -7,7 +7,7 @@ using Core = OneBitOff<gantry::GantryCore, idl::stream::AxisFrame>;
 
 class Service : public stream::StageService<idl::stream::AxisFrame> {
  public:
-  explicit Service(node::Node& node)
+  explicit Service(service::Node& node)
       : StageService(node, stream::stage_gantry, topics::compensation_frame, topics::gantry_frame,
                      [] { return std::make_unique<Core>(); }) {}
 
@@ -18,5 +18,5 @@ class Service : public stream::StageService<idl::stream::AxisFrame> {
 }  // namespace trunnion::variants
 
 int main(int argc, char** argv) {
-  return trunnion::node::service_main<trunnion::variants::Service>(argc, argv, "gantry");
+  return trunnion::service::service_main<trunnion::variants::Service>(argc, argv, "gantry");
 }

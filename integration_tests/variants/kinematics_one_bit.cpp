@@ -7,7 +7,7 @@ using Core = OneBitOff<kinematics::KinematicsCore, idl::stream::PathFrame>;
 
 class Service : public stream::StageService<idl::stream::PathFrame> {
  public:
-  explicit Service(node::Node& node)
+  explicit Service(service::Node& node)
       : StageService(node, stream::stage_kinematics, topics::path_frame, topics::kinematics_frame,
                      [] { return std::make_unique<Core>(); }) {}
 };
@@ -15,5 +15,5 @@ class Service : public stream::StageService<idl::stream::PathFrame> {
 }  // namespace trunnion::variants
 
 int main(int argc, char** argv) {
-  return trunnion::node::service_main<trunnion::variants::Service>(argc, argv, "kinematics");
+  return trunnion::service::service_main<trunnion::variants::Service>(argc, argv, "kinematics");
 }

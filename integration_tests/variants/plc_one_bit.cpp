@@ -17,5 +17,5 @@ void execute(const Program& program, Registers& registers, Blocks& blocks, std::
 
 int main(int argc, char** argv) {
   using namespace trunnion;
-  return node::service_main<plc::PlcService>(argc, argv, "plc");
+  return service::service_main<plc::PlcService>(argc, argv, "plc");
 }

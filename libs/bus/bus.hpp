@@ -4,24 +4,12 @@
 #include <memory>
 #include <string>
 
-#include "bus/cdr.hpp"
+#include "bus/codec.hpp"
 #include "bus/endpoint.hpp"
 #include "bus/shared_history.hpp"
 #include "bus/topic.hpp"
 
 namespace trunnion::bus {
-
-template <Struct T>
-bool key_of(std::span<const std::uint8_t> cdr, KeyHash& key) {
-  thread_local T value;
-  thread_local Bytes bytes;
-  if (!decode(cdr, value)) return false;
-  CdrWriter writer(bytes, true);
-  Fields<T>::visit_key(value, writer);
-  key.fill(0);
-  std::memcpy(key.data(), bytes.data() + cdr_header, std::min<std::size_t>(16, bytes.size() - cdr_header));
-  return true;
-}
 
 template <class T>
 TopicDescription describe(const Topic<T>& topic) {

@@ -3,28 +3,21 @@
 // of the header.
 #pragma once
 
+#include <algorithm>
 #include <bit>
 #include <cstdint>
 #include <cstring>
 #include <span>
-#include <stdexcept>
 #include <string>
 #include <type_traits>
 #include <vector>
 
+#include "bus/codec.hpp"
 #include "bus/fields.hpp"
 
 namespace trunnion::bus {
 
-using Bytes = std::vector<std::uint8_t>;
 static_assert(std::endian::native == std::endian::little, "the bus writes memory as it is");
-
-/// Thrown by both directions: a value beyond its bound, or bytes that are not this type.
-struct CdrError : std::runtime_error {
-  using std::runtime_error::runtime_error;
-};
-
-inline constexpr std::size_t cdr_header = 4;
 
 /// Appends values to a byte vector that is reused from message to message, so that the steady state does not
 /// allocate.
@@ -182,14 +175,12 @@ class CdrReader {
   const char* name_ = "";
 };
 
-/// CDR with its 4-byte header. Throws CdrError when a string or sequence is beyond its bound.
 template <Struct T>
 void encode(const T& value, Bytes& out) {
   CdrWriter writer(out);
   Fields<T>::visit(value, writer);
 }
 
-/// False when the bytes are not a T; `value` is then unspecified.
 template <Struct T>
 bool decode(std::span<const std::uint8_t> cdr, T& value) {
   try {
@@ -199,6 +190,18 @@ bool decode(std::span<const std::uint8_t> cdr, T& value) {
   } catch (const std::exception&) {
     return false;
   }
+}
+
+template <Struct T>
+bool key_of(std::span<const std::uint8_t> cdr, KeyHash& key) {
+  thread_local T value;
+  thread_local Bytes bytes;
+  if (!decode(cdr, value)) return false;
+  CdrWriter writer(bytes, true);
+  Fields<T>::visit_key(value, writer);
+  key.fill(0);
+  std::memcpy(key.data(), bytes.data() + cdr_header, std::min<std::size_t>(16, bytes.size() - cdr_header));
+  return true;
 }
 
 }  // namespace trunnion::bus

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "bus/cdr.hpp"
+#include "bus/codec.hpp"
 #include "bus/topic.hpp"
 
 namespace trunnion::bus {
@@ -41,8 +41,6 @@ class Gathering : public Signal {
  public:
   void notify() override;
 };
-
-using KeyHash = std::array<std::uint8_t, 16>;
 
 /// What a back end must know of a topic. key_of gives the RTPS key hash (9.6.3.8) of a CDR sample: the key in
 /// big-endian CDR.

@@ -5,18 +5,18 @@
 #include <string>
 
 #include "bus/fields.hpp"
+#include "bus/json_type.hpp"
 
 namespace trunnion::bus {
 
-using Json = nlohmann::ordered_json;
+/// Instantiated for every type of idl/ by the build (contracts/codec_*.cpp), defined in bus/json_fields.hpp.
+template <Struct T>
+Json struct_to_json(const T& value);
 
 template <class T>
 Json to_json(const T& value) {
   if constexpr (Struct<T>) {
-    Json object = Json::object();
-    Fields<T>::visit(value,
-                     [&](const char* name, const auto& field, auto...) { object[name] = to_json(field); });
-    return object;
+    return struct_to_json(value);
   } else if constexpr (std::is_enum_v<T>) {
     return to_string(value);
   } else if constexpr (std::is_arithmetic_v<T> || std::is_same_v<T, std::string>) {
@@ -30,8 +30,6 @@ Json to_json(const T& value) {
 
 /// On one line, or indented by so many blanks. Bytes that are not UTF-8 become U+FFFD: a peer's strings are
 /// whatever it sent.
-inline std::string text_of(const Json& json, int indent = -1) {
-  return json.dump(indent, ' ', false, Json::error_handler_t::replace);
-}
+std::string text_of(const Json& json, int indent = -1);
 
 }  // namespace trunnion::bus

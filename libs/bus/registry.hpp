@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "bus/endpoint.hpp"
-#include "bus/json.hpp"
+#include "bus/json_type.hpp"
 
 namespace trunnion::bus {
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "bus/bus.hpp"
+#include "bus/json.hpp"
 #include "bus/registry.hpp"
 
 namespace trunnion::bus {

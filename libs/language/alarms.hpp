@@ -222,7 +222,7 @@ inline constexpr std::array alarm_texts = {
     AlarmText{AlarmNumber::tilt_points, "tilted plane is not defined: three points not on a line"},
     AlarmText{AlarmNumber::tilt_swing_missing, "block behind G68.1 G68.2 G68.3 must be G53.1 or G53.2 alone"},
     AlarmText{AlarmNumber::tilt_swing_misplaced,
-              "G53.1 and G53.2 stand alone in the block behind G68.1 G68.2 G68.3"},
+              "G53.1 and G53.2 must be alone in the block behind G68.1 G68.2 G68.3"},
     AlarmText{AlarmNumber::tilt_active, "not possible while a tilted plane is active"},
 };
 

@@ -76,7 +76,7 @@ constexpr std::array<GCode, g_code_count> g_codes = {
           "line that ends when skip input L (1 without L) comes", Origin::hnc, "0.2", "G31 L1 X1 F100"},
     GCode{400, Group::cutter_compensation, AxisWords::move,
           run<&BlockHandlers::tool, &ToolCodes::set_cutter_side, CutterSide::off>,
-          "cutter radius compensation off; I J K: the direction in which the contour would go on",
+          "cutter radius compensation off; I J K: the direction in which the contour would continue",
           Origin::iso, "0.1", "G40"},
     GCode{410, Group::cutter_compensation, AxisWords::move,
           run<&BlockHandlers::tool, &ToolCodes::set_cutter_side, CutterSide::left>,

@@ -1,13 +1,15 @@
 #include "machine/axes.hpp"
 
+#include "machine/parameter_constants.hpp"
+
 namespace trunnion::machine {
 namespace {
 
 std::vector<AxisInfo> axes_where(const Parameters& parameters, bool spindle) {
   std::vector<AxisInfo> result;
   for (std::uint16_t a = 0; a < 32; ++a) {
-    const auto name = parameters.text("axis_name", a);
-    const int type = parameters.integer("axis_type", a);
+    const auto name = parameters.text(parameter::axis_name, a);
+    const int type = parameters.integer(parameter::axis_type, a);
     if (!name.empty() && (type == axis_type_spindle) == spindle) result.push_back({a, name, type});
   }
   return result;
@@ -27,7 +29,7 @@ int column_of(const std::vector<AxisInfo>& axes, std::uint16_t number) {
 ChannelAxes channel_axes(const Parameters& parameters, std::uint16_t channel) {
   ChannelAxes result;
   for (std::uint8_t i = 0; i < 9; ++i) {
-    const int number = parameters.integer("channel_axis", channel, i);
+    const int number = parameters.integer(parameter::channel_axis, channel, i);
     if (number < 0) continue;
     result.index.push_back(i);
     result.number.push_back(static_cast<std::uint16_t>(number));

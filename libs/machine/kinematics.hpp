@@ -9,6 +9,7 @@
 
 #include "geometry/chain_elements.hpp"
 #include "geometry/orientation.hpp"
+#include "machine/alarm_definition.hpp"
 #include "machine/parameters.hpp"
 
 namespace trunnion::machine {
@@ -16,17 +17,16 @@ namespace trunnion::machine {
 /// Parameters that make no chain. what() names the channel, the parameters and what is wrong.
 class KinematicsError : public std::runtime_error {
  public:
-  KinematicsError(std::string alarm, const std::string& text)
-      : std::runtime_error(text), alarm_(std::move(alarm)) {}
-  /// Name of the alarm in alarms.yaml.
-  const std::string& alarm() const { return alarm_; }
+  KinematicsError(const AlarmDefinition& alarm, const std::string& text)
+      : std::runtime_error(text), alarm_(&alarm) {}
+  const AlarmDefinition& alarm() const { return *alarm_; }
 
  private:
-  std::string alarm_;
+  const AlarmDefinition* alarm_;
 };
 
-/// Name of the alarm about an error of configuring a channel's kinematics.
-std::string alarm_of(const std::exception& error);
+/// The alarm about an error of configuring a channel's kinematics.
+const AlarmDefinition& alarm_of(const std::exception& error);
 
 /// Parameters 04c400..04c437, 04c905..04c907, 04c920..04c943 and 04c960..04c988. Throws KinematicsError.
 geometry::Chain make_chain(const Parameters& parameters, std::uint16_t channel);

@@ -6,9 +6,11 @@
 #include <cstdio>
 #include <fstream>
 #include <iomanip>
+#include <set>
 #include <sstream>
 #include <stdexcept>
 
+#include "machine/parameter_constants.hpp"
 #include "machine/yaml.hpp"
 #include "text/utf8.hpp"
 
@@ -55,6 +57,7 @@ Catalogue Catalogue::parse(const std::string& yaml) {
   Catalogue result;
   const auto document = parse_yaml(yaml, "catalogue.yaml");
   const auto classes = document["classes"];
+  std::set<std::string> names;
   for (const auto& node : document["parameters"]) {
     Definition d;
     const auto text = [&](const char* key) {
@@ -87,7 +90,7 @@ Catalogue Catalogue::parse(const std::string& yaml) {
           throw std::runtime_error(at("catalogue.yaml", node) + "default of " + d.name +
                                    " is outside its limits");
     }
-    if (!result.names_.emplace(d.name, result.definitions_.size()).second)
+    if (!names.insert(d.name).second)
       throw std::runtime_error(at("catalogue.yaml", node) + "'" + d.name + "' is defined twice");
     result.definitions_.push_back(std::move(d));
   }
@@ -101,12 +104,6 @@ const Definition* Catalogue::find(std::uint32_t number) const {
     if (offset >= d.offset && offset < d.offset + d.count) return &d;
   }
   return nullptr;
-}
-
-const Definition& Catalogue::by_name(const std::string& name) const {
-  const auto found = names_.find(name);
-  if (found == names_.end()) throw std::out_of_range("no parameter is called " + name);
-  return definitions_[found->second];
 }
 
 double Catalogue::default_of(std::uint32_t number) const {
@@ -144,12 +141,12 @@ double Parameters::at(std::uint32_t number) const {
   return found != values.end() ? found->second.value : Catalogue::instance().default_of(number);
 }
 
-double Parameters::get(const std::string& name, std::uint32_t unit, std::uint32_t index) const {
-  return at(Catalogue::instance().by_name(name).number(unit, index));
+double Parameters::get(const NumericParameter& parameter, std::uint32_t unit, std::uint32_t index) const {
+  return at(parameter.number(unit, index));
 }
 
-int Parameters::integer(const std::string& name, std::uint32_t unit, std::uint32_t index) const {
-  return static_cast<int>(get(name, unit, index));
+int Parameters::integer(const IntegerParameter& parameter, std::uint32_t unit, std::uint32_t index) const {
+  return static_cast<int>(get(parameter, unit, index));
 }
 
 std::string unit_of(std::uint32_t number, const std::map<std::uint32_t, ParameterValue>& values) {
@@ -158,15 +155,15 @@ std::string unit_of(std::uint32_t number, const std::map<std::uint32_t, Paramete
   if (d == nullptr) return "";
   const auto bar = d->unit.find('|');
   if (bar == std::string::npos) return d->unit;
-  const auto type_number = catalogue.by_name("axis_type").number((number - d->base) / 1000);
+  const auto type_number = parameter::axis_type.number((number - d->base) / 1000);
   const auto found = values.find(type_number);
   const double type = found != values.end() ? found->second.value : catalogue.default_of(type_number);
   constexpr double linear = 1;
   return type == linear ? d->unit.substr(0, bar) : d->unit.substr(bar + 1);
 }
 
-std::string Parameters::text(const std::string& name, std::uint32_t unit) const {
-  const auto found = values.find(Catalogue::instance().by_name(name).number(unit));
+std::string Parameters::text(const TextParameter& parameter, std::uint32_t unit) const {
+  const auto found = values.find(parameter.number(unit));
   return found != values.end() ? found->second.text : "";
 }
 

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "machine/parameter_key.hpp"
+
 namespace YAML {
 class Node;
 }
@@ -55,8 +57,6 @@ class Catalogue {
   const std::vector<Definition>& definitions() const { return definitions_; }
   /// Null when there is no such parameter.
   const Definition* find(std::uint32_t number) const;
-  /// Throws std::out_of_range: service code only asks for names that exist.
-  const Definition& by_name(const std::string& name) const;
   double default_of(std::uint32_t number) const;
   /// Empty when `value` may be stored, else one line that names the parameter and its limits, in `unit` when
   /// that is given (see unit_of()).
@@ -65,7 +65,6 @@ class Catalogue {
 
  private:
   std::vector<Definition> definitions_;
-  std::map<std::string, std::size_t> names_;
 };
 
 struct ParameterValue {
@@ -78,12 +77,13 @@ struct ParameterValue {
 /// measured in.
 std::string unit_of(std::uint32_t number, const std::map<std::uint32_t, ParameterValue>& values);
 
-/// Values that differ from the defaults, by number, with access by name.
+/// Values that differ from the defaults, by number, with access by the constants of
+/// machine/parameter_constants.hpp. `unit` is the number of the channel or axis.
 class Parameters {
  public:
-  double get(const std::string& name, std::uint32_t unit = 0, std::uint32_t index = 0) const;
-  int integer(const std::string& name, std::uint32_t unit = 0, std::uint32_t index = 0) const;
-  std::string text(const std::string& name, std::uint32_t unit = 0) const;
+  double get(const NumericParameter& parameter, std::uint32_t unit = 0, std::uint32_t index = 0) const;
+  int integer(const IntegerParameter& parameter, std::uint32_t unit = 0, std::uint32_t index = 0) const;
+  std::string text(const TextParameter& parameter, std::uint32_t unit = 0) const;
   double at(std::uint32_t number) const;
 
   std::map<std::uint32_t, ParameterValue> values;

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "machine/kinematics.hpp"
+#include "machine/parameter_constants.hpp"
 
 namespace trunnion::machine {
 namespace {
@@ -43,8 +44,10 @@ PoseLines::PoseLines(const Parameters& parameters, std::uint16_t channel, double
       travels_(rotary_travels(parameters, channel)),
       tool_length_(tool_length) {
   // The chain counts from the workpiece to the tool: the table from its end to the base, then the head.
-  const auto digits = [&](const char* name) { return std::to_string(parameters.integer(name, channel)); };
-  for (const auto& side : {digits("head_type"), digits("table_type")})
+  const auto digits = [&](const IntegerParameter& parameter) {
+    return std::to_string(parameters.integer(parameter, channel));
+  };
+  for (const auto& side : {digits(parameter::head_type), digits(parameter::table_type)})
     if (side != "0")
       for (const char digit : side) order_.push_back(static_cast<std::size_t>(digit - '3'));
 }

@@ -6,9 +6,9 @@
 namespace trunnion::motion {
 namespace {
 
-// Ranges leave this for the change along a short step; what is then judged may use half of it.
+// Ranges leave this for the change along a short step; the check afterwards may use half of it.
 constexpr double range_share = 0.999;
-constexpr double judged_share = 1.0003;
+constexpr double checked_share = 1.0003;
 // Jerk that stays free when an acceleration is chosen.
 constexpr double kept_jerk = 0.05;
 constexpr double rounding = 1e-7;
@@ -39,7 +39,7 @@ inline void narrow(Range& range, double offset, double factor, double limit) {
   range.high = std::min(range.high, middle + reach);
 }
 
-bool stands(const LimitCell& cell, double part, const PathState& state, double jerk) {
+bool within_axis_limits(const LimitCell& cell, double part, const PathState& state, double jerk) {
   if (cell.uniform || cell.axis_count == 0) {
     const RampLimits& ramp = cell.uniform ? cell.ramps[0] : cell.ramp(state.v);
     return std::abs(state.a) <= ramp.acceleration * (1 + rounding) + 1e-6 &&
@@ -49,10 +49,10 @@ bool stands(const LimitCell& cell, double part, const PathState& state, double j
   for (int i = 0; i < cell.axis_count; ++i) {
     const AxisOnCell& axis = cell.axes[static_cast<std::size_t>(i)];
     const Rates q = rates_at(axis, part, cell.end - cell.at);
-    if (std::abs(q.second * v * v + q.first * a) > judged_share * static_cast<double>(axis.acceleration))
+    if (std::abs(q.second * v * v + q.first * a) > checked_share * static_cast<double>(axis.acceleration))
       return false;
     if (std::abs(v * (q.third * v * v + 3 * q.second * a) + q.first * jerk) >
-        judged_share * static_cast<double>(axis.jerk))
+        checked_share * static_cast<double>(axis.jerk))
       return false;
   }
   return true;
@@ -103,7 +103,7 @@ bool keeps_axes(const PathState& from, const PathState& to, double jerk, const C
     return PathState{from.s + share * (to.s - from.s), from.v + share * (to.v - from.v),
                      from.a + share * (to.a - from.a)};
   };
-  if (!stands(cells[cell], part(cells[cell], from.s), from, jerk)) return false;
+  if (!within_axis_limits(cells[cell], part(cells[cell], from.s), from, jerk)) return false;
   double entered = 0;  // share of the step that is done
   while (true) {
     const LimitCell& here = cells[cell];
@@ -111,11 +111,11 @@ bool keeps_axes(const PathState& from, const PathState& to, double jerk, const C
     const bool last = to.s <= here.end;
     const double left = last ? 1 : std::clamp((here.end - from.s) / (to.s - from.s), entered, 1.0);
     const PathState middle = between(0.5 * (entered + left)), edge = between(left);
-    if (!stands(here, part(here, middle.s), middle, jerk)) return false;
-    if (!stands(here, part(here, edge.s), edge, jerk)) return false;
+    if (!within_axis_limits(here, part(here, middle.s), middle, jerk)) return false;
+    if (!within_axis_limits(here, part(here, edge.s), edge, jerk)) return false;
     if (last) return true;
     if (cell + 1 >= cells.size() || cells[cell + 1].stop) return to.s <= here.end + rounding_distance;
-    if (!stands(cells[cell + 1], 0, edge, jerk)) return false;
+    if (!within_axis_limits(cells[cell + 1], 0, edge, jerk)) return false;
     entered = left;
     ++cell;
   }

@@ -1,5 +1,5 @@
-// What a cell allows at one place of it, every axis by itself: LimitCell's ramps hold on the whole cell and
-// up to a speed, so they give away what the axes could do in one place and not in another.
+// The limits at one place of a cell, for every axis by itself. LimitCell's ramps hold on the whole cell and
+// up to a speed, so they give away what the axes permit at one place and not at another.
 #pragma once
 
 #include "motion/limit_cell.hpp"
@@ -14,7 +14,8 @@ struct Range {
 /// leaves its limits whatever the jerk is.
 Range jerk_range(const LimitCell& cell, double part, double v, double a);
 
-/// Path accelerations at speed v that the axes stand with room for jerk in both directions. May be empty.
+/// Path accelerations at speed v that the axes permit with a margin for jerk in both directions. May be
+/// empty.
 Range acceleration_range(const LimitCell& cell, double part, double v);
 
 /// True when constant jerk from one state to the next keeps the limits of every axis on every cell it runs

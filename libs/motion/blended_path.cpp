@@ -85,7 +85,7 @@ double BlendedPath::usage(std::uint64_t index, double reach) const {
 double BlendedPath::widest_reach(std::uint64_t index) const {
   const double at = (*this)[index].at;
   double most = longest_reach;
-  // Not across a stop, and not over more joins than a setpoint shall have to sum.
+  // Not across a stop, and not over more joins than a setpoint may have to sum.
   int joins = 0;
   std::uint64_t k = index + 1;
   for (; k < pushed_ && !(*this)[k].stop && (*this)[k].at - at < most; ++k) {
@@ -230,7 +230,7 @@ bool BlendedPath::bends(std::uint64_t index, double s) const {
 double BlendedPath::next_knot(std::uint64_t index, double s) const {
   double next = (*this)[index].end();
   const double least = s + 1e-9;
-  const auto look = [&](const PathBlock& join) {
+  const auto consider = [&](const PathBlock& join) {
     for (const double knot : {join.at - join.reach, join.at + join.reach}) {
       if (knot > least && knot < next) next = knot;
     }
@@ -239,14 +239,14 @@ double BlendedPath::next_knot(std::uint64_t index, double s) const {
   for (std::uint64_t k = index;; --k) {
     const PathBlock& join = (*this)[k];
     if (join.stop || s - join.at >= longest_reach || joins++ > most_joins) break;
-    look(join);
+    consider(join);
     if (k == oldest()) break;
   }
   joins = 0;
   for (std::uint64_t k = index + 1; k < pushed_; ++k) {
     const PathBlock& join = (*this)[k];
     if (join.stop || join.at - next >= longest_reach || joins++ > most_joins) break;
-    look(join);
+    consider(join);
   }
   return next;
 }

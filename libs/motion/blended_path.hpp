@@ -9,7 +9,7 @@
 
 namespace trunnion::motion {
 
-/// What a join may deviate by.
+/// The permitted deviations at a join.
 struct BlendRules {
   double contour_tolerance = 0.01;      ///< mm; 0: exact
   double orientation_tolerance = 0.05;  ///< degrees of the rotary axes together
@@ -27,7 +27,7 @@ struct PathBlock {
   double bend_weight = 0;  ///< size of bend by the tolerances
   double widest = 0;       ///< reach the tolerance would allow here alone
   double reach = 0;        ///< half length of the rounding
-  bool stop = true;        ///< motion stands at the start: no rounding across it
+  bool stop = true;        ///< motion stops at the start: no rounding across it
   bool overlap = false;    ///< the stop may be rounded in time instead
   int wait_cycles = 0;     ///< standstill before the segment starts
   std::uint32_t line = 0, sequence = 0;
@@ -75,7 +75,7 @@ class BlendedPath {
   AxisValues position(std::uint64_t index, double s) const;
 
   /// First to third derivative at s, taken from the side of the path where `inside` lies, a coordinate on the
-  /// same stretch between two ends of roundings.
+  /// same section between two ends of roundings.
   std::array<AxisValues, 3> derivatives(std::uint64_t index, double s, double inside) const;
 
   /// A jump of curvature is rounded at s: the curve there is no polynomial of the third degree.

@@ -12,18 +12,17 @@ using canonical::axis_count;
 // What of an axis' limits the path's own curvature may take at the highest speed; the rest accelerates.
 constexpr double normal_share = 0.72;
 constexpr double bend_share = 0.6;
-// The same where every axis is looked at by itself: all but rounding, and what changing the speed again
-// needs.
+// The same where every axis is checked by itself: all but rounding, and what a later change of speed needs.
 constexpr double top_normal_share = 0.999;
 constexpr double top_bend_share = 0.95;
 // Of the jerk left, what the product of curvature, speed and acceleration may take.
 constexpr double mixed_share = 0.4;
-// Through a chain the derivatives vary between the ends of a cell, which are all that is looked at.
+// Through a chain the derivatives vary between the ends of a cell, and only the ends are evaluated.
 constexpr double chained_share = 0.995;
 // Arcs, radians: the highest speed of a cell is that of its slowest place.
 constexpr double arc_cell_angle = 0.025;
 constexpr double fastest = 1e5;
-// Cells of one call, so that a long path known at once does not take long in one cycle.
+// Cells of one call: a long path that becomes known at once must not take long in one cycle.
 constexpr std::uint64_t most_at_once = 2048;
 
 }  // namespace
@@ -70,7 +69,7 @@ void limit_cell(LimitCell& cell, const CellRates& rates, const Limits& limits) {
 
 namespace {
 
-// What the cell keeps to be judged by its axes one by one.
+// What the cell keeps so that its axes can be checked one by one.
 void keep_axes(LimitCell& cell, const PathRates& begins, const PathRates& ends, const CellRates& rates,
                const Limits& limits) {
   cell.axis_count = 0;
@@ -179,7 +178,7 @@ LimitCell CellBuilder::make(const BlendedPath& path, double from, double to) con
 
 // How long before the end of one stretch the next may begin. At the same time t after its own start and
 // before the other's end, the second has gone at most j t^3 / 6 and the first has that much left, and the
-// path is left by no more than the smaller of the two. The axes have to stand both motions at once.
+// path is left by no more than the smaller of the two. The axes must permit the sum of both motions.
 double CellBuilder::overlap_time(const BlendedPath& path, const LimitCell& before,
                                  const LimitCell& after) const {
   if (!before.uniform || !after.uniform || path[before.block].path.unit() != path[after.block].path.unit())
@@ -228,9 +227,9 @@ double CellBuilder::cell_end(const BlendedPath& path, double from, double upto) 
 }
 
 void CellBuilder::extend(const BlendedPath& path, CellRing& cells, std::uint64_t keep) {
-  const std::uint64_t begun = cells.size();
+  const std::uint64_t size_before = cells.size();
   while (block_ < path.settled_blocks() && cells.size() - keep < CellRing::capacity - 64 &&
-         cells.size() < begun + most_at_once) {
+         cells.size() < size_before + most_at_once) {
     const PathBlock& block = path[block_];
     if (fresh_) {
       at_ = block.at;
@@ -257,11 +256,11 @@ void CellBuilder::resume(std::uint64_t block, double s) {
 
 bool CellBuilder::extend_back(const BlendedPath& path, CellRing& cells, std::uint64_t keep,
                               std::uint64_t oldest) {
-  const std::uint64_t begun = cells.size();
+  const std::uint64_t size_before = cells.size();
   while (true) {
     const PathBlock& block = path[block_];
-    // The cells of a block are cut from its start, so how many there are is counted before they get their
-    // places in the opposite order.
+    // The cells of a block are cut from its start, so they are counted before they get their places in the
+    // opposite order.
     std::uint64_t count = 0;
     for (double s = block.at; s < at_; s = cell_end(path, s, at_)) ++count;
     const std::uint64_t room =
@@ -293,7 +292,7 @@ bool CellBuilder::extend_back(const BlendedPath& path, CellRing& cells, std::uin
     if (from > block.at) return false;
     if (block_ <= oldest) return true;
     --block_;
-    if (cells.size() >= begun + most_at_once) return false;
+    if (cells.size() >= size_before + most_at_once) return false;
   }
 }
 

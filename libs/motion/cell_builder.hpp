@@ -56,7 +56,7 @@ class CellBuilder {
   std::uint64_t block_ = 0;
   double at_ = 0;
   bool fresh_ = true;
-  bool stop_ = false;  // backwards: motion stands at at_
+  bool stop_ = false;  // backwards: motion stops at at_
 };
 
 }  // namespace trunnion::motion

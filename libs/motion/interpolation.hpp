@@ -1,4 +1,4 @@
-// The interpolation stage: a place on the path in, what the axes are told in that cycle out.
+// The interpolation stage: from a place on the path to the setpoints of the axes in that cycle.
 #pragma once
 
 #include <optional>
@@ -18,7 +18,7 @@ struct Setpoint {
   double feed = 0;        ///< speed of X Y Z in that frame, mm/s
   double path_speed = 0;  ///< mm/s (deg/s when only rotary axes move)
   bool rapid = false;
-  bool dwelling = false;  ///< standing between segments: dwell or exact stop
+  bool dwelling = false;  ///< at standstill between segments: dwell or exact stop
   bool at_rest = true;    ///< everything pushed is done
 };
 
@@ -27,19 +27,19 @@ struct PathPlace {
   std::uint64_t block = 0;
   double s = 0;          ///< path coordinate on that block
   double speed = 0;      ///< of the path, unit/s
-  bool started = false;  ///< the path has been entered: before, the axes stay where they are
-  bool waiting = false;  ///< standing at the start of the block until its wait is over
+  bool started = false;  ///< the path has been entered: before, the axes stay at rest
+  bool waiting = false;  ///< at standstill at the start of the block until its wait is over
 };
 
-/// Remembers of earlier cycles the last position (for the speed of X Y Z), the command it was on, and the
-/// rest of a motion into a stop that the next stretch has not waited for. Which way the motion runs over the
-/// path is all one to it. Deterministic and free of allocation.
+/// Keeps from earlier cycles the last position (for the speed of X Y Z), the command it was on, and the rest
+/// of a motion into a stop that the next section has not waited for. The same for motion forwards and
+/// backwards. Deterministic and free of allocation.
 class Interpolation {
  public:
   /// `cycle_seconds` above 0.
   explicit Interpolation(double cycle_seconds) : cycle_(cycle_seconds) {}
 
-  /// Stand at `position`, before any command.
+  /// At rest at `position`, before any command.
   void start(const AxisValues& position);
 
   /// A cycle passes: the tail comes nearer to its stop, and at it is over.
@@ -51,9 +51,9 @@ class Interpolation {
   bool overlapping() const { return tail_.has_value(); }
 
   /// What the cycle commands: position and progress at `place`, whose block `path` still has, and the rest of
-  /// the tail. `at_rest` is left to who knows what follows.
+  /// the tail. The caller sets `at_rest`.
   Setpoint follow(const BlendedPath& path, const PathPlace& place);
-  /// The same without a path to be on: the axes stay where they are.
+  /// The same without a path: the axes stay at rest.
   Setpoint stay();
 
   /// Last setpoint's position.

@@ -1,4 +1,4 @@
-// A stretch of the path with what path speed, acceleration and jerk may be on it.
+// A section of the path with its limits of path speed, acceleration and jerk.
 #pragma once
 
 #include <array>
@@ -35,7 +35,7 @@ struct LimitCell {
   int axis_count = 0;                        ///< 0: too many move, only the ramps decide
   bool rapid = false;
   bool uniform = false;  ///< all levels are the same
-  bool stop = false;     ///< motion stands at the start
+  bool stop = false;     ///< motion stops at the start
   int wait_cycles = 0;   ///< standstill there
   double overlap = 0;    ///< s; motion may leave the start this long before it has been reached
   std::uint64_t block = 0;

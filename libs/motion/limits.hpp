@@ -1,4 +1,4 @@
-// What the axes and the path tolerate.
+// The limits of the axes and the tolerances of the path.
 #pragma once
 
 #include <array>
@@ -17,8 +17,8 @@ struct AxisLimits {
   double jerk = 60000;          ///< unit/s^3
 };
 
-/// What a machining mode asks of the path. The tolerances bound how far the smoothed path may leave the
-/// programmed one.
+/// What a machining mode requires of the path. The tolerances bound the distance of the smoothed path from
+/// the programmed one.
 struct PathMode {
   /// An acceleration takes at least this many cycles to build up: jerk stays below acceleration / (N dt).
   int smoothing_cycles = 1;             ///< 1..64

@@ -1,4 +1,4 @@
-// Changing speed where the path is curved: step by step with what the axes allow in each place.
+// Changes of speed where the path is curved: step by step, with what the axes permit at each place.
 #pragma once
 
 #include "motion/axis_limits.hpp"
@@ -6,28 +6,28 @@
 
 namespace trunnion::motion {
 
-/// How boldly speed is changed.
+/// Caps on a change of speed.
 struct Pacing {
-  double acceleration = 1e9, jerk = 1e12;  ///< caps for the sake of a rough place ahead
-  double take_back = 1.0;  ///< share of the jerk here that is counted on for taking the acceleration back
+  double acceleration = 1e9, jerk = 1e12;  ///< lower ones where a place ahead permits less
+  double ramp_down = 1.0;  ///< share of the jerk here that is assumed available for reducing the acceleration
 };
 
 struct PacePhase {
   double time = 0, jerk = 0;
-  bool taking_back = false;  ///< the acceleration ends with the change of speed
+  bool ramping_down = false;  ///< the acceleration ends with the change of speed
 };
 
 /// The next phase, at most `time` long, of the change to the speed `target`: jerk to the limit, the
-/// acceleration the axes stand, and jerk back so that it ends at the target. A phase of time 0 when the axes
-/// allow nothing. `taking_back`: the phase before did.
+/// acceleration that the axes permit, and jerk back so that it ends at the target. A phase of time 0 when the
+/// axes allow nothing. `ramping_down`: the phase before did.
 PacePhase next_phase(const PathState& state, const CellRing& cells, std::uint64_t cell, double target,
-                     double time, const Pacing& pacing, bool taking_back);
+                     double time, const Pacing& pacing, bool ramping_down);
 
 /// Why braking could not be followed to its end.
 enum class Braked : std::uint8_t {
   yes,
   beyond,   ///< it would run over a stop or the end of the cells
-  blocked,  ///< an axis does not stand it on the cell it ended at
+  blocked,  ///< an axis would exceed its limits on the cell it ended at
 };
 
 /// Where braking ended.

@@ -11,7 +11,7 @@ using canonical::AxisValues;
 
 /// What a path length of a segment counts.
 enum class LengthUnit : std::uint8_t {
-  millimetre,  ///< travel of X Y Z, or of U V W when X Y Z stand
+  millimetre,  ///< travel of X Y Z, or of U V W when X Y Z are at rest
   degree,      ///< of the rotary axes together, when no linear axis moves
 };
 

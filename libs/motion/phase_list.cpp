@@ -9,7 +9,7 @@ namespace {
 
 constexpr double rounding = 1e-7;
 constexpr double rounding_distance = 2e-9;
-// A phase is looked at in slices of this length, s, or a sixth of it.
+// A phase is checked in slices of this length, s, or a sixth of it.
 constexpr double slice_time = 0.002;
 
 }  // namespace

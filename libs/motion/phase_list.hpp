@@ -10,7 +10,7 @@
 
 namespace trunnion::motion {
 
-/// A few phases one after the other. Phases beyond the room are refused.
+/// Phases one after the other, at most `capacity`.
 class PhaseList {
  public:
   static constexpr std::size_t capacity = 256;
@@ -18,7 +18,7 @@ class PhaseList {
   void clear() { count_ = 0; }
   std::size_t size() const { return count_; }
   const JerkPhase& operator[](std::size_t index) const { return phases_[index]; }
-  /// False when there is no room.
+  /// False when the list is full.
   bool add(const JerkPhase& phase);
   /// The first `time` seconds of a transition, all of it when that is shorter, followed by rest or cruise of
   /// what is left of a finite `time`.

@@ -1,4 +1,4 @@
-// The speed stage: what proves a cycle before it is taken, and the gentlest of all cycles.
+// The speed stage: the proof of a cycle before it is accepted, and the gentle start from a standstill.
 #include <cmath>
 
 #include "motion/speed_stage.hpp"
@@ -11,8 +11,8 @@ constexpr int most_halvings = 40;
 
 }  // namespace
 
-// A way to a standstill from `state`: braking with what all cells on the way allow; where a slower cell would
-// be entered too fast, down to its speed first and on from there.
+// A stop from `state`: braking with what all cells on the path permit; where a slower cell would be entered
+// too fast, first to its speed and from there to a standstill.
 bool SpeedStage::find_stop(const PathState& state, std::uint64_t cell, PhaseList& stop) const {
   stop.clear();
   PathState at = state;
@@ -60,7 +60,7 @@ bool SpeedStage::find_stop(const PathState& state, std::uint64_t cell, PhaseList
   return false;
 }
 
-// Takes a cycle when it keeps the limits and leaves a way to stop.
+// Accepts a cycle when it keeps the limits and leaves a proved stop.
 bool SpeedStage::accept(const PhaseList& action) {
   std::uint64_t cell = current_;
   if (!keeps_limits(action, state_, cells_, cell)) return false;
@@ -74,10 +74,11 @@ bool SpeedStage::accept(const PhaseList& action) {
   return true;
 }
 
-// From a standstill, so gently that every cell within the way to the next standstill stands it. The bold ways
-// may come to rest again and again in front of a cell that stands next to no acceleration.
-bool SpeedStage::creep(const Look& look) {
-  double speed = speed_of(cells_[current_], look);
+// Starts from a standstill with an acceleration and jerk that every cell up to the next standstill permits.
+// The optimistic candidates of advance() may come to a standstill repeatedly in front of a cell whose axes
+// permit almost no acceleration.
+bool SpeedStage::start_gently(const SpeedDemand& demand) {
+  double speed = speed_of(cells_[current_], demand);
   for (int n = 0; n < most_halvings; ++n, speed /= 2) {
     const RampLimits own = cells_[current_].ramp(speed);
     const double reach = 2 * speed * (speed / own.acceleration + own.acceleration / own.jerk + cycle_);
@@ -86,7 +87,7 @@ bool SpeedStage::creep(const Look& look) {
     action.add(Transition(0, 0, speed, ramp), cycle_);
     if (!accept(action)) continue;
     braking_for_.reset();
-    return !standing();
+    return !at_standstill();
   }
   return false;
 }

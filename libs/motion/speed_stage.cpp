@@ -13,11 +13,11 @@ namespace {
 // share.
 constexpr double rounding_distance = 1e-9;
 constexpr double rounding = 1e-7;
-// How many stopping distances ahead weak places are taken into account before they have to be.
-constexpr double far_sight = 3;
+// Slower cells are taken into account this many stopping distances ahead, before they have to be.
+constexpr double look_ahead_stops = 3;
 // Speeds this near are the same; of an acceleration, what a cycle of the jerk of its share changes.
 constexpr double cruise_rounding = 1e-9;
-// A rest this small in front of a stop is rounding.
+// A remaining distance this small in front of a stop is rounding.
 constexpr double arrival_distance = 1e-8;
 
 }  // namespace
@@ -43,15 +43,15 @@ void SpeedStage::extended() {
 
 bool SpeedStage::at_end() const {
   if (cells_.size() == 0) return true;
-  return entered_ && wait_ == 0 && standing() && current_ + 1 == cells_.size() &&
+  return entered_ && wait_ == 0 && at_standstill() && current_ + 1 == cells_.size() &&
          state_.s == cells_[current_].end;
 }
 
 std::optional<Tail> SpeedStage::take_tail() { return std::exchange(tail_, std::nullopt); }
 
-double SpeedStage::speed_of(const LimitCell& cell, const Look& look) const {
-  if (!look.soft) return cell.speed;
-  return cell.rapid ? cell.speed * look.rapid : std::min(cell.speed, cell.feed * look.feed);
+double SpeedStage::speed_of(const LimitCell& cell, const SpeedDemand& demand) const {
+  if (!demand.programmed) return cell.speed;
+  return cell.rapid ? cell.speed * demand.rapid : std::min(cell.speed, cell.feed * demand.feed);
 }
 
 RampLimits SpeedStage::local_ramp(double speed, double reach) const {
@@ -65,9 +65,9 @@ RampLimits SpeedStage::local_ramp(double speed, double reach) const {
   return ramp;
 }
 
-Transition SpeedStage::wish(const Look& look, bool hold) const {
+Transition SpeedStage::demanded_transition(const SpeedDemand& demand, bool hold) const {
   const LimitCell& cell = cells_[current_];
-  double target = hold ? 0 : speed_of(cell, look);
+  double target = hold ? 0 : speed_of(cell, demand);
   const double v = std::max(state_.v, settled_speed(state_.v, state_.a, cell.ramp(state_.v).jerk));
   // Where faster levels leave less to acceleration, speed is gained level by level.
   if (!cell.uniform && target > v) target = std::min(target, cell.level_speed(v));
@@ -76,11 +76,11 @@ Transition SpeedStage::wish(const Look& look, bool hold) const {
   return Transition(state_.v, state_.a, target, ramp);
 }
 
-// Looks along the cells in legs: a leg leads from the state, or from a slower cell at its speed, to the next
-// slower cell. What is ahead of a slower cell only has to be reachable from its speed; when it is not, the
-// cell has to be entered at less.
+// Searches the cells ahead in legs: a leg leads from the state, or from a slower cell at its speed, to the
+// next slower cell. Beyond a slower cell only what is reachable from its speed counts; when something is not,
+// the cell has to be entered at a lower speed.
 SpeedStage::Obstacle SpeedStage::obstacle_ahead(const PathState& state, std::uint64_t cell,
-                                                const Look& look) const {
+                                                const SpeedDemand& demand) const {
   PathState from = state;
   double highest = std::max(from.v, settled_speed(from.v, from.a, cells_[cell].ramp(from.v).jerk));
   RampLimits ramp = cells_[cell].ramp(highest);
@@ -103,11 +103,11 @@ SpeedStage::Obstacle SpeedStage::obstacle_ahead(const PathState& state, std::uin
   };
   for (std::uint64_t k = cell + 1;; ++k) {
     const bool end = k >= cells_.size();
-    const double distance = (end ? cells_[k - 1].end : cells_[k].at) - from.s + look.rounding;
-    if (distance >= (look.soft ? far_sight : 1) * stop) return {};
+    const double distance = (end ? cells_[k - 1].end : cells_[k].at) - from.s + demand.rounding;
+    if (distance >= (demand.programmed ? look_ahead_stops : 1) * stop) return {};
     if (end || cells_[k].stop) return distance >= stop ? Obstacle{} : report(0, k, end);
     const LimitCell& next = cells_[k];
-    const double speed = speed_of(next, look);
+    const double speed = speed_of(next, demand);
     const bool slower = highest > speed * (1 + rounding);
     // A cycle is left between the end of the braking and the slower cell, since cycles do not end at cells.
     const double margin = first.found ? 0 : speed * cycle_;
@@ -145,32 +145,32 @@ SpeedStage::Obstacle SpeedStage::obstacle_ahead(const PathState& state, std::uin
   }
 }
 
-SpeedStage::Outcome SpeedStage::judge(const PathState& state, const Look& look) const {
+SpeedStage::Outcome SpeedStage::evaluate(const PathState& state, const SpeedDemand& demand) const {
   Outcome outcome{state, current_, {}};
   const double fastest = std::max(state_.v, state.v);
-  while (state.s > cells_[outcome.cell].end + (outcome.cell + 1 >= cells_.size() ? 1 : 0) * look.rounding) {
+  while (state.s > cells_[outcome.cell].end + (outcome.cell + 1 >= cells_.size() ? 1 : 0) * demand.rounding) {
     const std::uint64_t next = outcome.cell + 1;
     const bool end = next >= cells_.size() || cells_[next].stop;
     if (end) {
-      if (state.s > cells_[outcome.cell].end + 2 * look.rounding || state.v > 1e-3)
+      if (state.s > cells_[outcome.cell].end + 2 * demand.rounding || state.v > 1e-3)
         outcome.obstacle = {true, 0, local_ramp(fastest, fastest * cycle_), next, next >= cells_.size()};
       return outcome;
     }
-    const double speed = speed_of(cells_[next], look);
+    const double speed = speed_of(cells_[next], demand);
     if (fastest > speed * (1 + rounding)) {
       outcome.obstacle = {true, speed, local_ramp(fastest, fastest * cycle_), next, false};
       return outcome;
     }
     outcome.cell = next;
   }
-  outcome.obstacle = obstacle_ahead(state, outcome.cell, look);
+  outcome.obstacle = obstacle_ahead(state, outcome.cell, demand);
   return outcome;
 }
 
-// A cycle at constant speed, when nothing within the distance that is looked at asks for another: what the
-// search would find as well, but cells are looked at once and not in every cycle.
-bool SpeedStage::cruises(const Overrides& now, const Look& look) {
-  const double target = speed_of(cells_[current_], look);
+// A cycle at constant speed, when nothing within the look-ahead distance requires another one. The result is
+// that of the search, but each cell is examined once and not in every cycle.
+bool SpeedStage::cruises(const Overrides& now, const SpeedDemand& demand) {
+  const double target = speed_of(cells_[current_], demand);
   if (!(target > 0) || std::abs(state_.v - target) > cruise_rounding * target ||
       std::abs(state_.a) > cruise_rounding * cells_[current_].ramps[0].jerk * cycle_)
     return false;
@@ -185,11 +185,12 @@ bool SpeedStage::cruises(const Overrides& now, const Look& look) {
   }
   const double step = target * cycle_;
   while (true) {
-    if (clear_until_ > current_ && cells_[clear_until_ - 1].end - state_.s > far_sight * clear_stop_ + step)
+    if (clear_until_ > current_ &&
+        cells_[clear_until_ - 1].end - state_.s > look_ahead_stops * clear_stop_ + step)
       break;
     if (clear_until_ >= cells_.size()) return false;
     const LimitCell& cell = cells_[clear_until_];
-    if ((cell.stop && clear_until_ > current_) || speed_of(cell, look) < target) {
+    if ((cell.stop && clear_until_ > current_) || speed_of(cell, demand) < target) {
       clear_until_ = 0;
       return false;
     }
@@ -209,35 +210,36 @@ bool SpeedStage::cruises(const Overrides& now, const Look& look) {
 }
 
 // Follows the transition for as long a part of the cycle as the obstacle it leads to allows, and brakes for
-// that obstacle for the rest. When even braking at once is not enough for another one, that braking is what
-// is followed.
-bool SpeedStage::follow(const Transition& wished, const Look& look, int depth) {
+// that obstacle for the rest. When braking at once is not enough for another obstacle, that braking is
+// followed.
+bool SpeedStage::follow(const Transition& demanded, const SpeedDemand& demand, int depth) {
   PhaseList action;
-  const Outcome whole = judge(wished.after(state_, cycle_), look);
+  const Outcome whole = evaluate(demanded.after(state_, cycle_), demand);
   Obstacle obstacle = whole.obstacle;
   double low = cycle_ / 2;
   if (!obstacle.found) {
-    action.add(wished, cycle_);
+    action.add(demanded, cycle_);
     if (accept(action)) return true;
-    // No stop was found behind it: as much of it as leaves one, braking for the rest.
+    // No stop was found behind it: take the part that leaves one, and brake for the rest.
     obstacle = {true, 0, local_ramp(state_.v, (state_.v + 1) * cycle_ * 1.5), current_, true};
   } else {
-    const auto part = [&](double time, const Look& how) {
-      const PathState at = wished.after(state_, time);
-      return judge(Transition(at.v, at.a, obstacle.speed, obstacle.ramp).after(at, cycle_ - time), how);
+    const auto part = [&](double time, const SpeedDemand& how) {
+      const PathState at = demanded.after(state_, time);
+      return evaluate(Transition(at.v, at.a, obstacle.speed, obstacle.ramp).after(at, cycle_ - time), how);
     };
-    const Outcome at_once = part(0, look);
+    const Outcome at_once = part(0, demand);
     if (at_once.obstacle.found) {
       if (depth >= 6) return false;
-      // The ramp an obstacle asks for is the least on the way to it; stronger braking is possible as long as
-      // the cells right ahead stand it.
+      // The ramp of an obstacle is the least on the path to it; stronger braking is possible as long as the
+      // cells directly ahead permit it.
       const bool same = at_once.obstacle.cell == obstacle.cell && at_once.obstacle.speed == obstacle.speed;
       const RampLimits ramp =
           same ? local_ramp(state_.v, (state_.v + 1) * cycle_ * 1.5) : at_once.obstacle.ramp;
-      return follow(Transition(state_.v, state_.a, same ? 0 : at_once.obstacle.speed, ramp), look, depth + 1);
+      return follow(Transition(state_.v, state_.a, same ? 0 : at_once.obstacle.speed, ramp), demand,
+                    depth + 1);
     }
     // The rounding allowed is kept for the cycles that follow.
-    Look strict = look;
+    SpeedDemand strict = demand;
     strict.rounding = 0;
     low = 0;
     double high = cycle_;
@@ -246,26 +248,27 @@ bool SpeedStage::follow(const Transition& wished, const Look& look, int depth) {
       (part(middle, strict).obstacle.found ? high : low) = middle;
     }
   }
-  if (take_part(wished, obstacle, low, whole.obstacle.found)) return true;
-  // The ramp to an obstacle is that of the way to it, which begins where the cycle ends; the cells before
-  // that may stand less.
+  if (take_part(demanded, obstacle, low, whole.obstacle.found)) return true;
+  // The ramp to an obstacle is that of the path to it, which begins where the cycle ends; the cells before
+  // that may permit less.
   const RampLimits near = local_ramp(std::max(state_.v, whole.state.v), whole.state.s - state_.s);
   const RampLimits least{std::min(obstacle.ramp.acceleration, near.acceleration),
                          std::min(obstacle.ramp.jerk, near.jerk)};
   if (least.acceleration == obstacle.ramp.acceleration && least.jerk == obstacle.ramp.jerk) return false;
   obstacle.ramp = least;
-  return take_part(wished, obstacle, low, false);
+  return take_part(demanded, obstacle, low, false);
 }
 
-// The wish for `most` seconds of the cycle, or less when that is not accepted, and braking for the obstacle.
-bool SpeedStage::take_part(const Transition& wished, const Obstacle& obstacle, double most, bool keep) {
+// The demanded transition for `most` seconds of the cycle, or less when that is not accepted, and braking for
+// the obstacle.
+bool SpeedStage::take_part(const Transition& demanded, const Obstacle& obstacle, double most, bool keep) {
   PhaseList action;
-  const int attempts = standing() ? 30 : 5;
+  const int attempts = at_standstill() ? 30 : 5;
   for (int k = 0; k <= attempts; ++k) {
     const double time = k < attempts ? std::ldexp(most, -k) : 0;
     action.clear();
-    action.add(wished, time);
-    const PathState at = wished.after(state_, time);
+    action.add(demanded, time);
+    const PathState at = demanded.after(state_, time);
     action.add(Transition(at.v, at.a, obstacle.speed, obstacle.ramp), cycle_ - time);
     if (!accept(action)) continue;
     braking_for_.reset();
@@ -275,17 +278,17 @@ bool SpeedStage::take_part(const Transition& wished, const Obstacle& obstacle, d
   return false;
 }
 
-// Programmed speeds, and weak places far ahead, are wishes as well: when they turn up too late to be met,
-// they are approached within the limits.
-void SpeedStage::move(const Transition& wished, const Look& look) {
-  if (follow(wished, look, 0)) return;
-  Look hard = look;
-  hard.soft = false;
-  const Outcome ahead = judge(wished.after(state_, cycle_), look);
+// Programmed speeds and slower cells far ahead are demands, not limits: when they become known too late to be
+// met, they are approached within the limits.
+void SpeedStage::move(const Transition& demanded, const SpeedDemand& demand) {
+  if (follow(demanded, demand, 0)) return;
+  SpeedDemand limits_only = demand;
+  limits_only.programmed = false;
+  const Outcome ahead = evaluate(demanded.after(state_, cycle_), demand);
   const RampLimits ramp = local_ramp(state_.v, (state_.v + 1) * cycle_ * 1.5);
   braking_for_.reset();
-  const bool found =
-      ahead.obstacle.found && follow(Transition(state_.v, state_.a, ahead.obstacle.speed, ramp), hard, 0);
+  const bool found = ahead.obstacle.found &&
+                     follow(Transition(state_.v, state_.a, ahead.obstacle.speed, ramp), limits_only, 0);
   braking_for_.reset();
   if (found) return;
   ++stopping_;
@@ -294,7 +297,7 @@ void SpeedStage::move(const Transition& wished, const Look& look) {
 
 // At a stop, or the end of the path, once the motion has settled there.
 void SpeedStage::arrive() {
-  if (!standing()) return;
+  if (!at_standstill()) return;
   const bool last = current_ + 1 >= cells_.size();
   if (last ? !finished_ : !cells_[current_ + 1].stop) return;
   if (cells_[current_].end - state_.s > arrival_distance) return;
@@ -302,7 +305,7 @@ void SpeedStage::arrive() {
   braking_for_.reset();
 }
 
-// At a stop or the end of what is known.
+// At a stop or the end of the known path.
 bool SpeedStage::at_stop() const {
   return (current_ + 1 >= cells_.size() || cells_[current_ + 1].stop) &&
          cells_[current_].end - state_.s <= arrival_distance;
@@ -335,7 +338,7 @@ void SpeedStage::step(const Overrides& overrides) {
     entered_ = true;
     state_ = {cells_[0].at, 0, 0};
     wait_ = cells_[0].wait_cycles;
-  } else if (standing() && state_.s == cells_[current_].end && current_ + 1 < cells_.size() &&
+  } else if (at_standstill() && state_.s == cells_[current_].end && current_ + 1 < cells_.size() &&
              cells_[current_ + 1].stop && wait_ == 0) {
     ++current_;
     wait_ = cells_[current_].wait_cycles;
@@ -346,28 +349,28 @@ void SpeedStage::step(const Overrides& overrides) {
   }
   const LimitCell& cell = cells_[current_];
   const bool hold = now.hold || (cell.rapid ? now.rapid <= 0 : now.feed <= 0);
-  if (hold && standing()) return;
-  Look look{!hold, now.feed, now.rapid, rounding_distance};
-  if (now.feed <= 0) look.feed = 1e-3;  // what follows a rapid that goes on is approached slowly
-  if (now.rapid <= 0) look.rapid = 1e-3;
-  if (!hold && !braking_for_ && cruises(now, look)) return;
+  if (hold && at_standstill()) return;
+  SpeedDemand demand{!hold, now.feed, now.rapid, rounding_distance};
+  if (now.feed <= 0) demand.feed = 1e-3;  // a feed move after a rapid that continues is approached slowly
+  if (now.rapid <= 0) demand.rapid = 1e-3;
+  if (!hold && !braking_for_ && cruises(now, demand)) return;
   const PathState before = state_;
   const std::uint64_t cell_before = current_;
-  advance(look, hold);
-  if (!hold && before.v == 0 && before.a == 0 && standing() && !tail_ && !at_stop()) {
-    const PathState bold = std::exchange(state_, before);
-    const std::uint64_t bold_cell = std::exchange(current_, cell_before);
+  advance(demand, hold);
+  if (!hold && before.v == 0 && before.a == 0 && at_standstill() && !tail_ && !at_stop()) {
+    const PathState optimistic = std::exchange(state_, before);
+    const std::uint64_t optimistic_cell = std::exchange(current_, cell_before);
     stop_.clear();
-    if (!creep(look)) {
-      state_ = bold;
-      current_ = bold_cell;
+    if (!start_gently(demand)) {
+      state_ = optimistic;
+      current_ = optimistic_cell;
       stop_.clear();
     }
   }
 }
 
-void SpeedStage::advance(const Look& look, bool hold) {
-  if (rides(look) && ride(look, hold)) {
+void SpeedStage::advance(const SpeedDemand& demand, bool hold) {
+  if (needs_speed_profile(demand) && integrate_speed_profile(demand, hold)) {
     braking_for_.reset();
     arrive();
     return;
@@ -376,10 +379,10 @@ void SpeedStage::advance(const Look& look, bool hold) {
   if (braking_for_ && !hold) {
     const Transition transition(state_.v, state_.a, braking_for_->speed, braking_for_->ramp);
     const bool over = transition.duration() <= cycle_;
-    move(transition, look);
+    move(transition, demand);
     if (over) braking_for_.reset();
   } else {
-    move(wish(look, hold), look);
+    move(demanded_transition(demand, hold), demand);
   }
   begin_tail();
   arrive();

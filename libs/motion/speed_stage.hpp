@@ -1,11 +1,11 @@
 // The speed stage: path speed, acceleration and jerk of every cycle, as fast as the cells ahead allow.
 //
-// Each cycle follows the wish (towards the programmed speed under the overrides, or to a standstill when
-// held) for as long a part of the cycle as leaves every obstacle ahead (a slower cell, a stop, the end of
-// what is known) reachable by the closed-form transition to its speed, and brakes for the rest. A cycle is
-// only taken when it keeps the limits of every cell it runs over and a way to a standstill behind it has been
-// proved to keep them too; otherwise the way that was proved a cycle ago is followed. So limits hold whatever
-// the overrides do, and never depend on the choice of the wish being right.
+// Each cycle first follows the demanded transition: towards the programmed speed under the overrides, or to a
+// standstill during a hold. It follows it only while every obstacle ahead (a slower cell, a stop, the end of
+// the known path) remains reachable by the closed-form transition to its speed, and brakes for the rest of
+// the cycle. A cycle is accepted only when it keeps the limits of every cell it runs over and when a stop
+// that follows it has been proved to keep them too. Otherwise the stop proved in the cycle before is
+// executed. So the limits hold for every sequence of overrides and do not depend on the demanded transition.
 #pragma once
 
 #include <cstdint>
@@ -53,13 +53,13 @@ class SpeedStage {
   void step(const Overrides& overrides);
 
   const PathState& state() const { return state_; }
-  bool standing() const { return state_.v == 0 && state_.a == 0; }
+  bool at_standstill() const { return state_.v == 0 && state_.a == 0; }
   std::uint64_t current_cell() const { return current_; }
-  /// Cells before this one will not be looked at again.
+  /// Cells before this one will not be read again.
   std::uint64_t oldest_needed() const { return current_ > 4 ? current_ - 4 : 0; }
   /// The first cell has been entered.
   bool started() const { return entered_; }
-  /// Standing at a stop until its wait is over.
+  /// At standstill at a stop until its wait is over.
   bool waiting() const { return wait_ > 0; }
   /// At the end of the cells.
   bool at_end() const;
@@ -67,21 +67,21 @@ class SpeedStage {
   void allow_overlap(bool allowed) { overlap_allowed_ = allowed; }
   /// The tail that began in the last cycle, if any.
   std::optional<Tail> take_tail();
-  /// Cycles in which nothing better was found than the stop that had been proved before.
+  /// Cycles in which the stop proved before was executed because no other cycle was accepted.
   std::uint64_t stopping_cycles() const { return stopping_; }
 
  private:
-  /// The first thing ahead that a state would not be slow enough for.
+  /// The first place ahead that a state would reach too fast.
   struct Obstacle {
     bool found = false;
     double speed = 0;
     RampLimits ramp;
     std::uint64_t cell = 0;
     bool end = false;        // of what is known of the path
-    bool momentary = false;  // only the acceleration has to be taken back
+    bool momentary = false;  // only the acceleration has to be reduced
   };
-  struct Look {
-    bool soft = true;  // programmed speeds count, not only limits
+  struct SpeedDemand {
+    bool programmed = true;  // programmed speeds count, not only the limits of the cells
     double feed = 1, rapid = 1;
     double rounding = 0;  // mm by which a distance may be too short
   };
@@ -91,29 +91,29 @@ class SpeedStage {
     Obstacle obstacle;
   };
 
-  double speed_of(const LimitCell& cell, const Look& look) const;
+  double speed_of(const LimitCell& cell, const SpeedDemand& demand) const;
   RampLimits local_ramp(double speed, double reach) const;
-  Transition wish(const Look& look, bool hold) const;
-  Obstacle obstacle_ahead(const PathState& state, std::uint64_t cell, const Look& look) const;
-  Outcome judge(const PathState& state, const Look& look) const;
-  bool cruises(const Overrides& now, const Look& look);
-  bool follow(const Transition& wished, const Look& look, int depth);
-  bool take_part(const Transition& wished, const Obstacle& obstacle, double most, bool keep);
-  void move(const Transition& wished, const Look& look);
+  Transition demanded_transition(const SpeedDemand& demand, bool hold) const;
+  Obstacle obstacle_ahead(const PathState& state, std::uint64_t cell, const SpeedDemand& demand) const;
+  Outcome evaluate(const PathState& state, const SpeedDemand& demand) const;
+  bool cruises(const Overrides& now, const SpeedDemand& demand);
+  bool follow(const Transition& demanded, const SpeedDemand& demand, int depth);
+  bool take_part(const Transition& demanded, const Obstacle& obstacle, double most, bool keep);
+  void move(const Transition& demanded, const SpeedDemand& demand);
   bool accept(const PhaseList& action);
   bool find_stop(const PathState& state, std::uint64_t cell, PhaseList& stop) const;
-  double top_of(const LimitCell& cell, const Look& look) const;
+  double top_of(const LimitCell& cell, const SpeedDemand& demand) const;
   double stop_step(const PathState& state) const;
-  bool rides(const Look& look) const;
-  bool ride(const Look& look, bool hold);
+  bool needs_speed_profile(const SpeedDemand& demand) const;
+  bool integrate_speed_profile(const SpeedDemand& demand, bool hold);
   void fill_cycle(PathState state, double time, double target, PhaseList& action) const;
-  bool accept_curved(const PhaseList& action, const Look& look, Braked& why);
+  bool accept_curved(const PhaseList& action, const SpeedDemand& demand, Braked& why);
   bool find_curved_stop(const PathState& state, std::uint64_t cell, PhaseList& stop, Braked& why) const;
   std::optional<std::uint64_t> critical_cell(const PathState& state, std::uint64_t cell,
-                                             const Look& look) const;
-  bool creep(const Look& look);
+                                             const SpeedDemand& demand) const;
+  bool start_gently(const SpeedDemand& demand);
   bool at_stop() const;
-  void advance(const Look& look, bool hold);
+  void advance(const SpeedDemand& demand, bool hold);
   void follow_stop();
   void arrive();
   void begin_tail();
@@ -130,8 +130,8 @@ class SpeedStage {
   double clear_speed_ = 0, clear_stop_ = 0;
   RampLimits clear_ramp_;
   Overrides clear_overrides_;
-  PhaseList stop_;         // the way to a standstill that is known to keep all limits
-  bool arriving_ = false;  // that way ends on a stop: nothing is to be gained by looking for another
+  PhaseList stop_;         // the stop that is proved to keep all limits
+  bool arriving_ = false;  // stop_ ends on a programmed stop: a search for a better one gains nothing
   std::optional<Obstacle> braking_for_;
   Overrides last_;
   bool overlap_allowed_ = true;

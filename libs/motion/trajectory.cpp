@@ -35,8 +35,8 @@ ModeLimits effective(const Limits& limits, double cycle) {
   return modes;
 }
 
-// The pieces of a curve stray from it by half of the tolerance of arcs. What joins them has the rest, also
-// where corners are exact.
+// The pieces of a curve deviate from it by half of the tolerance of arcs. The joins between them have the
+// rest, also where corners are exact.
 double inside_curve(const BlendRules& rules, const Limits& limits) {
   const double pieces = limits.arc_tolerance / 2;
   return std::max(rules.contour_tolerance - pieces, pieces);
@@ -76,7 +76,7 @@ void Trajectory::restart_path() {
   pending_.reset();
   interpolation_.drop_tail();
   stop_next_ = exact_next_ = true;
-  curve_goes_on_ = false;
+  curve_continues_ = false;
   aborting_ = retrace_wanted_ = retracing_ = false;
 }
 
@@ -110,8 +110,7 @@ bool Trajectory::movable(const AxisValues& from, const AxisValues& to) const {
   return true;
 }
 
-// A move that is lost in the tolerance is left to the next one: short segments have no direction worth
-// keeping.
+// A move far below the tolerance is merged with the next one: so short a segment has no usable direction.
 bool Trajectory::joins_to_last(const PathSegment& segment) const {
   if (segment.is_arc() || path_.size() == 0) return false;
   double linear = 0, rotary = 0;
@@ -190,8 +189,8 @@ bool Trajectory::push_move(const Command& command, double fraction) {
     change_mode(command);
     block.mode = mode_;
     block.rules = rules_;
-    if (curve_goes_on_) block.rules.contour_tolerance = inside_curve(rules_, limits_[mode_]);
-    curve_goes_on_ = command.chord;
+    if (curve_continues_) block.rules.contour_tolerance = inside_curve(rules_, limits_[mode_]);
+    curve_continues_ = command.chord;
     if (pending_ && block.path.is_arc()) flush();
     if (pending_) block.path = PathSegment::line(joined_, command.target);
     end_ = command.target;
@@ -243,8 +242,8 @@ void Trajectory::plan_back() {
   back_.extended();
 }
 
-// At a standstill: the other stage goes on from here.
-void Trajectory::turn_round() {
+// At a standstill: the other stage continues from here.
+void Trajectory::reverse() {
   const std::uint64_t block = current_block();
   const double s = current_s();
   retracing_ = !retracing_;
@@ -283,14 +282,14 @@ bool Trajectory::done() const {
 }
 
 Setpoint Trajectory::step(double feed_override, double rapid_override, bool hold) {
-  // A ring that is full of blocks none of which is known well enough becomes a path of its own.
+  // When the ring is full and no block is settled, its content becomes a path of its own.
   if (path_.size() > 0 && !can_accept() && !aborting_ && path_.settled_blocks() == 0) finish();
   if (builder_.next_block() < path_.settled_blocks()) plan();
   interpolation_.pass_cycle();
   if (path_.size() == 0) retrace_wanted_ = retracing_ = false;
   bool turning = retrace_wanted_ != retracing_;
-  if (turning && !interpolation_.overlapping() && moving().standing() && !aborting_) {
-    turn_round();
+  if (turning && !interpolation_.overlapping() && moving().at_standstill() && !aborting_) {
+    reverse();
     turning = false;
   }
   if (retracing_ && !back_complete_) plan_back();
@@ -303,7 +302,7 @@ Setpoint Trajectory::step(double feed_override, double rapid_override, bool hold
   Setpoint setpoint = moves ? interpolation_.follow(path_, {current_block(), current_s(), stage.state().v,
                                                             stage.started(), stage.waiting()})
                             : interpolation_.stay();
-  if (aborting_ && (!moves || (stage.standing() && !interpolation_.overlapping()))) {
+  if (aborting_ && (!moves || (stage.at_standstill() && !interpolation_.overlapping()))) {
     restart_path();
     end_ = joined_ = setpoint.position;
     setpoint.distance_to_go = {};

@@ -26,7 +26,7 @@ class Trajectory {
   /// transformation. `cycle_seconds` above 0.
   Trajectory(const Limits& limits, const geometry::Chain* chain, double cycle_seconds);
 
-  /// Stand still at `position` in the frame of `transformation`, with `tool_length` in mm. Drops everything
+  /// At rest at `position` in the frame of `transformation`, with `tool_length` in mm. Drops everything
   /// pushed. A change of frame or tool length is: finish, wait for at_rest, start with the same place in the
   /// new frame.
   void start(const AxisValues& position, canonical::Transformation transformation, double tool_length);
@@ -43,7 +43,7 @@ class Trajectory {
   /// accepted and does nothing. per_revolution feeds must have been converted to mm/min.
   bool push(const canonical::Command& command);
 
-  /// Appends what is left of a command of which `fraction` (0..1) is done, from the end of what was pushed: a
+  /// Appends the rest of a command of which `fraction` (0..1) is done, from the end of what was pushed: a
   /// line from there to the target, an arc with the remaining sweep, a dwell of the remaining time.
   bool push_from(const canonical::Command& command, double fraction);
 
@@ -56,11 +56,11 @@ class Trajectory {
 
   /// Backwards along the executed path from the next standstill on, which step() brakes for; off: forwards
   /// again in the same way. Goes back over stops without their waits to the oldest move kept, at least
-  /// `history` of them when the path since start() is that long, and stands there. Within all limits, at the
+  /// `history` of them when the path since start() is that long, and stops there. Within all limits, at the
   /// programmed feeds under the overrides; setpoints name the moves they are on. While it is on the
   /// trajectory is never at rest; abort() ends it.
   void retrace(bool on) { retrace_wanted_ = on; }
-  /// Standing at the oldest move kept.
+  /// At standstill at the oldest move kept.
   bool retraced_to_start() const { return retracing_ && back_complete_ && back_.at_end(); }
 
   /// The next cycle. Overrides 0..1.5 (rapid 0..1), 0 or `hold` brake to a standstill on the path.
@@ -84,7 +84,7 @@ class Trajectory {
   void plan();
   void restart_path();
   bool done() const;
-  void turn_round();
+  void reverse();
   void plan_back();
   const SpeedStage& moving() const { return retracing_ ? back_ : speed_; }
   std::uint64_t current_block() const;
@@ -106,7 +106,7 @@ class Trajectory {
   std::optional<PathBlock> pending_;  ///< a move too short to be worth a segment, until more follows
   std::uint8_t mode_ = 0;             ///< of the newest move
   BlendRules rules_;                  ///< and its tolerances
-  bool curve_goes_on_ = false;        ///< the newest move was a piece of a curve
+  bool curve_continues_ = false;      ///< the newest move was a piece of a curve
   bool stop_next_ = true, exact_next_ = true, aborting_ = false;
   bool retrace_wanted_ = false, retracing_ = false, back_complete_ = false;
 };

@@ -50,10 +50,10 @@ class Transition {
 };
 
 /// Path needed until the speed has fallen to `target` for good: the whole transition, or, when braking goes
-/// below the target anyway, the part until it is passed while the acceleration is taken back.
+/// below the target anyway, the part until it is passed while the acceleration is reduced.
 double braking_distance(double v, double a, double target, const RampLimits& limits);
 
-/// Speed at which the acceleration would be gone when it is taken back at once.
+/// Speed reached when the acceleration is reduced to zero at once.
 inline double settled_speed(double v, double a, double jerk) { return v + a * std::abs(a) / (2 * jerk); }
 
 }  // namespace trunnion::motion

@@ -4,7 +4,7 @@
 #include <numeric>
 #include <tuple>
 
-#include "bus/cdr.hpp"
+#include "bus/codec.hpp"
 #include "contracts/topics.hpp"
 
 namespace trunnion::report {

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "channel_setup/channel_setup.hpp"
 #include "language/interpreter.hpp"
 #include "motion/path_segment.hpp"
-#include "setup/channel_setup.hpp"
 
 namespace trunnion::report {
 namespace {
@@ -18,7 +18,7 @@ constexpr int most_halvings = 16;
 // Appends one command as chords.
 class Tracer {
  public:
-  Tracer(const setup::ChannelSetup& environment, ProgrammedPath& out)
+  Tracer(const channel_setup::ChannelSetup& environment, ProgrammedPath& out)
       : environment_(environment), out_(out) {}
 
   void trace(const AxisValues& from, const language::Command& command) {
@@ -71,7 +71,7 @@ class Tracer {
     out_.path.add(piece_);
   }
 
-  const setup::ChannelSetup& environment_;
+  const channel_setup::ChannelSetup& environment_;
   ProgrammedPath& out_;
   Piece piece_;
 };
@@ -81,7 +81,7 @@ class Tracer {
 ProgrammedPath programmed_path(const std::string& text, const MachineTables& tables,
                                const AxisValues& position) {
   ProgrammedPath result;
-  setup::ChannelSetup environment(tables);
+  channel_setup::ChannelSetup environment(tables);
   language::StringSource source(text);
   language::Interpreter interpreter(environment);
   interpreter.start(source, position, {});

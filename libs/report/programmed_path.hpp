@@ -7,11 +7,11 @@
 
 #include "language/canonical.hpp"
 #include "report/polyline.hpp"
-#include "setup/machine_tables.hpp"
+#include "tool_tables/machine_tables.hpp"
 
 namespace trunnion::report {
 
-using setup::MachineTables;
+using tool_tables::MachineTables;
 
 struct ProgrammedPath {
   Polyline path;                       ///< mm, machine coordinates of the tip with the rotary axes at zero

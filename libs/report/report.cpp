@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "machine/axes.hpp"
+#include "machine/parameter_constants.hpp"
 #include "recording/file_stream.hpp"
 #include "report/capture.hpp"
 
@@ -260,7 +261,7 @@ Report make_report(const std::string& recording, const ReportInputs& inputs) {
   report.late_frames = capture.late_frames;
   report.repeated_frames = capture.repeated_frames;
   report.starved = capture.starved;
-  report.period = capture.tables.parameters.get("interpolation_cycle") * 1e-6;
+  report.period = capture.tables.parameters.get(parameter::interpolation_cycle) * 1e-6;
   Evaluation evaluation(capture, report);
   report.programmed = programmed_path(
       inputs.program_text, capture.tables,

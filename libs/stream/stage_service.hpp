@@ -6,9 +6,11 @@
 #include <map>
 #include <optional>
 
+#include "machine/alarm_constants.hpp"
 #include "machine/kinematics.hpp"
-#include "node/node.hpp"
-#include "node/parameter_client.hpp"
+#include "machine/parameter_constants.hpp"
+#include "service/node.hpp"
+#include "service/parameter_client.hpp"
 #include "stream/frame_window.hpp"
 #include "stream/stage_core.hpp"
 
@@ -21,24 +23,24 @@ inline int stream_depth(int lead, int frame_cycles, int channels) {
   return std::max(1024, (2 * lead / std::max(1, frame_cycles) + 6) * std::max(1, channels));
 }
 
-/// Topic on which a stage writes while it is only compared with the one it is to replace.
-inline std::string shadow_name(const std::string& topic) { return topic + "/shadow"; }
+/// Topic on which a stage writes while it is on standby, only compared with the one it is to replace.
+inline std::string standby_name(const std::string& topic) { return topic + topics::standby_suffix; }
 
 /// Raises the alarm of copies that differ, once until it is reset: it stops the machine.
-inline void raise_difference(node::AlarmBoard& alarms, const auto& first, const auto& second) {
-  if (alarms.active("copies_differ", first.channel)) return;
+inline void raise_difference(service::AlarmBoard& alarms, const auto& first, const auto& second) {
+  if (alarms.active(alarm::copies_differ, first.channel)) return;
   const auto what = difference(first, second);
   if (!what) return;
-  alarms.raise("copies_differ", first.channel, what->text, what->cycle);
-  alarms.release("copies_differ", first.channel);
+  alarms.raise(alarm::copies_differ, first.channel, what->text, what->cycle);
+  alarms.release(alarm::copies_differ, first.channel);
 }
 
 template <class In>
-class StageService : public node::Service {
+class StageService : public service::Service {
  public:
   using MakeCore = std::function<std::unique_ptr<StageCore<In>>()>;
 
-  StageService(node::Node& node, std::uint8_t stage, const bus::Topic<In>& in,
+  StageService(service::Node& node, std::uint8_t stage, const bus::Topic<In>& in,
                const bus::Topic<idl::stream::AxisFrame>& out, MakeCore make_core)
       : node_(node),
         parameters_(node.bus()),
@@ -48,8 +50,8 @@ class StageService : public node::Service {
         make_core_(std::move(make_core)),
         progress_writer_(node.bus().writer(topics::stage_progress)) {}
 
-  /// As a shadow it computes what it would if it took part, and writes it beside the stream (shadow_name).
-  static constexpr bool works_as_shadow = true;
+  /// On standby it computes what it would if it took part, and writes it beside the stream (standby_name).
+  static constexpr bool works_on_standby = true;
 
   void pump() override {
     parameters_.poll();
@@ -57,7 +59,7 @@ class StageService : public node::Service {
       if (!parameters_.newest()) return;
       start();
     }
-    if (shadow_ && !node_.shadow()) take_part();
+    if (standby_ && !node_.on_standby()) take_part();
     follow_feedback();
     idl::stream::FeedbackFrame feedback;
     while (feedback_reader_ && feedback_reader_->take(feedback)) {
@@ -80,22 +82,22 @@ class StageService : public node::Service {
   }
   double period() const override { return 0.02; }
 
-  node::Health health() const override {
+  service::Health health() const override {
     using idl::service::Lifecycle;
-    node::Health health;
-    health.lifecycle = !reader_                     ? Lifecycle::UNCONFIGURED
-                       : have_feedback_ && !shadow_ ? Lifecycle::ACTIVE
-                                                    : Lifecycle::INACTIVE;
+    service::Health health;
+    health.lifecycle = !reader_                      ? Lifecycle::UNCONFIGURED
+                       : have_feedback_ && !standby_ ? Lifecycle::ACTIVE
+                                                     : Lifecycle::INACTIVE;
     health.detail = !fault_.empty()   ? fault_
                     : !reader_        ? "waiting for parameters"
                     : !have_feedback_ ? "waiting for the drive"
-                    : shadow_         ? "shadow"
                                       : waiting_for();
     if (!fault_.empty()) health.lifecycle = Lifecycle::FAULT;
     health.frames_in = frames_in_;
     health.frames_out = frames_out_;
     health.frames_lost = frames_lost_;
     health.revision = parameters_.newest() ? parameters_.newest()->revision : 0;
+    if (node_.on_standby()) health.in_step = reader_ && have_feedback_ && fault_.empty();
     for (const auto& [channel, lane] : lanes_)
       health.in_step = health.in_step && lane.in_step && lane.settled;
     return health;
@@ -106,8 +108,8 @@ class StageService : public node::Service {
   virtual bool needs_feedback() const { return false; }
   /// For supervision that does not belong to a setpoint.
   virtual void on_feedback(const idl::stream::FeedbackFrame&) {}
-  node::Node& node_;
-  node::ParameterClient parameters_;
+  service::Node& node_;
+  service::ParameterClient parameters_;
 
  private:
   struct Lane {
@@ -126,18 +128,18 @@ class StageService : public node::Service {
 
   void start() {
     const auto& p = *parameters_.newest();
-    const int frame =
-        p.integer(node_.options().virtual_time ? "frame_cycles_virtual_time" : "frame_cycles_real_time");
-    node_.bus().set_depth(
-        {stream_depth(p.integer("stream_lead"), frame, static_cast<int>(node_.options().machine.channels))});
-    lead_ = static_cast<std::uint64_t>(p.integer("stream_lead"));
+    const int frame = p.integer(node_.options().virtual_time ? parameter::frame_cycles_virtual_time
+                                                             : parameter::frame_cycles_real_time);
+    node_.bus().set_depth({stream_depth(p.integer(parameter::stream_lead), frame,
+                                        static_cast<int>(node_.options().machine.channels))});
+    lead_ = static_cast<std::uint64_t>(p.integer(parameter::stream_lead));
     const auto& services = node_.options().machine.services;
     twins_ = std::count_if(services.begin(), services.end(),
                            [&](const auto& entry) { return entry.service == stage_name(stage_); }) > 1;
-    shadow_ = node_.shadow();
-    const auto shadow_topic = shadow_name(out_topic_.name);
+    standby_ = node_.on_standby();
+    const auto standby_topic = standby_name(out_topic_.name);
     auto out = out_topic_;
-    if (shadow_) out.name = shadow_topic.c_str();
+    if (standby_) out.name = standby_topic.c_str();
     writer_.emplace(node_.bus().writer(out));
     feedback_reader_.emplace(node_.bus().reader(topics::feedback_frame));
     reader_.emplace(node_.bus().reader(in_topic_));
@@ -145,10 +147,10 @@ class StageService : public node::Service {
       if (entry.service == "channel") lane(static_cast<std::uint16_t>(entry.channel));
   }
 
-  // From the frame it computes next on; what it wrote as a shadow the others have from the service it
+  // From the frame it computes next on; what it wrote on standby the others have from the service it
   // replaces.
   void take_part() {
-    shadow_ = false;
+    standby_ = false;
     writer_.emplace(node_.bus().writer(out_topic_));
     for (auto& [channel, lane] : lanes_) lane.settled = false;
   }
@@ -170,7 +172,7 @@ class StageService : public node::Service {
   // it.
   void report_progress(std::uint16_t channel, Lane& lane) {
     if (lane.in_step && !lane.settled) lane.settled = !lane.window.has_next() && writer_->matched() > 0;
-    if (shadow_) return;
+    if (standby_) return;
     const idl::stream::StageProgress progress{stage_,
                                               static_cast<std::uint8_t>(node_.options().copy),
                                               channel,
@@ -180,7 +182,7 @@ class StageService : public node::Service {
     const auto& told = lane.told;
     const bool news = twins_ && (progress.in_step != told.in_step || progress.epoch != told.epoch ||
                                  progress.next >= told.next + lead_ || lane.at_rest != lane.told_at_rest);
-    const double now = node::monotonic_seconds();
+    const double now = service::monotonic_seconds();
     if (!news && now - lane.told_at <= 0.1) return;
     lane.told = progress;
     lane.told_at = now;
@@ -190,7 +192,7 @@ class StageService : public node::Service {
 
   // Every reader of the feedback costs the drive a message and this process a wake-up per frame.
   void follow_feedback() {
-    bool wanted = needs_feedback() || !have_feedback_ || node::monotonic_seconds() < feedback_until_;
+    bool wanted = needs_feedback() || !have_feedback_ || service::monotonic_seconds() < feedback_until_;
     for (const auto& [channel, lane] : lanes_) wanted = wanted || !lane.in_step;
     if (wanted && !feedback_reader_) {
       newest_feedback_.channels.clear();
@@ -235,16 +237,16 @@ class StageService : public node::Service {
     if (lane.revision == revision) return true;
     const auto parameters = parameters_.find(revision);
     if (!parameters) {
-      const double now = node::monotonic_seconds();
+      const double now = service::monotonic_seconds();
       if (unknown_since_ == 0) unknown_since_ = now;
       if (now - unknown_since_ > 1)
-        node_.alarms().raise("revision_unknown", channel,
+        node_.alarms().raise(alarm::revision_unknown, channel,
                              "Frames are made with parameter revision " + std::to_string(revision) +
                                  ", which has not arrived");
       return false;
     }
     unknown_since_ = 0;
-    node_.alarms().clear("revision_unknown", channel);
+    node_.alarms().clear(alarm::revision_unknown, channel);
     StateValues state;
     if (lane.cut)
       state = *lane.cut;
@@ -293,7 +295,7 @@ class StageService : public node::Service {
     }
     // The next frame is missing while later ones are here: it will not come any more, so go on from the cut.
     if (lane.window.gap()) {
-      const double now = node::monotonic_seconds();
+      const double now = service::monotonic_seconds();
       if (lane.gap_since == 0) lane.gap_since = now;
       if (now - lane.gap_since > 0.02) {
         ++frames_lost_;
@@ -322,7 +324,7 @@ class StageService : public node::Service {
   std::uint64_t frames_in_ = 0, frames_out_ = 0, frames_lost_ = 0;
   double unknown_since_ = 0, feedback_until_ = 0;
   std::uint64_t lead_ = 0;
-  bool twins_ = false, shadow_ = false;
+  bool twins_ = false, standby_ = false;
   std::string fault_;
 };
 

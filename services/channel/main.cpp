@@ -2,5 +2,5 @@
 
 int main(int argc, char** argv) {
   using namespace trunnion;
-  return node::service_main<channel::ChannelService>(argc, argv, "channel");
+  return service::service_main<channel::ChannelService>(argc, argv, "channel");
 }

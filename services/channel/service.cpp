@@ -4,6 +4,8 @@
 #include <fstream>
 #include <sstream>
 
+#include "machine/alarm_constants.hpp"
+#include "machine/parameter_constants.hpp"
 #include "storage/file.hpp"
 #include "stream/stage_service.hpp"
 #include "variable_text.hpp"
@@ -15,7 +17,7 @@ constexpr double record_seconds = 0.2;  // between two records of the executed l
 constexpr double text_patience = 0.5;   // without the text that motion waits for, before somebody is told
 }  // namespace
 
-ChannelService::ChannelService(node::Node& node)
+ChannelService::ChannelService(service::Node& node)
     : node_(node),
       parameters_(node.bus()),
       core_(static_cast<std::uint16_t>(node.options().channel), node.options().virtual_time),
@@ -39,7 +41,7 @@ ChannelService::ChannelService(node::Node& node)
       record_file_(node.options().state_directory + "/channel-" + std::to_string(node.options().channel) +
                    ".program"),
       record_(record_file_) {
-  copies_ = stream::CopyWatch(node.options().machine.services, node::monotonic_seconds());
+  copies_ = stream::CopyWatch(node.options().machine.services, service::monotonic_seconds());
   if (!copies_.copies().empty()) progress_reader_.emplace(node.bus().reader(topics::stage_progress));
   std::ifstream boot(node.options().state_directory + "/cluster.boot");
   std::getline(boot, boot_);
@@ -58,14 +60,15 @@ void ChannelService::read_record() {
     kept_ = channel::read_record(text.str(), record_file_);
     core_.set_interrupted(kept_);
   } catch (const std::exception& e) {
-    node_.alarms().raise("storage_failed", static_cast<std::uint32_t>(node_.options().channel), e.what());
+    node_.alarms().raise(alarm::storage_failed, static_cast<std::uint32_t>(node_.options().channel),
+                         e.what());
     std::rename(record_file_.c_str(), (record_file_ + ".damaged").c_str());
   }
 }
 
 // The line is written now and then, the beginning and the end of a program at once.
 void ChannelService::keep_record() {
-  const double now = node::monotonic_seconds();
+  const double now = service::monotonic_seconds();
   if (core_.program_under_way() == (kept_.line != 0) && now - kept_at_ < record_seconds) return;
   const auto program = core_.running_program();
   if (program == kept_) return;
@@ -75,22 +78,23 @@ void ChannelService::keep_record() {
   const auto error = record_.error();
   const auto channel = static_cast<std::uint32_t>(node_.options().channel);
   if (!error.empty())
-    node_.alarms().raise("storage_failed", channel, error);
+    node_.alarms().raise(alarm::storage_failed, channel, error);
   else if (record_failed_)
-    node_.alarms().release("storage_failed", channel);
+    node_.alarms().release(alarm::storage_failed, channel);
   record_failed_ = !error.empty();
 }
 
 void ChannelService::watch_text() {
   const auto channel = static_cast<std::uint32_t>(node_.options().channel);
-  const double now = node::monotonic_seconds();
+  const double now = service::monotonic_seconds();
   if (!core_.waits_for_text()) {
-    if (text_missing_since_ < 0) node_.alarms().release("text_late", channel);
+    if (text_missing_since_ < 0) node_.alarms().release(alarm::text_late, channel);
     text_missing_since_ = 0;
   } else if (text_missing_since_ == 0) {
     text_missing_since_ = now;
   } else if (text_missing_since_ > 0 && now - text_missing_since_ > text_patience) {
-    node_.alarms().raise("text_late", channel, "The program's text does not arrive: see the program service");
+    node_.alarms().raise(alarm::text_late, channel,
+                         "The program's text does not arrive: see the program service");
     text_missing_since_ = -1;  // told
   }
 }
@@ -106,8 +110,9 @@ void ChannelService::read_hand_over() {
   try {
     if (channel::read_hand_over(text.str(), hand_over_file_, boot_, from)) hand_over_ = std::move(from);
   } catch (const std::exception& e) {
-    node_.alarms().raise("storage_failed", static_cast<std::uint32_t>(node_.options().channel), e.what());
-    node_.alarms().release("storage_failed", static_cast<std::uint32_t>(node_.options().channel));
+    node_.alarms().raise(alarm::storage_failed, static_cast<std::uint32_t>(node_.options().channel),
+                         e.what());
+    node_.alarms().release(alarm::storage_failed, static_cast<std::uint32_t>(node_.options().channel));
   }
 }
 
@@ -133,7 +138,8 @@ void ChannelService::read_variables() {
     channel::read_variables(text.str(), variables_file_, boot_, *variables);
     core_.set_variables(*variables);
   } catch (const std::exception& e) {
-    node_.alarms().raise("storage_failed", static_cast<std::uint32_t>(node_.options().channel), e.what());
+    node_.alarms().raise(alarm::storage_failed, static_cast<std::uint32_t>(node_.options().channel),
+                         e.what());
     std::rename(variables_file_.c_str(), (variables_file_ + ".damaged").c_str());
   }
 }
@@ -147,9 +153,9 @@ void ChannelService::save_variables() {
     if (text == saved_variables_) return;
     storage::replace_file(variables_file_, text);
     saved_variables_ = text;
-    node_.alarms().release("storage_failed", channel);
+    node_.alarms().release(alarm::storage_failed, channel);
   } catch (const storage::StorageError& e) {
-    node_.alarms().raise("storage_failed", channel, e.what());
+    node_.alarms().raise(alarm::storage_failed, channel, e.what());
   }
 }
 
@@ -161,7 +167,7 @@ void ChannelService::change_tables() {
 void ChannelService::start_stream() {
   const auto& p = *parameters_.newest();
   const int frame = static_cast<int>(core_.machine().frame_cycles(node_.options().virtual_time));
-  node_.bus().set_depth({stream::stream_depth(p.integer("stream_lead"), frame, 1)});
+  node_.bus().set_depth({stream::stream_depth(p.integer(parameter::stream_lead), frame, 1)});
   frame_writer_.emplace(node_.bus().writer(topics::path_frame));
   auto& bus = node_.bus();
   present_reader_.emplace(
@@ -195,7 +201,7 @@ void ChannelService::watch_alarms() {
 // Twins: a start waits for both copies; in virtual time no copy is left farther behind than 2 * lead.
 void ChannelService::watch_copies() {
   if (!progress_reader_) return;
-  const double now = node::monotonic_seconds();
+  const double now = service::monotonic_seconds();
   idl::stream::StageProgress progress;
   while (progress_reader_->take(progress))
     if (progress.channel == node_.options().channel) copies_.heard(progress, now);
@@ -203,12 +209,12 @@ void ChannelService::watch_copies() {
   for (const auto& change : copies_.judge(lead, now)) {
     const auto part = stream::copy_part(change.stage, change.copy);
     if (change.lost)
-      node_.alarms().raise("redundancy_lost", part,
+      node_.alarms().raise(alarm::redundancy_lost, part,
                            "Copy " + std::to_string(change.copy) + " of " + stream::stage_name(change.stage) +
                                " was dropped: it makes no progress",
                            core_.link().executed());
     else
-      node_.alarms().clear("redundancy_lost", part);
+      node_.alarms().clear(alarm::redundancy_lost, part);
   }
   core_.set_copies(copies_.may_start(now),
                    node_.options().virtual_time ? copies_.floor() : stream::CopyWatch::everywhere);
@@ -268,7 +274,7 @@ void ChannelService::recover() {
   if (!have_present_) have_present_ = present_reader_->take(present_);
   const bool caught_up = have_present_ && feedback_.tick >= present_.tick &&
                          feedback_.first + feedback_.count >= present_.first + present_.count;
-  if (!caught_up && (have_present_ || node::monotonic_seconds() - last_feedback_ < history_pause)) return;
+  if (!caught_up && (have_present_ || service::monotonic_seconds() - last_feedback_ < history_pause)) return;
   if (hand_over_) core_.take_over(*hand_over_);
   hand_over_.reset();
   core_.recover();
@@ -281,7 +287,7 @@ void ChannelService::pump() {
   if (!frame_writer_) start_stream();
   while (feedback_reader_->take(feedback_)) {
     ++frames_in_;
-    last_feedback_ = node::monotonic_seconds();
+    last_feedback_ = service::monotonic_seconds();
     core_.on_feedback(feedback_);
   }
   recover();
@@ -301,18 +307,18 @@ void ChannelService::pump() {
   watch_text();
   for (const auto& event : core_.take_events()) {
     const auto channel = static_cast<std::uint32_t>(node_.options().channel);
-    if (event.number != 0 && event.alarm.empty()) {
+    if (event.alarm == nullptr) {
       node_.alarms().raise_number(event.number, channel, event.text, core_.link().executed());
     } else {
-      node_.alarms().raise(event.alarm, channel, event.text, core_.link().executed());
-      node_.alarms().release(event.alarm, channel);
+      node_.alarms().raise(*event.alarm, channel, event.text, core_.link().executed());
+      node_.alarms().release(*event.alarm, channel);
     }
   }
   publish();
 }
 
 void ChannelService::publish() {
-  const double now = node::monotonic_seconds();
+  const double now = service::monotonic_seconds();
   if (!changed_ && last_run_ == core_.run_state() && now - last_state_ < 0.05) return;
   state_writer_.write(core_.state());
   last_state_ = now;
@@ -320,9 +326,9 @@ void ChannelService::publish() {
   changed_ = false;
 }
 
-node::Health ChannelService::health() const {
+service::Health ChannelService::health() const {
   using idl::service::Lifecycle;
-  node::Health health;
+  service::Health health;
   const bool tables = have_tools_ && have_offsets_ && have_programs_;
   health.lifecycle = !core_.configured() || !tables ? Lifecycle::UNCONFIGURED
                      : core_.recovered()            ? Lifecycle::ACTIVE

@@ -3,21 +3,21 @@
 #include <map>
 #include <optional>
 
-#include "node/node.hpp"
-#include "node/parameter_client.hpp"
-#include "node/request.hpp"
 #include "record_keeper.hpp"
+#include "service/node.hpp"
+#include "service/parameter_client.hpp"
+#include "service/request.hpp"
 #include "src/channel_core.hpp"
 #include "stream/copy_watch.hpp"
 
 namespace trunnion::channel {
 
-class ChannelService : public node::Service {
+class ChannelService : public service::Service {
  public:
-  explicit ChannelService(node::Node& node);
+  explicit ChannelService(service::Node& node);
   void pump() override;
   double period() const override { return 0.02; }
-  node::Health health() const override;
+  service::Health health() const override;
   void end() override;
 
  private:
@@ -37,12 +37,12 @@ class ChannelService : public node::Service {
   void watch_copies();
   void publish();
 
-  node::Node& node_;
-  node::ParameterClient parameters_;
+  service::Node& node_;
+  service::ParameterClient parameters_;
   ChannelCore core_;
-  node::RequestServer<idl::channel::ChannelRequest, idl::channel::ChannelReply> requests_;
-  node::RequestClient<idl::program::ProgramRequest, idl::program::ProgramReply> program_client_;
-  node::RequestClient<idl::parameters::ParameterRequest, idl::parameters::ParameterReply> table_client_;
+  service::RequestServer<idl::channel::ChannelRequest, idl::channel::ChannelReply> requests_;
+  service::RequestClient<idl::program::ProgramRequest, idl::program::ProgramReply> program_client_;
+  service::RequestClient<idl::parameters::ParameterRequest, idl::parameters::ParameterReply> table_client_;
   bus::Reader<idl::parameters::ToolTable> tools_;
   bus::Reader<idl::parameters::WorkOffsets> offsets_;
   bus::Reader<idl::program::ProgramList> programs_;

@@ -2,5 +2,5 @@
 
 int main(int argc, char** argv) {
   using namespace trunnion;
-  return node::service_main<compensation::CompensationService>(argc, argv, "compensation");
+  return service::service_main<compensation::CompensationService>(argc, argv, "compensation");
 }

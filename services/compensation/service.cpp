@@ -2,7 +2,7 @@
 
 namespace trunnion::compensation {
 
-CompensationService::CompensationService(node::Node& node)
+CompensationService::CompensationService(service::Node& node)
     : StageService(node, stream::stage_compensation, topics::kinematics_frame, topics::compensation_frame,
                    [] { return std::make_unique<CompensationCore>(); }) {}
 

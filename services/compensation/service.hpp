@@ -7,7 +7,7 @@ namespace trunnion::compensation {
 
 class CompensationService : public stream::StageService<idl::stream::AxisFrame> {
  public:
-  explicit CompensationService(node::Node& node);
+  explicit CompensationService(service::Node& node);
 };
 
 }  // namespace trunnion::compensation

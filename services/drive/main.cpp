@@ -2,5 +2,5 @@
 
 int main(int argc, char** argv) {
   using namespace trunnion;
-  return node::service_main<drive::DriveService>(argc, argv, "drive");
+  return service::service_main<drive::DriveService>(argc, argv, "drive");
 }

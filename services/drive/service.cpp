@@ -2,6 +2,9 @@
 
 #include "stream/stage_service.hpp"
 
+#include "machine/alarm_constants.hpp"
+#include "machine/parameter_constants.hpp"
+
 namespace trunnion::drive {
 namespace {
 constexpr double patience = 1.0;           // s of wall time that virtual time waits for a missing setpoint
@@ -16,7 +19,7 @@ std::uint64_t identity(const bus::Reader<T>& reader) {
 }
 }  // namespace
 
-DriveService::DriveService(node::Node& node)
+DriveService::DriveService(service::Node& node)
     : node_(node),
       parameters_(node.bus()),
       encoders_(node.options().state_directory + "/encoders.bin", sizeof(Memory)),
@@ -26,16 +29,18 @@ void DriveService::start() {
   const auto& p = *parameters_.newest();
   configure(p);
   core_.restore(*memory_);
-  frame_cycles_ = static_cast<std::uint32_t>(
-      p.integer(node_.options().virtual_time ? "frame_cycles_virtual_time" : "frame_cycles_real_time"));
-  node_.bus().set_depth({stream::stream_depth(p.integer("stream_lead"), static_cast<int>(frame_cycles_), 1)});
+  frame_cycles_ =
+      static_cast<std::uint32_t>(p.integer(node_.options().virtual_time ? parameter::frame_cycles_virtual_time
+                                                                        : parameter::frame_cycles_real_time));
+  node_.bus().set_depth(
+      {stream::stream_depth(p.integer(parameter::stream_lead), static_cast<int>(frame_cycles_), 1)});
   writer_.emplace(node_.bus().writer(topics::feedback_frame));
   outputs_.emplace(node_.bus().reader(topics::plc_outputs));
   services_.emplace(node_.bus().reader(topics::service_state));
   alarms_.emplace(node_.bus().reader(topics::alarm));
   requests_.emplace(node_.bus().reader(topics::stream_request));
   frames_.emplace(node_.bus().reader(topics::gantry_frame));
-  next_tick_ = node::monotonic_seconds();
+  next_tick_ = service::monotonic_seconds();
   send();
 }
 
@@ -53,7 +58,7 @@ void DriveService::applied(idl::stream::Input input, std::uint64_t identity) {
 void DriveService::drain() {
   using idl::stream::Input;
   if (parameters_.poll() && core_.configured() && !core_.any_active()) configure(*parameters_.newest());
-  const double now = node::monotonic_seconds();
+  const double now = service::monotonic_seconds();
   while (frames_->take(frame_)) {
     ++frames_in_;
     // The revision of the frames that move it is the one the drive runs with.
@@ -61,7 +66,7 @@ void DriveService::drain() {
       if (const auto p = parameters_.find(frame_.revision)) {
         configure(*p);
       } else {
-        node_.alarms().raise("revision_unknown", frame_.channel,
+        node_.alarms().raise(alarm::revision_unknown, frame_.channel,
                              "Frames are made with parameter revision " + std::to_string(frame_.revision) +
                                  ", which has not arrived",
                              frame_.first);
@@ -103,13 +108,13 @@ void DriveService::drain() {
   last_drain_ = now;
   // An emergency stop is also the drive's own reaction to the silence of the one who could order it.
   if (have_plc_ && now - plc_seen_ > plc_patience) {
-    node_.alarms().raise("plc_absent", 0, "No sign of the PLC for " + std::to_string(plc_patience) + " s",
-                         core_.next());
+    node_.alarms().raise(alarm::plc_absent, 0,
+                         "No sign of the PLC for " + std::to_string(plc_patience) + " s", core_.next());
     core_.set_enables({}, true);
     have_plc_ = false;
     changed_ = true;
   } else if (have_plc_) {
-    node_.alarms().release("plc_absent", 0);
+    node_.alarms().release(alarm::plc_absent, 0);
   }
 }
 
@@ -120,14 +125,14 @@ void DriveService::send() {
   writer_->write(feedback_);
   ++frames_out_;
   *memory_ = core_.memory();
-  last_sent_ = node::monotonic_seconds();
+  last_sent_ = service::monotonic_seconds();
   changed_ = false;
 }
 
 void DriveService::run_virtual() {
   bool give_up = false;
   if (core_.waiting()) {
-    const double now = node::monotonic_seconds();
+    const double now = service::monotonic_seconds();
     if (waiting_since_ == 0) waiting_since_ = now;
     give_up = now - waiting_since_ > patience;
   } else {
@@ -149,7 +154,7 @@ void DriveService::run_virtual() {
 }
 
 void DriveService::run_real() {
-  const double now = node::monotonic_seconds();
+  const double now = service::monotonic_seconds();
   if (now - next_tick_ > 0.5) next_tick_ = now;  // suspended: time that nobody lived through is not made up
   while (next_tick_ <= now) {
     core_.step();
@@ -170,20 +175,20 @@ void DriveService::pump() {
   else
     run_real();
   for (const auto& event : core_.take_events()) {
-    node_.alarms().raise(event.alarm, event.part, event.text, core_.next());
-    node_.alarms().release(event.alarm, event.part);
+    node_.alarms().raise(*event.alarm, event.part, event.text, core_.next());
+    node_.alarms().release(*event.alarm, event.part);
   }
-  if (changed_ || mode != core_.mode() || node::monotonic_seconds() - last_sent_ > idle_feedback) send();
+  if (changed_ || mode != core_.mode() || service::monotonic_seconds() - last_sent_ > idle_feedback) send();
 }
 
 double DriveService::period() const {
   if (!core_.configured() || node_.options().virtual_time) return 0.02;
-  return std::max(0.0, next_tick_ - node::monotonic_seconds());
+  return std::max(0.0, next_tick_ - service::monotonic_seconds());
 }
 
-node::Health DriveService::health() const {
+service::Health DriveService::health() const {
   using idl::service::Lifecycle;
-  node::Health health;
+  service::Health health;
   health.lifecycle = !core_.configured() ? Lifecycle::UNCONFIGURED
                      : have_plc_         ? Lifecycle::ACTIVE
                                          : Lifecycle::INACTIVE;

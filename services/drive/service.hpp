@@ -2,19 +2,19 @@
 
 #include <optional>
 
-#include "node/node.hpp"
-#include "node/parameter_client.hpp"
+#include "service/node.hpp"
+#include "service/parameter_client.hpp"
 #include "src/drive_core.hpp"
 #include "storage/mapped_file.hpp"
 
 namespace trunnion::drive {
 
-class DriveService : public node::Service {
+class DriveService : public service::Service {
  public:
-  explicit DriveService(node::Node& node);
+  explicit DriveService(service::Node& node);
   void pump() override;
   double period() const override;
-  node::Health health() const override;
+  service::Health health() const override;
   void alarms_reset() override { core_.acknowledge(); }
 
  private:
@@ -26,8 +26,8 @@ class DriveService : public node::Service {
   void applied(idl::stream::Input input, std::uint64_t identity);
   void configure(const machine::Parameters& parameters);
 
-  node::Node& node_;
-  node::ParameterClient parameters_;
+  service::Node& node_;
+  service::ParameterClient parameters_;
   storage::MappedFile encoders_;  ///< as an absolute encoder would, it survives kill -9 of the process
   Memory* memory_;
   DriveCore core_;

@@ -2,5 +2,5 @@
 
 int main(int argc, char** argv) {
   using namespace trunnion;
-  return node::service_main<gantry::GantryService>(argc, argv, "gantry");
+  return service::service_main<gantry::GantryService>(argc, argv, "gantry");
 }

@@ -3,9 +3,12 @@
 #include <cmath>
 #include <cstdio>
 
+#include "machine/alarm_constants.hpp"
+#include "machine/parameter_constants.hpp"
+
 namespace trunnion::gantry {
 
-GantryService::GantryService(node::Node& node)
+GantryService::GantryService(service::Node& node)
     : StageService(node, stream::stage_gantry, topics::compensation_frame, topics::gantry_frame,
                    [] { return std::make_unique<GantryCore>(); }) {}
 
@@ -20,11 +23,11 @@ void GantryService::on_feedback(const idl::stream::FeedbackFrame& feedback) {
     if (static_cast<std::size_t>(std::max(pair.master_column, pair.slave_column)) >= feedback.axis_count)
       continue;
     const double error = synchronization_error(pair, feedback.position.data());
-    const auto supervise = [&](const char* alarm, double limit) {
+    const auto supervise = [&](const machine::AlarmDefinition& alarm, const machine::RealParameter& parameter,
+                               double limit) {
       if (limit > 0 && std::abs(error) > limit) {
         char text[160];
-        const auto number = machine::number_text(100000 + pair.slave * 1000u +
-                                                 (std::string(alarm) == "synchronization_error" ? 107 : 106));
+        const auto number = machine::number_text(parameter.number(pair.slave));
         std::snprintf(text, sizeof text,
                       "Axis %d is %.4f mm off its master axis %d, limit %.4f mm (parameter %s)", pair.slave,
                       error, pair.master, limit, number.c_str());
@@ -34,8 +37,8 @@ void GantryService::on_feedback(const idl::stream::FeedbackFrame& feedback) {
         node_.alarms().release(alarm, pair.slave);
       }
     };
-    supervise("synchronization_warning", pair.warning);
-    supervise("synchronization_error", pair.limit);
+    supervise(alarm::synchronization_warning, parameter::synchronization_warning_limit, pair.warning);
+    supervise(alarm::synchronization_error, parameter::synchronization_error_limit, pair.limit);
   }
 }
 

@@ -8,7 +8,7 @@ namespace trunnion::gantry {
 /// Besides the stage: supervises the synchronization error of every pair in the drive's feedback.
 class GantryService : public stream::StageService<idl::stream::AxisFrame> {
  public:
-  explicit GantryService(node::Node& node);
+  explicit GantryService(service::Node& node);
 
  protected:
   bool needs_feedback() const override { return true; }

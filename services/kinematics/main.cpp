@@ -2,5 +2,5 @@
 
 int main(int argc, char** argv) {
   using namespace trunnion;
-  return node::service_main<kinematics::KinematicsService>(argc, argv, "kinematics");
+  return service::service_main<kinematics::KinematicsService>(argc, argv, "kinematics");
 }

@@ -2,7 +2,7 @@
 
 namespace trunnion::kinematics {
 
-KinematicsService::KinematicsService(node::Node& node)
+KinematicsService::KinematicsService(service::Node& node)
     : StageService(node, stream::stage_kinematics, topics::path_frame, topics::kinematics_frame,
                    [] { return std::make_unique<KinematicsCore>(); }) {}
 

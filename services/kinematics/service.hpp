@@ -7,7 +7,7 @@ namespace trunnion::kinematics {
 
 class KinematicsService : public stream::StageService<idl::stream::PathFrame> {
  public:
-  explicit KinematicsService(node::Node& node);
+  explicit KinematicsService(service::Node& node);
 };
 
 }  // namespace trunnion::kinematics

@@ -2,5 +2,5 @@
 
 int main(int argc, char** argv) {
   using namespace trunnion;
-  return node::service_main<parameters::ParameterService>(argc, argv, "parameters");
+  return service::service_main<parameters::ParameterService>(argc, argv, "parameters");
 }

@@ -3,24 +3,24 @@
 #include <optional>
 
 #include "file_storage.hpp"
-#include "node/comparison_clock.hpp"
-#include "node/node.hpp"
 #include "parameter_store.hpp"
+#include "service/comparison_clock.hpp"
+#include "service/node.hpp"
 
 namespace trunnion::parameters {
 
 /// The keeper of parameters as long as another one is the cluster's: it reads the same files and compares
 /// what it would publish with what the other has published. It writes nothing.
-class RehearsalService : public node::Service {
+class RehearsalService : public service::Service {
  public:
-  explicit RehearsalService(node::Node& node);
+  explicit RehearsalService(service::Node& node);
   void pump() override;
-  node::Health health() const override { return clock_.health(); }
+  service::Health health() const override { return clock_.health(); }
 
  private:
   std::string difference();
 
-  node::Node& node_;
+  service::Node& node_;
   FileStorage storage_;
   bus::Reader<idl::parameters::ParameterSet> set_reader_;
   bus::Reader<idl::parameters::ToolTable> tools_reader_;
@@ -28,7 +28,7 @@ class RehearsalService : public node::Service {
   std::optional<idl::parameters::ParameterSet> set_;
   std::optional<idl::parameters::ToolTable> tools_;
   std::optional<idl::parameters::WorkOffsets> offsets_;
-  node::ComparisonClock clock_;
+  service::ComparisonClock clock_;
 };
 
 }  // namespace trunnion::parameters

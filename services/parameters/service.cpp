@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "machine/alarms.hpp"
+#include "machine/alarm_constants.hpp"
 
 namespace trunnion::parameters {
 MachineDefaults defaults_of(const machine::MachineConfig& machine) {
@@ -10,10 +10,12 @@ MachineDefaults defaults_of(const machine::MachineConfig& machine) {
   defaults.values = machine::machine_parameters(machine);
   FileStorage files(machine.directory);
   std::uint64_t revision = 0;
-  if (const auto text = files.read(setup::tools_file))
-    defaults.tools = setup::read_tools(*text, machine.directory + "/" + setup::tools_file, revision);
-  if (const auto text = files.read(setup::offsets_file))
-    defaults.offsets = setup::read_offsets(*text, machine.directory + "/" + setup::offsets_file, revision);
+  if (const auto text = files.read(tool_tables::tools_file))
+    defaults.tools =
+        tool_tables::read_tools(*text, machine.directory + "/" + tool_tables::tools_file, revision);
+  if (const auto text = files.read(tool_tables::offsets_file))
+    defaults.offsets =
+        tool_tables::read_offsets(*text, machine.directory + "/" + tool_tables::offsets_file, revision);
   return defaults;
 }
 
@@ -26,7 +28,7 @@ std::string make_directory(const std::string& path) {
 
 }  // namespace
 
-ParameterService::ParameterService(node::Node& node)
+ParameterService::ParameterService(service::Node& node)
     : node_(node),
       storage_(make_directory(node.options().state_directory)),
       store_(storage_, defaults_of(node.options().machine), storage_.read("cluster.boot").value_or("")),
@@ -51,24 +53,24 @@ void ParameterService::pump() {
     try {
       store_.channel_reset_count(state.channel, state.reset_count);
     } catch (const StorageError& e) {
-      node_.alarms().raise("storage_failed", 0, e.what(), state.cycle);
+      node_.alarms().raise(alarm::storage_failed, 0, e.what(), state.cycle);
     }
     publish();
   }
   idl::parameters::ParameterRequest request;
   while (requests_.take(request)) {
-    const auto reply = store_.apply(request, node::time_of_day());
+    const auto reply = store_.apply(request, service::time_of_day());
     if (reply.accepted)
-      node_.alarms().release("storage_failed", 0);
-    else if (reply.alarm == machine::alarm_definition("storage_failed").number)
-      node_.alarms().raise("storage_failed", 0, reply.reason);
+      node_.alarms().release(alarm::storage_failed, 0);
+    else if (reply.alarm == alarm::storage_failed.number)
+      node_.alarms().raise(alarm::storage_failed, 0, reply.reason);
     publish();
     requests_.reply(request, reply);
   }
 }
 
-node::Health ParameterService::health() const {
-  node::Health health;
+service::Health ParameterService::health() const {
+  service::Health health;
   health.lifecycle = idl::service::Lifecycle::ACTIVE;
   health.revision = store_.revision();
   return health;

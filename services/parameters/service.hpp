@@ -1,10 +1,10 @@
 #pragma once
 
 #include "file_storage.hpp"
-#include "node/node.hpp"
-#include "node/request.hpp"
 #include "parameter_store.hpp"
 #include "rehearsal_service.hpp"
+#include "service/node.hpp"
+#include "service/request.hpp"
 
 namespace trunnion::parameters {
 
@@ -12,26 +12,26 @@ namespace trunnion::parameters {
 /// file:line:column.
 MachineDefaults defaults_of(const machine::MachineConfig& machine);
 
-class ParameterService : public node::Service {
+class ParameterService : public service::Service {
  public:
   /// What it does while it is a shadow.
   using Rehearsal = RehearsalService;
 
-  explicit ParameterService(node::Node& node);
+  explicit ParameterService(service::Node& node);
   void pump() override;
-  node::Health health() const override;
+  service::Health health() const override;
 
  private:
   void publish();
 
-  node::Node& node_;
+  service::Node& node_;
   FileStorage storage_;
   ParameterStore store_;
   bus::Writer<idl::parameters::ParameterSet> set_;
   bus::Writer<idl::parameters::ToolTable> tools_;
   bus::Writer<idl::parameters::WorkOffsets> offsets_;
   bus::Reader<idl::channel::ChannelState> channels_;
-  node::RequestServer<idl::parameters::ParameterRequest, idl::parameters::ParameterReply> requests_;
+  service::RequestServer<idl::parameters::ParameterRequest, idl::parameters::ParameterReply> requests_;
 };
 
 }  // namespace trunnion::parameters

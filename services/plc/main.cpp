@@ -2,5 +2,5 @@
 
 int main(int argc, char** argv) {
   using namespace trunnion;
-  return node::service_main<plc::PlcService>(argc, argv, "plc");
+  return service::service_main<plc::PlcService>(argc, argv, "plc");
 }

@@ -7,7 +7,7 @@ namespace {
 
 constexpr int most_at_once = 1000;  // rounds between two signs of life
 
-PlcCore with_programs(const node::Node& node) {
+PlcCore with_programs(const service::Node& node) {
   PlcCore core;
   load_programs(node.options().machine.plc_directory(), core);
   return core;
@@ -15,7 +15,7 @@ PlcCore with_programs(const node::Node& node) {
 
 }  // namespace
 
-RehearsalService::RehearsalService(node::Node& node)
+RehearsalService::RehearsalService(service::Node& node)
     : parameters_(node.bus()),
       rehearsal_(with_programs(node), node.options().virtual_time,
                  [this](std::uint64_t revision) { return parameters_.find(revision); }),
@@ -44,14 +44,13 @@ void RehearsalService::pump() {
   rounds_.ask();
 }
 
-node::Health RehearsalService::health() const {
-  node::Health health;
+service::Health RehearsalService::health() const {
+  service::Health health;
   health.lifecycle = idl::service::Lifecycle::INACTIVE;
-  health.detail =
-      rehearsal_.difference().empty() ? node::shadow_detail : node::differs_detail + rehearsal_.difference();
+  health.difference = rehearsal_.difference();
+  health.compared = rehearsal_.equal_ticks();
   health.in_step = rehearsal_.in_step();
   health.frames_in = rounds_in_;
-  health.frames_out = rehearsal_.equal_ticks();
   health.frames_lost = rounds_lost_;
   return health;
 }

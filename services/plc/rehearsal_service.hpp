@@ -1,23 +1,23 @@
 #pragma once
 
-#include "node/node.hpp"
-#include "node/parameter_client.hpp"
 #include "rehearsal.hpp"
 #include "round_link.hpp"
+#include "service/node.hpp"
+#include "service/parameter_client.hpp"
 
 namespace trunnion::plc {
 
-/// The PLC as long as another one is the machine's: it repeats in private what that one does and says in its
-/// heartbeat how many ticks were equal (frames_out) and what was not (detail). It writes nothing else.
-class RehearsalService : public node::Service {
+/// The PLC as long as another one is the machine's: it repeats in private what that one does and reports in
+/// its heartbeat how many ticks were equal and what was not. It writes nothing else.
+class RehearsalService : public service::Service {
  public:
   /// Throws what load_programs() and RoundReader throw.
-  explicit RehearsalService(node::Node& node);
+  explicit RehearsalService(service::Node& node);
   void pump() override;
-  node::Health health() const override;
+  service::Health health() const override;
 
  private:
-  node::ParameterClient parameters_;
+  service::ParameterClient parameters_;
   Rehearsal rehearsal_;
   RoundReader rounds_;
   bus::Bytes bytes_;

@@ -6,6 +6,8 @@
 #include <iostream>
 #include <sstream>
 
+#include "machine/alarm_constants.hpp"
+#include "machine/parameter_constants.hpp"
 #include "program_files.hpp"
 
 namespace trunnion::plc {
@@ -32,7 +34,7 @@ std::string in_directory(const std::string& directory, const char* name) {
 
 }  // namespace
 
-PlcService::PlcService(node::Node& node)
+PlcService::PlcService(service::Node& node)
     : node_(node),
       retained_(in_directory(node.options().state_directory, "plc.image")),
       boot_(read_file(node.options().state_directory + "/cluster.boot").substr(0, 63)),
@@ -60,13 +62,13 @@ PlcService::PlcService(node::Node& node)
   } catch (const std::runtime_error& e) {
     fault_ = e.what();
     std::cerr << fault_ << "\n";
-    node_.alarms().raise("plc_program", 0, fault_);
+    node_.alarms().raise(alarm::plc_program, 0, fault_);
   }
 }
 
 void PlcService::begin_round() {
   if (!core_.configured()) return;
-  const auto generation = round_writer_.wanted(node::monotonic_seconds());
+  const auto generation = round_writer_.wanted(service::monotonic_seconds());
   if (!rounds_.begin_round(generation, core_, parameters_.newest()->revision)) return;
   bus::encode(rounds_.first_round(), round_bytes_);
   round_writer_.write(round_bytes_);
@@ -85,7 +87,7 @@ void PlcService::advance(std::uint64_t tick) {
 
 void PlcService::applied(idl::stream::Input input, std::int64_t source_time) {
   inputs_.applied.push_back({input, core_.memory().tick, static_cast<std::uint64_t>(source_time)});
-  if (inputs_.applied.size() == most_applied) tell_inputs(node::monotonic_seconds());
+  if (inputs_.applied.size() == most_applied) tell_inputs(service::monotonic_seconds());
 }
 
 void PlcService::tell_inputs(double now) {
@@ -108,7 +110,7 @@ void PlcService::take_inputs() {
     advance(node_.options().virtual_time ? frame_.tick : std::max(frame_.tick, core_.memory().tick));
     if (frame_.tick != tick_) {
       tick_ = frame_.tick;
-      tick_seen_ = node::monotonic_seconds();
+      tick_seen_ = service::monotonic_seconds();
     }
   }
   idl::channel::ChannelState state;
@@ -161,11 +163,11 @@ void PlcService::pump() {
   if (parameters_.poll()) {
     core_.configure(*parameters_.newest(), node_.options().virtual_time);
     rounds_.told(StepKind::parameters, parameters_.newest()->revision);
-    period_ = parameters_.newest()->integer("interpolation_cycle") * 1e-6;
+    period_ = parameters_.newest()->integer(parameter::interpolation_cycle) * 1e-6;
   }
   take_inputs();
   if (!core_.configured()) return;
-  const double now = node::monotonic_seconds();
+  const double now = service::monotonic_seconds();
   if (!core_.waits_for_standstill()) {
     waiting_since_ = 0;
   } else if (waiting_since_ == 0) {
@@ -200,17 +202,19 @@ void PlcService::publish(double now) {
   end_round(finished);
   for (const auto& done : finished) {
     if (done.failed)
-      node_.alarms().raise("auxiliary_refused", done.channel, "An auxiliary function was not carried out",
+      node_.alarms().raise(alarm::auxiliary_refused, done.channel,
+                           "An auxiliary function was not carried out",
                            core_.memory().handshakes[done.channel].cycle);
-    node_.alarms().release("auxiliary_refused", done.channel);
+    node_.alarms().release(alarm::auxiliary_refused, done.channel);
     done_.write(done);
   }
   first_ = false;
   if (fault_.empty()) {
     if (core_.emergency_stop())
-      node_.alarms().raise("emergency_stop", 0, "Emergency stop: release the button and reset", outputs.tick);
+      node_.alarms().raise(alarm::emergency_stop, 0, "Emergency stop: release the button and reset",
+                           outputs.tick);
     else
-      node_.alarms().clear("emergency_stop", 0);
+      node_.alarms().clear(alarm::emergency_stop, 0);
   }
   if (now - image_written_ >= image_period) {
     auto image = core_.image();
@@ -221,9 +225,9 @@ void PlcService::publish(double now) {
   }
 }
 
-node::Health PlcService::health() const {
+service::Health PlcService::health() const {
   using idl::service::Lifecycle;
-  node::Health health;
+  service::Health health;
   health.lifecycle = !fault_.empty()       ? Lifecycle::FAULT
                      : !core_.configured() ? Lifecycle::UNCONFIGURED
                                            : Lifecycle::ACTIVE;

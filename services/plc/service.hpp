@@ -4,27 +4,27 @@
 #include <optional>
 #include <tuple>
 
-#include "node/node.hpp"
-#include "node/parameter_client.hpp"
-#include "node/request.hpp"
 #include "plc_core.hpp"
 #include "rehearsal_service.hpp"
 #include "retained_memory.hpp"
 #include "round_recorder.hpp"
+#include "service/node.hpp"
+#include "service/parameter_client.hpp"
+#include "service/request.hpp"
 
 namespace trunnion::plc {
 
-class PlcService : public node::Service {
+class PlcService : public service::Service {
  public:
   /// What it does while it is a shadow.
   using Rehearsal = RehearsalService;
 
-  explicit PlcService(node::Node& node);
+  explicit PlcService(service::Node& node);
   void pump() override;
   double period() const override {
     return node_.options().virtual_time && inputs_.tick == core_.memory().tick ? 0.05 : 0.01;
   }
-  node::Health health() const override;
+  service::Health health() const override;
   void alarms_reset() override {
     core_.press_reset();
     rounds_.told(StepKind::reset);
@@ -40,10 +40,10 @@ class PlcService : public node::Service {
   void applied(idl::stream::Input input, std::int64_t source_time);
   void tell_inputs(double now);
 
-  node::Node& node_;
+  service::Node& node_;
   RetainedMemory retained_;
   std::string boot_, fault_;
-  node::ParameterClient parameters_;
+  service::ParameterClient parameters_;
   PlcCore core_;
   RoundRecorder rounds_;
   RoundWriter round_writer_;
@@ -56,7 +56,7 @@ class PlcService : public node::Service {
   bus::Writer<idl::plc::AuxiliaryDone> done_;
   bus::Writer<idl::plc::Image> image_;
   bus::Writer<idl::stream::InputLog> log_;
-  node::RequestServer<idl::plc::PanelRequest, idl::plc::PanelReply> panel_;
+  service::RequestServer<idl::plc::PanelRequest, idl::plc::PanelReply> panel_;
 
   std::map<std::tuple<std::uint32_t, std::uint32_t, std::uint32_t>, idl::service::Alarm> active_alarms_;
   idl::stream::FeedbackFrame frame_;

@@ -2,5 +2,5 @@
 
 int main(int argc, char** argv) {
   using namespace trunnion;
-  return node::service_main<program::ProgramService>(argc, argv, "program");
+  return service::service_main<program::ProgramService>(argc, argv, "program");
 }

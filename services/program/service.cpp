@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <iostream>
 
-#include "machine/alarms.hpp"
+#include "machine/alarm_constants.hpp"
 
 namespace trunnion::program {
 namespace {
@@ -15,7 +15,7 @@ std::string make_directory(const std::string& path) {
 
 }  // namespace
 
-ProgramService::ProgramService(node::Node& node)
+ProgramService::ProgramService(service::Node& node)
     : node_(node),
       programs_(make_directory(node.options().state_directory + "/programs")),
       state_(node.options().state_directory),
@@ -36,27 +36,27 @@ ProgramService::ProgramService(node::Node& node)
 }
 
 void ProgramService::pump() {
-  const double now = node::monotonic_seconds();
+  const double now = service::monotonic_seconds();
   idl::program::ProgramRequest request;
   while (requests_.take(request)) {
     auto reply = store_.apply(request, now);
-    if (reply.alarm == machine::alarm_definition("storage_failed").number)
-      node_.alarms().raise("storage_failed", 0, reply.reason);
+    if (reply.alarm == alarm::storage_failed.number)
+      node_.alarms().raise(alarm::storage_failed, 0, reply.reason);
     else if (reply.accepted)
-      node_.alarms().release("storage_failed", 0);
+      node_.alarms().release(alarm::storage_failed, 0);
     if (store_.take_change()) list_.write(store_.list());
     requests_.reply(request, std::move(reply));
   }
   try {
     store_.drop_stale_uploads(now);
   } catch (const StorageError& e) {
-    node_.alarms().raise("storage_failed", 0, e.what());
+    node_.alarms().raise(alarm::storage_failed, 0, e.what());
   }
   if (store_.take_change()) list_.write(store_.list());
 }
 
-node::Health ProgramService::health() const {
-  node::Health health;
+service::Health ProgramService::health() const {
+  service::Health health;
   health.lifecycle = idl::service::Lifecycle::ACTIVE;
   return health;
 }

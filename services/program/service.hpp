@@ -3,30 +3,30 @@
 #include <optional>
 
 #include "directory_files.hpp"
-#include "node/node.hpp"
-#include "node/request.hpp"
 #include "program_store.hpp"
 #include "rehearsal_service.hpp"
+#include "service/node.hpp"
+#include "service/request.hpp"
 
 namespace trunnion::program {
 
-class ProgramService : public node::Service {
+class ProgramService : public service::Service {
  public:
   /// What it does while it is a shadow.
   using Rehearsal = RehearsalService;
 
-  explicit ProgramService(node::Node& node);
+  explicit ProgramService(service::Node& node);
   void pump() override;
   double period() const override { return 0.25; }
-  node::Health health() const override;
+  service::Health health() const override;
 
  private:
-  node::Node& node_;
+  service::Node& node_;
   DirectoryFiles programs_, state_;
   std::optional<DirectoryFiles> cycles_;
   ProgramStore store_;
   bus::Writer<idl::program::ProgramList> list_;
-  node::RequestServer<idl::program::ProgramRequest, idl::program::ProgramReply> requests_;
+  service::RequestServer<idl::program::ProgramRequest, idl::program::ProgramReply> requests_;
 };
 
 }  // namespace trunnion::program

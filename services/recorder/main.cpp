@@ -3,8 +3,8 @@
 #include <iostream>
 #include <vector>
 
-#include "node/network.hpp"
 #include "service.hpp"
+#include "service/network.hpp"
 
 namespace {
 // In the order of trunnion::service::Severity.
@@ -20,7 +20,7 @@ int main(int argc, char** argv) {
   app.add_option("--topics", options.topics, "Handles or names of topics, separated by commas (default: all)")
       ->delimiter(',');
   app.add_option("--domain", options.network.domain, "DDS domain, 0 .. 100")->check(CLI::Range(0, 100));
-  node::add_network_options(app, options.network);
+  service::add_network_options(app, options.network);
   app.add_option_function<std::string>(
          "--vendor", [&options](const std::string& name) { options.vendor = bus::vendor_from(name); },
          "DDS vendor: fastdds or cyclonedds")

@@ -18,9 +18,9 @@
 #include "contracts/topics.hpp"
 #include "flight_recorder.hpp"
 #include "message_queue.hpp"
-#include "node/node.hpp"
 #include "part_files.hpp"
-#include "replay/stream_tally.hpp"
+#include "recording/stream_tally.hpp"
+#include "service/node.hpp"
 #include "topic_source.hpp"
 
 namespace trunnion::recorder {
@@ -134,7 +134,7 @@ class FileThread {
           nanoseconds_since_epoch());
     else
       destination_ =
-          std::make_unique<PartFiles>(options.output, header, options.parts, node::monotonic_seconds());
+          std::make_unique<PartFiles>(options.output, header, options.parts, service::monotonic_seconds());
     thread_ = std::thread([this] { run(); });
   }
   ~FileThread() { join(); }
@@ -146,14 +146,14 @@ class FileThread {
     if (thread_.joinable()) thread_.join();
   }
   /// After join().
-  const replay::StreamTally& tally() const { return tally_; }
+  const recording::StreamTally& tally() const { return tally_; }
   const Destination& destination() const { return *destination_; }
 
  private:
   void run() {
     std::vector<Message> messages;
     while (queue_.pop_all(messages, 0.2)) {
-      const double now = node::monotonic_seconds();
+      const double now = service::monotonic_seconds();
       for (auto& message : messages) {
         tally_.add(topics_[message.topic]->handle, message.cdr);
         destination_->take(message, now);
@@ -161,7 +161,7 @@ class FileThread {
       destination_->idle(now);
       tell();
     }
-    destination_->finish(node::monotonic_seconds());
+    destination_->finish(service::monotonic_seconds());
     tell();
   }
 
@@ -184,7 +184,7 @@ class FileThread {
   const std::vector<const bus::TopicEntry*>& topics_;
   MessageQueue& queue_;
   std::unique_ptr<Destination> destination_;
-  replay::StreamTally tally_;
+  recording::StreamTally tally_;
   std::size_t told_ = 0;
   bool reported_ = false;
   std::thread thread_;
@@ -201,7 +201,7 @@ void wait_for_writers(bus::Bus& bus, Sources& sources, MessageQueue& queue) {
   idl::service::Cluster cluster;
   idl::service::ServiceState state;
   std::set<std::uint32_t> heard;
-  const double began = node::monotonic_seconds();
+  const double began = service::monotonic_seconds();
   while (stop_requested == 0) {
     sources.drain(queue);
     while (clusters.take(cluster)) {
@@ -213,7 +213,7 @@ void wait_for_writers(bus::Bus& bus, Sources& sources, MessageQueue& queue) {
                     [&](const auto& service) { return heard.count(service.instance) != 0; });
     const bool matched = sources.all_have_writers();
     if (known && all_heard && matched && sources.feedback_has_come()) return;
-    const double waited = node::monotonic_seconds() - began;
+    const double waited = service::monotonic_seconds() - began;
     if (waited > (known ? cluster_seconds : match_seconds) ||
         (!known && matched && waited > match_seconds / 2))
       return;
@@ -246,7 +246,7 @@ void print_summary(const Options& options, const FileThread& thread, const Losse
           {{"file", file.path}, {"bytes", file.bytes}, {"messages", file.messages}, {"because", file.why}});
     for (const auto& [handle, count] : tally.messages_by_topic())
       summary["topics"][handle]["messages"] = count;
-    for (const auto& handle : replay::StreamTally::cyclic()) {
+    for (const auto& handle : recording::StreamTally::cyclic()) {
       if (tally.cycles(handle) == 0) continue;
       summary["topics"][handle]["cycles"] = tally.cycles(handle);
       summary["topics"][handle]["lost_cycles"] = tally.lost(handle);
@@ -262,7 +262,7 @@ void print_summary(const Options& options, const FileThread& thread, const Losse
   else
     std::cout << bytes << " bytes"
               << (options.parts.any() ? " in " + std::to_string(files.size()) + " parts" : "") << "\n";
-  for (const auto& handle : replay::StreamTally::cyclic())
+  for (const auto& handle : recording::StreamTally::cyclic())
     if (tally.cycles(handle) != 0)
       std::cout << "  " << handle << ": " << tally.cycles(handle) << " cycles, " << tally.lost(handle)
                 << " lost\n";
@@ -298,10 +298,10 @@ int record(const Options& options) {
   sources->begin(bus::source_time());
   std::cout << "recording " << options.output << std::endl;
 
-  const double started = node::monotonic_seconds();
+  const double started = service::monotonic_seconds();
   std::uint64_t told = 0;
   while (stop_requested == 0 &&
-         (options.duration <= 0 || node::monotonic_seconds() - started < options.duration)) {
+         (options.duration <= 0 || service::monotonic_seconds() - started < options.duration)) {
     if (sources->drain(queue)) {
       if (queue.dropped() != 0 && told == 0) {
         told = queue.dropped();
@@ -311,8 +311,8 @@ int record(const Options& options) {
     std::this_thread::sleep_for(pause);
   }
   // What has arrived by now belongs to the recording; a stream in full flow does not keep us for ever.
-  const double until = node::monotonic_seconds() + 2;
-  while (sources->drain(queue) && node::monotonic_seconds() < until) {
+  const double until = service::monotonic_seconds() + 2;
+  while (sources->drain(queue) && service::monotonic_seconds() < until) {
   }
   const Losses losses{queue.dropped(), sources->overwritten()};
   sources.reset();

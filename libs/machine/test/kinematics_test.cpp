@@ -4,6 +4,7 @@
 
 #include <random>
 
+#include "machine/alarm_constants.hpp"
 #include "machine/chain_section.hpp"
 #include "machine/machine.hpp"
 #include "machine/yaml.hpp"
@@ -25,11 +26,11 @@ Parameters ac_table() {
   return with({{40425, 35}, {40426, -1}, {40431, -1}, {40433, 0.1028}, {40435, -200}, {40437, -516}});
 }
 
-std::string error_of(const Parameters& p, std::string* alarm = nullptr) {
+std::string error_of(const Parameters& p, const AlarmDefinition** raised = nullptr) {
   try {
     make_chain(p, 0);
   } catch (const KinematicsError& e) {
-    if (alarm != nullptr) *alarm = e.alarm();
+    if (raised != nullptr) *raised = &e.alarm();
     return e.what();
   }
   return "";
@@ -59,25 +60,25 @@ TEST(Sign, a_positive_head_angle_turns_the_tool_about_the_positive_axis) {
 }
 
 TEST(Kinematics, faulty_parameters_have_an_alarm_each_and_a_line_that_names_them) {
-  std::string alarm;
+  const AlarmDefinition* raised = nullptr;
   auto p = ac_table();
   p.values[40426] = {0, ""};
-  EXPECT_EQ(error_of(p, &alarm), "channel 0, parameters 040426 .. 040428: the direction of an axis is zero");
-  EXPECT_EQ(alarm, "kinematics_zero_direction");
+  EXPECT_EQ(error_of(p, &raised), "channel 0, parameters 040426 .. 040428: the direction of an axis is zero");
+  EXPECT_EQ(raised, &alarm::kinematics_zero_direction);
   p = ac_table();
   p.values[40426] = {0, ""};
   p.values[40428] = {1, ""};
-  EXPECT_EQ(error_of(p, &alarm), "channel 0, parameters 040400 .. 040437: the rotary axes are parallel");
-  EXPECT_EQ(alarm, "kinematics_parallel_axes");
+  EXPECT_EQ(error_of(p, &raised), "channel 0, parameters 040400 .. 040437: the rotary axes are parallel");
+  EXPECT_EQ(raised, &alarm::kinematics_parallel_axes);
   p = ac_table();
   p.values[40435] = {std::numeric_limits<double>::quiet_NaN(), ""};
-  EXPECT_EQ(error_of(p, &alarm), "channel 0, parameters 040400 .. 040437: a value is not finite");
-  EXPECT_EQ(alarm, "kinematics_not_finite");
+  EXPECT_EQ(error_of(p, &raised), "channel 0, parameters 040400 .. 040437: a value is not finite");
+  EXPECT_EQ(raised, &alarm::kinematics_not_finite);
   p = ac_table();
   p.values[40425] = {39, ""};
-  EXPECT_EQ(error_of(p, &alarm),
+  EXPECT_EQ(error_of(p, &raised),
             "parameter 040425 (table_type): digit 9 is not 3 (A), 4 (B), 5 (C), 6 (U), 7 (V) or 8 (W)");
-  EXPECT_EQ(alarm, "kinematics_invalid");
+  EXPECT_EQ(raised, &alarm::kinematics_invalid);
   p = ac_table();
   p.values[40425] = {33, ""};
   EXPECT_EQ(error_of(p), "channel 0, parameters 040400 .. 040437: two rotary axes have the same letter");
@@ -174,11 +175,11 @@ TEST(Chains, carried_linear_axes_are_parameters_and_give_the_same_bits) {
   for (const std::uint32_t number : {40100, 40403, 40904, 40908, 40950, 40989, 40990, 100006})
     EXPECT_FALSE(is_chain_parameter(number)) << number;
   p.values[40907] = {2, ""};
-  std::string alarm;
-  EXPECT_EQ(error_of(p, &alarm),
+  const AlarmDefinition* raised = nullptr;
+  EXPECT_EQ(error_of(p, &raised),
             "channel 0, parameters 040905 .. 040907: a linear axis is carried by more rotary axes than its "
             "side has");
-  EXPECT_EQ(alarm, "kinematics_invalid");
+  EXPECT_EQ(raised, &alarm::kinematics_invalid);
 }
 
 // The C axis stands at X-200.3605, so C180 takes the point X0 Y0 to; with a correction of X0.5 it

@@ -7,6 +7,7 @@
 #include "machine/axes.hpp"
 #include "machine/chain_section.hpp"
 #include "machine/machine.hpp"
+#include "machine/parameter_constants.hpp"
 #include "machine/yaml.hpp"
 
 namespace trunnion::machine {
@@ -35,12 +36,12 @@ TEST_P(ShippedMachine, has_the_rotary_axes_of_its_name_and_axes_and_travels_for_
   for (std::size_t i = 0; i < chain.rotary_count(); ++i) {
     const auto angle = chain.orienting_axis(i).angle;
     letters += "ABCUVW"[angle];
-    EXPECT_GE(p.integer("channel_axis", 0, static_cast<std::uint32_t>(3 + angle)), 0) << letters;
+    EXPECT_GE(p.integer(parameter::channel_axis, 0, static_cast<std::uint32_t>(3 + angle)), 0) << letters;
     const auto travel = rotary_travels(p, 0)[angle];
-    const bool swivels =
-        p.integer("axis_type", static_cast<std::uint32_t>(
-                                   p.integer("channel_axis", 0, static_cast<std::uint32_t>(3 + angle)))) ==
-        axis_type_swivel;
+    const bool swivels = p.integer(parameter::axis_type,
+                                   static_cast<std::uint32_t>(p.integer(
+                                       parameter::channel_axis, 0, static_cast<std::uint32_t>(3 + angle)))) ==
+                         axis_type_swivel;
     EXPECT_EQ(travel.endless(), !swivels) << letters;
   }
   EXPECT_EQ(letters, GetParam().letters);

@@ -1,24 +1,45 @@
 #include "machine/parameters.hpp"
+#include "machine/parameter_constants.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <fstream>
 
-#include "machine/alarms.hpp"
+#include "machine/alarm_constants.hpp"
 
 namespace trunnion::machine {
 namespace {
 
 TEST(Catalogue, NumbersFollowClassUnitAndOffset) {
   const auto& catalogue = Catalogue::instance();
-  EXPECT_EQ(catalogue.by_name("rapid_feed").number(2), 102034u) << "10axxx of axis 2";
-  EXPECT_EQ(catalogue.by_name("table_offset_2").number(1, 2), 41437u) << "041437 is Zc of channel 1";
-  EXPECT_EQ(catalogue.by_name("backlash").number(12), 312001u);
+  EXPECT_EQ(parameter::rapid_feed.number(2), 102034u) << "10axxx of axis 2";
+  EXPECT_EQ(parameter::table_offset_2.number(1, 2), 41437u) << "041437 is Zc of channel 1";
+  EXPECT_EQ(parameter::backlash.number(12), 312001u);
   EXPECT_EQ(catalogue.find(41437)->name, "table_offset_2");
   EXPECT_EQ(catalogue.find(1)->name, "interpolation_cycle");
   EXPECT_EQ(catalogue.find(700123)->name, "table_value");
   EXPECT_EQ(catalogue.find(999999), nullptr);
+}
+
+// A name of another type than the parameter's, or none at all, does not compile.
+template <class Key>
+constexpr bool can_be_read_as_integer = requires(const Parameters& p, Key key) {
+  p.integer(key);
+};
+static_assert(can_be_read_as_integer<IntegerParameter>);
+static_assert(!can_be_read_as_integer<RealParameter> && !can_be_read_as_integer<TextParameter>);
+static_assert(!can_be_read_as_integer<const char*>);
+
+TEST(Catalogue, TheConstantsAreTheCatalogue) {
+  const ParameterKey keys[] = {parameter::interpolation_cycle, parameter::gantry_slave_axis,
+                               parameter::channel_name,        parameter::tool_direction,
+                               parameter::maximum_feed,        parameter::pitch_table,
+                               parameter::table_value};
+  for (const auto& key : keys) {
+    ASSERT_NE(Catalogue::instance().find(key.number()), nullptr) << key.name;
+    EXPECT_EQ(Catalogue::instance().find(key.number())->name, key.name);
+  }
 }
 
 TEST(Catalogue, EveryNumberBelongsToOneDefinition) {
@@ -40,8 +61,9 @@ TEST(Catalogue, RefusesValuesOutsideTheLimitsAndNamesThem) {
 
 TEST(Catalogue, IntegerDefaultsPerIndexAreKept) {
   Parameters parameters;
-  EXPECT_EQ(parameters.get("tool_direction", 0, 2), 1) << "the tool points along Z unless said otherwise";
-  EXPECT_EQ(parameters.get("tool_direction", 0, 0), 0);
+  EXPECT_EQ(parameters.get(parameter::tool_direction, 0, 2), 1)
+      << "the tool points along Z unless said otherwise";
+  EXPECT_EQ(parameters.get(parameter::tool_direction, 0, 0), 0);
 }
 
 std::string file_with(const std::string& text) {
@@ -83,10 +105,10 @@ TEST(ParameterFile, WrittenTextReadsBackTheSame) {
 TEST(Alarms, NumbersAndNamesAreUnique) {
   std::map<std::uint32_t, int> numbers;
   std::map<std::string, int> names;
-  for (const auto& alarm : alarm_list()) {
-    EXPECT_EQ(numbers[alarm.number]++, 0) << alarm.number;
-    EXPECT_EQ(names[alarm.name]++, 0) << alarm.name;
-    EXPECT_TRUE(alarm.number < 1000 || alarm.number >= 2000) << "1000..1999 are the language's";
+  for (const auto* one : alarm::all) {
+    EXPECT_EQ(numbers[one->number]++, 0) << one->number;
+    EXPECT_EQ(names[one->name]++, 0) << one->name;
+    EXPECT_TRUE(one->number < 1000 || one->number >= 2000) << "1000..1999 are the language's";
   }
 }
 
@@ -101,7 +123,7 @@ TEST(Catalogue, AnAxisParameterIsInTheUnitOfItsAxis) {
 }
 
 TEST(Catalogue, LimitsAreWrittenInFull) {
-  const auto& d = Catalogue::instance().by_name("maximum_feed");
+  const auto& d = parameter::maximum_feed;
   EXPECT_NE(Catalogue::instance().check(d.number(0), -1, "").find("1 .. 1000000 "), std::string::npos)
       << Catalogue::instance().check(d.number(0), -1, "");
 }

@@ -1,4 +1,4 @@
-// The planner allocates when it is made and never again, whatever it is asked for.
+// The planner allocates when it is constructed and never afterwards.
 #include <gtest/gtest.h>
 
 #include "motion_fixture.hpp"

@@ -72,9 +72,10 @@ void expect_to_cover(const std::vector<LimitCell>& cells, const BlendedPath& pat
   }
 }
 
-// Whatever a cell allows at each of its levels an axis with these derivatives must stand:
+// An axis with these derivatives must permit what a cell allows at each of its levels:
 // q'v, q''v^2 + q'a, q'''v^3 + 3q''va + q'j.
-void expect_axis_stands(const LimitCell& cell, double first, double second, double third, double tolerance) {
+void expect_within_axis_limits(const LimitCell& cell, double first, double second, double third,
+                               double tolerance) {
   first = std::abs(first), second = std::abs(second), third = std::abs(third);
   for (std::size_t k = 0; k < LimitCell::levels; ++k) {
     const double v = LimitCell::shares[k] * cell.speed;
@@ -117,7 +118,7 @@ TEST(CellBuilder, a_line_is_one_cell_with_the_limits_of_its_weakest_axis) {
 
 // At R = 10 mm an axis needs v^2 / 10 times the cosine of its angle for the circle: with 1000 mm/s^2 no more
 // than 100 mm/s where it alone bears it, 119 where two axes share it. Cells that leave something to
-// acceleration keep below that; judged axis by axis nearly all of it can be used. A cell is not longer than
+// acceleration keep below that; checked axis by axis nearly all of it can be used. A cell is not longer than
 // 0.025 rad and looks at its ends: in the middle a sine is at most 1 / cos(0.0125) times as large.
 TEST(CellBuilder, the_cells_of_an_arc_keep_the_axes_within_their_limits_and_use_most_of_them) {
   const double radius = 10, middle = 1 / std::cos(0.0125) - 1;
@@ -139,8 +140,8 @@ TEST(CellBuilder, the_cells_of_an_arc_keep_the_axes_within_their_limits_and_use_
     for (int k = 0; k <= 8; ++k) {
       const double angle = (cell.at + (cell.end - cell.at) * k / 8) / radius;
       const double c = std::cos(angle), s = std::sin(angle);
-      expect_axis_stands(cell, s, c / radius, s / (radius * radius), middle);
-      expect_axis_stands(cell, c, s / radius, c / (radius * radius), middle);
+      expect_within_axis_limits(cell, s, c / radius, s / (radius * radius), middle);
+      expect_within_axis_limits(cell, c, s / radius, c / (radius * radius), middle);
     }
   }
   // Both axes with their derivatives at the ends: at the start the tangent is Y and the centre lies at -X.
@@ -197,12 +198,12 @@ TEST(CellBuilder, a_rounding_is_cut_at_its_ends_and_its_middle_and_what_is_besid
       const double x = cell.at + (cell.end - cell.at) * n / 8 - 10, rest = reach - std::abs(x);
       const double part = rest * rest / (2 * reach * reach), slope = x < 0 ? 1 - part : part;
       for (const double first : {slope, 1 - slope})
-        expect_axis_stands(cell, first, rest / (reach * reach), 1 / (reach * reach), 1e-9);
+        expect_within_axis_limits(cell, first, rest / (reach * reach), 1 / (reach * reach), 1e-9);
     }
   }
 }
 
-// A table turns about X under a tip that stands 100 mm beside its axis: Y and Z go round a circle of 100 mm,
+// A table turns about X under a tip at rest 100 mm beside its axis: Y and Z go round a circle of 100 mm,
 // 100 cos(a) and 100 sin(a), so with 1 degree of the path Z goes 1.745 cos(a) mm. It may move at 20 mm/s:
 // 11.46 / cos(a) degrees/s.
 TEST(CellBuilder, through_a_chain_the_linear_axes_that_follow_limit_the_turn) {
@@ -226,9 +227,9 @@ TEST(CellBuilder, through_a_chain_the_linear_axes_that_follow_limit_the_turn) {
     for (int k = 0; k <= 8; ++k) {
       const double angle = (cell.at + (cell.end - cell.at) * k / 8) * degree;
       const double c = 100 * std::cos(angle), s = 100 * std::sin(angle);
-      expect_axis_stands(cell, s * degree, c * degree * degree, s * degree * degree * degree, 0);
-      expect_axis_stands(cell, c * degree, s * degree * degree, c * degree * degree * degree, 0);
-      expect_axis_stands(cell, 1, 0, 0, 0);
+      expect_within_axis_limits(cell, s * degree, c * degree * degree, s * degree * degree * degree, 0);
+      expect_within_axis_limits(cell, c * degree, s * degree * degree, c * degree * degree * degree, 0);
+      expect_within_axis_limits(cell, 1, 0, 0, 0);
     }
   }
   // The same move without the chain turns nothing but A.
@@ -264,7 +265,7 @@ TEST(CellBuilder, stops_overlap_as_long_as_the_tolerance_of_the_corner_allows) {
   EXPECT_NEAR(overlap(overlapping(PathSegment::line({10}, {10, 1e-4}))), std::cbrt(1e-8), 1e-9);
 }
 
-TEST(CellBuilder, a_wait_is_of_the_cell_at_whose_start_motion_stands) {
+TEST(CellBuilder, a_wait_is_of_the_cell_at_whose_start_motion_stops) {
   PathBlock second = block_of(PathSegment::line({10}, {10, 10}));
   second.wait_cycles = 70;
   const auto cells = cells_of(path_of({block_of(PathSegment::line({}, {10})), second}));
@@ -326,9 +327,9 @@ TEST(CellBuilder, backwards_the_same_cells_come_in_reverse_with_the_coordinate_n
       EXPECT_EQ(turned.begin[2], -straight.end[2]) << k;
       EXPECT_EQ(turned.end[0], -straight.begin[0]) << k;
     }
-    // It stands where the motion forwards stood: before the cell that leads on behind the stop.
-    const bool stood = k > 0 && there[there.size() - k].stop;
-    EXPECT_EQ(cell.stop, stood) << k;
+    // It stops where the motion forwards stopped: before the cell that follows the stop.
+    const bool stopped = k > 0 && there[there.size() - k].stop;
+    EXPECT_EQ(cell.stop, stopped) << k;
   }
 }
 

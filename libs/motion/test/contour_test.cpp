@@ -79,7 +79,7 @@ TEST_P(DenseCircle,
   expect_within(result, path.points[0], limits, nullptr, 0);
   EXPECT_LE(contour_error(result, path.points), tolerance);
   // Where the chords are short against the window the polyline is an arc: v = sqrt(24 tol r) / T, or the
-  // feed, or what half of the acceleration allows. 70 % of it is asked for: the plan keeps margins for
+  // feed, or what half of the acceleration allows. 70 % of it is programmed: the plan keeps margins for
   // tolerance, cycles and corners.
   const double window = cycles * cycle;
   const double formula =
@@ -148,7 +148,7 @@ INSTANTIATE_TEST_SUITE_P(feeds, FiveAxis,
                          testing::Combine(testing::Values(5, 20, 50),
                                           testing::Values(1000.0, 4000.0, 20000.0)));
 
-// A follows X degree by millimetre up to X10 and then stands: its corner may be rounded by the orientation
+// A follows X degree by millimetre up to X10 and then rests: its corner may be rounded by the orientation
 // tolerance only.
 TEST(Contour, corners_of_a_rotary_axis_keep_the_orientation_tolerance) {
   for (const double tolerance : {0.001, 0.05}) {

@@ -73,12 +73,12 @@ TEST(Modes, smoothing_cycles_of_a_mode_bound_its_jerk) {
   };
   EXPECT_NEAR(jerk(0), 60000, 60);
   EXPECT_NEAR(jerk(1), 1000 / 0.035, 30);
-  EXPECT_NEAR(jerk(2), 60000, 60);  // 1000 / 0.01 is more than the axis stands
+  EXPECT_NEAR(jerk(2), 60000, 60);  // 1000 / 0.01 is more than the axis permits
 }
 
-// At 90 degrees Q1 stands (80); Q2 (120) and Q0 (180) go round, at 10 mm/s, which a rounding by 0.1 mm
-// stands: 6 tolerances / sqrt 2 of reach at 60,000 mm/s3 allow 18.6 mm/s.
-TEST(Modes, smooth_corner_angle_of_a_mode_decides_where_motion_stands) {
+// At 90 degrees Q1 stops (80); Q2 (120) and Q0 (180) go round, at 10 mm/s, which a rounding by 0.1 mm
+// permits: 6 tolerances / sqrt 2 of reach at 60,000 mm/s3 allow 18.6 mm/s.
+TEST(Modes, smooth_corner_angle_of_a_mode_decides_where_motion_stops) {
   Limits limits = three_modes();
   limits.modes[0].contour_tolerance = 0.1;
   limits.contour_tolerance = 0.1;

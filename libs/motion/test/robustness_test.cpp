@@ -127,7 +127,7 @@ TEST(Robustness, rotary_move_with_a_trace_of_linear_travel_ends) {
   }
 }
 
-// 3.6 million cycles. The motion stands on the path where it stopped and goes on to the same end.
+// 3.6 million cycles. The motion rests on the path where it stopped and continues to the same end.
 TEST(Robustness, an_override_of_zero_for_an_hour_loses_nothing) {
   const Limits limits = uniform_limits(100, 1000, 20);
   Trajectory t(limits, nullptr, cycle);
@@ -136,9 +136,9 @@ TEST(Robustness, an_override_of_zero_for_an_hour_loses_nothing) {
   t.finish();
   for (int k = 0; k < 300; ++k) t.step(1, 1, false);
   for (int k = 0; k < 1000; ++k) t.step(0, 1, false);
-  const AxisValues stood = t.position();
+  const AxisValues stopped = t.position();
   for (int k = 0; k < 3600000; ++k) t.step(0, 1, false);
-  EXPECT_EQ(t.position(), stood);
+  EXPECT_EQ(t.position(), stopped);
   EXPECT_FALSE(t.at_rest());
   int cycles = 0;
   while (!t.step(1, 1, false).at_rest && ++cycles < 5000) {
@@ -191,9 +191,9 @@ TEST(Robustness, flips_of_the_orientation_run_at_the_pace_of_the_rotary_axis) {
   EXPECT_LE(ratios.jerk, 1.001);
 }
 
-// Nothing says that the program is over: the motion stops by itself on the end of what it knows, within the
-// limits, and says that it is not at rest. A block is known when no rounding behind it can change any more:
-// two reaches and a block of 1 mm before the end.
+// The end of the program is not reported: the motion stops by itself at the end of the known path, within the
+// limits, and reports that it is not at rest. A block is known when no rounding behind it can change any
+// more: two reaches and a block of 1 mm before the end.
 TEST(Robustness, a_program_that_ends_in_motion_without_an_end_stops_on_its_path) {
   const Limits limits = uniform_limits(100, 1000, 20);
   Trajectory t(limits, nullptr, cycle);
@@ -301,7 +301,7 @@ TEST(Robustness, jogs_let_go_of_at_any_cycle_under_any_override_keep_the_limits_
 }
 
 TEST(Robustness, mixed_noise_of_every_kind_ends_and_keeps_the_limits) {
-  // In 171 a cell that stands next to no acceleration follows one that stands much.
+  // In 171 a cell that permits almost no acceleration follows one that permits much.
   for (const std::uint64_t seed : {0, 1, 2, 3, 4, 5, 6, 7, 171}) {
     std::mt19937_64 random(seed);
     std::uniform_real_distribution<double> unit(-1, 1);

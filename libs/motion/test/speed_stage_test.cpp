@@ -23,15 +23,15 @@ LimitCell straight(double at, double end, double speed) {
   return cell;
 }
 
-struct Ride {
+struct Motion {
   std::vector<PathState> states;
   bool ended = false;
 };
 
-Ride ride(
+Motion run_stage(
     SpeedStage& stage, std::size_t most,
     const std::function<Overrides(std::size_t)>& overrides = [](std::size_t) { return Overrides{}; }) {
-  Ride result;
+  Motion result;
   while (result.states.size() < most && !result.ended) {
     stage.step(overrides(result.states.size()));
     result.states.push_back(stage.state());
@@ -40,9 +40,9 @@ Ride ride(
   return result;
 }
 
-void expect_within_ramps(const Ride& ride) {
+void expect_within_ramps(const Motion& run) {
   PathState last;
-  for (const PathState& s : ride.states) {
+  for (const PathState& s : run.states) {
     ASSERT_LE(std::abs(s.a), acceleration * (1 + 1e-6));
     ASSERT_LE(std::abs(s.a - last.a), jerk * cycle * (1 + 1e-6));
     ASSERT_GE(s.v, -1e-9);
@@ -52,16 +52,16 @@ void expect_within_ramps(const Ride& ride) {
 }
 
 // v^2 / 3000 + v / 20 = 100 has v = 477.8 mm/s: 2 (477.8 / 3000 + 0.05) = 0.4186 s.
-TEST(SpeedStage, one_cell_is_ridden_in_the_time_of_its_s_curve) {
+TEST(SpeedStage, one_cell_is_travelled_in_the_time_of_its_s_curve) {
   SpeedStage stage(cycle);
   stage.cells().push(straight(0, 100, 500));
   stage.set_finished(true);
   stage.extended();
-  const Ride result = ride(stage, 1000);
+  const Motion result = run_stage(stage, 1000);
   ASSERT_TRUE(result.ended);
   EXPECT_NEAR(static_cast<double>(result.states.size()) * cycle, 0.4186, 0.002);
   EXPECT_NEAR(result.states.back().s, 100, 1e-9);
-  EXPECT_TRUE(stage.standing());
+  EXPECT_TRUE(stage.at_standstill());
   expect_within_ramps(result);
 }
 
@@ -74,7 +74,7 @@ TEST(SpeedStage, a_slow_cell_is_entered_at_its_speed_and_the_others_are_not_slow
   stage.cells().push(straight(61, 100, 100));
   stage.set_finished(true);
   stage.extended();
-  const Ride result = ride(stage, 3000);
+  const Motion result = run_stage(stage, 3000);
   ASSERT_TRUE(result.ended);
   double fastest = 0;
   for (const PathState& s : result.states) {
@@ -97,7 +97,7 @@ TEST(SpeedStage, a_stop_is_met_exactly_and_waited_at) {
   stage.cells().push(second);
   stage.set_finished(true);
   stage.extended();
-  const Ride result = ride(stage, 3000);
+  const Motion result = run_stage(stage, 3000);
   ASSERT_TRUE(result.ended);
   EXPECT_GE(std::count_if(result.states.begin(), result.states.end(),
                           [](const PathState& s) { return std::abs(s.s - 10) < 1e-9 && s.v == 0; }),
@@ -105,19 +105,19 @@ TEST(SpeedStage, a_stop_is_met_exactly_and_waited_at) {
   expect_within_ramps(result);
 }
 
-// Cells arrive while it moves; when none do it stands on the end of the last one, and it is not at the end.
+// Cells arrive while it moves; when none do it stops at the end of the last one, and it is not at the end.
 TEST(SpeedStage, it_stands_at_the_end_of_what_it_knows_and_goes_on_when_more_is_known) {
   SpeedStage stage(cycle);
   stage.cells().push(straight(0, 10, 100));
   stage.extended();
-  Ride result = ride(stage, 1000);
-  EXPECT_TRUE(stage.standing());
+  Motion result = run_stage(stage, 1000);
+  EXPECT_TRUE(stage.at_standstill());
   EXPECT_NEAR(stage.state().s, 10, 1e-6);
   EXPECT_LE(stage.state().s, 10 + 1e-9);
   stage.cells().push(straight(10, 30, 100));
   stage.set_finished(true);
   stage.extended();
-  result = ride(stage, 1000);
+  result = run_stage(stage, 1000);
   EXPECT_TRUE(result.ended);
   EXPECT_NEAR(stage.state().s, 30, 1e-9);
 }
@@ -133,7 +133,7 @@ TEST(SpeedStage, looks_ahead_over_the_whole_stopping_distance_of_5000_cells) {
   }
   stage.set_finished(true);
   stage.extended();
-  const Ride result = ride(stage, 3000);
+  const Motion result = run_stage(stage, 3000);
   ASSERT_TRUE(result.ended);
   std::size_t fastest = 0;
   for (std::size_t k = 0; k < result.states.size(); ++k)
@@ -164,7 +164,7 @@ TEST(SpeedStage, keeps_every_cell_under_random_overrides_and_holds) {
     stage.extended();
     Overrides now;
     const std::uint64_t pause = 1 + random() % 100;
-    const Ride result = ride(stage, 400000, [&](std::size_t) {
+    const Motion result = run_stage(stage, 400000, [&](std::size_t) {
       if (random() % pause == 0) now.feed = 1.5 * static_cast<double>(random() % 7) / 6;
       if (random() % pause == 0) now.rapid = static_cast<double>(random() % 5) / 4;
       if (random() % pause == 0) now.hold = random() % 3 == 0;

@@ -4,15 +4,16 @@
 
 #include <array>
 
-#include "bus/cdr.hpp"
+#include "bus/codec.hpp"
 #include "bus/registry.hpp"
+#include "channel_setup/channel_setup.hpp"
 #include "contracts/topics.hpp"
 #include "language/interpreter.hpp"
 #include "machine/axes.hpp"
+#include "machine/parameter_constants.hpp"
 #include "motion/trajectory.hpp"
 #include "recording/file_stream.hpp"
 #include "recording/mcap_writer.hpp"
-#include "setup/channel_setup.hpp"
 
 namespace trunnion::report::test {
 namespace {
@@ -28,15 +29,15 @@ struct Row {
 
 // What the channel does, without a bus: commands into motion, motion into rows.
 std::vector<Row> rows_of(const std::string& program, const MachineTables& tables) {
-  setup::ChannelSetup environment(tables);
+  channel_setup::ChannelSetup environment(tables);
   const auto chain = machine::make_chain(tables.parameters, 0);
   motion::Limits limits;
   const auto axes = machine::channel_axes(tables.parameters, 0);
   for (std::size_t i = 0; i < axes.index.size(); ++i) {
     const auto a = axes.number[i];
-    limits.axes[axes.index[i]] = {tables.parameters.get("maximum_feed", a) / 60,
-                                  tables.parameters.get("rapid_feed", a) / 60,
-                                  tables.parameters.get("maximum_acceleration", a)};
+    limits.axes[axes.index[i]] = {tables.parameters.get(parameter::maximum_feed, a) / 60,
+                                  tables.parameters.get(parameter::rapid_feed, a) / 60,
+                                  tables.parameters.get(parameter::maximum_acceleration, a)};
   }
   motion::Trajectory trajectory(limits, &chain, 0.001);
   language::StringSource source(program);

@@ -2,34 +2,34 @@
 #include <cmath>
 
 #include "channel_core.hpp"
-#include "machine/alarms.hpp"
+#include "machine/alarm_constants.hpp"
 
 namespace trunnion::channel {
 
 using idl::channel::ChannelRequest;
 using idl::channel::CommandKind;
 
-Answer ChannelCore::refuse(const char* alarm, std::string reason) const {
-  return {false, machine::alarm_definition(alarm).number, std::move(reason)};
+Answer ChannelCore::refuse(const machine::AlarmDefinition& alarm, std::string reason) const {
+  return {false, alarm.number, std::move(reason)};
 }
 
 Answer ChannelCore::startable() const {
-  if (!configured()) return refuse("not_ready", "The channel has no parameters yet");
-  if (!ready_) return refuse("not_ready", "The cluster is not ready: see the services");
-  if (!external_hold_.empty()) return refuse("not_ready", external_hold_);
-  if (!link_.has_feedback()) return refuse("not_ready", "The drive has not answered yet");
-  if (link_.drive_mode() == DriveMode::off) return refuse("not_ready", "The drives are off");
+  if (!configured()) return refuse(alarm::not_ready, "The channel has no parameters yet");
+  if (!ready_) return refuse(alarm::not_ready, "The cluster is not ready: see the services");
+  if (!external_hold_.empty()) return refuse(alarm::not_ready, external_hold_);
+  if (!link_.has_feedback()) return refuse(alarm::not_ready, "The drive has not answered yet");
+  if (link_.drive_mode() == DriveMode::off) return refuse(alarm::not_ready, "The drives are off");
   return {};
 }
 
 Answer ChannelCore::handle(const ChannelRequest& request) {
   const auto finite = std::isfinite(request.value) && std::isfinite(request.increment);
-  if (!finite) return refuse("request_invalid", "A value is not a finite number");
+  if (!finite) return refuse(alarm::request_invalid, "A value is not a finite number");
   const auto limited = [&](double& out, double low, double high) -> Answer {
     if (request.value < low || request.value > high)
-      return refuse("request_invalid", "override " + std::to_string(request.value * 100) + " % is outside " +
-                                           std::to_string(low * 100) + " .. " + std::to_string(high * 100) +
-                                           " %");
+      return refuse(alarm::request_invalid, "override " + std::to_string(request.value * 100) +
+                                                " % is outside " + std::to_string(low * 100) + " .. " +
+                                                std::to_string(high * 100) + " %");
     out = request.value;
     return {};
   };
@@ -80,7 +80,7 @@ Answer ChannelCore::handle(const ChannelRequest& request) {
     case CommandKind::HANDWHEEL_OFFSET:
       return set_switch(request);
   }
-  return refuse("request_invalid", "Unknown command");
+  return refuse(alarm::request_invalid, "Unknown command");
 }
 
 // A program that is held may be left for MDI and jog; its way back is part of cycle start in AUTO.
@@ -88,7 +88,7 @@ Answer ChannelCore::set_mode(Mode mode) {
   const bool held_program = activity_ == Activity::program && run_ == RunState::HELD && !preparation_ &&
                             !retracing_ && !tapping_.active() && !skip_.active();
   if (activity_ != Activity::none && !held_program && mode != mode_)
-    return refuse("request_invalid",
+    return refuse(alarm::request_invalid,
                   "The mode cannot change while the channel is busy: stop or reset it first");
   if (held_program && mode != Mode::AUTO) suspend();
   mode_ = mode;
@@ -97,7 +97,7 @@ Answer ChannelCore::set_mode(Mode mode) {
 
 Answer ChannelCore::select(const std::string& name) {
   if (activity_ != Activity::none || suspended_)
-    return refuse("request_invalid", "A program cannot be selected while the channel is busy");
+    return refuse(alarm::request_invalid, "A program cannot be selected while the channel is busy");
   for (const auto& entry : programs_.programs)
     if (entry.name == name) {
       if (interrupted_.name != name) interrupted_ = {};
@@ -105,7 +105,7 @@ Answer ChannelCore::select(const std::string& name) {
       shown_ = {};
       return {};
     }
-  return refuse("program_missing", "Program '" + name + "' is not in the store");
+  return refuse(alarm::program_missing, "Program '" + name + "' is not in the store");
 }
 
 Answer ChannelCore::cycle_start() {
@@ -113,8 +113,8 @@ Answer ChannelCore::cycle_start() {
   switch (run_) {
     case RunState::IDLE:
       if (mode_ != Mode::AUTO)
-        return refuse("request_invalid", "Cycle start needs mode AUTO (or an MDI line)");
-      if (selected_.name.empty()) return refuse("program_missing", "No program is selected");
+        return refuse(alarm::request_invalid, "Cycle start needs mode AUTO (or an MDI line)");
+      if (selected_.name.empty()) return refuse(alarm::program_missing, "No program is selected");
       return start_program({});
     case RunState::HELD:
       if (suspended_ && activity_ == Activity::none) return go_on_after_suspension();
@@ -125,13 +125,13 @@ Answer ChannelCore::cycle_start() {
     case RunState::INTERRUPTED:
       return go_on_after_interruption();
     default:
-      return refuse("request_invalid", "The channel is busy");
+      return refuse(alarm::request_invalid, "The channel is busy");
   }
 }
 
 Answer ChannelCore::go_on_after_interruption() {
   if (must_reset_)
-    return refuse("not_ready", "The drives were switched off in the program: reset the channel");
+    return refuse(alarm::not_ready, "The drives were switched off in the program: reset the channel");
   if (restart_) {  // the stream was lost: begin anew at the newest point that was executed
     Entry entry;
     entry.restart = *restart_;
@@ -147,33 +147,33 @@ Answer ChannelCore::go_on_after_interruption() {
 }
 
 Answer ChannelCore::reference(std::uint8_t index) {
-  if (mode_ != Mode::REF) return refuse("request_invalid", "Reference return needs mode REF");
+  if (mode_ != Mode::REF) return refuse(alarm::request_invalid, "Reference return needs mode REF");
   const auto& axes = machine_.channel_axes().index;
   if (index >= axes.size())
-    return refuse("request_invalid", "The channel has no axis number " + std::to_string(index));
+    return refuse(alarm::request_invalid, "The channel has no axis number " + std::to_string(index));
   return start_move(axes[index], machine_.reference_position()[axes[index]],
                     machine_.reference_feed(axes[index]));
 }
 
 Answer ChannelCore::jog(const ChannelRequest& request) {
-  if (mode_ != Mode::JOG) return refuse("request_invalid", "Jog needs mode JOG");
+  if (mode_ != Mode::JOG) return refuse(alarm::request_invalid, "Jog needs mode JOG");
   const auto& axes = machine_.channel_axes().index;
   if (request.axis >= axes.size())
-    return refuse("request_invalid", "The channel has no axis number " + std::to_string(request.axis));
-  if (request.value == 0) return refuse("request_invalid", "Jog needs a speed other than 0");
+    return refuse(alarm::request_invalid, "The channel has no axis number " + std::to_string(request.axis));
+  if (request.value == 0) return refuse(alarm::request_invalid, "Jog needs a speed other than 0");
   const auto axis = axes[request.axis];
   const double fastest = machine_.jog_feed(axis);
   if (std::abs(request.value) > fastest * 1.0001)
-    return refuse("request_invalid", "Jog speed " + std::to_string(std::abs(request.value)) +
-                                         " is above the axis' " + std::to_string(fastest));
-  if (activity_ != Activity::none) return refuse("request_invalid", "The channel is busy");
+    return refuse(alarm::request_invalid, "Jog speed " + std::to_string(std::abs(request.value)) +
+                                              " is above the axis' " + std::to_string(fastest));
+  if (activity_ != Activity::none) return refuse(alarm::request_invalid, "The channel is busy");
   adopt_position();
   const auto& travel = machine_.travel(axis);
   const double direction = request.value > 0 ? 1 : -1;
   const double from = machine_start_[axis] + offset_.target()[axis];
   const double end = direction > 0 ? travel.positive : travel.negative;
   if ((end - from) * direction <= 0)
-    return refuse("travel_limit",
+    return refuse(alarm::travel_limit,
                   std::string("Axis ") + language::axis_letters[axis] + " is at its travel limit");
   const double way = request.increment > 0 ? direction * request.increment : end - from;
   return start_move(axis, machine_start_[axis] + way, std::abs(request.value));

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "machine/alarms.hpp"
+#include "machine/alarm_constants.hpp"
 #include "stream/stage_core.hpp"
 
 namespace trunnion::channel {
@@ -12,8 +12,8 @@ ChannelCore::ChannelCore(std::uint16_t channel, bool virtual_time)
       virtual_time_(virtual_time),
       machine_(channel),
       link_(channel),
-      program_flow_(machine_, program_trajectory_),
-      mdi_flow_(machine_, manual_trajectory_),
+      program_flow_(machine_),
+      mdi_flow_(machine_),
       written_(history) {
   machine_.resolve = [this](std::string_view name) {
     return (activity_ == Activity::mdi ? mdi_shelf_ : program_shelf_).call(programs_, name);
@@ -45,7 +45,7 @@ void ChannelCore::apply_parameters() {
   }
   parameters_ = std::exchange(next_parameters_, nullptr);
   for (const auto& line : machine::kinematics_warnings(*parameters_, number_))
-    event("direction_not_unit", line);
+    event(alarm::direction_not_unit, line);
   build_trajectories();
 }
 
@@ -131,7 +131,7 @@ void ChannelCore::recover() {
     if (entry.crc32 == own->crc && entry.revision == own->revision) selected_ = entry;
   if (selected_.name.empty()) {
     link_.leave();
-    event("interrupted", "The interrupted program is not in the store any more");
+    event(alarm::interrupted, "The interrupted program is not in the store any more");
     return;
   }
   program_start_ = own->start;
@@ -144,7 +144,7 @@ void ChannelCore::recover() {
   run_ = RunState::INTERRUPTED;
   interrupted_ = {};
   shown_.line = own->line;
-  event("interrupted",
+  event(alarm::interrupted,
         "Program " + selected_.name + " was interrupted in line " + std::to_string(shown_.line));
 }
 
@@ -157,10 +157,10 @@ void ChannelCore::offer_interrupted() {
     if (entry.name == interrupted_.name && entry.revision == interrupted_.revision &&
         entry.crc32 == interrupted_.crc) {
       selected_ = entry;
-      event("switched_off_in_program", where + ": it can be started from there");
+      event(alarm::switched_off_in_program, where + ": it can be started from there");
       return;
     }
-  event("switched_off_in_program", where + ", and has been changed or deleted since");
+  event(alarm::switched_off_in_program, where + ", and has been changed or deleted since");
   interrupted_ = {};
 }
 
@@ -187,13 +187,13 @@ void ChannelCore::interrupt(const std::string& why) {
         restart_ = RestartPoint{};
     } else if (activity_ != Activity::none) {
       stop_activity();
-      event("interrupted", why);
+      event(alarm::interrupted, why);
       return;
     }
   }
   if (activity_ == Activity::none) return;
   run_ = RunState::INTERRUPTED;
-  event("interrupted", why);
+  event(alarm::interrupted, why);
 }
 
 // What the program has read ahead counts: a variable is not taken back when the motion behind it is stopped.

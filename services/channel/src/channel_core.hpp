@@ -9,29 +9,30 @@
 #include <vector>
 
 #include "axis_lock.hpp"
+#include "channel_setup/channel_setup.hpp"
 #include "channel_snapshot.hpp"
 #include "contracts/types.hpp"
-#include "flow/program_flow.hpp"
-#include "flow/tapping.hpp"
 #include "hand_over.hpp"
 #include "handwheel.hpp"
+#include "machine/alarm_definition.hpp"
 #include "preparation.hpp"
+#include "program_execution/program_flow.hpp"
+#include "program_execution/tapping.hpp"
 #include "program_record.hpp"
 #include "program_shelf.hpp"
-#include "setup/channel_setup.hpp"
 #include "skip_move.hpp"
 #include "stream_link.hpp"
 
 namespace trunnion::channel {
 
-using flow::AuxiliaryMemory;
-using flow::Entry;
-using flow::FlowState;
-using flow::ProgramFlow;
-using flow::RestartPoint;
-using flow::Tapping;
 using idl::channel::Mode;
 using idl::channel::RunState;
+using program_execution::AuxiliaryMemory;
+using program_execution::Entry;
+using program_execution::FlowState;
+using program_execution::ProgramFlow;
+using program_execution::RestartPoint;
+using program_execution::Tapping;
 
 struct Answer {
   bool accepted = true;
@@ -39,9 +40,9 @@ struct Answer {
   std::string reason;
 };
 
-/// Something to raise as an alarm: a name of alarms.yaml, or a number of the NC language.
+/// Something to raise as an alarm: one of alarms.yaml, or a number of the NC language.
 struct ChannelEvent {
-  std::string alarm;
+  const machine::AlarmDefinition* alarm = nullptr;  ///< null: `number` is one of the NC language
   std::uint32_t number = 0;
   std::string text;
 };
@@ -104,7 +105,7 @@ class ChannelCore {
   bool waits_for_text() const { return run_ == RunState::RUNNING && text_missing_; }
 
   RunState run_state() const { return run_; }
-  const setup::ChannelSetup& machine() const { return machine_; }
+  const channel_setup::ChannelSetup& machine() const { return machine_; }
   const StreamLink& link() const { return link_; }
   bool configured() const { return program_owner_ != nullptr; }
 
@@ -139,7 +140,7 @@ class ChannelCore {
   };
 
   // channel_commands.cpp: what an operator may ask, and when.
-  Answer refuse(const char* alarm, std::string reason) const;
+  Answer refuse(const machine::AlarmDefinition& alarm, std::string reason) const;
   Answer startable() const;
   Answer set_mode(Mode mode);
   Answer select(const std::string& name);
@@ -182,7 +183,7 @@ class ChannelCore {
 
   // channel_orders.cpp: what a program asks of the rest of the control.
   void run_pending(FlowState state);
-  void begin_auxiliary(const AuxiliaryOrder& order);
+  void begin_auxiliary(const program_execution::AuxiliaryFunction& function);
 
   // channel_cycles.cpp: moves that a skip input ends, and those a spindle follows.
   void begin_skip();
@@ -214,13 +215,13 @@ class ChannelCore {
   void show_positions();
   std::string detail() const;
   std::string program_name() const { return activity_ == Activity::program ? selected_.name : "MDI"; }
-  void event(std::string alarm, std::string text) {
-    events_.push_back({std::move(alarm), 0, std::move(text)});
+  void event(const machine::AlarmDefinition& alarm, std::string text) {
+    events_.push_back({&alarm, 0, std::move(text)});
   }
 
   std::uint16_t number_;
   bool virtual_time_;
-  setup::ChannelSetup machine_;
+  channel_setup::ChannelSetup machine_;
   StreamLink link_;
   // The program's motion stays planned while the axes are moved by MDI, by hand or to the program's start.
   std::unique_ptr<motion::Trajectory> program_owner_, manual_owner_;

@@ -1,6 +1,7 @@
 // What a program asks of the rest of the control while the axes stand: the PLC, the tables, the operator.
 #include "channel_core.hpp"
 #include "language/codes.hpp"
+#include "machine/alarm_constants.hpp"
 #include "table_order.hpp"
 
 namespace trunnion::channel {
@@ -14,7 +15,7 @@ void ChannelCore::run_pending(FlowState state) {
   switch (state) {
     case FlowState::alarm:
       events_.push_back(
-          {flow().alarm_name(), flow().alarm_number(), program_name() + ":" + flow().alarm_text()});
+          {flow().machine_alarm(), flow().alarm_number(), program_name() + ":" + flow().alarm_text()});
       finish(false);
       return;
     case FlowState::end:
@@ -57,26 +58,26 @@ void ChannelCore::run_pending(FlowState state) {
       run_ = RunState::WAITING;
       return;
     case CommandKind::message:
-      event("program_message", program_name() + ":" + std::to_string(command.line) + ": message " +
-                                   std::to_string(command.number) + ", see the comment of the line");
+      event(alarm::program_message, program_name() + ":" + std::to_string(command.line) + ": message " +
+                                        std::to_string(command.number) + ", see the comment of the line");
       flow().finish_pending();
       return;
     case CommandKind::tool:
-      begin_auxiliary({3, command.number, 0});
+      begin_auxiliary({program_execution::AuxiliaryKind::t, command.number, 0});
       return;
     case CommandKind::spindle_speed:
       spindle_programmed_ = command.value;
-      begin_auxiliary({2, 0, command.value});
+      begin_auxiliary({program_execution::AuxiliaryKind::s, 0, command.value});
       return;
     case CommandKind::auxiliary:
       if (command.number == 1 && !optional_stop_) {
         flow().finish_pending();
         return;
       }
-      begin_auxiliary({1, command.number, 0});
+      begin_auxiliary({program_execution::AuxiliaryKind::m, command.number, 0});
       return;
     case CommandKind::end:
-      begin_auxiliary({1, command.number, 0});
+      begin_auxiliary({program_execution::AuxiliaryKind::m, command.number, 0});
       return;
     default:
       flow().finish_pending();
@@ -88,8 +89,9 @@ std::optional<idl::channel::AuxiliaryRequest> ChannelCore::take_auxiliary() {
   return std::exchange(outgoing_auxiliary_, std::nullopt);
 }
 
-void ChannelCore::begin_auxiliary(const AuxiliaryOrder& order) {
-  auxiliary_ = {number_, ++auxiliary_number_, order.kind, order.code, order.value, link_.executed()};
+void ChannelCore::begin_auxiliary(const program_execution::AuxiliaryFunction& function) {
+  auxiliary_ = {number_,       ++auxiliary_number_, static_cast<std::uint8_t>(function.kind),
+                function.code, function.value,      link_.executed()};
   outgoing_auxiliary_ = auxiliary_;
   auxiliary_open_ = true;
   run_ = RunState::WAITING;
@@ -99,7 +101,7 @@ void ChannelCore::on_auxiliary_done(const idl::plc::AuxiliaryDone& done) {
   if (!auxiliary_open_ || done.number != auxiliary_.number) return;
   auxiliary_open_ = false;
   if (done.failed) {
-    event("auxiliary_refused",
+    event(alarm::auxiliary_refused,
           program_name() + ":" + std::to_string(flow().pending().line) + ": the PLC could not carry it out");
     auxiliary_.kind = 0;
     outgoing_auxiliary_ = auxiliary_;
@@ -140,7 +142,7 @@ void ChannelCore::on_table_changed(const std::string& reason) {
   if (!table_open_) return;
   table_open_ = false;
   if (!reason.empty()) {
-    event("table_refused", program_name() + ":" + std::to_string(flow().pending().line) + ": " + reason);
+    event(alarm::table_refused, program_name() + ":" + std::to_string(flow().pending().line) + ": " + reason);
     stop_activity();
     return;
   }

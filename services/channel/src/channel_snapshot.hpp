@@ -6,12 +6,12 @@
 #include <vector>
 
 #include "contracts/types.hpp"
-#include "flow/skip_result.hpp"
+#include "program_execution/skip_result.hpp"
 
 namespace trunnion::channel {
 
-using flow::SkipResult;
 using language::AxisValues;
+using program_execution::SkipResult;
 
 struct ChannelSnapshot {
   bool running = false;  ///< a program is under way that can be gone on with

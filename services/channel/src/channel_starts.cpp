@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "channel_core.hpp"
+#include "machine/alarm_constants.hpp"
 
 namespace trunnion::channel {
 namespace {
@@ -22,7 +23,7 @@ Answer ChannelCore::start_program(const Entry& entry) {
   for (const auto& stored : programs_.programs)
     if (stored.name == selected_.name) {
       if (restart.sequence != 0 && stored.revision != selected_.revision)
-        return refuse("program_missing",
+        return refuse(alarm::program_missing,
                       "Program '" + selected_.name + "' has changed since it was interrupted: reset first");
       selected_ = stored;
     }
@@ -42,7 +43,7 @@ Answer ChannelCore::start_program(const Entry& entry) {
   program_flow_.set_offset(offset_on_ ? std::optional(offset_.target()) : std::nullopt);
   frames_kept_ = false;
   forget_sequences();
-  program_flow_.start(text, program_start_, modal, *variables_, entry);
+  program_flow_.start(*trajectory_, text, program_start_, modal, *variables_, entry);
   restart_ = restart.sequence != 0 ? std::optional(restart) : std::nullopt;
   preparation_.reset();
   preparing_motion_ = retracing_ = false;
@@ -54,14 +55,15 @@ Answer ChannelCore::start_program(const Entry& entry) {
 }
 
 Answer ChannelCore::start_from_line(double line) {
-  if (mode_ != Mode::AUTO) return refuse("request_invalid", "A start from a line needs mode AUTO");
-  if (activity_ != Activity::none || suspended_) return refuse("request_invalid", "The channel is busy");
+  if (mode_ != Mode::AUTO) return refuse(alarm::request_invalid, "A start from a line needs mode AUTO");
+  if (activity_ != Activity::none || suspended_) return refuse(alarm::request_invalid, "The channel is busy");
   if (auto answer = startable(); !answer.accepted) return answer;
-  if (selected_.name.empty()) return refuse("program_missing", "No program is selected");
+  if (selected_.name.empty()) return refuse(alarm::program_missing, "No program is selected");
   // The last line need not end with a line feed.
   if (!(line >= 1 && line <= selected_.lines + 1.0 && line == std::floor(line)))
-    return refuse("search_failed", "Program " + selected_.name + " has lines 1 to " +
-                                       std::to_string(selected_.lines) + ", not " + std::to_string(line));
+    return refuse(alarm::search_failed, "Program " + selected_.name + " has lines 1 to " +
+                                            std::to_string(selected_.lines) + ", not " +
+                                            std::to_string(line));
   Entry entry;
   entry.line = static_cast<std::uint32_t>(line);
   shown_ = {};
@@ -82,20 +84,20 @@ void ChannelCore::prepare_entry() {
   };
   const auto line = shown_.line;
   Preparation preparation;
-  if (by_line) preparation.orders = program_flow_.auxiliaries().orders();
+  if (by_line) preparation.functions = program_flow_.auxiliaries().functions();
   preparation.moves = approach_moves(machine_start_, target, line);
   if (restart_ && is_near(machine_start_, target) && preparation.moves.size() > 1)
     preparation.moves.erase(preparation.moves.begin());
   const auto error = approach_error(machine_, machine_start_, preparation.moves);
   const auto place = selected_.name + ":" + std::to_string(line) + ": ";
   if (by_line && modal.tool != tool_) {
-    event("search_failed", place + "needs tool T" + std::to_string(modal.tool) + ", T" +
-                               std::to_string(tool_) + " is in the spindle: change it by MDI first");
+    event(alarm::search_failed, place + "needs tool T" + std::to_string(modal.tool) + ", T" +
+                                    std::to_string(tool_) + " is in the spindle: change it by MDI first");
     give_up();
     return;
   }
   if (!error.empty()) {
-    event("travel_limit", selected_.name + ":" + error);
+    event(alarm::travel_limit, selected_.name + ":" + error);
     give_up();
     return;
   }
@@ -105,7 +107,7 @@ void ChannelCore::prepare_entry() {
   if (program_flow_.auxiliaries().not_repeated() > 0)
     words += (words.empty() ? "" : "; ") + std::to_string(program_flow_.auxiliaries().not_repeated()) +
              " other M functions before this line are not repeated";
-  event("search_done", place + (words.empty() ? "ready" : words));
+  event(alarm::search_done, place + (words.empty() ? "ready" : words));
   run_ = RunState::HELD;
 }
 
@@ -116,11 +118,11 @@ bool ChannelCore::run_preparation() {
     run_ = RunState::HELD;
     return false;
   }
-  auto& orders = preparation_->orders;
-  if (!orders.empty()) {
-    const auto order = orders.front();
-    orders.erase(orders.begin());
-    if (!auxiliary_lock_) begin_auxiliary(order);
+  auto& functions = preparation_->functions;
+  if (!functions.empty()) {
+    const auto function = functions.front();
+    functions.erase(functions.begin());
+    if (!auxiliary_lock_) begin_auxiliary(function);
     return run_ == RunState::RUNNING;
   }
   if (!preparing_motion_) {
@@ -172,18 +174,19 @@ void ChannelCore::suspend() {
 
 Answer ChannelCore::go_on_after_suspension() {
   if (mode_ != Mode::AUTO)
-    return refuse("request_invalid", "A program is held: choose mode AUTO to go on with it");
+    return refuse(alarm::request_invalid, "A program is held: choose mode AUTO to go on with it");
   if (must_reset_)
-    return refuse("not_ready", "The drives were switched off in the program: reset the channel");
+    return refuse(alarm::not_ready, "The drives were switched off in the program: reset the channel");
   if (tool_ != suspended_->tool)
-    return refuse("search_failed", "The program was left with tool T" + std::to_string(suspended_->tool) +
-                                       ", T" + std::to_string(tool_) + " is in the spindle");
+    return refuse(alarm::search_failed, "The program was left with tool T" +
+                                            std::to_string(suspended_->tool) + ", T" + std::to_string(tool_) +
+                                            " is in the spindle");
   adopt_position();
   Preparation preparation;
-  preparation.orders = program_flow_.auxiliaries().orders_touched_by(suspended_->by_hand);
+  preparation.functions = program_flow_.auxiliaries().functions_changed_by(suspended_->by_hand);
   preparation.moves = approach_moves(machine_start_, suspended_->machine, suspended_->shown.line);
   if (const auto error = approach_error(machine_, machine_start_, preparation.moves); !error.empty())
-    return refuse("travel_limit", "On the way back to line " + error);
+    return refuse(alarm::travel_limit, "On the way back to line " + error);
   preparation_ = std::move(preparation);
   activity_ = Activity::program;
   run_ = RunState::RUNNING;
@@ -202,8 +205,8 @@ void ChannelCore::begin_manual(Activity activity) {
 }
 
 Answer ChannelCore::start_mdi(const std::string& line) {
-  if (mode_ != Mode::MDI) return refuse("request_invalid", "An MDI line needs mode MDI");
-  if (activity_ != Activity::none) return refuse("request_invalid", "The channel is busy");
+  if (mode_ != Mode::MDI) return refuse(alarm::request_invalid, "An MDI line needs mode MDI");
+  if (activity_ != Activity::none) return refuse(alarm::request_invalid, "The channel is busy");
   if (auto answer = startable(); !answer.accepted) return answer;
   apply_parameters();
   adopt_position();
@@ -220,7 +223,8 @@ Answer ChannelCore::start_mdi(const std::string& line) {
   mdi_flow_.set_dry_run_feed(dry_run_ ? machine_.dry_run_feed() : 0);
   mdi_flow_.set_offset(offset_on_ ? std::optional(offset_.target()) : std::nullopt);
   forget_sequences();
-  mdi_flow_.start(*mdi_source_, position, modal_, suspended_ ? program_flow_.variables() : *variables_, {},
+  mdi_flow_.start(*trajectory_, *mdi_source_, position, modal_,
+                  suspended_ ? program_flow_.variables() : *variables_, {},
                   frames_kept_ ? language::Beginning::line : language::Beginning::program);
   // What is wrong with the line is the answer to whoever typed it.
   const auto state = mdi_flow_.fill(false);
@@ -233,7 +237,7 @@ Answer ChannelCore::start_mdi(const std::string& line) {
 }
 
 Answer ChannelCore::start_move(std::uint8_t axis, double target, double feed) {
-  if (activity_ != Activity::none) return refuse("request_invalid", "The channel is busy");
+  if (activity_ != Activity::none) return refuse(alarm::request_invalid, "The channel is busy");
   if (auto answer = startable(); !answer.accepted) return answer;
   apply_parameters();
   adopt_position();

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "channel_core.hpp"
+#include "machine/parameter_constants.hpp"
 #include "modal_codes.hpp"
 
 namespace trunnion::channel {
@@ -62,7 +63,7 @@ void ChannelCore::show_positions() {
 const idl::channel::ChannelState& ChannelCore::state() {
   auto& s = state_;
   s.channel = number_;
-  s.name = parameters_ ? parameters_->text("channel_name", number_) : "";
+  s.name = parameters_ ? parameters_->text(parameter::channel_name, number_) : "";
   if (s.name.empty()) s.name = "CH" + std::to_string(number_);
   s.cycle = link_.executed();
   s.mode = mode_;

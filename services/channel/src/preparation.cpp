@@ -30,7 +30,7 @@ std::vector<language::Command> approach_moves(const AxisValues& from, const Axis
   return moves;
 }
 
-std::string approach_error(const setup::ChannelSetup& machine, const AxisValues& from,
+std::string approach_error(const channel_setup::ChannelSetup& machine, const AxisValues& from,
                            const std::vector<language::Command>& moves) {
   AxisValues at = from;
   for (const auto& move : moves) {
@@ -43,11 +43,12 @@ std::string approach_error(const setup::ChannelSetup& machine, const AxisValues&
 std::string words_of(const Preparation& preparation, const AxisValues& from) {
   std::string words;
   char text[40];
-  for (const auto& order : preparation.orders) {
-    if (order.kind == 2)
-      std::snprintf(text, sizeof text, "S%g", order.value);
+  for (const auto& function : preparation.functions) {
+    if (function.kind == program_execution::AuxiliaryKind::s)
+      std::snprintf(text, sizeof text, "S%g", function.value);
     else
-      std::snprintf(text, sizeof text, "%c%u", order.kind == 3 ? 'T' : 'M', order.code);
+      std::snprintf(text, sizeof text, "%c%u", function.kind == program_execution::AuxiliaryKind::t ? 'T' : 'M',
+                    function.code);
     words += (words.empty() ? "" : " ") + std::string(text);
   }
   AxisValues at = from;

@@ -1,20 +1,20 @@
-// The way to a point of a program at which the machine does not stand: orders first, then moves.
+// What brings the machine to a point of a program away from its position: functions first, then moves.
 #pragma once
 
 #include <string>
 #include <vector>
 
-#include "flow/auxiliary_memory.hpp"
-#include "setup/channel_setup.hpp"
+#include "channel_setup/channel_setup.hpp"
+#include "program_execution/auxiliary_memory.hpp"
 
 namespace trunnion::channel {
 
-using flow::AuxiliaryOrder;
+using program_execution::AuxiliaryFunction;
 using language::AxisValues;
 
-/// What is done, in this order, before a program goes on.
+/// What is done, in this sequence, before a program continues.
 struct Preparation {
-  std::vector<AuxiliaryOrder> orders;
+  std::vector<AuxiliaryFunction> functions;
   std::vector<language::Command> moves;  ///< rapids in machine coordinates, with a stop between them
 };
 
@@ -26,7 +26,7 @@ std::vector<language::Command> approach_moves(const AxisValues& from, const Axis
                                               std::uint32_t line);
 
 /// The first thing wrong with the approach: an axis would leave its travel. Empty when it is right.
-std::string approach_error(const setup::ChannelSetup& machine, const AxisValues& from,
+std::string approach_error(const channel_setup::ChannelSetup& machine, const AxisValues& from,
                            const std::vector<language::Command>& moves);
 
 /// In words for the operator, e.g. "S1000 M3 M8, approach X10.0000 Y5.0000, then Z-3.0000".

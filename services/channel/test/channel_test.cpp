@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "channel_fixture.hpp"
+#include "machine/alarm_constants.hpp"
 
 namespace trunnion::channel {
 namespace {
@@ -395,7 +396,7 @@ TEST_F(Channel, ARefusedTableStopsTheProgramWithTheReason) {
   EXPECT_EQ(core->run_state(), RunState::IDLE);
   const auto told = core->take_events();
   ASSERT_FALSE(told.empty());
-  EXPECT_EQ(told.back().alarm, "table_refused");
+  EXPECT_EQ(told.back().alarm, &alarm::table_refused);
   EXPECT_NE(told.back().text.find("part.nc:1: the disk is full"), std::string::npos) << told.back().text;
 }
 
@@ -405,7 +406,7 @@ TEST_F(Channel, AMessageStopsTheProgramUntilCycleStart) {
   for (int i = 0; i < 20; ++i) round();
   EXPECT_EQ(core->run_state(), RunState::HELD);
   ASSERT_FALSE(events.empty());
-  EXPECT_EQ(events.back().alarm, "program_message");
+  EXPECT_EQ(events.back().alarm, &alarm::program_message);
   ASSERT_TRUE(ask(CommandKind::CYCLE_START).accepted);
   run();
   EXPECT_EQ(drive.rows.back()[0], 10);

@@ -111,7 +111,7 @@ TEST_F(Display, OfAHeldProgramStaysThatOfItsBlockWhileTheAxesAreJogged) {
 }
 
 TEST(FrameTrail, FindsTheFrameOfACommandAndForgetsTheOldest) {
-  flow::FrameTrail trail;
+  program_execution::FrameTrail trail;
   EXPECT_EQ(trail.at(5), nullptr);
   language::ProgramFrame frame;
   const auto x_at = [&](std::uint32_t sequence) { return trail.at(sequence)->total_offset()[0]; };
@@ -125,13 +125,13 @@ TEST(FrameTrail, FindsTheFrameOfACommandAndForgetsTheOldest) {
   EXPECT_EQ(x_at(13), 1);
   EXPECT_EQ(x_at(92), 8);
   EXPECT_EQ(x_at(1000), 9);
-  for (std::uint32_t i = 10; i < 10 + flow::FrameTrail::capacity; ++i) {
+  for (std::uint32_t i = 10; i < 10 + program_execution::FrameTrail::capacity; ++i) {
     frame.set_local(0, i);
     trail.add(3 + 10 * i, frame);
   }
   EXPECT_EQ(x_at(13), 10) << "the oldest there is";
   EXPECT_EQ(x_at(10 * 500), 499);
-  EXPECT_EQ(trail.newest()->total_offset()[0], 9 + flow::FrameTrail::capacity);
+  EXPECT_EQ(trail.newest()->total_offset()[0], 9 + program_execution::FrameTrail::capacity);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "channel_fixture.hpp"
+#include "machine/alarm_constants.hpp"
 
 namespace trunnion::channel {
 namespace {
@@ -11,46 +12,6 @@ namespace {
 using language::CommandKind;
 using testing::Channel;
 using Request = idl::channel::CommandKind;
-
-language::Command auxiliary(std::uint32_t m) {
-  language::Command command;
-  command.kind = CommandKind::auxiliary;
-  command.number = m;
-  return command;
-}
-
-std::vector<std::pair<int, int>> codes(const std::vector<AuxiliaryOrder>& orders) {
-  std::vector<std::pair<int, int>> list;
-  for (const auto& order : orders) list.emplace_back(order.kind, order.code);
-  return list;
-}
-
-TEST(AuxiliaryMemory, OrdersAreWhatTheFunctionsAddUpToAndInOneOrder) {
-  AuxiliaryMemory memory;
-  for (const auto m : {8u, 3u, 7u, 4u, 50u}) memory.pass(auxiliary(m));
-  language::Command speed;
-  speed.kind = CommandKind::spindle_speed;
-  speed.value = 1200;
-  memory.pass(speed);
-  EXPECT_EQ(codes(memory.orders()), (std::vector<std::pair<int, int>>{{2, 0}, {1, 4}, {1, 7}, {1, 8}}));
-  EXPECT_EQ(memory.orders()[0].value, 1200);
-  EXPECT_EQ(memory.not_repeated(), 1u) << "M50 has no state";
-  memory.pass(auxiliary(9));
-  memory.pass(auxiliary(5));
-  EXPECT_EQ(codes(memory.orders()), (std::vector<std::pair<int, int>>{{2, 0}, {1, 5}, {1, 9}}));
-}
-
-TEST(AuxiliaryMemory, OnlyWhatWasTouchedMeanwhileIsGivenAgain) {
-  AuxiliaryMemory program, by_hand;
-  program.pass(auxiliary(3));
-  program.pass(auxiliary(8));
-  EXPECT_TRUE(program.orders_touched_by(by_hand).empty());
-  by_hand.pass(auxiliary(5));
-  EXPECT_EQ(codes(program.orders_touched_by(by_hand)), (std::vector<std::pair<int, int>>{{1, 3}}));
-  by_hand.pass(auxiliary(7));  // mist, which the program does not want: both off, flood on again
-  EXPECT_EQ(codes(program.orders_touched_by(by_hand)),
-            (std::vector<std::pair<int, int>>{{1, 9}, {1, 3}, {1, 8}}));
-}
 
 TEST(Approach, GoesUpBeforeItGoesOverAndDownAfter) {
   const AxisValues low{0, 0, -50}, high{30, 40, 10};
@@ -95,7 +56,7 @@ TEST_F(FromLine, RestoresModesVariablesAndFunctionsThenApproachesAndGoesOn) {
   EXPECT_TRUE(drive.rows.empty()) << "nothing moves before cycle start";
   EXPECT_TRUE(auxiliaries.empty());
   ASSERT_FALSE(events.empty());
-  EXPECT_EQ(events.back().alarm, "search_done");
+  EXPECT_EQ(events.back().alarm, &alarm::search_done);
   // X 20 + 5 by the variable, Z 20 up first.
   EXPECT_EQ(events.back().text, "part.nc:10: S1000 M3 M8, approach Z20.0000, then X25.0000");
   ASSERT_TRUE(ask(Request::CYCLE_START).accepted);
@@ -139,7 +100,7 @@ TEST_F(FromLine, ANewToolMustBeInTheSpindleAlready) {
   run();
   EXPECT_EQ(core->run_state(), RunState::IDLE);
   ASSERT_EQ(events.size(), 1u);
-  EXPECT_EQ(events[0].alarm, "search_failed");
+  EXPECT_EQ(events[0].alarm, &alarm::search_failed);
   EXPECT_EQ(events[0].text, "part.nc:6: needs tool T1, T0 is in the spindle: change it by MDI first");
 }
 
@@ -173,7 +134,7 @@ TEST_F(FromLine, AnApproachOutOfTravelIsSeenBeforeAnythingMoves) {
   run();
   EXPECT_EQ(core->run_state(), RunState::IDLE);
   ASSERT_EQ(events.size(), 1u);
-  EXPECT_EQ(events[0].alarm, "travel_limit");
+  EXPECT_EQ(events[0].alarm, &alarm::travel_limit);
   EXPECT_TRUE(drive.rows.empty());
 }
 

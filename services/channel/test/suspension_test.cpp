@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "channel_fixture.hpp"
+#include "machine/alarm_constants.hpp"
 
 namespace trunnion::channel {
 namespace {
@@ -143,7 +144,7 @@ TEST_F(Channel, TheLineInWhichTheControlWasSwitchedOffIsOffered) {
   EXPECT_EQ(core->running_program().line, 3u) << "it is not forgotten before it was used";
   round();
   ASSERT_EQ(events.size(), 1u);
-  EXPECT_EQ(events[0].alarm, "switched_off_in_program");
+  EXPECT_EQ(events[0].alarm, &alarm::switched_off_in_program);
   ask(CommandKind::SET_MODE);
   ASSERT_TRUE(ask(CommandKind::START_FROM_LINE, "", core->state().restart_line).accepted);
   run();

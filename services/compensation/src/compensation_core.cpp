@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "machine/parameter_constants.hpp"
+
 namespace trunnion::compensation {
 
 double PitchTable::at(double x, bool positive_direction) const {
@@ -28,18 +30,18 @@ void CompensationCore::configure(const machine::Parameters& p, std::uint16_t cha
   for (std::size_t i = 0; i < numbers.size(); ++i) {
     auto& axis = axes[i];
     const std::uint32_t a = numbers[i];
-    axis.backlash = p.integer("backlash_type", a) == 1 ? p.get("backlash", a) : 0;
-    axis.rate = p.get("backlash_rate", a);
+    axis.backlash = p.integer(parameter::backlash_type, a) == 1 ? p.get(parameter::backlash, a) : 0;
+    axis.rate = p.get(parameter::backlash_rate, a);
     auto& pitch = axis.pitch;
-    const int type = p.integer("pitch_type", a);
-    const int points = p.integer("pitch_points", a);
+    const int type = p.integer(parameter::pitch_type, a);
+    const int points = p.integer(parameter::pitch_points, a);
     pitch.enabled = type != 0 && points > 0;
     pitch.bidirectional = type == 2;
-    pitch.modulo = p.integer("pitch_modulo", a) == 1;
-    pitch.start = p.get("pitch_start", a);
-    pitch.interval = p.get("pitch_interval", a);
-    pitch.factor = p.get("pitch_override", a);
-    const auto first = static_cast<std::uint32_t>(p.integer("pitch_table", a));
+    pitch.modulo = p.integer(parameter::pitch_modulo, a) == 1;
+    pitch.start = p.get(parameter::pitch_start, a);
+    pitch.interval = p.get(parameter::pitch_interval, a);
+    pitch.factor = p.get(parameter::pitch_override, a);
+    const auto first = static_cast<std::uint32_t>(p.integer(parameter::pitch_table, a));
     for (int k = 0; k < points && pitch.enabled; ++k) {
       pitch.positive.push_back(p.at(first + static_cast<std::uint32_t>(k)));
       if (pitch.bidirectional) pitch.negative.push_back(p.at(first + static_cast<std::uint32_t>(points + k)));

@@ -5,6 +5,9 @@
 #include <cstdio>
 #include <limits>
 
+#include "machine/alarm_constants.hpp"
+#include "machine/parameter_constants.hpp"
+
 namespace trunnion::drive {
 namespace {
 constexpr std::uint32_t settling = 250;  // periods after motion in virtual time, until the servos stand still
@@ -15,11 +18,11 @@ void DriveCore::configure(const machine::Parameters& p, bool virtual_time) {
   const bool first = axes_.empty();
   virtual_time_ = virtual_time;
   revision_ = p.revision;
-  dt_ = p.get("interpolation_cycle") * 1e-6;
-  lead_ = static_cast<std::uint64_t>(p.integer("stream_lead"));
+  dt_ = p.get(parameter::interpolation_cycle) * 1e-6;
+  lead_ = static_cast<std::uint64_t>(p.integer(parameter::stream_lead));
   // Three quarters of the lead, but no more than the channel's credit allows it to write: whole frames only.
   const auto frame = static_cast<std::uint64_t>(
-      p.integer(virtual_time ? "frame_cycles_virtual_time" : "frame_cycles_real_time"));
+      p.integer(virtual_time ? parameter::frame_cycles_virtual_time : parameter::frame_cycles_real_time));
   prefill_ = std::max<std::uint64_t>(1, std::min((lead_ * 3 - 1) / 4, lead_ > frame ? lead_ - frame + 1 : 1));
   if (first) {
     axes_ = machine::drive_axes(p);
@@ -29,7 +32,7 @@ void DriveCore::configure(const machine::Parameters& p, bool virtual_time) {
       v->assign(n, 0.0);
     reported_.assign(n, false);
     for (std::size_t i = 0; i < n; ++i) {
-      command_[i] = target_[i] = p.get("reference_coordinate", axes_[i].number);
+      command_[i] = target_[i] = p.get(parameter::reference_coordinate, axes_[i].number);
       servos_[i].place(command_[i]);
     }
     for (std::uint16_t c = 0; c < 10; ++c)
@@ -38,15 +41,15 @@ void DriveCore::configure(const machine::Parameters& p, bool virtual_time) {
   limits_.resize(axes_.size());
   for (std::size_t i = 0; i < axes_.size(); ++i) {
     const auto a = axes_[i].number;
-    limits_[i] = {std::max(p.get("rapid_feed", a), p.get("maximum_feed", a)) / 60,
-                  p.get("maximum_acceleration", a), p.get("positive_limit", a), p.get("negative_limit", a),
-                  p.get("following_error_limit", a)};
+    limits_[i] = {std::max(p.get(parameter::rapid_feed, a), p.get(parameter::maximum_feed, a)) / 60,
+                  p.get(parameter::maximum_acceleration, a), p.get(parameter::positive_limit, a),
+                  p.get(parameter::negative_limit, a), p.get(parameter::following_error_limit, a)};
     servos_[i].configure(ServoParameters::from(p, a));
   }
   spindle_axes_ = machine::spindles(p);
   spindles_.resize(spindle_axes_.size());
   for (std::size_t i = 0; i < spindles_.size(); ++i)
-    spindles_[i].configure(p.get("maximum_acceleration", spindle_axes_[i].number), dt_);
+    spindles_[i].configure(p.get(parameter::maximum_acceleration, spindle_axes_[i].number), dt_);
   skip_inputs_.configure(p, axes_);
 }
 
@@ -273,7 +276,7 @@ void DriveCore::step() {
                       "No setpoint for cycle %llu in time; %llu cycles at hand, %llu needed to stop",
                       static_cast<unsigned long long>(next_ + s.cycles),
                       static_cast<unsigned long long>(s.cycles), static_cast<unsigned long long>(reserve_));
-        raise("setpoint_missing", 0, text);
+        raise(alarm::setpoint_missing, 0, text);
         begin_braking();
         brake();
       } else {
@@ -297,7 +300,7 @@ bool DriveCore::pass_cycle() {
       std::snprintf(text, sizeof text, "Axis %s would jump by %.6f in cycle %llu; its fastest is %.6f",
                     axes_[i].name.c_str(), velocity_[i], static_cast<unsigned long long>(next_),
                     limits_[i].velocity * dt_);
-      raise("setpoint_jump", axes_[i].number, text);
+      raise(alarm::setpoint_jump, axes_[i].number, text);
       rate_ = 0;
       mode_ = Mode::held;
       return false;
@@ -410,13 +413,13 @@ void DriveCore::supervise() {
     if (l.following > 0 && std::abs(error) > l.following) {
       std::snprintf(text, sizeof text, "Axis %s: following error %.4f, limit %.4f (parameter %s)",
                     axes_[i].name.c_str(), error, l.following,
-                    machine::number_text(100037 + axes_[i].number * 1000u).c_str());
-      raise("following_error", axes_[i].number, text);
+                    machine::number_text(parameter::following_error_limit.number(axes_[i].number)).c_str());
+      raise(alarm::following_error, axes_[i].number, text);
     } else if (constexpr double margin = 0.5; (command_[i] > l.positive + margin && velocity_[i] > 0) ||
                                               (command_[i] < l.negative - margin && velocity_[i] < 0)) {
       std::snprintf(text, sizeof text, "Axis %s at %.4f is beyond its travel %.4f .. %.4f",
                     axes_[i].name.c_str(), command_[i], l.negative, l.positive);
-      raise("over_travel", axes_[i].number, text);
+      raise(alarm::over_travel, axes_[i].number, text);
     } else {
       continue;
     }
@@ -427,8 +430,8 @@ void DriveCore::supervise() {
 
 void DriveCore::acknowledge() { std::fill(reported_.begin(), reported_.end(), false); }
 
-void DriveCore::raise(const char* alarm, std::uint32_t part, std::string text) {
-  events_.push_back({alarm, part, std::move(text)});
+void DriveCore::raise(const machine::AlarmDefinition& alarm, std::uint32_t part, std::string text) {
+  events_.push_back({&alarm, part, std::move(text)});
 }
 
 std::vector<DriveEvent> DriveCore::take_events() { return std::exchange(events_, {}); }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "contracts/types.hpp"
+#include "machine/alarm_definition.hpp"
 #include "machine/axes.hpp"
 #include "servo_axis.hpp"
 #include "skip_inputs.hpp"
@@ -38,7 +39,7 @@ struct Memory {
 
 /// Something the drive wants to tell: the service turns it into an alarm.
 struct DriveEvent {
-  std::string alarm;  ///< name in alarms.yaml
+  const machine::AlarmDefinition* alarm = nullptr;
   std::uint32_t part = 0;
   std::string text;
 };
@@ -137,7 +138,7 @@ class DriveCore {
   double rate_step();
   void return_to_whole_cycles();
   void leave(Channel& channel);
-  void raise(const char* alarm, std::uint32_t part, std::string text);
+  void raise(const machine::AlarmDefinition& alarm, std::uint32_t part, std::string text);
 
   double dt_ = 0.001;
   bool virtual_time_ = false;

@@ -3,26 +3,28 @@
 #include <algorithm>
 #include <cmath>
 
+#include "machine/parameter_constants.hpp"
+
 namespace trunnion::drive {
 
 ServoParameters ServoParameters::from(const machine::Parameters& p, std::uint32_t axis) {
   ServoParameters s;
-  const double acceleration = p.get("maximum_acceleration", axis);
-  s.position_gain = p.get("position_gain", axis);
-  s.speed_gain = p.get("speed_gain", axis);
-  s.speed_integral_time = p.get("speed_integral_time", axis) / 1000;
-  s.current_time_constant = p.get("current_time_constant", axis) / 1000;
-  s.velocity_feedforward = p.get("velocity_feedforward", axis);
-  s.acceleration_feedforward = p.get("acceleration_feedforward", axis);
+  const double acceleration = p.get(parameter::maximum_acceleration, axis);
+  s.position_gain = p.get(parameter::position_gain, axis);
+  s.speed_gain = p.get(parameter::speed_gain, axis);
+  s.speed_integral_time = p.get(parameter::speed_integral_time, axis) / 1000;
+  s.current_time_constant = p.get(parameter::current_time_constant, axis) / 1000;
+  s.velocity_feedforward = p.get(parameter::velocity_feedforward, axis);
+  s.acceleration_feedforward = p.get(parameter::acceleration_feedforward, axis);
   // The motor is chosen for a load of its own inertia: three times the programmed acceleration at its peak.
-  s.inertia = (1 + p.get("load_inertia_ratio", axis)) / 2;
+  s.inertia = (1 + p.get(parameter::load_inertia_ratio, axis)) / 2;
   s.rated_torque = 1.5 * acceleration;
   s.peak_torque = 3 * acceleration;
-  s.coulomb = p.get("coulomb_friction", axis);
-  s.viscous = p.get("viscous_friction", axis);
-  s.rapid = p.get("rapid_feed", axis) / 60;
-  s.resolution = p.get("encoder_resolution", axis) * 1e-6;
-  s.backlash = p.get("mechanical_backlash", axis);
+  s.coulomb = p.get(parameter::coulomb_friction, axis);
+  s.viscous = p.get(parameter::viscous_friction, axis);
+  s.rapid = p.get(parameter::rapid_feed, axis) / 60;
+  s.resolution = p.get(parameter::encoder_resolution, axis) * 1e-6;
+  s.backlash = p.get(parameter::mechanical_backlash, axis);
   return s;
 }
 

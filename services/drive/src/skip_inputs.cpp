@@ -1,5 +1,7 @@
 #include "skip_inputs.hpp"
 
+#include "machine/parameter_constants.hpp"
+
 namespace trunnion::drive {
 namespace {
 constexpr std::size_t most_edges = 16;  // FeedbackFrame::skips
@@ -7,10 +9,10 @@ constexpr std::size_t most_edges = 16;  // FeedbackFrame::skips
 
 void SkipInputs::configure(const machine::Parameters& p, const std::vector<machine::AxisInfo>& axes) {
   for (std::uint32_t k = 0; k < inputs_.size(); ++k) {
-    const int axis = p.integer("skip_input_axis", 0, k);
+    const int axis = p.integer(parameter::skip_input_axis, 0, k);
     inputs_[k].column = axis < 0 ? -1 : machine::column_of(axes, static_cast<std::uint16_t>(axis));
-    inputs_[k].position = p.get("skip_input_position", 0, k);
-    inputs_[k].side = p.integer("skip_input_side", 0, k) < 0 ? -1 : 1;
+    inputs_[k].position = p.get(parameter::skip_input_position, 0, k);
+    inputs_[k].side = p.integer(parameter::skip_input_side, 0, k) < 0 ? -1 : 1;
   }
 }
 

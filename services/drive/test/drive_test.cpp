@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "drive_core.hpp"
+#include "machine/alarm_constants.hpp"
 
 namespace trunnion::drive {
 namespace {
@@ -262,7 +263,7 @@ TEST_F(Fixture, ASetpointThatJumpsIsRefused) {
   EXPECT_LT(core.commands()[0], 10);
   const auto events = core.take_events();
   ASSERT_FALSE(events.empty());
-  EXPECT_EQ(events[0].alarm, "setpoint_jump");
+  EXPECT_EQ(events[0].alarm, &alarm::setpoint_jump);
 }
 
 TEST_F(Fixture, AStartAwayFromThePathIsApproachedWithinTheLimits) {

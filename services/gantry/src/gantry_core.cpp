@@ -3,32 +3,35 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "machine/parameter_constants.hpp"
+
 namespace trunnion::gantry {
 
 std::vector<Pair> read_pairs(const machine::Parameters& p) {
   std::vector<Pair> pairs;
   const auto axes = machine::drive_axes(p);
-  const int slaves = p.integer("gantry_slaves");
+  const int slaves = p.integer(parameter::gantry_slaves);
   for (int i = 0; i < slaves; ++i) {
-    const int slave = p.integer("gantry_slave_axis", 0, static_cast<std::uint32_t>(i));
-    if (slave < 0 || p.integer("gantry_synchronous", static_cast<std::uint32_t>(slave)) != 1) continue;
+    const int slave = p.integer(parameter::gantry_slave_axis, 0, static_cast<std::uint32_t>(i));
+    if (slave < 0 || p.integer(parameter::gantry_synchronous, static_cast<std::uint32_t>(slave)) != 1)
+      continue;
     const auto a = static_cast<std::uint32_t>(slave);
     Pair pair;
-    const int master = p.integer("gantry_master", a);
+    const int master = p.integer(parameter::gantry_master, a);
     pair.slave = static_cast<std::uint16_t>(slave);
     pair.master = static_cast<std::uint16_t>(std::max(0, master));
     pair.slave_column = machine::column_of(axes, pair.slave);
     pair.master_column = machine::column_of(axes, pair.master);
     if (master < 0 || pair.slave_column < 0 || pair.master_column < 0)
-      throw std::runtime_error("parameter " + machine::number_text(100101 + a * 1000) +
+      throw std::runtime_error("parameter " + machine::number_text(parameter::gantry_master.number(a)) +
                                " (gantry_master): axis " + std::to_string(slave) + " follows axis " +
                                std::to_string(master) + ", and one of them does not exist");
-    pair.sign = p.integer("gantry_mirror", a) == 1 ? -1 : 1;
-    pair.zero_deviation = p.get("gantry_zero_deviation", a);
-    pair.rate = p.get("gantry_compensation_rate", a);
-    pair.maximum = p.get("gantry_compensation_maximum", a);
-    pair.warning = p.get("synchronization_warning_limit", a);
-    pair.limit = p.get("synchronization_error_limit", a);
+    pair.sign = p.integer(parameter::gantry_mirror, a) == 1 ? -1 : 1;
+    pair.zero_deviation = p.get(parameter::gantry_zero_deviation, a);
+    pair.rate = p.get(parameter::gantry_compensation_rate, a);
+    pair.maximum = p.get(parameter::gantry_compensation_maximum, a);
+    pair.warning = p.get(parameter::synchronization_warning_limit, a);
+    pair.limit = p.get(parameter::synchronization_error_limit, a);
     pairs.push_back(pair);
   }
   return pairs;
@@ -39,7 +42,7 @@ double synchronization_error(const Pair& pair, const double* actual) {
 }
 
 void GantryCore::configure(const machine::Parameters& p, std::uint16_t channel) {
-  lead_ = static_cast<std::uint64_t>(p.integer("stream_lead"));
+  lead_ = static_cast<std::uint64_t>(p.integer(parameter::stream_lead));
   const auto numbers = machine::channel_axes(p, channel).number;
   pairs_.clear();
   master_index_.clear();

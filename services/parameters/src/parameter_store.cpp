@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "machine/alarms.hpp"
+#include "machine/alarm_constants.hpp"
 
 namespace trunnion::parameters {
 namespace {
@@ -60,10 +60,10 @@ ParameterStore::ParameterStore(Storage& storage, MachineDefaults defaults, const
   state_.offsets = defaults_.offsets;
   if (const auto text = storage_.read(parameters_file))
     state_.overrides = machine::read_parameter_text(*text, parameters_file);
-  if (const auto text = storage_.read(setup::tools_file))
-    state_.tools = setup::read_tools(*text, setup::tools_file, state_.tools_revision);
-  if (const auto text = storage_.read(setup::offsets_file))
-    state_.offsets = setup::read_offsets(*text, setup::offsets_file, state_.offsets_revision);
+  if (const auto text = storage_.read(tool_tables::tools_file))
+    state_.tools = tool_tables::read_tools(*text, tool_tables::tools_file, state_.tools_revision);
+  if (const auto text = storage_.read(tool_tables::offsets_file))
+    state_.offsets = tool_tables::read_offsets(*text, tool_tables::offsets_file, state_.offsets_revision);
   // A torn last line of the journal ends here, so that the next entry has a line of its own.
   if (const auto text = storage_.read(journal_file); text && !text->empty() && text->back() != '\n')
     storage_.truncate(journal_file, text->rfind('\n') == std::string::npos ? 0 : text->rfind('\n') + 1);
@@ -176,7 +176,7 @@ std::string ParameterStore::change(State& next, const ParameterRequest& request,
         journal.push_back(line(time, who, "tool", tool.number, before, nlohmann::json()));
         continue;
       }
-      if (auto error = setup::check_tool(tool); !error.empty()) return error;
+      if (auto error = tool_tables::check_tool(tool); !error.empty()) return error;
       if (found != next.tools.end() && found->second == tool) continue;
       next.tools[tool.number] = tool;
       journal.push_back(line(time, who, "tool", tool.number, before, json_of(tool)));
@@ -186,7 +186,7 @@ std::string ParameterStore::change(State& next, const ParameterRequest& request,
   if (offsets) {
     for (auto offset : request.offsets) {
       if (offset.values.size() < 9) offset.values.resize(9, 0.0);
-      if (auto error = setup::check_offset(offset); !error.empty()) return error;
+      if (auto error = tool_tables::check_offset(offset); !error.empty()) return error;
       auto& entry = next.offsets[{offset.channel, offset.index}];
       if (entry.values == offset.values) continue;
       journal.push_back(line(
@@ -209,9 +209,10 @@ void ParameterStore::commit(const State& next, const ActiveSet& active,
     files.push_back({parameters_file, "# Saved values; all others are the machine's defaults.\n" +
                                           machine::write_parameter_text(next.overrides)});
   if (next.tools_revision != state_.tools_revision)
-    files.push_back({setup::tools_file, setup::write_tools(next.tools, next.tools_revision)});
+    files.push_back({tool_tables::tools_file, tool_tables::write_tools(next.tools, next.tools_revision)});
   if (next.offsets_revision != state_.offsets_revision)
-    files.push_back({setup::offsets_file, setup::write_offsets(next.offsets, next.offsets_revision)});
+    files.push_back(
+        {tool_tables::offsets_file, tool_tables::write_offsets(next.offsets, next.offsets_revision)});
   const auto text = write_active(active);
   if (storage_.read(active_file).value_or("") != text) files.push_back({active_file, text});
 
@@ -249,7 +250,7 @@ idl::parameters::ParameterReply ParameterStore::apply(const ParameterRequest& re
       error = "more than 4096 values would wait for a reset: reset a channel first";
   }
   if (!error.empty()) {
-    reply.alarm = machine::alarm_definition("request_invalid").number;
+    reply.alarm = alarm::request_invalid.number;
     reply.reason = error;
   } else {
     if (next.tools != state_.tools) ++next.tools_revision;
@@ -258,7 +259,7 @@ idl::parameters::ParameterReply ParameterStore::apply(const ParameterRequest& re
       if (!journal.empty()) commit(next, active, journal);
       reply.accepted = true;
     } catch (const StorageError& e) {
-      reply.alarm = machine::alarm_definition("storage_failed").number;
+      reply.alarm = alarm::storage_failed.number;
       reply.reason = e.what();
     }
   }

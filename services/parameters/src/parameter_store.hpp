@@ -5,17 +5,17 @@
 
 #include "active_set.hpp"
 #include "contracts/types.hpp"
-#include "setup/machine_tables.hpp"
-#include "setup/tables.hpp"
 #include "storage.hpp"
+#include "tool_tables/machine_tables.hpp"
+#include "tool_tables/tables.hpp"
 
 namespace trunnion::parameters {
 
 /// What the machine builder delivers: the values a saved value is an exception from.
 struct MachineDefaults {
   Values values;
-  setup::Tools tools;
-  setup::Offsets offsets;
+  tool_tables::Tools tools;
+  tool_tables::Offsets offsets;
 };
 
 /// Which published topics have news.
@@ -47,8 +47,8 @@ class ParameterStore {
  private:
   struct State {
     Values overrides;  ///< stored values that differ from the machine's defaults
-    setup::Tools tools;
-    setup::Offsets offsets;
+    tool_tables::Tools tools;
+    tool_tables::Offsets offsets;
     std::uint64_t tools_revision = 1, offsets_revision = 1;
   };
   machine::ParameterValue machine_default(std::uint32_t number) const;

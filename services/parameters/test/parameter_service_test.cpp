@@ -3,7 +3,7 @@
 
 #include "contracts/topics.hpp"
 #include "machine/parameters.hpp"
-#include "node/request.hpp"
+#include "service/request.hpp"
 #include "testing_support/running_service.hpp"
 
 namespace trunnion::parameters {
@@ -48,7 +48,7 @@ class Client {
   bus::Bus bus_;
   bus::Reader<idl::parameters::ParameterSet> set_;
   bus::Writer<idl::channel::ChannelState> channel_;
-  node::RequestClient<idl::parameters::ParameterRequest, idl::parameters::ParameterReply> requests_;
+  service::RequestClient<idl::parameters::ParameterRequest, idl::parameters::ParameterReply> requests_;
 };
 
 double value_of(const idl::parameters::ParameterSet& set, std::uint32_t number) {

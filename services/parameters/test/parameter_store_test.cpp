@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "machine/alarms.hpp"
+#include "machine/alarm_constants.hpp"
 #include "parameter_store.hpp"
 
 namespace trunnion::parameters {
@@ -173,7 +173,7 @@ TEST(ParameterStore, SeveralValuesAreAllOrNothing) {
   const auto before = storage.files;
   const auto reply = store.apply(set({{name, 0, "Z"}, {cycle, 100, ""}}), time_text);
   EXPECT_FALSE(reply.accepted);
-  EXPECT_EQ(reply.alarm, machine::alarm_definition("request_invalid").number);
+  EXPECT_EQ(reply.alarm, alarm::request_invalid.number);
   EXPECT_THAT(reply.reason, HasSubstr("000001 (interpolation_cycle): 100 is outside 250 .. 10000"));
   EXPECT_EQ(store.set().values[0].text, "X");
   EXPECT_EQ(storage.files, before);
@@ -224,7 +224,7 @@ TEST(ParameterStore, AFullJournalRefusesTheChange) {
   const auto before = store.set();
   const auto reply = store.apply(set({{name, 0, "Y"}}), time_text);
   EXPECT_FALSE(reply.accepted);
-  EXPECT_EQ(reply.alarm, machine::alarm_definition("storage_failed").number);
+  EXPECT_EQ(reply.alarm, alarm::storage_failed.number);
   EXPECT_EQ(store.set(), before);
 }
 
@@ -233,8 +233,7 @@ TEST(ParameterStore, AFullDiskRefusesTheChangeAndTakesTheJournalBack) {
   ParameterStore store(storage, defaults(), "one");
   const auto before = store.set();
   storage.full = true;
-  EXPECT_EQ(store.apply(set({{name, 0, "Y"}}), time_text).alarm,
-            machine::alarm_definition("storage_failed").number);
+  EXPECT_EQ(store.apply(set({{name, 0, "Y"}}), time_text).alarm, alarm::storage_failed.number);
   EXPECT_EQ(store.set(), before);
   EXPECT_TRUE(storage.files[journal_file].empty());
   EXPECT_THROW(store.channel_reset_count(0, 1), StorageError);
@@ -306,12 +305,12 @@ TEST(Tables, ErrorsSayFileLineColumn) {
     }
     return std::string();
   };
-  EXPECT_THAT(message(setup::read_tools, "- {number: 1, length: long}\n"),
+  EXPECT_THAT(message(tool_tables::read_tools, "- {number: 1, length: long}\n"),
               HasSubstr("f.yaml:1:23: error: 'length'"));
-  EXPECT_THAT(message(setup::read_tools, "- {number: 0}\n"), HasSubstr("f.yaml:1:3: error: tool 0"));
-  EXPECT_THAT(message(setup::read_offsets, "- {channel: 0, offset: G60}\n"),
+  EXPECT_THAT(message(tool_tables::read_tools, "- {number: 0}\n"), HasSubstr("f.yaml:1:3: error: tool 0"));
+  EXPECT_THAT(message(tool_tables::read_offsets, "- {channel: 0, offset: G60}\n"),
               HasSubstr("f.yaml:1:24: error: 'G60' is not"));
-  EXPECT_THAT(message(setup::read_offsets, "- {channel: 0, offset: G54, Q: 1}\n"),
+  EXPECT_THAT(message(tool_tables::read_offsets, "- {channel: 0, offset: G54, Q: 1}\n"),
               HasSubstr("f.yaml:1:29: error: unknown"));
 }
 

@@ -3,8 +3,8 @@
 #include <cstdlib>
 
 #include "active_set.hpp"
-#include "setup/tables.hpp"
 #include "testing_support/refusal.hpp"
+#include "tool_tables/tables.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace trunnion;
@@ -12,15 +12,16 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::string text(reinterpret_cast<const char*>(data), size);
   testing_support::taken_or_refused("tools.yaml", [&] {
     std::uint64_t revision = 0, again = 0;
-    const auto tools = setup::read_tools(text, "tools.yaml", revision);
-    if (setup::read_tools(setup::write_tools(tools, revision), "written", again) != tools ||
+    const auto tools = tool_tables::read_tools(text, "tools.yaml", revision);
+    if (tool_tables::read_tools(tool_tables::write_tools(tools, revision), "written", again) != tools ||
         again != revision)
       std::abort();
   });
   testing_support::taken_or_refused("work_offsets.yaml", [&] {
     std::uint64_t revision = 0, again = 0;
-    const auto offsets = setup::read_offsets(text, "work_offsets.yaml", revision);
-    if (setup::read_offsets(setup::write_offsets(offsets, revision), "written", again) != offsets ||
+    const auto offsets = tool_tables::read_offsets(text, "work_offsets.yaml", revision);
+    if (tool_tables::read_offsets(tool_tables::write_offsets(offsets, revision), "written", again) !=
+            offsets ||
         again != revision)
       std::abort();
   });

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "machine/axes.hpp"
+#include "machine/parameter_constants.hpp"
 
 namespace trunnion::plc {
 namespace {
@@ -54,7 +55,7 @@ void PlcCore::configure(const machine::Parameters& parameters, bool virtual_time
   axis_exists_.assign(32, 0);
   for (const auto& axis : machine::drive_axes(parameters)) axis_exists_[axis.number] = 1;
   spindles_ = std::min(machine::spindles(parameters).size(), spindle_count);
-  period_us_ = static_cast<std::uint64_t>(parameters.integer("interpolation_cycle"));
+  period_us_ = static_cast<std::uint64_t>(parameters.integer(parameter::interpolation_cycle));
   view_.changed = true;
 }
 

@@ -4,11 +4,8 @@
 
 #include "machine/yaml.hpp"
 
-namespace trunnion::machine {
-extern const char* const registers_text;
-}
-
 namespace trunnion::plc {
+extern const char* const registers_text;  // registers.yaml, embedded
 
 Symbols parse_symbols(const std::string& yaml, const std::string& file) {
   Symbols symbols;
@@ -35,7 +32,7 @@ Symbols parse_symbols(const std::string& yaml, const std::string& file) {
 }
 
 const Symbols& interface_symbols() {
-  static const Symbols symbols = parse_symbols(machine::registers_text, "registers.yaml");
+  static const Symbols symbols = parse_symbols(registers_text, "registers.yaml");
   return symbols;
 }
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "contracts/topics.hpp"
-#include "node/request.hpp"
+#include "service/request.hpp"
 #include "testing_support/running_service.hpp"
 
 namespace trunnion::plc {
@@ -86,7 +86,7 @@ class Machine {
   bus::Reader<idl::plc::Outputs> outputs_;
   bus::Reader<idl::plc::AuxiliaryDone> done_;
   bus::Reader<idl::service::ServiceState> states_;
-  node::RequestClient<idl::plc::PanelRequest, idl::plc::PanelReply> panel_;
+  service::RequestClient<idl::plc::PanelRequest, idl::plc::PanelReply> panel_;
 };
 
 void install(const RunningService& service) {

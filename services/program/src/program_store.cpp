@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "machine/alarms.hpp"
+#include "machine/alarm_constants.hpp"
 #include "machine/yaml.hpp"
 
 namespace trunnion::program {
@@ -182,13 +182,11 @@ idl::program::ProgramReply ProgramStore::apply(const Request& request, double no
           error = "unknown operation";
       }
     if (!error.empty())
-      reply.alarm =
-          machine::alarm_definition(error == unknown(request.name) ? "program_missing" : "request_invalid")
-              .number;
+      reply.alarm = (error == unknown(request.name) ? alarm::program_missing : alarm::request_invalid).number;
   } catch (const StorageError& e) {
     error = e.what();
     reply.data.clear();
-    reply.alarm = machine::alarm_definition("storage_failed").number;
+    reply.alarm = alarm::storage_failed.number;
   }
   reply.accepted = error.empty();
   reply.reason = error.substr(0, 256);

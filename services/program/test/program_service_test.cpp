@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "contracts/topics.hpp"
-#include "node/request.hpp"
+#include "service/request.hpp"
 #include "storage/crc32.hpp"
 #include "testing_support/running_service.hpp"
 
@@ -22,7 +22,7 @@ TEST(ProgramServiceOverDds, AnUploadComesBackTheSameAndSurvivesAKill) {
 
   bus::Bus bus(bus::Vendor::cyclonedds, {domain});
   auto lists = bus.reader(topics::program_list);
-  node::RequestClient<idl::program::ProgramRequest, idl::program::ProgramReply> client(
+  service::RequestClient<idl::program::ProgramRequest, idl::program::ProgramReply> client(
       bus, topics::program_request, topics::program_reply);
   idl::program::ProgramList list;
   const auto listed = [&](std::size_t count) {

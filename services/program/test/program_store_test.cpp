@@ -4,7 +4,7 @@
 
 #include <map>
 
-#include "machine/alarms.hpp"
+#include "machine/alarm_constants.hpp"
 #include "program_store.hpp"
 #include "storage/crc32.hpp"
 
@@ -135,8 +135,7 @@ TEST(ProgramStore, ReadsChunksOfTheExpectedRevisionOnly) {
   EXPECT_EQ(reply.reason, "program 'a' has changed: revision 2, expected 1");
   read.revision = 0;
   EXPECT_TRUE(store.apply(read, 0).accepted);
-  EXPECT_EQ(store.apply(request(Operation::READ, "b"), 0).alarm,
-            machine::alarm_definition("program_missing").number);
+  EXPECT_EQ(store.apply(request(Operation::READ, "b"), 0).alarm, alarm::program_missing.number);
 }
 
 TEST(ProgramStore, AnUploadWithAGapAWrongSizeOrAWrongChecksumIsRefused) {
@@ -274,7 +273,7 @@ TEST(ProgramStore, AFullDiskRefusesTheChunkAndTheUploadGoesOnLater) {
   auto write = request(Operation::WRITE, "a");
   write.data = {'1'};
   files.full = true;
-  EXPECT_EQ(store.apply(write, 0).alarm, machine::alarm_definition("storage_failed").number);
+  EXPECT_EQ(store.apply(write, 0).alarm, alarm::storage_failed.number);
   files.full = false;
   EXPECT_TRUE(store.apply(write, 0).accepted);
 }
@@ -283,7 +282,7 @@ TEST(ProgramStore, AnUploadThatCannotBePutInPlaceChangesNothing) {
   RenameFailsFiles files;
   MemoryFiles state;
   ProgramStore store(files, state);
-  EXPECT_EQ(upload(store, "a", "1").alarm, machine::alarm_definition("storage_failed").number);
+  EXPECT_EQ(upload(store, "a", "1").alarm, alarm::storage_failed.number);
   EXPECT_TRUE(store.list().programs.empty());
 }
 

@@ -3,7 +3,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "bus/cdr.hpp"
+#include "bus/codec.hpp"
 
 namespace trunnion::recorder {
 namespace {

@@ -10,6 +10,7 @@
 #include "language/interpreter.hpp"
 #include "machine/axes.hpp"
 #include "machine/machine.hpp"
+#include "machine/parameter_constants.hpp"
 #include "machine/yaml.hpp"
 
 namespace trunnion::language {
@@ -27,8 +28,8 @@ class FileMachine : public Environment {
     const auto axes = machine::channel_axes(parameters_, 0);
     for (std::size_t i = 0; i < axes.index.size(); ++i) {
       mask_ = static_cast<std::uint16_t>(mask_ | (1u << axes.index[i]));
-      travel_[axes.index[i]] = {parameters_.get("negative_limit", axes.number[i]),
-                                parameters_.get("positive_limit", axes.number[i])};
+      travel_[axes.index[i]] = {parameters_.get(parameter::negative_limit, axes.number[i]),
+                                parameters_.get(parameter::positive_limit, axes.number[i])};
     }
     const auto offsets_file = directory_ + "/work_offsets.yaml";
     for (const auto& offset : machine::parse_yaml(machine::read_text(offsets_file), offsets_file))

@@ -3,7 +3,7 @@
 #include <fstream>
 #include <iostream>
 
-#include "bus/cdr.hpp"
+#include "bus/codec.hpp"
 #include "bus/json.hpp"
 #include "bus/registry.hpp"
 #include "contracts/topics.hpp"

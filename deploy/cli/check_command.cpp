@@ -1,0 +1,115 @@
+// check: what a program would do, without a cluster
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <sstream>
+
+#include "analysis/check_program.hpp"
+#include "analysis/default_machine.hpp"
+#include "analysis/json_lines.hpp"
+#include "analysis/program_folders.hpp"
+#include "channel_setup/channel_setup.hpp"
+#include "cluster/cluster_files.hpp"
+#include "commands.hpp"
+
+namespace trunnion::cli {
+namespace {
+
+struct Check {
+  std::string program;
+  std::string machine;
+  std::string tools;
+  bool skip_blocks = false;
+  bool json_lines = false;
+};
+
+std::optional<analysis::ToolRows> tool_rows(const std::string& path) {
+  if (path.empty()) return std::nullopt;
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream text;
+  text << file.rdbuf();
+  if (!file) throw std::runtime_error(path + ": cannot be read");
+  return analysis::read_tool_rows(text.str(), path);
+}
+
+/// The tools of the rows, with these values only.
+idl::parameters::ToolTable tool_table(const analysis::ToolRows& rows) {
+  idl::parameters::ToolTable table;
+  for (const auto& [number, row] : rows) {
+    idl::parameters::Tool tool;
+    tool.number = number;
+    tool.length = row.length;
+    tool.radius = row.radius;
+    table.tools.push_back(tool);
+  }
+  return table;
+}
+
+int run_check(const Check& options) {
+  analysis::FileSource text(options.program);
+  const auto rows = tool_rows(options.tools);
+  std::vector<std::string> folders{std::filesystem::path(options.program).parent_path().string()};
+  if (folders[0].empty()) folders[0] = ".";
+  std::string directory;
+  if (!options.machine.empty()) {
+    directory = cluster::find_machine(options.machine);
+    folders.push_back(directory + "/programs");
+    folders.push_back(directory + "/cycles");
+  }
+  analysis::ProgramFolders programs(folders);
+  const auto resolve = [&programs](std::string_view name) { return programs.find(name); };
+  const auto name = [&](std::uint32_t program) {
+    return program == 0 ? options.program : programs.path(language::ProgramName(program).view());
+  };
+  const analysis::CheckOptions check_options{options.json_lines, options.skip_blocks};
+  bool good = false;
+  if (options.machine.empty()) {
+    analysis::DefaultMachine machine(rows);
+    machine.resolve = resolve;
+    good = analysis::check_program(text, machine, {}, check_options, name, std::cout);
+  } else {
+    channel_setup::ChannelSetup machine(tool_tables::load_machine_tables(directory));
+    machine.resolve = resolve;
+    if (rows) machine.set_tools(tool_table(*rows));
+    good =
+        analysis::check_program(text, machine, machine.reference_position(), check_options, name, std::cout);
+  }
+  return good ? 0 : 1;
+}
+
+/// What keeps a program from being read at all is an error line too, when lines are asked for.
+int run_check_as_asked(const Check& options) {
+  if (!options.json_lines) return run_check(options);
+  try {
+    return run_check(options);
+  } catch (const std::exception& error) {
+    std::cout << "{\"error\":{\"line\":0,\"column\":0,\"number\":"
+              << static_cast<unsigned>(language::AlarmNumber::text_unreadable)
+              << ",\"text\":" << analysis::json_string(error.what()) << "}}\n";
+    return 1;
+  }
+}
+
+}  // namespace
+
+void add_check_command(CLI::App& app, Common& common) {
+  auto options = std::make_shared<Check>();
+  auto* command =
+      add_command(app, common, "check", "Interpret a program without a cluster and report what it does",
+                  [options] { return run_check_as_asked(*options); });
+  command->add_option("program", options->program, "The program's file")->required();
+  command->add_option(
+      "--machine", options->machine,
+      "Folder or name of a machine: its axes, offsets and tools, from its reference position; else three "
+      "linear axes from 0, offsets 0");
+  command->add_option(
+      "--tools", options->tools,
+      "CSV file number,length,radius in place of the tools; without it and a machine every tool is 0 long");
+  command->add_flag("--skip-blocks", options->skip_blocks, "Leave out blocks that begin with /");
+  command->add_flag("--jsonl", options->json_lines, "One JSON object per motion instead of a summary");
+}
+
+}  // namespace trunnion::cli

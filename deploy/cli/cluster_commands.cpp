@@ -1,0 +1,208 @@
+// up, down, status
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <iostream>
+#include <memory>
+
+#include "bus/json.hpp"
+#include "cluster/client.hpp"
+#include "cluster/cluster.hpp"
+#include "cluster/instances.hpp"
+#include "commands.hpp"
+#include "machine/alarm_constants.hpp"
+#include "stream/copy_watch.hpp"
+#include "stream/stage_names.hpp"
+
+namespace trunnion::cli {
+using bus::Json;
+
+CLI::App* add_command(CLI::App& app, Common& common, const std::string& name, const std::string& about,
+                      std::function<int()> action) {
+  auto* command = app.add_subcommand(name, about);
+  command->add_flag("--json", common.json, "Print JSON");
+  command->add_option("--domain", common.domain, "DDS domain of the cluster (default: the one that runs)")
+      ->check(CLI::Range(0, 100));
+  command->callback([&common, action] { common.action = action; });
+  return command;
+}
+
+namespace {
+
+int up(const Common& common, cluster::UpOptions options, const std::string& time) {
+  options.domain = common.domain;
+  if (!time.empty()) options.virtual_time = time == "virtual";
+  const auto cluster = cluster::start_cluster(options);
+  if (options.foreground) return 0;
+  if (common.json) {
+    std::cout << Json{{"machine", cluster.machine},
+                      {"domain", cluster.run.domain},
+                      {"ready_seconds", cluster.start_seconds},
+                      {"state", cluster.state_directory},
+                      {"port", cluster.port}}
+                     .dump()
+              << "\n";
+  } else {
+    std::printf("%s %s in %.2f s, domain %u, state in %s\n", cluster.machine.c_str(),
+                cluster.host.empty() ? "is ready" : ("runs what host " + cluster.host + " has").c_str(),
+                cluster.start_seconds, cluster.run.domain, cluster.state_directory.c_str());
+    if (cluster.port != 0) std::printf("Operate it at http://localhost:%u\n", cluster.port);
+  }
+  return 0;
+}
+
+int down(const Common& common) {
+  bool cleared = false;
+  for (const auto& run : cluster::run_directories())
+    if (run.abandoned() && (!common.domain || *common.domain == run.domain)) {
+      run.remove();
+      cleared = true;
+      std::fprintf(stderr, "Removed what the killed cluster in domain %u had left\n", run.domain);
+    }
+  const auto all = cluster::run_directories();
+  if (cleared && std::none_of(all.begin(), all.end(), [](const auto& run) { return run.launcher(); }))
+    return 0;
+  const auto cluster = cluster::find_cluster(common.domain);
+  cluster::stop_cluster(cluster.run);
+  if (common.json)
+    std::cout << Json{{"stopped", cluster.machine}}.dump() << "\n";
+  else
+    std::printf("%s is down\n", cluster.machine.c_str());
+  return 0;
+}
+
+std::string host_of(const machine::MachineConfig& config, std::uint32_t instance) {
+  for (const auto& entry : config.services)
+    if (entry.instance == cluster::place_of(instance)) return entry.host;
+  return "";
+}
+
+// Behind the columns: the host, where there are several, and what the service publishes of itself.
+std::string remark(const Json& row) {
+  const auto host = row["host"].get<std::string>();
+  return (host.empty() ? "" : "on " + host + "  ") + row["detail"].get<std::string>();
+}
+
+// Of a replica of a stage: in step, joining, or dropped by a channel; empty for other services.
+std::string replica_state(const idl::service::ClusterService& service, bool in_step,
+                          const std::map<std::array<std::uint32_t, 3>, idl::service::Alarm>& alarms) {
+  const auto stage = stream::stage_of(service.service);
+  if (stage == 0 || service.pid == 0) return "";
+  const auto part = stream::copy_part(stage, service.copy);
+  const auto number = alarm::redundancy_lost.number;
+  for (const auto& [key, alarm] : alarms)
+    if (alarm.active && alarm.number == number && alarm.part == part &&
+        alarm.source == stream::stage_name(stream::stage_channel))
+      return "dropped";
+  return in_step ? "in step" : "joining";
+}
+
+int status(const Common& common) {
+  const auto cluster = cluster::find_cluster(common.domain);
+  cluster::Client client(cluster.run.domain);
+  auto announcements = client.bus().reader(topics::announcement);
+  auto states = client.bus().reader(topics::service_state);
+  auto alarms = client.bus().reader(topics::alarm);
+  const auto list = client.newest(topics::cluster);
+  std::map<std::uint32_t, idl::service::Announcement> announced;
+  std::map<std::uint32_t, idl::service::ServiceState> state;
+  std::map<std::array<std::uint32_t, 3>, idl::service::Alarm> alarm;
+  const double until = service::monotonic_seconds() + 1.5;
+  do {
+    idl::service::Announcement a;
+    while (announcements.take(a)) announced[a.instance] = a;
+    idl::service::ServiceState s;
+    while (states.take(s)) state[s.instance] = s;
+    idl::service::Alarm l;
+    while (alarms.take(l)) alarm[{l.instance, l.number, l.part}] = l;
+    bool all = announced.size() >= list.services.size();
+    for (const auto& service : list.services) all = all && state.count(service.instance) != 0;
+    if (all && service::monotonic_seconds() > until - 1.2) break;
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  } while (service::monotonic_seconds() < until);
+  const auto config = machine::load_machine(cluster.machine_directory);
+  Json services = Json::array();
+  for (const auto& service : list.services) {
+    Json row = bus::to_json(service);
+    const auto s = state.find(service.instance);
+    const auto a = announced.find(service.instance);
+    row["state"] = s != state.end() && s->second.pid == service.pid ? bus::to_string(s->second.lifecycle)
+                   : service.pid == 0                               ? "NOT RUNNING"
+                                                                    : "NO HEARTBEAT";
+    row["detail"] = s != state.end() ? s->second.detail : "";
+    row["uptime_seconds"] = s != state.end() ? s->second.uptime : 0;
+    row["frames_per_second"] = s != state.end() ? s->second.frames_per_second : 0;
+    row["frames_lost"] = s != state.end() ? s->second.frames_lost : 0;
+    row["in_step"] = s != state.end() && s->second.pid == service.pid && s->second.in_step;
+    row["replica"] = replica_state(service, row["in_step"].get<bool>(), alarm);
+    row["contract_matches"] = a != announced.end() && a->second.contract == topics::contract_hash;
+    if (a != announced.end() && a->second.contract != topics::contract_hash)
+      row["state"] = "CONTRACT " + a->second.contract + ", expected " + topics::contract_hash;
+    row["host"] = host_of(config, service.instance);
+    services.push_back(row);
+  }
+  Json active = Json::array();
+  for (const auto& [key, a] : alarm)
+    if (a.active) active.push_back(bus::to_json(a));
+  if (common.json) {
+    std::cout << Json{{"machine", list.machine}, {"domain", cluster.run.domain},
+                      {"ready", list.ready},     {"virtual_time", list.virtual_time},
+                      {"services", services},    {"alarms", active}}
+                     .dump(2)
+              << "\n";
+  } else {
+    std::printf("%s, domain %u, %s time, %s\n\n", list.machine.c_str(), cluster.run.domain,
+                list.virtual_time ? "virtual" : "real", list.ready ? "ready" : "NOT READY");
+    std::printf("%-14s %-4s %-11s %8s %-14s %-8s %10s %10s %8s  %s\n", "service", "copy", "vendor", "pid",
+                "state", "replica", "uptime s", "frames/s", "restarts", "");
+    for (const auto& row : services)
+      std::printf("%-14s %-4d %-11s %8d %-14s %-8s %10.1f %10.1f %8d  %s\n",
+                  row["service"].get<std::string>().c_str(), row["copy"].get<int>(),
+                  row["vendor"].get<std::string>().c_str(), row["pid"].get<int>(),
+                  row["state"].get<std::string>().c_str(), row["replica"].get<std::string>().c_str(),
+                  row["uptime_seconds"].get<double>(), row["frames_per_second"].get<double>(),
+                  row["restarts"].get<int>(), remark(row).c_str());
+    if (!active.empty()) std::printf("\nalarms\n");
+    for (const auto& a : active)
+      std::printf("  %u %s (%s): %s\n", a["number"].get<unsigned>(), a["severity"].get<std::string>().c_str(),
+                  a["source"].get<std::string>().c_str(), a["text"].get<std::string>().c_str());
+  }
+  return list.ready ? 0 : 1;
+}
+
+}  // namespace
+
+void add_cluster_commands(CLI::App& app, Common& common) {
+  auto options = std::make_shared<cluster::UpOptions>();
+  auto time = std::make_shared<std::string>();
+  auto port = std::make_shared<int>(0);
+  auto* command = add_command(app, common, "up", "Start the cluster of a machine and wait until it is ready",
+                              [&common, options, time, port] {
+                                if (*port != 0) options->port = static_cast<std::uint16_t>(*port);
+                                return up(common, *options, *time);
+                              });
+  command
+      ->add_option("machine", options->machine,
+                   "Name under configs/machines, or a directory with machine.yaml")
+      ->required();
+  command->add_option("--vendor", options->vendor, "DDS vendor of every service, instead of machine.yaml's")
+      ->check(CLI::IsMember({"fastdds", "cyclonedds", "mixed"}));
+  command->add_option("--time", *time, "real or virtual, instead of machine.yaml's")
+      ->check(CLI::IsMember({"real", "virtual"}));
+  command->add_option("--port", *port, "Port of the gateway")->check(CLI::Range(1, 65535));
+  command->add_option("--state", options->state_directory,
+                      "Directory for what must survive (default: under ~/.local/state/trunnion)");
+  command->add_option(
+      "--host", options->host,
+      "Which host of machine.yaml this is (default: the one with an address of this computer)");
+  command->add_flag("--foreground", options->foreground, "Stay in the foreground until Ctrl-C");
+  add_command(app, common, "down",
+              "Stop a cluster (of several hosts: the part on this one); nothing of it is left but its state",
+              [&common] { return down(common); });
+  add_command(
+      app, common, "status",
+      "Table of the services: vendor, pid, state, uptime, rates; and the alarms. Exit status 0 when ready",
+      [&common] { return status(common); });
+}
+
+}  // namespace trunnion::cli

@@ -1,0 +1,44 @@
+// The sub-commands of `trunnion`; each file adds its own.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+
+namespace CLI {
+class App;
+}
+
+namespace trunnion::cli {
+
+/// Options every sub-command has.
+struct Common {
+  bool json = false;
+  std::optional<std::uint32_t> domain;
+  std::function<int()> action;  ///< of the sub-command that was parsed
+};
+
+void add_cluster_commands(CLI::App& app, Common& common);    // up, down, status
+void add_run_command(CLI::App& app, Common& common);         // run
+void add_operator_commands(CLI::App& app, Common& common);   // mdi, alarms, estop
+void add_channel_command(CLI::App& app, Common& common);     // channel
+void add_parameter_commands(CLI::App& app, Common& common);  // param
+void add_topic_commands(CLI::App& app, Common& common);      // topic, record
+void add_kins_command(CLI::App& app, Common& common);        // kins
+void add_check_command(CLI::App& app, Common& common);       // check
+void add_plan_command(CLI::App& app, Common& common);        // plan
+void add_recording_commands(CLI::App& app, Common& common);  // info, diff, export
+void add_verify_command(CLI::App& app, Common& common);      // verify
+void add_replay_command(CLI::App& app, Common& common);      // replay
+void add_swap_command(CLI::App& app, Common& common);        // swap
+void add_completion_command(CLI::App& app, Common& common);  // completion
+
+/// The subject "motion" of bench; 1 when a requirement is missed.
+int bench_motion(const Common& common, const std::string& machine);
+
+/// --json and --domain.
+CLI::App* add_command(CLI::App& app, Common& common, const std::string& name, const std::string& about,
+                      std::function<int()> action);
+
+}  // namespace trunnion::cli

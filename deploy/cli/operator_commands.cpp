@@ -1,0 +1,140 @@
+// mdi, alarms, estop
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <iostream>
+#include <memory>
+
+#include "bus/json.hpp"
+#include "cluster/client.hpp"
+#include "cluster/cluster.hpp"
+#include "commands.hpp"
+
+namespace trunnion::cli {
+namespace {
+
+using idl::channel::CommandKind;
+using idl::channel::Mode;
+using idl::channel::RunState;
+
+// Waits until the channel is idle again and its axes have settled; an alarm of the channel on the way is the
+// reason of the failure.
+void wait_until_idle(cluster::Client& client, std::uint16_t channel, double timeout) {
+  auto reader = client.bus().reader(topics::channel_state);
+  auto alarms = client.bus().reader(topics::alarm);
+  const double until = service::monotonic_seconds() + timeout;
+  std::string alarm;
+  int idle = 0;  // states in a row
+  std::vector<double> before;
+  constexpr double settled = 1e-4;  // mm or deg between two states
+  while (service::monotonic_seconds() < until) {
+    idl::service::Alarm a;
+    while (alarms.take(a))
+      if (a.active && a.source == "channel" && a.part == channel)
+        alarm = std::to_string(a.number) + ": " + a.text;
+    idl::channel::ChannelState state;
+    while (reader.take(state)) {
+      if (state.channel != channel) continue;
+      const bool stands = std::equal(before.begin(), before.end(), state.machine.begin(), state.machine.end(),
+                                     [](double p, double q) { return std::abs(p - q) < settled; });
+      idle = state.state == RunState::IDLE && stands ? idle + 1 : 0;
+      before = state.machine;
+    }
+    if (idle >= 3) {
+      if (!alarm.empty()) throw std::runtime_error("alarm " + alarm);
+      return;
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  throw std::runtime_error("the line did not finish within " + std::to_string(static_cast<int>(timeout)) +
+                           " s");
+}
+
+int mdi(const Common& common, const std::string& line, std::uint16_t channel, double timeout) {
+  const auto cluster = cluster::find_cluster(common.domain);
+  cluster::Client client(cluster.run.domain);
+  client.channel(channel, CommandKind::SET_MODE, "", 0, Mode::MDI);
+  client.channel(channel, CommandKind::MDI_LINE, line);
+  wait_until_idle(client, channel, timeout);
+  const auto state = client.newest(topics::channel_state);
+  if (common.json) {
+    std::cout << bus::text_of(bus::to_json(state)) << "\n";
+    return 0;
+  }
+  for (std::size_t i = 0; i < state.letters.size() && i < state.machine.size(); ++i)
+    std::printf("%c machine %12.4f  workpiece %12.4f %s\n", state.letters[i], state.machine[i],
+                state.workpiece[i], state.letters[i] >= 'A' && state.letters[i] <= 'C' ? "deg" : "mm");
+  return 0;
+}
+
+int alarms(const Common& common, bool reset) {
+  const auto cluster = cluster::find_cluster(common.domain);
+  cluster::Client client(cluster.run.domain);
+  if (reset) {
+    auto writer = client.bus().writer(topics::alarm_reset);
+    for (int i = 0; i < 500 && writer.matched() < 2; ++i)
+      std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    writer.write({service::make_client_id(), 1, 65535});
+    std::this_thread::sleep_for(std::chrono::milliseconds(200));
+  }
+  auto reader = client.bus().reader(topics::alarm);
+  std::map<std::array<std::uint32_t, 3>, idl::service::Alarm> list;
+  const double until = service::monotonic_seconds() + 0.5;
+  idl::service::Alarm a;
+  while (service::monotonic_seconds() < until) {
+    while (reader.take(a)) list[{a.instance, a.number, a.part}] = a;
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  bus::Json json = bus::Json::array();
+  for (const auto& [key, entry] : list) {
+    if (!entry.active) continue;
+    json.push_back(bus::to_json(entry));
+    if (!common.json)
+      std::printf("%4u %-10s %-12s cycle %-10llu %s\n", entry.number, bus::to_string(entry.severity),
+                  entry.source.c_str(), static_cast<unsigned long long>(entry.cycle), entry.text.c_str());
+  }
+  if (common.json) std::cout << bus::text_of(json, 2) << "\n";
+  if (!common.json && json.empty()) std::printf("no alarms\n");
+  return 0;
+}
+
+int panel(const Common& common, std::uint8_t kind) {
+  const auto cluster = cluster::find_cluster(common.domain);
+  cluster::Client(cluster.run.domain).panel(kind);
+  if (common.json) std::cout << bus::Json{{"accepted", true}}.dump() << "\n";
+  return 0;
+}
+
+}  // namespace
+
+void add_operator_commands(CLI::App& app, Common& common) {
+  auto line = std::make_shared<std::string>();
+  auto channel = std::make_shared<std::uint16_t>(std::uint16_t{0});
+  auto timeout = std::make_shared<double>(60);
+  auto* command = add_command(
+      app, common, "mdi", "Run one line, e.g. trunnion mdi \"G0 X10\", and print where the axes are",
+      [&common, line, channel, timeout] { return mdi(common, *line, *channel, *timeout); });
+  command->add_option("line", *line, "The line")->required();
+  command->add_option("--channel", *channel, "Channel number");
+  command->add_option("--timeout", *timeout, "Seconds to wait for its end");
+
+  auto reset = std::make_shared<bool>(false);
+  command = add_command(app, common, "alarms", "List the active alarms",
+                        [&common, reset] { return alarms(common, *reset); });
+  command->add_flag("--reset", *reset, "Clear those whose cause is gone first");
+
+  auto what = std::make_shared<std::string>();
+  command = add_command(
+      app, common, "estop",
+      "Press or release the emergency stop of the operator panel (no substitute for a hard-wired one)",
+      [&common, what] {
+        return panel(common, *what == "press" ? 1 : *what == "release" ? 2 : 3);
+      });
+  command->add_option("what", *what, "press, release or reset")
+      ->required()
+      ->check(CLI::IsMember({"press", "release", "reset"}));
+}
+
+}  // namespace trunnion::cli

@@ -1,0 +1,187 @@
+// param get|set|list|export|import
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <fstream>
+#include <iostream>
+#include <memory>
+
+#include "bus/json.hpp"
+#include "cluster/client.hpp"
+#include "cluster/cluster.hpp"
+#include "commands.hpp"
+#include "machine/parameters.hpp"
+
+namespace trunnion::cli {
+namespace {
+
+using machine::Catalogue;
+using machine::number_text;
+
+std::uint32_t parse_number(const std::string& text) {
+  if (text.size() != 6 || text.find_first_not_of("0123456789") != std::string::npos)
+    throw std::runtime_error("'" + text + "' is not a parameter number of six digits");
+  return static_cast<std::uint32_t>(std::stoul(text));
+}
+
+machine::Parameters active(cluster::Client& client, std::vector<std::uint32_t>* pending = nullptr) {
+  const auto set = client.newest(topics::parameter_set);
+  if (pending != nullptr) *pending = set.pending;
+  return machine::parameters_of(set);
+}
+
+bus::Json row(std::uint32_t number, const machine::Parameters& parameters) {
+  const auto* d = Catalogue::instance().find(number);
+  if (d == nullptr) throw std::runtime_error("parameter " + number_text(number) + " does not exist");
+  bus::Json json{{"number", number_text(number)}, {"name", d->name}};
+  const auto found = parameters.values.find(number);
+  if (d->type == machine::ParameterType::text)
+    json["value"] = found != parameters.values.end() ? found->second.text : "";
+  else
+    json["value"] = parameters.at(number);
+  json["unit"] = machine::unit_of(number, parameters.values);
+  json["activation"] = machine::to_string(d->activation);
+  if (d->type != machine::ParameterType::text) {
+    json["minimum"] = d->minimum, json["maximum"] = d->maximum;
+    json["default"] = Catalogue::instance().default_of(number);
+  }
+  json["access"] = d->access;
+  json["help"] = d->help;
+  return json;
+}
+
+std::string user() {
+  const char* name = std::getenv("USER");
+  return name != nullptr && *name != 0 ? name : "uid " + std::to_string(getuid());
+}
+
+int get(const Common& common, const std::vector<std::string>& numbers) {
+  cluster::Client client(cluster::find_cluster(common.domain).run.domain);
+  const auto parameters = active(client);
+  bus::Json all = bus::Json::array();
+  for (const auto& text : numbers) {
+    const auto json = row(parse_number(text), parameters);
+    all.push_back(json);
+    if (!common.json)
+      std::printf("%s %s = %s %s\n", text.c_str(), json["name"].get<std::string>().c_str(),
+                  json["value"].dump().c_str(), json["unit"].get<std::string>().c_str());
+  }
+  if (common.json) std::cout << all.dump(2) << "\n";
+  return 0;
+}
+
+int send(const Common& common, cluster::Client& client, idl::parameters::ParameterRequest request) {
+  request.who = user();
+  const auto reply = client.parameter(std::move(request));
+  if (common.json)
+    std::cout
+        << bus::Json{{"accepted", true}, {"revision", reply.revision}, {"pending", reply.pending}}.dump()
+        << "\n";
+  else
+    std::printf("accepted, active revision %llu%s\n", static_cast<unsigned long long>(reply.revision),
+                reply.pending > 0
+                    ? (", " + std::to_string(reply.pending) + " waiting for reset or restart").c_str()
+                    : "");
+  return 0;
+}
+
+int set(const Common& common, const std::string& number, const std::string& value) {
+  cluster::Client client(cluster::find_cluster(common.domain).run.domain);
+  idl::parameters::Parameter parameter;
+  parameter.number = parse_number(number);
+  const auto* d = Catalogue::instance().find(parameter.number);
+  if (d == nullptr) throw std::runtime_error("parameter " + number + " does not exist");
+  if (d->type == machine::ParameterType::text) {
+    parameter.text = value;
+  } else {
+    std::size_t used = 0;
+    try {
+      parameter.value = std::stod(value, &used);
+    } catch (const std::exception&) {
+    }
+    if (used != value.size())
+      throw std::runtime_error("parameter " + number + " (" + d->name + "): '" + value + "' is not a number");
+  }
+  idl::parameters::ParameterRequest request;
+  request.operation = idl::parameters::Operation::SET;
+  request.values = {parameter};
+  return send(common, client, request);
+}
+
+int list(const Common& common, const std::string& filter) {
+  cluster::Client client(cluster::find_cluster(common.domain).run.domain);
+  std::vector<std::uint32_t> pending;
+  const auto parameters = active(client, &pending);
+  bus::Json all = bus::Json::array();
+  for (const auto& [number, value] : parameters.values) {
+    const auto json = row(number, parameters);
+    if (!filter.empty() && number_text(number).rfind(filter, 0) != 0 &&
+        json["name"].get<std::string>().find(filter) == std::string::npos)
+      continue;
+    const bool waits = std::find(pending.begin(), pending.end(), number) != pending.end();
+    all.push_back(json);
+    all.back()["pending"] = waits;
+    if (!common.json)
+      std::printf("%s %-32s %14s %-14s %s%s\n", number_text(number).c_str(),
+                  json["name"].get<std::string>().c_str(), json["value"].dump().c_str(),
+                  json["unit"].get<std::string>().c_str(), json["activation"].get<std::string>().c_str(),
+                  waits ? " (a new value waits)" : "");
+  }
+  if (common.json)
+    std::cout << bus::Json{{"revision", parameters.revision}, {"parameters", all}}.dump(2) << "\n";
+  return 0;
+}
+
+int save(const Common& common, const std::string& file) {
+  cluster::Client client(cluster::find_cluster(common.domain).run.domain);
+  const auto text = machine::write_parameter_text(active(client).values);
+  if (file == "-") {
+    std::cout << text;
+    return 0;
+  }
+  std::ofstream out(file);
+  out << text;
+  out.close();
+  if (!out) throw std::runtime_error(file + ": cannot be written");
+  return 0;
+}
+
+int load(const Common& common, const std::string& file) {
+  cluster::Client client(cluster::find_cluster(common.domain).run.domain);
+  idl::parameters::ParameterRequest request;
+  request.operation = idl::parameters::Operation::IMPORT;
+  for (const auto& [number, value] : machine::read_parameter_file(file))
+    request.values.push_back({number, value.value, value.text});
+  return send(common, client, request);
+}
+
+}  // namespace
+
+void add_parameter_commands(CLI::App& app, Common& common) {
+  auto* param = app.add_subcommand("param", "Read and change parameters");
+  param->require_subcommand(1);
+  auto numbers = std::make_shared<std::vector<std::string>>();
+  auto text = std::make_shared<std::pair<std::string, std::string>>();
+  add_command(*param, common, "get", "Print active values",
+              [&common, numbers] { return get(common, *numbers); })
+      ->add_option("number", *numbers, "Six digits")
+      ->required();
+  auto* command = add_command(*param, common, "set", "Change a value",
+                              [&common, text] { return set(common, text->first, text->second); });
+  command->add_option("number", text->first, "Six digits")->required();
+  command->add_option("value", text->second, "New value")->required();
+  add_command(*param, common, "list", "Values that differ from the defaults", [&common, text] {
+    return list(common, text->first);
+  })->add_option("filter", text->first, "Start of the number or part of the name");
+  add_command(*param, common, "export", "Write the active values as YAML",
+              [&common, text] { return save(common, text->first); })
+      ->add_option("file", text->first, "File, - for standard output")
+      ->required();
+  add_command(*param, common, "import", "Set every value of a YAML file, all or none",
+              [&common, text] { return load(common, text->first); })
+      ->add_option("file", text->first, "File")
+      ->required();
+}
+
+}  // namespace trunnion::cli

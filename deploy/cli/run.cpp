@@ -1,0 +1,318 @@
+#include "run.hpp"
+
+#include <unistd.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <thread>
+
+#include "cluster/child_process.hpp"
+#include "cluster/client.hpp"
+#include "cluster/cluster.hpp"
+#include "service/network.hpp"
+
+namespace trunnion::cli {
+namespace fs = std::filesystem;
+namespace {
+
+using idl::channel::CommandKind;
+using idl::channel::Mode;
+using idl::channel::RunState;
+
+// Stops what a run has started, however it ends.
+class Recorder {
+ public:
+  Recorder(const std::string& file, const cluster::RunningCluster& cluster)
+      : process_(options_for(file, cluster)) {
+    if (const auto line = process_.read_line(); !line.starts_with("recording"))
+      throw std::runtime_error("the recorder did not start: " + line);
+  }
+  ~Recorder() { stop(); }
+  Recorder(const Recorder&) = delete;
+  Recorder& operator=(const Recorder&) = delete;
+  /// Returns when the file is complete.
+  void stop() { process_.stop(longest_write); }
+
+ private:
+  static constexpr double longest_write = 60;  // s
+
+  static cluster::ChildOptions options_for(const std::string& file, const cluster::RunningCluster& cluster) {
+    cluster::ChildOptions options;
+    options.arguments = {cluster::binary_directory() + "/trunnion-recorder",
+                         "--output",
+                         file,
+                         "--machine",
+                         cluster.machine,
+                         "--domain",
+                         std::to_string(cluster.run.domain),
+                         "--parent-bound"};
+    for (auto& argument : service::network_arguments(cluster.network))
+      options.arguments.push_back(std::move(argument));
+    options.read_from = 1;
+    return options;
+  }
+
+  cluster::ChildProcess process_;
+};
+
+class ClusterGuard {
+ public:
+  explicit ClusterGuard(cluster::RunningCluster cluster) : cluster_(std::move(cluster)) {}
+  ~ClusterGuard() { stop(); }
+  ClusterGuard(const ClusterGuard&) = delete;
+  ClusterGuard& operator=(const ClusterGuard&) = delete;
+  const cluster::RunningCluster& get() const { return cluster_; }
+  void stop() {
+    if (!running_) return;
+    running_ = false;
+    try {
+      cluster::stop_cluster(cluster_.run);
+    } catch (const std::exception& e) {
+      std::fprintf(stderr, "%s\n", e.what());
+    }
+  }
+
+ private:
+  cluster::RunningCluster cluster_;
+  bool running_ = true;
+};
+
+std::string read_file(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  if (!in) throw std::runtime_error(path + ": cannot be opened");
+  std::ostringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+// A file is uploaded; another name must be in the store.
+std::string place_program(cluster::Client& client, const machine::MachineConfig& machine,
+                          const std::string& program) {
+  const auto list = client.newest(topics::program_list);
+  const auto stored = [&](const std::string& name) {
+    return std::any_of(list.programs.begin(), list.programs.end(),
+                       [&](const auto& p) { return p.name == name; });
+  };
+  if (fs::is_regular_file(program)) {
+    const auto name = fs::path(program).filename().string();
+    client.upload(name, read_file(program));
+    for (int i = 0; i < 500; ++i) {  // until the store has published it
+      const auto now = client.newest(topics::program_list);
+      if (std::any_of(now.programs.begin(), now.programs.end(),
+                      [&](const auto& p) { return p.name == name; }))
+        break;
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+    return name;
+  }
+  for (const auto& name : {program, program + ".nc"})
+    if (stored(name)) return name;
+  throw std::runtime_error("program '" + program + "': no such file, and machine " + machine.name +
+                           " has none of this name");
+}
+
+// Requests are not kept for late readers: the recorder must know of our writers before the first one, or the
+// recording has replies to requests that it does not have.
+void await_recorder(cluster::Client& client) {
+  const auto programs = client.bus().backend().writer(bus::describe(topics::program_request), {false, 1});
+  const auto channels = client.bus().backend().writer(bus::describe(topics::channel_request), {false, 1});
+  for (int i = 0; i < 2000 && (programs->matched() < 2 || channels->matched() < 2); ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+}
+
+// The list with a new program may reach the channel after the store's answer has reached us.
+void select(cluster::Client& client, std::uint16_t channel, const std::string& name) {
+  for (int i = 0;; ++i) {
+    try {
+      return client.channel(channel, CommandKind::SELECT_PROGRAM, name);
+    } catch (const std::exception&) {
+      if (i == 50) throw;
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+  }
+}
+
+void draw_progress(const std::vector<idl::channel::ChannelState>& states, double seconds) {
+  double progress = 1;
+  std::uint64_t cycle = 0;
+  for (const auto& state : states) {
+    progress = std::min(progress, state.progress);
+    cycle = std::max(cycle, state.cycle);
+  }
+  constexpr int width = 40;
+  const int filled = static_cast<int>(progress * width);
+  std::fprintf(stderr, "\r[%s%s] %3.0f %%  line %u  cycle %llu  %.1f s ",
+               std::string(static_cast<std::size_t>(filled), '#').c_str(),
+               std::string(static_cast<std::size_t>(width - filled), '.').c_str(), progress * 100,
+               states.empty() ? 0 : states[0].line, static_cast<unsigned long long>(cycle), seconds);
+  std::fflush(stderr);
+}
+
+// Searches the line; the cycle start that follows goes on from there. The program may as well have an alarm.
+void search_line(cluster::Client& client, std::uint32_t line) {
+  client.channel(0, CommandKind::START_FROM_LINE, "", line);
+  auto states = client.bus().reader(topics::channel_state);
+  const double until = service::monotonic_seconds() + 60;
+  int idle = 0;
+  while (service::monotonic_seconds() < until && idle < 4) {
+    idl::channel::ChannelState state;
+    while (states.take(state)) {
+      if (state.channel != 0) continue;
+      if (state.state == RunState::HELD) return;
+      idle = state.state == RunState::IDLE ? idle + 1 : 0;
+    }
+    client.bus().signal().wait(0.02);
+  }
+  throw std::runtime_error("line " + std::to_string(line) +
+                           " was not found: see the alarms of the recording");
+}
+
+// Starts every channel and waits until all are idle again. Returns the first alarm, or empty.
+std::string execute(cluster::Client& client, std::size_t channels, const RunOptions& options, bool bar) {
+  const double timeout = options.timeout;
+  if (options.dry_run)
+    for (std::uint16_t c = 0; c < channels; ++c) client.channel(c, CommandKind::DRY_RUN, "", 1);
+  if (options.from_line != 0) search_line(client, options.from_line);
+  auto states = client.bus().reader(topics::channel_state);
+  auto alarms = client.bus().reader(topics::alarm);
+  std::vector<idl::channel::ChannelState> newest(channels);
+  std::vector<bool> known(channels), ran(channels), done(channels);
+  for (int i = 0; i < 100 && std::find(known.begin(), known.end(), false) != known.end(); ++i) {
+    client.bus().signal().wait(0.05);
+    for (idl::channel::ChannelState state; states.take(state);)
+      if (state.channel < channels) newest[state.channel] = state, known[state.channel] = true;
+  }
+  for (std::uint16_t c = 0; c < channels; ++c) client.channel(c, CommandKind::CYCLE_START);
+  const double began = service::monotonic_seconds();
+  double drawn = 0;
+  std::string alarm;
+  while (std::find(done.begin(), done.end(), false) != done.end()) {
+    client.bus().signal().wait(0.05);
+    idl::channel::ChannelState state;
+    while (states.take(state)) {
+      if (state.channel >= channels) continue;
+      const auto c = state.channel;
+      if (state.state != RunState::IDLE) ran[c] = true;
+      // A short program may be over between two states: then its cycles tell that it ran.
+      done[c] = state.state == RunState::IDLE &&
+                (ran[c] || state.cycle > newest[c].cycle || service::monotonic_seconds() - began > 1);
+      newest[c] = state;
+    }
+    idl::service::Alarm a;
+    while (alarms.take(a))
+      if (a.active && alarm.empty() && a.severity >= idl::service::Severity::ERROR)
+        alarm = "alarm " + std::to_string(a.number) + " (" + a.source + "): " + a.text;
+    const double now = service::monotonic_seconds();
+    if (bar && now - drawn > 0.1) {
+      draw_progress(newest, now - began);
+      drawn = now;
+    }
+    const bool stuck = std::any_of(newest.begin(), newest.end(), [](const auto& s) {
+      return s.state == RunState::INTERRUPTED || s.state == RunState::HELD;
+    });
+    if (stuck && !alarm.empty()) break;
+    if (now - began > timeout) {
+      alarm = "the program did not end within " + std::to_string(static_cast<int>(timeout)) + " s";
+      break;
+    }
+  }
+  if (bar) {
+    for (auto& state : newest)
+      if (alarm.empty()) state.progress = 1;
+    draw_progress(newest, service::monotonic_seconds() - began);
+    std::fprintf(stderr, "\n");
+  }
+  return alarm;
+}
+
+// A cluster for this run alone, on this computer, whatever hosts machine.yaml names.
+cluster::UpOptions up_options(const std::string& directory, const RunOptions& options) {
+  cluster::UpOptions up;
+  up.machine = directory;
+  up.vendor = options.vendor;
+  up.state_directory = "temporary";
+  up.own_domain = !options.domain;
+  up.domain = options.domain;
+  up.virtual_time = !options.real_time;
+  up.with_gateway = false;
+  up.one_host = true;
+  return up;
+}
+
+}  // namespace
+
+RunResult run_programs(const RunOptions& options) {
+  const auto directory = cluster::find_machine(options.machine);
+  const auto machine = machine::load_machine(directory, options.vendor);
+  if (options.programs.size() > machine.channels)
+    throw std::runtime_error("machine " + machine.name + " has " + std::to_string(machine.channels) +
+                             " channel(s), " + std::to_string(options.programs.size()) +
+                             " programs were given");
+  RunResult result;
+  ClusterGuard cluster(cluster::start_cluster(up_options(directory, options)));
+  result.start_seconds = cluster.get().start_seconds;
+  if (!options.quiet) {
+    std::printf("%s is ready in %.2f s (%s time, domain %u)\n", machine.name.c_str(), result.start_seconds,
+                options.real_time ? "real" : "virtual", cluster.get().run.domain);
+    std::fflush(stdout);
+  }
+  std::vector<std::string> names, texts;
+  {
+    // The recorder has found the stream's writers before the program is in its place.
+    Recorder recorder(options.recording, cluster.get());
+    cluster::Client client(cluster.get().run.domain);
+    await_recorder(client);
+    for (std::uint16_t c = 0; c < options.programs.size(); ++c) {
+      names.push_back(place_program(client, machine, options.programs[c]));
+      texts.push_back(client.download(names.back()));
+      client.channel(c, CommandKind::SET_MODE, "", 0, Mode::AUTO);
+      select(client, c, names.back());
+    }
+    result.alarm = execute(client, options.programs.size(), options, !options.quiet && isatty(2) != 0);
+    std::this_thread::sleep_for(
+        std::chrono::milliseconds(100));  // what the stages wrote last is still on its way
+    recorder.stop();
+  }
+  cluster.stop();
+  for (std::uint16_t c = 0; c < names.size(); ++c) {
+    report::ReportInputs inputs;
+    inputs.program_name = names[c];
+    inputs.program_text = texts[c];
+    inputs.channel = c;
+    result.reports.push_back(report::make_report(options.recording, inputs));
+    if (result.alarm.empty() && !result.reports.back().problem.empty())
+      result.alarm = result.reports.back().problem;
+  }
+  return result;
+}
+
+RecordingCost measure_recording(const RunOptions& options, int rounds) {
+  const auto directory = cluster::find_machine(options.machine);
+  const auto machine = machine::load_machine(directory, options.vendor);
+  ClusterGuard cluster(cluster::start_cluster(up_options(directory, options)));
+  cluster::Client client(cluster.get().run.domain);
+  const auto name = place_program(client, machine, options.programs.at(0));
+  client.channel(0, CommandKind::SET_MODE, "", 0, Mode::AUTO);
+  select(client, 0, name);
+  RecordingCost cost;
+  for (int round = 0; round < 2 * rounds; ++round) {
+    // Which of the two is first changes from round to round, as the machine may warm up or be shared.
+    const bool record = (round % 2 == 1) != (round / 2 % 2 == 1);
+    std::optional<Recorder> recorder;
+    if (record) recorder.emplace(options.recording, cluster.get());
+    const auto before = client.newest(topics::channel_state).cycle;
+    const double began = service::monotonic_seconds();
+    if (const auto alarm = execute(client, 1, options, false); !alarm.empty())
+      throw std::runtime_error(alarm);
+    const double seconds = service::monotonic_seconds() - began;
+    recorder.reset();
+    fs::remove(options.recording);
+    const auto cycles = static_cast<double>(client.newest(topics::channel_state).cycle - before);
+    (record ? cost.with : cost.without).push_back(cycles / seconds);
+  }
+  return cost;
+}
+
+}  // namespace trunnion::cli

@@ -1,0 +1,42 @@
+// A whole run: a cluster of its own, a program for each channel, a recording, a report.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "report/report.hpp"
+
+namespace trunnion::cli {
+
+struct RunOptions {
+  std::string machine;
+  std::vector<std::string> programs;  ///< files or names of stored programs, one for each channel
+  std::string vendor;                 ///< empty, fastdds, cyclonedds or mixed
+  std::string recording;              ///< file to write
+  bool real_time = false;
+  std::uint32_t from_line = 0;  ///< start from this line of the first program; 0 = from its top
+  bool dry_run = false;
+  bool quiet = false;     ///< no progress
+  double timeout = 3600;  ///< s of wall time
+  std::optional<std::uint32_t> domain;
+};
+
+struct RunResult {
+  std::vector<report::Report> reports;  ///< one for each program
+  std::string alarm;                    ///< why the programs did not end well, or empty
+  double start_seconds = 0;             ///< until the cluster was ready
+};
+
+/// Nothing of the cluster is left when it returns or throws.
+RunResult run_programs(const RunOptions& options);
+
+/// Cycles executed in a second of wall time, by turns without and with a recorder of every topic.
+struct RecordingCost {
+  std::vector<double> without, with;
+};
+
+/// Runs the first program of `options` twice in each round, all in one cluster in virtual time. Throws
+/// std::runtime_error with the alarm when a run does not end well.
+RecordingCost measure_recording(const RunOptions& options, int rounds);
+
+}  // namespace trunnion::cli

@@ -1,0 +1,79 @@
+// verify: one service against a recording
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <iostream>
+#include <memory>
+
+#include "bus/json.hpp"
+#include "commands.hpp"
+#include "verification/verify.hpp"
+
+namespace trunnion::cli {
+namespace {
+
+int run(const Common& common, verification::VerifyOptions options,
+        const std::vector<std::string>& tolerances) {
+  options.domain = common.domain;
+  for (const auto& text : tolerances) verification::add_tolerance(options.comparison, text);
+  const auto result = verification::verify(options);
+  if (common.json) {
+    auto json = verification::json_of(result.difference);
+    json["equal"] = result.equal();
+    json["problem"] = result.problem;
+    json["inputs"] = result.inputs;
+    json["outputs"] = result.outputs;
+    json["unrecorded"] = result.unrecorded;
+    json["requests"] = result.requests;
+    json["left_out"] = result.left_out;
+    json["samples"] = result.samples;
+    json["cycles"] = result.cycles;
+    json["seconds"] = result.seconds;
+    json["times_real_time"] = result.times_real_time;
+    std::cout << bus::text_of(json, 2) << "\n";
+    return result.equal() ? 0 : 1;
+  }
+  std::cout << verification::text_of(result.difference, "recorded", "written now");
+  if (!result.problem.empty()) std::cout << "problem: " << result.problem << "\n";
+  std::printf("%s: %s; %zu messages in, %zu out", options.service.c_str(),
+              result.equal() ? "as recorded" : "NOT as recorded", result.inputs, result.outputs);
+  if (result.samples > 0)
+    std::printf(", %zu requests over HTTP, %zu comparisons of the state", result.requests, result.samples);
+  if (result.left_out > 0) std::printf(", %zu requests left out", result.left_out);
+  if (result.cycles > 0 && result.seconds > 0)
+    std::printf(", %llu cycles in %.3f s, %.0f times real time",
+                static_cast<unsigned long long>(result.cycles), result.seconds, result.times_real_time);
+  std::printf("\n");
+  return result.equal() ? 0 : 1;
+}
+
+}  // namespace
+
+void add_verify_command(CLI::App& app, Common& common) {
+  auto options = std::make_shared<verification::VerifyOptions>();
+  auto tolerances = std::make_shared<std::vector<std::string>>();
+  auto* command =
+      add_command(app, common, "verify",
+                  "Start one service alone, feed it what a recording says was sent to it, compare "
+                  "what it writes; status 0: equal",
+                  [&common, options, tolerances] { return run(common, *options, *tolerances); });
+  command->add_option("--service", options->service, "Service, as in machine.yaml")->required();
+  command->add_option("--recording", options->recording, "Recording")->required()->check(CLI::ExistingFile);
+  command->add_option("--exec", options->executable, "Executable to verify (default: the one of this build)");
+  command->add_option("--vendor", options->vendor, "DDS vendor of the service")
+      ->check(CLI::IsMember({"fastdds", "cyclonedds"}));
+  command->add_option("--machine", options->machine,
+                      "Name or directory of the machine (default: the one the recording names)");
+  command->add_option("--channel", options->channel, "Which channel, for --service channel")
+      ->check(CLI::Range(0, 31));
+  command
+      ->add_option(
+          "--tolerance", *tolerances,
+          "Largest difference of numbers, or FIELD=NUMBER for fields that begin so (default: the same bits)")
+      ->delimiter(',');
+  command
+      ->add_option("--timeout,--patience", options->timeout,
+                   "Seconds without an answer after which it has failed")
+      ->check(CLI::PositiveNumber);
+}
+
+}  // namespace trunnion::cli

@@ -1,0 +1,22 @@
+// What a launcher is started with.
+#pragma once
+
+#include <string>
+
+#include "bus/endpoint.hpp"
+#include "cluster/cluster_files.hpp"
+#include "machine/machine.hpp"
+
+namespace trunnion::launcher {
+
+struct LaunchOptions {
+  machine::MachineConfig machine;
+  std::string state_directory;
+  bool virtual_time = false;
+  std::uint16_t port = 8080;
+  cluster::RunDirectory run;
+  std::string host;  ///< which of the machine's hosts this is; empty when it has none
+  bus::NetworkSettings network;
+};
+
+}  // namespace trunnion::launcher

@@ -1,0 +1,65 @@
+// Starts the processes of a machine, watches them, starts them again, reports what is lost.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "bus/bus.hpp"
+#include "contracts/topics.hpp"
+#include "launch_options.hpp"
+#include "service/alarm_board.hpp"
+#include "service/notify.hpp"
+#include "service/request.hpp"
+#include "service_process.hpp"
+#include "swap.hpp"
+
+namespace trunnion::launcher {
+
+/// Runs in a process of its own. `report` is called once: with "" when the cluster is ready, with one line
+/// when it could not be started. Returns the exit status.
+class Launcher {
+ public:
+  explicit Launcher(LaunchOptions options);
+  ~Launcher();
+  int run(void (*report)(const std::string&));
+
+ private:
+  void stop_all();
+  bool collect_ended(std::string& failure);
+  void lose(ServiceProcess& process, const std::string& how);
+  void listen();
+  void watch();
+  void hear(ServiceProcess& process, const idl::service::ServiceState& state, double now);
+  void follow(ServiceProcess& process, const idl::service::ServiceState& state, double now);
+  bool is_candidate(std::uint32_t instance) const;
+  void watch_local(ServiceProcess& process, double now, bool judge);
+  void watch_remote(ServiceProcess& process, double now, bool judge);
+  bool all_ready() const;
+  bool is_first_host() const;
+  bool started() const;
+  void publish();
+  bool has_live_twin(const ServiceProcess& process) const;
+  void serve_swaps();
+  ServiceProcess* whom_to_swap(const idl::service::SwapRequest& request);
+
+  LaunchOptions options_;
+  bus::Bus bus_;
+  service::AlarmBoard alarms_;
+  bus::Reader<idl::service::ServiceState> states_;
+  bus::Reader<idl::service::Announcement> announcements_;
+  bus::Reader<idl::service::AlarmReset> resets_;
+  bus::Writer<idl::service::Cluster> cluster_writer_;
+  service::RequestServer<idl::service::SwapRequest, idl::service::SwapReply> swaps_;
+  service::Notifier notifier_;
+  std::vector<ServiceProcess> processes_;
+  std::map<std::uint32_t, idl::service::Announcement> announced_;  // by instance
+  std::unique_ptr<Swap> swap_;                                     // the one under way
+  idl::service::SwapRequest swap_request_;
+  std::uint32_t generation_ = 0;  // swaps that were started on this host
+  bool ready_ = false, was_ready_ = false;
+  double last_published_ = 0, last_watch_ = 0;
+};
+
+}  // namespace trunnion::launcher

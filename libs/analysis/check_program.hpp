@@ -1,0 +1,26 @@
+// Interprets a program without a machine and says what it would do.
+#pragma once
+
+#include <functional>
+#include <iosfwd>
+#include <string>
+
+#include "language/interpreter.hpp"
+
+namespace trunnion::analysis {
+
+struct CheckOptions {
+  bool json_lines = false;   ///< one JSON object per motion instead of a summary
+  bool skip_blocks = false;  ///< leave out blocks that begin with / or /n
+};
+
+/// Names the text of Command::program for a reader: a path.
+using TextName = std::function<std::string(std::uint32_t program)>;
+
+/// Runs `text` from machine position `start` to its end, where M99 in the main program is one, and writes to
+/// `out`. True when there was no alarm. A move to a skip signal ends at its target.
+bool check_program(language::TextSource& text, language::Environment& environment,
+                   const language::AxisValues& start, const CheckOptions& options, const TextName& name,
+                   std::ostream& out);
+
+}  // namespace trunnion::analysis

@@ -1,0 +1,48 @@
+// The machine of `trunnion check` when none is named: three linear axes, every table zero.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "language/environment.hpp"
+
+namespace trunnion::analysis {
+
+struct ToolRow {
+  double length = 0;  ///< mm
+  double radius = 0;  ///< mm
+};
+using ToolRows = std::map<std::uint16_t, ToolRow>;
+
+/// Reads CSV rows `number,length,radius` (radius may be left out; empty lines, lines that begin with # and a
+/// first line of column names are passed over). Throws std::runtime_error with file:line.
+ToolRows read_tool_rows(const std::string& text, const std::string& file);
+
+class DefaultMachine : public language::Environment {
+ public:
+  /// Without `tools` every tool exists and has length and radius 0; with them only those.
+  explicit DefaultMachine(std::optional<ToolRows> tools) : tools_(std::move(tools)) {}
+
+  /// Finds the texts of subprograms; null when there are none.
+  std::function<language::TextSource*(std::string_view)> resolve;
+
+  language::AxisValues work_offset(std::uint8_t) const override { return {}; }
+  std::optional<double> tool_length(std::uint16_t h) const override;
+  std::optional<language::ToolOffset> tool_offset(std::uint16_t number) const override;
+  language::AxisValues reference_position() const override { return {}; }
+  language::AxisValues tip_from_machine(const language::AxisValues& machine,
+                                        double tool_length) const override;
+  language::AxisValues machine_from_tip(const language::AxisValues& tip, double tool_length) const override;
+  std::uint16_t axes() const override { return 0b111; }
+  double radius_deviation() const override { return 0.1; }
+  language::TextSource* subprogram(std::string_view name) override {
+    return resolve ? resolve(name) : nullptr;
+  }
+
+ private:
+  std::optional<ToolRows> tools_;
+};
+
+}  // namespace trunnion::analysis

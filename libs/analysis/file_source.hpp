@@ -1,0 +1,26 @@
+// A program file as the interpreter reads it: in pieces, so that memory does not grow with its length.
+#pragma once
+
+#include <string>
+
+#include "language/text_source.hpp"
+
+namespace trunnion::analysis {
+
+class FileSource final : public language::TextSource {
+ public:
+  /// Throws std::runtime_error when the file cannot be opened or is a directory.
+  explicit FileSource(const std::string& path);
+  ~FileSource() override;
+  FileSource(const FileSource&) = delete;
+  FileSource& operator=(const FileSource&) = delete;
+
+  language::ReadResult read(std::uint64_t offset, char* buffer, std::size_t capacity) override;
+  const std::string& path() const { return path_; }
+
+ private:
+  std::string path_;
+  int descriptor_ = -1;
+};
+
+}  // namespace trunnion::analysis

@@ -1,0 +1,122 @@
+#include "analysis/motion_tracker.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "language/arc_geometry.hpp"
+
+namespace trunnion::analysis {
+namespace {
+
+using language::AxisValues;
+using language::Command;
+using language::CommandKind;
+
+/// A move shorter than this (mm, degrees) on every axis is rounding, not motion.
+constexpr double no_distance = 1e-9;
+
+constexpr bool is_rotary(std::size_t axis) {
+  return axis == language::A || axis == language::B || axis == language::C;
+}
+
+double straight_length(const AxisValues& from, const AxisValues& to) {
+  double linear = 0;
+  double rotary = 0;
+  for (std::size_t axis = 0; axis < language::axis_count; ++axis) {
+    const double way = to[axis] - from[axis];
+    (is_rotary(axis) ? rotary : linear) += way * way;
+  }
+  return std::sqrt(linear > no_distance * no_distance ? linear : rotary);
+}
+
+double arc_length(const AxisValues& from, const AxisValues& to, const language::Arc& arc) {
+  const language::Vector3 normal = arc_normal(arc);
+  double along = 0;
+  double rise = 0;
+  double square = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double offset = from[axis] - arc.centre[axis];
+    along += offset * normal[axis];
+    rise += (to[axis] - from[axis]) * normal[axis];
+    square += offset * offset;
+  }
+  const double radius = std::sqrt(std::max(0.0, square - along * along));
+  return std::hypot(radius * arc.sweep * std::numbers::pi / 180, rise);
+}
+
+std::optional<double> feed_of(const Command& command, double length) {
+  const language::ModalState& modal = command.modal;
+  if (command.kind == CommandKind::rapid) return std::nullopt;
+  if (command.kind == CommandKind::tap) {
+    return modal.spindle_speed > 0 ? std::optional(std::abs(command.value) * modal.spindle_speed)
+                                   : std::nullopt;
+  }
+  switch (modal.feed_mode) {
+    case language::FeedMode::inverse_time:
+      return modal.feed * length;
+    case language::FeedMode::per_revolution:
+      if (modal.spindle_speed > 0) return modal.feed * modal.spindle_speed;
+      return std::nullopt;
+    case language::FeedMode::per_minute:
+      break;
+  }
+  return modal.feed;
+}
+
+}  // namespace
+
+language::Vector3 arc_normal(const language::Arc& arc) {
+  if (arc.normal != language::Vector3{}) return arc.normal;
+  language::Vector3 normal{};
+  normal[language::plane_axes(arc.plane).normal] = 1;
+  return normal;
+}
+
+AxisValues MotionTracker::to_machine(const Command& command, const AxisValues& point) const {
+  return command.modal.transformation == language::Transformation::rtcp
+             ? environment_.machine_from_tip(point, command.modal.tool_length)
+             : point;
+}
+
+std::optional<Motion> MotionTracker::follow(const Command& command) {
+  switch (command.kind) {
+    case CommandKind::rapid:
+    case CommandKind::line:
+    case CommandKind::arc:
+    case CommandKind::skip:
+    case CommandKind::tap:
+      break;
+    case CommandKind::transformation:
+      target_ = command.target;
+      machine_ = to_machine(command, command.target);
+      return std::nullopt;
+    default:
+      return std::nullopt;
+  }
+  Motion motion;
+  motion.program = command.program;
+  motion.line = command.line;
+  motion.kind = command.kind;
+  motion.from = machine_;
+  motion.mcs = to_machine(command, command.target);
+  motion.wcs = interpreter_.workpiece(command);
+  if (command.kind == CommandKind::arc) {
+    motion.length = arc_length(target_, command.target, command.arc);
+    motion.arc = command.arc;
+    motion.turns = static_cast<std::uint32_t>(std::ceil(command.arc.sweep / 360 - 1e-9));
+    AxisValues centre = command.target;
+    for (std::size_t axis = 0; axis < 3; ++axis) centre[axis] = command.arc.centre[axis];
+    centre = to_machine(command, centre);
+    for (std::size_t axis = 0; axis < 3; ++axis) motion.arc.centre[axis] = centre[axis];
+  } else {
+    motion.length = straight_length(target_, command.target);
+  }
+  motion.feed = feed_of(command, motion.length);
+  target_ = command.target;
+  machine_ = motion.mcs;
+  if (motion.length <= no_distance) return std::nullopt;
+  return motion;
+}
+
+}  // namespace trunnion::analysis

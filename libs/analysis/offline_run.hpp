@@ -1,0 +1,46 @@
+// A program of canonical commands through the planner without a cluster, with everything that is judged.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "analysis/contour_check.hpp"
+#include "analysis/limit_check.hpp"
+#include "motion/trajectory.hpp"
+
+namespace trunnion::analysis {
+
+/// What a path is run with: limits, transformation, cycle.
+struct MachineModel {
+  motion::Limits limits;
+  std::optional<geometry::Chain> chain;  ///< Transformation::rtcp goes through it
+  double cycle_seconds = 0.001;
+};
+
+/// Overrides of cycle k.
+using OverrideHistory = std::function<motion::Overrides(std::size_t cycle)>;
+
+struct RunReport {
+  bool stopped = false;    ///< came to rest by itself on the last point
+  double motion_time = 0;  ///< s, from the first to the last change of any axis
+  std::size_t cycles = 0;
+  std::array<AxisRatios, language::axis_count> axes{};
+  AxisRatios worst;
+  Deviation deviation;  ///< largest of the run
+};
+
+/// Runs `program` (moves and dwells of one frame) from `start` under `overrides` for at most `most_cycles`.
+RunReport run_commands(const MachineModel& machine, const AxisValues& start,
+                       language::Transformation transformation, double tool_length,
+                       const std::vector<language::Command>& program, const OverrideHistory& overrides = {},
+                       std::size_t most_cycles = 10000000, bool check_contour = true);
+
+/// Bound of acceleration_bound() for the same program, sampled every `step` mm (or degrees) or closer; rapids
+/// and feeds as programmed at override 1.
+double command_bound(const MachineModel& machine, const AxisValues& start,
+                     language::Transformation transformation, double tool_length,
+                     const std::vector<language::Command>& program, double step = 0.1);
+
+}  // namespace trunnion::analysis

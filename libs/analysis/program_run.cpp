@@ -1,0 +1,210 @@
+#include "analysis/program_run.hpp"
+
+#include <algorithm>
+#include <memory>
+
+#include "language/codes.hpp"
+#include "motion/axis_motion.hpp"
+#include "program_execution/program_flow.hpp"
+#include "program_execution/tapping.hpp"
+
+namespace trunnion::analysis {
+namespace {
+
+using language::Command;
+using language::CommandKind;
+using program_execution::FlowState;
+
+bool is_move(const Command& command) {
+  return command.kind == CommandKind::rapid || command.kind == CommandKind::line ||
+         command.kind == CommandKind::arc || command.kind == CommandKind::dwell;
+}
+
+// Calls of ProgramFlow::fill() in a row, of millions of blocks each, that may bring no move.
+constexpr int most_reads = 25;
+
+// The channel without a cluster: moves come through the same ProgramFlow, and what the channel asks of
+// others while the axes stand is done at once.
+class Runner {
+ public:
+  Runner(channel_setup::ChannelSetup& machine, const AxisValues& start,
+         const std::function<void(const PlannedCycle&)>& sink,
+         const std::function<void(const Command&, const FrameMoves&)>& moves, std::uint64_t most_cycles)
+      : machine_(machine),
+        sink_(sink),
+        moves_(moves),
+        most_(most_cycles),
+        trajectory_(machine.limits(), &machine.chain(), machine.cycle_seconds()),
+        flow_(machine, {0, false}) {
+    frame_.start = start;
+    flow_.on_move = [this](const Command& move) {
+      ++result_.blocks;
+      reads_ = 0;
+      if (moves_) moves_(move, frame_);
+    };
+  }
+
+  ProgramResult run(language::TextSource& text) {
+    trajectory_.start(frame_.start, frame_.transformation, 0);
+    flow_.start(trajectory_, text, frame_.start, {}, variables_);
+    do {
+      flow_.set_cycle(result_.cycles);
+      state_ = skip_on_its_way_ ? FlowState::full : flow_.fill(false);
+    } while (state_ == FlowState::waiting ? go_on_reading()
+             : trajectory_.at_rest()      ? go_on_at_rest()
+                                          : step());
+    return result_;
+  }
+
+ private:
+  bool go_on_reading() {
+    if (flow_.text_missing()) return fail("The text ends in the middle of reading");
+    if (++reads_ < most_reads) return true;
+    return fail("The program goes on and on without a move");
+  }
+
+  // As ChannelCore::run_pending.
+  bool go_on_at_rest() {
+    if (skip_on_its_way_) {
+      skip_on_its_way_ = false;
+      flow_.skip_ended({trajectory_.position(), trajectory_.position()});
+      return true;
+    }
+    if (tapping_.active()) {
+      tapping_.end();
+      begin_tapping(false, machine_.limits());
+      return true;
+    }
+    if (state_ == FlowState::alarm)
+      return fail(flow_.alarm_text() + " (alarm " + std::to_string(flow_.alarm_number()) + ")");
+    if (state_ == FlowState::end) {
+      result_.good = true;
+      return false;
+    }
+    return state_ != FlowState::command || take(flow_.pending());
+  }
+
+  bool take(const Command& command) {
+    switch (command.kind) {
+      case CommandKind::end:
+        result_.good = true;
+        return false;
+      case CommandKind::skip:
+        skip_on_its_way_ = flow_.push_pending() != FlowState::alarm;
+        return true;
+      case CommandKind::tap:
+        if (!machine_.tapping_spindle().axis) {
+          flow_.refuse_pending(language::AlarmNumber::tapping_spindle_missing);
+          return true;
+        }
+        tapping_.begin(trajectory_.position(), command);
+        begin_tapping(true, tapping_.limits(machine_.limits(), machine_.tapping_spindle().acceleration));
+        return true;
+      case CommandKind::transformation:
+        frame_.transformation = command.modal.transformation;
+        frame_.tool_length = command.modal.tool_length;
+        trajectory_.start(command.target, frame_.transformation, frame_.tool_length);
+        break;
+      default:
+        if (language::changes_machine(command))
+          trajectory_.start(trajectory_.position(), frame_.transformation, frame_.tool_length);
+        break;
+    }
+    frame_.start = trajectory_.position();
+    if (moves_) moves_(command, frame_);
+    flow_.finish_pending();
+    return true;
+  }
+
+  void begin_tapping(bool on, const motion::Limits& limits) {
+    trajectory_.set_limits(limits);
+    trajectory_.start(trajectory_.position(), frame_.transformation, frame_.tool_length);
+    flow_.set_tapping(on);
+  }
+
+  bool fail(const std::string& why) {
+    result_.alarm = why;
+    return false;
+  }
+
+  bool step() {
+    if (result_.cycles >= most_)
+      return fail("The program has not ended after " + std::to_string(most_) + " cycles");
+    const motion::Setpoint setpoint = trajectory_.step(1, 1, false);
+    if (sink_) {
+      PlannedCycle cycle;
+      cycle.cycle = result_.cycles;
+      cycle.setpoint = &setpoint;
+      cycle.position = setpoint.position;
+      const bool rtcp = frame_.transformation == language::Transformation::rtcp;
+      cycle.machine =
+          rtcp ? machine_.machine_from_tip(setpoint.position, frame_.tool_length) : setpoint.position;
+      cycle.tip = rtcp ? setpoint.position : machine_.tip_from_machine(setpoint.position, frame_.tool_length);
+      sink_(cycle);
+    }
+    ++result_.cycles;
+    return true;
+  }
+
+  channel_setup::ChannelSetup& machine_;
+  const std::function<void(const PlannedCycle&)>& sink_;
+  const std::function<void(const Command&, const FrameMoves&)>& moves_;
+  std::uint64_t most_;
+  int reads_ = 0;
+  motion::Trajectory trajectory_;
+  language::VariableStore variables_;
+  program_execution::ProgramFlow flow_;
+  FlowState state_ = FlowState::full;
+  program_execution::Tapping tapping_;
+  bool skip_on_its_way_ = false;
+  FrameMoves frame_;
+  ProgramResult result_;
+};
+
+}  // namespace
+
+ProgramResult run_program(language::TextSource& text, channel_setup::ChannelSetup& machine,
+                          const AxisValues& start, const std::function<void(const PlannedCycle&)>& sink,
+                          const std::function<void(const Command&, const FrameMoves&)>& moves,
+                          std::uint64_t most_cycles) {
+  return std::make_unique<Runner>(machine, start, sink, moves, most_cycles)->run(text);
+}
+
+PlanReport plan_program(language::TextSource& text, channel_setup::ChannelSetup& machine,
+                        const AxisValues& start, const std::function<void(const PlannedCycle&)>& sink) {
+  PlanReport report;
+  const motion::Limits& limits = machine.limits();
+  LimitCheck check(limits, start, machine.cycle_seconds());
+  ContourCheck contour(start, limits.contour_tolerance, limits.orientation_tolerance);
+  MachineModel model{limits, machine.chain(), machine.cycle_seconds()};
+  FrameMoves group;
+  group.start = start;
+  const auto close = [&](const FrameMoves& next) {
+    if (!group.commands.empty())
+      report.bound +=
+          command_bound(model, group.start, group.transformation, group.tool_length, group.commands);
+    group = next;
+    group.commands.clear();
+    contour.jump(next.start);
+  };
+  report.result = run_program(
+      text, machine, start,
+      [&](const PlannedCycle& cycle) {
+        check.add(cycle.machine, cycle.setpoint->rapid);
+        const Deviation d = contour.of(cycle.position, cycle.setpoint->sequence);
+        report.deviation.contour = std::max(report.deviation.contour, d.contour);
+        report.deviation.orientation = std::max(report.deviation.orientation, d.orientation);
+        if (sink) sink(cycle);
+      },
+      [&](const Command& command, const FrameMoves& frame) {
+        if (!is_move(command)) return close(frame);
+        group.commands.push_back(command);
+        contour.add(command);
+      });
+  close(group);
+  report.motion_time = static_cast<double>(check.moving_cycles()) * machine.cycle_seconds();
+  report.axes = check.axes();
+  return report;
+}
+
+}  // namespace trunnion::analysis

@@ -1,0 +1,57 @@
+// A program text through interpreter and planner without a cluster, as the channel would run it.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "analysis/offline_run.hpp"
+#include "channel_setup/channel_setup.hpp"
+#include "language/interpreter.hpp"
+
+namespace trunnion::analysis {
+
+/// What would be sent in one cycle.
+struct PlannedCycle {
+  std::uint64_t cycle = 0;
+  AxisValues machine{};   ///< axes after the transformation
+  AxisValues tip{};       ///< X Y Z of the tool tip, rotary axes
+  AxisValues position{};  ///< in the frame of the commands
+  const motion::Setpoint* setpoint = nullptr;
+};
+
+/// Moves of one frame between two places where the axes must stand for another reason than the path.
+struct FrameMoves {
+  AxisValues start{};
+  language::Transformation transformation = language::Transformation::none;
+  double tool_length = 0;
+  std::vector<language::Command> commands;
+};
+
+struct ProgramResult {
+  bool good = false;         ///< ended without an alarm
+  std::string alarm;         ///< one line, empty when good
+  std::uint64_t blocks = 0;  ///< moves and dwells planned
+  std::uint64_t cycles = 0;
+};
+
+/// Runs `text` from the machine position `start`: every cycle goes to `sink`, every stretch of moves to
+/// `frames`, before its cycles; both may be empty. `most_cycles` ends a program that does not.
+ProgramResult run_program(language::TextSource& text, channel_setup::ChannelSetup& machine,
+                          const AxisValues& start, const std::function<void(const PlannedCycle&)>& sink,
+                          const std::function<void(const language::Command&, const FrameMoves&)>& moves,
+                          std::uint64_t most_cycles = 100000000);
+
+/// Everything the command `plan` reports.
+struct PlanReport {
+  ProgramResult result;
+  double motion_time = 0;  ///< s, from the first to the last change of any axis
+  double bound = 0;        ///< s, of acceleration_bound over the moves
+  std::array<AxisRatios, language::axis_count> axes{};
+  Deviation deviation;
+};
+
+PlanReport plan_program(language::TextSource& text, channel_setup::ChannelSetup& machine,
+                        const AxisValues& start, const std::function<void(const PlannedCycle&)>& sink);
+
+}  // namespace trunnion::analysis

@@ -1,0 +1,179 @@
+#include "analysis/reference_paths.hpp"
+
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+
+namespace trunnion::analysis {
+namespace {
+
+using language::Command;
+using language::CommandKind;
+using std::numbers::pi;
+
+double rounded(double value) { return std::round(value * 1e4) / 1e4; }
+
+Command line_to(const AxisValues& target, double feed_per_minute, std::size_t number) {
+  Command command;
+  command.kind = CommandKind::line;
+  command.line = command.sequence = static_cast<std::uint32_t>(number);
+  command.target = target;
+  command.modal.feed = feed_per_minute;
+  return command;
+}
+
+geometry::Chain trunnion_table() {
+  geometry::ChainParameters p;
+  p.table_1 = geometry::RotaryAxis{{-1, 0, 0}, {0, 0, 0}, 0};
+  p.table_2 = geometry::RotaryAxis{{0, 0, -1}, {0, 0, -60}, 2};
+  return std::get<geometry::Chain>(geometry::Chain::make(p));
+}
+
+struct Place {
+  double x, y, z, slope_x, slope_y;
+};
+
+// The cap z = -r^2 / 160 with waves of 0.4 mm every 24 mm, along the winding line (20 + 8 sin 3f)(cos f, sin
+// f).
+Place cap(double f) {
+  const double r = 20 + 8 * std::sin(3 * f);
+  const double x = r * std::cos(f), y = r * std::sin(f);
+  const double k = 2 * pi / 24;
+  return {x, y, -(x * x + y * y) / 160 + 0.4 * std::sin(k * x) * std::cos(k * y),
+          -x / 80 + 0.4 * k * std::cos(k * x) * std::cos(k * y),
+          -y / 80 - 0.4 * k * std::sin(k * x) * std::sin(k * y)};
+}
+
+// The tool along the surface normal seen from the workpiece: (sin A sin C, -sin A cos C, cos A).
+AxisValues pose(double f, bool five_axis, double& c_before) {
+  const Place p = cap(f);
+  AxisValues q{rounded(p.x), rounded(p.y), rounded(p.z)};
+  if (!five_axis) return q;
+  // Leaning the tool outwards by at least the slope keeps A away from 0, where C would be free.
+  const double lean = 0.35;
+  const double radius = std::hypot(p.x, p.y);
+  const double nx = -p.slope_x + lean * p.x / radius, ny = -p.slope_y + lean * p.y / radius;
+  q[language::A] = rounded(std::atan(std::hypot(nx, ny)) * 180 / pi);
+  double c = std::atan2(nx, -ny) * 180 / pi;
+  c += 360 * std::round((c_before - c) / 360);
+  c_before = c;
+  q[language::C] = rounded(c);
+  return q;
+}
+
+ReferencePath along_cap(const std::string& name, double length, bool five_axis) {
+  ReferencePath path;
+  path.name = name;
+  path.machine.limits = reference_limits();
+  constexpr double feed = 2000, step = 0.1;
+  double c = 0, f = 0;
+  path.start = pose(f, five_axis, c);
+  if (five_axis) {
+    path.machine.chain = trunnion_table();
+    path.transformation = language::Transformation::rtcp;
+    path.tool_length = 100;
+  }
+  const auto count = static_cast<std::size_t>(std::lround(length / step));
+  double travelled = 0;
+  AxisValues before = path.start;
+  for (std::size_t k = 1; k <= count; ++k) {
+    // Steps of equal tip travel, to second order.
+    const double h = 1e-5;
+    const Place a = cap(f), b = cap(f + h);
+    double df = step * h / std::hypot(b.x - a.x, b.y - a.y, b.z - a.z);
+    const Place m = cap(f + df / 2), n = cap(f + df / 2 + h);
+    df = step * h / std::hypot(n.x - m.x, n.y - m.y, n.z - m.z);
+    f += df;
+    const AxisValues q = pose(f, five_axis, c);
+    travelled += std::hypot(q[0] - before[0], q[1] - before[1], q[2] - before[2]);
+    before = q;
+    path.program.push_back(line_to(q, feed, k));
+  }
+  path.feed_time = travelled / (feed / 60);
+  return path;
+}
+
+}  // namespace
+
+motion::Limits reference_limits() {
+  motion::Limits limits;
+  limits.axes.fill({500, 500, 3000, 60000});
+  for (std::size_t i = language::A; i <= language::C; ++i) limits.axes[i] = {360, 360, 3000, 60000};
+  limits.smoothing_cycles = 1;
+  return limits;
+}
+
+ReferencePath single_line() {
+  ReferencePath path;
+  path.name = "line 100 mm";
+  path.machine.limits = reference_limits();
+  path.program = {line_to({100}, 30000, 1)};
+  path.feed_time = 0.2;
+  return path;
+}
+
+ReferencePath corner(double tolerance) {
+  ReferencePath path;
+  char name[64];
+  std::snprintf(name, sizeof name, "corner, tolerance %g", tolerance);
+  path.name = name;
+  path.machine.limits = reference_limits();
+  path.machine.limits.contour_tolerance = tolerance;
+  path.program = {line_to({50}, 6000, 1), line_to({50, 50}, 6000, 2)};
+  path.feed_time = 1;
+  return path;
+}
+
+ReferencePath circle(double feed) {
+  ReferencePath path;
+  char name[64];
+  std::snprintf(name, sizeof name, "circle R10 at %g mm/s", feed);
+  path.name = name;
+  path.machine.limits = reference_limits();
+  path.start = {10};
+  Command command = line_to({10}, feed * 60, 1);
+  command.kind = CommandKind::arc;
+  command.arc = {language::Plane::xy, false, {0, 0, 0}, 360};
+  path.program = {command};
+  path.feed_time = 20 * pi / feed;
+  return path;
+}
+
+ReferencePath wavy_cap(double length) { return along_cap("five-axis wavy cap", length, true); }
+
+ReferencePath dense_three_axis(double length) { return along_cap("dense three-axis", length, false); }
+
+std::string program_text(const ReferencePath& path) {
+  std::string text = "G90 G94 G64\n";
+  if (path.transformation == language::Transformation::rtcp) text += "T1 M6\nG43.4 H1\n";
+  std::array<bool, language::axis_count> moves{true, true, true};
+  for (const Command& command : path.program) {
+    for (std::size_t i = 0; i < moves.size(); ++i) moves[i] = moves[i] || command.target[i] != path.start[i];
+  }
+  char word[64];
+  double feed = -1;
+  for (const Command& command : path.program) {
+    const bool arc = command.kind == CommandKind::arc;
+    text += arc ? (command.arc.clockwise ? "G2" : "G3") : "G1";
+    for (std::size_t i = 0; i < language::axis_count; ++i) {
+      if (!moves[i]) continue;
+      std::snprintf(word, sizeof word, " %c%.4f", language::axis_letters[i], command.target[i]);
+      text += word;
+    }
+    if (arc) {
+      const AxisValues from = &command == &path.program.front() ? path.start : (&command - 1)->target;
+      std::snprintf(word, sizeof word, " I%.4f J%.4f", command.arc.centre[0] - from[0],
+                    command.arc.centre[1] - from[1]);
+      text += word;
+    }
+    if (command.modal.feed != feed) {
+      feed = command.modal.feed;
+      std::snprintf(word, sizeof word, " F%g", feed);
+      text += word;
+    }
+    text += '\n';
+  }
+  return text + "M30\n";
+}
+
+}  // namespace trunnion::analysis

@@ -1,0 +1,48 @@
+// What a program does, in numbers.
+#pragma once
+
+#include <cstdint>
+#include <iosfwd>
+#include <set>
+
+#include "analysis/motion_tracker.hpp"
+
+namespace trunnion::analysis {
+
+/// Gathers motions; memory does not grow with their number.
+class Summary {
+ public:
+  explicit Summary(std::uint16_t axes) : axes_(axes) {}
+
+  void add(const language::Command& command);
+  void add(const Motion& motion);
+  /// Readable lines; `blocks` as language::Interpreter::blocks().
+  void print(std::ostream& out, std::uint64_t blocks) const;
+
+  std::uint64_t rapids() const { return rapids_; }
+  std::uint64_t lines() const { return lines_; }
+  std::uint64_t arcs() const { return arcs_; }
+  double rapid_length() const { return rapid_length_; }  ///< mm
+  double feed_length() const { return feed_length_; }    ///< mm
+  /// Minutes at the programmed feed; without rapids, accelerations and tool changes.
+  double feed_minutes() const { return feed_minutes_; }
+  double dwell_seconds() const { return dwell_seconds_; }
+  const std::set<std::uint32_t>& tools() const { return tools_; }
+  /// Extents of the control point in machine coordinates; of a motion whose axes turn under tool tip control,
+  /// those of its ends.
+  const language::AxisValues& lowest() const { return lowest_; }
+  const language::AxisValues& highest() const { return highest_; }
+
+ private:
+  void extend(const language::AxisValues& point);
+  void extend_over_arc(const Motion& motion);
+
+  std::uint16_t axes_;
+  std::uint64_t rapids_ = 0, lines_ = 0, arcs_ = 0;
+  double rapid_length_ = 0, feed_length_ = 0, feed_minutes_ = 0, dwell_seconds_ = 0;
+  std::set<std::uint32_t> tools_;
+  bool moved_ = false;
+  language::AxisValues lowest_{}, highest_{};
+};
+
+}  // namespace trunnion::analysis

@@ -1,0 +1,310 @@
+#include "channel_setup/channel_setup.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "machine/parameter_constants.hpp"
+#include "motion/path_segment.hpp"
+
+namespace trunnion::channel_setup {
+namespace {
+
+constexpr double turn_worth_a_move = 1e-6;  // degrees
+constexpr std::uint32_t most_vector_pieces = 1024;
+
+}  // namespace
+
+ChannelSetup::ChannelSetup(const tool_tables::MachineTables& tables) : ChannelSetup(tables.channel) {
+  configure(tables.parameters);
+  set_tools(tables.tools);
+  set_offsets(tables.offsets);
+}
+
+void ChannelSetup::configure(const machine::Parameters& p) {
+  auto chain = machine::make_chain(p, channel_);
+  channel_axes_ = machine::channel_axes(p, channel_);
+  chain_ = chain;
+  const auto drive = machine::drive_axes(p);
+  columns_.clear();
+  mask_ = 0;
+  limits_ = {};
+  for (std::size_t i = 0; i < channel_axes_.index.size(); ++i) {
+    const auto index = channel_axes_.index[i];
+    const auto a = channel_axes_.number[i];
+    columns_.push_back(machine::column_of(drive, a));
+    mask_ = static_cast<std::uint16_t>(mask_ | (1u << index));
+    limits_.axes[index] = {p.get(parameter::maximum_feed, a) / 60, p.get(parameter::rapid_feed, a) / 60,
+                           p.get(parameter::maximum_acceleration, a), p.get(parameter::maximum_jerk, a)};
+    travel_[index] = {p.get(parameter::negative_limit, a), p.get(parameter::positive_limit, a)};
+    reference_[index] = p.get(parameter::reference_coordinate, a);
+    jog_feed_[index] = p.get(parameter::jog_feed, a);
+    reference_feed_[index] = p.get(parameter::reference_feed, a);
+    approach_[index] = p.get(parameter::single_direction_approach, a);
+    for (std::uint32_t k = 0; k < 3; ++k)
+      numbered_references_[k][index] = p.get(parameter::numbered_reference, a, k);
+  }
+  tapping_spindle_ = {};
+  const int wanted_spindle = p.integer(parameter::tapping_spindle, channel_);
+  for (const auto& spindle : machine::spindles(p)) {
+    if (tapping_spindle_.axis || (wanted_spindle >= 0 && spindle.number != wanted_spindle)) continue;
+    tapping_spindle_ = {spindle.number, p.get(parameter::maximum_acceleration, spindle.number)};
+  }
+  solver_.emplace(*chain_);
+  rotary_travel_ = machine::rotary_travels(p, channel_);
+  avoid_poles_ = p.integer(parameter::pole_handling, channel_) != 0;
+  pole_range_ = p.get(parameter::pole_range, channel_);
+  diameter_programming_ = p.integer(parameter::diameter_programming, channel_) != 0;
+  default_feed_ = p.get(parameter::default_feed, channel_);
+  dry_run_feed_ = p.get(parameter::dry_run_feed, channel_);
+  handwheel_share_ = p.get(parameter::handwheel_share, channel_);
+  cycles_ = {p.get(parameter::cycle_retract, channel_), p.get(parameter::cycle_clearance, channel_),
+             p.integer(parameter::cycle_shift_axis, channel_)};
+  cutter_ = {p.integer(parameter::cutter_feed_at_contour) != 0,
+             p.integer(parameter::cutter_wear_sign) != 0 ? 1 : -1,
+             p.integer(parameter::cutter_interference_check) != 0,
+             static_cast<unsigned>(p.integer(parameter::cutter_check_blocks))};
+  for (std::uint32_t i = 0; i < 180; ++i)
+    planes_[i / 9][i / 3 % 3][i % 3] = p.get(parameter::tilted_plane_points, channel_, i);
+  for (std::uint32_t i = 0; i < cycle_m_codes_.size(); ++i)
+    cycle_m_codes_[i] = static_cast<std::uint16_t>(p.integer(parameter::cycle_m_code, 0, i));
+  limits_.smoothing_cycles = p.integer(parameter::smoothing_cycles, channel_);
+  limits_.contour_tolerance = p.get(parameter::contour_tolerance, channel_);
+  limits_.arc_tolerance = p.get(parameter::arc_tolerance);
+  limits_.smooth_corner_angle = p.get(parameter::smooth_corner_angle, channel_);
+  limits_.centripetal_acceleration = p.get(parameter::centripetal_acceleration, channel_);
+  limits_.orientation_tolerance = p.get(parameter::orientation_tolerance, channel_);
+  for (std::uint32_t k = 0; k < limits_.modes.size(); ++k)
+    limits_.modes[k] = {p.integer(parameter::mode_smoothing_cycles, channel_, k),
+                        p.get(parameter::mode_contour_tolerance, channel_, k),
+                        p.get(parameter::mode_orientation_tolerance, channel_, k),
+                        p.get(parameter::mode_smooth_corner_angle, channel_, k),
+                        p.get(parameter::mode_centripetal_acceleration, channel_, k)};
+  radius_deviation_ = p.get(parameter::radius_deviation);
+  cycle_seconds_ = p.get(parameter::interpolation_cycle) * 1e-6;
+  lead_ = static_cast<std::uint64_t>(p.integer(parameter::stream_lead));
+  // Two frames must fit into the lead, or the credits would never let the second be written.
+  const auto most = static_cast<std::uint32_t>(std::max<std::uint64_t>(1, lead_ / 2));
+  frame_real_ = std::min(most, static_cast<std::uint32_t>(p.integer(parameter::frame_cycles_real_time)));
+  frame_virtual_ =
+      std::min(most, static_cast<std::uint32_t>(p.integer(parameter::frame_cycles_virtual_time)));
+  revision_ = p.revision;
+}
+
+void ChannelSetup::set_tools(const idl::parameters::ToolTable& table) {
+  tools_.clear();
+  for (const auto& tool : table.tools)
+    tools_[tool.number] = {tool.length, tool.length_wear, tool.radius, tool.radius_wear};
+}
+
+void ChannelSetup::set_offsets(const idl::parameters::WorkOffsets& table) {
+  offsets_ = {};
+  for (const auto& offset : table.offsets)
+    if (offset.channel == channel_ && offset.index < offsets_.size())
+      std::copy_n(offset.values.begin(), std::min(offset.values.size(), language::axis_count),
+                  offsets_[offset.index].begin());
+}
+
+std::optional<double> ChannelSetup::tool_length(std::uint16_t h) const {
+  const auto found = tools_.find(h);
+  if (found == tools_.end()) return std::nullopt;
+  return found->second.length + found->second.length_wear;
+}
+
+std::optional<language::ToolOffset> ChannelSetup::tool_offset(std::uint16_t number) const {
+  const auto found = tools_.find(number);
+  return found == tools_.end() ? std::nullopt : std::optional(found->second);
+}
+
+std::optional<AxisValues> ChannelSetup::numbered_reference(std::uint8_t number) const {
+  if (number < 2 || number > 4) return std::nullopt;
+  return numbered_references_[number - 2u];
+}
+
+std::optional<std::array<language::Vector3, 3>> ChannelSetup::plane_points(std::uint8_t index) const {
+  if (index < 1 || index > planes_.size()) return std::nullopt;
+  const auto& plane = planes_[index - 1u];
+  if (plane[0] == plane[1] && plane[1] == plane[2]) return std::nullopt;  // nobody has entered it
+  return plane;
+}
+
+geometry::OrientationAnswer ChannelSetup::orientation(const language::Vector3& direction,
+                                                      const AxisValues& current,
+                                                      language::RotaryChoice choice) const {
+  geometry::OrientationRequest request;
+  request.direction = {direction[0], direction[1], direction[2]};
+  request.present = geometry::angles_of(current.data());
+  request.travel = rotary_travel_;
+  request.tolerance = limits_.orientation_tolerance;
+  switch (choice) {
+    case language::RotaryChoice::shortest:
+      request.way = geometry::WayChoice::shortest;
+      break;
+    case language::RotaryChoice::positive:
+      request.way = geometry::WayChoice::positive;
+      break;
+    case language::RotaryChoice::negative:
+      request.way = geometry::WayChoice::negative;
+      break;
+    case language::RotaryChoice::continuous:
+      request.way = geometry::WayChoice::continuous;
+      break;
+  }
+  return solver_->best(request);
+}
+
+std::optional<AxisValues> ChannelSetup::orient(const language::Vector3& direction, const AxisValues& current,
+                                               language::RotaryChoice choice) const {
+  const auto answer = orientation(direction, current, choice);
+  if (answer.status != geometry::OrientationStatus::found) return std::nullopt;
+  AxisValues result = current;
+  std::copy(answer.best.angles.begin(), answer.best.angles.end(), result.begin() + 3);
+  return result;
+}
+
+std::optional<language::Vector3> ChannelSetup::nearest_direction(const language::Vector3& direction,
+                                                                 const AxisValues& current) const {
+  const auto answer = orientation(direction, current, language::RotaryChoice::continuous);
+  if (answer.status != geometry::OrientationStatus::unreachable) return std::nullopt;
+  return language::Vector3{answer.nearest[0], answer.nearest[1], answer.nearest[2]};
+}
+
+std::variant<geometry::DirectionPath, geometry::DirectionPathFault> ChannelSetup::direction_path(
+    const AxisValues& current, const language::Vector3& direction) const {
+  geometry::DirectionPathRequest request;
+  request.present = geometry::angles_of(current.data());
+  request.from = chain_->tool_direction_in_workpiece(request.present);
+  request.to = {direction[0], direction[1], direction[2]};
+  request.travel = rotary_travel_;
+  request.tolerance = limits_.orientation_tolerance;
+  request.avoid_poles = avoid_poles_;
+  request.pole_range = pole_range_;
+  return geometry::DirectionPath::make(*solver_, request);
+}
+
+language::VectorWay ChannelSetup::vector_way(const AxisValues& current,
+                                             const language::Vector3& direction) const {
+  using Fault = language::VectorWay::Fault;
+  using PathFault = geometry::DirectionPathFault;
+  language::VectorWay way;
+  const auto made = direction_path(current, direction);
+  if (const auto* fault = std::get_if<PathFault>(&made)) {
+    switch (fault->kind) {
+      case PathFault::not_a_direction:
+        way.fault = Fault::end;
+        break;
+      case PathFault::opposite:
+        way.fault = Fault::opposite;
+        break;
+      case PathFault::unreachable:
+        way.fault = fault->s == 1 ? Fault::end : Fault::on_the_way;
+        way.nearest = {fault->nearest[0], fault->nearest[1], fault->nearest[2]};
+        break;
+      case PathFault::outside_travel:
+        way.fault = Fault::travel;
+        break;
+      case PathFault::pole:
+        way.fault = Fault::pole;
+        break;
+    }
+    return way;
+  }
+  const auto& path = std::get<geometry::DirectionPath>(made);
+  const auto present = geometry::angles_of(current.data()), start = path.start();
+  for (std::size_t i = 0; i < present.size(); ++i)
+    way.turns_first = way.turns_first || std::abs(start[i] - present[i]) > turn_worth_a_move;
+  way.pieces = path.pieces(*chain_, std::max(0.1 * limits_.orientation_tolerance, 1e-4), most_vector_pieces);
+  return way;
+}
+
+AxisValues ChannelSetup::on_vector_way(const AxisValues& current, const language::Vector3& direction,
+                                       double s) const {
+  AxisValues result = current;
+  const auto made = direction_path(current, direction);
+  if (const auto* path = std::get_if<geometry::DirectionPath>(&made)) {
+    const auto angles = path->angles(s);
+    std::copy(angles.begin(), angles.end(), result.begin() + 3);
+  }
+  return result;
+}
+
+AxisValues ChannelSetup::tip_from_machine(const AxisValues& machine, double tool_length) const {
+  AxisValues result = machine;
+  const auto tip = chain_->tip_from_machine({machine[0], machine[1], machine[2]},
+                                            geometry::angles_of(machine.data()), tool_length);
+  std::copy_n(tip.data(), 3, result.begin());
+  return result;
+}
+
+AxisValues ChannelSetup::machine_from_tip(const AxisValues& tip, double tool_length) const {
+  AxisValues result = tip;
+  const auto machine =
+      chain_->machine_from_tip({tip[0], tip[1], tip[2]}, geometry::angles_of(tip.data()), tool_length);
+  std::copy_n(machine.data(), 3, result.begin());
+  return result;
+}
+
+std::optional<language::TravelBreach> ChannelSetup::breach_of(const AxisValues& from,
+                                                              const language::Command& move,
+                                                              const geometry::DirectionPath* way) const {
+  const bool rtcp = move.modal.transformation == language::Transformation::rtcp;
+  const auto path = move.kind == language::CommandKind::arc
+                        ? motion::PathSegment::arc(from, move.target, move.arc)
+                        : motion::PathSegment::line(from, move.target);
+  const double length = path.length();
+  const auto at = [&](double share) {
+    AxisValues place = share >= 1 ? move.target : path.position(length * share);
+    if (way != nullptr) {
+      const auto angles = way->angles(share);
+      for (std::size_t i = 0; i < angles.size(); ++i)
+        if (chain_->turns(i)) place[i + 3] = angles[i];
+    }
+    return rtcp ? machine_from_tip(place, move.modal.tool_length) : place;
+  };
+  double degrees = move.kind == language::CommandKind::arc ? move.arc.sweep : 0;
+  if (rtcp)
+    for (std::size_t i = 3; i < from.size(); ++i)
+      if (chain_->turns(i - 3)) degrees += std::abs(at(1)[i] - at(0)[i]);
+  return farthest_breach(at, degrees, channel_axes_.index, travel_);
+}
+
+std::string ChannelSetup::travel_error(const AxisValues& from, const language::Command& move) const {
+  const auto breach = breach_of(from, move, nullptr);
+  return breach ? words_of(*breach, move.line) : "";
+}
+
+std::string ChannelSetup::travel_error(const AxisBox& box, const AxisValues& offset,
+                                       std::uint32_t line) const {
+  constexpr double slack = 1e-6;
+  for (const auto index : channel_axes_.index)
+    for (const double position : {box.low[index] + offset[index], box.high[index] + offset[index]})
+      if (travel_[index].excess(position) > slack)
+        return words_of({static_cast<language::Axis>(index), position}, line);
+  return "";
+}
+
+std::string ChannelSetup::words_of(const language::TravelBreach& breach, std::uint32_t line) const {
+  const Travel& travel = travel_[breach.axis];
+  char text[160];
+  std::snprintf(text, sizeof text, "%u: %c would go to %.4f, its travel is %.4f .. %.4f", line,
+                language::axis_letters[breach.axis], breach.position, travel.negative, travel.positive);
+  return text;
+}
+
+std::optional<language::TravelBreach> ChannelSetup::vector_breach(const AxisValues& start,
+                                                                  const language::Command& move,
+                                                                  const language::Vector3& direction) const {
+  const auto made = direction_path(start, direction);
+  const auto* way = std::get_if<geometry::DirectionPath>(&made);
+  if (way == nullptr) return std::nullopt;
+  // At a pole the axes turn before the tip goes.
+  language::Command turn = move;
+  turn.kind = language::CommandKind::line;
+  turn.target = start;
+  const auto angles = way->start();
+  std::copy(angles.begin(), angles.end(), turn.target.begin() + 3);
+  const auto breach = breach_of(start, turn, nullptr);
+  return breach ? breach : breach_of(start, move, way);
+}
+
+}  // namespace trunnion::channel_setup

@@ -1,0 +1,96 @@
+#include "cluster/client.hpp"
+
+#include <stdexcept>
+
+#include "cluster/cluster.hpp"
+#include "storage/crc32.hpp"
+
+namespace trunnion::cluster {
+namespace {
+constexpr double timeout = 3;  // s for an answer
+}
+
+Client::Client(std::uint32_t domain) : Client(network_in(domain)) {}
+
+Client::Client(const bus::NetworkSettings& network)
+    : bus_(bus::Vendor::cyclonedds, network),
+      channel_(bus_, topics::channel_request, topics::channel_reply),
+      program_(bus_, topics::program_request, topics::program_reply),
+      parameter_(bus_, topics::parameter_request, topics::parameter_reply),
+      panel_(bus_, topics::panel_request, topics::panel_reply) {}
+
+void Client::channel(std::uint16_t channel, idl::channel::CommandKind command, const std::string& text,
+                     double value, idl::channel::Mode mode) {
+  ChannelRequest request;
+  request.channel = channel, request.command = command, request.text = text, request.value = value,
+  request.mode = mode;
+  this->channel(request);
+}
+
+void Client::channel(const ChannelRequest& request) {
+  const auto reply = channel_.call(request, timeout);
+  if (!reply) throw std::runtime_error("channel " + std::to_string(request.channel) + " does not answer");
+  if (!reply->accepted)
+    throw std::runtime_error(reply->reason +
+                             (reply->alarm != 0 ? " (alarm " + std::to_string(reply->alarm) + ")" : ""));
+}
+
+idl::program::ProgramReply Client::program(idl::program::ProgramRequest request) {
+  const auto reply = program_.call(std::move(request), timeout);
+  if (!reply) throw std::runtime_error("the program service does not answer");
+  if (!reply->accepted) throw std::runtime_error(reply->reason);
+  return *reply;
+}
+
+idl::parameters::ParameterReply Client::parameter(idl::parameters::ParameterRequest request) {
+  const auto reply = parameter_.call(std::move(request), timeout);
+  if (!reply) throw std::runtime_error("the parameters service does not answer");
+  if (!reply->accepted) throw std::runtime_error(reply->reason);
+  return *reply;
+}
+
+idl::plc::PanelReply Client::panel(std::uint8_t kind) {
+  idl::plc::PanelRequest request;
+  request.kind = kind;
+  const auto reply = panel_.call(request, timeout);
+  if (!reply) throw std::runtime_error("the PLC does not answer");
+  if (!reply->accepted) throw std::runtime_error(reply->reason);
+  return *reply;
+}
+
+void Client::upload(const std::string& name, const std::string& text) {
+  idl::program::ProgramRequest request;
+  request.operation = idl::program::Operation::BEGIN_UPLOAD;
+  request.name = name;
+  program(request);
+  constexpr std::size_t chunk = 32768;
+  request.operation = idl::program::Operation::WRITE;
+  for (std::size_t at = 0; at < text.size(); at += chunk) {
+    request.offset = at;
+    const auto part = std::string_view(text).substr(at, chunk);
+    request.data.assign(part.begin(), part.end());
+    program(request);
+  }
+  request.data.clear();
+  request.operation = idl::program::Operation::COMMIT_UPLOAD;
+  request.size = text.size();
+  request.crc32 = storage::crc32(text);
+  program(request);
+}
+
+std::string Client::download(const std::string& name) {
+  idl::program::ProgramRequest request;
+  request.operation = idl::program::Operation::READ;
+  request.name = name;
+  request.length = 32768;
+  std::string text;
+  for (;;) {
+    request.offset = text.size();
+    const auto reply = program(request);
+    request.revision = reply.entry.revision;
+    text.append(reply.data.begin(), reply.data.end());
+    if (text.size() >= reply.entry.size || reply.data.empty()) return text;
+  }
+}
+
+}  // namespace trunnion::cluster

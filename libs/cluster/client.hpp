@@ -1,0 +1,56 @@
+// What the command line says to a running cluster.
+#pragma once
+
+#include <string>
+
+#include "contracts/topics.hpp"
+#include "service/request.hpp"
+
+namespace trunnion::cluster {
+
+using idl::channel::ChannelReply;
+using idl::channel::ChannelRequest;
+
+class Client {
+ public:
+  /// To the cluster in `domain` whose launcher runs on this computer.
+  explicit Client(std::uint32_t domain);
+  explicit Client(const bus::NetworkSettings& network);
+
+  bus::Bus& bus() { return bus_; }
+  /// Throws std::runtime_error with the reason when it is refused or nobody answers.
+  void channel(std::uint16_t channel, idl::channel::CommandKind command, const std::string& text = "",
+               double value = 0, idl::channel::Mode mode = idl::channel::Mode::AUTO);
+  /// The same with every field of the request; client and number are given by this client.
+  void channel(const ChannelRequest& request);
+  idl::program::ProgramReply program(idl::program::ProgramRequest request);
+  idl::parameters::ParameterReply parameter(idl::parameters::ParameterRequest request);
+  idl::plc::PanelReply panel(std::uint8_t kind);
+  /// Stores `text` under `name` in chunks.
+  void upload(const std::string& name, const std::string& text);
+  std::string download(const std::string& name);
+  /// The newest state of a topic, waiting up to `timeout` seconds for the first.
+  template <class T>
+  T newest(const bus::Topic<T>& topic, double timeout = 2);
+
+ private:
+  bus::Bus bus_;
+  service::RequestClient<ChannelRequest, ChannelReply> channel_;
+  service::RequestClient<idl::program::ProgramRequest, idl::program::ProgramReply> program_;
+  service::RequestClient<idl::parameters::ParameterRequest, idl::parameters::ParameterReply> parameter_;
+  service::RequestClient<idl::plc::PanelRequest, idl::plc::PanelReply> panel_;
+};
+
+template <class T>
+T Client::newest(const bus::Topic<T>& topic, double timeout) {
+  auto reader = bus_.reader(topic);
+  T value;
+  const double until = service::monotonic_seconds() + timeout;
+  while (service::monotonic_seconds() < until) {
+    if (reader.take_newest(value)) return value;
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
+  throw std::runtime_error(std::string("nobody publishes ") + topic.name);
+}
+
+}  // namespace trunnion::cluster

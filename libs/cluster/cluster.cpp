@@ -1,0 +1,157 @@
+#include "cluster/cluster.hpp"
+
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <thread>
+#include <vector>
+
+#include "cluster/child_process.hpp"
+#include "machine/parameters.hpp"
+#include "service/network.hpp"
+#include "service/node.hpp"
+
+namespace trunnion::cluster {
+namespace fs = std::filesystem;
+namespace {
+
+std::vector<std::string> launcher_arguments(const UpOptions& up, const RunningCluster& cluster) {
+  std::vector<std::string> args{binary_directory() + "/trunnion-launcher",
+                                "--machine",
+                                cluster.machine_directory,
+                                "--state",
+                                cluster.state_directory,
+                                "--domain",
+                                std::to_string(cluster.run.domain),
+                                "--port",
+                                std::to_string(cluster.port)};
+  args.insert(args.end(), {"--host", cluster.host});
+  if (up.one_host) args.emplace_back("--one-host");
+  if (!up.vendor.empty()) args.insert(args.end(), {"--vendor", up.vendor});
+  if (cluster.virtual_time) args.emplace_back("--virtual-time");
+  return args;
+}
+
+}  // namespace
+
+RunningCluster start_cluster(const UpOptions& up) {
+  const double began = service::monotonic_seconds();
+  auto config = machine::load_machine(find_machine(up.machine), up.vendor);
+  machine::machine_parameters(config);
+  if (up.one_host) machine::forget_hosts(config);
+  RunningCluster cluster;
+  cluster.host = up.host.empty() ? service::local_host(config) : up.host;
+  cluster.network = service::network_of(config, cluster.host);
+  cluster.run.domain = up.own_domain ? free_domain() : up.domain.value_or(config.domain);
+  cluster.network.domain = cluster.run.domain;
+  cluster.network.identity = "deploy";
+  if (const auto pid = cluster.run.launcher())
+    throw std::runtime_error("a cluster is already running in domain " + std::to_string(cluster.run.domain) +
+                             " (launcher " + std::to_string(*pid) +
+                             "): stop it with 'trunnion down' or choose another --domain");
+  cluster.machine = config.name;
+  cluster.machine_directory = config.directory;
+  cluster.virtual_time = up.virtual_time.value_or(config.virtual_time);
+  cluster.port = up.with_gateway ? up.port.value_or(config.port) : std::uint16_t{0};
+  cluster.state_directory = up.state_directory.empty()          ? default_state_directory(config.name)
+                            : up.state_directory == "temporary" ? cluster.run.path() + "/state"
+                                                                : fs::absolute(up.state_directory).string();
+  fs::create_directories(cluster.run.path());
+  std::ofstream(cluster.run.info_file()) << nlohmann::json{{"machine", cluster.machine},
+                                                           {"machine_directory", cluster.machine_directory},
+                                                           {"state_directory", cluster.state_directory},
+                                                           {"virtual_time", cluster.virtual_time},
+                                                           {"port", cluster.port},
+                                                           {"host", cluster.host},
+                                                           {"interface", cluster.network.interface_address},
+                                                           {"peers", cluster.network.peers},
+                                                           {"multicast", cluster.network.multicast},
+                                                           {"security", cluster.network.security},
+                                                           {"domain", cluster.run.domain}}
+                                         << "\n";
+  auto args = launcher_arguments(up, cluster);
+  if (up.foreground) {
+    replace_process(args);
+    throw std::runtime_error(args[0] + ": cannot be started");
+  }
+  // The launcher is a program of its own, not a copy of this process: threads and DDS participants do not
+  // survive a fork.
+  constexpr int report = 3;
+  args.insert(args.end(), {"--report", std::to_string(report)});
+  ChildOptions options;
+  options.arguments = std::move(args);
+  options.log = cluster.run.log_file("launcher");
+  options.read_from = report;
+  options.detached = true;
+  auto answer = ChildProcess(options).read_all();
+  while (!answer.empty() && answer.back() == '\n') answer.pop_back();
+  if (answer != "ready") {
+    for (int i = 0; i < 300 && cluster.run.launcher(); ++i)
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    cluster.run.remove();
+    throw std::runtime_error(answer.rfind("error ", 0) == 0 ? answer.substr(6)
+                                                            : "the launcher ended without a word");
+  }
+  cluster.start_seconds = service::monotonic_seconds() - began;
+  return cluster;
+}
+
+void stop_cluster(const RunDirectory& run) {
+  const auto pid = run.launcher();
+  if (!pid) throw std::runtime_error("no cluster is running in domain " + std::to_string(run.domain));
+  kill(*pid, SIGTERM);
+  for (int i = 0; i < 800 && is_launcher(*pid); ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  if (is_launcher(*pid)) throw std::runtime_error("launcher " + std::to_string(*pid) + " does not stop");
+  run.remove();
+}
+
+bus::NetworkSettings network_in(std::uint32_t domain) {
+  bus::NetworkSettings network;
+  network.domain = domain;
+  network.identity = "deploy";
+  std::ifstream in(RunDirectory{domain}.info_file());
+  const auto info = nlohmann::json::parse(in, nullptr, false);
+  if (!info.is_object()) return network;
+  network.interface_address = info.value("interface", network.interface_address);
+  network.peers = info.value("peers", network.peers);
+  network.multicast = info.value("multicast", false);
+  network.security = info.value("security", "");
+  return network;
+}
+
+RunningCluster find_cluster(std::optional<std::uint32_t> domain) {
+  const auto all = run_directories();
+  if (!domain) {
+    for (const auto& run : all) {
+      if (!run.launcher()) continue;
+      if (domain) throw std::runtime_error("several clusters are running: say which with --domain");
+      domain = run.domain;
+    }
+  }
+  for (const auto& run : all)
+    if (run.abandoned() && (!domain || run.domain == *domain))
+      throw std::runtime_error("the launcher of the cluster in domain " + std::to_string(run.domain) +
+                               " was killed and its services ended with it; their logs are in " + run.path() +
+                               " until 'trunnion down' or the next 'trunnion up'");
+  if (!domain) throw std::runtime_error("no cluster is running: start one with 'trunnion up MACHINE'");
+  RunningCluster cluster;
+  cluster.run.domain = *domain;
+  if (!cluster.run.launcher())
+    throw std::runtime_error("no cluster is running in domain " + std::to_string(*domain));
+  std::ifstream in(cluster.run.info_file());
+  const auto info = nlohmann::json::parse(in, nullptr, false);
+  if (info.is_discarded()) throw std::runtime_error(cluster.run.info_file() + ": cannot be read");
+  cluster.machine = info.value("machine", "");
+  cluster.machine_directory = info.value("machine_directory", "");
+  cluster.state_directory = info.value("state_directory", "");
+  cluster.virtual_time = info.value("virtual_time", false);
+  cluster.port = info.value("port", std::uint16_t{0});
+  cluster.host = info.value("host", "");
+  cluster.network = network_in(*domain);
+  return cluster;
+}
+
+}  // namespace trunnion::cluster

@@ -1,0 +1,49 @@
+// Starting and stopping a cluster from the command line.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "bus/endpoint.hpp"
+#include "cluster/cluster_files.hpp"
+#include "machine/machine.hpp"
+
+namespace trunnion::cluster {
+
+struct UpOptions {
+  std::string machine;          ///< name or directory
+  std::string vendor;           ///< empty, fastdds, cyclonedds or mixed
+  std::string state_directory;  ///< empty: the default one; "temporary": inside the run directory
+  std::optional<std::uint32_t> domain;
+  bool own_domain = false;  ///< take a free one
+  std::optional<std::uint16_t> port;
+  std::optional<bool> virtual_time;
+  bool with_gateway = true;
+  std::string host;  ///< which host of machine.yaml this is; empty: the one with an address of this computer
+  bool one_host = false;  ///< run everything here, whatever machine.yaml says of hosts
+  bool foreground = false;
+};
+
+/// A cluster that is running, as its launcher wrote it down.
+struct RunningCluster {
+  RunDirectory run;
+  std::string machine, machine_directory, state_directory;
+  bool virtual_time = false;
+  std::uint16_t port = 0;  ///< 0 without a gateway
+  std::string host;        ///< which host this is; empty when the machine has none
+  bus::NetworkSettings network;
+  double start_seconds = 0;
+};
+
+/// Starts every process and waits until all are ready. Throws std::runtime_error with one line; then nothing
+/// is left.
+RunningCluster start_cluster(const UpOptions& options);
+/// Stops every process and removes the cluster's files; false when some process had to be killed.
+void stop_cluster(const RunDirectory& run);
+/// How a process takes part in the cluster of this computer in `domain`; the loopback when none is known.
+bus::NetworkSettings network_in(std::uint32_t domain);
+/// Throws std::runtime_error when there is none (or several and no domain was given).
+RunningCluster find_cluster(std::optional<std::uint32_t> domain);
+
+}  // namespace trunnion::cluster

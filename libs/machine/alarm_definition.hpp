@@ -1,0 +1,30 @@
+// What the constants of alarms (machine/alarm_constants.hpp) are made of.
+#pragma once
+
+#include <cstdint>
+
+namespace trunnion::machine {
+
+enum class Severity { hint, warning, error, emergency };
+enum class Reaction { show, feed_hold, axis_stop, emergency_stop };
+
+/// Only the constants are of this type, so a reference or pointer to one holds for the life of the process.
+struct AlarmDefinition {
+  constexpr AlarmDefinition(std::uint32_t alarm_number, const char* alarm_name, Severity alarm_severity,
+                            Reaction alarm_reaction, const char* alarm_text)
+      : number(alarm_number),
+        name(alarm_name),
+        severity(alarm_severity),
+        reaction(alarm_reaction),
+        text(alarm_text) {}
+  AlarmDefinition(const AlarmDefinition&) = delete;
+  AlarmDefinition& operator=(const AlarmDefinition&) = delete;
+
+  std::uint32_t number;
+  const char* name;
+  Severity severity;
+  Reaction reaction;
+  const char* text;
+};
+
+}  // namespace trunnion::machine

@@ -1,0 +1,217 @@
+#include "program_execution/program_flow.hpp"
+
+#include "machine/alarm_constants.hpp"
+
+namespace trunnion::program_execution {
+
+using language::CommandKind;
+
+namespace {
+
+/// A line of the started program, or of another text with its name.
+std::string place(std::uint32_t program, std::uint32_t line) {
+  std::string name;
+  if (program != 0) name = std::string(language::ProgramName(program).view()) + ":";
+  return name + std::to_string(line);
+}
+
+bool is_path(CommandKind kind) {
+  return kind == CommandKind::rapid || kind == CommandKind::line || kind == CommandKind::arc;
+}
+
+}  // namespace
+
+void ProgramFlow::start(motion::Trajectory& trajectory, language::TextSource& text,
+                        const AxisValues& position, const language::ModalState& initial,
+                        const language::VariableStore& variables, const Entry& entry,
+                        language::Beginning beginning) {
+  trajectory_ = &trajectory;
+  interpreter_.start(text, position, initial, variables, beginning);
+  interpreter_.stop_before_line(entry.line);
+  have_command_ = false;
+  block_line_ = 0;
+  entry_ = entry;
+  search_ = entry.restart.sequence > 0 ? Search::restart : entry.line > 0 ? Search::line : Search::none;
+  if (entry.restart.sequence == 0) skips_.clear();
+  skips_read_ = 0;
+  tapping_ = in_hole_ = refused_ = text_missing_ = false;
+  executing_ = initial;
+  frames_.clear();
+  auxiliaries_.clear();
+  const bool rtcp = initial.transformation == language::Transformation::rtcp;
+  extent_ =
+      channel_setup::AxisBox::of(rtcp ? machine_.machine_from_tip(position, initial.tool_length) : position);
+  alarm_number_ = 0;
+  machine_alarm_ = nullptr;
+  alarm_text_.clear();
+}
+
+FlowState ProgramFlow::fail(const machine::AlarmDefinition& alarm, const std::string& text) {
+  alarm_number_ = alarm.number;
+  machine_alarm_ = &alarm;
+  alarm_text_ = text;
+  trajectory_->finish();
+  return FlowState::alarm;
+}
+
+FlowState ProgramFlow::fail_search(const std::string& why) {
+  return fail(alarm::search_failed, std::to_string(entry_.line) + ": " + why);
+}
+
+FlowState ProgramFlow::push_move() {
+  const auto& from = trajectory_->end_position();
+  if (command_.kind != CommandKind::dwell) {
+    std::string error;
+    if (offset_) {
+      const auto extent = channel_setup::extent_of(from, command_, machine_.chain());
+      error = machine_.travel_error(extent, *offset_, command_.line);
+      if (error.empty()) extent_.include(extent);
+    } else {
+      error = machine_.travel_error(from, command_);
+    }
+    if (!error.empty()) return fail(alarm::travel_limit, error);
+  }
+  auto move = command_.kind == CommandKind::tap ? Tapping::line(command_) : command_;
+  if (move.kind == CommandKind::skip) move.kind = CommandKind::line;
+  if (dry_run_feed_ > 0 && command_.kind != CommandKind::tap && command_.kind != CommandKind::skip) {
+    move.modal.feed = dry_run_feed_;
+    move.modal.feed_mode = language::FeedMode::per_minute;
+  } else if (move.modal.feed_mode == language::FeedMode::per_revolution) {
+    move.modal.feed *= move.modal.spindle_speed;
+    move.modal.feed_mode = language::FeedMode::per_minute;
+  }
+  const bool partly = entry_.restart.sequence == command_.sequence && entry_.restart.sequence > 0;
+  const bool taken = partly ? trajectory_->push_from(move, entry_.restart.fraction) : trajectory_->push(move);
+  if (!taken)
+    return fail(language::AlarmNumber::feed_not_positive,
+                "feed must be above zero (per revolution: with the spindle turning)");
+  executing_ = command_.modal;
+  have_command_ = false;
+  if (on_move) on_move(move);
+  return FlowState::full;
+}
+
+FlowState ProgramFlow::push_pending() {
+  const auto state = push_move();
+  refused_ = state == FlowState::alarm;
+  trajectory_->finish();
+  return state;
+}
+
+void ProgramFlow::refuse_pending(language::AlarmNumber number) {
+  fail(number);
+  refused_ = true;
+}
+
+FlowState ProgramFlow::fail(language::AlarmNumber number, std::string_view text) {
+  alarm_number_ = static_cast<std::uint32_t>(number);
+  machine_alarm_ = nullptr;
+  alarm_text_ = place(command_.program, command_.line) + ": " + std::string(text);
+  trajectory_->finish();
+  return FlowState::alarm;
+}
+
+// A skip move has ended, now or before the restart: the interpreter continues from where it ended.
+FlowState ProgramFlow::continue_after_skip() {
+  if (search_ == Search::line)
+    return fail_search("line " + std::to_string(command_.line) +
+                       " measures (G31), and what follows depends on it");
+  if (skips_read_ == skips_.size()) return fail(language::AlarmNumber::not_resumable);
+  interpreter_.set_position(skips_[skips_read_].stopped, skips_[skips_read_].touched);
+  ++skips_read_;
+  return FlowState::full;
+}
+
+// The blocks of a contour with cutter radius compensation, and of a curve, depend on each other: in the
+// middle no block by itself gives the position of the tool.
+FlowState ProgramFlow::arrive_at_line() {
+  const auto& modal = interpreter_.modal();
+  if (modal.cutter_side != language::CutterSide::off)
+    return fail_search("cutter radius compensation is on here: start before its G41 or G42");
+  if (modal.motion == 62) return fail_search("the line is in the middle of a curve (G6.2)");
+  search_ = Search::none;
+  executing_ = modal;
+  const bool rtcp = modal.transformation == language::Transformation::rtcp;
+  extent_ = channel_setup::AxisBox::of(rtcp ? machine_.machine_from_tip(position(), modal.tool_length)
+                                            : position());
+  return FlowState::found;
+}
+
+// Handles a step that may have brought no command. Full: continue.
+FlowState ProgramFlow::take_step(language::Step step) {
+  switch (step) {
+    case language::Step::command:
+      have_command_ = true;
+      return FlowState::full;
+    case language::Step::working:
+      return FlowState::waiting;
+    case language::Step::pending:
+      text_missing_ = true;
+      return FlowState::waiting;
+    case language::Step::position:
+      return continue_after_skip();
+    case language::Step::line:
+      return arrive_at_line();
+    case language::Step::end:
+      if (search_ == Search::line) return fail_search("the program ends without reaching this line");
+      return FlowState::end;
+    case language::Step::alarm: {
+      const auto& alarm = interpreter_.alarm();
+      alarm_number_ = static_cast<std::uint32_t>(alarm.number);
+      alarm_text_ =
+          place(alarm.program, alarm.line) + ":" + std::to_string(alarm.column) + ": " + alarm.text.data();
+      for (std::size_t k = alarm.calls; k-- > 0;)
+        alarm_text_ += ", called from " + place(alarm.chain[k].program, alarm.chain[k].line);
+      trajectory_->finish();
+      return FlowState::alarm;
+    }
+  }
+  return FlowState::waiting;
+}
+
+FlowState ProgramFlow::fill(bool single_block) {
+  text_missing_ = false;
+  if (refused_) return FlowState::alarm;
+  constexpr int most_commands = 4096;  // a long search for the restart point must leave time for messages
+  for (int i = 0; i < most_commands; ++i) {
+    if (!searching() && !trajectory_->can_accept()) return FlowState::full;
+    if (!have_command_) {
+      const auto step = interpreter_.next(command_);
+      if (step == language::Step::working) continue;
+      if (const auto state = take_step(step); state != FlowState::full) return state;
+      if (!have_command_) continue;
+    }
+    if (searching()) {
+      const bool drilling =
+          command_.kind == CommandKind::tap || (in_hole_ && command_.kind == CommandKind::dwell);
+      if (search_ == Search::line || command_.sequence < entry_.restart.sequence) {
+        in_hole_ = drilling;
+        finish_pending();
+        continue;
+      }
+      // The spindle is no longer coupled to the position in the thread.
+      if (drilling) return fail(language::AlarmNumber::not_resumable);
+      search_ = Search::none;
+      trajectory_->start(entry_.restart.position, command_.modal.transformation, command_.modal.tool_length);
+    }
+    if (command_.modal.frame != frame_) frames_.add(command_.sequence, interpreter_.frame_of(command_));
+    frame_ = command_.modal.frame;
+    const bool stroke =
+        command_.kind == CommandKind::tap || (tapping_ && command_.kind == CommandKind::dwell);
+    const bool move = is_path(command_.kind) || command_.kind == CommandKind::dwell || stroke;
+    if (single_block && block_line_ != 0 && command_.line != block_line_) {
+      trajectory_->finish();
+      return FlowState::block_end;
+    }
+    block_line_ = command_.line;
+    if (!move || stroke != tapping_) {
+      if (command_.kind == CommandKind::skip || stroke) executing_ = command_.modal;
+      trajectory_->finish();
+      return command_.kind == CommandKind::end && command_.number == 0 ? FlowState::end : FlowState::command;
+    }
+    if (const auto state = push_move(); state == FlowState::alarm) return state;
+  }
+  return FlowState::waiting;
+}
+
+}  // namespace trunnion::program_execution

@@ -1,0 +1,153 @@
+// Takes commands from the interpreter and gives them to motion; stops where something else has to happen
+// first. The channel and the planner without a cluster both run programs through it, so their motions agree
+// bit for bit.
+#pragma once
+
+#include <functional>
+#include <optional>
+
+#include "channel_setup/channel_setup.hpp"
+#include "language/interpreter.hpp"
+#include "machine/alarm_definition.hpp"
+#include "motion/trajectory.hpp"
+#include "program_execution/auxiliary_memory.hpp"
+#include "program_execution/frame_trail.hpp"
+#include "program_execution/skip_result.hpp"
+#include "program_execution/tapping.hpp"
+
+namespace trunnion::program_execution {
+
+using language::AxisValues;
+
+enum class FlowState {
+  full,       ///< motion has as much ahead as it can hold: continue stepping
+  waiting,    ///< the text has to arrive first: do not step, or the motion would depend on when it does
+  command,    ///< pending() needs the axes at rest and is carried out by the caller
+  block_end,  ///< single block: the block's motion is all there is
+  found,      ///< the line to start from comes next: executing() and position() are the state it begins in
+  end,        ///< program finished
+  alarm,      ///< alarm_number(), alarm_text()
+};
+
+/// The point of a program from which a restart continues.
+struct RestartPoint {
+  std::uint32_t sequence = 0;  ///< command being executed; 0 = from the beginning
+  double fraction = 0;         ///< of it that is done
+  AxisValues position{};       ///< where the path was left, in the frame of that command
+};
+
+/// Where a program begins: at a restart point, before a line, or at its top.
+struct Entry {
+  RestartPoint restart;
+  std::uint32_t line = 0;  ///< from 1; 0 = none
+};
+
+class ProgramFlow {
+ public:
+  /// `machine` must outlive the flow.
+  explicit ProgramFlow(channel_setup::ChannelSetup& machine, language::InterpreterOptions options = {})
+      : machine_(machine), interpreter_(machine, options) {}
+
+  /// Sees every move as motion has got it; may be empty.
+  std::function<void(const language::Command&)> on_move;
+
+  /// What holds for the next start.
+  void set_block_skip(language::SkipLevels levels) { interpreter_.set_block_skip(levels); }
+  /// Feeds of the program are replaced by this one, mm/min; 0 = they are not.
+  void set_dry_run_feed(double feed) { dry_run_feed_ = feed; }
+  /// Machine coordinates that are added to the path, or may be: travel is checked with them, and extent() is
+  /// kept. Nothing when there are none.
+  void set_offset(const std::optional<AxisValues>& offset) { offset_ = offset; }
+
+  /// `trajectory` takes the moves and must be at rest at `position`, in the frame of `initial`; it and `text`
+  /// must outlive the run, which ends with the next start(). A restart needs the variables the program began
+  /// with, because it interprets the program again.
+  void start(motion::Trajectory& trajectory, language::TextSource& text, const AxisValues& position,
+             const language::ModalState& initial, const language::VariableStore& variables,
+             const Entry& entry = {}, language::Beginning beginning = language::Beginning::program);
+  /// Only after start(). Reads until one of the states is reached, at most some thousand commands.
+  FlowState fill(bool single_block);
+  /// The command fill() stopped at, and done with it.
+  const language::Command& pending() const { return command_; }
+  void finish_pending() {
+    auxiliaries_.pass(command_);
+    have_command_ = false;
+  }
+  /// Single block: the next block may begin.
+  void next_block() { block_line_ = 0; }
+
+  /// Gives the pending move to motion as the last one before a stop. FlowState::alarm, or full.
+  FlowState push_pending();
+  /// The pending command cannot be carried out: fill() gives FlowState::alarm from now on.
+  void refuse_pending(language::AlarmNumber number);
+  /// Rigid tapping has started or ended: strokes and the dwells between them are moves meanwhile.
+  void set_tapping(bool tapping) { tapping_ = tapping; }
+  /// Where the pending skip move ended; the interpreter continues from there. A restart of the program reads
+  /// the results again.
+  void skip_ended(const SkipResult& result) { skips_.push_back(result); }
+  const std::vector<SkipResult>& skips() const { return skips_; }
+  /// The results a program had before this process; after start().
+  void set_skips(std::vector<SkipResult> skips) { skips_ = std::move(skips); }
+
+  const language::ModalState& modal() const { return interpreter_.modal(); }
+  /// Where the blocks read so far end, in the frame of modal().
+  const AxisValues& position() const { return interpreter_.position(); }
+  /// The variables as the program has left them.
+  const language::VariableStore& variables() const { return interpreter_.variables(); }
+  /// The time the program's clock variables show from now on, in cycles of the stream.
+  void set_cycle(std::uint64_t cycle) {
+    const double milliseconds = static_cast<double>(cycle) * machine_.cycle_seconds() * 1000;
+    interpreter_.set_time({milliseconds, milliseconds / 3.6e6, 0, 0});
+  }
+  /// The coordinate frames in which the commands since the start were programmed.
+  const FrameTrail& frames() const { return frames_; }
+  /// Of the newest command handed to motion.
+  const language::ModalState& executing() const { return executing_; }
+  /// The spindle and coolant functions of the commands that are done or were skipped.
+  const AuxiliaryMemory& auxiliaries() const { return auxiliaries_; }
+  /// Machine coordinates the moves handed to motion go through, since the start with an offset.
+  const channel_setup::AxisBox& extent() const { return extent_; }
+  /// Number of the alarm, and the alarm itself when it is none of the NC language, else null.
+  std::uint32_t alarm_number() const { return alarm_number_; }
+  const machine::AlarmDefinition* machine_alarm() const { return machine_alarm_; }
+  const std::string& alarm_text() const { return alarm_text_; }
+  /// Commands up to the restart point, or the line, are being skipped.
+  bool searching() const { return search_ != Search::none; }
+  /// The last FlowState::waiting was for the text; otherwise fill() has only done enough for one call.
+  bool text_missing() const { return text_missing_; }
+
+ private:
+  enum class Search : std::uint8_t { none, restart, line };
+  FlowState push_move();
+  FlowState take_step(language::Step step);
+  FlowState arrive_at_line();
+  FlowState fail(const machine::AlarmDefinition& alarm, const std::string& text);
+  FlowState fail(language::AlarmNumber number, std::string_view text);
+  FlowState fail(language::AlarmNumber number) { return fail(number, language::alarm_text(number)); }
+  FlowState fail_search(const std::string& why);
+  FlowState continue_after_skip();
+  channel_setup::ChannelSetup& machine_;
+  motion::Trajectory* trajectory_ = nullptr;  // of the run
+  language::Interpreter interpreter_;
+  language::Command command_;
+  language::ModalState executing_;
+  FrameTrail frames_;
+  std::uint32_t frame_ = 0;  // of the newest of them
+  AuxiliaryMemory auxiliaries_;
+  channel_setup::AxisBox extent_;
+  std::optional<AxisValues> offset_;
+  double dry_run_feed_ = 0;
+  bool have_command_ = false;
+  std::uint32_t block_line_ = 0;
+  Entry entry_;
+  Search search_ = Search::none;
+  bool tapping_ = false, in_hole_ = false, refused_ = false, text_missing_ = false;
+  std::vector<SkipResult> skips_;
+  std::size_t skips_read_ = 0;
+
+  std::uint32_t alarm_number_ = 0;
+  const machine::AlarmDefinition* machine_alarm_ = nullptr;
+  std::string alarm_text_;
+};
+
+}  // namespace trunnion::program_execution

@@ -1,0 +1,16 @@
+// Where a skip move (G31) ended.
+#pragma once
+
+#include "language/canonical.hpp"
+
+namespace trunnion::program_execution {
+
+using language::AxisValues;
+
+/// Where a skip move ended and where its input found the axes, in the frame of the move. Without an edge both
+/// are its end.
+struct SkipResult {
+  AxisValues stopped{}, touched{};
+};
+
+}  // namespace trunnion::program_execution

@@ -1,0 +1,33 @@
+// Rigid tapping: the spindle follows the tool's path into the hole and out of it through the same stream of
+// setpoints, so that both keep the lead through every acceleration, reversal and stop on the path.
+#pragma once
+
+#include "language/canonical.hpp"
+#include "motion/limits.hpp"
+
+namespace trunnion::program_execution {
+
+using language::AxisValues;
+
+class Tapping {
+ public:
+  /// The first stroke of a hole, of kind tap, begins at `start`. Its direction is that into the hole.
+  void begin(const AxisValues& start, const language::Command& stroke);
+  void end() { active_ = false; }
+  bool active() const { return active_; }
+  /// The spindle's angle that belongs to `position`: revolutions since begin(), clockwise positive.
+  double revolutions(const AxisValues& position) const;
+  /// `limits` within which the spindle, of `acceleration` degrees/s^2, can follow.
+  motion::Limits limits(motion::Limits limits, double acceleration) const;
+  /// A stroke as the line the axes make: at lead times S, to an exact stop.
+  static language::Command line(language::Command stroke);
+
+ private:
+  bool active_ = false;
+  AxisValues start_{};
+  language::Vector3 direction_{};
+  double lead_ = 1;  // mm per revolution, negative for a left-hand thread
+  bool along_axis_ = false;
+};
+
+}  // namespace trunnion::program_execution

@@ -1,0 +1,87 @@
+#include "service/alarm_board.hpp"
+
+namespace trunnion::service {
+
+AlarmBoard::AlarmBoard(bus::Bus& bus, std::uint32_t instance, std::string service)
+    : instance_(instance), service_(std::move(service)), writer_(bus.writer(topics::alarm)) {}
+
+void AlarmBoard::publish(Entry& entry) {
+  if (!muted_) writer_.write(entry.alarm);
+}
+
+void AlarmBoard::speak() {
+  muted_ = false;
+  for (auto& [key, entry] : entries_)
+    if (entry.alarm.active) publish(entry);
+}
+
+namespace {
+std::string cut(std::string text) {
+  if (text.size() > 250) text.resize(250);
+  return text;
+}
+}  // namespace
+
+void AlarmBoard::raise(const machine::AlarmDefinition& alarm, std::uint32_t part, const std::string& text,
+                       std::uint64_t cycle) {
+  auto& entry = entries_[{alarm.number, part}];
+  const bool news = !entry.alarm.active || entry.alarm.text != cut(text);
+  entry.cause = true;
+  if (!news) return;
+  auto& a = entry.alarm;
+  a.instance = instance_, a.number = alarm.number, a.part = part;
+  a.severity = static_cast<idl::service::Severity>(alarm.severity);
+  a.reaction = static_cast<idl::service::Reaction>(alarm.reaction);
+  a.source = service_, a.text = cut(text), a.cycle = cycle;
+  a.active = true;
+  ++a.occurrences;
+  publish(entry);
+}
+
+void AlarmBoard::raise_number(std::uint32_t number, std::uint32_t part, const std::string& text,
+                              std::uint64_t cycle) {
+  auto& entry = entries_[{number, part}];
+  entry.cause = false;
+  auto& a = entry.alarm;
+  a.instance = instance_, a.number = number, a.part = part;
+  a.severity = idl::service::Severity::ERROR;
+  a.reaction = idl::service::Reaction::SHOW;
+  a.source = service_, a.text = cut(text), a.cycle = cycle;
+  a.active = true;
+  ++a.occurrences;
+  publish(entry);
+}
+
+void AlarmBoard::release(const machine::AlarmDefinition& alarm, std::uint32_t part) {
+  const auto found = entries_.find({alarm.number, part});
+  if (found != entries_.end()) found->second.cause = false;
+}
+
+void AlarmBoard::clear(const machine::AlarmDefinition& alarm, std::uint32_t part) {
+  const auto found = entries_.find({alarm.number, part});
+  if (found == entries_.end() || !found->second.alarm.active) return;
+  found->second.alarm.active = false;
+  found->second.cause = false;
+  publish(found->second);
+}
+
+void AlarmBoard::reset() {
+  for (auto& [key, entry] : entries_)
+    if (entry.alarm.active && !entry.cause) {
+      entry.alarm.active = false;
+      publish(entry);
+    }
+}
+
+bool AlarmBoard::active(const machine::AlarmDefinition& alarm, std::uint32_t part) const {
+  const auto found = entries_.find({alarm.number, part});
+  return found != entries_.end() && found->second.alarm.active;
+}
+
+bool AlarmBoard::any() const {
+  for (const auto& [key, entry] : entries_)
+    if (entry.alarm.active) return true;
+  return false;
+}
+
+}  // namespace trunnion::service

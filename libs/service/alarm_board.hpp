@@ -1,0 +1,49 @@
+// The alarms one service has raised: latched, published when they change, cleared on request once their cause
+// is gone.
+#pragma once
+
+#include <map>
+
+#include "bus/bus.hpp"
+#include "contracts/topics.hpp"
+#include "machine/alarm_definition.hpp"
+
+namespace trunnion::service {
+
+class AlarmBoard {
+ public:
+  AlarmBoard(bus::Bus& bus, std::uint32_t instance, std::string service);
+
+  /// Raises (or repeats) an alarm of machine/alarm_constants.hpp about `part` (axis, channel, instance).
+  void raise(const machine::AlarmDefinition& alarm, std::uint32_t part, const std::string& text,
+             std::uint64_t cycle = 0);
+  /// The same for alarms of the NC language, which carry their own number; always an error that stops the
+  /// program.
+  void raise_number(std::uint32_t number, std::uint32_t part, const std::string& text,
+                    std::uint64_t cycle = 0);
+  /// The cause is gone; the alarm stays until it is reset.
+  void release(const machine::AlarmDefinition& alarm, std::uint32_t part);
+  /// Gone at once, for causes that nobody needs to acknowledge.
+  void clear(const machine::AlarmDefinition& alarm, std::uint32_t part);
+  /// Clears every alarm whose cause is gone. Call when an AlarmReset arrives.
+  void reset();
+  /// Nobody is told of the alarms until speak(): what a shadow finds wrong is not the machine's.
+  void mute() { muted_ = true; }
+  void speak();
+  bool active(const machine::AlarmDefinition& alarm, std::uint32_t part) const;
+  bool any() const;
+
+ private:
+  struct Entry {
+    idl::service::Alarm alarm;
+    bool cause = true;
+  };
+  void publish(Entry& entry);
+  bool muted_ = false;
+  std::uint32_t instance_;
+  std::string service_;
+  bus::Writer<idl::service::Alarm> writer_;
+  std::map<std::pair<std::uint32_t, std::uint32_t>, Entry> entries_;
+};
+
+}  // namespace trunnion::service

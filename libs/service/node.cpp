@@ -1,0 +1,176 @@
+#include "service/node.hpp"
+
+#include <sched.h>
+#include <sys/mman.h>
+#include <sys/prctl.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <chrono>
+#include <csignal>
+#include <ctime>
+#include <filesystem>
+
+namespace trunnion::service {
+namespace {
+
+constexpr double beat_period = 0.25;  // s
+volatile std::sig_atomic_t stop_requested = 0;
+void request_stop(int) { stop_requested = 1; }
+
+bool real_time_wanted = false;
+
+// Every thread there is by now; those made later inherit from their maker.
+void become_real_time() {
+  sched_param priority{};
+  priority.sched_priority = 20;
+  std::error_code ignored;
+  for (const auto& task : std::filesystem::directory_iterator("/proc/self/task", ignored))
+    sched_setscheduler(std::stoi(task.path().filename()), SCHED_FIFO, &priority);
+}
+
+std::string host_name() {
+  char name[64] = {};
+  gethostname(name, sizeof name - 1);
+  return name;
+}
+
+}  // namespace
+
+double monotonic_seconds() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+std::string time_of_day() {
+  const std::time_t now = std::time(nullptr);
+  std::tm parts{};
+  gmtime_r(&now, &parts);
+  char text[32];
+  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &parts);
+  return text;
+}
+
+bool use_real_time_scheduling() {
+  real_time_wanted = true;
+  return mlockall(MCL_CURRENT | MCL_FUTURE) == 0;
+}
+
+Node::Node(Options options)
+    : options_(std::move(options)),
+      bus_(options_.vendor, options_.network),
+      alarms_(bus_, options_.instance, options_.service),
+      announcement_(bus_.writer(topics::announcement)),
+      state_writer_(bus_.writer(topics::service_state)),
+      alarm_reset_(bus_.reader(topics::alarm_reset)) {
+  struct sigaction action {};
+  action.sa_handler = request_stop;
+  sigaction(SIGTERM, &action, nullptr);
+  sigaction(SIGINT, &action, nullptr);
+  signal(SIGPIPE, SIG_IGN);
+  if (options_.shadow) {
+    alarms_.mute();
+    promotions_.emplace(bus_.reader(topics::promotion));
+  }
+  if (options_.parent_bound) {
+    prctl(PR_SET_PDEATHSIG, SIGTERM);
+    if (getppid() == 1) stop_requested = 1;
+  }
+  started_ = monotonic_seconds();
+  state_.instance = options_.instance;
+  state_.service = options_.service;
+  state_.vendor = bus::to_string(options_.vendor);
+  state_.pid = getpid();
+  state_.copy = static_cast<std::uint8_t>(options_.copy);
+  announce();
+}
+
+void Node::announce() {
+  announcement_.write({options_.instance, options_.service, bus::to_string(options_.vendor), host_name(),
+                       getpid(), topics::contract_hash, "0.1.0"});
+}
+
+void Node::take_promotion() {
+  idl::service::Promotion promotion;
+  bool promoted = false;
+  while (promotions_ && promotions_->take(promotion))
+    promoted = promoted || (promotion.instance == options_.instance && promotion.pid == getpid());
+  if (!promoted) return;
+  options_.shadow = false;
+  promotions_.reset();
+  alarms_.speak();
+}
+
+bool Node::stand_by(Service* rehearsal) {
+  Health health;
+  health.lifecycle = idl::service::Lifecycle::INACTIVE;
+  while (stop_requested == 0 && options_.shadow) {
+    if (rehearsal != nullptr) rehearsal->pump();
+    if (monotonic_seconds() - last_beat_ >= beat_period)
+      beat(rehearsal != nullptr ? rehearsal->health() : health);
+    bus_.signal().wait(0.005);
+    take_promotion();
+  }
+  return stop_requested == 0;
+}
+
+void Node::beat(const Health& health) {
+  const double now = monotonic_seconds();
+  const double elapsed = now - last_beat_;
+  state_.lifecycle = health.lifecycle;
+  state_.detail = health.detail.substr(0, 128);
+  state_.frames_in = health.frames_in;
+  state_.frames_out = health.frames_out;
+  state_.frames_lost = health.frames_lost;
+  state_.frames_per_second =
+      last_beat_ > 0 ? static_cast<double>(health.frames_out - last_frames_) / elapsed : 0;
+  state_.revision = health.revision;
+  state_.in_step = health.in_step;
+  using idl::service::StandbyState;
+  state_.standby = !options_.shadow             ? StandbyState::TAKES_PART
+                   : !health.difference.empty() ? StandbyState::DIFFERING
+                   : health.in_step             ? StandbyState::MATCHING
+                                                : StandbyState::JOINING;
+  state_.compared = health.compared;
+  state_.difference = health.difference.substr(0, 192);
+  state_.uptime = now - started_;
+  ++state_.beats;
+  state_writer_.write(state_);
+  if (health.lifecycle == idl::service::Lifecycle::ACTIVE) notifier_.ready();
+  last_beat_ = now;
+  last_frames_ = health.frames_out;
+}
+
+int Node::run(Service& service) {
+  auto last_lifecycle = idl::service::Lifecycle::UNCONFIGURED;
+  while (stop_requested == 0) {
+    bus_.signal().wait(std::min(service.period(), beat_period));
+    if (stop_requested != 0) break;
+    idl::service::AlarmReset reset;
+    bool any_reset = false;
+    while (alarm_reset_.take(reset)) any_reset = true;
+    if (any_reset) {
+      service.alarms_reset();
+      alarms_.reset();
+    }
+    take_promotion();
+    service.pump();
+    notifier_.alive(monotonic_seconds());
+    if (const double now = monotonic_seconds(); now - last_beat_ >= beat_period) {
+      beat(service.health());
+    } else if (now - last_beat_ >= 0.02 && service.health().lifecycle != last_lifecycle) {
+      last_lifecycle = service.health().lifecycle;
+      // Not before: processes that make their participants at the highest priority starve those they wait
+      // for.
+      if (real_time_wanted && last_lifecycle == idl::service::Lifecycle::ACTIVE) {
+        become_real_time();
+        real_time_wanted = false;
+      }
+      beat(service.health());  // a change of lifecycle is news: start-up waits for it
+    }
+  }
+  notifier_.stopping();
+  service.end();
+  return 0;
+}
+
+}  // namespace trunnion::service

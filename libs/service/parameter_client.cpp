@@ -1,0 +1,23 @@
+#include "service/parameter_client.hpp"
+
+namespace trunnion::service {
+
+bool ParameterClient::poll() {
+  bool any = false;
+  idl::parameters::ParameterSet set;
+  while (reader_.take(set)) {
+    if (newest_ && set.revision == newest_->revision) continue;
+    previous_ = newest_;
+    newest_ = std::make_shared<const machine::Parameters>(machine::parameters_of(set));
+    any = true;
+  }
+  return any;
+}
+
+std::shared_ptr<const machine::Parameters> ParameterClient::find(std::uint64_t revision) const {
+  if (newest_ && newest_->revision == revision) return newest_;
+  if (previous_ && previous_->revision == revision) return previous_;
+  return nullptr;
+}
+
+}  // namespace trunnion::service

@@ -1,0 +1,26 @@
+// Stands in for the program service: answers a new process's requests with the replies of a recording.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <tuple>
+
+#include "contracts/types.hpp"
+#include "verification/stored_recording.hpp"
+
+namespace trunnion::verification {
+
+/// Requests are told apart by what they ask for: who asks is another process every time.
+class Answers {
+ public:
+  explicit Answers(const StoredRecording& recording);
+  /// The recorded reply to a request for the same text, addressed to this one; none when `request` is no
+  /// request for a program's text or nobody asked that in the recording.
+  std::optional<bus::Bytes> answer(const StoredMessage& request);
+
+ private:
+  using Question = std::tuple<std::string, std::uint64_t, std::uint64_t>;  // name, revision, offset
+  std::map<Question, idl::program::ProgramReply> replies_;
+};
+
+}  // namespace trunnion::verification

@@ -1,0 +1,20 @@
+// The inputs of kinematics, compensation and gantry in the order of their cycles.
+#pragma once
+
+#include "verification/verify_plan.hpp"
+
+namespace trunnion::verification {
+
+struct Stage {
+  const char* service;
+  std::uint8_t number;         ///< as in AxisFrame
+  const char *input, *output;  ///< handles
+};
+
+/// Null when `service` is none of the three.
+const Stage* find_stage(const std::string& service);
+
+/// Fills steps, end, expected and cycles of `plan`. Throws std::runtime_error when inputs are missing.
+void plan_stage(const StoredRecording& recording, const Stage& stage, VerifyPlan& plan);
+
+}  // namespace trunnion::verification

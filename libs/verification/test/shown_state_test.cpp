@@ -1,0 +1,110 @@
+#include "verification/shown_state.hpp"
+#include "machine/parameter_constants.hpp"
+
+#include <gtest/gtest.h>
+
+#include "machine/parameters.hpp"
+#include "operator_recording.hpp"
+
+namespace trunnion::verification {
+namespace {
+
+using bus::Json;
+
+bus::Json shown_of(const StoredRecording& recording) {
+  ShownState shown;
+  for (const auto& message : recording.messages) shown.observe(message);
+  return shown.document();
+}
+
+idl::service::Alarm alarm_of_channel(bool active = true) {
+  idl::service::Alarm alarm{};
+  alarm.instance = channel_instance;
+  alarm.number = 110;
+  alarm.active = active;
+  alarm.source = "channel";
+  return alarm;
+}
+
+TEST(ShownState, IsTheNewestOfEachTopic) {
+  auto recording = shown_recording();
+  recording.messages.push_back(stored(topics::channel_state, channel_state(2.5), 11));
+  const auto document = shown_of(recording);
+  EXPECT_EQ(document["cluster"]["machine"], "bench");
+  EXPECT_EQ(document["channels"]["0"]["machine"], Json::array({2.5}));
+  EXPECT_EQ(document["services"]["3"]["pid"], 100);
+  EXPECT_EQ(document["services"]["3"]["uptime"], 2.0) << "2.75 s in whole seconds";
+  EXPECT_EQ(document["revisions"]["parameters"], 1);
+}
+
+TEST(ShownState, AxesAreTheLastRowOfTheFeedbackUnderTheirLogicalNumbers) {
+  StoredRecording recording;
+  idl::parameters::ParameterSet set;
+  set.revision = 1;
+  const auto name = parameter::axis_name.number();
+  set.values = {{name, 0, "X"}, {name + 3000, 0, "A"}};
+  recording.messages.push_back(stored(topics::parameter_set, set, 1));
+  auto frame = feedback_frame(100, 2);
+  frame.commanded = {1, 2, 3, 4};
+  frame.actual = {1, 2, 2.5, 4};
+  recording.messages.push_back(stored(topics::feedback_frame, frame, 2));
+  // A frame without a cycle (a hold) leaves the positions where they are.
+  recording.messages.push_back(stored(topics::feedback_frame, feedback_frame(102, 0), 3));
+  const auto document = shown_of(recording);
+  EXPECT_EQ(document["axes"].size(), 2u);
+  EXPECT_EQ(document["axes"]["0"]["commanded"], 3.0);
+  EXPECT_EQ(document["axes"]["0"]["following_error"], 0.5);
+  EXPECT_EQ(document["axes"]["3"]["actual"], 4.0);
+  EXPECT_EQ(document["drive"]["executed"], 102);
+}
+
+TEST(ShownState, AnAlarmEndsWithItselfOrWithTheProcessThatRaisedIt) {
+  auto recording = shown_recording();
+  recording.messages.push_back(stored(topics::alarm, alarm_of_channel(), 20));
+  EXPECT_TRUE(shown_of(recording)["alarms"].contains("3/110/0"));
+  auto over = recording;
+  over.messages.push_back(stored(topics::alarm, alarm_of_channel(false), 21));
+  EXPECT_TRUE(shown_of(over)["alarms"].empty());
+  // The successor's first heartbeat: the predecessor's alarm goes, unless it may be the successor's own.
+  auto replaced = recording;
+  replaced.messages.push_back(stored(topics::service_state, beat(channel_instance, 100), 22));
+  replaced.messages.push_back(stored(topics::service_state, beat(channel_instance, 101), 23));
+  EXPECT_TRUE(shown_of(replaced)["alarms"].empty());
+  recording.messages.push_back(stored(topics::service_state, beat(channel_instance, 101), 23));
+  EXPECT_EQ(shown_of(recording)["alarms"].size(), 1u);
+}
+
+TEST(ShownState, ByTheClockIsTakenOutAndNothingElse) {
+  auto document = Json::parse(R"({"trace": {}, "services": {"3": {"alive": true, "pid": 1}, "9": {"pid": 2}},
+      "alarms": {"3/110/0": {"since": "now", "text": "t"}, "9/101/0": {}},
+      "axes": {"0": {"actual": 1.5, "following_peak": 0.1}}, "revisions": {}})");
+  take_out_clock(document, gateway_instance);
+  EXPECT_EQ(document, Json::parse(R"({"services": {"3": {"pid": 1}}, "alarms": {"3/110/0": {"text": "t"}},
+      "axes": {"0": {"actual": 1.5}}, "revisions": {}})"));
+  for (auto odd : {Json(), Json(3), Json::parse(R"({"services": 1, "alarms": [], "axes": {"0": 2}})")})
+    EXPECT_NO_THROW(take_out_clock(odd, 1)) << "a document from outside is looked at before it is used";
+}
+
+TEST(ShownState, ADifferenceIsNamedByItsPathAndBothValues) {
+  const auto expected =
+      Json::parse(R"({"axes": {"0": {"actual": 1.5}}, "channels": {"0": {"machine": [1.0]}}})");
+  auto shown = expected;
+  EXPECT_EQ(shown_difference(expected, shown), "");
+  shown["axes"]["0"]["actual"] = 1.5000004;
+  EXPECT_EQ(shown_difference(expected, shown), "") << "rounded to the nanometre";
+  shown["axes"]["0"]["actual"] = 1.500001;
+  EXPECT_EQ(shown_difference(expected, shown), "axes.0.actual: expected 1.5, shown 1.500001");
+  shown = expected;
+  shown["channels"]["0"]["machine"][0] = 1.0000000000000002;
+  EXPECT_NE(shown_difference(expected, shown).find("channels.0.machine.0: "), std::string::npos)
+      << "one bit of what is not rounded";
+  shown = expected;
+  shown.erase("axes");
+  EXPECT_EQ(shown_difference(expected, shown), "document: axes is not shown");
+  shown = expected;
+  shown["channels"]["1"] = 1;
+  EXPECT_EQ(shown_difference(expected, shown), "channels: 1 is shown, but nothing tells of it");
+}
+
+}  // namespace
+}  // namespace trunnion::verification

@@ -1,0 +1,38 @@
+// Where a service that is verified runs, and how it is started.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cluster/child_process.hpp"
+#include "cluster/cluster_files.hpp"
+#include "verification/verify.hpp"
+#include "verification/verify_plan.hpp"
+
+namespace trunnion::verification {
+
+/// A domain and a directory that nobody else has while this lives.
+class VerifyPlace {
+ public:
+  explicit VerifyPlace(std::optional<std::uint32_t> domain);
+  ~VerifyPlace();
+  VerifyPlace(const VerifyPlace&) = delete;
+  VerifyPlace& operator=(const VerifyPlace&) = delete;
+  std::uint32_t domain() const { return run_.domain; }
+  std::string state() const { return directory_ + "/state"; }
+  std::string log() const { return directory_ + "/service.log"; }
+
+ private:
+  cluster::RunDirectory run_;
+  std::string directory_;
+};
+
+/// Of the service, on the recorded machine. Throws std::runtime_error when the recording names none.
+std::vector<std::string> command_line(const VerifyOptions& options, const StoredRecording& recording,
+                                      const VerifyPlan& plan, const VerifyPlace& place);
+
+/// How the service is started in its place. Throws std::runtime_error when it cannot be.
+cluster::ChildOptions child_options(std::vector<std::string> arguments, const VerifyPlace& place);
+
+}  // namespace trunnion::verification

@@ -1,0 +1,230 @@
+#include "verification/verify_plan.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "bus/codec.hpp"
+#include "contracts/topics.hpp"
+#include "machine/parameter_constants.hpp"
+#include "machine/parameters.hpp"
+#include "verification/stage_plan.hpp"
+#include "verification/tick_plan.hpp"
+
+namespace trunnion::verification {
+namespace {
+
+// Published by the clock, or saying who is there: two runs never have the same.
+const std::set<std::string>& not_compared() {
+  static const std::set<std::string> handles = {"announcement",  "service_state", "stage_progress",
+                                                "channel_state", "plc_outputs",   "plc_image",
+                                                "plc_input_log", "alarm",         "cluster"};
+  return handles;
+}
+
+bool names(const std::vector<std::string>& services, const std::string& service) {
+  return std::find(services.begin(), services.end(), service) != services.end();
+}
+
+// While another channel moves, the cycle at which a channel at rest asks the PLC is the one it has just heard
+// of: relative phase of free-running channels is recorded, not computed.
+bool has_several_channels(const StoredRecording& recording) {
+  std::set<std::uint16_t> channels;
+  MessageRows rows;
+  for (const auto& message : recording.messages)
+    if (message.topic->handle == "path_frame" && rows.load(*message.topic, message.cdr))
+      channels.insert(rows.span().channel);
+  return channels.size() > 1;
+}
+
+// Which outputs of all channels' services are this one's.
+class Ownership {
+ public:
+  Ownership(const StoredRecording& recording, const std::string& service, std::uint16_t channel)
+      : only_channel_(service == "channel"), channel_(channel) {
+    idl::channel::ChannelRequest request;
+    for (const auto& message : recording.messages)
+      if (message.topic->handle == "channel_request" && bus::decode(message.cdr, request))
+        request_channels_[{request.client, request.number}] = request.channel;
+  }
+  bool owns(const StoredMessage& message) {
+    if (!only_channel_) return true;
+    const auto& handle = message.topic->handle;
+    if (handle == "path_frame")
+      return rows_.load(*message.topic, message.cdr) && rows_.span().channel == channel_;
+    if (handle == "stream_request") return bus::decode(message.cdr, stream_) && stream_.channel == channel_;
+    if (handle == "auxiliary_request")
+      return bus::decode(message.cdr, auxiliary_) && auxiliary_.channel == channel_;
+    if (handle == "channel_reply") {
+      if (!bus::decode(message.cdr, reply_)) return false;
+      const auto found = request_channels_.find({reply_.client, reply_.number});
+      return found != request_channels_.end() && found->second == channel_;
+    }
+    return true;
+  }
+
+ private:
+  bool only_channel_;
+  std::uint16_t channel_;
+  std::map<std::pair<std::uint64_t, std::uint64_t>, std::uint16_t> request_channels_;
+  MessageRows rows_;
+  idl::stream::StreamRequest stream_;
+  idl::channel::AuxiliaryRequest auxiliary_;
+  idl::channel::ChannelReply reply_;
+};
+
+// In the order of the recording, each input once the service has written what it had written before it.
+class OrderedPlan {
+ public:
+  OrderedPlan(const StoredRecording& recording, const std::string& service, std::uint16_t channel,
+              VerifyPlan& plan)
+      : recording_(recording), service_(service), ownership_(recording, service, channel), plan_(plan) {}
+
+  void make() {
+    std::vector<const StoredMessage*> order;
+    for (const auto& message : recording_.messages) order.push_back(&message);
+    std::stable_sort(order.begin(), order.end(),
+                     [](const auto* a, const auto* b) { return a->time < b->time; });
+    Progress progress;
+    std::map<Track, Place> raised;  // by outputs since the last step
+    for (const auto* message : order) {
+      if (plan_.topics.contains(message->topic->handle) && ownership_.owns(*message)) {
+        plan_.expected.push_back(*message);
+        const auto [mark, further] = progress.observe(*message);
+        if (further) raised[mark.track] = mark.place;
+        if (message->topic->handle == "feedback_frame" || message->topic->handle == "path_frame")
+          count_cycles(*message);
+      } else if (is_input(*message)) {
+        Step step{message, {}, !is_cyclic(*message->topic)};
+        for (const auto& [track, place] : raised) step.needs.push_back({track, place});
+        raised.clear();
+        plan_.steps.push_back(std::move(step));
+      }
+    }
+    for (const auto& [track, place] : raised) plan_.end.push_back({track, place});
+  }
+
+ private:
+  void count_cycles(const StoredMessage& message) {
+    if (rows_.load(*message.topic, message.cdr)) plan_.cycles += rows_.rows();
+  }
+  bool is_input(const StoredMessage& message) {
+    const auto& topic = *message.topic;
+    if (!names(topic.readers, service_) && !names(topic.readers, "all")) return false;
+    // Replies to the recorded process are for nobody: a new one is answered when it asks.
+    if (topic.handle == "program_reply") return false;
+    if (topic.handle == "alarm") return bus::decode(message.cdr, alarm_) && alarm_.source != service_;
+    if (topic.handle == "service_state")
+      return bus::decode(message.cdr, state_) && state_.service != service_;
+    return true;
+  }
+
+  const StoredRecording& recording_;
+  const std::string& service_;
+  Ownership ownership_;
+  VerifyPlan& plan_;
+  MessageRows rows_;
+  idl::service::Alarm alarm_;
+  idl::service::ServiceState state_;
+};
+
+}  // namespace
+
+VerifyPlan surroundings(const StoredRecording& recording, const std::string& service, std::uint16_t channel) {
+  VerifyPlan plan;
+  bool found = false;
+  idl::parameters::ParameterSet set;
+  idl::service::Cluster cluster;
+  for (const auto& message : recording.messages) {
+    if (message.topic->handle == "parameter_set" && bus::decode(message.cdr, set)) {
+      plan.cycle_seconds = machine::parameters_of(set).get(parameter::interpolation_cycle) * 1e-6;
+    } else if (message.topic->handle == "cluster" && bus::decode(message.cdr, cluster)) {
+      plan.virtual_time = cluster.virtual_time;
+      // Channels are listed in their order; of copies the first is meant.
+      std::uint16_t others = service == "channel" ? channel : 0;
+      for (const auto& entry : cluster.services)
+        if (entry.service == service && others-- == 0) {
+          plan.instance = entry.instance;
+          found = true;
+          break;
+        }
+      if (!found)
+        for (const auto& entry : cluster.services)
+          plan.instance = std::max(plan.instance, entry.instance + 1);
+    }
+  }
+  return plan;
+}
+
+VerifyPlan plan_verification(const StoredRecording& recording, const std::string& service,
+                             std::uint16_t channel) {
+  auto plan = surroundings(recording, service, channel);
+  bool exists = false;
+  for (const auto& topic : bus::all_topics()) {
+    if (!names(topic.writers, service)) continue;
+    exists = true;
+    // Requests are not: who asks numbers them as it likes, and others ask too.
+    if (!not_compared().contains(topic.handle) && topic.qos != bus::QosKind::event)
+      plan.topics.insert(topic.handle);
+  }
+  if (!exists) throw std::runtime_error("no service is called '" + service + "'");
+  if (plan.topics.empty())
+    throw std::runtime_error("service " + service + " writes nothing that can be compared");
+  if (const auto* stage = find_stage(service))
+    plan_stage(recording, *stage, plan);
+  else if (says_when(service))
+    plan_by_tick(recording, service, plan);
+  else
+    OrderedPlan(recording, service, channel, plan).make();
+  if (service == "channel" && has_several_channels(recording)) plan.ignored.insert("auxiliary_request.cycle");
+  if (plan.expected.empty())
+    throw std::runtime_error(
+        "the recording has no output of service " + service +
+        (service == "channel" ? " " + std::to_string(channel) : "") + " that follows from its inputs" +
+        (recording.foreign.empty()
+             ? ""
+             : "; it was made with another contract, for " + *recording.foreign.begin() + " at least"));
+  return plan;
+}
+
+std::size_t VerifyPlan::drop_unrecorded(std::vector<StoredMessage>& produced) const {
+  std::map<std::pair<Track, std::uint64_t>, std::pair<std::uint64_t, std::uint64_t>>
+      recorded;  // begin and end
+  MessageRows rows;
+  const auto key = [&](const StoredMessage& message) {
+    return std::pair(Track{message.topic, rows.span().channel}, std::uint64_t{rows.span().epoch});
+  };
+  for (const auto& message : expected) {
+    if (!is_cyclic(*message.topic) || !rows.load(*message.topic, message.cdr)) continue;
+    const auto first = rows.span().first, after = first + rows.span().count;
+    const auto [at, news] = recorded.try_emplace(key(message), first, after);
+    at->second = {std::min(at->second.first, first), std::max(at->second.second, after)};
+  }
+  return std::erase_if(produced, [&](const StoredMessage& message) {
+    if (!is_cyclic(*message.topic) || !rows.load(*message.topic, message.cdr)) return false;
+    const auto found = recorded.find(key(message));
+    return found == recorded.end() || rows.span().first >= found->second.second ||
+           rows.span().first + rows.span().count <= found->second.first;
+  });
+}
+
+std::map<std::pair<std::uint32_t, std::uint32_t>, std::string> raised_alarms(
+    const std::vector<StoredMessage>& messages, const std::string& service) {
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::string> raised;
+  idl::service::Alarm alarm;
+  for (const auto& message : messages)
+    if (message.topic->handle == "alarm" && bus::decode(message.cdr, alarm) && alarm.active &&
+        alarm.source == service)
+      raised.try_emplace({alarm.number, alarm.part}, alarm.text);
+  return raised;
+}
+
+std::string unexpected_alarm(const std::vector<StoredMessage>& recorded,
+                             const std::vector<StoredMessage>& produced, const std::string& service) {
+  const auto known = raised_alarms(recorded, service);
+  for (const auto& [key, text] : raised_alarms(produced, service))
+    if (!known.contains(key))
+      return "alarm " + std::to_string(key.first) + ", which the recording does not have: " + text;
+  return "";
+}
+
+}  // namespace trunnion::verification

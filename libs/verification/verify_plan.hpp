@@ -1,0 +1,62 @@
+// What a service is fed from a recording, in which order and when, and what it must answer. No DDS, no clock.
+#pragma once
+
+#include <deque>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "verification/progress.hpp"
+#include "verification/stored_recording.hpp"
+
+namespace trunnion::verification {
+
+struct Step {
+  const StoredMessage* message = nullptr;  ///< of the recording; to write once `needs` are reached
+  std::vector<Mark> needs;                 ///< that the needs of earlier steps do not imply
+  bool apart = false;  ///< must be taken before what follows on other topics, and after what came before
+};
+
+struct VerifyPlan {
+  std::vector<Step> steps;
+  std::deque<StoredMessage> stand_ins;  ///< for inputs that were overwritten before they were recorded
+  std::vector<Mark> end;                ///< reached when every recorded output has come
+  std::vector<StoredMessage> expected;  ///< outputs to compare with
+  std::set<std::string> topics;         ///< handles of the outputs that are compared
+  /// Outputs that say when a service noticed something, which is not decided by its inputs alone.
+  std::set<std::string> ignored;
+  std::uint64_t cycles = 0;  ///< of the stream, in `expected`
+  double cycle_seconds = 0.001;
+  bool virtual_time = true;
+  std::uint32_t instance = 0;  ///< of the service in the recording
+
+  /// What a service writes beyond the end of the recording, or in an epoch that was given up, has no
+  /// counterpart: it is taken away. Returns how many messages that were.
+  std::size_t drop_unrecorded(std::vector<StoredMessage>& produced) const;
+};
+
+/// Stages are fed by cycle: a frame when the drive had executed what the channel's credit for it needs and
+/// the stage is at most some frames behind; one that starts when everything before it is done; parameters
+/// before the first frame made with them. Other services are fed in the order of the recording, each message
+/// once the service has written what it had written before it. `channel` matters to a channel only.
+/// Throws std::runtime_error when the recording does not have what it takes.
+VerifyPlan plan_verification(const StoredRecording& recording, const std::string& service,
+                             std::uint16_t channel);
+VerifyPlan plan_verification(StoredRecording&&, const std::string&,
+                             std::uint16_t) = delete;  // steps point into it
+
+/// A plan that has only what a recording says of the cluster: cycle time, kind of time, instance. A service
+/// that is not in it gets a number that no other has.
+VerifyPlan surroundings(const StoredRecording& recording, const std::string& service,
+                        std::uint16_t channel = 0);
+
+/// Alarms that `service` raises in `messages`: number, part and text of the first.
+std::map<std::pair<std::uint32_t, std::uint32_t>, std::string> raised_alarms(
+    const std::vector<StoredMessage>& messages, const std::string& service);
+
+/// The first alarm of `service` in `produced` that `recorded` does not have, in one line; empty when none.
+std::string unexpected_alarm(const std::vector<StoredMessage>& recorded,
+                             const std::vector<StoredMessage>& produced, const std::string& service);
+
+}  // namespace trunnion::verification

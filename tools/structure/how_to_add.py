@@ -1,0 +1,210 @@
+#!/usr/bin/env python3
+"""Adds a topic, a parameter, a G code and a stage to a scratch copy of the sources, in the places that "How to add" of
+CONTRIBUTING.md names and in no other, and builds what shows that they are there.
+
+how_to_add.py --source DIRECTORY --scratch DIRECTORY [--cmake PATH]
+"""
+import argparse, os, re, shutil, subprocess, sys
+
+STAGE = "thermal"
+FILES = {
+    "CMakeLists.txt": f"""trunnion_library(trunnion_{STAGE}_core SOURCES src/{STAGE}_core.cpp LINK trunnion_stream)
+target_include_directories(trunnion_{STAGE}_core PUBLIC ${{CMAKE_CURRENT_SOURCE_DIR}}/src)
+trunnion_service({STAGE} LINK trunnion_{STAGE}_core)
+trunnion_test({STAGE}_test SOURCES test/added_test.cpp LINK trunnion_machine trunnion_language)
+""",
+    f"src/{STAGE}_core.hpp": """#pragma once
+#include "machine/parameters.hpp"
+#include "stream/stage_core.hpp"
+namespace trunnion::thermal {
+class ThermalCore : public stream::StageCore<idl::stream::AxisFrame> {
+ public:
+  void configure(const machine::Parameters& parameters, std::uint16_t channel) override;
+  bool process(const idl::stream::AxisFrame& in, const stream::FeedbackWindow& feedback, idl::stream::AxisFrame& out) override;
+  void load(std::span<const double>) override {}
+  void save(stream::StateValues& state) const override { state.clear(); }
+ private:
+  double growth_ = 0;
+};
+}
+""",
+    f"src/{STAGE}_core.cpp": """#include "thermal_core.hpp"
+#include "machine/parameter_constants.hpp"
+namespace trunnion::thermal {
+void ThermalCore::configure(const machine::Parameters& parameters, std::uint16_t) { growth_ = parameters.get(parameter::thermal_growth); }
+bool ThermalCore::process(const idl::stream::AxisFrame& in, const stream::FeedbackWindow&, idl::stream::AxisFrame& out) {
+  out.axes = in.axes;
+  out.setpoints = in.setpoints;
+  for (auto& setpoint : out.setpoints) setpoint += growth_;
+  return true;
+}
+}
+""",
+    "service.hpp": """#pragma once
+#include "src/thermal_core.hpp"
+#include "stream/stage_service.hpp"
+namespace trunnion::thermal {
+class ThermalService : public stream::StageService<idl::stream::AxisFrame> {
+ public:
+  explicit ThermalService(service::Node& node);
+ private:
+  bus::Writer<idl::thermal::SpindleGrowth> growth_;
+};
+}
+""",
+    "service.cpp": """#include "service.hpp"
+namespace trunnion::thermal {
+ThermalService::ThermalService(service::Node& node)
+    : StageService(node, stream::STAGE_NUMBER, topics::gantry_frame, topics::thermal_frame,
+                   [] { return std::make_unique<ThermalCore>(); }),
+      growth_(node.bus().writer(topics::spindle_growth)) {}
+}
+""",
+    "main.cpp": """#include "service.hpp"
+int main(int argc, char** argv) {
+  return trunnion::service::service_main<trunnion::thermal::ThermalService>(argc, argv, "thermal");
+}
+""",
+    "test/added_test.cpp": """#include <gtest/gtest.h>
+#include "language/codes.hpp"
+#include "machine/parameter_constants.hpp"
+#include "machine/parameters.hpp"
+namespace trunnion {
+TEST(Added, TheParameterHasItsDefault) { EXPECT_EQ(machine::Parameters{}.get(parameter::thermal_growth), 0.25); }
+TEST(Added, TheGCodeIsInTheTable) {
+  bool found = false;
+  for (const auto& code : language::g_codes) found = found || code.tenths == 41;
+  EXPECT_TRUE(found);
+}
+}
+""",
+}
+
+
+class Scratch:
+    def __init__(self, source, root):
+        self.root = root
+        shutil.rmtree(root, ignore_errors=True)
+        os.makedirs(root)
+        for name in os.listdir(source):
+            if name in ("build", "out", ".git"): continue
+            path = os.path.join(source, name)
+            ignore = shutil.ignore_patterns("node_modules", "__pycache__", "*.mcap")
+            if os.path.isdir(path): shutil.copytree(path, os.path.join(root, name), ignore=ignore)
+            else: shutil.copy(path, root)
+        self.guide = self.read("CONTRIBUTING.md")
+        self.paragraph = ""
+
+    def path(self, name): return os.path.join(self.root, name)
+    def there(self, name): return os.path.exists(self.path(name))
+    def read(self, name):
+        with open(self.path(name), encoding="utf-8") as f: return f.read()
+    def write(self, name, text):
+        os.makedirs(os.path.dirname(self.path(name)), exist_ok=True)
+        with open(self.path(name), "w", encoding="utf-8") as f: f.write(text)
+
+    def follow(self, *titles):
+        """What is edited from here on must be named in these paragraphs of CONTRIBUTING.md."""
+        section = self.guide.split("## How to add", 1)[1]
+        found = [re.search(rf"^\*\*{title}\b.*?(?=^\*\*|\Z)", section, re.M | re.S) for title in titles]
+        for title, text in zip(titles, found):
+            if text is None: sys.exit(f"CONTRIBUTING.md: 'How to add' has no paragraph '{title}'")
+        self.paragraph = "".join(text.group(0) for text in found)
+
+    def edit(self, name, pattern, replacement, named=None):
+        """Replaces the first match; `named` is how the guide calls the file, when that is not its path."""
+        if (named or name) not in self.paragraph: sys.exit(f"CONTRIBUTING.md: the paragraph does not name {named or name}")
+        text, count = re.subn(pattern, replacement, self.read(name), count=1, flags=re.S | re.M)
+        if count == 0: sys.exit(f"{name}: nothing matches {pattern}")
+        self.write(name, text)
+
+    def run(self, *command, expect=0):
+        done = subprocess.run(command, cwd=self.root, text=True, capture_output=True)
+        if done.returncode != expect: sys.exit(f"{' '.join(command)}: status {done.returncode}\n{done.stdout}{done.stderr}")
+
+
+def add_topic(s):
+    s.follow("A topic")
+    s.write("idl/thermal.idl", "module trunnion {\n  module thermal {\n    @final struct SpindleGrowth {\n      @key uint16 axis;\n"
+            "      double growth;                     // mm\n    };\n  };\n};\n")
+    s.edit("idl/topics.yaml", r"\Z", '  - {handle: spindle_growth, name: trunnion/thermal/spindle_growth/1, type: "trunnion::thermal::SpindleGrowth", '
+           "qos: state, writers: [thermal], readers: [gateway], about: growth of the spindle}\n")
+
+
+def add_parameter(s):
+    s.follow("A parameter")
+    s.edit("libs/machine/catalogue.yaml", r"^  # class user\n", r'\g<0>  - {class: user, offset: 990, name: thermal_growth, unit: mm, type: real, min: 0, '
+           "max: 1, default: 0.25, activation: reset, access: user, help: Growth of the spindle}\n")
+
+
+def add_g_code(s):
+    s.follow("A G code")
+    table = "libs/language/codes.cpp" if s.there("libs/language/codes.cpp") else "libs/language/codes.hpp"
+    # G4.1 dwells as G4 does: the same row with another number, and the same function.
+    row = r'^    GCode\{40, (.*?)"G4 P500"\},\n'
+    s.edit(table, row, r'\g<0>    GCode{41, \g<1>"G4.1 P500"},\n')
+    count = re.search(r"g_code_count = (\d+)", s.read("libs/language/codes.hpp"))
+    if count: s.edit("libs/language/codes.hpp", r"g_code_count = \d+", f"g_code_count = {int(count.group(1)) + 1}")
+    elif table.endswith(".hpp"): s.edit("libs/language/block_executor.cpp", r"^      case 40:\n", r"\g<0>      case 41:\n")
+
+
+def add_stage(s):
+    for name, text in FILES.items(): s.write(f"services/{STAGE}/{name}", text)
+    s.follow("A service", "A stage")
+    topic = ('  - {handle: thermal_frame, name: trunnion/thermal/axis_frame/1, type: "trunnion::stream::AxisFrame", qos: frame, '
+             "writers: [thermal], readers: [drive], about: the same with the growth of the spindle}\n")
+    s.edit("idl/topics.yaml", r"\Z", topic)
+    s.edit("idl/topics.yaml", r"(handle: gantry_frame,.*?readers: \[)drive", rf"\g<1>{STAGE}")
+    for path, _, files in os.walk(s.path("services/drive")):
+        for name in files:
+            file = os.path.relpath(os.path.join(path, name), s.root)
+            if name.endswith(".cpp") and "topics::gantry_frame" in s.read(file):
+                s.write(file, s.read(file).replace("topics::gantry_frame", "topics::thermal_frame"))
+    s.edit("README.md", r"^(\| \[services/gantry/\][^\n]*\n)", rf"\g<1>| [services/{STAGE}/](services/{STAGE}) | stage: growth of the spindle |\n")
+    if "services/*" not in s.read("CMakeLists.txt"): s.edit("CMakeLists.txt", r"services/gantry", f"services/gantry services/{STAGE}")
+    for machine in os.listdir(s.path("configs/machines")):
+        file = f"configs/machines/{machine}/machine.yaml"
+        if s.there(file): s.edit(file, r"^(  - \{service: gantry)", rf"  - {{service: {STAGE}}}\n\g<1>", named="machine.yaml")
+    registry = "libs/machine/services.yaml"
+    if s.there(registry):
+        s.edit(registry, r"^(  - \{name: gantry,[^\n]*\n)",
+               rf"\g<1>  - {{name: {STAGE}, cyclic: true, stage: {{input: gantry_frame, output: thermal_frame}}}}\n")
+        s.write(f"services/{STAGE}/service.cpp", s.read(f"services/{STAGE}/service.cpp").replace("stream::STAGE_NUMBER", f"machine::service::{STAGE}.stage"))
+        return
+    s.write(f"services/{STAGE}/service.cpp", s.read(f"services/{STAGE}/service.cpp").replace("STAGE_NUMBER", f"stage_{STAGE}"))
+    s.edit("libs/machine/machine.cpp", r'"drive",\s+"gantry"', rf'\g<0>, "{STAGE}"')
+    s.edit("deploy/security/documents.py", r'"gantry", ', rf'\g<0>"{STAGE}", ')
+    s.edit("libs/service/service_main.cpp", r'"gantry", ', rf'\g<0>"{STAGE}", ')
+    s.edit("libs/testing_support/running_service.hpp", r'"gantry", ', rf'\g<0>"{STAGE}", ')
+    s.edit("libs/stream/stage_names.hpp", r"stage_gantry = 4", f"stage_gantry = 4, stage_{STAGE} = 5")
+    s.edit("libs/stream/stage_names.hpp", r'"gantry"', rf'\g<0>, "{STAGE}"')
+    s.edit("libs/stream/stage_names.hpp", r"stage <= stage_gantry \?", f"stage <= stage_{STAGE} ?")
+    s.edit("libs/stream/stage_names.hpp", r"stage <= stage_gantry;", f"stage <= stage_{STAGE};")
+    s.edit("libs/verification/stage_plan.cpp", r'\{"gantry"[^}]*\}', rf'\g<0>, {{"{STAGE}", 5, "gantry_frame", "thermal_frame"}}')
+    s.edit("libs/report/capture.hpp", r'4> frame_stages(.*?)"gantry"', rf'5> frame_stages\g<1>"gantry", "{STAGE}"')
+    s.edit("deploy/launcher/swap.cpp", r"(stage == stream::stage_compensation \? topics::compensation_frame)",
+           rf"\g<1> : stage == stream::stage_{STAGE} ? topics::thermal_frame")
+
+
+def main():
+    p = argparse.ArgumentParser(description=__doc__)
+    p.add_argument("--source", required=True), p.add_argument("--scratch", required=True), p.add_argument("--cmake", default="cmake")
+    args = p.parse_args()
+    s = Scratch(os.path.abspath(args.source), os.path.abspath(args.scratch))
+    for add in (add_topic, add_parameter, add_g_code, add_stage): add(s)
+    s.run(sys.executable, "tools/structure/check_structure.py")
+    s.run(sys.executable, "tools/generate_docs.py", "--check", expect=1)
+    s.run(sys.executable, "tools/generate_docs.py")
+    for document, added in (("docs/parameters.md", "thermal_growth"), ("docs/codes.md", "G4.1")):
+        if added not in s.read(document): sys.exit(f"{document}: {added} is missing")
+    s.run(args.cmake, "--preset", "release")
+    build = [args.cmake, "--build", "--preset", "release", "--"]
+    s.run(*build, "contracts_generated")
+    if "trunnion/thermal/spindle_growth/1" not in s.read("build/release/generated/contracts/topics.md"): sys.exit("topics.md: the topic is missing")
+    objects = [f"services/{STAGE}/CMakeFiles/trunnion-{STAGE}.dir/{name}.cpp.o" for name in ("main", "service")]
+    s.run(*build, f"trunnion_{STAGE}_core", *objects, f"{STAGE}_test")
+    s.run(f"build/release/bin/{STAGE}_test")
+    shutil.rmtree(s.root)
+
+
+if __name__ == "__main__": main()
