@@ -97,23 +97,23 @@ def alarms():
 
 
 def codes():
-    path, calls = "libs/language/codes.hpp", "libs/language/macro_call.hpp"
+    g_path, m_path, calls = (f"libs/language/{f}" for f in ("codes.cpp", "codes.hpp", "macro_call.hpp"))
     dialect = {"iso": "ISO", "fanuc": "Fanuc", "hnc": "HNC"}
     program = lambda text: "`" + joined(text).replace("\\n", " / ") + "`"
     shown = r",\s*Origin::(\w+),\s*" + TEXT + r",\s*" + TEXT
     g = [(int(t), group, joined(text), dialect[o], joined(since), program(example)) for t, group, text, o, since, example in
-         entries(path, "GCode", r"(\d+),\s*Group::(\w+),\s*" + TEXT + shown)]
+         entries(g_path, "GCode", r"(\d+),\s*Group::(\w+),\s*AxisWords::\w+,\s*run<[^>]*>,\s*" + TEXT + shown)]
     c = [(int(first), int(last), joined(text), dialect[o], joined(since), program(example)) for first, last, text, o, since, example in
          entries(calls, "CallCode", r"(\d+),\s*(\d+),\s*CallKind::\w+,\s*" + TEXT + shown)]
     m = [(int(n), when, action, group, joined(text)) for n, when, action, group, text in
-         entries(path, "MCode", r"(\d+),\s*When::(\w+),\s*MAction::(\w+),\s*MGroup::(\w+),\s*" + TEXT)]
+         entries(m_path, "MCode", r"(\d+),\s*When::(\w+),\s*MAction::(\w+),\s*MGroup::(\w+),\s*" + TEXT)]
     version = re.search(r"project\(trunnion VERSION (\d+)\.(\d+)", read("CMakeLists.txt"))
     if not version: fail("CMakeLists.txt", "project(trunnion VERSION ...) is not there")
     for since in {row[4] for row in g} | {row[4] for row in c}:
         if [int(n) for n in since.split(".")] > [int(n) for n in version.groups()]:
-            fail(path, f"a code is there since {since}, this is version {'.'.join(version.groups())}")
+            fail(g_path, f"a code is there since {since}, this is version {'.'.join(version.groups())}")
     name = lambda tenths: f"G{tenths // 10}" + (f".{tenths % 10}" if tenths % 10 else "")
-    out = ["# G and M codes", "", f"Generated from `{path}` and `{calls}` by `tools/generate_docs.py`.", "", "## G codes", "",
+    out = ["# G and M codes", "", f"Generated from `{g_path}`, `{m_path}` and `{calls}` by `tools/generate_docs.py`.", "", "## G codes", "",
            "A block may contain one code of each group; a second one is an alarm. Every group except *one_block* and *exact_stop* is modal: the "
            "code stays active until another code of its group. "
            "A motion code ends a cycle. *Dialect*: ISO 6983, Fanuc or HNC-8 controls; *since*: the version of Trunnion. Each example is a program that a test runs; blocks are separated by /.", ""]

@@ -8,6 +8,7 @@
 #include <iostream>
 #include <memory>
 
+#include "bus/json.hpp"
 #include "bus/registry.hpp"
 #include "cluster/child_process.hpp"
 #include "cluster/client.hpp"

@@ -62,7 +62,7 @@ bool CutterCompensation::push() {
   return true;
 }
 
-Command* CutterCompensation::add_standing() { return push() ? &item(count_ - 1).command : nullptr; }
+Command* CutterCompensation::add_at_rest() { return push() ? &item(count_ - 1).command : nullptr; }
 
 std::size_t CutterCompensation::move_before(std::size_t i) const {
   while (i-- > 0) {

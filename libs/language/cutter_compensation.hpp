@@ -54,7 +54,7 @@ class CutterCompensation {
 
   /// Room for a command that does not move, to be filled by the caller but for target; nullptr when there is
   /// none.
-  Command* add_standing();
+  Command* add_at_rest();
 
   /// The next command that is settled; false when more moves are needed.
   AlarmNumber pop(Command& command, bool& popped);

@@ -9,6 +9,8 @@
 
 namespace trunnion::language {
 
+inline constexpr std::uint32_t highest_tool = 65535;
+
 /// Work offsets and tool entries as the environment gives them at the start of a program, with the changes
 /// the program makes (G10). Room for a fixed number of changed tools; allocates nothing.
 class OffsetTables {

@@ -118,7 +118,7 @@ constexpr ServiceType service_type() {
     type.rehearsal = [](Node& node) -> std::unique_ptr<Service> {
       return std::make_unique<typename S::Rehearsal>(node);
     };
-  type.works_on_standby = S::works_as_shadow;
+  type.works_on_standby = S::works_on_standby;
   return type;
 }
 

@@ -272,6 +272,57 @@ TEST(Alarm, BlockWithAFaultMakesNoCommandAndChangesNothing) {
   EXPECT_EQ(result.modal.length_offset, 0);
 }
 
+// Behind a line of manual data input with a fault, the next one finds everything as the line before left it.
+TEST(Alarm, LineWithAFaultLeavesNothingToTheNextLine) {
+  struct Case {
+    std::string good, faulty, next, expected;
+  };
+  const std::array cases{
+      // The cycle's depth stays -4.
+      Case{"F100 G81 Z-4 R1 L0\n", "G81 Z-9 R3 L0 Q0\n", "X5\n", "line X5 Z-4"},
+      // Nothing was passed on the way to the reference position: G29 goes over X1.
+      Case{"G28 X1\n", "G28 X7 V3 K1\n", "G29 X2\n", "rapid X1"},
+      // G52 of the faulty line does not shift.
+      Case{"G52 X10\n", "G52 X20 R1\n", "G0 X1\n", "rapid X11"},
+      // Polar coordinates keep the radius 10.
+      Case{"G16 G0 X10 Y0\n", "G0 X20 Y0 R1\n", "G0 Y90\n", "rapid Y10"},
+      // The parameter input stays open, so that the next line is one of it.
+      Case{"G10 L50\n", "G11 R1\n", "N900 R2\n", "table"},
+  };
+  for (const Case& c : cases) {
+    TestMachine machine;
+    Interpreter interpreter(machine);
+    std::vector<Command> commands;
+    const auto line = [&](const std::string& text, Beginning beginning) {
+      StringSource source(text);
+      interpreter.start(source, interpreter.position(), interpreter.modal(), no_variables, beginning);
+      commands.clear();
+      Command command;
+      Step step = interpreter.next(command);
+      for (; step == Step::command || step == Step::working; step = interpreter.next(command))
+        if (step == Step::command) commands.push_back(command);
+      return step;
+    };
+    ASSERT_EQ(line(c.good, Beginning::program), Step::end) << c.good << interpreter.alarm().text.data();
+    ASSERT_EQ(line(c.faulty, Beginning::line), Step::alarm) << c.faulty;
+    ASSERT_EQ(line(c.next, Beginning::line), Step::end) << c.next << interpreter.alarm().text.data();
+    std::string all;
+    for (const std::string& text : stream(Interpretation{commands, Step::end, {}, {}})) all += text + "; ";
+    EXPECT_NE(all.find(c.expected), std::string::npos) << c.faulty << all;
+  }
+}
+
+// A skip move of a block with a fault was not given out, so there is no position to wait for.
+TEST(Alarm, SkipMoveWithAFaultDoesNotWaitForItsEnd) {
+  TestMachine machine;
+  StringSource text("G31 X10 F100 Q5\n");
+  Interpreter interpreter(machine);
+  interpreter.start(text, {}, {});
+  Command command;
+  EXPECT_EQ(interpreter.next(command), Step::alarm);
+  EXPECT_EQ(interpreter.alarm().number, AlarmNumber::unused_word);
+}
+
 TEST(Alarm, StaysUntilStart) {
   TestMachine machine;
   StringSource text("G77");

@@ -1,0 +1,42 @@
+// The handlers, one for each concern of a block.
+#pragma once
+
+#include "language/curve_motion.hpp"
+#include "language/drilling_cycles.hpp"
+#include "language/frame_codes.hpp"
+#include "language/modal_codes.hpp"
+#include "language/path_motion.hpp"
+#include "language/positioning.hpp"
+#include "language/table_codes.hpp"
+#include "language/tilted_planes.hpp"
+#include "language/tool_codes.hpp"
+#include "language/tool_vector_motion.hpp"
+
+namespace trunnion::language {
+
+struct BlockHandlers {
+  explicit BlockHandlers(BlockContext& context)
+      : modal(context),
+        tool(context),
+        frames(context),
+        planes(context),
+        tables(context),
+        positioning(context),
+        vectors(context),
+        motion(context, vectors),
+        curve(context),
+        cycles(context) {}
+
+  ModalCodes modal;
+  ToolCodes tool;
+  FrameCodes frames;
+  TiltedPlanes planes;
+  TableCodes tables;
+  Positioning positioning;
+  ToolVectorMotion vectors;
+  PathMotion motion;
+  CurveMotion curve;
+  DrillingCycles cycles;
+};
+
+}  // namespace trunnion::language

@@ -1,0 +1,111 @@
+// The way of commands from a block into the queue, through cutter radius compensation when it is active.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+
+#include "language/command_queue.hpp"
+#include "language/cutter_compensation.hpp"
+#include "language/program_state.hpp"
+
+namespace trunnion::language {
+
+/// What a straight move is besides its end.
+struct StraightMove {
+  CommandKind kind = CommandKind::line;
+  bool chord = false;        ///< as Command::chord
+  std::uint32_t number = 0;  ///< as Command::number of kinds skip and tap
+  double value = 0;          ///< as Command::value of kind tap
+};
+
+/// Makes commands out of the program's state and numbers them. It keeps the frames that commands were made
+/// in. Memory is fixed.
+class CommandOutput {
+ public:
+  CommandOutput(const Environment& environment, ProgramState& state)
+      : environment_(environment), state_(state) {}
+
+  /// A text begins: nothing held, sequence numbers from 1.
+  void start();
+  /// Commands to come belong to this line of this text and go to `queue`.
+  void begin(std::uint32_t program, std::uint32_t line, CommandQueue& queue) {
+    program_ = program;
+    line_ = line;
+    queue_ = &queue;
+  }
+  /// The same for the words of a block.
+  void begin_block(std::uint32_t program, std::uint32_t line, CommandQueue& queue) {
+    begin(program, line, queue);
+    moves_ = exact_stop_once_ = false;
+  }
+  /// The rest of a block goes to `queue`, which must be empty.
+  void resume(CommandQueue& queue) {
+    queue_ = &queue;
+    draining_ = false;
+  }
+  /// Takes the block's commands out of the queue.
+  void discard();
+
+  /// A command of the present state, to be completed by the caller.
+  Command& push(CommandKind kind);
+  /// The end of the program.
+  Fault push_end(std::uint32_t number);
+  /// Moves the axes to `program` (program coordinates), unless they are there already.
+  Fault move_straight(const StraightMove& move, const AxisValues& program);
+  /// The same to `command` (frame of the commands), without compensation.
+  Fault move_straight_in_command_frame(CommandKind kind, const AxisValues& command);
+  /// `move` is a line, rapid or arc in contour coordinates, its end `program` in program coordinates.
+  Fault move_compensated(const Command& move, const AxisValues& program);
+  /// Whether the axes would move to `command`, and whether linear ones would.
+  bool moves_to(const AxisValues& command, bool& linear) const;
+
+  bool queue_empty() const { return queue_->empty(); }
+  /// A command of this block moves the axes.
+  bool moves() const { return moves_; }
+  std::uint32_t sequence() const { return sequence_; }
+  /// Every command of this block ends with an exact stop (G9).
+  void stop_exactly_once() { exact_stop_once_ = true; }
+
+  /// Gives out what the compensation has settled, as far as the queue has room.
+  Fault drain();
+  /// The queue had no room: more comes with resume().
+  bool draining() const { return draining_; }
+  /// The end of what pushed commands outside a block.
+  Fault settle();
+  /// An alarm when a command found no room in the compensation.
+  Fault check_room();
+
+  CutterCompensation& compensation() { return compensation_; }
+  bool compensating() const { return compensation_.active(); }
+  Fault refuse_in_compensation(std::uint16_t at) const {
+    return compensation_.active() ? Fault{AlarmNumber::compensation_active, at} : Fault{};
+  }
+  /// Ends the compensation where the tool is.
+  void drop_compensation();
+
+  static constexpr std::size_t frames_kept = 128;
+  const ProgramFrame& frame_of(std::uint32_t number) const { return kept_[number % frames_kept]; }
+
+ private:
+  /// The state of a command that is made now; its frame is kept.
+  ModalState command_modal();
+
+  const Environment& environment_;
+  ProgramState& state_;
+  CommandQueue* queue_ = nullptr;
+  CutterCompensation compensation_;
+  std::array<ProgramFrame, frames_kept> kept_;  // by number, those that commands were made in
+  std::uint32_t frame_number_ = 0;              // the newest of them
+  std::optional<std::uint32_t> kept_revision_;  // of the frame
+  std::uint32_t program_ = 0;
+  std::uint32_t line_ = 0;
+  std::uint32_t sequence_ = 0;
+  bool moves_ = false;
+  bool exact_stop_once_ = false;
+  bool draining_ = false;
+  bool held_too_many_ = false;  // a command found no place in the compensation
+  Command scratch_;
+};
+
+}  // namespace trunnion::language

@@ -1,0 +1,135 @@
+#include "language/frame_codes.hpp"
+
+#include <cmath>
+
+namespace trunnion::language {
+namespace {
+
+constexpr double smallest_factor = 1e-6;
+constexpr double largest_factor = 1e6;
+
+}  // namespace
+
+Fault FrameCodes::set_work_offset(std::uint16_t at, std::uint8_t index) {
+  if (index == state_.modal.work_offset) return {};
+  if (const Fault fault = output_.refuse_in_compensation(at)) return fault;
+  state_.modal.work_offset = index;
+  state_.change_frame().set_work_offset(context_.tables.work_offset(index));
+  state_.locate(state_.position);
+  return {};
+}
+
+Fault FrameCodes::set_additional_work_offset(std::uint16_t at) {
+  if (!words_.has('P')) return {AlarmNumber::missing_word, at};
+  std::uint32_t number = 0;
+  if (const Fault fault = words_.whole_number('P', 1, work_offset_count - 6, number)) return fault;
+  return set_work_offset(at, static_cast<std::uint8_t>(5 + number));
+}
+
+Fault FrameCodes::clear_scaling(std::uint16_t) {
+  state_.modal.scaled = false;
+  state_.change_frame().clear_scaling();
+  state_.locate(state_.position);
+  return {};
+}
+
+Fault FrameCodes::set_scaling(std::uint16_t at) {
+  state_.modal.scaled = true;
+  Vector3 centre{state_.program_position[X], state_.program_position[Y], state_.program_position[Z]};
+  Vector3 factors{1, 1, 1};
+  const bool each = (words_.letters() & letter_bits("IJK")) != 0;
+  if (!each && !words_.has('P')) return {AlarmNumber::missing_word, at};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const char letter = axis_letters[axis];
+    if (words_.has(letter)) {
+      words_.use(letter);
+      centre[axis] = words_.axis(axis);
+    }
+    const char factor = each ? static_cast<char>('I' + axis) : 'P';
+    if (!words_.has(factor)) continue;
+    words_.use(factor);
+    factors[axis] = words_.value(factor);
+    const double size = std::abs(factors[axis]);
+    if (size < smallest_factor || size > largest_factor) {
+      return {AlarmNumber::factor_range, words_.offset(factor)};
+    }
+  }
+  state_.change_frame().set_scaling(centre, factors);
+  state_.locate(state_.position);
+  return {};
+}
+
+Fault FrameCodes::set_mirror(std::uint16_t at, bool on) {
+  if (!on && (words_.letters() & axis_bits) == 0) {
+    state_.change_frame().clear_mirror();
+  } else {
+    std::uint32_t axes = 0;
+    if (const Fault fault = words_.take_axes(at, axes)) return fault;
+    for (std::uint8_t axis = 0; axis < axis_count; ++axis) {
+      if (((axes >> axis) & 1u) != 0) state_.change_frame().set_mirror(axis, on, words_.axis(axis));
+    }
+  }
+  state_.modal.mirrored = state_.frame().mirrored();
+  state_.locate(state_.position);
+  return {};
+}
+
+Fault FrameCodes::set_rotation(std::uint16_t at) {
+  const char angle = words_.has('R') ? 'R' : 'P';
+  if (!words_.has(angle)) return {AlarmNumber::missing_word, at};
+  words_.use(angle);
+  const PlaneAxes plane = plane_axes(state_.modal.plane);
+  Vector3 centre{state_.program_position[X], state_.program_position[Y], state_.program_position[Z]};
+  for (const std::uint8_t axis : {plane.first, plane.second}) {
+    const char letter = axis_letters[axis];
+    if (!words_.has(letter)) continue;
+    words_.use(letter);
+    centre[axis] = words_.axis(axis);
+  }
+  double degrees = words_.value(angle);
+  if (!state_.modal.absolute && state_.modal.rotated) degrees += state_.frame().rotation();
+  state_.change_frame().set_rotation(state_.modal.plane, centre, std::fmod(degrees, 360.0));
+  state_.modal.rotated = true;
+  state_.locate(state_.position);
+  return {};
+}
+
+Fault FrameCodes::set_local_offset(std::uint16_t at) {
+  if (const Fault fault = output_.refuse_in_compensation(at)) return fault;
+  std::uint32_t axes = 0;
+  if (const Fault fault = words_.take_axes(at, axes)) return fault;
+  ProgramFrame& frame = state_.change_frame();
+  for (std::uint8_t axis = 0; axis < axis_count; ++axis) {
+    if (((axes >> axis) & 1u) == 0) continue;
+    const double word = words_.axis(axis);
+    frame.set_local(axis, state_.modal.absolute ? word : frame.local()[axis] + word);
+  }
+  state_.locate(state_.position);
+  return {};
+}
+
+Fault FrameCodes::shift_coordinates(std::uint16_t at) {
+  if ((words_.letters() & axis_bits) == 0) {
+    return words_.has('S') ? Fault{} : Fault{AlarmNumber::missing_word, at};
+  }
+  if (const Fault fault = output_.refuse_in_compensation(at)) return fault;
+  if (!state_.frame().plain() || state_.modal.polar) return {AlarmNumber::frame_shift, at};
+  std::uint32_t axes = 0;
+  if (const Fault fault = words_.take_axes(at, axes)) return fault;
+  ProgramFrame& frame = state_.change_frame();
+  for (std::uint8_t axis = 0; axis < axis_count; ++axis) {
+    if (((axes >> axis) & 1u) == 0) continue;
+    frame.set_shift(axis, frame.shift()[axis] + state_.program_position[axis] - words_.axis(axis));
+  }
+  state_.locate(state_.position);
+  return {};
+}
+
+Fault FrameCodes::clear_shift(std::uint16_t at) {
+  if (const Fault fault = output_.refuse_in_compensation(at)) return fault;
+  state_.change_frame().clear_shift();
+  state_.locate(state_.position);
+  return {};
+}
+
+}  // namespace trunnion::language

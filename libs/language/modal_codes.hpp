@@ -1,0 +1,33 @@
+// Modal codes and words: units, feed, spindle, tool selection, plane, path control, polar coordinates,
+// motion.
+#pragma once
+
+#include "language/block_context.hpp"
+
+namespace trunnion::language {
+
+class ModalCodes : private BlockHandler {
+ public:
+  explicit ModalCodes(BlockContext& context) : BlockHandler(context) {}
+
+  Fault stop_exactly(std::uint16_t at);  ///< G9
+  Fault set_units(std::uint16_t at, bool metric);
+  Fault set_feed_mode(std::uint16_t at, FeedMode mode);
+  Fault set_spindle_mode(std::uint16_t at, SpindleMode mode);
+  Fault set_plane(std::uint16_t at, Plane plane);
+  Fault set_distance(std::uint16_t at, bool absolute);
+  Fault set_return_level(std::uint16_t at, bool initial);
+  Fault stop_at_every_end(std::uint16_t at);  ///< G61
+  Fault set_continuous_path(std::uint16_t at);
+  Fault set_polar(std::uint16_t at, bool on);
+  Fault set_smoothing(std::uint16_t at);
+  Fault set_motion(std::uint16_t at, std::uint8_t motion);
+  Fault set_cycle(std::uint16_t at, std::uint8_t cycle);
+
+  /// The words F, S and T, each behind the codes it depends on.
+  Fault feed_word();
+  Fault spindle_word();
+  Fault tool_word();
+};
+
+}  // namespace trunnion::language

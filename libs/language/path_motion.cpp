@@ -1,0 +1,125 @@
+#include "language/path_motion.hpp"
+
+#include <cmath>
+
+#include "language/arc_geometry.hpp"
+
+namespace trunnion::language {
+namespace {
+
+/// A helix lower than this (mm) is a circle.
+constexpr double no_height = 1e-9;
+constexpr std::uint32_t most_turns = 9999;
+
+}  // namespace
+
+Fault PathMotion::move() {
+  constexpr std::uint32_t arc_bits = letter_bits("IJKR");
+  constexpr std::uint32_t vector_bits = letter_bits("IJK");
+  const ModalState& modal = state_.modal;
+  const bool arc = modal.motion == 2 || modal.motion == 3;
+  const std::uint32_t moving =
+      words_.letters() & (axis_bits | (arc ? arc_bits : 0u) | (modal.tool_vector ? vector_bits : 0u));
+  if (moving == 0) return {};
+  std::uint32_t axes = 0;
+  if (const Fault fault = words_.find_axes(axes)) return fault;
+  words_.use_axes();
+  const std::uint16_t at = words_.offset_of_any(moving);
+  if (modal.motion != 0) {
+    if (const Fault fault = check_feed(at)) return fault;
+  }
+  AxisValues target = programmed_target(axes);
+  const CommandKind kind = arc                 ? CommandKind::arc
+                           : modal.motion == 1 ? CommandKind::line
+                                               : CommandKind::rapid;
+  if (!arc && !modal.tool_vector) return output_.move_straight({kind}, target);
+  std::optional<Vector3> direction;
+  std::uint16_t vector_at = 0;
+  if (modal.tool_vector) {
+    if (const Fault fault = vectors_.read(direction, vector_at)) return fault;
+  }
+  Command made;
+  if (arc) {
+    if (const Fault fault = find_arc(target, at, made.arc)) return fault;
+  }
+  if (direction && !output_.compensating()) {
+    made.kind = kind;
+    state_.to_command_frame(made);
+    return vectors_.lead(kind, made.arc, *direction, vector_at, state_.command_from_program(target));
+  }
+  if (direction) {
+    if (const Fault fault = vectors_.point(*direction, vector_at, target)) return fault;
+  }
+  return arc ? move_on_arc(made.arc, target) : output_.move_straight({kind}, target);
+}
+
+Fault PathMotion::set_turns(const AxisValues& target, std::uint16_t at, Arc& arc) {
+  const std::uint8_t normal = plane_axes(arc.plane).normal;
+  const char lead_letter = static_cast<char>('I' + normal);
+  if (!words_.has(lead_letter)) return {};
+  // The third centre letter is the lead of a helix: how far it goes in a turn, hence how many turns.
+  const double height = std::abs(target[normal] - state_.program_position[normal]);
+  if (height < no_height || (state_.modal.tool_vector && words_.has('R'))) return {};
+  const double lead = std::abs(words_.length(lead_letter));
+  if (words_.has('L')) return {};
+  if (!(lead > 0) || height / lead > most_turns) return {AlarmNumber::value_range, at};
+  const double turns = std::round(height / lead - arc.sweep / 360);
+  if (turns > 0) arc.sweep += 360 * turns;
+  return {};
+}
+
+Fault PathMotion::find_arc(const AxisValues& target, std::uint16_t at, Arc& arc) {
+  arc.plane = state_.modal.plane;
+  arc.clockwise = state_.modal.motion == 2;
+  if (!state_.frame().keeps_circles(arc.plane)) return {AlarmNumber::arc_scaled_unequally, at};
+  if (const Fault fault = find_circle(target, at, arc)) return fault;
+  if (const Fault fault = set_turns(target, at, arc)) return fault;
+  const AxisValues middle{arc.centre[0], arc.centre[1], arc.centre[2], 0, 0, 0, 0, 0, 0};
+  const AxisValues contour_centre = state_.frame().contour_from_program(middle);
+  arc.centre = {contour_centre[X], contour_centre[Y], contour_centre[Z]};
+  if (state_.frame().flips(arc.plane)) arc.clockwise = !arc.clockwise;
+  return {};
+}
+
+// With G43.5 and R the letters I J K are the tool's.
+Fault PathMotion::find_circle(const AxisValues& target, std::uint16_t& at, Arc& arc) {
+  const bool vector = state_.modal.tool_vector && words_.has('R');
+  const PlaneAxes plane = plane_axes(arc.plane);
+  std::array<double, 3> centre_offset{};
+  bool centre = false;
+  for (const std::uint8_t axis : {plane.first, plane.second}) {
+    const char letter = static_cast<char>('I' + axis);
+    if (!words_.has(letter) || vector) continue;
+    at = words_.offset(letter);
+    centre_offset[axis] = words_.length(letter);
+    centre = true;
+  }
+  std::uint32_t turns = 1;
+  if (words_.has('L')) {
+    if (const Fault fault = words_.whole_number('L', 1, most_turns, turns)) return fault;
+  }
+  const AxisValues& start = state_.program_position;
+  if (words_.has('R')) {
+    at = words_.offset('R');
+    const double radius = words_.length('R');
+    if (centre) return {AlarmNumber::arc_centre_and_radius, at};
+    return {arc_from_radius(start, target, radius, turns, radius_deviation_, arc), at};
+  }
+  if (!centre) return {AlarmNumber::arc_centre_missing, at};
+  return {arc_from_centre(start, target, centre_offset, turns, radius_deviation_, arc), at};
+}
+
+Fault PathMotion::move_on_arc(const Arc& arc, const AxisValues& target) {
+  Command command;
+  command.kind = CommandKind::arc;
+  command.arc = arc;
+  if (output_.compensating()) return output_.move_compensated(command, target);
+  const AxisValues end = state_.command_from_program(target);
+  state_.to_command_frame(command);
+  state_.position = end;
+  state_.program_position = target;
+  output_.push(CommandKind::arc).arc = command.arc;
+  return {};
+}
+
+}  // namespace trunnion::language

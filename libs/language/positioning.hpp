@@ -1,0 +1,25 @@
+// Dwell and positioning without the modal motion code: G4, G28 .. G31, G53, G60.
+#pragma once
+
+#include "language/block_context.hpp"
+
+namespace trunnion::language {
+
+class Positioning : private BlockHandler {
+ public:
+  explicit Positioning(BlockContext& context) : BlockHandler(context) {}
+
+  Fault dwell(std::uint16_t at);                         ///< G4
+  Fault return_to_reference(std::uint16_t at);           ///< G28
+  Fault return_to_numbered_reference(std::uint16_t at);  ///< G30
+  Fault return_from_reference(std::uint16_t at);         ///< G29
+  Fault move_until_skip(std::uint16_t at);               ///< G31
+  Fault move_in_machine_coordinates(std::uint16_t at);   ///< G53
+  Fault approach_from_one_side(std::uint16_t at);        ///< G60
+
+ private:
+  Fault check_machine_coordinates(std::uint16_t at) const;
+  Fault return_to(std::uint16_t at, const AxisValues& reference);
+};
+
+}  // namespace trunnion::language

@@ -1,0 +1,81 @@
+// What a program has set so far: modal state, position and frames. A block with a fault leaves it as it was.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+
+#include "language/canonical.hpp"
+#include "language/environment.hpp"
+#include "language/hole_cycle.hpp"
+#include "language/program_frame.hpp"
+
+namespace trunnion::language {
+
+/// The words of a canned cycle, which stay until the next cycle code.
+struct CycleWords {
+  HoleParameters hole;
+  bool has_depth = false;
+  bool has_r = false;
+  std::array<double, 2> shift{};   ///< of G76 and G87, mm in the plane
+  std::uint32_t tapping_axis = 0;  ///< as Command::number of kind tap
+};
+
+/// What only few blocks change.
+struct ProgramSettings {
+  ProgramFrame frame;
+  double polar_radius = 0;  ///< mm, of the last polar words
+  double polar_angle = 0;   ///< degrees
+  std::array<double, 2> polar_centre{};
+  std::optional<AxisValues> intermediate;  ///< program coordinates, of the last G28 or G30
+  CycleWords cycle;
+};
+
+/// Everything a block can change and a faulty one must not have changed: what is copied at the beginning of
+/// every block. Of the settings only the place is copied: ProgramState writes changes to another place.
+struct BlockState {
+  ModalState modal{};
+  AxisValues position{};          ///< end of the last move, in the frame of the commands
+  AxisValues program_position{};  ///< the same as a word would give it
+  bool parameter_input = false;   ///< between G10 L50 and G11
+  bool swing_due = false;         ///< G68.1..3 was the block before
+  bool needs_position = false;    ///< a skip move (G31) was given out
+  RotaryChoice swing_choice = RotaryChoice::shortest;
+  SpindleDirection parked = SpindleDirection::stopped;  ///< how it turned before tapping stopped it
+  std::uint8_t settings_place = 0;
+};
+
+class ProgramState : public BlockState {
+ public:
+  void begin_block() { saved_ = *this; }
+  /// Makes everything what it was at begin_block().
+  void roll_back() { static_cast<BlockState&>(*this) = saved_; }
+  const BlockState& at_block_begin() const { return saved_; }
+
+  const ProgramSettings& settings() const { return settings_[settings_place]; }
+  /// For a change; references of settings() from before are void.
+  ProgramSettings& change_settings();
+  const ProgramFrame& frame() const { return settings().frame; }
+  ProgramFrame& change_frame() { return change_settings().frame; }
+
+  /// Takes a position in the frame of the commands, after a move or a change of frames.
+  void locate(const AxisValues& command);
+  /// A position in program coordinates, in the frame of the commands.
+  AxisValues command_from_program(const AxisValues& program) const;
+  /// A command in contour coordinates, in the frame of the commands.
+  void to_command_frame(Command& command) const;
+  /// The position as coordinates of the machine's control point.
+  AxisValues machine_position(const Environment& environment) const;
+  /// The position in the workpiece frame, without rotation, scaling, mirror or tilted plane.
+  AxisValues workpiece_position() const;
+
+ private:
+  double tool_length_in_z() const {
+    return modal.transformation == Transformation::none ? modal.tool_length : 0.0;
+  }
+
+  BlockState saved_;
+  std::array<ProgramSettings, 2> settings_;
+};
+
+}  // namespace trunnion::language

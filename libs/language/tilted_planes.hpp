@@ -1,0 +1,30 @@
+// Tilted planes: G68.1 .. G68.3, the swing of the tool to them, and moves along the tool.
+#pragma once
+
+#include "language/block_context.hpp"
+
+namespace trunnion::language {
+
+class TiltedPlanes : private BlockHandler {
+ public:
+  explicit TiltedPlanes(BlockContext& context) : BlockHandler(context) {}
+
+  /// A swing must be the block behind a tilt, and alone in it.
+  Fault check() const;
+
+  Fault tilt_to_stored_plane(std::uint16_t at);  ///< G68.1
+  /// G68.2 (Euler angles about the turned axes Z X Z) and G68.3 (about the fixed axes X Y Z).
+  Fault tilt_by_angles(std::uint16_t at, bool turned_axes);
+  Fault clear_rotation(std::uint16_t at);  ///< G69: rotation in the plane, too
+  /// G53.2 with the tip kept in place, G53.1 with the linear axes at rest in machine coordinates.
+  Fault swing(std::uint16_t at, bool keep_tip);
+  Fault move_along_tool(std::uint16_t at);  ///< G53.3
+
+ private:
+  Fault check_tilt(std::uint16_t at) const;
+  Fault apply(const Tilt& tilt);
+  Fault swing_at_rest(AxisValues target);
+  Vector3 tool_direction() const;
+};
+
+}  // namespace trunnion::language

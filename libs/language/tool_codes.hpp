@@ -1,0 +1,40 @@
+// Tool length, tool tip control and cutter radius compensation: G43 .. G49, G40 .. G42, H and D.
+#pragma once
+
+#include "language/block_context.hpp"
+
+namespace trunnion::language {
+
+/// How a tool length acts.
+enum class LengthUse : std::uint8_t {
+  off,         ///< G49
+  added,       ///< G43
+  subtracted,  ///< G44
+  tip,         ///< G43.4
+  vector,      ///< G43.5
+};
+
+class ToolCodes : private BlockHandler {
+ public:
+  explicit ToolCodes(BlockContext& context) : BlockHandler(context) {}
+
+  Fault set_length(std::uint16_t at, LengthUse use);
+  Fault set_cutter_side(std::uint16_t at, CutterSide side);
+
+  /// H and D without a code.
+  Fault length_word();
+  Fault radius_word();
+
+ private:
+  struct Length {
+    Transformation transformation = Transformation::none;
+    bool vector = false;
+    bool subtract = false;
+    bool off = false;
+  };
+  Fault choose_length(std::uint16_t at, const Length& length);
+  Fault compensate(std::uint16_t at, bool named);
+  void read_wall(const AxisValues& here);
+};
+
+}  // namespace trunnion::language
