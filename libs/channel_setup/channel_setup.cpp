@@ -12,6 +12,7 @@ namespace {
 
 constexpr double turn_worth_a_move = 1e-6;  // degrees
 constexpr std::uint32_t most_vector_pieces = 1024;
+constexpr int spindle_axis_number = -2;  // of a letter that is a spindle in position mode
 
 }  // namespace
 
@@ -44,12 +45,7 @@ void ChannelSetup::configure(const machine::Parameters& p) {
     for (std::uint32_t k = 0; k < 3; ++k)
       numbered_references_[k][index] = p.get(parameter::numbered_reference, a, k);
   }
-  tapping_spindle_ = {};
-  const int wanted_spindle = p.integer(parameter::tapping_spindle, channel_);
-  for (const auto& spindle : machine::spindles(p)) {
-    if (tapping_spindle_.axis || (wanted_spindle >= 0 && spindle.number != wanted_spindle)) continue;
-    tapping_spindle_ = {spindle.number, p.get(parameter::maximum_acceleration, spindle.number)};
-  }
+  find_tapping_spindles(p);
   solver_.emplace(*chain_);
   rotary_travel_ = machine::rotary_travels(p, channel_);
   avoid_poles_ = p.integer(parameter::pole_handling, channel_) != 0;
@@ -89,6 +85,28 @@ void ChannelSetup::configure(const machine::Parameters& p) {
   frame_virtual_ =
       std::min(most, static_cast<std::uint32_t>(p.integer(parameter::frame_cycles_virtual_time)));
   revision_ = p.revision;
+}
+
+// The letters that are spindles count from the one that is coupled without J.
+void ChannelSetup::find_tapping_spindles(const machine::Parameters& p) {
+  const auto spindles = machine::spindles(p);
+  const int first = p.integer(parameter::tapping_spindle, channel_);
+  auto next = std::find_if(spindles.begin(), spindles.end(),
+                           [&](const auto& spindle) { return first < 0 || spindle.number == first; });
+  const auto spindle = [&](auto at) {
+    return at == spindles.end()
+               ? TappingSpindle{}
+               : TappingSpindle{at->number, p.get(parameter::maximum_acceleration, at->number)};
+  };
+  tapping_spindles_ = {};
+  tapping_spindles_[0] = spindle(next);
+  spindle_mask_ = 0;
+  for (std::uint32_t letter = language::A; letter < language::axis_count; ++letter) {
+    if (p.integer(parameter::channel_axis, channel_, letter) != spindle_axis_number) continue;
+    spindle_mask_ = static_cast<std::uint16_t>(spindle_mask_ | (1u << letter));
+    tapping_spindles_[letter - language::A + 1] = spindle(next);
+    if (next != spindles.end()) ++next;
+  }
 }
 
 void ChannelSetup::set_tools(const idl::parameters::ToolTable& table) {

@@ -142,6 +142,9 @@ class Environment {
   virtual AxisValues machine_from_tip(const AxisValues& tip, double tool_length) const = 0;
   /// The axes the channel has: bit a for Axis a.
   virtual std::uint16_t axes() const = 0;
+  /// The axes A B C U V W (bit a for Axis a) that are a spindle in position mode (axis number -2 in
+  /// parameters 04c004..04c009): those that G74 J and G84 J may name.
+  virtual std::uint16_t spindle_axes() const { return 0; }
   /// Largest difference of an arc's radii at its start and its end in mm (parameter 000011, default 0.1).
   virtual double radius_deviation() const = 0;
   /// The text of a subprogram that is not in the calling text, or nullptr. `name` is O and at least four

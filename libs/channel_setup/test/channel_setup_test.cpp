@@ -41,6 +41,27 @@ TEST(ChannelSetup, WearCountsInTheToolLength) {
   EXPECT_EQ(tool->radius, tables.tools.tools[0].radius);
 }
 
+// HNC-8: 040007 (U) = -2 makes U the spindle that G84 J4 taps with. Further letters are the spindles behind 040913.
+TEST(ChannelSetup, LettersWithAxisNumberMinusTwoAreTheTappingSpindles) {
+  auto tables = tool_tables::load_machine_tables(ac_table);
+  const ChannelSetup plain(tables);
+  const auto spindle = plain.tapping_spindle().axis;
+  ASSERT_TRUE(spindle);
+  EXPECT_EQ(plain.spindle_axes(), 0);
+  EXPECT_FALSE(plain.tapping_spindle(4).axis);
+  tables.parameters.values[40007].value = -2;
+  tables.parameters.values[40008].value = -3;
+  tables.parameters.values[40009].value = -2;
+  const ChannelSetup setup(tables);
+  EXPECT_EQ(setup.channel_axes().letters, "XYZAC");
+  EXPECT_EQ(setup.spindle_axes(), 1u << language::U | 1u << language::W);
+  EXPECT_EQ(setup.tapping_spindle().axis, spindle);
+  EXPECT_EQ(setup.tapping_spindle(4).axis, spindle);
+  EXPECT_EQ(setup.tapping_spindle(4).acceleration, setup.tapping_spindle().acceleration);
+  EXPECT_FALSE(setup.tapping_spindle(5).axis);
+  EXPECT_FALSE(setup.tapping_spindle(6).axis);  // the machine has one spindle only
+}
+
 TEST(ChannelSetup, MCodesOfUserCyclesAreParameters) {
   auto tables = tool_tables::load_machine_tables(ac_table);
   EXPECT_EQ(ChannelSetup(tables).cycle_m_code(3), 0);

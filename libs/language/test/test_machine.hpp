@@ -30,6 +30,7 @@ struct TestMachine : Environment {
   CutterSettings cutter;
   CycleSettings cycles;
   std::uint16_t axis_mask = 0b111111111;
+  std::optional<std::uint16_t> spindles;  // nothing: every letter that is no axis
   double deviation = 0.1;
   double off_y = 0.1028;
   std::array<double, 3> centre = {-200.3605, -190.1897, -516.0118};
@@ -52,6 +53,9 @@ struct TestMachine : Environment {
   std::optional<std::array<Vector3, 3>> plane_points(std::uint8_t index) const override {
     const auto found = planes.find(index);
     return found == planes.end() ? std::nullopt : std::optional(found->second);
+  }
+  std::uint16_t spindle_axes() const override {
+    return spindles.value_or(static_cast<std::uint16_t>(~axis_mask));
   }
   AxisValues approach() const override { return last_way; }
   bool diameter_programming() const override { return diameter; }
