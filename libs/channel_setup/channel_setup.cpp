@@ -12,6 +12,7 @@ namespace {
 
 constexpr double turn_worth_a_move = 1e-6;  // degrees
 constexpr std::uint32_t most_vector_pieces = 1024;
+constexpr double straight_on = 180;      // degrees: interior angle and turn of a corner together
 constexpr int spindle_axis_number = -2;  // of a letter that is a spindle in position mode
 
 }  // namespace
@@ -67,14 +68,14 @@ void ChannelSetup::configure(const machine::Parameters& p) {
   limits_.smoothing_cycles = p.integer(parameter::smoothing_cycles, channel_);
   limits_.contour_tolerance = p.get(parameter::contour_tolerance, channel_);
   limits_.arc_tolerance = p.get(parameter::arc_tolerance);
-  limits_.smooth_corner_angle = p.get(parameter::smooth_corner_angle, channel_);
+  limits_.smooth_corner_angle = straight_on - p.get(parameter::smooth_corner_angle, channel_);
   limits_.centripetal_acceleration = p.get(parameter::centripetal_acceleration, channel_);
   limits_.orientation_tolerance = p.get(parameter::orientation_tolerance, channel_);
   for (std::uint32_t k = 0; k < limits_.modes.size(); ++k)
     limits_.modes[k] = {p.integer(parameter::mode_smoothing_cycles, channel_, k),
                         p.get(parameter::mode_contour_tolerance, channel_, k),
                         p.get(parameter::mode_orientation_tolerance, channel_, k),
-                        p.get(parameter::mode_smooth_corner_angle, channel_, k),
+                        straight_on - p.get(parameter::mode_smooth_corner_angle, channel_, k),
                         p.get(parameter::mode_centripetal_acceleration, channel_, k)};
   radius_deviation_ = p.get(parameter::radius_deviation);
   cycle_seconds_ = p.get(parameter::interpolation_cycle) * 1e-6;

@@ -62,6 +62,16 @@ TEST(ChannelSetup, LettersWithAxisNumberMinusTwoAreTheTappingSpindles) {
   EXPECT_FALSE(setup.tapping_spindle(6).axis);  // the machine has one spindle only
 }
 
+// 180 degrees are straight on: an interior angle of 100 is a turn by 80.
+TEST(ChannelSetup, TheSmoothCornerAngleIsAnInteriorAngle) {
+  auto tables = tool_tables::load_machine_tables(ac_table);
+  EXPECT_EQ(ChannelSetup(tables).limits().smooth_corner_angle, 120);
+  EXPECT_EQ(ChannelSetup(tables).limits().modes[0].smooth_corner_angle, 80);
+  EXPECT_EQ(ChannelSetup(tables).limits().modes[1].smooth_corner_angle, 120);
+  tables.parameters.values[40903].value = 100;
+  EXPECT_EQ(ChannelSetup(tables).limits().smooth_corner_angle, 80);
+}
+
 TEST(ChannelSetup, MCodesOfUserCyclesAreParameters) {
   auto tables = tool_tables::load_machine_tables(ac_table);
   EXPECT_EQ(ChannelSetup(tables).cycle_m_code(3), 0);
