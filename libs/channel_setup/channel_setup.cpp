@@ -201,11 +201,11 @@ std::variant<geometry::DirectionPath, geometry::DirectionPathFault> ChannelSetup
   return geometry::DirectionPath::make(*solver_, request);
 }
 
-language::VectorWay ChannelSetup::vector_way(const AxisValues& current,
-                                             const language::Vector3& direction) const {
-  using Fault = language::VectorWay::Fault;
+language::VectorPath ChannelSetup::vector_path(const AxisValues& current,
+                                               const language::Vector3& direction) const {
+  using Fault = language::VectorPath::Fault;
   using PathFault = geometry::DirectionPathFault;
-  language::VectorWay way;
+  language::VectorPath way;
   const auto made = direction_path(current, direction);
   if (const auto* fault = std::get_if<PathFault>(&made)) {
     switch (fault->kind) {
@@ -216,7 +216,7 @@ language::VectorWay ChannelSetup::vector_way(const AxisValues& current,
         way.fault = Fault::opposite;
         break;
       case PathFault::unreachable:
-        way.fault = fault->s == 1 ? Fault::end : Fault::on_the_way;
+        way.fault = fault->s == 1 ? Fault::end : Fault::between;
         way.nearest = {fault->nearest[0], fault->nearest[1], fault->nearest[2]};
         break;
       case PathFault::outside_travel:
@@ -236,8 +236,8 @@ language::VectorWay ChannelSetup::vector_way(const AxisValues& current,
   return way;
 }
 
-AxisValues ChannelSetup::on_vector_way(const AxisValues& current, const language::Vector3& direction,
-                                       double s) const {
+AxisValues ChannelSetup::on_vector_path(const AxisValues& current, const language::Vector3& direction,
+                                        double s) const {
   AxisValues result = current;
   const auto made = direction_path(current, direction);
   if (const auto* path = std::get_if<geometry::DirectionPath>(&made)) {

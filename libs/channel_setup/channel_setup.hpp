@@ -58,10 +58,10 @@ class ChannelSetup : public language::Environment {
   std::optional<language::Vector3> nearest_direction(const language::Vector3& direction,
                                                      const AxisValues& current) const override;
   /// Over the great circle by geometry::DirectionPath, with the pole handling of parameter 04c100.
-  language::VectorWay vector_way(const AxisValues& current,
-                                 const language::Vector3& direction) const override;
-  AxisValues on_vector_way(const AxisValues& current, const language::Vector3& direction,
-                           double s) const override;
+  language::VectorPath vector_path(const AxisValues& current,
+                                   const language::Vector3& direction) const override;
+  AxisValues on_vector_path(const AxisValues& current, const language::Vector3& direction,
+                            double s) const override;
   std::optional<language::TravelBreach> vector_breach(const AxisValues& start, const language::Command& move,
                                                       const language::Vector3& direction) const override;
   std::uint16_t cycle_m_code(std::size_t index) const override { return cycle_m_codes_.at(index); }
