@@ -98,8 +98,8 @@ TEST(ChannelSetup, FurtherWorkOffsetsFollowTheFirstSix) {
   offset.values = {1, 2, 3, 0, 0, 0, 0, 0, 0};
   tables.offsets.offsets.push_back(offset);
   EXPECT_EQ(ChannelSetup(tables).work_offset(6)[language::Y], 2);
-  EXPECT_EQ(work_offset_code(0), "G54");
-  EXPECT_EQ(work_offset_code(53), "G54.1P48");
+  EXPECT_EQ(tool_tables::work_offset_code(0), "G54");
+  EXPECT_EQ(tool_tables::work_offset_code(53), "G54.1P48");
 }
 
 TEST(ChannelSetup, ATiltedToolDirectionGivesTheRotaryAnglesOfTheMachine) {
