@@ -41,7 +41,8 @@ TEST(ChannelSetup, WearCountsInTheToolLength) {
   EXPECT_EQ(tool->radius, tables.tools.tools[0].radius);
 }
 
-// HNC-8: 040007 (U) = -2 makes U the spindle that G84 J4 taps with. Further letters are the spindles behind 040913.
+// HNC-8: 040007 (U) = -2 makes U the spindle that G84 J4 taps with. Further letters are the spindles behind
+// 040913.
 TEST(ChannelSetup, LettersWithAxisNumberMinusTwoAreTheTappingSpindles) {
   auto tables = tool_tables::load_machine_tables(ac_table);
   const ChannelSetup plain(tables);
