@@ -8,7 +8,7 @@ JOBS := $(shell nproc)
 # Ninja shows how many of how many steps are done, and for how long it has been at it.
 export NINJA_STATUS := [%f/%t, %es]$(subst ,, )
 
-.PHONY: run test build product configure packages unit sanitize fuzz lint format bench faults soak clean
+.PHONY: run test build product configure packages unit sanitize threads fuzz lint format bench faults soak package clean
 
 run: product
 	$(TRUNNION) run ac-table nas979_cone --report out
@@ -41,6 +41,12 @@ sanitize: packages
 	cmake --build --preset sanitize
 	ctest --test-dir build/sanitize --output-on-failure -j $(JOBS) -L unit
 
+# The tests of bus, service shell and stream under the thread sanitizer.
+threads: packages
+	@$(call cmake_configure,threads)
+	cmake --build --preset threads
+	ctest --test-dir build/threads --output-on-failure -j $(JOBS) -R '^(bus|service|stream)_test$$'
+
 # A short run of every fuzzer.
 fuzz: packages
 	@$(call cmake_configure,fuzz)
@@ -67,6 +73,10 @@ SEED ?= 1
 MINUTES ?= 10
 soak: build
 	TRUNNION_SOAK_SEED=$(SEED) TRUNNION_SOAK_SECONDS=$$(( $(MINUTES) * 60 )) $(BUILD)/bin/fault_soak_test
+
+# Debian packages, in build/release/packages.
+package: build
+	cd $(BUILD) && cpack --config CPackConfig.cmake
 
 clean:
 	rm -rf build out

@@ -12,6 +12,12 @@ if(TRUNNION_SANITIZE)
 else()
   set(trunnion_test_timeout 120)
 endif()
+option(TRUNNION_THREAD_SANITIZE "Build with the thread sanitizer" OFF)
+if(TRUNNION_THREAD_SANITIZE)
+  add_compile_options(-fsanitize=thread -fno-omit-frame-pointer)
+  add_link_options(-fsanitize=thread)
+  set(trunnion_test_timeout 900)
+endif()
 option(TRUNNION_FUZZ "Build the libFuzzer targets (needs clang)" OFF)
 if(TRUNNION_FUZZ)
   # Without coverage of the libraries themselves a fuzzer searches blindly.
@@ -36,6 +42,8 @@ add_custom_target(unit_tests)
 # What `make run` builds: the programs and the page, no test and no benchmark.
 add_custom_target(product)
 add_custom_target(fuzzers)
+# What the preset threads builds: the tests of all that has more than one thread.
+add_custom_target(thread_tests)
 
 # trunnion_headers(target PUBLIC|INTERFACE): the target and what links it may include the headers of this folder as
 # "<folder>/file.hpp". Every library has an include root of its own in the build directory, with a link to its folder in it,
@@ -45,7 +53,7 @@ function(trunnion_headers target scope)
   set(root ${CMAKE_BINARY_DIR}/include/${folder})
   file(MAKE_DIRECTORY ${root})
   file(CREATE_LINK ${CMAKE_CURRENT_SOURCE_DIR} ${root}/${folder} SYMBOLIC)
-  target_include_directories(${target} ${scope} ${root})
+  target_include_directories(${target} ${scope} $<BUILD_INTERFACE:${root}> $<INSTALL_INTERFACE:include/trunnion>)
 endfunction()
 
 # trunnion_layer(target): refuses what a directory may not link. libs/ links libs/ only; a service, the gateway, the command

@@ -2,6 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cluster_harness.hpp"
+#include "machine/services.hpp"
 
 namespace trunnion::integration {
 namespace {
@@ -76,7 +77,7 @@ TEST_F(Swapping, StagesAreSwappedInMotionAndNoBitChanges) {
     cluster.keep_rows = true;
     cluster.start_text(program);
     ASSERT_TRUE(cluster.until([&] { return cluster.expected_cycle > 500; }));
-    for (const std::string stage : {"kinematics", "compensation", "gantry"})
+    for (const auto& stage : machine::transforming_stages())
       for (const std::string vendor : {"fastdds", "cyclonedds"}) {
         const auto before = pid(cluster, stage);
         const auto reply = swap(cluster, stage, "", vendor);
@@ -107,7 +108,7 @@ TEST_F(Swapping, StagesAreSwappedInMotionAndNoBitChanges) {
 TEST_F(Swapping, AStageThatComputesOtherwiseIsNotTaken) {
   Cluster cluster("ac-table");
   cluster.start_text(sweep(3000));
-  for (const std::string stage : {"kinematics", "compensation", "gantry"}) {
+  for (const auto& stage : machine::transforming_stages()) {
     const auto before = pid(cluster, stage);
     // It is wrong in the last bit of one cycle in a thousand.
     const auto reply = swap(cluster, stage, variant(stage + "_one_bit"), "", 100000);

@@ -41,8 +41,10 @@ std::string find_machine(const std::string& name) {
 }
 
 std::string web_directory() {
-  const auto directory = fs::path(binary_directory()).parent_path() / "share" / "web";
-  return fs::exists(directory / "index.html") ? directory.string() : "";
+  for (fs::path up = binary_directory(); up.has_relative_path(); up = up.parent_path())
+    for (const auto* share : {"share/trunnion/web", "share/web"})
+      if (fs::exists(up / share / "index.html")) return (up / share).string();
+  return "";
 }
 
 std::string default_state_directory(const std::string& machine) {
