@@ -5,6 +5,7 @@
 #include <functional>
 #include <string>
 
+#include "bus/json.hpp"
 #include "mailbox.hpp"
 #include "src/router.hpp"
 

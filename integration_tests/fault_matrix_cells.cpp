@@ -2,11 +2,14 @@
 
 #include <algorithm>
 
+#include "machine/services.hpp"
+
 namespace trunnion::integration {
 namespace {
 
 bool is_stage(const std::string& service) {
-  return service == "kinematics" || service == "compensation" || service == "gantry";
+  const auto* definition = machine::find_service(service);
+  return definition != nullptr && definition->transforms();
 }
 
 std::string numbers(const std::set<unsigned>& alarms) {
@@ -69,9 +72,12 @@ std::string Cell::name() const {
 }
 
 const std::vector<std::string>& matrix_services() {
-  static const std::vector<std::string> services{"parameters",   "program", "channel", "kinematics",
-                                                 "compensation", "gantry",  "plc",     "drive",
-                                                 "gateway",      "recorder"};
+  static const auto services = [] {
+    std::vector<std::string> names;
+    for (const auto& definition : machine::service::all) names.emplace_back(definition.name);
+    names.emplace_back("recorder");
+    return names;
+  }();
   return services;
 }
 

@@ -1,6 +1,7 @@
 // kill -9 of every service in the middle of a motion: what the machine does and that nothing is lost. In
 // virtual time, so that a busy machine changes nothing.
 #include "cluster_harness.hpp"
+#include "machine/services.hpp"
 
 namespace trunnion::integration {
 namespace {
@@ -13,10 +14,10 @@ std::string long_program() {
   return text + "X0 Y0 A0 C0\nG49\nM30\n";
 }
 
-class KillInMotion : public testing::TestWithParam<const char*> {};
+class KillInMotion : public testing::TestWithParam<machine::ServiceDefinition> {};
 
 TEST_P(KillInMotion, StopsNamesTheServiceBecomesReadyAndTheProgramGoesOn) {
-  const std::string victim = GetParam();
+  const std::string victim = GetParam().name;
   Cluster cluster("ac-table", Time::virtual_, "", victim == "gateway");
   cluster.start_text(long_program());
   ASSERT_TRUE(cluster.until([&] { return cluster.channels[0].line >= 8; }));
@@ -84,10 +85,8 @@ TEST_P(KillInMotion, StopsNamesTheServiceBecomesReadyAndTheProgramGoesOn) {
   EXPECT_NEAR(machine[3], 0, 0.02);
 }
 
-INSTANTIATE_TEST_SUITE_P(Services, KillInMotion,
-                         testing::Values("kinematics", "compensation", "gantry", "drive", "channel", "plc",
-                                         "program", "parameters", "gateway"),
-                         [](const auto& service) { return std::string(service.param); });
+INSTANTIATE_TEST_SUITE_P(Services, KillInMotion, testing::ValuesIn(machine::service::all),
+                         [](const auto& service) { return std::string(service.param.name); });
 
 TEST(Faults, AHungServiceIsReplaced) {
   Cluster cluster("ac-table", Time::real);

@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "cluster_harness.hpp"
+#include "machine/services.hpp"
 
 namespace trunnion::integration {
 namespace {
@@ -56,7 +57,7 @@ double deviation(const Rows& path, const Rows& reference) {
   return most;
 }
 
-class StageLost : public testing::TestWithParam<const char*> {};
+class StageLost : public testing::TestWithParam<std::string> {};
 
 TEST_P(StageLost, StopsOnThePathWithinTheLeadAndTheWorkpieceDoesNotShowIt) {
   Rows undisturbed;
@@ -128,7 +129,7 @@ TEST_P(StageLost, StopsOnThePathWithinTheLeadAndTheWorkpieceDoesNotShowIt) {
   EXPECT_EQ(distance(cluster.rows.back(), undisturbed.back()), 0) << "the same last point";
 }
 
-INSTANTIATE_TEST_SUITE_P(Stages, StageLost, testing::Values("kinematics", "compensation", "gantry"),
+INSTANTIATE_TEST_SUITE_P(Stages, StageLost, testing::ValuesIn(machine::transforming_stages()),
                          [](const auto& stage) { return std::string(stage.param); });
 
 }  // namespace

@@ -3,12 +3,13 @@
 #include <random>
 
 #include "cluster_harness.hpp"
+#include "machine/services.hpp"
 #include "twin_machine.hpp"
 
 namespace trunnion::integration {
 namespace {
 
-const std::vector<std::string> stages = {"kinematics", "compensation", "gantry"};
+const std::vector<std::string> stages = machine::transforming_stages();
 
 // `rounds` of 0.4 m with both rotary axes at 100 mm/s or the axes' fastest: about 10 s of motion each.
 std::string sweep(int rounds) {
@@ -135,7 +136,7 @@ TEST(Twins, DISABLED_Soak) {
   for (unsigned seed = 100; seed < 120; ++seed) expect_no_bit_changed(Time::virtual_, "fastdds", {seed}, 12);
 }
 
-class CopiesThatDiffer : public testing::TestWithParam<const char*> {};
+class CopiesThatDiffer : public testing::TestWithParam<std::string> {};
 
 TEST_P(CopiesThatDiffer, StopTheMotionWithAnAlarmThatNamesStageCycleAndBothValues) {
   const std::string stage = GetParam();
@@ -164,7 +165,7 @@ TEST_P(CopiesThatDiffer, StopTheMotionWithAnAlarmThatNamesStageCycleAndBothValue
   EXPECT_EQ(cluster.expected_cycle, stopped) << "stands still";
 }
 
-INSTANTIATE_TEST_SUITE_P(Stages, CopiesThatDiffer, testing::Values("kinematics", "compensation", "gantry"),
+INSTANTIATE_TEST_SUITE_P(Stages, CopiesThatDiffer, testing::ValuesIn(machine::transforming_stages()),
                          [](const auto& stage) { return std::string(stage.param); });
 
 }  // namespace

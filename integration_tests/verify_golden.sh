@@ -14,7 +14,9 @@ start() {  # SERVICE CHANNEL
 }
 names=()
 pids=()
-for service in gateway parameters program plc kinematics compensation gantry drive; do start $service 0; done
+registry=$(dirname "$0")/../libs/machine/services.yaml
+services=$(sed -n '/^services:/,/^observers:/{/per_channel/d;s/.*{name: \([a-z]*\).*/\1/p}' "$registry")
+for service in $services; do start "$service" 0; done
 for ((channel = 0; channel < channels; ++channel)); do start channel "$channel"; done
 failed=0
 for i in "${!pids[@]}"; do

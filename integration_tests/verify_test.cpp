@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "cluster/cluster_files.hpp"
+#include "machine/services.hpp"
 #include "verification/verify.hpp"
 
 namespace trunnion::integration {
@@ -48,7 +49,7 @@ TEST_P(Stage, IsAsRecordedOnTheOtherVendorToo) {
   EXPECT_GT(result.cycles, 500u);
 }
 
-INSTANTIATE_TEST_SUITE_P(Stages, Stage, testing::Values("kinematics", "compensation", "gantry"),
+INSTANTIATE_TEST_SUITE_P(Stages, Stage, testing::ValuesIn(machine::transforming_stages()),
                          [](const auto& it) { return it.param; });
 
 TEST(Verify, AServiceThatEndsAtOnceIsAProblemAndNotAWait) {

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Writes the C++ constants of the parameters and the alarms from catalogue.yaml and alarms.yaml, so that a misspelt name does
-not compile: trunnion::parameter::NAME and trunnion::alarm::NAME.
+"""Writes the C++ constants of parameters, alarms and services from catalogue.yaml, alarms.yaml and services.yaml, so that a
+misspelt name does not compile: trunnion::parameter::NAME, trunnion::alarm::NAME, trunnion::machine::service::NAME.
 """
 import argparse, json, os, re
 import yaml
@@ -8,6 +8,8 @@ import yaml
 PARAMETER_TYPES = {"integer": "IntegerParameter", "real": "RealParameter", "text": "TextParameter"}
 SEVERITIES = {"hint", "warning", "error", "emergency"}
 REACTIONS = {"show", "feed_hold", "axis_stop", "emergency_stop"}
+SUBJECTS = {"machine", "channel", "axis", "service"}
+SERVICE_KEYS = {"name", "required", "per_channel", "cyclic", "stage"}
 
 
 def load(path, key):
@@ -46,11 +48,30 @@ def alarms(path):
     lines = []
     for row in rows:
         severity, reaction = choice(path, row, "severity", SEVERITIES), choice(path, row, "reaction", REACTIONS)
+        subject = choice(path, row, "about", SUBJECTS)
         lines.append(f"inline constexpr machine::AlarmDefinition {row['name']}{{\n    {row['number']}, \"{row['name']}\", "
-                     f"machine::Severity::{severity}, machine::Reaction::{reaction},\n    {json.dumps(row['text'], ensure_ascii=False)}}};")
+                     f"machine::Severity::{severity}, machine::Reaction::{reaction}, machine::Subject::{subject},\n    {json.dumps(row['text'], ensure_ascii=False)}}};")
     names = ", ".join(f"&{row['name']}" for row in rows)
     lines.append(f"/// Every alarm, in the order of the file.\ninline constexpr const machine::AlarmDefinition* all[] = {{{names}}};")
     return header("machine/alarm_definition.hpp", "The alarms of libs/machine/alarms.yaml.", "alarm", lines)
+
+
+def services(path):
+    rows = load(path, "services")["services"]
+    lines, stages = [], 0
+    for row in rows:
+        if set(row) - SERVICE_KEYS: fail(path, f"{row['name']}: unknown key '{sorted(set(row) - SERVICE_KEYS)[0]}'")
+        stage = row.get("stage", {})
+        if stage and (set(stage) - {"input", "output"} or "output" not in stage or ("input" in stage) != (stages > 0)):
+            fail(path, f"{row['name']}: a stage has an output, and all but the first an input")
+        stages += bool(stage)
+        flags = ", ".join(str(bool(row.get(key))).lower() for key in ("required", "per_channel", "cyclic"))
+        text = lambda key: f'"{stage[key]}"' if key in stage else "nullptr"
+        lines.append(f"inline constexpr ServiceDefinition {row['name']}{{\n    \"{row['name']}\", {flags}, {stages if stage else 0}, {text('input')}, {text('output')}}};")
+    names = [row["name"] for row in rows]
+    lines.append(f"/// Every service, in the order of the file.\ninline constexpr ServiceDefinition all[] = {{{', '.join(names)}}};")
+    lines.append(f"/// Those that are a stage of the stream, by number from 1.\ninline constexpr ServiceDefinition stages[] = {{{', '.join(row['name'] for row in rows if row.get('stage'))}}};")
+    return header("machine/service_definition.hpp", "The services of libs/machine/services.yaml.", "machine::service", lines)
 
 
 def header(include, about, namespace, lines):
@@ -60,10 +81,11 @@ def header(include, about, namespace, lines):
 
 def main():
     p = argparse.ArgumentParser(description=__doc__)
-    p.add_argument("catalogue"), p.add_argument("alarms"), p.add_argument("--out", required=True, help="directory of the headers")
+    p.add_argument("catalogue"), p.add_argument("alarms"), p.add_argument("services"), p.add_argument("--out", required=True, help="directory of the headers")
     args = p.parse_args()
     os.makedirs(args.out, exist_ok=True)
-    for name, text in (("parameter_constants.hpp", parameters(args.catalogue)), ("alarm_constants.hpp", alarms(args.alarms))):
+    for name, text in (("parameter_constants.hpp", parameters(args.catalogue)), ("alarm_constants.hpp", alarms(args.alarms)),
+                       ("service_constants.hpp", services(args.services))):
         path = os.path.join(args.out, name)
         if os.path.exists(path):
             with open(path, encoding="utf-8") as f:

@@ -79,7 +79,7 @@ def parameters():
 
 def alarms():
     machine, language = "libs/machine/alarms.yaml", "libs/language/alarms.hpp"
-    rows = [(a["number"], f"`{a['name']}`", a["severity"], a["reaction"], a["text"]) for a in sorted(yaml.safe_load(read(machine))["alarms"], key=lambda a: a["number"])]
+    rows = [(a["number"], f"`{a['name']}`", a["severity"], a["reaction"], a["about"], a["text"]) for a in sorted(yaml.safe_load(read(machine))["alarms"], key=lambda a: a["number"])]
     block = re.search(r"enum class AlarmNumber[^{]*\{(.*?)\};", read(language), re.S)
     if not block: fail(language, "enum AlarmNumber is not there")
     numbers = {name: int(value) for name, value in re.findall(r"(\w+)\s*=\s*(\d+)", block.group(1))}
@@ -89,8 +89,9 @@ def alarms():
            "An alarm is latched: it stays until it is reset (`trunnion alarms --reset`, or on the page), and a reset clears only alarms whose cause "
            "is gone. While an alarm with a reaction other than *show* is active, every channel holds on its path and nothing can be started. For 110 "
            "to 113 the drive also brakes by itself; for 130 and 133 it brakes and switches the axes off. [faults.md](faults.md) describes the "
-           "reaction to the loss of a process.", "", "## Machine and cluster", ""]
-    out += table(("number", "name", "severity", "reaction", "text"), rows)
+           "reaction to the loss of a process. *about*: the subject of the alarm. A reset of one channel clears the alarms about that channel and "
+           "its axes, gantry slaves included, and all that the process of the channel has raised.", "", "## Machine and cluster", ""]
+    out += table(("number", "name", "severity", "reaction", "about", "text"), rows)
     out += ["", "## NC language", "", "Severity *error*, reaction *show*: the program ends at the fault. The text names the place, `program:line:column`, and the word.", ""]
     return out + table(("number", "text"), [(numbers[n], texts[n]) for n in sorted(texts, key=numbers.get)])
 
@@ -106,6 +107,11 @@ def codes():
          entries(calls, "CallCode", r"(\d+),\s*(\d+),\s*CallKind::\w+,\s*" + TEXT + shown)]
     m = [(int(n), when, action, group, joined(text)) for n, when, action, group, text in
          entries(m_path, "MCode", r"(\d+),\s*When::(\w+),\s*MAction::(\w+),\s*MGroup::(\w+),\s*" + TEXT)]
+    version = re.search(r"project\(trunnion VERSION (\d+)\.(\d+)", read("CMakeLists.txt"))
+    if not version: fail("CMakeLists.txt", "project(trunnion VERSION ...) is not there")
+    for since in {row[4] for row in g} | {row[4] for row in c}:
+        if [int(n) for n in since.split(".")] > [int(n) for n in version.groups()]:
+            fail(g_path, f"a code is there since {since}, this is version {'.'.join(version.groups())}")
     name = lambda tenths: f"G{tenths // 10}" + (f".{tenths % 10}" if tenths % 10 else "")
     out = ["# G and M codes", "", f"Generated from `{g_path}`, `{m_path}` and `{calls}` by `tools/generate_docs.py`.", "", "## G codes", "",
            "A block may contain one code of each group; a second one is an alarm. Every group except *one_block* and *exact_stop* is modal: the "

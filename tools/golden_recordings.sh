@@ -55,7 +55,7 @@ is_journal_whole() {
 verify_all() {  # CHANNELS
   local service channel
   is_journal_whole || { echo "lines of the operator journal are missing" >> "$work/log"; return 1; }
-  for service in gateway parameters program plc kinematics compensation gantry drive; do verify $service || return 1; done
+  for service in $services; do verify "$service" || return 1; done
   for ((channel = 0; channel < $1; ++channel)); do verify channel "$channel" || return 1; done
 }
 

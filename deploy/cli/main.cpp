@@ -1,13 +1,15 @@
 #include <CLI/CLI.hpp>
 #include <iostream>
+#include <string>
 
 #include "bus/json.hpp"
 #include "commands.hpp"
+#include "trunnion/version.hpp"
 
 int main(int argc, char** argv) {
   using namespace trunnion::cli;
   CLI::App app("trunnion: starts, runs and watches a distributed CNC controller");
-  app.set_version_flag("--version", "trunnion 0.1.0");
+  app.set_version_flag("--version", std::string("trunnion ") + trunnion::version);
   app.require_subcommand(1);
   Common common;
   add_cluster_commands(app, common);

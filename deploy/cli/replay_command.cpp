@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "bus/bus.hpp"
+#include "bus/json.hpp"
 #include "cluster/cluster.hpp"
 #include "cluster/cluster_files.hpp"
 #include "commands.hpp"

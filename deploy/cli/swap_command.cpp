@@ -9,6 +9,7 @@
 #include "cluster/client.hpp"
 #include "cluster/cluster.hpp"
 #include "commands.hpp"
+#include "text/quantity.hpp"
 
 namespace trunnion::cli {
 namespace {
@@ -38,8 +39,7 @@ int swap(const Common& common, idl::service::SwapRequest request, double timeout
                              std::to_string(reply->compared) + " equal cycles");
   std::printf("%s swapped in %.2f s at cycle %llu: %u cycles compared, %s\n", request.service.c_str(),
               reply->seconds, static_cast<unsigned long long>(reply->cycle), reply->compared,
-              reply->gap > 0 ? ("no service for " + std::to_string(reply->gap).substr(0, 5) + " s").c_str()
-                             : "no gap");
+              reply->gap > 0 ? ("no service for " + text::quantity(reply->gap, "s", 3)).c_str() : "no gap");
   std::printf("Written down in %s of the state directory%s\n", cluster::swap_journal_file,
               cluster.host.empty() ? (", " + cluster.state_directory).c_str() : " on the service's host");
   if (!reply->reason.empty()) std::fprintf(stderr, "warning: %s\n", reply->reason.c_str());

@@ -8,12 +8,14 @@
 #include <iostream>
 #include <memory>
 
+#include "bus/json.hpp"
 #include "bus/registry.hpp"
 #include "cluster/child_process.hpp"
 #include "cluster/client.hpp"
 #include "cluster/cluster.hpp"
 #include "commands.hpp"
 #include "service/network.hpp"
+#include "text/quantity.hpp"
 
 namespace trunnion::cli {
 namespace {
@@ -53,8 +55,8 @@ int echo(const Common& common, const std::string& name, int count, double timeou
       ++printed;
     }
     if (timeout > 0 && service::monotonic_seconds() - heard > timeout)
-      throw std::runtime_error("nothing on " + topic.description.name + " for " + std::to_string(timeout) +
-                               " s");
+      throw std::runtime_error("nothing on " + topic.description.name + " for " +
+                               text::quantity(timeout, "s"));
   }
   return 0;
 }

@@ -200,6 +200,7 @@ void Launcher::listen() {
   }
   idl::service::AlarmReset reset;
   while (resets_.take(reset)) {
+    if (reset.channel != service::all_channels) continue;  // the launcher's alarms are about services
     for (auto& process : processes_) process.policy.retry();
     alarms_.reset();
   }

@@ -6,6 +6,7 @@
 #include <csignal>
 #include <cstdio>
 
+#include "bus/registry.hpp"
 #include "cluster/child_process.hpp"
 #include "service/node.hpp"
 #include "storage/file.hpp"
@@ -21,10 +22,9 @@ using idl::service::StandbyState;
 using idl::service::SwapOutcome;
 using idl::service::SwapReply;
 
-const bus::Topic<idl::stream::AxisFrame>& output_of(std::uint8_t stage) {
-  return stage == stream::stage_kinematics     ? topics::kinematics_frame
-         : stage == stream::stage_compensation ? topics::compensation_frame
-                                               : topics::gantry_frame;
+bus::Topic<idl::stream::AxisFrame> output_of(const std::string& service) {
+  const auto* entry = bus::find_topic(machine::find_service(service)->output);
+  return {entry->description.name.c_str(), entry->description.wire_type.c_str(), entry->qos};
 }
 
 Comparison comparison_of(const std::string& service) {
@@ -78,7 +78,7 @@ Swap::Swap(bus::Bus& bus, const LaunchOptions& options, ServiceProcess& old,
       moved_(began_),
       sequence_(comparison_, request.cycles, began_) {
   if (comparison_ == Comparison::frames) {
-    auto topic = output_of(stream::stage_of(old.entry.service));
+    auto topic = output_of(old.entry.service);
     originals_.emplace(bus.reader(topic));
     standby_topic_ = stream::standby_name(topic.name);
     topic.name = standby_topic_.c_str();

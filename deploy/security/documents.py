@@ -2,19 +2,18 @@
 """Writes the DDS Security documents of a cluster from idl/topics.yaml: the governance and, for every identity, its name and
 its permissions. deploy/security/make_certificates.sh signs them.
 
-An identity is a service on one vendor. What a service may write and read is what topics.yaml says; the operator's command and
-launcher (deploy) and the recorder may read everything. Everything else is denied.
+An identity is a service or an observer of libs/machine/services.yaml on one vendor. What it may write and read is what
+topics.yaml says, where `all` is every service; observers may read everything. Everything else is denied.
 """
 import argparse, datetime, hashlib, os
 import yaml
 
-SERVICES = ["parameters", "program", "plc", "drive", "gantry", "compensation", "kinematics", "channel", "gateway", "deploy", "recorder"]
-OBSERVERS = {"deploy", "recorder"}
+REGISTRY = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "libs", "machine", "services.yaml")
 VENDORS = {"cyclonedds": 0, "fastdds": 1}
 SCHEMA = 'xmlns:xsi="http://www.w3.org/2001/XMLSchema-instance" xsi:noNamespaceSchemaLocation="http://www.omg.org/spec/DDS-SECURITY/20170901/omg_shared_ca_'
 
-# Participants that nobody vouches for are not talked to. Discovery, data and the headers around them are encrypted or
-# signed, so that nobody without a key can read, write, or make a reader believe that samples do not exist.
+# Participants without a valid certificate are ignored. Discovery, data and the headers around them are encrypted or
+# signed, so that a participant without a key cannot read, write, or make a reader believe that samples do not exist.
 GOVERNANCE = f"""<?xml version="1.0" encoding="UTF-8"?>
 <dds {SCHEMA}governance.xsd">
   <domain_access_rules>
@@ -48,7 +47,7 @@ def der(tag, content):
 
 
 def subject_hash(common_name):
-    """SHA-256 of the subject as it stands in the certificate: a name of one commonName (2.5.4.3) in UTF-8."""
+    """SHA-256 of the subject as encoded in the certificate: a name of one commonName (2.5.4.3) in UTF-8."""
     attribute = der(0x06, bytes([0x55, 0x04, 0x03])) + der(0x0C, common_name.encode())
     return hashlib.sha256(der(0x30, der(0x31, der(0x30, attribute)))).digest()
 
@@ -61,14 +60,14 @@ def common_name(service, vendor):
         if subject_hash(name)[0] >> 7 == VENDORS[vendor]: return name
 
 
-def permissions(service, name, topics, suffix, days):
+def permissions(identity, observes, name, topics, suffix, days):
     def topic_list(side):
         names = []
         for t in topics:
-            if service in t[side] or ("all" in t[side] and service != "recorder") or (side == "readers" and service in OBSERVERS):
+            if identity in t[side] or ("all" in t[side] and not observes) or (side == "readers" and observes):
                 names.append(t["name"])
                 # A stage that is to replace another writes beside it, for the launcher to compare.
-                if t["qos"] == "frame" and (side == "writers" or service == "deploy"): names.append(t["name"] + suffix)
+                if t["qos"] == "frame" and (side == "writers" or identity == "deploy"): names.append(t["name"] + suffix)
         verb = "publish" if side == "writers" else "subscribe"
         lines = "".join(f"            <topic>{n}</topic>\n" for n in names)
         return f"        <{verb}>\n          <topics>\n{lines}          </topics>\n        </{verb}>\n" if names else ""
@@ -95,21 +94,24 @@ def permissions(service, name, topics, suffix, days):
 def main():
     p = argparse.ArgumentParser(description=__doc__)
     p.add_argument("topics"), p.add_argument("directory"), p.add_argument("--days", type=int, default=3650)
+    p.add_argument("--services", default=REGISTRY, help="services.yaml")
     args = p.parse_args()
     with open(args.topics) as f: document = yaml.safe_load(f)
     topics, suffix = document["topics"], document["standby_suffix"]
-    known = set(SERVICES) | {"all"}
+    with open(args.services) as f: registry = yaml.safe_load(f)
+    services, observers = ([row["name"] for row in registry[key]] for key in ("services", "observers"))
+    known = {*services, *observers, "all"}
     for t in topics:
         for service in t["writers"] + t["readers"]:
             if service not in known: raise SystemExit(f"{args.topics}: error: topic {t['name']} names the unknown service {service}")
     with open(os.path.join(args.directory, "governance.xml"), "w") as f: f.write(GOVERNANCE)
-    for service in SERVICES:
+    for identity in services + observers:
         for vendor in VENDORS:
-            directory = os.path.join(args.directory, f"{service}-{vendor}")
+            directory = os.path.join(args.directory, f"{identity}-{vendor}")
             os.makedirs(directory, exist_ok=True)
-            name = common_name(service, vendor)
+            name = common_name(identity, vendor)
             with open(os.path.join(directory, "name"), "w") as f: f.write(name + "\n")
-            with open(os.path.join(directory, "permissions.xml"), "w") as f: f.write(permissions(service, name, topics, suffix, args.days))
+            with open(os.path.join(directory, "permissions.xml"), "w") as f: f.write(permissions(identity, identity in observers, name, topics, suffix, args.days))
 
 
 if __name__ == "__main__":

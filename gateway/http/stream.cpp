@@ -2,6 +2,7 @@
 
 #include <boost/asio/buffer.hpp>
 
+#include "bus/json.hpp"
 #include "src/merge_patch.hpp"
 
 namespace trunnion::gateway {

@@ -11,7 +11,7 @@ LimitCheck::LimitCheck(const motion::Limits& limits, const AxisValues& rest, dou
 void LimitCheck::add(const AxisValues& machine, bool rapid) {
   ++count_;
   const double dt = cycle_;
-  for (std::size_t i = 0; i < language::axis_count; ++i) {
+  for (std::size_t i = 0; i < canonical::axis_count; ++i) {
     const motion::AxisLimits& limit = limits_.axes[i];
     const double q0 = machine[i], q1 = before_[0][i], q2 = before_[1][i], q3 = before_[2][i];
     const double velocity =

@@ -4,11 +4,12 @@
 #include <array>
 #include <cstddef>
 
+#include "canonical/axes.hpp"
 #include "motion/limits.hpp"
 
 namespace trunnion::analysis {
 
-using language::AxisValues;
+using canonical::AxisValues;
 
 /// Largest velocity, acceleration and jerk of one axis as shares of its limits.
 struct AxisRatios {
@@ -24,7 +25,7 @@ class LimitCheck {
   /// Position of the next cycle; `rapid` says that the velocity limit is the one of rapid traverse.
   void add(const AxisValues& machine, bool rapid);
 
-  const std::array<AxisRatios, language::axis_count>& axes() const { return axes_; }
+  const std::array<AxisRatios, canonical::axis_count>& axes() const { return axes_; }
   /// Worst of all axes.
   AxisRatios worst() const;
   /// Cycles from the first to the last change of any axis; 0 when nothing moved.
@@ -34,7 +35,7 @@ class LimitCheck {
   motion::Limits limits_;
   double cycle_;
   std::array<AxisValues, 3> before_;  // [0] is the newest
-  std::array<AxisRatios, language::axis_count> axes_{};
+  std::array<AxisRatios, canonical::axis_count> axes_{};
   std::size_t count_ = 0, first_ = 1, last_ = 0;
   bool was_rapid_ = false;
 };

@@ -3,11 +3,12 @@
 
 #include <vector>
 
+#include "canonical/axes.hpp"
 #include "motion/limits.hpp"
 
 namespace trunnion::analysis {
 
-using language::AxisValues;
+using canonical::AxisValues;
 
 /// A place of a path: machine positions of the axes at the path length `s`, and the speed allowed there.
 struct PathSample {

@@ -1,27 +1,53 @@
 #include "bus/bus.hpp"
 
+#include <linux/futex.h>
 #include <sys/resource.h>
+#include <sys/syscall.h>
+#include <unistd.h>
 
 #include <chrono>
+#include <cmath>
+#include <ctime>
 #include <stdexcept>
 #include <thread>
 
 namespace trunnion::bus {
 
+namespace {
+
+static_assert(sizeof(std::atomic<std::uint32_t>) == sizeof(std::uint32_t) &&
+              std::atomic<std::uint32_t>::is_always_lock_free);
+
+long futex(std::atomic<std::uint32_t>& word, int operation, std::uint32_t value, const timespec* until) {
+  return syscall(SYS_futex, &word, operation | FUTEX_PRIVATE_FLAG, value, until, nullptr,
+                 FUTEX_BITSET_MATCH_ANY);
+}
+
+timespec monotonic_after(double seconds) {
+  timespec time{};
+  clock_gettime(CLOCK_MONOTONIC, &time);
+  const double whole = std::floor(seconds);
+  time.tv_sec += static_cast<std::time_t>(whole);
+  time.tv_nsec += static_cast<long>((seconds - whole) * 1e9);
+  if (time.tv_nsec >= 1'000'000'000) time.tv_nsec -= 1'000'000'000, ++time.tv_sec;
+  return time;
+}
+
+}  // namespace
+
 void Signal::notify() {
-  {
-    const std::lock_guard lock(mutex_);
-    set_ = true;
-  }
-  condition_.notify_one();
+  if (state_.exchange(notified, std::memory_order_acq_rel) == waiting) futex(state_, FUTEX_WAKE, 1, nullptr);
 }
 
 bool Signal::wait(double seconds) {
-  std::unique_lock lock(mutex_);
-  const bool notified =
-      condition_.wait_for(lock, std::chrono::duration<double>(seconds), [this] { return set_; });
-  set_ = false;
-  return notified;
+  auto expected = std::uint32_t{idle};
+  if (seconds > 0 && state_.compare_exchange_strong(expected, waiting, std::memory_order_acq_rel)) {
+    const timespec until = monotonic_after(seconds);
+    // The kernel compares and sleeps in one step, so no notification is missed. A signal ends a wait early.
+    while (state_.load(std::memory_order_acquire) == waiting)
+      if (futex(state_, FUTEX_WAIT_BITSET, waiting, &until) != 0 && errno == ETIMEDOUT) break;
+  }
+  return state_.exchange(idle, std::memory_order_acq_rel) == notified;
 }
 
 namespace {

@@ -2,10 +2,9 @@
 #pragma once
 
 #include <array>
-#include <condition_variable>
+#include <atomic>
 #include <cstdint>
 #include <memory>
-#include <mutex>
 #include <span>
 #include <string>
 #include <vector>
@@ -15,22 +14,22 @@
 
 namespace trunnion::bus {
 
-/// Wakes the one thread of a service. Listeners only ever call notify(): writing or locking there deadlocks
-/// both vendors.
+/// Wakes the one thread of a service. Listeners only ever call notify(), which takes no lock: writing or
+/// locking there deadlocks both vendors.
 class Signal {
  public:
   Signal() = default;
   virtual ~Signal() = default;
   Signal(const Signal&) = delete;
   Signal& operator=(const Signal&) = delete;
+  /// From any thread, as often as wanted.
   virtual void notify();
-  /// True when notified since the last wait, false after `seconds`.
+  /// True when notified since the last wait, false after `seconds`. For one thread only.
   bool wait(double seconds);
 
  private:
-  std::mutex mutex_;
-  std::condition_variable condition_;
-  bool set_ = false;
+  enum State : std::uint32_t { idle, waiting, notified };
+  std::atomic<std::uint32_t> state_{idle};
 };
 
 /// For readers in no hurry, nobody waits for it. A packet that woke the vendor's receiving thread makes that
@@ -107,7 +106,8 @@ struct NetworkSettings {
   std::string security =
       {};  ///< directory of the cluster's certificates (docs/security.md); empty: no security
   std::string identity =
-      {};  ///< whose certificate and permissions this participant uses: a sub-directory of it
+      {};  ///< the service, "deploy" or "recorder": others see it in the participant's user
+           ///< data, and it names the certificate and the permissions below `security`
 };
 
 class Backend {

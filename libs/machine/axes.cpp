@@ -7,7 +7,8 @@ namespace {
 
 std::vector<AxisInfo> axes_where(const Parameters& parameters, bool spindle) {
   std::vector<AxisInfo> result;
-  for (std::uint16_t a = 0; a < 32; ++a) {
+  const int count = parameters.integer(parameter::maximum_axes);
+  for (std::uint16_t a = 0; a < count; ++a) {
     const auto name = parameters.text(parameter::axis_name, a);
     const int type = parameters.integer(parameter::axis_type, a);
     if (!name.empty() && (type == axis_type_spindle) == spindle) result.push_back({a, name, type});
@@ -30,7 +31,7 @@ ChannelAxes channel_axes(const Parameters& parameters, std::uint16_t channel) {
   ChannelAxes result;
   for (std::uint8_t i = 0; i < 9; ++i) {
     const int number = parameters.integer(parameter::channel_axis, channel, i);
-    if (number < 0) continue;
+    if (number < 0 || number >= parameters.integer(parameter::maximum_axes)) continue;
     result.index.push_back(i);
     result.number.push_back(static_cast<std::uint16_t>(number));
     result.letters += "XYZABCUVW"[i];

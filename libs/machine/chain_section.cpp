@@ -68,7 +68,7 @@ ChainElement read_element(const std::string& file, const YAML::Node& node) {
   } else {
     if (direction) fail(file, direction, "only axes have a direction");
     if (base) {
-      if (scalar(file, base) != "true") fail(file, base, "'base' is true where it stands");
+      if (scalar(file, base) != "true") fail(file, base, "'base' can only be true");
       element.kind = ElementKind::base;
       return element;
     }

@@ -46,7 +46,7 @@ std::vector<Host> read_hosts(const YAML::Node& section, const std::string& file)
       throw std::runtime_error(at(file, node["address"]) + "'" + host.address + "' is not an IPv4 address");
     for (const auto& other : hosts) {
       if (other.name == host.name)
-        throw std::runtime_error(at(file, node["name"]) + "host '" + host.name + "' stands twice");
+        throw std::runtime_error(at(file, node["name"]) + "host '" + host.name + "' is there twice");
       if (other.address == host.address)
         throw std::runtime_error(at(file, node["address"]) + "address " + host.address +
                                  " is that of host '" + other.name + "'");

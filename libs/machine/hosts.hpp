@@ -16,11 +16,11 @@ struct Host {
 };
 
 /// An absent section is an empty list: everything runs on one computer, over its loopback. Throws
-/// std::runtime_error with file:line:column, also for a name or an address that stands twice.
+/// std::runtime_error with file:line:column, also for a name or an address that is there twice.
 std::vector<Host> read_hosts(const YAML::Node& section, const std::string& file);
 
-/// The host of copy `copy` of a service: `entry` is its line, whose key `host` is a name or a list with one
-/// name for each copy. Without the key it is the first host; empty when there are no hosts. Throws
+/// The host of replica `copy` of a service: `entry` is its line, whose key `host` is a name or a list with
+/// one name for each replica. Without the key it is the first host; empty when there are no hosts. Throws
 /// std::runtime_error with file:line:column for a name that is not in `hosts`.
 std::string host_of(const YAML::Node& entry, std::size_t copy, const std::vector<Host>& hosts,
                     const std::string& file);

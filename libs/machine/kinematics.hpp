@@ -31,7 +31,7 @@ const AlarmDefinition& alarm_of(const std::exception& error);
 /// Parameters 04c400..04c437, 04c905..04c907, 04c920..04c943 and 04c960..04c988. Throws KinematicsError.
 geometry::Chain make_chain(const Parameters& parameters, std::uint16_t channel);
 
-/// One line for each direction vector that is used and not one long (beyond 1e-4): it is normalized.
+/// One line for each direction vector that is used and is not a unit vector (beyond 1e-4): it is normalized.
 std::vector<std::string> kinematics_warnings(const Parameters& parameters, std::uint16_t channel);
 
 /// Travel limits of the rotary axes A B C U V W of a channel; those it does not have are endless.
@@ -54,7 +54,7 @@ std::vector<CorrectionElement> correction_elements(const Parameters& parameters,
 /// True for the numbers parameters_of_chain() may return, of any channel.
 bool is_chain_parameter(std::uint32_t number);
 
-/// What `error` says of a chain, in words.
+/// The meaning of `error`, in words.
 std::string to_string(geometry::ChainError error);
 
 }  // namespace trunnion::machine

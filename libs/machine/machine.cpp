@@ -5,13 +5,19 @@
 
 #include "machine/chain_section.hpp"
 #include "machine/kinematics.hpp"
+#include "machine/services.hpp"
 #include "machine/yaml.hpp"
 
 namespace trunnion::machine {
 namespace {
 
-const std::vector<std::string> known_services = {"parameters",   "program",    "plc",     "drive",  "gantry",
-                                                 "compensation", "kinematics", "channel", "gateway"};
+// "a, b and c"
+std::string listed(const std::vector<std::string>& names) {
+  std::string text;
+  for (std::size_t i = 0; i < names.size(); ++i)
+    text += (i == 0 ? "" : i + 1 == names.size() ? " and " : ", ") + names[i];
+  return text;
+}
 
 template <class T>
 T value(const std::string& file, const YAML::Node& parent, const char* key, T fallback) {
@@ -72,17 +78,16 @@ MachineConfig parse_machine(const std::string& text, const std::string& director
     check_keys(file, node, {"service", "vendor", "replicas", "channel", "host"});
     ServiceEntry entry;
     entry.service = value<std::string>(file, node, "service", "");
-    if (std::find(known_services.begin(), known_services.end(), entry.service) == known_services.end())
+    const auto* definition = find_service(entry.service);
+    if (definition == nullptr)
       throw std::runtime_error(at(file, node) + "unknown service '" + entry.service + "'");
     entry.channel = value<std::uint32_t>(file, node, "channel", 0);
     if (entry.channel > 31) throw std::runtime_error(at(file, node["channel"]) + "channel must be 0 .. 31");
-    if (entry.service == "channel") config.channels = std::max(config.channels, entry.channel + 1);
+    if (definition->per_channel) config.channels = std::max(config.channels, entry.channel + 1);
     const auto replicas = value<std::uint32_t>(file, node, "replicas", 1);
-    const bool stage =
-        entry.service == "kinematics" || entry.service == "compensation" || entry.service == "gantry";
-    if (replicas < 1 || replicas > 2 || (replicas == 2 && !stage))
-      throw std::runtime_error(at(file, node["replicas"]) +
-                               "replicas must be 1, or 2 for kinematics, compensation and gantry");
+    if (replicas < 1 || replicas > 2 || (replicas == 2 && !definition->transforms()))
+      throw std::runtime_error(at(file, node["replicas"]) + "replicas must be 1, or 2 for " +
+                               listed(transforming_stages()));
     for (std::uint32_t copy = 0; copy < replicas; ++copy) {
       entry.copy = copy;
       entry.host = host_of(node, copy, config.hosts, file);
@@ -101,11 +106,11 @@ MachineConfig parse_machine(const std::string& text, const std::string& director
       config.services.push_back(entry);
     }
   }
-  for (const auto& needed : known_services) {
+  for (const auto& definition : service::all) {
     const bool there = std::any_of(config.services.begin(), config.services.end(),
-                                   [&](const auto& s) { return s.service == needed; });
-    if (!there && needed != "gateway")
-      throw std::runtime_error(at(file, services) + "service '" + needed + "' is missing");
+                                   [&](const auto& s) { return s.service == definition.name; });
+    if (!there && definition.required)
+      throw std::runtime_error(at(file, services) + "service '" + definition.name + "' is missing");
   }
   return config;
 }

@@ -13,11 +13,10 @@ namespace trunnion::machine {
 
 /// One process of the cluster.
 struct ServiceEntry {
-  std::string
-      service;  ///< parameters, program, channel, kinematics, compensation, gantry, plc, drive, gateway
+  std::string service;         ///< a name of services.yaml
   std::string vendor;          ///< fastdds or cyclonedds
   std::uint32_t instance = 0;  ///< unique in the cluster, in the order of machine.yaml
-  std::uint32_t copy = 0;      ///< twin number
+  std::uint32_t copy = 0;      ///< number of the replica, from 0
   std::uint32_t channel = 0;   ///< of a channel service
   std::string host;            ///< where it runs; empty when the machine has no `hosts`
 };
@@ -51,7 +50,7 @@ MachineConfig load_machine(const std::string& directory, const std::string& vend
 /// Everything on one computer, over its loopback.
 void forget_hosts(MachineConfig& config);
 
-/// parameters.yaml and the chains of machine.yaml together. A parameter of a kinematic chain that stands in
+/// parameters.yaml and the chains of machine.yaml together. A parameter of a kinematic chain that is in
 /// parameters.yaml of a channel with a chain in machine.yaml is an error: there would be two truths. Throws
 /// std::runtime_error.
 std::map<std::uint32_t, ParameterValue> machine_parameters(const MachineConfig& config);

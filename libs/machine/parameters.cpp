@@ -169,7 +169,7 @@ std::string Parameters::text(const TextParameter& parameter, std::uint32_t unit)
 
 namespace {
 
-/// Makes the value of a parameter from what stands in the file. Empty, or why the catalogue refuses it.
+/// Makes the value of a parameter from what is in the file. Empty, or why the catalogue refuses it.
 std::string take(const Definition* definition, const std::string& key, const std::string& text,
                  ParameterValue& value) {
   if (definition == nullptr) return "parameter " + key + " does not exist";

@@ -10,9 +10,9 @@
 
 namespace trunnion::machine {
 
-/// Rotary positions stand in the order of the parameters: those of the head from the machine's base to the
+/// Rotary positions are in the order of the parameters: those of the head from the machine's base to the
 /// tool, then those of the table from the base to the workpiece (AC table: A C; CB head: C B; B head with C
-/// table: B C). A position with the letter of its axis in front ("B30") may stand at any place among them.
+/// table: B C). A position with the letter of its axis in front ("B30") may be at any place among them.
 class PoseLines {
  public:
   enum class Direction { inverse, forward, orient };

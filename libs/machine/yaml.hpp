@@ -1,4 +1,4 @@
-// YAML with errors that say file:line:column (yaml-cpp counts marks from 0).
+// YAML with errors that begin with file:line:column (yaml-cpp counts marks from 0).
 #pragma once
 
 #include <yaml-cpp/yaml.h>

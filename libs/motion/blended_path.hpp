@@ -30,6 +30,7 @@ struct PathBlock {
   bool stop = true;        ///< motion stops at the start: no rounding across it
   bool overlap = false;    ///< the stop may be rounded in time instead
   int wait_cycles = 0;     ///< standstill before the segment starts
+  bool position_check = false;  ///< the standstill ends as soon as the axes are in position
   std::uint32_t line = 0, sequence = 0;
   double fraction_offset = 0;  ///< part of the command that lay before this segment, 0..1
   bool rapid = false;

@@ -240,6 +240,7 @@ void CellBuilder::extend(const BlendedPath& path, CellRing& cells, std::uint64_t
     LimitCell cell = make(path, at_, to);
     cell.stop = first && block.stop;
     cell.wait_cycles = cell.stop ? block.wait_cycles : 0;
+    cell.position_check = cell.stop && block.position_check;
     if (cell.stop && block.overlap && cells.size() > 0)
       cell.overlap = overlap_time(path, cells[cells.size() - 1], cell);
     cells.push(cell);

@@ -34,10 +34,11 @@ struct LimitCell {
   std::array<AxisOnCell, most_axes> axes{};  ///< of cells that are not uniform
   int axis_count = 0;                        ///< 0: too many move, only the ramps decide
   bool rapid = false;
-  bool uniform = false;  ///< all levels are the same
-  bool stop = false;     ///< motion stops at the start
-  int wait_cycles = 0;   ///< standstill there
-  double overlap = 0;    ///< s; motion may leave the start this long before it has been reached
+  bool uniform = false;         ///< all levels are the same
+  bool stop = false;            ///< motion stops at the start
+  int wait_cycles = 0;          ///< standstill there
+  bool position_check = false;  ///< which ends as soon as the axes are in position
+  double overlap = 0;           ///< s; motion may leave the start this long before it has been reached
   std::uint64_t block = 0;
 
   /// Ramp limits up to the speed v.

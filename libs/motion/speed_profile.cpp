@@ -16,10 +16,10 @@ constexpr double rounding = 1e-7;
 constexpr double easy_share = 0.4;
 // A stop has about this many steps, and none is shorter than a cycle.
 constexpr double stop_steps = 60;
-// A stop is met when what is left of the path is less, mm or degrees.
+// How far beside a place of the path a motion may end and count as ending there, mm or degrees.
+constexpr double place_tolerance = 1e-9;
 // When braking fails, the acceleration is reduced earlier, down to this share of the jerk.
 constexpr double least_ramp_down = 0.75;
-constexpr double arrival_distance = 1e-9;
 
 }  // namespace
 
@@ -133,7 +133,7 @@ bool SpeedStage::accept_curved(const PhaseList& action, const SpeedDemand& deman
       const BrakeEnd end =
           brake(next, cells_, cell, top_of(cells_[*slower], demand), stop_step(next), {}, leg);
       why = Braked::blocked;
-      if (end.result != Braked::yes || end.state.s > cells_[*slower].at + arrival_distance) return false;
+      if (end.result != Braked::yes || end.state.s > cells_[*slower].at + place_tolerance) return false;
     }
   }
   state_ = next;
@@ -207,7 +207,7 @@ bool SpeedStage::integrate_speed_profile(const SpeedDemand& demand, bool hold) {
       std::uint64_t last = best_cell;
       while (last + 1 < cells_.size() && !cells_[last + 1].stop && rest > cells_[last].end) ++last;
       const bool ends = last + 1 < cells_.size() ? cells_[last + 1].stop : finished_;
-      if (ends && cells_[last].end - rest < arrival_distance) {
+      if (ends && cells_[last].end - rest < place_tolerance) {
         arriving_ = true;
         break;
       }

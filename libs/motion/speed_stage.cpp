@@ -17,7 +17,7 @@ constexpr double rounding = 1e-7;
 constexpr double look_ahead_stops = 3;
 // Speeds this near are the same; of an acceleration, what a cycle of the jerk of its share changes.
 constexpr double cruise_rounding = 1e-9;
-// A remaining distance this small in front of a stop is rounding.
+// A motion that has come to rest with no more of the path than this left has reached its stop, mm or degrees.
 constexpr double arrival_distance = 1e-8;
 
 }  // namespace

@@ -61,6 +61,10 @@ class SpeedStage {
   bool started() const { return entered_; }
   /// At standstill at a stop until its wait is over.
   bool waiting() const { return wait_ > 0; }
+  /// Cycles left of a wait that end_wait() may end, 0 when there is none.
+  int position_check_left() const { return wait_ > 0 && cells_[current_].position_check ? wait_ : 0; }
+  void end_wait() { wait_ = 0; }
+  void restart_wait() { wait_ = cells_[current_].wait_cycles; }
   /// At the end of the cells.
   bool at_end() const;
   /// A stop may overlap with the next stretch only while the one before is over.

@@ -64,6 +64,7 @@ void Trajectory::start(const AxisValues& position, canonical::Transformation tra
   tool_length_ = tool_length;
   end_ = joined_ = position;
   interpolation_.start(position);
+  position_check_ = 0;
   restart_path();
 }
 
@@ -90,7 +91,8 @@ double Trajectory::current_s() const { return retracing_ ? -back_.state().s : sp
 bool Trajectory::can_accept() const {
   if (aborting_) return false;
   return path_.size() == 0 ||
-         path_.size() - current_block() + 2 + history + blocks_behind < BlendedPath::capacity;
+         path_.size() - current_block() + (position_check_ > 0 ? 3 : 2) + history + blocks_behind <
+             BlendedPath::capacity;
 }
 
 bool Trajectory::push(const Command& command) { return push_move(command, 0); }
@@ -206,8 +208,24 @@ bool Trajectory::push_move(const Command& command, double fraction) {
   if (command.modal.path_control == canonical::PathControl::exact_stop) {
     flush();
     stop_next_ = exact_next_ = true;
+    if (position_check_ > 0 && length > 0) push_position_check(command);
   }
   return true;
+}
+
+// A wait of its own behind the move, as of a dwell, on which the whole command is done.
+void Trajectory::push_position_check(const Command& command) {
+  PathBlock check;
+  check.line = command.line;
+  check.sequence = command.sequence;
+  check.fraction_offset = 1;
+  check.path = PathSegment::line(end_, end_);
+  check.mode = mode_;
+  check.rules = rules_;
+  check.wait_cycles = position_check_;
+  check.position_check = true;
+  append(check);
+  stop_next_ = exact_next_ = true;
 }
 
 void Trajectory::flush() {

@@ -3,8 +3,8 @@
 
 #include <optional>
 
-#include "geometry/chain.hpp"
 #include "canonical/canonical.hpp"
+#include "geometry/chain.hpp"
 #include "motion/blended_path.hpp"
 #include "motion/cell_builder.hpp"
 #include "motion/interpolation.hpp"
@@ -47,6 +47,15 @@ class Trajectory {
   /// line from there to the target, an arc with the remaining sweep, a dwell of the remaining time.
   bool push_from(const canonical::Command& command, double fraction);
 
+  /// Each move with PathControl::exact_stop that is pushed from now on is followed by a standstill of at most
+  /// `cycles`, until end_position_check(); 0: it is not. start() sets 0.
+  void set_position_check(int cycles) { position_check_ = cycles; }
+  /// Cycles left of the standstill that the next step() continues, 0 when it is at none.
+  int position_check_left() const { return retracing_ ? 0 : speed_.position_check_left(); }
+  /// At such a standstill only: it is over, or lasts as long again.
+  void end_position_check() { speed_.end_wait(); }
+  void restart_position_check() { speed_.restart_wait(); }
+
   /// Nothing follows yet: lets the motion run to the end of the last command and stop there. Commands may
   /// be pushed afterwards; they start behind that stop.
   void finish();
@@ -77,6 +86,7 @@ class Trajectory {
 
  private:
   bool push_move(const canonical::Command& command, double fraction);
+  void push_position_check(const canonical::Command& command);
   bool movable(const AxisValues& from, const AxisValues& to) const;
   bool joins_to_last(const PathSegment& segment) const;
   void append(PathBlock block);
@@ -108,6 +118,7 @@ class Trajectory {
   BlendRules rules_;                  ///< and its tolerances
   bool curve_continues_ = false;      ///< the newest move was a piece of a curve
   bool stop_next_ = true, exact_next_ = true, aborting_ = false;
+  int position_check_ = 0;  ///< cycles
   bool retrace_wanted_ = false, retracing_ = false, back_complete_ = false;
 };
 

@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "bus/codec.hpp"
+#include "bus/registry.hpp"
 #include "contracts/topics.hpp"
 
 namespace trunnion::report {
@@ -14,7 +15,10 @@ constexpr std::size_t path_width = 9;
 
 class Collector {
  public:
-  Collector(Capture& out, std::uint16_t channel) : out_(out), channel_(channel) {}
+  Collector(Capture& out, std::uint16_t channel) : out_(out), channel_(channel) {
+    for (const auto& stage : machine::service::stages)
+      if (stage.transforms()) axis_stages_[bus::find_topic(stage.output)->description.name] = &stage;
+  }
 
   void take(const recording::MessageView& message) {
     const std::string& topic = message.channel->topic;
@@ -23,12 +27,8 @@ class Collector {
     bool ok = true;
     if (topic == topics::path_frame.name)
       ok = bus::decode(message.data, path_), ok && on_path(time);
-    else if (topic == topics::kinematics_frame.name)
-      ok = bus::decode(message.data, axes_), ok && on_axes("kinematics_frame", 1, time);
-    else if (topic == topics::compensation_frame.name)
-      ok = bus::decode(message.data, axes_), ok && on_axes("compensation_frame", 2, time);
-    else if (topic == topics::gantry_frame.name)
-      ok = bus::decode(message.data, axes_), ok && on_axes("gantry_frame", 3, time);
+    else if (const auto stage = axis_stages_.find(topic); stage != axis_stages_.end())
+      ok = bus::decode(message.data, axes_) && on_axes(stage->second, time);
     else if (topic == topics::feedback_frame.name)
       ok = bus::decode(message.data, feedback_), ok && on_feedback(time);
     else if (topic == topics::parameter_set.name)
@@ -83,13 +83,14 @@ class Collector {
     return true;
   }
 
-  bool on_axes(const char* handle, std::size_t stage, std::int64_t time) {
+  bool on_axes(const machine::ServiceDefinition* definition, std::int64_t time) {
     if (axes_.channel != channel_ || axes_.axes.empty()) return true;
-    coverage(handle, axes_.epoch).add(axes_.first, axes_.count, axes_.starts, axes_.ends);
+    const std::size_t stage = definition->stage - 1u;
+    coverage(definition->output, axes_.epoch).add(axes_.first, axes_.count, axes_.starts, axes_.ends);
     auto& times = out_.frames[{axes_.epoch, axes_.first}];
     const bool news = times.written[stage] == 0;
     stamp(times, stage, time, axes_.first + axes_.count - 1);
-    if (stage != 3 || !news) return true;
+    if (stage + 1 != frame_stages.size() || !news) return true;
     if (out_.gantry_axes.empty()) out_.gantry_axes = axes_.axes;
     if (out_.gantry_axes != axes_.axes) return true;
     const std::size_t rows = std::min<std::size_t>(axes_.count, axes_.setpoints.size() / axes_.axes.size());
@@ -157,6 +158,7 @@ class Collector {
   }
 
   Capture& out_;
+  std::map<std::string, const machine::ServiceDefinition*> axis_stages_;  // by topic
   std::uint16_t channel_;
   std::map<std::pair<std::string, std::uint32_t>, recording::CycleCoverage> coverage_;
   std::optional<std::uint64_t> first_starved_;

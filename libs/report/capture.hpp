@@ -2,11 +2,13 @@
 #pragma once
 
 #include <array>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "machine/services.hpp"
 #include "recording/cycle_coverage.hpp"
 #include "recording/mcap_reader.hpp"
 #include "report/programmed_path.hpp"
@@ -14,8 +16,11 @@
 namespace trunnion::report {
 
 /// The stages whose frames are timed, in the order of the stream.
-inline constexpr std::array<const char*, 4> frame_stages = {"channel", "kinematics", "compensation",
-                                                            "gantry"};
+inline constexpr auto frame_stages = [] {
+  std::array<const char*, std::size(machine::service::stages)> names{};
+  for (std::size_t i = 0; i < names.size(); ++i) names[i] = machine::service::stages[i].name;
+  return names;
+}();
 
 struct PathRow {
   std::uint64_t cycle = 0;

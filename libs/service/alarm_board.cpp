@@ -9,7 +9,7 @@ void AlarmBoard::publish(Entry& entry) {
   if (!muted_) writer_.write(entry.alarm);
 }
 
-void AlarmBoard::speak() {
+void AlarmBoard::unmute() {
   muted_ = false;
   for (auto& [key, entry] : entries_)
     if (entry.alarm.active) publish(entry);
@@ -35,6 +35,7 @@ void AlarmBoard::raise(const machine::AlarmDefinition& alarm, std::uint32_t part
   a.source = service_, a.text = cut(text), a.cycle = cycle;
   a.active = true;
   ++a.occurrences;
+  entry.subject = alarm.subject;
   publish(entry);
 }
 
@@ -66,8 +67,12 @@ void AlarmBoard::clear(const machine::AlarmDefinition& alarm, std::uint32_t part
 }
 
 void AlarmBoard::reset() {
+  reset([](machine::Subject, std::uint32_t) { return true; });
+}
+
+void AlarmBoard::reset(const std::function<bool(machine::Subject, std::uint32_t)>& concerned) {
   for (auto& [key, entry] : entries_)
-    if (entry.alarm.active && !entry.cause) {
+    if (entry.alarm.active && !entry.cause && concerned(entry.subject, key.second)) {
       entry.alarm.active = false;
       publish(entry);
     }

@@ -2,6 +2,7 @@
 // is gone.
 #pragma once
 
+#include <functional>
 #include <map>
 
 #include "bus/bus.hpp"
@@ -23,19 +24,22 @@ class AlarmBoard {
                     std::uint64_t cycle = 0);
   /// The cause is gone; the alarm stays until it is reset.
   void release(const machine::AlarmDefinition& alarm, std::uint32_t part);
-  /// Gone at once, for causes that nobody needs to acknowledge.
+  /// Inactive at once, for causes that the operator need not acknowledge.
   void clear(const machine::AlarmDefinition& alarm, std::uint32_t part);
-  /// Clears every alarm whose cause is gone. Call when an AlarmReset arrives.
+  /// Clears every alarm whose cause is gone.
   void reset();
-  /// Nobody is told of the alarms until speak(): what a shadow finds wrong is not the machine's.
+  /// The same, but only those for which `concerned(subject, part)` holds.
+  void reset(const std::function<bool(machine::Subject, std::uint32_t)>& concerned);
+  /// Alarms are not published until unmute(): what a shadow finds wrong is not the machine's.
   void mute() { muted_ = true; }
-  void speak();
+  void unmute();
   bool active(const machine::AlarmDefinition& alarm, std::uint32_t part) const;
   bool any() const;
 
  private:
   struct Entry {
     idl::service::Alarm alarm;
+    machine::Subject subject = machine::Subject::channel;
     bool cause = true;
   };
   void publish(Entry& entry);

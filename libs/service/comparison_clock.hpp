@@ -11,13 +11,13 @@ namespace trunnion::service {
 
 class ComparisonClock {
  public:
-  /// Looks again while there is news or a difference, ten times a second. `compare()` returns what differs,
+  /// Compares while there is news or a difference, ten times a second. `compare()` returns what differs,
   /// or nothing; what it throws is a difference as well. `now` in seconds.
   template <class Compare>
-  void look(bool news, double now, Compare compare) {
+  void poll(bool news, double now, Compare compare) {
     pending_ = pending_ || news;
-    if (!pending_ || now - looked_ < period || lasting()) return;
-    looked_ = now;
+    if (!pending_ || now - compared_ < period || lasting()) return;
+    compared_ = now;
     try {
       difference_ = compare();
     } catch (const std::exception& e) {
@@ -42,11 +42,11 @@ class ComparisonClock {
   }
 
  private:
-  static constexpr double period = 0.1, patience = 1;  // s
-  bool lasting() const { return since_ > 0 && looked_ - since_ >= patience; }
+  static constexpr double period = 0.1, timeout = 1;  // s
+  bool lasting() const { return since_ > 0 && compared_ - since_ >= timeout; }
 
   bool pending_ = true, equal_ = false;
-  double looked_ = -1, since_ = 0;
+  double compared_ = -1, since_ = 0;
   std::string difference_;
 };
 

@@ -65,7 +65,7 @@ bus::NetworkSettings network_of(const machine::MachineConfig& config, const std:
     throw std::runtime_error("host '" + host + "' has the address " + found->address +
                              ", which is none of this computer's (" +
                              joined(addresses, ", ", [](const auto& address) { return address; }) +
-                             "): say which host this is with --host, or mend machine.yaml");
+                             "): name this host with --host, or correct machine.yaml");
   network.interface_address = found->address;
   network.peers = joined(
       config.hosts, ",", [](const machine::Host& other) -> const auto& { return other.address; });

@@ -11,6 +11,9 @@
 #include <ctime>
 #include <filesystem>
 
+#include "machine/services.hpp"
+#include "trunnion/version.hpp"
+
 namespace trunnion::service {
 namespace {
 
@@ -62,6 +65,7 @@ Node::Node(Options options)
       announcement_(bus_.writer(topics::announcement)),
       state_writer_(bus_.writer(topics::service_state)),
       alarm_reset_(bus_.reader(topics::alarm_reset)) {
+  stop_requested = 0;
   struct sigaction action {};
   action.sa_handler = request_stop;
   sigaction(SIGTERM, &action, nullptr);
@@ -86,7 +90,7 @@ Node::Node(Options options)
 
 void Node::announce() {
   announcement_.write({options_.instance, options_.service, bus::to_string(options_.vendor), host_name(),
-                       getpid(), topics::contract_hash, "0.1.0"});
+                       getpid(), topics::contract_hash, version});
 }
 
 void Node::take_promotion() {
@@ -97,7 +101,7 @@ void Node::take_promotion() {
   if (!promoted) return;
   options_.shadow = false;
   promotions_.reset();
-  alarms_.speak();
+  alarms_.unmute();
 }
 
 bool Node::stand_by(Service* rehearsal) {
@@ -140,18 +144,29 @@ void Node::beat(const Health& health) {
   last_frames_ = health.frames_out;
 }
 
+void Node::reset_alarms(Service& service, std::uint16_t channel) {
+  const auto* definition = machine::find_service(options_.service);
+  const bool of_one_channel = definition != nullptr && definition->per_channel;
+  if (of_one_channel && channel != all_channels && channel != options_.channel) return;
+  service.alarms_reset(channel);
+  if (of_one_channel || channel == all_channels) {
+    alarms_.reset();
+    return;
+  }
+  alarms_.reset([&](machine::Subject subject, std::uint32_t part) {
+    return (subject == machine::Subject::channel && part == channel) ||
+           (subject == machine::Subject::axis &&
+            service.axis_concerns(static_cast<std::uint16_t>(part), channel));
+  });
+}
+
 int Node::run(Service& service) {
   auto last_lifecycle = idl::service::Lifecycle::UNCONFIGURED;
   while (stop_requested == 0) {
     bus_.signal().wait(std::min(service.period(), beat_period));
     if (stop_requested != 0) break;
     idl::service::AlarmReset reset;
-    bool any_reset = false;
-    while (alarm_reset_.take(reset)) any_reset = true;
-    if (any_reset) {
-      service.alarms_reset();
-      alarms_.reset();
-    }
+    while (alarm_reset_.take(reset)) reset_alarms(service, reset.channel);
     take_promotion();
     service.pump();
     notifier_.alive(monotonic_seconds());

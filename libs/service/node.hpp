@@ -14,6 +14,9 @@
 
 namespace trunnion::service {
 
+/// Channel of an AlarmReset that is for the whole machine.
+inline constexpr std::uint16_t all_channels = 65535;
+
 /// What a service shows of itself four times a second.
 struct Health {
   idl::service::Lifecycle lifecycle = idl::service::Lifecycle::UNCONFIGURED;
@@ -44,8 +47,11 @@ class Service {
   /// Longest time in seconds between two calls of pump().
   virtual double period() const { return 0.05; }
   virtual Health health() const = 0;
-  /// Alarms without a cause are being cleared.
-  virtual void alarms_reset() {}
+  /// Alarms without a cause are being cleared: those that concern `channel`, or of the whole machine with
+  /// all_channels.
+  virtual void alarms_reset(std::uint16_t) {}
+  /// Whether an alarm about `axis` (its logical number) concerns `channel`.
+  virtual bool axis_concerns(std::uint16_t /*axis*/, std::uint16_t /*channel*/) const { return false; }
   /// The process is told to end: the last chance to leave something for the next.
   virtual void end() {}
 };
@@ -65,6 +71,8 @@ class Node {
   bool stand_by(Service* rehearsal = nullptr);
   /// Runs until SIGTERM or SIGINT; returns the exit status.
   int run(Service& service);
+  /// Clears the alarms of `service` whose cause is gone: all of them, or those that concern `channel`.
+  void reset_alarms(Service& service, std::uint16_t channel);
 
  private:
   void announce();
@@ -110,7 +118,7 @@ constexpr ServiceType service_type() {
     type.rehearsal = [](Node& node) -> std::unique_ptr<Service> {
       return std::make_unique<typename S::Rehearsal>(node);
     };
-  type.works_on_standby = S::works_as_shadow;
+  type.works_on_standby = S::works_on_standby;
   return type;
 }
 

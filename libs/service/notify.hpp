@@ -1,5 +1,5 @@
-// What a process started by systemd (Type=notify, WatchdogSec) tells it: datagrams to a socket named by the
-// environment, as sd_notify(3) describes them. Without that environment nothing is sent.
+// What a process started by systemd (Type=notify, WatchdogSec) reports to it: datagrams to a socket named by
+// the environment, as sd_notify(3) describes them. Without that environment nothing is sent.
 #pragma once
 
 #include <string>
@@ -8,8 +8,8 @@ namespace trunnion::service {
 
 class Notifier {
  public:
-  /// Reads NOTIFY_SOCKET, WATCHDOG_USEC and WATCHDOG_PID, and takes them out of the environment: they speak
-  /// of this process, not of those it starts.
+  /// Reads NOTIFY_SOCKET, WATCHDOG_USEC and WATCHDOG_PID, and takes them out of the environment: they are
+  /// about this process, not of those it starts.
   Notifier();
   ~Notifier();
   Notifier(const Notifier&) = delete;
@@ -28,7 +28,7 @@ class Notifier {
  private:
   void send(const std::string& message);
   int socket_ = -1;
-  std::string path_;   // an initial 0 stands for the abstract name space
+  std::string path_;   // an initial 0 means the abstract name space
   double period_ = 0;  // s between pings; 0: no watchdog
   double pinged_ = -1e9;
   bool ready_ = false;

@@ -11,7 +11,7 @@ void add_options(CLI::App& app, Options& options) {
   app.add_option("--machine", options.machine_directory, "Directory with machine.yaml")->required();
   app.add_option("--state", options.state_directory, "Directory for what must survive a restart")->required();
   app.add_option("--instance", options.instance, "Number of this process in the cluster");
-  app.add_option("--copy", options.copy, "Number of this copy of a stage");
+  app.add_option("--copy", options.copy, "Number of this replica of a stage");
   app.add_option("--channel", options.channel, "Channel number");
   app.add_option("--domain", options.network.domain, "DDS domain, 0 .. 100")->check(CLI::Range(0, 100));
   add_network_options(app, options.network);
@@ -19,7 +19,8 @@ void add_options(CLI::App& app, Options& options) {
          "--vendor", [&options](const std::string& name) { options.vendor = bus::vendor_from(name); },
          "DDS vendor: fastdds or cyclonedds")
       ->check(CLI::IsMember({"fastdds", "cyclonedds"}));
-  app.add_flag("--virtual-time", options.virtual_time, "Time goes on with the setpoints, not with the clock");
+  app.add_flag("--virtual-time", options.virtual_time,
+               "Time advances with the setpoints, not with the clock");
   app.add_flag("--shadow", options.shadow,
                "Begin on standby beside the service that this one replaces, until the launcher promotes it");
   app.add_flag("--parent-bound", options.parent_bound, "Stop when the parent process is gone");

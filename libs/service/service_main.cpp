@@ -1,8 +1,7 @@
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <iostream>
-#include <iterator>
 
+#include "machine/services.hpp"
 #include "service/node.hpp"
 
 namespace trunnion::service {
@@ -24,10 +23,8 @@ int run_service(int argc, char** argv, const char* name, const ServiceType& type
   add_options(app, options);
   if (const int status = parse_options(app, argc, argv, options); status >= 0) return status;
   // The services of the stream share the cycle; what waits for files or browsers does not.
-  constexpr const char* cyclic[] = {"channel", "kinematics", "compensation", "gantry", "drive", "plc"};
-  const bool is_cyclic =
-      std::any_of(std::begin(cyclic), std::end(cyclic), [&](const char* c) { return options.service == c; });
-  if (is_cyclic && !options.virtual_time) use_real_time_scheduling();
+  const auto* definition = machine::find_service(options.service);
+  if (definition != nullptr && definition->cyclic && !options.virtual_time) use_real_time_scheduling();
   try {
     Node node(options);
     if (!type.works_on_standby && !wait_for_promotion(node, type)) return 0;

@@ -2,25 +2,28 @@
 #pragma once
 
 #include <cstdint>
-#include <string>
+#include <iterator>
 #include <string_view>
+
+#include "machine/services.hpp"
 
 namespace trunnion::stream {
 
-inline constexpr std::uint8_t stage_channel = 1, stage_kinematics = 2, stage_compensation = 3,
-                              stage_gantry = 4;
+inline constexpr std::uint8_t stage_channel = machine::service::channel.stage,
+                              stage_kinematics = machine::service::kinematics.stage,
+                              stage_compensation = machine::service::compensation.stage,
+                              stage_gantry = machine::service::gantry.stage;
 
 /// The service that computes `stage`, as machine.yaml calls it.
 inline const char* stage_name(std::uint8_t stage) {
-  constexpr const char* names[] = {"channel", "kinematics", "compensation", "gantry"};
-  return stage >= stage_channel && stage <= stage_gantry ? names[stage - stage_channel] : "unknown";
+  return stage > 0 && stage <= std::size(machine::service::stages) ? machine::service::stages[stage - 1].name
+                                                                   : "unknown";
 }
 
-/// The number of the stage that `service` computes, 0 when it is none of kinematics, compensation, gantry.
+/// The number of the stage that `service` computes from another's output, 0 when it computes none.
 inline std::uint8_t stage_of(std::string_view service) {
-  for (std::uint8_t stage = stage_kinematics; stage <= stage_gantry; ++stage)
-    if (service == stage_name(stage)) return stage;
-  return 0;
+  const auto* definition = machine::find_service(service);
+  return definition != nullptr && definition->transforms() ? definition->stage : std::uint8_t{0};
 }
 
 }  // namespace trunnion::stream

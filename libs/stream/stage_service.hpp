@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "machine/alarm_constants.hpp"
+#include "machine/gantry_pairs.hpp"
 #include "machine/kinematics.hpp"
 #include "machine/parameter_constants.hpp"
 #include "service/node.hpp"
@@ -81,6 +82,9 @@ class StageService : public service::Service {
     }
   }
   double period() const override { return 0.02; }
+  bool axis_concerns(std::uint16_t axis, std::uint16_t channel) const override {
+    return parameters_.newest() && machine::axis_moves_with(*parameters_.newest(), axis, channel);
+  }
 
   service::Health health() const override {
     using idl::service::Lifecycle;

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "machine/services.hpp"
 #include "testing_support/eventually.hpp"
 
 namespace trunnion::testing_support {
@@ -25,9 +26,8 @@ class RunningService {
     std::filesystem::create_directories(machine());
     std::filesystem::create_directories(state());
     std::string text = "name: test\nservices:\n";
-    for (const auto* service : {"parameters", "program", "plc", "drive", "gantry", "compensation",
-                                "kinematics", "channel", "gateway"})
-      text += std::string("  - {service: ") + service + "}\n";
+    for (const auto& service : machine::service::all)
+      text += std::string("  - {service: ") + service.name + "}\n";
     write("machine/machine.yaml", text);
   }
   ~RunningService() {

@@ -4,6 +4,7 @@
 #include <string>
 #include <unordered_map>
 
+#include "bus/json.hpp"
 #include "verification/frame_rows.hpp"
 
 namespace trunnion::verification {

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "bus/json.hpp"
 #include "bus/registry.hpp"
 #include "contracts/types.hpp"
 

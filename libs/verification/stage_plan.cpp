@@ -9,6 +9,7 @@
 #include "contracts/topics.hpp"
 #include "machine/parameter_constants.hpp"
 #include "machine/parameters.hpp"
+#include "machine/services.hpp"
 #include "recording/cycle_coverage.hpp"
 
 namespace trunnion::verification {
@@ -16,10 +17,6 @@ namespace {
 
 // Cycles a stage may be behind what it is fed. A stage keeps 1024 cycles of input, and 2048 of feedback.
 constexpr std::uint64_t window = 256;
-
-constexpr Stage stages[] = {{"kinematics", 2, "path_frame", "kinematics_frame"},
-                            {"compensation", 3, "kinematics_frame", "compensation_frame"},
-                            {"gantry", 4, "compensation_frame", "gantry_frame"}};
 
 struct Input {
   const StoredMessage* message = nullptr;
@@ -50,7 +47,7 @@ struct Lane {
 
 class StagePlan {
  public:
-  StagePlan(const StoredRecording& recording, const Stage& stage, VerifyPlan& plan)
+  StagePlan(const StoredRecording& recording, const machine::ServiceDefinition& stage, VerifyPlan& plan)
       : recording_(recording), stage_(stage), plan_(plan) {}
 
   void make() {
@@ -131,7 +128,7 @@ class StagePlan {
       for (const auto& echo : frame.channels) {
         if (echo.channel != channel || !echo.active) continue;
         const auto state = std::find_if(echo.states.begin(), echo.states.end(),
-                                        [&](const auto& s) { return s.stage == stage_.number; });
+                                        [&](const auto& s) { return s.stage == stage_.stage; });
         // What is computed next looks back by the lead.
         if (state == echo.states.end() || !first_row || state->cycle < *first_row + lead_) continue;
         const auto next = std::find_if(inputs.begin(), inputs.end(), [&](const Input& input) {
@@ -239,7 +236,7 @@ class StagePlan {
   }
 
   const StoredRecording& recording_;
-  const Stage& stage_;
+  const machine::ServiceDefinition& stage_;
   VerifyPlan& plan_;
   std::map<std::uint16_t, Lane> lanes_;
   std::vector<Feedback> feedback_;
@@ -249,13 +246,12 @@ class StagePlan {
 
 }  // namespace
 
-const Stage* find_stage(const std::string& service) {
-  const auto found = std::find_if(std::begin(stages), std::end(stages),
-                                  [&](const Stage& s) { return service == s.service; });
-  return found == std::end(stages) ? nullptr : found;
+const machine::ServiceDefinition* find_stage(const std::string& service) {
+  const auto* definition = machine::find_service(service);
+  return definition != nullptr && definition->transforms() ? definition : nullptr;
 }
 
-void plan_stage(const StoredRecording& recording, const Stage& stage, VerifyPlan& plan) {
+void plan_stage(const StoredRecording& recording, const machine::ServiceDefinition& stage, VerifyPlan& plan) {
   StagePlan(recording, stage, plan).make();
 }
 

@@ -54,7 +54,7 @@ const char* text_of(Known known) {
 }
 
 std::size_t place_in_stream(const std::string& handle) {
-  const auto& order = StreamTally::cyclic();
+  const auto& order = recording::StreamTally::cyclic();
   return static_cast<std::size_t>(std::find(order.begin(), order.end(), handle) - order.begin());
 }
 
@@ -76,7 +76,7 @@ double TopicSummary::rate() const {
 Summary summarize(recording::Source& source) {
   Summary out;
   Observer observer(out);
-  StreamTally tally;
+  recording::StreamTally tally;
   std::map<std::uint16_t, Tracked> tracked;
   recording::Reader reader(source);
   recording::MessageView view;

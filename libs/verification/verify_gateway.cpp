@@ -5,6 +5,7 @@
 #include <set>
 
 #include "bus/bus.hpp"
+#include "bus/json.hpp"
 #include "cluster/child_process.hpp"
 #include "contracts/topics.hpp"
 #include "http_client/client.hpp"
@@ -17,7 +18,6 @@
 namespace trunnion::verification {
 namespace {
 
-using GatewayStep;
 using bus::Json;
 using idl::gateway::Sender;
 

@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "machine/gantry_pairs.hpp"
 #include "service/node.hpp"
 #include "service/parameter_client.hpp"
 #include "src/drive_core.hpp"
@@ -15,7 +16,10 @@ class DriveService : public service::Service {
   void pump() override;
   double period() const override;
   service::Health health() const override;
-  void alarms_reset() override { core_.acknowledge(); }
+  void alarms_reset(std::uint16_t) override { core_.acknowledge(); }
+  bool axis_concerns(std::uint16_t axis, std::uint16_t channel) const override {
+    return parameters_.newest() && machine::axis_moves_with(*parameters_.newest(), axis, channel);
+  }
 
  private:
   void start();

@@ -16,30 +16,42 @@ void GantryService::on_feedback(const idl::stream::FeedbackFrame& feedback) {
   const auto parameters = parameters_.newest();
   if (!parameters || feedback.position.size() != feedback.axis_count) return;
   if (parameters->revision != revision_) {
-    pairs_ = read_pairs(*parameters);
+    channels_.clear();
+    for (std::uint16_t channel = 0; channel < node_.options().machine.channels; ++channel)
+      for (const auto& pair : machine::gantry_pairs(*parameters, channel))
+        channels_[channel].push_back({pair, 0});
     revision_ = parameters->revision;
   }
-  for (const auto& pair : pairs_) {
-    if (static_cast<std::size_t>(std::max(pair.master_column, pair.slave_column)) >= feedback.axis_count)
-      continue;
-    const double error = synchronization_error(pair, feedback.position.data());
-    const auto supervise = [&](const machine::AlarmDefinition& alarm, const machine::RealParameter& parameter,
-                               double limit) {
-      if (limit > 0 && std::abs(error) > limit) {
-        char text[160];
-        const auto number = machine::number_text(parameter.number(pair.slave));
-        std::snprintf(text, sizeof text,
-                      "Axis %d is %.4f mm off its master axis %d, limit %.4f mm (parameter %s)", pair.slave,
-                      error, pair.master, limit, number.c_str());
-        if (!node_.alarms().active(alarm, pair.slave))
-          node_.alarms().raise(alarm, pair.slave, text, feedback.first);
-      } else {
-        node_.alarms().release(alarm, pair.slave);
-      }
-    };
-    supervise(alarm::synchronization_warning, parameter::synchronization_warning_limit, pair.warning);
-    supervise(alarm::synchronization_error, parameter::synchronization_error_limit, pair.limit);
+  for (const auto& echo : feedback.channels) {
+    const auto found = channels_.find(echo.channel);
+    const auto* state = stream::find_state(echo.states, stream::stage_gantry);
+    if (found == channels_.end() || state == nullptr) continue;
+    const auto offsets = compensated_offsets(found->second.size(), state->values);
+    for (std::size_t k = 0; k < offsets.size(); ++k) found->second[k].offset = offsets[k];
   }
+  for (const auto& [channel, pairs] : channels_)
+    for (const auto& supervised : pairs) supervise(supervised, feedback);
+}
+
+void GantryService::supervise(const Supervised& supervised, const idl::stream::FeedbackFrame& feedback) {
+  const auto& pair = supervised.pair;
+  if (std::max(pair.master_column, pair.slave_column) >= static_cast<int>(feedback.axis_count)) return;
+  const double error = synchronization_error(pair, feedback.position.data()) - supervised.offset;
+  const auto check = [&](const machine::AlarmDefinition& alarm, const machine::RealParameter& parameter,
+                         double limit) {
+    if (limit <= 0 || std::abs(error) <= limit) {
+      node_.alarms().release(alarm, pair.slave);
+      return;
+    }
+    if (node_.alarms().active(alarm, pair.slave)) return;
+    char text[160];
+    std::snprintf(text, sizeof text,
+                  "Axis %d is %.4f mm off its master axis %d, limit %.4f mm (parameter %s)", pair.slave,
+                  error, pair.master, limit, machine::number_text(parameter.number(pair.slave)).c_str());
+    node_.alarms().raise(alarm, pair.slave, text, feedback.first);
+  };
+  check(alarm::synchronization_warning, parameter::synchronization_warning_limit, pair.warning);
+  check(alarm::synchronization_error, parameter::synchronization_error_limit, pair.limit);
 }
 
 }  // namespace trunnion::gantry

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <map>
+
 #include "src/gantry_core.hpp"
 #include "stream/stage_service.hpp"
 
@@ -15,8 +17,14 @@ class GantryService : public stream::StageService<idl::stream::AxisFrame> {
   void on_feedback(const idl::stream::FeedbackFrame& feedback) override;
 
  private:
+  struct Supervised {
+    machine::GantryPair pair;
+    double offset = 0;  // mm, what the compensation of the two axes accounts for
+  };
+  void supervise(const Supervised& supervised, const idl::stream::FeedbackFrame& feedback);
+
   std::uint64_t revision_ = 0;
-  std::vector<Pair> pairs_;
+  std::map<std::uint16_t, std::vector<Supervised>> channels_;
 };
 
 }  // namespace trunnion::gantry

@@ -53,7 +53,7 @@ void RehearsalService::pump() {
   const bool set = take_newest(set_reader_, set_), tools = take_newest(tools_reader_, tools_),
              offsets = take_newest(offsets_reader_, offsets_);
   if (!set_ || !tools_ || !offsets_) return;
-  clock_.look(set || tools || offsets, service::monotonic_seconds(), [this] { return difference(); });
+  clock_.poll(set || tools || offsets, service::monotonic_seconds(), [this] { return difference(); });
 }
 
 std::string RehearsalService::difference() {

@@ -25,7 +25,8 @@ class PlcService : public service::Service {
     return node_.options().virtual_time && inputs_.tick == core_.memory().tick ? 0.05 : 0.01;
   }
   service::Health health() const override;
-  void alarms_reset() override {
+  void alarms_reset(std::uint16_t channel) override {
+    if (channel != service::all_channels) return;  // the reset button is the machine's
     core_.press_reset();
     rounds_.told(StepKind::reset);
   }

@@ -18,7 +18,7 @@ void RehearsalService::pump() {
   idl::program::ProgramList list;
   const bool news = list_reader_.take_newest(list);
   if (news) list_ = std::move(list);
-  if (list_) clock_.look(news, service::monotonic_seconds(), [this] { return difference(); });
+  if (list_) clock_.poll(news, service::monotonic_seconds(), [this] { return difference(); });
 }
 
 std::string RehearsalService::difference() {

@@ -14,6 +14,7 @@
 #include <thread>
 
 #include "bus/bus.hpp"
+#include "bus/json.hpp"
 #include "bus/registry.hpp"
 #include "contracts/topics.hpp"
 #include "flight_recorder.hpp"

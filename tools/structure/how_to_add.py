@@ -55,7 +55,7 @@ class ThermalService : public stream::StageService<idl::stream::AxisFrame> {
     "service.cpp": """#include "service.hpp"
 namespace trunnion::thermal {
 ThermalService::ThermalService(service::Node& node)
-    : StageService(node, stream::STAGE_NUMBER, topics::gantry_frame, topics::thermal_frame,
+    : StageService(node, machine::service::thermal.stage, topics::gantry_frame, topics::thermal_frame,
                    [] { return std::make_unique<ThermalCore>(); }),
       growth_(node.bus().writer(topics::spindle_growth)) {}
 }
@@ -71,11 +71,7 @@ int main(int argc, char** argv) {
 #include "machine/parameters.hpp"
 namespace trunnion {
 TEST(Added, TheParameterHasItsDefault) { EXPECT_EQ(machine::Parameters{}.get(parameter::thermal_growth), 0.25); }
-TEST(Added, TheGCodeIsInTheTable) {
-  bool found = false;
-  for (const auto& code : language::g_codes) found = found || code.tenths == 41;
-  EXPECT_TRUE(found);
-}
+TEST(Added, TheGCodeIsInTheTable) { EXPECT_NE(language::g_code(41), nullptr); }
 }
 """,
 }
@@ -139,13 +135,10 @@ def add_parameter(s):
 
 def add_g_code(s):
     s.follow("A G code")
-    table = "libs/language/codes.cpp" if s.there("libs/language/codes.cpp") else "libs/language/codes.hpp"
     # G4.1 dwells as G4 does: the same row with another number, and the same function.
-    row = r'^    GCode\{40, (.*?)"G4 P500"\},\n'
-    s.edit(table, row, r'\g<0>    GCode{41, \g<1>"G4.1 P500"},\n')
-    count = re.search(r"g_code_count = (\d+)", s.read("libs/language/codes.hpp"))
-    if count: s.edit("libs/language/codes.hpp", r"g_code_count = \d+", f"g_code_count = {int(count.group(1)) + 1}")
-    elif table.endswith(".hpp"): s.edit("libs/language/block_executor.cpp", r"^      case 40:\n", r"\g<0>      case 41:\n")
+    s.edit("libs/language/codes.cpp", r'^    GCode\{40, (.*?)"G4 P500"\},\n', r'\g<0>    GCode{41, \g<1>"G4.1 P500"},\n')
+    count = int(re.search(r"g_code_count = (\d+)", s.read("libs/language/codes.hpp")).group(1))
+    s.edit("libs/language/codes.hpp", r"g_code_count = \d+", f"g_code_count = {count + 1}")
 
 
 def add_stage(s):
@@ -161,29 +154,11 @@ def add_stage(s):
             if name.endswith(".cpp") and "topics::gantry_frame" in s.read(file):
                 s.write(file, s.read(file).replace("topics::gantry_frame", "topics::thermal_frame"))
     s.edit("README.md", r"^(\| \[services/gantry/\][^\n]*\n)", rf"\g<1>| [services/{STAGE}/](services/{STAGE}) | stage: growth of the spindle |\n")
-    if "services/*" not in s.read("CMakeLists.txt"): s.edit("CMakeLists.txt", r"services/gantry", f"services/gantry services/{STAGE}")
     for machine in os.listdir(s.path("configs/machines")):
         file = f"configs/machines/{machine}/machine.yaml"
         if s.there(file): s.edit(file, r"^(  - \{service: gantry)", rf"  - {{service: {STAGE}}}\n\g<1>", named="machine.yaml")
-    registry = "libs/machine/services.yaml"
-    if s.there(registry):
-        s.edit(registry, r"^(  - \{name: gantry,[^\n]*\n)",
-               rf"\g<1>  - {{name: {STAGE}, cyclic: true, stage: {{input: gantry_frame, output: thermal_frame}}}}\n")
-        s.write(f"services/{STAGE}/service.cpp", s.read(f"services/{STAGE}/service.cpp").replace("stream::STAGE_NUMBER", f"machine::service::{STAGE}.stage"))
-        return
-    s.write(f"services/{STAGE}/service.cpp", s.read(f"services/{STAGE}/service.cpp").replace("STAGE_NUMBER", f"stage_{STAGE}"))
-    s.edit("libs/machine/machine.cpp", r'"drive",\s+"gantry"', rf'\g<0>, "{STAGE}"')
-    s.edit("deploy/security/documents.py", r'"gantry", ', rf'\g<0>"{STAGE}", ')
-    s.edit("libs/service/service_main.cpp", r'"gantry", ', rf'\g<0>"{STAGE}", ')
-    s.edit("libs/testing_support/running_service.hpp", r'"gantry", ', rf'\g<0>"{STAGE}", ')
-    s.edit("libs/stream/stage_names.hpp", r"stage_gantry = 4", f"stage_gantry = 4, stage_{STAGE} = 5")
-    s.edit("libs/stream/stage_names.hpp", r'"gantry"', rf'\g<0>, "{STAGE}"')
-    s.edit("libs/stream/stage_names.hpp", r"stage <= stage_gantry \?", f"stage <= stage_{STAGE} ?")
-    s.edit("libs/stream/stage_names.hpp", r"stage <= stage_gantry;", f"stage <= stage_{STAGE};")
-    s.edit("libs/verification/stage_plan.cpp", r'\{"gantry"[^}]*\}', rf'\g<0>, {{"{STAGE}", 5, "gantry_frame", "thermal_frame"}}')
-    s.edit("libs/report/capture.hpp", r'4> frame_stages(.*?)"gantry"', rf'5> frame_stages\g<1>"gantry", "{STAGE}"')
-    s.edit("deploy/launcher/swap.cpp", r"(stage == stream::stage_compensation \? topics::compensation_frame)",
-           rf"\g<1> : stage == stream::stage_{STAGE} ? topics::thermal_frame")
+    s.edit("libs/machine/services.yaml", r"^(  - \{name: gantry,[^\n]*\n)",
+           rf"\g<1>  - {{name: {STAGE}, cyclic: true, stage: {{input: gantry_frame, output: thermal_frame}}}}\n")
 
 
 def main():

@@ -334,6 +334,7 @@ std::string plugin(const std::string& name) {
 
 std::unique_ptr<dds_qos_t, QosDeleter> participant_qos(const NetworkSettings& network) {
   std::unique_ptr<dds_qos_t, QosDeleter> qos(dds_create_qos());
+  dds_qset_userdata(qos.get(), network.identity.data(), network.identity.size());
   if (network.security.empty()) return qos;
   const auto files = security_files(network, Vendor::cyclonedds);
   const auto set = [&](const std::string& name, const std::string& value) {

@@ -254,6 +254,7 @@ class FastBackend : public Backend {
       builtin.metatrafficUnicastLocatorList.push_back(eprosima::fastrtps::rtps::Locator_t());
     builtin.discovery_config.leaseDuration = duration(3);
     builtin.discovery_config.leaseDuration_announcementperiod = duration(0.5);
+    qos.user_data().setValue({network.identity.begin(), network.identity.end()});
     secure(qos, network);
     participant_ = DomainParticipantFactory::get_instance()->create_participant(
         network.domain, qos, &discovery_, StatusMask::none());

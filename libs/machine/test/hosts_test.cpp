@@ -75,7 +75,7 @@ TEST(Hosts, EachMistakeIsOneLineWithItsPlace) {
                      services("{service: drive}", "{service: kinematics, replicas: 2, host: [motion]}")),
             "m/machine.yaml:13:46: error: copy 1 has no host");
   EXPECT_EQ(error_of(three_hosts + "  - {name: motion, address: 10.77.0.4}\n" + services()),
-            "m/machine.yaml:6:12: error: host 'motion' stands twice");
+            "m/machine.yaml:6:12: error: host 'motion' is there twice");
   EXPECT_EQ(error_of(three_hosts + "  - {name: fourth, address: 10.77.0.3}\n" + services()),
             "m/machine.yaml:6:29: error: address 10.77.0.3 is that of host 'drives'");
   EXPECT_EQ(error_of(three_hosts + "  - {name: fourth, address: fourth.local}\n" + services()),

@@ -251,7 +251,7 @@ TEST(Chains, errors_name_line_and_column) {
   EXPECT_EQ(chains_error("- elements:\n    - {name: O}\n"),
             "m:2:7: error: an element is one of offset, correction, rotary, linear and base");
   EXPECT_EQ(chains_error("- elements:\n    - {name: BASE, base: 1}\n"),
-            "m:2:26: error: 'base' is true where it stands");
+            "m:2:26: error: 'base' can only be true");
   EXPECT_EQ(chains_error("- elements:\n    - {name: X, linear: X}\n"),
             "m:1:3: error: each of X, Y and Z must be there once");
   EXPECT_EQ(chains_error("- elements:\n    - {name: X, linear: X}\n    - {name: X, linear: Y}\n"),

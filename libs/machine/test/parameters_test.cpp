@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "machine/alarm_constants.hpp"
+#include "machine/axes.hpp"
 
 namespace trunnion::machine {
 namespace {
@@ -120,6 +121,17 @@ TEST(Catalogue, AnAxisParameterIsInTheUnitOfItsAxis) {
   EXPECT_EQ(unit_of(103006, values), "deg");
   EXPECT_EQ(unit_of(103034, values), "deg/min");
   EXPECT_EQ(unit_of(1, values), "us");
+}
+
+TEST(Axes, ThereAreNoneFromTheLargestNumberOn) {
+  Parameters p;
+  p.values[40001] = {0, ""}, p.values[40002] = {1, ""};
+  p.values[100000] = {0, "X"}, p.values[101000] = {0, "Y"};
+  EXPECT_EQ(drive_axes(p).size(), 2u);
+  EXPECT_EQ(channel_axes(p, 0).letters, "XY");
+  p.values[10049] = {1, ""};
+  EXPECT_EQ(drive_axes(p).size(), 1u);
+  EXPECT_EQ(channel_axes(p, 0).letters, "X");
 }
 
 TEST(Catalogue, LimitsAreWrittenInFull) {

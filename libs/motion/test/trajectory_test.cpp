@@ -377,5 +377,55 @@ TEST(Trajectory, a_full_ring_refuses_and_accepts_again_while_it_runs) {
   EXPECT_TRUE(t.can_accept());
 }
 
+// Two lines with an exact stop between: without a check the stop is one cycle long, with one it lasts until
+// it is ended, or its longest time.
+TEST(Trajectory, an_exact_stop_with_a_position_check_lasts_until_it_is_ended) {
+  for (const int ended_after : {5, 1000}) {
+    constexpr int longest = 200;
+    Trajectory t(uniform_limits(500, 3000, 20), nullptr, cycle);
+    t.start({}, Transformation::none, 0);
+    t.set_position_check(longest);
+    auto first = line_to({10}, 6000, 1);
+    first.modal.path_control = canonical::PathControl::exact_stop;
+    ASSERT_TRUE(t.push(first));
+    ASSERT_TRUE(t.push(line_to({20}, 6000, 2)));
+    t.finish();
+    int checked = 0, at_stop = 0;
+    for (int n = 0; n < 5000 && !t.at_rest(); ++n) {
+      if (t.position_check_left() > 0 && ++checked == ended_after) t.end_position_check();
+      const auto setpoint = t.step(1, 1, false);
+      if (setpoint.position[0] == 10) {
+        ++at_stop;
+        EXPECT_TRUE(setpoint.sequence != 1 || setpoint.fraction == 1) << "done while it is checked";
+      }
+    }
+    EXPECT_TRUE(t.at_rest());
+    EXPECT_EQ(t.position(), (AxisValues{20}));
+    EXPECT_GE(at_stop, std::min(ended_after, longest));
+    EXPECT_LE(at_stop, std::min(ended_after, longest) + 3);
+  }
+}
+
+TEST(Trajectory, a_position_check_is_not_counted_down_while_held_and_can_be_restarted) {
+  Trajectory t(uniform_limits(500, 3000, 20), nullptr, cycle);
+  t.start({}, Transformation::none, 0);
+  t.set_position_check(100);
+  auto move = line_to({10}, 6000, 1);
+  move.modal.path_control = canonical::PathControl::exact_stop;
+  ASSERT_TRUE(t.push(move));
+  t.finish();
+  while (t.position_check_left() != 40) {
+    ASSERT_FALSE(t.at_rest()) << "the end of the path is checked as well";
+    t.step(1, 1, false);
+  }
+  for (int n = 0; n < 50; ++n) t.step(1, 1, true);
+  EXPECT_EQ(t.position_check_left(), 40);
+  t.restart_position_check();
+  EXPECT_EQ(t.position_check_left(), 100);
+  t.end_position_check();
+  t.step(1, 1, false);
+  EXPECT_TRUE(t.at_rest());
+}
+
 }  // namespace
 }  // namespace trunnion::motion::test

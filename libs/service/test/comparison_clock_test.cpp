@@ -12,14 +12,14 @@ struct Watch {
   std::string differs;
   int looks = 0;
   void at(double now, bool news = false) {
-    clock.look(news, now, [this] {
+    clock.poll(news, now, [this] {
       ++looks;
       return differs;
     });
   }
 };
 
-TEST(ComparisonClock, InStepAfterALookThatFindsNothingAndThenOnlyNewsIsLookedAt) {
+TEST(ComparisonClock, InStepAfterAComparisonWithoutDifferenceAndThenOnlyNewsIsCompared) {
   Watch watch;
   EXPECT_FALSE(watch.clock.health().in_step);
   watch.at(10);
@@ -66,7 +66,7 @@ TEST(ComparisonClock, WhatWasOnlyNotThereYetIsNoDifference) {
 TEST(ComparisonClock, AFileThatCannotBeReadIsADifference) {
   ComparisonClock clock;
   const auto fails = []() -> std::string { throw std::runtime_error("tools.yaml:3:1: error"); };
-  for (int k = 0; k < 12; ++k) clock.look(false, 10 + 0.1 * k, fails);
+  for (int k = 0; k < 12; ++k) clock.poll(false, 10 + 0.1 * k, fails);
   EXPECT_EQ(clock.health().difference, "tools.yaml:3:1: error");
 }
 

@@ -46,6 +46,7 @@ void ChannelCore::apply_parameters() {
   parameters_ = std::exchange(next_parameters_, nullptr);
   for (const auto& line : machine::kinematics_warnings(*parameters_, number_))
     event(alarm::direction_not_unit, line);
+  exact_stop_.configure(*parameters_, machine_.channel_axes(), machine_.columns());
   build_trajectories();
 }
 
@@ -95,6 +96,7 @@ void ChannelCore::on_feedback(const idl::stream::FeedbackFrame& feedback) {
   const bool was_off = link_.drive_mode() == DriveMode::off;
   link_.on_feedback(feedback);
   skip_.on_feedback(feedback, machine_.channel_axes(), machine_.columns());
+  exact_stop_.on_feedback(feedback);
   remember_executed();
   if (first) auxiliary_number_ = (link_.epoch() + 1) * 4096;
   const auto mode = link_.drive_mode();

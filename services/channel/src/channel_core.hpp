@@ -12,6 +12,7 @@
 #include "channel_setup/channel_setup.hpp"
 #include "channel_snapshot.hpp"
 #include "contracts/types.hpp"
+#include "exact_stop_check.hpp"
 #include "hand_over.hpp"
 #include "handwheel.hpp"
 #include "machine/alarm_definition.hpp"
@@ -280,6 +281,7 @@ class ChannelCore {
   bool variables_news_ = false;
   std::optional<idl::channel::AuxiliaryRequest> outgoing_auxiliary_;
   SkipMove skip_;
+  ExactStopCheck exact_stop_;
   Tapping tapping_;
   std::uint32_t tool_ = 0;
   double spindle_programmed_ = 0;

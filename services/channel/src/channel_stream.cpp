@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "channel_core.hpp"
+#include "machine/alarm_constants.hpp"
 #include "stream/stage_core.hpp"
 
 namespace trunnion::channel {
@@ -28,6 +29,7 @@ void ChannelCore::hold() {
 FlowState ChannelCore::fill() {
   if (!interpreting() || aborting_ || preparation_ || retracing_ || skip_.active()) return FlowState::full;
   flow().set_cycle(link_.next());
+  trajectory_->set_position_check(tapping_.active() ? 0 : exact_stop_.cycles());
   const auto state = flow().fill(single_block_ && activity_ == Activity::program);
   text_missing_ = state == FlowState::waiting;
   return state;
@@ -105,6 +107,11 @@ void ChannelCore::step_cycle(idl::stream::PathFrame& frame) {
     setpoint.position = machine_position();
     setpoint.at_rest = wheel_.at_rest();
   } else {
+    if (!holding() && !exact_stop_.step(*trajectory_, cycle)) {
+      event(alarm::position_not_reached,
+            program_name() + ":" + std::to_string(point_.line) + ": " + exact_stop_.failure());
+      hold();
+    }
     setpoint = trajectory_->step(tapping_.active() ? 1 : feed_override_, rapid_override_, holding());
     point_ = {setpoint.sequence, setpoint.line, setpoint.fraction};
     if (retracing_ && run_ == RunState::RUNNING && trajectory_->retraced_to_start()) hold();

@@ -4,11 +4,12 @@
 #include <array>
 #include <vector>
 
+#include "canonical/axes.hpp"
 #include "motion/limits.hpp"
 
 namespace trunnion::channel {
 
-using language::AxisValues;
+using canonical::AxisValues;
 
 /// One axis on its way to a target that may change in every cycle. Its position is a ramp of limited
 /// velocity, averaged over two windows: the first bounds the acceleration, the second the jerk, so every
@@ -72,7 +73,7 @@ class Handwheel {
   bool zero() const { return at_rest() && position_ == AxisValues{}; }
 
  private:
-  std::array<AxisFollower, language::axis_count> followers_;
+  std::array<AxisFollower, canonical::axis_count> followers_;
   AxisValues position_{}, target_{};
 };
 

@@ -1,7 +1,9 @@
 // A drive and PLC that do what they are told at once: the channel's counterpart in its unit tests.
 #pragma once
 
+#include <algorithm>
 #include <deque>
+#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
@@ -40,6 +42,8 @@ class FakeDrive {
     double position = 0;
   };
   std::optional<Switch> switch_;
+  /// Following error of the first axis in a cycle, mm; empty: the axes follow without error.
+  std::function<double(std::uint64_t cycle, const std::vector<double>& row)> lag;
   /// Executes frames, at most `cycles` setpoints' worth, and reports.
   idl::stream::FeedbackFrame run(std::uint64_t cycles = ~0ull) {
     std::uint64_t done = 0;
@@ -57,6 +61,8 @@ class FakeDrive {
           spindle.push_back(f.spindle.empty() ? std::nullopt : std::optional(f.spindle[i]));
           feedback.commanded.insert(feedback.commanded.end(), rows.back().begin(),
                                     rows.back().begin() + static_cast<long>(position_.size()));
+          for (std::size_t a = 0; a < position_.size(); ++a)
+            actual_.push_back(rows.back()[a] - (a == 0 && lag ? lag(f.first + i, rows.back()) : 0));
           lines.push_back(f.lines[i]);
         }
         for (std::size_t a = 0; a < position_.size(); ++a) position_[a] = rows.back()[a];
@@ -68,6 +74,9 @@ class FakeDrive {
       queue_.pop_front();
     }
     feedback.count = static_cast<std::uint32_t>(feedback.commanded.size() / position_.size());
+    feedback.actual.resize(feedback.commanded.size());
+    std::copy(actual_.end() - static_cast<long>(feedback.actual.size()), actual_.end(),
+              feedback.actual.begin());
     feedback.first = next - feedback.count;
     feedback.mode = static_cast<std::uint8_t>(mode);
     feedback.axis_count = static_cast<std::uint16_t>(position_.size());
@@ -106,7 +115,7 @@ class FakeDrive {
   }
 
   std::optional<idl::stream::SkipEdge> edge_;
-  std::vector<double> position_;
+  std::vector<double> position_, actual_;
   std::deque<idl::stream::PathFrame> queue_;
   idl::stream::ChannelEcho echo_;
 };

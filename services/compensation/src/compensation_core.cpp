@@ -24,52 +24,74 @@ double PitchTable::at(double x, bool positive_direction) const {
   return factor * (table[i] + (table[i + 1] - table[i]) * (place - static_cast<double>(i)));
 }
 
+CompensationCore::Axis CompensationCore::read_axis(const machine::Parameters& p, std::uint32_t a) {
+  Axis axis;
+  axis.backlash = p.integer(parameter::backlash_type, a) == 1 ? p.get(parameter::backlash, a) : 0;
+  axis.rate = p.get(parameter::backlash_rate, a);
+  auto& pitch = axis.pitch;
+  const int type = p.integer(parameter::pitch_type, a);
+  const int points = p.integer(parameter::pitch_points, a);
+  pitch.enabled = type != 0 && points > 0;
+  pitch.bidirectional = type == 2;
+  pitch.modulo = p.integer(parameter::pitch_modulo, a) == 1;
+  pitch.start = p.get(parameter::pitch_start, a);
+  pitch.interval = p.get(parameter::pitch_interval, a);
+  pitch.factor = p.get(parameter::pitch_override, a);
+  const auto first = static_cast<std::uint32_t>(p.integer(parameter::pitch_table, a));
+  for (int k = 0; k < points && pitch.enabled; ++k) {
+    pitch.positive.push_back(p.at(first + static_cast<std::uint32_t>(k)));
+    if (pitch.bidirectional) pitch.negative.push_back(p.at(first + static_cast<std::uint32_t>(points + k)));
+  }
+  return axis;
+}
+
 void CompensationCore::configure(const machine::Parameters& p, std::uint16_t channel) {
   const auto numbers = machine::channel_axes(p, channel).number;
-  std::vector<Axis> axes(numbers.size());
-  for (std::size_t i = 0; i < numbers.size(); ++i) {
-    auto& axis = axes[i];
-    const std::uint32_t a = numbers[i];
-    axis.backlash = p.integer(parameter::backlash_type, a) == 1 ? p.get(parameter::backlash, a) : 0;
-    axis.rate = p.get(parameter::backlash_rate, a);
-    auto& pitch = axis.pitch;
-    const int type = p.integer(parameter::pitch_type, a);
-    const int points = p.integer(parameter::pitch_points, a);
-    pitch.enabled = type != 0 && points > 0;
-    pitch.bidirectional = type == 2;
-    pitch.modulo = p.integer(parameter::pitch_modulo, a) == 1;
-    pitch.start = p.get(parameter::pitch_start, a);
-    pitch.interval = p.get(parameter::pitch_interval, a);
-    pitch.factor = p.get(parameter::pitch_override, a);
-    const auto first = static_cast<std::uint32_t>(p.integer(parameter::pitch_table, a));
-    for (int k = 0; k < points && pitch.enabled; ++k) {
-      pitch.positive.push_back(p.at(first + static_cast<std::uint32_t>(k)));
-      if (pitch.bidirectional) pitch.negative.push_back(p.at(first + static_cast<std::uint32_t>(points + k)));
-    }
+  std::vector<Axis> axes;
+  std::vector<Slave> slaves;
+  for (const auto number : numbers) axes.push_back(read_axis(p, number));
+  for (const auto& pair : machine::gantry_pairs(p, channel)) {
+    const auto master =
+        static_cast<std::size_t>(std::find(numbers.begin(), numbers.end(), pair.master) - numbers.begin());
+    auto axis = read_axis(p, pair.slave);
+    if (!axis.active() && !axes[master].active()) continue;
+    axes.push_back(std::move(axis));
+    slaves.push_back({pair, master});
   }
   axes_ = std::move(axes);
+  slaves_ = std::move(slaves);
+}
+
+double CompensationCore::compensate(Axis& axis, double x) const {
+  if (!primed_) axis.last = x;
+  if (x > axis.last) axis.direction = 1;
+  if (x < axis.last) axis.direction = -1;
+  axis.last = x;
+  // A positive backlash is travel lost when the motion turns negative, so it is taken off there, step by
+  // step.
+  const double wanted = axis.direction < 0 ? -axis.backlash : 0;
+  axis.added += std::clamp(wanted - axis.added, -axis.rate, axis.rate);
+  return x + axis.added + axis.pitch.at(x, axis.direction >= 0);
 }
 
 bool CompensationCore::process(const idl::stream::AxisFrame& in, const stream::FeedbackWindow&,
                                idl::stream::AxisFrame& out) {
+  const std::size_t in_width = in.axes.size(), own = axes_.size() - slaves_.size();
   out.axes = in.axes;
-  out.setpoints.resize(in.setpoints.size());
-  const std::size_t width = std::min(in.axes.size(), axes_.size());
-  if (width == 0) return true;
-  for (std::size_t row = 0; row < in.count && (row + 1) * in.axes.size() <= in.setpoints.size(); ++row) {
-    for (std::size_t i = 0; i < width; ++i) {
-      auto& axis = axes_[i];
-      const double x = in.setpoints[row * in.axes.size() + i];
-      if (!primed_) axis.last = x;
-      if (x > axis.last) axis.direction = 1;
-      if (x < axis.last) axis.direction = -1;
-      axis.last = x;
-      // A positive backlash is travel lost when the motion turns negative, so it is taken off there, step by
-      // step.
-      const double wanted = axis.direction < 0 ? -axis.backlash : 0;
-      axis.added += std::clamp(wanted - axis.added, -axis.rate, axis.rate);
-      out.setpoints[row * in.axes.size() + i] = x + axis.added + axis.pitch.at(x, axis.direction >= 0);
-    }
+  if (in_width != own) {  // no frame of a configured channel
+    out.setpoints = in.setpoints;
+    return true;
+  }
+  for (const auto& slave : slaves_) out.axes.push_back(slave.pair.slave);
+  const std::size_t out_width = axes_.size();
+  const std::size_t rows = own == 0 ? 0 : std::min<std::size_t>(in.count, in.setpoints.size() / own);
+  out.setpoints.resize(rows * out_width);
+  for (std::size_t row = 0; row < rows; ++row) {
+    const double* from = &in.setpoints[row * in_width];
+    double* to = &out.setpoints[row * out_width];
+    for (std::size_t i = 0; i < own; ++i) to[i] = compensate(axes_[i], from[i]);
+    for (std::size_t k = 0; k < slaves_.size(); ++k)
+      to[own + k] = compensate(axes_[own + k], slaves_[k].pair.slave_position(from[slaves_[k].master]));
     primed_ = true;
   }
   return true;

@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "machine/axes.hpp"
+#include "machine/gantry_pairs.hpp"
 #include "stream/stage_core.hpp"
 
 namespace trunnion::compensation {
@@ -23,7 +23,10 @@ struct PitchTable {
   double at(double x, bool positive_direction) const;
 };
 
-/// State per axis: last uncompensated setpoint, direction of the last move (-1, 0, 1), backlash added now.
+/// The slave of a gantry has its own tables. When it or its master is compensated, its compensated setpoint
+/// becomes a column of the frames, behind the channel's axes; gantry then only corrects it.
+/// State per axis, slaves last: last uncompensated setpoint, direction of the last move (-1, 0, 1), backlash
+/// added now.
 class CompensationCore : public stream::StageCore<idl::stream::AxisFrame> {
  public:
   void configure(const machine::Parameters& parameters, std::uint16_t channel) override;
@@ -34,12 +37,22 @@ class CompensationCore : public stream::StageCore<idl::stream::AxisFrame> {
 
  private:
   struct Axis {
+    bool active() const { return backlash != 0 || pitch.enabled; }
+
     double backlash = 0, rate = 0;
     PitchTable pitch;
     double last = 0, direction = 0, added = 0;
   };
-  std::vector<Axis> axes_;
-  bool primed_ = false;  // false until the first setpoint says where the axes are
+  struct Slave {
+    machine::GantryPair pair;
+    std::size_t master = 0;  // column of its master
+  };
+  static Axis read_axis(const machine::Parameters& parameters, std::uint32_t number);
+  double compensate(Axis& axis, double x) const;
+
+  std::vector<Axis> axes_;     // of the channel, then the slaves
+  std::vector<Slave> slaves_;  // those that are compensated
+  bool primed_ = false;        // false until the first setpoint gives the axes' positions
 };
 
 }  // namespace trunnion::compensation

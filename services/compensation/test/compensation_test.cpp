@@ -87,5 +87,57 @@ TEST(Compensation, AFreshProcessWithTheSavedStateGoesOnWithTheSameBits) {
   for (std::size_t i = 0; i < rest.size(); ++i) EXPECT_EQ(rest[i], all[cut + i]) << i;
 }
 
+// Axis 1 is the master, axis 2 its mirrored slave, 100 mm away.
+machine::Parameters gantry() {
+  machine::Parameters p;
+  p.values[40001] = {0, ""}, p.values[40002] = {1, ""};
+  p.values[100000] = {0, "X"}, p.values[101000] = {0, "Y1"}, p.values[102000] = {0, "Y2"};
+  p.values[10050] = {1, ""}, p.values[10051] = {2, ""};
+  p.values[102100] = {1, ""}, p.values[102101] = {1, ""}, p.values[102127] = {1, ""};
+  p.values[102129] = {100, ""};
+  return p;
+}
+
+idl::stream::AxisFrame run_gantry(const machine::Parameters& p, const std::vector<double>& setpoints) {
+  CompensationCore core;
+  core.configure(p, 0);
+  idl::stream::AxisFrame in, out;
+  in.axes = {0, 1};
+  in.count = static_cast<std::uint32_t>(setpoints.size() / 2);
+  in.setpoints = setpoints;
+  core.process(in, {}, out);
+  return out;
+}
+
+TEST(Compensation, AGantryWithoutTablesHasNoColumnForItsSlave) {
+  EXPECT_EQ(run_gantry(gantry(), {1, 2}).axes, (std::vector<std::uint16_t>{0, 1}));
+}
+
+TEST(Compensation, TheSlaveOfAGantryHasItsOwnTableAndBacklashOnItsOwnPosition) {
+  auto p = gantry();
+  // Slave: 0.00 0.01 0.03 at 80, 90, 100; backlash 0.5.
+  p.values[302020] = {1, ""}, p.values[302021] = {80, ""}, p.values[302022] = {3, ""},
+  p.values[302023] = {10, ""};
+  p.values[302026] = {700000, ""}, p.values[700001] = {0.01, ""}, p.values[700002] = {0.03, ""};
+  p.values[302000] = {1, ""}, p.values[302001] = {0.5, ""}, p.values[302002] = {1, ""};
+  const auto out = run_gantry(p, {0, 5, 0, 10});
+  EXPECT_EQ(out.axes, (std::vector<std::uint16_t>{0, 1, 2}));
+  // The master at 5 and 10 has the slave at 95 and 90, so it moves in negative direction: the backlash comes
+  // off.
+  const std::vector<double> expected{0, 5, 95 + 0.02, 0, 10, 90 + 0.01 - 0.5};
+  ASSERT_EQ(out.setpoints.size(), expected.size());
+  for (std::size_t i = 0; i < expected.size(); ++i) EXPECT_NEAR(out.setpoints[i], expected[i], 1e-12) << i;
+}
+
+TEST(Compensation, TheMastersTableIsNotTheSlaves) {
+  auto p = gantry();
+  p.values[301020] = {1, ""}, p.values[301022] = {2, ""}, p.values[301023] = {10, ""};
+  p.values[301026] = {700000, ""}, p.values[700000] = {0.01, ""}, p.values[700001] = {0.01, ""};
+  const auto out = run_gantry(p, {0, 5});
+  const std::vector<double> expected{0, 5.01, 95};
+  ASSERT_EQ(out.setpoints.size(), expected.size());
+  for (std::size_t i = 0; i < expected.size(); ++i) EXPECT_NEAR(out.setpoints[i], expected[i], 1e-12) << i;
+}
+
 }  // namespace
 }  // namespace trunnion::compensation

@@ -1,58 +1,34 @@
 #include "gantry_core.hpp"
 
 #include <algorithm>
-#include <stdexcept>
+#include <array>
 
 #include "machine/parameter_constants.hpp"
 
 namespace trunnion::gantry {
 
-std::vector<Pair> read_pairs(const machine::Parameters& p) {
-  std::vector<Pair> pairs;
-  const auto axes = machine::drive_axes(p);
-  const int slaves = p.integer(parameter::gantry_slaves);
-  for (int i = 0; i < slaves; ++i) {
-    const int slave = p.integer(parameter::gantry_slave_axis, 0, static_cast<std::uint32_t>(i));
-    if (slave < 0 || p.integer(parameter::gantry_synchronous, static_cast<std::uint32_t>(slave)) != 1)
-      continue;
-    const auto a = static_cast<std::uint32_t>(slave);
-    Pair pair;
-    const int master = p.integer(parameter::gantry_master, a);
-    pair.slave = static_cast<std::uint16_t>(slave);
-    pair.master = static_cast<std::uint16_t>(std::max(0, master));
-    pair.slave_column = machine::column_of(axes, pair.slave);
-    pair.master_column = machine::column_of(axes, pair.master);
-    if (master < 0 || pair.slave_column < 0 || pair.master_column < 0)
-      throw std::runtime_error("parameter " + machine::number_text(parameter::gantry_master.number(a)) +
-                               " (gantry_master): axis " + std::to_string(slave) + " follows axis " +
-                               std::to_string(master) + ", and one of them does not exist");
-    pair.sign = p.integer(parameter::gantry_mirror, a) == 1 ? -1 : 1;
-    pair.zero_deviation = p.get(parameter::gantry_zero_deviation, a);
-    pair.rate = p.get(parameter::gantry_compensation_rate, a);
-    pair.maximum = p.get(parameter::gantry_compensation_maximum, a);
-    pair.warning = p.get(parameter::synchronization_warning_limit, a);
-    pair.limit = p.get(parameter::synchronization_error_limit, a);
-    pairs.push_back(pair);
-  }
-  return pairs;
+double synchronization_error(const machine::GantryPair& pair, const double* actual) {
+  return actual[pair.slave_column] - pair.slave_position(actual[pair.master_column]);
 }
 
-double synchronization_error(const Pair& pair, const double* actual) {
-  return actual[pair.slave_column] - (pair.sign * actual[pair.master_column] + pair.zero_deviation);
+std::vector<double> compensated_offsets(std::size_t pairs, std::span<const double> state) {
+  std::vector<double> offsets(pairs, 0.0);
+  if (state.size() == 2 * pairs)
+    std::copy_n(state.begin() + static_cast<long>(pairs), pairs, offsets.begin());
+  return offsets;
 }
 
 void GantryCore::configure(const machine::Parameters& p, std::uint16_t channel) {
   lead_ = static_cast<std::uint64_t>(p.integer(parameter::stream_lead));
   const auto numbers = machine::channel_axes(p, channel).number;
-  pairs_.clear();
+  pairs_ = machine::gantry_pairs(p, channel);
   master_index_.clear();
-  for (const auto& pair : read_pairs(p)) {
-    const auto found = std::find(numbers.begin(), numbers.end(), pair.master);
-    if (found == numbers.end()) continue;
-    pairs_.push_back(pair);
-    master_index_.push_back(static_cast<std::size_t>(found - numbers.begin()));
-  }
+  for (const auto& pair : pairs_)
+    master_index_.push_back(
+        static_cast<std::size_t>(std::find(numbers.begin(), numbers.end(), pair.master) - numbers.begin()));
   corrections_.assign(pairs_.size(), 0.0);
+  offsets_.assign(pairs_.size(), 0.0);
+  own_columns_ = false;
 }
 
 bool GantryCore::process(const idl::stream::AxisFrame& in, const stream::FeedbackWindow& feedback,
@@ -68,20 +44,38 @@ bool GantryCore::process(const idl::stream::AxisFrame& in, const stream::Feedbac
   for (std::uint64_t n = in.first; n <= last; ++n)
     if (n > lead_ && feedback.actual(n - lead_ - 1) == nullptr) return false;
   out.axes = in.axes;
-  for (const auto& pair : pairs_) out.axes.push_back(pair.slave);
+  std::array<std::size_t, 32> columns{};
+  own_columns_ = false;
+  for (std::size_t k = 0; k < pairs_.size(); ++k) {
+    const auto own = std::find(in.axes.begin(), in.axes.end(), pairs_[k].slave);
+    if (own != in.axes.end()) {
+      columns[k] = static_cast<std::size_t>(own - in.axes.begin());
+      own_columns_ = true;
+    } else {
+      columns[k] = out.axes.size();
+      out.axes.push_back(pairs_[k].slave);
+    }
+  }
   const std::size_t out_width = out.axes.size();
   out.setpoints.resize(in.count * out_width);
   for (std::size_t row = 0; row < in.count; ++row) {
-    std::copy_n(&in.setpoints[row * width], width, &out.setpoints[row * out_width]);
+    const double* from = &in.setpoints[row * width];
+    double* to = &out.setpoints[row * out_width];
+    std::copy_n(from, width, to);
     const std::uint64_t n = in.first + row;
     const double* actual = n > lead_ ? feedback.actual(n - lead_ - 1) : nullptr;
     for (std::size_t k = 0; k < pairs_.size(); ++k) {
       const auto& pair = pairs_[k];
-      if (actual != nullptr)
-        corrections_[k] = std::clamp(corrections_[k] - pair.rate * synchronization_error(pair, actual),
-                                     -pair.maximum, pair.maximum);
-      out.setpoints[row * out_width + width + k] =
-          pair.sign * in.setpoints[row * width + master_index_[k]] + pair.zero_deviation + corrections_[k];
+      const double followed = pair.slave_position(from[master_index_[k]]);
+      const double base = columns[k] < width ? from[columns[k]] : followed;
+      // The encoders are that far apart when both axes are where they should be. Compensation changes little
+      // in the lead that the feedback is old.
+      offsets_[k] = base - followed;
+      if (actual != nullptr) {
+        const double error = synchronization_error(pair, actual) - offsets_[k];
+        corrections_[k] = std::clamp(corrections_[k] - pair.rate * error, -pair.maximum, pair.maximum);
+      }
+      to[columns[k]] = base + corrections_[k];
     }
   }
   return true;
@@ -90,6 +84,13 @@ bool GantryCore::process(const idl::stream::AxisFrame& in, const stream::Feedbac
 void GantryCore::load(std::span<const double> state) {
   corrections_.assign(pairs_.size(), 0.0);
   for (std::size_t i = 0; i < std::min(state.size(), corrections_.size()); ++i) corrections_[i] = state[i];
+  offsets_ = compensated_offsets(pairs_.size(), state);
+  own_columns_ = !pairs_.empty() && state.size() == 2 * pairs_.size();
+}
+
+void GantryCore::save(stream::StateValues& state) const {
+  state = corrections_;
+  if (own_columns_) state.insert(state.end(), offsets_.begin(), offsets_.end());
 }
 
 }  // namespace trunnion::gantry

@@ -74,10 +74,46 @@ TEST(Gantry, TheCorrectionIsLimited) {
   EXPECT_NEAR(out.setpoints[2], 0.48, 1e-15) << "0.02 mm is the largest correction";
 }
 
+// Compensation has put the slave 0.3 mm from where the master's setpoint says.
+idl::stream::AxisFrame compensated(std::uint64_t first) {
+  auto in = frame(first, 0, 0);
+  in.axes.push_back(2);
+  in.setpoints.push_back(0.5 + 0.3);
+  return in;
+}
+
+TEST(Gantry, ACompensatedSlaveKeepsItsSetpointAndItsOffsetIsNoError) {
+  GantryCore core;
+  core.configure(gantry(), 0);
+  stream::FeedbackWindow feedback;
+  idl::stream::AxisFrame out;
+  idl::stream::FeedbackFrame f;
+  f.first = 0, f.count = 2, f.axis_count = 3;
+  f.actual = {0, 0, 0.8, 0, 0, 0.9};  // where it should be, then 0.1 mm too far
+  feedback.put(f);
+  ASSERT_TRUE(core.process(compensated(9), feedback, out));
+  EXPECT_EQ(out.axes, (std::vector<std::uint16_t>{0, 1, 2}));
+  EXPECT_NEAR(out.setpoints[2], 0.8, 1e-15);
+  ASSERT_TRUE(core.process(compensated(10), feedback, out));
+  EXPECT_NEAR(out.setpoints[2], 0.8 - 0.01, 1e-15) << "a tenth of the error";
+  stream::StateValues state;
+  core.save(state);
+  ASSERT_EQ(state.size(), 2u) << "the correction and the offset, which the supervision needs";
+  EXPECT_NEAR(compensated_offsets(1, state)[0], 0.3, 1e-15);
+  EXPECT_EQ(compensated_offsets(1, std::vector<double>{0.1}), (std::vector<double>{0}));
+}
+
+TEST(Gantry, TheSlaveMovesWithTheChannelOfItsMaster) {
+  EXPECT_TRUE(machine::axis_moves_with(gantry(), 1, 0));
+  EXPECT_TRUE(machine::axis_moves_with(gantry(), 2, 0));
+  EXPECT_FALSE(machine::axis_moves_with(gantry(), 3, 0));
+  EXPECT_FALSE(machine::axis_moves_with(gantry(), 2, 1));
+}
+
 TEST(Gantry, AMissingMasterIsNamed) {
   auto p = gantry();
   p.values[102101] = {9, ""};
-  EXPECT_THROW(read_pairs(p), std::runtime_error);
+  EXPECT_THROW(machine::gantry_pairs(p), std::runtime_error);
 }
 
 }  // namespace

@@ -73,7 +73,8 @@ ParameterStore::ParameterStore(Storage& storage, MachineDefaults defaults, const
   ActiveSet next = active_;
   bool news;
   if (kept && !boot.empty() && active_.boot == boot) {
-    // The same cluster goes on. Only a crash between the two files of one change leaves `save` values behind.
+    // The same cluster continues. Only a crash between the two files of one change leaves `save` values
+    // behind.
     news = activate(next, state_.overrides, Activation::save);
   } else {
     next.boot = boot;
@@ -151,7 +152,7 @@ std::string ParameterStore::change(State& next, const ParameterRequest& request,
         value.value = 0;
       const auto& catalogue = Catalogue::instance();
       if (!catalogue.check(parameter.number, value.value, value.text).empty()) {
-        auto all = next.overrides;  // with the machine builder's: they say what the axes are
+        auto all = next.overrides;  // with the machine builder's: they define the axes
         all.insert(defaults_.values.begin(), defaults_.values.end());
         return catalogue.check(parameter.number, value.value, value.text,
                                machine::unit_of(parameter.number, all));

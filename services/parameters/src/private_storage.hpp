@@ -1,4 +1,4 @@
-// What somebody else's storage would become: everything is read from it, nothing is written to it.
+// What another process's storage would become: everything is read from it, nothing is written to it.
 #pragma once
 
 #include <map>
