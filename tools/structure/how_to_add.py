@@ -137,8 +137,6 @@ def add_g_code(s):
     s.follow("A G code")
     # G4.1 dwells as G4 does: the same row with another number, and the same function.
     s.edit("libs/language/codes.cpp", r'^    GCode\{40, (.*?)"G4 P500"\},\n', r'\g<0>    GCode{41, \g<1>"G4.1 P500"},\n')
-    count = int(re.search(r"g_code_count = (\d+)", s.read("libs/language/codes.hpp")).group(1))
-    s.edit("libs/language/codes.hpp", r"g_code_count = \d+", f"g_code_count = {count + 1}")
 
 
 def add_stage(s):
