@@ -7,6 +7,7 @@
 namespace trunnion::integration {
 namespace {
 
+using idl::service::SwapOutcome;
 using idl::service::SwapReply;
 
 // `rounds` of 0.4 m with both rotary axes: about 10 s of motion each.
@@ -112,8 +113,10 @@ TEST_F(Swapping, AStageThatComputesOtherwiseIsNotTaken) {
     // It is wrong in the last bit of one cycle in a thousand.
     const auto reply = swap(cluster, stage, variant(stage + "_one_bit"), "", 100000);
     EXPECT_FALSE(reply.accepted);
-    EXPECT_NE(reply.reason.find("differs in cycle "), std::string::npos) << reply.reason;
-    EXPECT_NE(reply.reason.find("column 0: "), std::string::npos) << reply.reason;
+    EXPECT_EQ(reply.outcome, SwapOutcome::DIFFERENT);
+    EXPECT_TRUE(reply.difference.starts_with("cycle ")) << reply.difference;
+    EXPECT_NE(reply.difference.find("column 0: "), std::string::npos) << reply.difference;
+    EXPECT_NE(reply.reason.find("differs in " + reply.difference), std::string::npos) << reply.reason;
     EXPECT_EQ(pid(cluster, stage), before);
     EXPECT_EQ(cluster.state(), RunState::RUNNING) << cluster.told();
   }
@@ -289,10 +292,13 @@ TEST_F(Swapping, APlcAndKeepersThatWouldDoOtherwiseAreNotTaken) {
 
 TEST_F(Swapping, WhatCannotBeStartedOrDoesNotExistIsRefused) {
   Cluster cluster("ac-table");
-  EXPECT_NE(swap(cluster, "kinematics", "/nowhere/at/all").reason.find("cannot be started"),
-            std::string::npos);
-  EXPECT_FALSE(swap(cluster, "kinematics", "/bin/true").accepted) << "it ends at once";
-  EXPECT_NE(swap(cluster, "lathe").reason.find("has no lathe"), std::string::npos);
+  const auto nowhere = swap(cluster, "kinematics", "/nowhere/at/all");
+  EXPECT_EQ(nowhere.outcome, SwapOutcome::ENDED);
+  EXPECT_NE(nowhere.reason.find("cannot be started"), std::string::npos) << nowhere.reason;
+  EXPECT_EQ(swap(cluster, "kinematics", "/bin/true").outcome, SwapOutcome::ENDED) << "it ends at once";
+  const auto unknown = swap(cluster, "lathe");
+  EXPECT_EQ(unknown.outcome, SwapOutcome::REFUSED);
+  EXPECT_NE(unknown.reason.find("has no lathe"), std::string::npos) << unknown.reason;
   EXPECT_TRUE(cluster.ready());
   cluster.start_text("G90 G0 X5\nM30\n");
   EXPECT_TRUE(cluster.finish()) << cluster.told();
@@ -389,6 +395,7 @@ TEST_F(Swapping, ChannelAndDriveAreSwappedAtRestWithTheirStateAndNotInMotion) {
   for (const std::string service : {"drive", "channel"}) {
     const auto reply = swap(cluster, service);
     EXPECT_FALSE(reply.accepted);
+    EXPECT_EQ(reply.outcome, SwapOutcome::REFUSED);
     EXPECT_NE(reply.reason.find("at rest only"), std::string::npos) << reply.reason;
   }
   EXPECT_EQ(cluster.state(), RunState::RUNNING) << cluster.told();

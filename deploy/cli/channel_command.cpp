@@ -94,8 +94,8 @@ double level_mask(const std::string& text) {
   return mask;
 }
 
-ChannelRequest request_of(cluster::Client& client, const Order& order) {
-  ChannelRequest request;
+cluster::ChannelRequest request_of(cluster::Client& client, const Order& order) {
+  cluster::ChannelRequest request;
   request.channel = order.channel;
   const auto state = [&] {
     auto reader = client.bus().reader(topics::channel_state);

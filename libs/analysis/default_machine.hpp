@@ -36,6 +36,8 @@ class DefaultMachine : public language::Environment {
                                         double tool_length) const override;
   language::AxisValues machine_from_tip(const language::AxisValues& tip, double tool_length) const override;
   std::uint16_t axes() const override { return 0b111; }
+  /// Every letter that is no axis: the spindle of a machine nothing is known of may have any.
+  std::uint16_t spindle_axes() const override { return 0b111111000; }
   double radius_deviation() const override { return 0.1; }
   language::TextSource* subprogram(std::string_view name) override {
     return resolve ? resolve(name) : nullptr;

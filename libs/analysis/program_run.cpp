@@ -92,14 +92,16 @@ class Runner {
       case CommandKind::skip:
         skip_on_its_way_ = flow_.push_pending() != FlowState::alarm;
         return true;
-      case CommandKind::tap:
-        if (!machine_.tapping_spindle().axis) {
+      case CommandKind::tap: {
+        const auto& spindle = machine_.tapping_spindle(command.number);
+        if (!spindle.axis) {
           flow_.refuse_pending(language::AlarmNumber::tapping_spindle_missing);
           return true;
         }
         tapping_.begin(trajectory_.position(), command);
-        begin_tapping(true, tapping_.limits(machine_.limits(), machine_.tapping_spindle().acceleration));
+        begin_tapping(true, tapping_.limits(machine_.limits(), spindle.acceleration));
         return true;
+      }
       case CommandKind::transformation:
         frame_.transformation = command.modal.transformation;
         frame_.tool_length = command.modal.tool_length;

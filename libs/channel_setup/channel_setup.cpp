@@ -12,6 +12,8 @@ namespace {
 
 constexpr double turn_worth_a_move = 1e-6;  // degrees
 constexpr std::uint32_t most_vector_pieces = 1024;
+constexpr double straight_on = 180;      // degrees: interior angle and turn of a corner together
+constexpr int spindle_axis_number = -2;  // of a letter that is a spindle in position mode
 
 }  // namespace
 
@@ -44,12 +46,7 @@ void ChannelSetup::configure(const machine::Parameters& p) {
     for (std::uint32_t k = 0; k < 3; ++k)
       numbered_references_[k][index] = p.get(parameter::numbered_reference, a, k);
   }
-  tapping_spindle_ = {};
-  const int wanted_spindle = p.integer(parameter::tapping_spindle, channel_);
-  for (const auto& spindle : machine::spindles(p)) {
-    if (tapping_spindle_.axis || (wanted_spindle >= 0 && spindle.number != wanted_spindle)) continue;
-    tapping_spindle_ = {spindle.number, p.get(parameter::maximum_acceleration, spindle.number)};
-  }
+  find_tapping_spindles(p);
   solver_.emplace(*chain_);
   rotary_travel_ = machine::rotary_travels(p, channel_);
   avoid_poles_ = p.integer(parameter::pole_handling, channel_) != 0;
@@ -71,14 +68,14 @@ void ChannelSetup::configure(const machine::Parameters& p) {
   limits_.smoothing_cycles = p.integer(parameter::smoothing_cycles, channel_);
   limits_.contour_tolerance = p.get(parameter::contour_tolerance, channel_);
   limits_.arc_tolerance = p.get(parameter::arc_tolerance);
-  limits_.smooth_corner_angle = p.get(parameter::smooth_corner_angle, channel_);
+  limits_.smooth_corner_angle = straight_on - p.get(parameter::smooth_corner_angle, channel_);
   limits_.centripetal_acceleration = p.get(parameter::centripetal_acceleration, channel_);
   limits_.orientation_tolerance = p.get(parameter::orientation_tolerance, channel_);
   for (std::uint32_t k = 0; k < limits_.modes.size(); ++k)
     limits_.modes[k] = {p.integer(parameter::mode_smoothing_cycles, channel_, k),
                         p.get(parameter::mode_contour_tolerance, channel_, k),
                         p.get(parameter::mode_orientation_tolerance, channel_, k),
-                        p.get(parameter::mode_smooth_corner_angle, channel_, k),
+                        straight_on - p.get(parameter::mode_smooth_corner_angle, channel_, k),
                         p.get(parameter::mode_centripetal_acceleration, channel_, k)};
   radius_deviation_ = p.get(parameter::radius_deviation);
   cycle_seconds_ = p.get(parameter::interpolation_cycle) * 1e-6;
@@ -89,6 +86,28 @@ void ChannelSetup::configure(const machine::Parameters& p) {
   frame_virtual_ =
       std::min(most, static_cast<std::uint32_t>(p.integer(parameter::frame_cycles_virtual_time)));
   revision_ = p.revision;
+}
+
+// The letters that are spindles count from the one that is coupled without J.
+void ChannelSetup::find_tapping_spindles(const machine::Parameters& p) {
+  const auto spindles = machine::spindles(p);
+  const int first = p.integer(parameter::tapping_spindle, channel_);
+  auto next = std::find_if(spindles.begin(), spindles.end(),
+                           [&](const auto& spindle) { return first < 0 || spindle.number == first; });
+  const auto spindle = [&](auto at) {
+    return at == spindles.end()
+               ? TappingSpindle{}
+               : TappingSpindle{at->number, p.get(parameter::maximum_acceleration, at->number)};
+  };
+  tapping_spindles_ = {};
+  tapping_spindles_[0] = spindle(next);
+  spindle_mask_ = 0;
+  for (std::uint32_t letter = language::A; letter < language::axis_count; ++letter) {
+    if (p.integer(parameter::channel_axis, channel_, letter) != spindle_axis_number) continue;
+    spindle_mask_ = static_cast<std::uint16_t>(spindle_mask_ | (1u << letter));
+    tapping_spindles_[letter - language::A + 1] = spindle(next);
+    if (next != spindles.end()) ++next;
+  }
 }
 
 void ChannelSetup::set_tools(const idl::parameters::ToolTable& table) {
@@ -182,11 +201,11 @@ std::variant<geometry::DirectionPath, geometry::DirectionPathFault> ChannelSetup
   return geometry::DirectionPath::make(*solver_, request);
 }
 
-language::VectorWay ChannelSetup::vector_way(const AxisValues& current,
-                                             const language::Vector3& direction) const {
-  using Fault = language::VectorWay::Fault;
+language::VectorPath ChannelSetup::vector_path(const AxisValues& current,
+                                               const language::Vector3& direction) const {
+  using Fault = language::VectorPath::Fault;
   using PathFault = geometry::DirectionPathFault;
-  language::VectorWay way;
+  language::VectorPath way;
   const auto made = direction_path(current, direction);
   if (const auto* fault = std::get_if<PathFault>(&made)) {
     switch (fault->kind) {
@@ -197,7 +216,7 @@ language::VectorWay ChannelSetup::vector_way(const AxisValues& current,
         way.fault = Fault::opposite;
         break;
       case PathFault::unreachable:
-        way.fault = fault->s == 1 ? Fault::end : Fault::on_the_way;
+        way.fault = fault->s == 1 ? Fault::end : Fault::between;
         way.nearest = {fault->nearest[0], fault->nearest[1], fault->nearest[2]};
         break;
       case PathFault::outside_travel:
@@ -217,8 +236,8 @@ language::VectorWay ChannelSetup::vector_way(const AxisValues& current,
   return way;
 }
 
-AxisValues ChannelSetup::on_vector_way(const AxisValues& current, const language::Vector3& direction,
-                                       double s) const {
+AxisValues ChannelSetup::on_vector_path(const AxisValues& current, const language::Vector3& direction,
+                                        double s) const {
   AxisValues result = current;
   const auto made = direction_path(current, direction);
   if (const auto* path = std::get_if<geometry::DirectionPath>(&made)) {

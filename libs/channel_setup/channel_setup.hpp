@@ -58,16 +58,17 @@ class ChannelSetup : public language::Environment {
   std::optional<language::Vector3> nearest_direction(const language::Vector3& direction,
                                                      const AxisValues& current) const override;
   /// Over the great circle by geometry::DirectionPath, with the pole handling of parameter 04c100.
-  language::VectorWay vector_way(const AxisValues& current,
-                                 const language::Vector3& direction) const override;
-  AxisValues on_vector_way(const AxisValues& current, const language::Vector3& direction,
-                           double s) const override;
+  language::VectorPath vector_path(const AxisValues& current,
+                                   const language::Vector3& direction) const override;
+  AxisValues on_vector_path(const AxisValues& current, const language::Vector3& direction,
+                            double s) const override;
   std::optional<language::TravelBreach> vector_breach(const AxisValues& start, const language::Command& move,
                                                       const language::Vector3& direction) const override;
   std::uint16_t cycle_m_code(std::size_t index) const override { return cycle_m_codes_.at(index); }
   AxisValues tip_from_machine(const AxisValues& machine, double tool_length) const override;
   AxisValues machine_from_tip(const AxisValues& tip, double tool_length) const override;
   std::uint16_t axes() const override { return mask_; }
+  std::uint16_t spindle_axes() const override { return spindle_mask_; }
   double radius_deviation() const override { return radius_deviation_; }
   language::TextSource* subprogram(std::string_view name) override {
     return resolve ? resolve(name) : nullptr;
@@ -84,7 +85,10 @@ class ChannelSetup : public language::Environment {
   const motion::Limits& limits() const { return limits_; }
   const geometry::Chain& chain() const { return *chain_; }
   bool configured() const { return chain_.has_value(); }
-  const TappingSpindle& tapping_spindle() const { return tapping_spindle_; }
+  /// Of a stroke, by language::Command::number of kind tap.
+  const TappingSpindle& tapping_spindle(std::uint32_t tapping_axis = 0) const {
+    return tapping_spindles_.at(tapping_axis);
+  }
   const Travel& travel(std::uint8_t axis) const { return travel_[axis]; }
   double jog_feed(std::uint8_t axis) const { return jog_feed_[axis]; }
   /// Feed of a dry run in mm/min (deg/min where only rotary axes move).
@@ -98,6 +102,7 @@ class ChannelSetup : public language::Environment {
   std::uint64_t revision() const { return revision_; }
 
  private:
+  void find_tapping_spindles(const machine::Parameters& parameters);
   std::string words_of(const language::TravelBreach& breach, std::uint32_t line) const;
   /// Of a move whose tool goes `way`, or rotary axes in proportion when that is null.
   std::optional<language::TravelBreach> breach_of(const AxisValues& from, const language::Command& move,
@@ -126,7 +131,8 @@ class ChannelSetup : public language::Environment {
   language::CutterSettings cutter_;
   std::array<std::array<language::Vector3, 3>, 20> planes_{};
   std::array<std::uint16_t, 8> cycle_m_codes_{};
-  TappingSpindle tapping_spindle_;
+  std::array<TappingSpindle, 7> tapping_spindles_;  // without J, and of J1..J6
+  std::uint16_t spindle_mask_ = 0;
   std::array<Travel, language::axis_count> travel_{};
   AxisValues jog_feed_{}, reference_feed_{};
   std::uint16_t mask_ = 0;

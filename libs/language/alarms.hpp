@@ -41,7 +41,7 @@ enum class AlarmNumber : std::uint16_t {
   parameter_line = 1118,
   not_resumable = 1119,
   tool_vector_opposite = 1120,
-  tool_vector_way = 1121,
+  tool_vector_between = 1121,
   orientation_travel = 1122,
   tool_vector_travel = 1123,
   tool_vector_pole = 1124,
@@ -153,7 +153,8 @@ inline constexpr std::array alarm_texts = {
     AlarmText{AlarmNumber::tapping_spindle_missing, "rigid tapping without a spindle on this machine"},
     AlarmText{AlarmNumber::tool_vector_opposite,
               "tool vector is opposite to the one before: no shortest way"},
-    AlarmText{AlarmNumber::tool_vector_way, "tool cannot be led to this direction: out of reach on the way"},
+    AlarmText{AlarmNumber::tool_vector_between,
+              "tool cannot be led to this direction: out of reach on the way"},
     AlarmText{AlarmNumber::orientation_travel, "tool direction is beyond the travel of a rotary axis"},
     AlarmText{AlarmNumber::tool_vector_travel, "axis would leave its travel while the tool is led"},
     AlarmText{AlarmNumber::tool_vector_pole, "tool would come too near to a pole of the rotary axes"},
@@ -233,7 +234,7 @@ constexpr std::string_view alarm_text(AlarmNumber number) {
   return "";
 }
 
-/// A fault inside one line, before anybody looks up the line's text.
+/// A fault inside one line, before the line's text is looked up.
 struct Fault {
   AlarmNumber number = AlarmNumber::none;
   std::uint16_t offset = 0;  ///< byte of the line, from 0
@@ -243,7 +244,7 @@ struct Fault {
 /// Subprograms, macros and cycles inside each other.
 inline constexpr std::size_t max_nesting = 8;
 
-/// A place in a text: a call on the way to an alarm.
+/// A place in a text: a call that led to an alarm.
 struct CallSite {
   std::uint32_t program = 0;  ///< as Command::program
   std::uint32_t line = 0;     ///< from 1

@@ -54,7 +54,7 @@ struct CallCentre {
   double value = 0;
 };
 
-/// A letter but G and M stands at most once in a block, so words are looked up by letter.
+/// A letter except G and M occurs at most once in a block, so words are looked up by letter.
 struct Block {
   Head head = Head::none;
   bool skipped = false;  ///< begins with / and that level is switched on; nothing else of it was read
@@ -111,7 +111,7 @@ class Dialect {
   /// The condition of a Statement::else_if, at `rest` of its line.
   virtual Fault read_condition(std::string_view line, std::uint16_t rest, const Variables& variables,
                                bool& condition) const = 0;
-  /// A quick look; never fails, because read_block will see the line when it is executed.
+  /// Reads no more than that; never fails, because read_block reads the line when it is executed.
   virtual Outline outline(std::string_view line, SkipLevels skip) const = 0;
 };
 

@@ -1,4 +1,4 @@
-// What the handlers of a block share: its words, the state of the program and the way out.
+// What the handlers of a block share: its words, the state of the program and the output of commands.
 #pragma once
 
 #include <array>
@@ -15,7 +15,7 @@ namespace trunnion::language {
 /// What gives more commands after its block has been executed.
 enum class Activity : std::uint8_t { none, holes, curve, vector };
 
-/// What a fault says beyond its number.
+/// The text of a fault beyond its number.
 struct FaultDetail {
   AlarmNumber number = AlarmNumber::none;
   std::array<char, 64> text{};

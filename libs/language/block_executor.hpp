@@ -60,13 +60,13 @@ class BlockExecutor {
   bool busy() const { return context_.activity != Activity::none || context_.output.draining(); }
   Fault resume(CommandQueue& out);
 
-  /// A skip move (G31) was given out: nothing can be executed before set_position() says where it ended.
+  /// A skip move (G31) was given out: nothing can be executed before set_position() reports where it ended.
   bool needs_position() const { return context_.state.needs_position; }
 
   /// Appends the end of the program; `number` as Command::number.
   Fault end_program(std::uint32_t number, std::uint32_t program, std::uint32_t line, CommandQueue& out);
 
-  /// What the last fault of a block says beyond its number; empty when that is not `number`.
+  /// The text of the last fault of a block beyond its number; empty when that is not `number`.
   std::string_view fault_detail(AlarmNumber number) const {
     const FaultDetail& detail = context_.detail;
     return number == detail.number ? std::string_view(detail.text.data()) : std::string_view{};

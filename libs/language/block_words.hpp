@@ -46,7 +46,7 @@ struct MCodes {
 /// that is asked for counts as used, but for has(), value(), offset() and axis().
 class BlockWords {
  public:
-  /// `modal` tells the units.
+  /// `modal` has the units.
   explicit BlockWords(const ModalState& modal) : modal_(modal) {}
 
   /// The axes of the channel (a bit for each), and whether X words are diameters.

@@ -11,9 +11,7 @@ Fault run(BlockHandlers& handlers, std::uint16_t at) {
   return ((handlers.*handler).*function)(at, arguments...);
 }
 
-}  // namespace
-
-constexpr std::array<GCode, g_code_count> g_codes = {
+constexpr std::array rows = {
     GCode{0, Group::motion, AxisWords::move, run<&BlockHandlers::modal, &ModalCodes::set_motion, 0>,
           "rapid traverse", Origin::iso, "0.1", "G0 X1"},
     GCode{10, Group::motion, AxisWords::move, run<&BlockHandlers::modal, &ModalCodes::set_motion, 1>,
@@ -255,21 +253,21 @@ constexpr std::array<GCode, g_code_count> g_codes = {
           "0.2", "G99"},
 };
 
-namespace {
-
 constexpr std::uint8_t no_code = 0xff;
 constexpr auto g_index = [] {
   std::array<std::uint8_t, 1000> index{};
   index.fill(no_code);
-  for (std::size_t i = 0; i < g_codes.size(); ++i) index[g_codes[i].tenths] = static_cast<std::uint8_t>(i);
+  for (std::size_t i = 0; i < rows.size(); ++i) index[rows[i].tenths] = static_cast<std::uint8_t>(i);
   return index;
 }();
 
 }  // namespace
 
+constinit const std::span<const GCode> g_codes = rows;
+
 const GCode* g_code(std::uint32_t tenths) {
   if (tenths >= g_index.size() || g_index[tenths] == no_code) return nullptr;
-  return &g_codes[g_index[tenths]];
+  return &rows[g_index[tenths]];
 }
 
 }  // namespace trunnion::language

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 
 #include "language/alarms.hpp"
 #include "language/canonical.hpp"
@@ -11,7 +12,7 @@
 namespace trunnion::language {
 
 /// A block may hold one code of each group: two would contradict each other, so the second is an alarm. All
-/// groups but one_block and exact_stop are modal. The order is the one in which the codes of a block act.
+/// groups except one_block and exact_stop are modal. The codes of a block act in the sequence of this list.
 enum class Group : std::uint8_t {
   exact_stop,
   units,
@@ -64,9 +65,8 @@ struct GCode {
   const char* example;  ///< a program of one or more blocks that shows the code
 };
 
-inline constexpr std::size_t g_code_count = 83;
-/// In the order of their numbers; codes.cpp.
-extern const std::array<GCode, g_code_count> g_codes;
+/// Sorted by number; in codes.cpp.
+extern const std::span<const GCode> g_codes;
 
 /// The code with this number times ten, or nullptr.
 const GCode* g_code(std::uint32_t tenths);

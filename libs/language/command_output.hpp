@@ -1,4 +1,4 @@
-// The way of commands from a block into the queue, through cutter radius compensation when it is active.
+// From the state of a program to commands in the queue, through cutter radius compensation when it is active.
 #pragma once
 
 #include <array>

@@ -9,7 +9,7 @@
 namespace trunnion::language {
 
 /// A block gives at most S, T, a tool length, five moves and its M codes by itself. The end of cutter radius
-/// compensation lets go of up to 64 more, each move with up to three on its way around a corner: what does
+/// compensation releases up to 64 more, each move with up to three around a corner: what does
 /// not fit waits there until the queue is empty again.
 class CommandQueue {
  public:

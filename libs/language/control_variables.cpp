@@ -46,7 +46,7 @@ void ControlVariables::start() {
   program_number_ = 0;
   modal_macro_ = false;
   skip_position_ = {};
-  order_.reset();
+  request_.reset();
 }
 
 double ControlVariables::in_program_units(std::uint32_t axis, double value) const {
@@ -230,23 +230,23 @@ AlarmNumber ControlVariables::ask(const VariableRange& range, std::uint32_t inde
   if (!(value >= lowest && value <= (message ? highest_message : largest_number)))
     return AlarmNumber::variable_value;
   if (is_work_offset(range.kind) && index % offsets_apart >= axis_count) return AlarmNumber::variable_unknown;
-  order_ = Order{range.kind, index, value};
+  request_ = Request{range.kind, index, value};
   return AlarmNumber::none;
 }
 
 Fault ControlVariables::carry_out(std::uint32_t program, std::uint32_t line, CommandQueue& out) {
-  if (!order_) return {};
-  const Order order = *order_;
-  order_.reset();
-  if (order.kind == VariableKind::message)
-    return executor_.message(static_cast<std::uint32_t>(order.value), program, line, out);
-  if (is_work_offset(order.kind)) {
-    const std::uint32_t axis = order.index % offsets_apart;
-    return executor_.write_work_offset(work_offset_index(order.kind, order.index), axis,
-                                       to_machine_units(axis, order.value), program, line, out);
+  if (!request_) return {};
+  const Request request = *request_;
+  request_.reset();
+  if (request.kind == VariableKind::message)
+    return executor_.message(static_cast<std::uint32_t>(request.value), program, line, out);
+  if (is_work_offset(request.kind)) {
+    const std::uint32_t axis = request.index % offsets_apart;
+    return executor_.write_work_offset(work_offset_index(request.kind, request.index), axis,
+                                       to_machine_units(axis, request.value), program, line, out);
   }
-  return executor_.write_tool(table_of(order.kind), static_cast<std::uint16_t>(order.index + 1),
-                              to_machine_units(X, order.value), program, line, out);
+  return executor_.write_tool(table_of(request.kind), static_cast<std::uint16_t>(request.index + 1),
+                              to_machine_units(X, request.value), program, line, out);
 }
 
 }  // namespace trunnion::language

@@ -53,12 +53,12 @@ class ControlVariables final : public SystemVariables {
   std::uint32_t program_number_ = 0;
   bool modal_macro_ = false;
   AxisValues skip_position_{};
-  struct Order {
+  struct Request {
     VariableKind kind = VariableKind::message;
     std::uint32_t index = 0;
     double value = 0;
   };
-  std::optional<Order> order_;
+  std::optional<Request> request_;
 };
 
 }  // namespace trunnion::language

@@ -41,8 +41,8 @@ class CutterCompensation {
   /// `at` is where the tool is; it counts when nothing was active before.
   void request(CutterSide side, double radius, Plane plane, const AxisValues& at);
   CutterSide side() const { return side_; }
-  /// Behind request(off): the contour is taken to go on from its end in this direction of the plane (G40 I J
-  /// K). Not both components may be 0.
+  /// Behind request(off): the contour is taken to continue from its end in this direction of the plane (G40 I
+  /// J K). Not both components may be 0.
   void leave_along(Vector2 direction) { wall_ = direction; }
 
   /// Moves and everything else must go through here.

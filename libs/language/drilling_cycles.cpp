@@ -1,6 +1,7 @@
 #include "language/drilling_cycles.hpp"
 
 #include <cmath>
+#include <cstdio>
 
 #include "language/arc_geometry.hpp"
 
@@ -133,12 +134,16 @@ Fault DrillingCycles::read_settings(CycleWords& words) {
   return {};
 }
 
-// An axis of its own under the letter that J names is not the spindle.
+// J names the letter under which the channel has the spindle as an axis.
 Fault DrillingCycles::read_tapping_axis(CycleWords& words) {
   if (const Fault fault = words_.whole_number('J', 1, 6, words.tapping_axis)) return fault;
   const std::uint32_t axis = A + words.tapping_axis - 1;
-  return ((environment_.axes() >> axis) & 1u) != 0 ? Fault{AlarmNumber::value_range, words_.offset('J')}
-                                                   : Fault{};
+  if (((environment_.spindle_axes() >> axis) & 1u) != 0) return {};
+  FaultDetail& detail = context_.detail;
+  detail.number = AlarmNumber::value_range;
+  std::snprintf(detail.text.data(), detail.text.size(), "%c: 04c%03u must be -2", axis_letters[axis],
+                axis + 1);
+  return {detail.number, words_.offset('J')};
 }
 
 Fault DrillingCycles::check_cycle(std::uint16_t at) const {

@@ -18,7 +18,7 @@ struct ToolOffset {
   double radius_wear = 0;        ///< mm, added to the radius, or subtracted (CutterSettings::wear_sign)
 };
 
-/// How canned cycles move where no word says it.
+/// How canned cycles move where no word gives it.
 struct CycleSettings {
   double retract = 1;    ///< mm, between two pecks of G73 and of tapping
   double clearance = 1;  ///< mm above the last depth, where G83 goes back to feed
@@ -30,7 +30,7 @@ struct CutterSettings {
   bool feed_at_contour = true;     ///< F of arcs holds at the contour and not at the tool centre (010044)
   int wear_sign = 1;               ///< radius = radius +- wear (010045)
   bool interference_check = true;  ///< alarm where the tool would cut into a contour nearby (010046)
-  unsigned check_blocks = 2;       ///< how many moves ahead and behind that looks, at most 6 (010047)
+  unsigned check_blocks = 2;       ///< how many moves ahead and behind are checked, at most 6 (010047)
 };
 
 /// Which of several solutions the rotary axes take: P of G68.1..G68.3, or those that follow a path of
@@ -38,14 +38,14 @@ struct CutterSettings {
 enum class RotaryChoice : std::uint8_t { shortest, positive, negative, continuous };
 
 /// How the rotary axes go from one tool direction to another over the great circle between them (G43.5).
-struct VectorWay {
+struct VectorPath {
   enum class Fault : std::uint8_t {
     none,
-    opposite,    ///< the directions are opposite: there is no shortest way
-    end,         ///< no rotary angles give the direction at the end
-    on_the_way,  ///< nor one on the way there
-    travel,      ///< a rotary axis would leave its travel
-    pole         ///< the way comes too near to a pole
+    opposite,  ///< the directions are opposite: there is no shortest path
+    end,       ///< no rotary angles give the direction at the end
+    between,   ///< nor one between the two
+    travel,    ///< a rotary axis would leave its travel
+    pole       ///< the path comes too near to a pole
   };
   Fault fault = Fault::none;
   Vector3 nearest{};  ///< of end and on_the_way: unit vector of the nearest direction in reach, or zero
@@ -83,8 +83,8 @@ class Environment {
     static_cast<void>(number);
     return std::nullopt;
   }
-  /// The signed way each axis makes last in single-direction positioning (G60), mm or degrees; 0 = straight
-  /// there.
+  /// The signed distance of each axis's last move in single-direction positioning (G60), mm or degrees; 0 =
+  /// straight there.
   virtual AxisValues approach() const { return {}; }
   /// X words are diameters (parameter 040032).
   virtual bool diameter_programming() const { return false; }
@@ -110,24 +110,24 @@ class Environment {
     return std::nullopt;
   }
   /// Of a direction that orient() refuses: the nearest one the machine reaches; nothing when it is in reach
-  /// and only the travel of the rotary axes, or the asked sense, is in the way.
+  /// and only the travel of the rotary axes, or the required sense, prevents it.
   virtual std::optional<Vector3> nearest_direction(const Vector3& direction,
                                                    const AxisValues& current) const {
     return orient(direction, current, RotaryChoice::shortest) ? std::nullopt : std::optional(Vector3{});
   }
-  /// The way of the tool from its direction at the rotary axes of `current` to `direction` (as orient()).
-  virtual VectorWay vector_way(const AxisValues& current, const Vector3& direction) const {
-    VectorWay way;
-    if (!orient(direction, current, RotaryChoice::continuous)) way.fault = VectorWay::Fault::end;
-    return way;
+  /// The path of the tool from its direction at the rotary axes of `current` to `direction` (as orient()).
+  virtual VectorPath vector_path(const AxisValues& current, const Vector3& direction) const {
+    VectorPath path;
+    if (!orient(direction, current, RotaryChoice::continuous)) path.fault = VectorPath::Fault::end;
+    return path;
   }
-  /// The rotary axes at share `s` (0..1) of a way without fault; the linear ones of `current`.
-  virtual AxisValues on_vector_way(const AxisValues& current, const Vector3& direction, double s) const {
+  /// The rotary axes at share `s` (0..1) of a path without fault; the linear ones of `current`.
+  virtual AxisValues on_vector_path(const AxisValues& current, const Vector3& direction, double s) const {
     static_cast<void>(s);
     return orient(direction, current, RotaryChoice::continuous).value_or(current);
   }
   /// The axis that leaves its travel when the tip makes `move` (rapid, line or arc, its target's linear axes)
-  /// from `start` while the tool goes a way without fault.
+  /// from `start` while the tool follows a path without fault.
   virtual std::optional<TravelBreach> vector_breach(const AxisValues& start, const Command& move,
                                                     const Vector3& direction) const {
     static_cast<void>(start);
@@ -142,6 +142,9 @@ class Environment {
   virtual AxisValues machine_from_tip(const AxisValues& tip, double tool_length) const = 0;
   /// The axes the channel has: bit a for Axis a.
   virtual std::uint16_t axes() const = 0;
+  /// The axes A B C U V W (bit a for Axis a) that are a spindle in position mode (axis number -2 in
+  /// parameters 04c004..04c009): those that G74 J and G84 J may name.
+  virtual std::uint16_t spindle_axes() const { return 0; }
   /// Largest difference of an arc's radii at its start and its end in mm (parameter 000011, default 0.1).
   virtual double radius_deviation() const = 0;
   /// The text of a subprogram that is not in the calling text, or nullptr. `name` is O and at least four

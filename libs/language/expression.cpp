@@ -16,7 +16,7 @@ struct OperatorSign {
 
 constexpr int binds_least = 1;
 
-// A longer sign stands before a shorter one that begins it.
+// A longer sign comes before a shorter one that begins it.
 constexpr std::array operator_words = {
     OperatorSign{"EQ", Operator::equal, 3},    OperatorSign{"NE", Operator::not_equal, 3},
     OperatorSign{"GT", Operator::greater, 3},  OperatorSign{"GE", Operator::greater_equal, 3},

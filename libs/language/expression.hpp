@@ -13,14 +13,14 @@ namespace trunnion::language {
 /// Brackets and functions inside each other.
 inline constexpr int max_brackets = 32;
 
-/// Reads and evaluates expressions where a scanner stands. Angles are degrees.
+/// Reads and evaluates expressions at the position of a scanner. Angles are degrees.
 ///
 /// What binds first: functions and signs; * / MOD AND; + - OR XOR; the comparisons EQ NE GT GE LT LE or
 /// == != <> > >= < <=, which give 1 or 0; && ; ||. AND OR XOR work on the bits of whole numbers, && and ||
 /// and NOT or ! on true (not 0) and false (0). ROUND goes away from zero at a half, FIX towards zero, FUP
 /// away from it. ATAN of one argument gives -90..90, of two, ATAN[y,x] or ATAN[y]/[x], 0..360 without 360. A
-/// vacant value counts as 0, but EQ and NE tell it from 0, and a variable alone as an expression hands its
-/// vacancy on. A result beyond the numbers of a double, or outside a function's domain, is a fault.
+/// vacant value counts as 0, but EQ and NE distinguish it from 0, and a variable alone as an expression hands
+/// its vacancy on. A result beyond the numbers of a double, or outside a function's domain, is a fault.
 class ExpressionReader {
  public:
   ExpressionReader(Scanner& scanner, const Variables& variables) : scanner_(scanner), variables_(variables) {}

@@ -90,14 +90,14 @@ void HoleCycle::add_whole_hole() {
 }
 
 void HoleCycle::add_peck() {
-  const double way = p_.z < p_.r ? -1 : 1;
+  const double sense = p_.z < p_.r ? -1 : 1;
   const double from = depth_;
-  depth_ = way < 0 ? std::max(depth_ - p_.peck, p_.z) : std::min(depth_ + p_.peck, p_.z);
+  depth_ = sense < 0 ? std::max(depth_ - p_.peck, p_.z) : std::min(depth_ + p_.peck, p_.z);
   // What rounding leaves below the last whole peck is no peck.
   if (std::abs(p_.z - depth_) < no_peck) depth_ = p_.z;
   // Backing out must not go past R.
   const auto back_out = [&](double level, double by) {
-    return way < 0 ? std::min(level + by, p_.r) : std::max(level - by, p_.r);
+    return sense < 0 ? std::min(level + by, p_.r) : std::max(level - by, p_.r);
   };
   const bool last = depth_ == p_.z;
   pecking_ = !last;

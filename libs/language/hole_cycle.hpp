@@ -36,7 +36,7 @@ struct HoleParameters {
   std::uint32_t restart = 3;  ///< M code that starts the spindle again: 3 or 4
 };
 
-/// Gives the steps of a hole one after the other, the tool standing over it. Allocates nothing, however many
+/// Gives the steps of a hole one after the other, the tool being above it. Allocates nothing, however many
 /// pecks there are.
 class HoleCycle {
  public:

@@ -41,10 +41,10 @@ void Interpreter::start(TextSource& text, const AxisValues& position, const Moda
   blocks_ = 0;
   stop_line_ = 0;
   else_if_due_ = in_modal_call_ = false;
-  frames_[0] = Frame{};
-  frames_[0].source = &text;
+  levels_[0] = CallLevel{};
+  levels_[0].source = &text;
   reader_.reset();
-  reader_.seek(text, frames_[0].top);
+  reader_.seek(text, levels_[0].top);
   state_ = State::running;
 }
 
@@ -78,9 +78,9 @@ Interpreter::State Interpreter::report_line_status(LineReader::Status status, St
 }
 
 Alarm Interpreter::located(const Fault& fault, std::string_view line) const {
-  Alarm alarm = make_alarm(fault, line, frames_[depth_].program, line_, executor_.fault_detail(fault.number));
+  Alarm alarm = make_alarm(fault, line, levels_[depth_].program, line_, executor_.fault_detail(fault.number));
   alarm.calls = static_cast<std::uint8_t>(depth_);
-  for (std::size_t i = 0; i < depth_; ++i) alarm.chain[i] = {frames_[i].program, frames_[i + 1].call_line};
+  for (std::size_t i = 0; i < depth_; ++i) alarm.chain[i] = {levels_[i].program, levels_[i + 1].call_line};
   return alarm;
 }
 
@@ -99,9 +99,9 @@ Interpreter::State Interpreter::run_line(Step& step) {
   const LineReader::Status status = reader_.next(line);
   line_ = position_.line;
   if (status == LineReader::Status::line) {
-    if (line_ == stop_line_ && frames_[depth_].program == 0) {
+    if (line_ == stop_line_ && levels_[depth_].program == 0) {
       stop_line_ = 0;
-      reader_.seek(*frames_[depth_].source, position_);
+      reader_.seek(*levels_[depth_].source, position_);
       step = Step::line;
       return state_;
     }
@@ -112,23 +112,23 @@ Interpreter::State Interpreter::run_line(Step& step) {
 }
 
 Interpreter::State Interpreter::execute(std::string_view line) {
-  Frame& frame = frames_[depth_];
+  CallLevel& level = levels_[depth_];
   if (const Fault fault = dialect_.read_block(line, options_.block_skip, variables_, block_))
     return fail(fault, line);
   if (block_.skipped) return State::running;
-  if (block_.head != Head::none && frame.begun) return end_of_text();
+  if (block_.head != Head::none && level.started) return end_of_text();
   if (block_.head == Head::program) {
-    frame.begun = true;
+    level.started = true;
     control_.set_program_number(block_.program_number);
   }
   if (block_.statement != Statement::none || !block_.empty()) ++blocks_;
   if (block_.has('N')) control_.set_sequence_number(block_.value('N'));
   if (block_.statement != Statement::none) {
-    frame.begun = true;
+    level.started = true;
     return run_statement(line);
   }
   if (block_.empty()) return State::running;
-  frame.begun = true;
+  level.started = true;
   return execute_words(line);
 }
 
@@ -141,11 +141,11 @@ Interpreter::State Interpreter::execute_words(std::string_view line) {
   }
   Flow flow;
   if (!modal_call_active_ || in_modal_call_) {
-    if (const Fault fault = executor_.execute(block_, frames_[depth_].program, line_, queue_, flow))
+    if (const Fault fault = executor_.execute(block_, levels_[depth_].program, line_, queue_, flow))
       return fail(fault, line);
     return go(flow, line);
   }
-  if (const Fault fault = executor_.execute(block_, frames_[depth_].program, line_, queue_, flow))
+  if (const Fault fault = executor_.execute(block_, levels_[depth_].program, line_, queue_, flow))
     return fail(fault, line);
   if (flow.kind != Flow::Kind::next || !executor_.moves()) return go(flow, line);
   arguments_ = modal_arguments_;
@@ -187,13 +187,13 @@ AxisValues Interpreter::workpiece(const Command& command) const {
 }
 
 Interpreter::State Interpreter::end_of_text() {
-  const OpenStructures& open = frames_[depth_].open;
+  const OpenStructures& open = levels_[depth_].open;
   if (open.size() != 0) {
     line_ = open.top().begin.line;
     return fail({AlarmNumber::begin_without_end, 0}, {});
   }
   if (depth_ != 0) return fail({AlarmNumber::subprogram_without_end, 0}, {});
-  if (const Fault fault = executor_.end_program(0, frames_[0].program, line_, queue_)) return fail(fault, {});
+  if (const Fault fault = executor_.end_program(0, levels_[0].program, line_, queue_)) return fail(fault, {});
   return State::done;
 }
 

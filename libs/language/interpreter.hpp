@@ -20,7 +20,7 @@ enum class Step : std::uint8_t {
   pending,   ///< the text source has to deliver first: call again later
   end,       ///< the end command was taken before
   alarm,     ///< see alarm(); stays so until start()
-  position,  ///< the command before was a skip move: set_position() must tell where it ended, for what the
+  position,  ///< the command before was a skip move: set_position() must report where it ended, for what the
              ///< program does next depends on it
   line,      ///< the line of stop_before_line() would be read next; it will be, when next() is called again
 };
@@ -40,11 +40,10 @@ inline constexpr VariableStore no_variables{};
 ///
 /// M98 P1234 and G65 P1234 call the program that begins with O1234 or %1234 in the same text, else the text
 /// Environment::subprogram finds for "O1234"; M98 P31234 without L calls O1234 three times when there is no
-/// O31234; G1007 calls %1007 of the text "USERDEF.CYC". A main program
-/// ends with M2, M30, its text, a lone % or the head of the next program; M99 there starts it again from its
-/// top. A subprogram must end with M99. GOTO and M99 P look for N forward, then from the top of the program.
-/// While G66 is active, each block that moves, but for those of the called macro itself, is followed by the
-/// call.
+/// O31234; G1007 calls %1007 of the text "USERDEF.CYC". A main program ends with M2, M30, its text, a lone %
+/// or the head of the next program; M99 there starts it again from its top. A subprogram must end with M99.
+/// GOTO and M99 P look for N forward, then from the top of the program. While G66 is active, each block that
+/// moves, but for those of the called macro itself, is followed by the call.
 class Interpreter {
  public:
   /// `environment` and `dialect` must outlive the interpreter.
@@ -55,7 +54,8 @@ class Interpreter {
 
   /// Begins `text`, a program or an MDI line, at `position` (in the frame of `initial.transformation`) with
   /// the modal state of the control at power-on or of the program before, and its variables. Beginning::line
-  /// goes on in the frames, the cycle and the modal macro of the line before; `initial` is then its modal().
+  /// continues in the frames, the cycle and the modal macro of the line before; `initial` is then its
+  /// modal().
   void start(TextSource& text, const AxisValues& position, const ModalState& initial,
              const VariableStore& variables = no_variables, Beginning beginning = Beginning::program);
 
@@ -73,7 +73,7 @@ class Interpreter {
   /// Why next() gave Step::alarm.
   const Alarm& alarm() const { return alarm_; }
 
-  /// Tells where the machine really is, in the frame of modal().transformation, for the blocks not read yet:
+  /// Sets where the machine really is, in the frame of modal().transformation, for the blocks not read yet:
   /// after a move that ended elsewhere than commanded. Only sensible when next() has nothing prepared: after
   /// Step::end, or the command of a block's end.
   void set_position(const AxisValues& position) { set_position(position, position); }
@@ -103,14 +103,14 @@ class Interpreter {
   static const Dialect& iso_dialect();
 
  private:
-  struct Frame {
+  struct CallLevel {
     TextSource* source = nullptr;
     std::uint32_t program = 0;
     TextPosition top;             // first line of the program
-    TextPosition resume;          // where the caller goes on
+    TextPosition resume;          // where the caller continues
     std::uint32_t call_line = 0;  // of the caller
     std::uint32_t remaining = 0;  // repetitions after this one
-    bool begun = false;           // a head or a word has been read
+    bool started = false;         // a head or a word has been read
     bool own_variables = false;
     bool modal = false;  // called by G66
     OpenStructures open;
@@ -182,7 +182,7 @@ class Interpreter {
   CommandQueue queue_;
   Block block_;
   CycleMCodes cycle_m_codes_{};
-  std::array<Frame, max_nesting + 1> frames_{};
+  std::array<CallLevel, max_nesting + 1> levels_{};
   std::size_t depth_ = 0;
   State state_ = State::done;
   Alarm alarm_;
@@ -191,12 +191,12 @@ class Interpreter {
   std::uint64_t blocks_ = 0;
   TextPosition position_;     // of that line
   bool else_if_due_ = false;  // the next line is an ELSEIF whose condition decides
-  // A jump that looks for its target, and the alarms if it is in vain or not allowed.
+  // A jump that looks for its target, and the alarms if it is not found or not allowed.
   Search search_;
   JumpCache jumps_;
   Alarm not_found_;
   Alarm not_allowed_;
-  // A call that looks for its program: what was called and where to come back.
+  // A call that looks for its program: what was called and where to return to.
   Call call_;
   std::uint32_t called_ = 0;  // the number as written
   Arguments arguments_;

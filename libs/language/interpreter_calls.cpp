@@ -26,7 +26,7 @@ Interpreter::State Interpreter::call(const Call& call, std::string_view line) {
   after_call_ = reader_.position();
   call_line_ = line_;
   const bool cycle = call.kind == CallKind::cycle;
-  TextSource* const caller = frames_[depth_].source;
+  TextSource* const caller = levels_[depth_].source;
   for (const Found& known : found_) {
     if (known.caller == caller && known.number == call.number && known.cycle == cycle &&
         (known.repetitions == 0 || !call.counted))
@@ -46,55 +46,55 @@ Interpreter::State Interpreter::found(TextSource& source, std::uint32_t program,
   next_found_ = (next_found_ + 1) % found_.size();
   const std::uint32_t repetitions = call_.number == called_ ? 0 : call_.repetitions;
   entry = {
-      frames_[depth_].source, called_, repetitions, call_.kind == CallKind::cycle, &source, program, top};
+      levels_[depth_].source, called_, repetitions, call_.kind == CallKind::cycle, &source, program, top};
   return enter(entry);
 }
 
 Interpreter::State Interpreter::enter(const Found& target) {
-  frames_[depth_].resume = after_call_;
-  Frame& frame = frames_[++depth_];
-  frame.source = target.source;
-  frame.program = target.program;
-  frame.top = target.top;
-  frame.call_line = call_line_;
-  frame.remaining = (target.repetitions != 0 && !call_.counted ? target.repetitions : call_.repetitions) - 1;
-  frame.begun = false;
-  frame.own_variables = call_.kind != CallKind::subprogram;
-  frame.modal = call_.kind == CallKind::modal_macro || call_.kind == CallKind::block_macro;
-  frame.open.clear();
-  if (frame.own_variables) variables_.enter(arguments_);
-  if (frame.modal) in_modal_call_ = true;
-  reader_.seek(*frame.source, frame.top);
+  levels_[depth_].resume = after_call_;
+  CallLevel& level = levels_[++depth_];
+  level.source = target.source;
+  level.program = target.program;
+  level.top = target.top;
+  level.call_line = call_line_;
+  level.remaining = (target.repetitions != 0 && !call_.counted ? target.repetitions : call_.repetitions) - 1;
+  level.started = false;
+  level.own_variables = call_.kind != CallKind::subprogram;
+  level.modal = call_.kind == CallKind::modal_macro || call_.kind == CallKind::block_macro;
+  level.open.clear();
+  if (level.own_variables) variables_.enter(arguments_);
+  if (level.modal) in_modal_call_ = true;
+  reader_.seek(*level.source, level.top);
   return State::running;
 }
 
 Interpreter::State Interpreter::return_from_subprogram(const Flow& flow, std::string_view line) {
-  Frame& frame = frames_[depth_];
+  CallLevel& level = levels_[depth_];
   if (depth_ == 0 && flow.to_label) {
     return jump(Purpose::label, flow.subprogram, position_, {AlarmNumber::label_missing, block_.offset('P')},
                 line);
   }
   if (depth_ == 0 && !options_.repeat) {
-    if (const Fault fault = executor_.end_program(0, frame.program, line_, queue_)) return fail(fault, line);
+    if (const Fault fault = executor_.end_program(0, level.program, line_, queue_)) return fail(fault, line);
     return State::done;
   }
-  if (depth_ == 0 || frame.remaining > 0) {
-    if (depth_ != 0) --frame.remaining;
-    frame.begun = false;
-    frame.open.clear();
-    if (frame.own_variables) variables_.repeat();
-    reader_.seek(*frame.source, frame.top);
+  if (depth_ == 0 || level.remaining > 0) {
+    if (depth_ != 0) --level.remaining;
+    level.started = false;
+    level.open.clear();
+    if (level.own_variables) variables_.repeat();
+    reader_.seek(*level.source, level.top);
     return State::running;
   }
-  if (frame.own_variables) variables_.leave();
-  if (frame.modal) in_modal_call_ = false;
+  if (level.own_variables) variables_.leave();
+  if (level.modal) in_modal_call_ = false;
   // The alarm of a label that is not there belongs to the M99 that names it.
   if (flow.to_label) {
     not_found_ = located({AlarmNumber::label_missing, block_.offset('P')}, line);
     not_allowed_ = located({AlarmNumber::jump_into_structure, block_.offset('P')}, line);
   }
   --depth_;
-  const Frame& caller = frames_[depth_];
+  const CallLevel& caller = levels_[depth_];
   reader_.seek(*caller.source, caller.resume);
   if (!flow.to_label) return State::running;
   const auto* const known =

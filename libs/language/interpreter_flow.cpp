@@ -4,14 +4,14 @@
 namespace trunnion::language {
 
 Interpreter::State Interpreter::run_statement(std::string_view line) {
-  Frame& frame = frames_[depth_];
+  CallLevel& level = levels_[depth_];
   const Fault in_vain{AlarmNumber::begin_without_end, block_.at};
   const Statement statement = block_.statement;
   switch (statement) {
     case Statement::none:
       return State::running;
     case Statement::assignment:
-      if (Fault fault = control_.carry_out(frame.program, line_, queue_)) {
+      if (Fault fault = control_.carry_out(level.program, line_, queue_)) {
         fault.offset = block_.at;
         return fail(fault, line);
       }
@@ -21,8 +21,8 @@ Interpreter::State Interpreter::run_statement(std::string_view line) {
     default:
       break;
   }
-  const TextPosition begin = frame.open.size() != 0 ? frame.open.top().begin : TextPosition{};
-  const AlarmNumber alarm = frame.open.pass(statement, block_.label, position_);
+  const TextPosition begin = level.open.size() != 0 ? level.open.top().begin : TextPosition{};
+  const AlarmNumber alarm = level.open.pass(statement, block_.label, position_);
   if (alarm != AlarmNumber::none) return fail({alarm, block_.at}, line);
   switch (statement) {
     case Statement::begin_if:
@@ -44,7 +44,7 @@ Interpreter::State Interpreter::run_statement(std::string_view line) {
     case Statement::end_while:
     case Statement::end_do:
       // The beginning is read again: its condition decides.
-      reader_.seek(*frame.source, begin);
+      reader_.seek(*level.source, begin);
       return State::running;
     default:
       return State::running;
@@ -59,7 +59,7 @@ Interpreter::State Interpreter::branch(bool condition, std::string_view line) {
 Interpreter::State Interpreter::jump(Purpose purpose, std::uint32_t wanted, TextPosition from,
                                      const Fault& in_vain, std::string_view line) {
   const JumpCache::Target* const known =
-      jumps_.find(frames_[depth_].source, from.offset, key(purpose, wanted));
+      jumps_.find(levels_[depth_].source, from.offset, key(purpose, wanted));
   if (known != nullptr) return arrive(*known);
   not_found_ = located(in_vain, line);
   not_allowed_ = located({AlarmNumber::jump_into_structure, in_vain.offset}, line);
@@ -67,22 +67,22 @@ Interpreter::State Interpreter::jump(Purpose purpose, std::uint32_t wanted, Text
 }
 
 Interpreter::State Interpreter::search(Purpose purpose, std::uint32_t wanted, TextPosition from) {
-  const Frame& frame = frames_[depth_];
+  const CallLevel& level = levels_[depth_];
   search_.purpose = purpose;
-  search_.source = frame.source;
+  search_.source = level.source;
   search_.wanted = wanted;
   search_.from = from;
   search_.from_top = false;
-  search_.depth = frame.open.size();
-  search_.open = frame.open;
+  search_.depth = level.open.size();
+  search_.open = level.open;
   return State::searching;
 }
 
 Interpreter::State Interpreter::arrive(const JumpCache::Target& target) {
-  Frame& frame = frames_[depth_];
-  frame.open.cut(target.open);
+  CallLevel& level = levels_[depth_];
+  level.open.cut(target.open);
   else_if_due_ = target.at_else_if;
-  reader_.seek(*frame.source, target.position);
+  reader_.seek(*level.source, target.position);
   return State::running;
 }
 
@@ -96,7 +96,7 @@ Interpreter::State Interpreter::search_line(Step& step) {
   if (search_.purpose == Purpose::program) {
     if (outline.head != Head::program || outline.program_number != search_.wanted) return State::searching;
     const bool cycle = call_.kind == CallKind::cycle;
-    return found(*search_.source, cycle ? cycle_file : frames_[depth_].program, position);
+    return found(*search_.source, cycle ? cycle_file : levels_[depth_].program, position);
   }
   if (search_.purpose == Purpose::label) {
     // What lies between the top and the jump is this program, its head included.
@@ -137,7 +137,7 @@ bool Interpreter::structure_found(Statement statement) const {
 }
 
 Interpreter::State Interpreter::label_found(TextPosition position) {
-  const std::size_t common = frames_[depth_].open.common(search_.open);
+  const std::size_t common = levels_[depth_].open.common(search_.open);
   if (common != search_.open.size()) return fail(not_allowed_);
   const JumpCache::Target target{position, common, false};
   jumps_.store(search_.source, search_.from.offset, key(search_.purpose, search_.wanted), target);
@@ -162,7 +162,7 @@ Interpreter::State Interpreter::search_ended() {
   if (search_.purpose != Purpose::label || search_.from_top) return fail(not_found_);
   search_.from_top = true;
   search_.open.clear();
-  reader_.seek(*search_.source, frames_[depth_].top);
+  reader_.seek(*search_.source, levels_[depth_].top);
   return State::searching;
 }
 

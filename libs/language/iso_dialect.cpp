@@ -290,7 +290,7 @@ class BlockReader {
   bool calls_macro_ = false;
   bool skip_is_read_ = false;
   bool word_is_read_ = false;
-  /// Behind IF ... THEN on one line: nothing that opens or closes a structure may stand here.
+  /// Behind IF ... THEN on one line: nothing that opens or closes a structure may be here.
   bool behind_then_ = false;
 };
 
@@ -302,7 +302,7 @@ std::uint32_t plain_number(Scanner& scanner) {
   return number;
 }
 
-/// Whether `word` stands somewhere in the rest of the line outside a comment; the scanner is then behind it.
+/// Whether `word` is somewhere in the rest of the line outside a comment; the scanner is then behind it.
 bool find_word(Scanner& scanner, std::string_view word) {
   while (!scanner.at_end() && scanner.peek() != ';') {
     if (scanner.take_word(word)) return true;

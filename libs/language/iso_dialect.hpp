@@ -1,4 +1,4 @@
-// The HNC-8 / Fanuc way of writing blocks.
+// Blocks as HNC-8 and Fanuc controls write them.
 #pragma once
 
 #include "language/block.hpp"
@@ -6,7 +6,7 @@
 namespace trunnion::language {
 
 /// Reads ISO 6983 words and macro statements as HNC-8 and Fanuc controls do:
-/// - blanks and tabs may stand between and inside words (between letter and number) or be left out; letters
+/// - blanks and tabs may be between and inside words (between letter and number) or be left out; letters
 /// in
 ///   either case;
 /// - a number means the same with and without a point: mm (inch), degrees, or the unit of its letter;
@@ -23,7 +23,7 @@ namespace trunnion::language {
 /// - each letter once, but at most 12 G and 8 M, and in a macro call (behind G65 or G66) ten I, J and K.
 /// Which of two
 ///   would be meant cannot be known;
-/// - assignments and instructions stand alone in their block, but for N; several assignments may follow each
+/// - assignments and instructions are alone in their block, except for N; several assignments may follow each
 ///   other, of which one to a system variable is the last.
 class IsoDialect final : public Dialect {
  public:

@@ -46,7 +46,7 @@ ReadStatus LineReader::refill() {
   const std::size_t asked = std::min(chunk_, buffer_.size() - end_);
   chunk_ = std::min(2 * chunk_, most_at_once);
   const ReadResult result = source_->read(base_ + end_, buffer_.data() + end_, asked);
-  // No bytes are no progress: asking again at once could go on for ever.
+  // No bytes are no progress: asking again at once could be endless.
   if (result.status == ReadStatus::bytes && result.size == 0) return ReadStatus::pending;
   if (result.status == ReadStatus::bytes) end_ += std::min(result.size, asked);
   if (result.status == ReadStatus::end) at_end_ = true;

@@ -19,7 +19,7 @@ Fault whole_word(const Block& block, char name, double lowest, double highest, s
   return {};
 }
 
-/// List I and II in the order they were written: of a variable named by both, the later counts.
+/// List I and II in the sequence they were written in: of a variable named by both, the later counts.
 void fanuc_arguments(const Block& block, Arguments& arguments) {
   std::array<std::uint16_t, local_variables> written{};
   const auto set = [&](std::size_t variable, double value, std::uint16_t offset) {
@@ -34,7 +34,7 @@ void fanuc_arguments(const Block& block, Arguments& arguments) {
     }
   }
   if (block.m_count != 0) set(13, block.m[0].value, block.m[0].offset);
-  // A letter that does not go on from I to K begins the next of ten sets: I J K J K is two of them.
+  // A letter that does not continue from I to K begins the next of ten sets: I J K J K is two of them.
   std::size_t first = 4;
   char last = '\0';
   for (std::size_t i = 0; i < block.centre_count; ++i) {

@@ -34,7 +34,7 @@ enum class CallKind : std::uint8_t {
   cycle,         ///< G1000..G1999 or a user M code: a level of its own, letter A is #0 .. Z is #25
 };
 
-/// G codes that call programs; they stand alone among the codes of their block.
+/// G codes that call programs; they are the only code of their block.
 struct CallCode {
   std::uint16_t first;  ///< tenths
   std::uint16_t last;

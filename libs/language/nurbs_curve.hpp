@@ -15,7 +15,7 @@ namespace trunnion::language {
 ///
 /// Chords and not a curve command, because everything behind (travel check, restart at a fraction of a
 /// command, five-axis transformation, reports) then needs no new case; the tolerance is the control's own
-/// (half of 000010) and Command::chord tells the smoothing that the joints are no corners.
+/// (half of 000010) and Command::chord marks for the smoothing that the joints are no corners.
 class NurbsCurve {
  public:
   static constexpr std::uint32_t most_order = 4;

@@ -45,7 +45,7 @@ struct Meeting {
 };
 
 /// Where the line or circle of `first`, moved `first_left` to its left, meets that of `second`, moved
-/// `second_left`: the meeting nearest to the end of `first`. Both go on beyond their ends. At an arc the
+/// `second_left`: the meeting nearest to the end of `first`. Both continue beyond their ends. At an arc the
 /// radius is that of the end in question, for it may differ from the other one a little.
 Meeting meet(const PlanarPiece& first, double first_left, const PlanarPiece& second, double second_left);
 

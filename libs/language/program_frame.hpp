@@ -9,7 +9,7 @@
 
 namespace trunnion::language {
 
-/// The chain of programmable frames. Whatever the order in which a program switches them on, a position goes
+/// The chain of programmable frames. In whatever sequence a program switches them on, a position goes
 /// through them in this one:
 ///
 ///   program   words as written, after units, diameters, polar coordinates and G91
@@ -29,7 +29,7 @@ class ProgramFrame {
   AxisValues program_from_contour(const AxisValues& contour) const;
   AxisValues command_from_contour(const AxisValues& contour) const;
   AxisValues contour_from_command(const AxisValues& command) const;
-  /// What the words of the program would say of the point.
+  /// The point as the words of the program would give it.
   AxisValues program_from_command(const AxisValues& command) const {
     return program_from_contour(contour_from_command(command));
   }

@@ -19,7 +19,7 @@ struct Structure {
 };
 
 /// The open structures, outermost first. What is open depends on the place alone, not on how the program got
-/// there, so running over lines and searching through them keep it in the same way.
+/// there, so running over lines and searching through them keep it alike.
 class OpenStructures {
  public:
   std::size_t size() const { return size_; }

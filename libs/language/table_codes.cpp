@@ -127,7 +127,7 @@ Fault TableCodes::write_tool(Table table, std::uint16_t number, double value) {
   return output_.settle();
 }
 
-// The older form: P the entry, Z its length, R its radius; T only says which tool it is for.
+// The older form: P the entry, Z its length, R its radius; T only names the tool it is for.
 Fault TableCodes::define_tool(std::uint16_t at) {
   if (!words_.has('P') || !(words_.has('Z') || words_.has('R'))) return {AlarmNumber::missing_word, at};
   std::uint32_t number = 0;

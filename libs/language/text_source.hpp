@@ -11,7 +11,7 @@ namespace trunnion::language {
 enum class ReadStatus : std::uint8_t {
   bytes,    ///< size > 0 bytes are in the buffer
   end,      ///< there is nothing at this offset and never will be
-  pending,  ///< the bytes are on their way: ask again
+  pending,  ///< the bytes have not arrived yet: ask again
   failed,   ///< the text cannot be had
 };
 
@@ -28,7 +28,7 @@ class TextSource {
   virtual ReadResult read(std::uint64_t offset, char* buffer, std::size_t capacity) = 0;
 };
 
-/// A text in memory that somebody else keeps alive: MDI lines, tests.
+/// A text in memory that its user keeps alive: MDI lines, tests.
 class StringSource final : public TextSource {
  public:
   explicit StringSource(std::string_view text) : text_(text) {}

@@ -89,7 +89,7 @@ Fault ToolCodes::compensate(std::uint16_t at, bool named) {
   return {};
 }
 
-// I J K of G40: the direction in which the contour would go on.
+// I J K of G40: the direction in which the contour would continue.
 void ToolCodes::read_wall(const AxisValues& here) {
   AxisValues ahead = state_.program_position;
   const PlaneAxes plane = plane_axes(state_.modal.plane);

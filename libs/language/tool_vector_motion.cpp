@@ -76,19 +76,19 @@ Fault ToolVectorMotion::point(const Vector3& direction, std::uint16_t at, AxisVa
 // proportion.
 Fault ToolVectorMotion::lead(CommandKind kind, const Arc& arc, const Vector3& direction, std::uint16_t at,
                              const AxisValues& end) {
-  const VectorWay way = environment_.vector_way(state_.position, direction);
-  switch (way.fault) {
-    case VectorWay::Fault::none:
+  const VectorPath path = environment_.vector_path(state_.position, direction);
+  switch (path.fault) {
+    case VectorPath::Fault::none:
       break;
-    case VectorWay::Fault::opposite:
+    case VectorPath::Fault::opposite:
       return {AlarmNumber::tool_vector_opposite, at};
-    case VectorWay::Fault::end:
-      return refuse_direction(context_, AlarmNumber::orientation_impossible, way.nearest, at);
-    case VectorWay::Fault::on_the_way:
-      return refuse_direction(context_, AlarmNumber::tool_vector_way, way.nearest, at);
-    case VectorWay::Fault::travel:
+    case VectorPath::Fault::end:
+      return refuse_direction(context_, AlarmNumber::orientation_impossible, path.nearest, at);
+    case VectorPath::Fault::between:
+      return refuse_direction(context_, AlarmNumber::tool_vector_between, path.nearest, at);
+    case VectorPath::Fault::travel:
       return {AlarmNumber::tool_vector_travel, at};
-    case VectorWay::Fault::pole:
+    case VectorPath::Fault::pole:
       return {AlarmNumber::tool_vector_pole, at};
   }
   Command whole;
@@ -103,7 +103,7 @@ Fault ToolVectorMotion::lead(CommandKind kind, const Arc& arc, const Vector3& di
                   breach->position);
     return {AlarmNumber::tool_vector_travel, at};
   }
-  move_ = {kind, state_.position, end, arc, direction, way.turns_first ? 0u : 1u, way.pieces};
+  move_ = {kind, state_.position, end, arc, direction, path.turns_first ? 0u : 1u, path.pieces};
   context_.activity = Activity::vector;
   return next_piece();
 }
@@ -116,7 +116,7 @@ Fault ToolVectorMotion::next_piece() {
   AxisValues target = last  ? move.end
                       : arc ? point_on_arc(move.start, move.end, move.arc, share)
                             : point_on_line(move.start, move.end, share);
-  const AxisValues turned = environment_.on_vector_way(move.start, move.direction, share);
+  const AxisValues turned = environment_.on_vector_path(move.start, move.direction, share);
   // U V W may turn the tool or be linear axes that the block moves.
   for (const Axis axis : {A, B, C, U, V, W})
     if (is_rotary(axis) || turned[axis] != move.start[axis]) target[axis] = turned[axis];

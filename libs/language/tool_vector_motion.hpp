@@ -14,7 +14,7 @@ class ToolVectorMotion : private BlockHandler {
   /// The direction from the tip to the spindle in the workpiece frame that the block gives, if any, and the
   /// place of its words.
   Fault read(std::optional<Vector3>& direction, std::uint16_t& at);
-  /// The rotary axes of `target` (program coordinates) for the direction, without regard to the way there.
+  /// The rotary axes of `target` (program coordinates) for the direction, without regard to the path there.
   Fault point(const Vector3& direction, std::uint16_t at, AxisValues& target);
   /// Leads the tool to the direction while the tip moves to `end` (frame of the commands): the beginning of
   /// an activity.

@@ -9,7 +9,7 @@
 
 namespace trunnion::language {
 
-/// A number, or nothing: a variable nobody has written to is vacant.
+/// A number, or nothing: a variable that was never written is vacant.
 struct Value {
   double number = 0;  ///< 0 when not given
   bool given = false;
@@ -104,7 +104,7 @@ struct Arguments {
   }
 };
 
-/// System variables: whoever knows the state of the control.
+/// System variables: the state of the control.
 class SystemVariables {
  public:
   virtual ~SystemVariables() = default;

@@ -10,6 +10,7 @@ void Tapping::begin(const AxisValues& start, const language::Command& stroke) {
   active_ = true;
   start_ = start;
   lead_ = stroke.value;
+  axis_ = stroke.number;
   double length = 0;
   for (std::size_t i = 0; i < 3; ++i) length = std::hypot(length, stroke.target[i] - start[i]);
   double largest = 0;

@@ -13,8 +13,10 @@ class Tapping {
  public:
   /// The first stroke of a hole, of kind tap, begins at `start`. Its direction is that into the hole.
   void begin(const AxisValues& start, const language::Command& stroke);
-  void end() { active_ = false; }
+  void end() { active_ = false, axis_ = 0; }
   bool active() const { return active_; }
+  /// The tapping axis, as Command::number of the stroke; 0 when none is active.
+  std::uint32_t axis() const { return axis_; }
   /// The spindle's angle that belongs to `position`: revolutions since begin(), clockwise positive.
   double revolutions(const AxisValues& position) const;
   /// `limits` within which the spindle, of `acceleration` degrees/s^2, can follow.
@@ -24,6 +26,7 @@ class Tapping {
 
  private:
   bool active_ = false;
+  std::uint32_t axis_ = 0;
   AxisValues start_{};
   language::Vector3 direction_{};
   double lead_ = 1;  // mm per revolution, negative for a left-hand thread

@@ -41,6 +41,38 @@ TEST(ChannelSetup, WearCountsInTheToolLength) {
   EXPECT_EQ(tool->radius, tables.tools.tools[0].radius);
 }
 
+// HNC-8: 040007 (U) = -2 makes U the spindle that G84 J4 taps with. Further letters are the spindles behind
+// 040913.
+TEST(ChannelSetup, LettersWithAxisNumberMinusTwoAreTheTappingSpindles) {
+  auto tables = tool_tables::load_machine_tables(ac_table);
+  const ChannelSetup plain(tables);
+  const auto spindle = plain.tapping_spindle().axis;
+  ASSERT_TRUE(spindle);
+  EXPECT_EQ(plain.spindle_axes(), 0);
+  EXPECT_FALSE(plain.tapping_spindle(4).axis);
+  tables.parameters.values[40007].value = -2;
+  tables.parameters.values[40008].value = -3;
+  tables.parameters.values[40009].value = -2;
+  const ChannelSetup setup(tables);
+  EXPECT_EQ(setup.channel_axes().letters, "XYZAC");
+  EXPECT_EQ(setup.spindle_axes(), 1u << language::U | 1u << language::W);
+  EXPECT_EQ(setup.tapping_spindle().axis, spindle);
+  EXPECT_EQ(setup.tapping_spindle(4).axis, spindle);
+  EXPECT_EQ(setup.tapping_spindle(4).acceleration, setup.tapping_spindle().acceleration);
+  EXPECT_FALSE(setup.tapping_spindle(5).axis);
+  EXPECT_FALSE(setup.tapping_spindle(6).axis);  // the machine has one spindle only
+}
+
+// 180 degrees are straight on: an interior angle of 100 is a turn by 80.
+TEST(ChannelSetup, TheSmoothCornerAngleIsAnInteriorAngle) {
+  auto tables = tool_tables::load_machine_tables(ac_table);
+  EXPECT_EQ(ChannelSetup(tables).limits().smooth_corner_angle, 120);
+  EXPECT_EQ(ChannelSetup(tables).limits().modes[0].smooth_corner_angle, 80);
+  EXPECT_EQ(ChannelSetup(tables).limits().modes[1].smooth_corner_angle, 120);
+  tables.parameters.values[40903].value = 100;
+  EXPECT_EQ(ChannelSetup(tables).limits().smooth_corner_angle, 80);
+}
+
 TEST(ChannelSetup, MCodesOfUserCyclesAreParameters) {
   auto tables = tool_tables::load_machine_tables(ac_table);
   EXPECT_EQ(ChannelSetup(tables).cycle_m_code(3), 0);
@@ -67,8 +99,8 @@ TEST(ChannelSetup, FurtherWorkOffsetsFollowTheFirstSix) {
   offset.values = {1, 2, 3, 0, 0, 0, 0, 0, 0};
   tables.offsets.offsets.push_back(offset);
   EXPECT_EQ(ChannelSetup(tables).work_offset(6)[language::Y], 2);
-  EXPECT_EQ(work_offset_code(0), "G54");
-  EXPECT_EQ(work_offset_code(53), "G54.1P48");
+  EXPECT_EQ(tool_tables::work_offset_code(0), "G54");
+  EXPECT_EQ(tool_tables::work_offset_code(53), "G54.1P48");
 }
 
 TEST(ChannelSetup, ATiltedToolDirectionGivesTheRotaryAnglesOfTheMachine) {

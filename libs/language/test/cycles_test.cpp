@@ -1,6 +1,8 @@
 // Canned cycles and hole patterns.
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include "test_machine.hpp"
 
 namespace trunnion::language::test {
@@ -18,6 +20,25 @@ TEST(Cycles, TheSpindleOfATappingCycleIsNoAxisOfTheChannel) {
   EXPECT_EQ(run(machine, "S100 G95 F1 G84 Z-5 R0 J3\n").last, Step::end);
   machine.axis_mask |= 1u << C;
   EXPECT_EQ(run(machine, "S100 G95 F1 G84 Z-5 R0 J3\n").alarm.number, AlarmNumber::value_range);
+}
+
+// HNC-8, "Five-axis rigid tapping": the axis number of the letter that J names is -2. A letter that is no
+// axis at all (-1) taps nothing.
+TEST(Cycles, JNamesALetterThatIsASpindle) {
+  TestMachine machine = machine_for_cycles();
+  machine.axis_mask = 0b11111;
+  machine.spindles = 1u << U | 1u << W;
+  for (const auto& [j, good] : {std::pair(3, false), {4, true}, {5, false}, {6, true}}) {
+    const Interpretation result = run(machine, "S100 G95 F1 G84 Z-5 R0 J" + std::to_string(j) + "\n");
+    EXPECT_EQ(result.alarm.number, good ? AlarmNumber::none : AlarmNumber::value_range) << j;
+    std::set<std::uint32_t> axes;
+    for (const Command& command : result.commands)
+      if (command.kind == CommandKind::tap) axes.insert(command.number);
+    EXPECT_EQ(axes, good ? std::set<std::uint32_t>{static_cast<std::uint32_t>(j)} : std::set<std::uint32_t>{})
+        << j;
+    const bool told = std::string(result.alarm.text.data()).find("must be -2") != std::string::npos;
+    EXPECT_NE(told, good) << j;
+  }
 }
 
 // Where the holes of a program are: the ends of its feed moves.

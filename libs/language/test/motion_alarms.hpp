@@ -40,7 +40,7 @@ inline std::vector<WrongMotion> wrong_motion() {
       {arc_centre_missing, "G43.5 H1\nG2 X1 F1", 2, 4, ": X1"},
       {orientation_impossible, "G43.5 H1\nG1 F1 I0.1 K-1", 2, 12, ": K-1"},
       {tool_vector_opposite, "G43.5 H1\nG1 F1 I1\nI-1", 3, 1, ": I-1"},
-      {tool_vector_way, "G43.5 H1\nG1 F1 J1\nI1 K-0.1", 3, 4, ": K-0.1"},
+      {tool_vector_between, "G43.5 H1\nG1 F1 J1\nI1 K-0.1", 3, 4, ": K-0.1"},
       {tool_vector_needed, "G43.5 H1\nG0 A1", 2, 4, ": A1"},
       {parameter_line, "G10 L50\nG0 X1", 2, 1, ": G0"},
       {parameter_line, "G10 L50\nN1", 2, 1, ": N1"},

@@ -30,6 +30,7 @@ struct TestMachine : Environment {
   CutterSettings cutter;
   CycleSettings cycles;
   std::uint16_t axis_mask = 0b111111111;
+  std::optional<std::uint16_t> spindles;  // nothing: every letter that is no axis
   double deviation = 0.1;
   double off_y = 0.1028;
   std::array<double, 3> centre = {-200.3605, -190.1897, -516.0118};
@@ -52,6 +53,9 @@ struct TestMachine : Environment {
   std::optional<std::array<Vector3, 3>> plane_points(std::uint8_t index) const override {
     const auto found = planes.find(index);
     return found == planes.end() ? std::nullopt : std::optional(found->second);
+  }
+  std::uint16_t spindle_axes() const override {
+    return spindles.value_or(static_cast<std::uint16_t>(~axis_mask));
   }
   AxisValues approach() const override { return last_way; }
   bool diameter_programming() const override { return diameter; }
@@ -100,15 +104,15 @@ struct TestMachine : Environment {
   }
   /// Straight there, when that is within 93 degrees of upright, not opposite, and exactly upright or clear of
   /// it.
-  VectorWay vector_way(const AxisValues& current, const Vector3& direction) const override {
-    VectorWay way = Environment::vector_way(current, direction);
+  VectorPath vector_path(const AxisValues& current, const Vector3& direction) const override {
+    VectorPath way = Environment::vector_path(current, direction);
     const AxisValues tip = tip_from_machine(current, 1), gauge = tip_from_machine(current, 0);
     double cosine = 0;
     for (std::size_t i = 0; i < 3; ++i) cosine += (gauge[i] - tip[i]) * direction[i];
-    if (way.fault == VectorWay::Fault::none && direction[2] < -0.05) way.fault = VectorWay::Fault::on_the_way;
-    if (direction[2] > 0.9999 && direction[2] < 1) way.fault = VectorWay::Fault::pole;
-    if (direction[1] < -0.99) way.fault = VectorWay::Fault::travel;
-    if (cosine < -0.999999) way.fault = VectorWay::Fault::opposite;
+    if (way.fault == VectorPath::Fault::none && direction[2] < -0.05) way.fault = VectorPath::Fault::between;
+    if (direction[2] > 0.9999 && direction[2] < 1) way.fault = VectorPath::Fault::pole;
+    if (direction[1] < -0.99) way.fault = VectorPath::Fault::travel;
+    if (cosine < -0.999999) way.fault = VectorPath::Fault::opposite;
     return way;
   }
   std::optional<double> tool_length(std::uint16_t h) const override {

@@ -25,7 +25,7 @@ void ChannelCore::finish_skip() {
 }
 
 void ChannelCore::begin_tapping() {
-  const auto& spindle = machine_.tapping_spindle();
+  const auto& spindle = machine_.tapping_spindle(flow().pending().number);
   if (!spindle.axis) {
     flow().refuse_pending(language::AlarmNumber::tapping_spindle_missing);
     return;

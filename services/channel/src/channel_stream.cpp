@@ -168,7 +168,7 @@ bool ChannelCore::produce(idl::stream::PathFrame& frame) {
   const bool rtcp = frame_ == language::Transformation::rtcp && !in_machine_coordinates();
   frame.transformation = rtcp ? 1 : 0;
   frame.tool_length = in_machine_coordinates() ? 0 : frame_tool_length_;
-  frame.spindle_axis = machine_.tapping_spindle().axis.value_or(0);
+  frame.spindle_axis = machine_.tapping_spindle(tapping_.axis()).axis.value_or(0);
   frame.states.clear();
   if (frame.starts) frame.states = link_.states();
   auto& own = stream::state_of(frame.states, stream::stage_channel);
