@@ -6,7 +6,7 @@ program, version, output = sys.argv[1:]
 
 
 def help_of(words):
-    return subprocess.run([program, *words, "--help"], capture_output=True, text=True, check=True).stdout
+    return subprocess.run(["trunnion", *words, "--help"], executable=program, capture_output=True, text=True, check=True).stdout
 
 
 def escape(text): return re.sub(r"^([.'])", r"\\&\1", text.replace("\\", "\\e").replace("-", "\\-"), flags=re.M)
