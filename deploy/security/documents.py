@@ -8,7 +8,9 @@ topics.yaml says, where `all` is every service; observers may read everything. E
 import argparse, datetime, hashlib, os
 import yaml
 
-REGISTRY = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "libs", "machine", "services.yaml")
+HERE = os.path.dirname(os.path.abspath(__file__))
+REGISTRY = os.path.join(HERE, "services.yaml")  # installed; else that of the sources
+if not os.path.exists(REGISTRY): REGISTRY = os.path.join(HERE, "..", "..", "libs", "machine", "services.yaml")
 VENDORS = {"cyclonedds": 0, "fastdds": 1}
 SCHEMA = 'xmlns:xsi="http://www.w3.org/2001/XMLSchema-instance" xsi:noNamespaceSchemaLocation="http://www.omg.org/spec/DDS-SECURITY/20170901/omg_shared_ca_'
 

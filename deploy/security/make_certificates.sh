@@ -23,7 +23,10 @@ elif [ ! -e ca.key ]; then
   exit 1
 fi
 python=$(command -v /usr/bin/python3 || command -v python3)
-"$python" "$here/documents.py" "$here/../../idl/topics.yaml" . --days "$days"
+# Installed, the tables are beside this script.
+topics=$here/topics.yaml
+[ -f "$topics" ] || topics=$here/../../idl/topics.yaml
+"$python" "$here/documents.py" "$topics" . --days "$days"
 sign governance.xml governance.p7s
 for identity in */; do
   name=$(cat "$identity/name")
