@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Runs cells of the fault matrix, two clusters at a time, and writes docs/fault-matrix.md when every cell holds.
 
-A cell that has passed is not run again until --fresh: an interrupted run goes on where it was. With --sample N it
+A cell that has passed is not run again until --fresh: an interrupted run continues with the remaining cells. With --sample N it
 runs N cells that --seed chooses and writes nothing.
 """
 import argparse, json, os, random, subprocess, sys, threading, time
@@ -10,7 +10,7 @@ ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 
 
 def cells(program):
-    """Names, every fault of every service once before any with another layout: a run that is cut short has seen all of them."""
+    """Names, every fault of every service once before any with another layout: a run that is interrupted early has covered all of them."""
     listed = subprocess.run([program, "--gtest_list_tests"], capture_output=True, text=True, check=True).stdout
     found = [line.split()[0].split("/", 1)[1] for line in listed.splitlines() if line.startswith("  Cell/")]
     groups = {}  # by service, fault and situation, each with its layouts
@@ -22,7 +22,7 @@ def cells(program):
 
 
 def measured(path):
-    """What a cell recorded beside its verdict."""
+    """The measured values of a cell."""
     with open(path, encoding="utf-8") as f: suites = json.load(f)["testsuites"]
     test = suites[0]["testsuite"][0]
     return {k: int(v) for k, v in test.items() if k in ("cycles_of_hold", "cycles_of_braking", "largest_deviation_nm", "cycles_gone_back", "unseen_cycles")}
@@ -65,11 +65,11 @@ def main():
     parser.add_argument("--program", required=True, help="fault_matrix_test")
     parser.add_argument("--results", required=True, help="directory for the results of the cells")
     parser.add_argument("--jobs", type=int, default=2, help="clusters at a time")
-    parser.add_argument("--domain", type=int, help="DDS domain of the first job, the next has the next (default: free ones)")
-    parser.add_argument("--sample", type=int, help="run only so many cells")
+    parser.add_argument("--domain", type=int, help="DDS domain of the first job; each further job uses the next one (default: free domains)")
+    parser.add_argument("--sample", type=int, help="number of cells to run (default: all)")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--match", default="", help="run only cells whose name contains this")
-    parser.add_argument("--fresh", action="store_true", help="forget what has passed")
+    parser.add_argument("--fresh", action="store_true", help="run cells again that have passed before")
     options = parser.parse_args()
     os.makedirs(options.results, exist_ok=True)
     every = cells(options.program)
@@ -96,7 +96,7 @@ def main():
     worst = {}
     for name in every:
         path = os.path.join(options.results, name + ".json")
-        if not os.path.exists(path): return 0  # only a part was asked for
+        if not os.path.exists(path): return 0  # only some of the cells were requested
         for key, value in measured(path).items(): worst[key] = max(worst.get(key, 0), value)
     print("largest of all cells: " + ", ".join(f"{k} {v}" for k, v in sorted(worst.items())))
     environment = dict(os.environ, TRUNNION_WRITE_FAULT_MATRIX="1")

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""tools/golden_operator.py PORT PROGRAM...: what the operator does while a golden recording is made, all of it over HTTP.
+"""tools/golden_operator.py PORT PROGRAM...: the operator's requests during a golden recording, all of them over HTTP.
 
-Each channel gets its program and runs it; before, between and after it come requests of every kind: accepted and refused,
-of a program and of the page. Everything is asked at rest, so that the recording says at which place of the programs it was.
+Each channel receives its program and runs it; before, between and after it follow requests of every kind: accepted and
+refused, of a program and of the page. Every request is sent at rest, so that its place in the programs is defined.
 """
 import json, os, sys, time, urllib.error, urllib.parse, urllib.request
 

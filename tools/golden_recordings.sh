@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# tools/golden_recordings.sh BUILD [MACHINE...]: makes configs/machines/<machine>/recordings/golden.mcap anew for every machine
-# (or those named) from the programs beside it, one for each channel in the order of their names, and verifies every service
-# against what it has made. The programs are stored, selected and started over HTTP, as an operator does
-# (tools/golden_operator.py). Run it whenever a change is meant to alter what the services compute or the contract they speak.
+# tools/golden_recordings.sh BUILD [MACHINE...]: makes configs/machines/<machine>/recordings/golden.mcap for every machine
+# (or those named) from the programs beside it, one for each channel in the order of their names, and verifies every
+# service with the result. tools/golden_operator.py stores, selects and starts the programs over HTTP, as an operator
+# does. Run it after a change that is meant to alter what the services compute, or their contract.
 set -euo pipefail
 build=$1
 shift

@@ -11,7 +11,7 @@
 #include "cluster/instances.hpp"
 #include "commands.hpp"
 #include "machine/alarm_constants.hpp"
-#include "stream/copy_watch.hpp"
+#include "stream/replica_watch.hpp"
 #include "stream/stage_names.hpp"
 
 namespace trunnion::cli {
@@ -88,7 +88,7 @@ std::string replica_state(const idl::service::ClusterService& service, bool in_s
                           const std::map<std::array<std::uint32_t, 3>, idl::service::Alarm>& alarms) {
   const auto stage = stream::stage_of(service.service);
   if (stage == 0 || service.pid == 0) return "";
-  const auto part = stream::copy_part(stage, service.copy);
+  const auto part = stream::replica_part(stage, service.copy);
   const auto number = alarm::redundancy_lost.number;
   for (const auto& [key, alarm] : alarms)
     if (alarm.active && alarm.number == number && alarm.part == part &&

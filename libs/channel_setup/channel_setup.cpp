@@ -157,16 +157,16 @@ geometry::OrientationAnswer ChannelSetup::orientation(const language::Vector3& d
   request.tolerance = limits_.orientation_tolerance;
   switch (choice) {
     case language::RotaryChoice::shortest:
-      request.way = geometry::WayChoice::shortest;
+      request.choice = geometry::SolutionChoice::shortest;
       break;
     case language::RotaryChoice::positive:
-      request.way = geometry::WayChoice::positive;
+      request.choice = geometry::SolutionChoice::positive;
       break;
     case language::RotaryChoice::negative:
-      request.way = geometry::WayChoice::negative;
+      request.choice = geometry::SolutionChoice::negative;
       break;
     case language::RotaryChoice::continuous:
-      request.way = geometry::WayChoice::continuous;
+      request.choice = geometry::SolutionChoice::continuous;
       break;
   }
   return solver_->best(request);

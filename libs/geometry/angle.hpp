@@ -17,9 +17,9 @@ struct SineCosine {
 };
 
 /// Of an angle in degrees, within 1.5 units in the last place; exact at the multiples of 90, where tables and
-/// heads usually stand, after any number of revolutions. Infinite or not a number: both are not a number. The
-/// C library chooses among implementations by processor, and twins on two hosts must compute the same bits:
-/// hence the series, cut where the next term is below 2^-58.
+/// heads usually are, after any number of revolutions. Infinite or not a number: both are not a number. The
+/// C library chooses among implementations by processor, and replicas on two hosts must compute the same
+/// bits: hence the series, cut where the next term is below 2^-58.
 inline SineCosine sine_cosine(double degrees) {
   if (!(std::abs(degrees) < 1e12)) degrees = std::fmod(degrees, 360.0);
   // Adding and taking away 1.5 * 2^52 rounds to the nearest whole number.

@@ -16,7 +16,7 @@ struct AxisPair {
   double sine_beta = 0, cosine_beta = 1;
   double sine_half_sum = 0, cosine_half_sum = 1;                ///< of (alpha + beta) / 2
   double sine_half_difference = 0, cosine_half_difference = 1;  ///< of (alpha - beta) / 2
-  double zero = 0;  ///< where the tool stands about k2 when axis 2 is at zero, counted from f, rad
+  double zero = 0;  ///< angle of the tool about k2 when axis 2 is at zero, counted from f, rad
 
   /// Nothing when the axes are parallel, or axis 2 turns about the tool itself.
   static std::optional<AxisPair> make(const Vec3& k1, const Vec3& k2, const Vec3& tool);
@@ -42,7 +42,7 @@ struct AxisPair {
   Vec3 direction(double first, double second) const;
 
   /// First three derivatives of the positions of axes 1 and 2 (degrees) along a path of directions, given the
-  /// direction and its derivatives and the position of axis 1. At a pole axis 1 stands still and axis 2
+  /// direction and its derivatives and the position of axis 1. At a pole axis 1 rests and axis 2
   /// follows what it can.
   std::array<std::array<double, 2>, 3> derivatives(const std::array<Vec3, 4>& u, double first) const;
 };

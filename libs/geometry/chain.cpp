@@ -13,7 +13,7 @@ std::optional<ChainError> normalize(Vec3& direction) {
   const double length = direction.stableNorm();
   if (!(length > 0)) return ChainError::zero_direction;
   direction /= length;
-  // A subnormal length leaves a direction that is not quite one long.
+  // A subnormal length leaves a direction that is not exactly a unit vector.
   direction /= direction.norm();
   return std::nullopt;
 }

@@ -32,11 +32,11 @@ struct ChainParameters {
   /// Columns: where the tool moves, seen from the workpiece, when X, Y, Z go in the positive direction; any
   /// length.
   Mat3 linear_direction = Mat3::Identity();
-  /// How many rotary axes stand between the base and X, Y, Z: they turn it. Above zero those of the head,
+  /// Number of rotary axes between the base and X, Y, Z, which turn them. Above zero those of the head,
   /// below zero those of the table, counted from the base. linear_direction is meant with all at zero.
   std::array<int, 3> linear_carriers{};
-  /// mm: the tip minus the origin of the workpiece frame when every axis stands at zero and the tool has no
-  /// length. Zero for a closed chain.
+  /// mm: the tip minus the origin of the workpiece frame with every axis at zero and a tool without length.
+  /// Zero for a closed chain.
   Vec3 origin = Vec3::Zero();
   /// The chain does not end where it began: corrections move the origin, too.
   bool open = false;
@@ -97,9 +97,9 @@ class Chain {
   /// Checks and normalizes the parameters.
   static std::variant<Chain, ChainError> make(const ChainParameters& parameters);
 
-  /// What machine_from_tip() says of every linear axis, mm, where there is no position: rotary axes that
+  /// Result of machine_from_tip() for every linear axis, mm, where no position exists: rotary axes that
   /// carry linear ones have turned X, Y and Z into one plane (within parallel_sine). It is beyond every
-  /// travel, so that such a pose is found as what it is, a way out of travel.
+  /// travel, so that such a pose is reported as out of travel.
   static constexpr double no_position = 1e7;
 
   /// Machine position of the linear axes that puts a tool of length `tool_length` (mm) with its tip at `w`.

@@ -5,7 +5,7 @@
 namespace trunnion::geometry {
 namespace {
 
-// What stands between two rotary axes, or beyond the outer ones.
+// The vectors between two rotary axes, or beyond the outer ones.
 struct Gap {
   Vec3 offset = Vec3::Zero(), correction = Vec3::Zero();
   std::string name;  // of the correction

@@ -1,4 +1,4 @@
-// A kinematic chain as data: named elements in the order in which they stand from the workpiece to the tool.
+// A kinematic chain as data: named elements in their order from the workpiece to the tool.
 #pragma once
 
 #include <string>
@@ -13,7 +13,7 @@ enum class ElementKind : std::uint8_t {
   correction,  ///< a fixed vector that a measurement of the kinematics writes; counts like an offset
   linear,      ///< X, Y or Z
   rotary,      ///< A, B, C, U, V or W; before the base it carries the workpiece, else the tool
-  base,        ///< what stands still; without it, that is where the first linear axis stands
+  base,        ///< the machine's base; without it, the base is at the first linear axis
 };
 
 struct ChainElement {
@@ -29,8 +29,8 @@ struct ChainElement {
 struct ChainDescription {
   Vec3 tool_direction = Vec3::UnitZ();  ///< as in ChainParameters
   std::vector<ChainElement> elements;
-  /// A closed chain ends where it began: tip = machine position when everything stands at zero and the tool
-  /// has no length, whatever the vectors sum up to. An open one ends where its vectors say.
+  /// A closed chain ends at its start: tip = machine position with every axis at zero and a tool without
+  /// length, for any sum of the vectors. The end of an open one is the sum of its vectors.
   bool closed = true;
 };
 

@@ -7,11 +7,11 @@
 
 namespace trunnion::geometry {
 
-/// Turns `from` into `to` the shortest way, at an even rate over s = 0 .. 1.
+/// Turns `from` into `to` by the shortest rotation, at a constant rate over s = 0 .. 1.
 class DirectionArc {
  public:
   /// Vectors of any length above zero. Nothing when one has no length, or they are opposite within 1e-6 rad:
-  /// then every way is as short.
+  /// then no rotation is the shortest.
   static std::optional<DirectionArc> make(const Vec3& from, const Vec3& to);
 
   /// Unit vector at s, which may lie outside 0 .. 1.
@@ -21,7 +21,7 @@ class DirectionArc {
 
   const Vec3& from() const { return from_; }
   const Vec3& to() const { return to_; }
-  /// Unit vector across `from` in the sense of the way.
+  /// Unit vector across `from` in the sense of the rotation.
   const Vec3& across() const { return across_; }
   /// rad, 0 .. pi
   double length() const { return length_; }

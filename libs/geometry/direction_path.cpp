@@ -57,15 +57,16 @@ std::variant<DirectionPath, DirectionPathFault> DirectionPath::make(const Orient
                               Vec3::UnitZ()};
   }
   std::optional<DirectionPathFault> fault;
-  const auto attempt = [&](auto&& way) -> std::optional<DirectionPath> {
+  const auto attempt = [&](auto&& method) -> std::optional<DirectionPath> {
     DirectionPath path(*arc, request.present);
-    const auto found = way(path);
+    const auto found = method(path);
     if (!found) return path;
     if (!fault) fault = found;
     return std::nullopt;
   };
   if (arc->length() < 1e-12) {
-    if (auto path = attempt([&](DirectionPath& p) { return p.stand(solver, request); })) return *path;
+    if (auto path = attempt([&](DirectionPath& p) { return p.keep_direction(solver, request); }))
+      return *path;
     return *fault;
   }
   for (std::size_t j = solver.axis_count(); j-- > 1;)
@@ -77,10 +78,10 @@ std::variant<DirectionPath, DirectionPathFault> DirectionPath::make(const Orient
   return *fault;
 }
 
-std::optional<DirectionPathFault> DirectionPath::stand(const OrientationSolver& solver,
-                                                       const DirectionPathRequest& request) {
-  const auto answer =
-      solver.best({request.from, request.present, request.travel, WayChoice::continuous, request.tolerance});
+std::optional<DirectionPathFault> DirectionPath::keep_direction(const OrientationSolver& solver,
+                                                                const DirectionPathRequest& request) {
+  const auto answer = solver.best(
+      {request.from, request.present, request.travel, SolutionChoice::continuous, request.tolerance});
   if (answer.status != OrientationStatus::found) return fault_of(answer, 0);
   present_ = answer.best.angles;
   return std::nullopt;
@@ -89,7 +90,7 @@ std::optional<DirectionPathFault> DirectionPath::stand(const OrientationSolver& 
 // One axis follows a great circle only across itself.
 std::optional<DirectionPathFault> DirectionPath::turn_one(const OrientationSolver& solver,
                                                           const DirectionPathRequest& request) {
-  OrientationRequest at{request.from, request.present, request.travel, WayChoice::continuous,
+  OrientationRequest at{request.from, request.present, request.travel, SolutionChoice::continuous,
                         request.tolerance};
   std::array<Angles, 3> angles{};
   for (std::size_t n = 0; n < angles.size(); ++n) {
@@ -122,7 +123,7 @@ bool DirectionPath::has_pole(double sign, double tolerance) const {
   return std::abs(sign > 0 ? p.alpha - p.beta : std::numbers::pi - p.alpha - p.beta) <= tolerance;
 }
 
-std::optional<DirectionPathFault> DirectionPath::check_way(const DirectionPathRequest& request) const {
+std::optional<DirectionPathFault> DirectionPath::check_directions(const DirectionPathRequest& request) const {
   const double tolerance = request.tolerance * radians_per_degree;
   for (const double place : {0.0, 1.0, foot(1), foot(-1)}) {
     if (place < 0 || place > 1) continue;
@@ -144,7 +145,7 @@ std::optional<DirectionPathFault> DirectionPath::check_way(const DirectionPathRe
   return std::nullopt;
 }
 
-// k1 x u; where u is k1, that of the way to or from there.
+// k1 x u; where u is k1, that of the path to or from there.
 Vec3 DirectionPath::across(double s) const {
   const auto u = arc_.derivatives(s);
   const Vec3 c = pair_.axes.k1.cross(u[0]);
@@ -152,7 +153,7 @@ Vec3 DirectionPath::across(double s) const {
   return (s < 0.5 ? 1 : -1) * pair_.axes.k1.cross(u[1]);
 }
 
-// k1 x the tool turned by axis 2 alone; where that is k1, of the way there.
+// k1 x the tool turned by axis 2 alone; where that is k1, of the path there.
 Vec3 DirectionPath::around(const AxisPair::Triangle& triangle, double side) const {
   const Vec3 a = pair_.axes.k1.cross(pair_.axes.tool_at(triangle, side));
   return a.norm() > no_azimuth ? a : Vec3(side * pair_.axes.k1.cross(pair_.axes.g));
@@ -192,17 +193,18 @@ bool DirectionPath::start_at(double side, const DirectionPathRequest& request, P
 std::optional<DirectionPathFault> DirectionPath::turn_two(const MovingPair& pair,
                                                           const DirectionPathRequest& request) {
   pair_ = pair;
-  if (const auto fault = check_way(request)) return fault;
+  if (const auto fault = check_directions(request)) return fault;
   std::array<Piece, 2> starts;
-  std::array<double, 2> way{};
+  std::array<double, 2> rotation{};
   for (std::size_t n = 0; n < 2; ++n) {
     const bool fits = start_at(n == 0 ? 1 : -1, request, starts[n]);
     const auto at = on_arc(starts[n], 0);
-    way[n] = std::abs(at[0] - request.present[pair_.first]) + std::abs(at[1] - request.present[pair_.second]);
-    // One that does not even start within the travel is tried last, to say what is wrong.
-    if (!fits) way[n] += 1e6;
+    rotation[n] =
+        std::abs(at[0] - request.present[pair_.first]) + std::abs(at[1] - request.present[pair_.second]);
+    // A solution that starts outside the travel is tried last, to report the fault.
+    if (!fits) rotation[n] += 1e6;
   }
-  const std::size_t nearer = way[1] < way[0] - 1e-7 ? 1 : 0;
+  const std::size_t nearer = rotation[1] < rotation[0] - 1e-7 ? 1 : 0;
   std::optional<DirectionPathFault> fault;
   for (const std::size_t n : {nearer, 1 - nearer}) {
     build(starts[n], request);
@@ -255,9 +257,9 @@ bool DirectionPath::add_window(double begin, double end, double tolerance) {
     next.first = at[0] + full_turns(leaving[0][0] - at[0]);
     next.turn = full_turns(leaving[0][1] - at[1]);
     const auto values = rates(next, end);
-    const double way = std::abs(values[0][0] - leaving[0][0]) + std::abs(values[0][1] - leaving[0][1]);
-    if (way >= least) continue;
-    least = way;
+    const double rotation = std::abs(values[0][0] - leaving[0][0]) + std::abs(values[0][1] - leaving[0][1]);
+    if (rotation >= least) continue;
+    least = rotation;
     after = next;
     arriving = values;
   }

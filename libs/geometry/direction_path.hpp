@@ -10,7 +10,7 @@ namespace trunnion::geometry {
 
 struct DirectionPathRequest {
   Vec3 from = Vec3::UnitZ(), to = Vec3::UnitZ();  ///< tip to spindle, seen from the workpiece; any length
-  Angles present{};                               ///< where the rotary axes stand before the path
+  Angles present{};                               ///< positions of the rotary axes before the path
   AngleTravels travel{};
   double tolerance = 0.05;   ///< degrees the direction may leave the great circle near a pole (04c902)
   bool avoid_poles = false;  ///< 04c100 = 1: a path closer to a pole than pole_range is a fault
@@ -20,7 +20,7 @@ struct DirectionPathRequest {
 struct DirectionPathFault {
   enum Kind : std::uint8_t {
     not_a_direction,  ///< no length, or not finite
-    opposite,         ///< the directions are opposite: there is no shortest way
+    opposite,         ///< the directions are opposite: no shortest path exists
     unreachable,      ///< the machine does not reach the direction at `s`
     outside_travel,   ///< a rotary axis is beyond its travel at `s`, within a degree of where it leaves
     pole,             ///< the path comes too close to a pole at `s`
@@ -30,15 +30,15 @@ struct DirectionPathFault {
   Vec3 nearest = Vec3::UnitZ();  ///< of unreachable: the nearest direction in reach
 };
 
-/// The angles are a closed function of s in 0 .. 1, so any part of the path can be asked for in any order.
+/// The angles are a closed function of s in 0 .. 1, so any part of the path can be evaluated in any order.
 ///
 /// Away from poles the direction is on the great circle at an even rate, exactly. Where the great circle
 /// passes a pole closer than the tolerance, the rotary axes run smoothly (rates and accelerations are
 /// continuous) from one side of the pole to the other, which keeps the axis nearest the workpiece slow and
 /// the direction within the tolerance; the tool tip is not touched by this. Farther from a pole that axis
-/// turns by up to 1 / sin(distance) degrees for each degree of direction: derivatives() says so beforehand.
-/// Of more than two rotary axes the pair nearest the tool that can go the way moves. Pure, allocation-free
-/// and safe to use from any thread.
+/// turns by up to 1 / sin(distance) degrees for each degree of direction: derivatives() gives this in
+/// advance. Of more than two rotary axes the pair nearest the tool that can follow the path moves. Pure,
+/// allocation-free and safe to use from any thread.
 class DirectionPath {
  public:
   static std::variant<DirectionPath, DirectionPathFault> make(const OrientationSolver& solver,
@@ -50,16 +50,16 @@ class DirectionPath {
   /// The angles and their first three derivatives by s.
   std::array<Angles, 4> derivatives(double s) const;
 
-  /// Angles at s = 0. They differ from the present ones where the tool stands at a pole, so that an axis must
-  /// turn before the direction can go the path's way, or where the axes must change to the other solution.
+  /// Angles at s = 0. They differ from the present ones where the tool is at a pole, so that an axis must
+  /// turn before the direction can follow the path, or where the axes must change to the other solution.
   Angles start() const { return angles(0); }
 
-  /// In how many equal pieces of s, a power of two up to `most`, the axes may go in proportion so that the
-  /// direction stays within `deviation` (degrees) of this path.
+  /// The number of equal pieces of s, a power of two up to `most`, in which the axes may move in proportion
+  /// so that the direction stays within `deviation` (degrees) of this path.
   std::uint32_t pieces(const Chain& chain, double deviation, std::uint32_t most) const;
 
   const DirectionArc& arc() const { return arc_; }
-  /// Parts led past a pole.
+  /// Sections that pass a pole.
   std::size_t windows() const;
 
  private:
@@ -76,12 +76,12 @@ class DirectionPath {
   };
 
   DirectionPath(const DirectionArc& arc, const Angles& present) : arc_(arc), present_(present) {}
-  std::optional<DirectionPathFault> stand(const OrientationSolver& solver,
-                                          const DirectionPathRequest& request);
+  std::optional<DirectionPathFault> keep_direction(const OrientationSolver& solver,
+                                                   const DirectionPathRequest& request);
   std::optional<DirectionPathFault> turn_one(const OrientationSolver& solver,
                                              const DirectionPathRequest& request);
   std::optional<DirectionPathFault> turn_two(const MovingPair& pair, const DirectionPathRequest& request);
-  std::optional<DirectionPathFault> check_way(const DirectionPathRequest& request) const;
+  std::optional<DirectionPathFault> check_directions(const DirectionPathRequest& request) const;
   bool start_at(double side, const DirectionPathRequest& request, Piece& piece) const;
   void build(const Piece& start, const DirectionPathRequest& request);
   bool add_window(double begin, double end, double tolerance);

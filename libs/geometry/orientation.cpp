@@ -12,7 +12,7 @@ namespace {
 constexpr double degrees_per_radian = 1 / radians_per_degree;
 // Closer than this (sine) to an axis a direction has no azimuth about it.
 constexpr double no_azimuth = 1e-13;
-// Degrees: travel is kept, and ways are equal, within this.
+// Degrees: limits are kept, and travels are equal, within this.
 constexpr double slack = 1e-9;
 
 Vec3 turned(const Vec3& k, double sine, double cosine, const Vec3& v) {
@@ -38,8 +38,8 @@ bool nearest_turn(double angle, double present, const AngleTravel& travel, doubl
 
 // The same, but never against the sense (+1 or -1).
 bool next_turn(double angle, double present, int sense, const AngleTravel& travel, double& position) {
-  const double way = std::ceil((sense * (present - angle) - slack) / 360) * 360;
-  position = angle + sense * way;
+  const double rotation = std::ceil((sense * (present - angle) - slack) / 360) * 360;
+  position = angle + sense * rotation;
   if (sense > 0 && position < travel.negative - slack)
     position += 360 * std::ceil((travel.negative - slack - position) / 360);
   if (sense < 0 && position > travel.positive + slack)
@@ -47,9 +47,11 @@ bool next_turn(double angle, double present, int sense, const AngleTravel& trave
   return position >= travel.negative - slack && position <= travel.positive + slack;
 }
 
-int sense_of(WayChoice way) { return way == WayChoice::positive ? 1 : way == WayChoice::negative ? -1 : 0; }
+int sense_of(SolutionChoice choice) {
+  return choice == SolutionChoice::positive ? 1 : choice == SolutionChoice::negative ? -1 : 0;
+}
 
-// Smaller is better. Ways are counted in whole steps, so that rounding never decides between equal ones.
+// Smaller is better. Travels are counted in whole steps, so that rounding never decides between equal ones.
 using Rank = std::tuple<long long, long long, long long, long long>;
 
 Rank rank_of(const Orientation& o, const OrientationRequest& request, std::size_t first, std::size_t second) {
@@ -57,10 +59,11 @@ Rank rank_of(const Orientation& o, const OrientationRequest& request, std::size_
     return static_cast<long long>(degrees * 1e7 + (degrees < 0 ? -0.5 : 0.5));
   };
   const double leading = o.angles[second], other = first < angle_count ? o.angles[first] : 0;
-  const long long way = steps(std::abs(leading - request.present[second]));
-  const long long other_way = first < angle_count ? steps(std::abs(other - request.present[first])) : 0;
-  if (request.way == WayChoice::continuous) return {way + other_way, way, -steps(leading), -steps(other)};
-  return {way, other_way, -steps(leading), -steps(other)};
+  const long long rotation = steps(std::abs(leading - request.present[second]));
+  const long long other_rotation = first < angle_count ? steps(std::abs(other - request.present[first])) : 0;
+  if (request.choice == SolutionChoice::continuous)
+    return {rotation + other_rotation, rotation, -steps(leading), -steps(other)};
+  return {rotation, other_rotation, -steps(leading), -steps(other)};
 }
 
 }  // namespace
@@ -164,10 +167,10 @@ OrientationAnswer OrientationSolver::search(const OrientationRequest& request, V
     return answer;
   }
   u /= length;
-  bool asked = false, reachable = false;
+  bool tried = false, reachable = false;
   const auto take = [&](const Solutions& solutions) {
-    if (!asked) answer.nearest = solutions.nearest;
-    asked = true;
+    if (!tried) answer.nearest = solutions.nearest;
+    tried = true;
     reachable = reachable || solutions.count > 0;
     bool found = false;
     for (std::size_t n = 0; n < solutions.count; ++n) found = visit(solutions, n) || found;
@@ -182,10 +185,10 @@ OrientationAnswer OrientationSolver::search(const OrientationRequest& request, V
         const auto moving = pair(i, j, request.present);
         if (moving && take(solve(*moving, u, request))) return answer;
       }
-    if (!asked)
+    if (!tried)
       for (std::size_t i = count_; i-- > 0;)
         if (take(solve_single(i, u, request))) return answer;
-    if (!asked) {
+    if (!tried) {
       Solutions rigid;
       rigid.nearest = tool_;
       if (angle_between(tool_, u) <= request.tolerance * radians_per_degree) {
@@ -207,7 +210,7 @@ OrientationAnswer OrientationSolver::best(const OrientationRequest& request) con
   auto answer = search(request, [&](const Solutions& solutions, std::size_t n) {
     Orientation o = solutions.of[n];
     if (solutions.second < angle_count) {
-      const int sense = sense_of(request.way);
+      const int sense = sense_of(request.choice);
       const auto a = solutions.first, b = solutions.second;
       if (!(sense == 0 ? nearest_turn(o.angles[b], request.present[b], request.travel[b], o.angles[b])
                        : next_turn(o.angles[b], request.present[b], sense, request.travel[b], o.angles[b])))
@@ -229,13 +232,13 @@ OrientationAnswer OrientationSolver::best(const OrientationRequest& request) con
 std::size_t OrientationSolver::all(const OrientationRequest& request, std::span<Orientation> out,
                                    OrientationAnswer& answer) const {
   std::array<Rank, most_solutions> ranks;
-  const std::size_t room = std::min(out.size(), most_solutions);
+  const std::size_t space = std::min(out.size(), most_solutions);
   std::size_t count = 0;
   const auto insert = [&](const Orientation& o, const Rank& rank) {
     std::size_t at = count;
     while (at > 0 && rank < ranks[at - 1]) --at;
-    if (at == room) return;
-    if (count < room) ++count;
+    if (at == space) return;
+    if (count < space) ++count;
     for (std::size_t n = count - 1; n > at; --n) out[n] = out[n - 1], ranks[n] = ranks[n - 1];
     out[at] = o;
     ranks[at] = rank;
@@ -263,7 +266,7 @@ std::size_t OrientationSolver::all(const OrientationRequest& request, std::span<
       return true;
     }
     std::array<double, 9> leading, other{};
-    const std::size_t leading_count = turns(b, base.angles[b], sense_of(request.way), leading);
+    const std::size_t leading_count = turns(b, base.angles[b], sense_of(request.choice), leading);
     const std::size_t other_count = a < angle_count ? turns(a, base.angles[a], 0, other) : 1;
     for (std::size_t l = 0; l < leading_count; ++l)
       for (std::size_t m = 0; m < other_count; ++m) {

@@ -17,19 +17,19 @@ struct AngleTravel {
 using AngleTravels = std::array<AngleTravel, angle_count>;
 
 /// Which of the solutions within travel is best. The leading axis is the rotary axis nearest the tool.
-enum class WayChoice : std::uint8_t {
-  shortest,    ///< P0: the leading axis goes the shortest way, then the others the shortest in sum
+enum class SolutionChoice : std::uint8_t {
+  shortest,    ///< P0: the leading axis takes the shortest travel, then the others the shortest in sum
   positive,    ///< P1: the leading axis turns in the positive direction or not at all, as little as possible
   negative,    ///< P2: likewise in the negative direction
-  continuous,  ///< the sum of the ways of all rotary axes is least: follows a path of directions
+  continuous,  ///< the sum of the travels of all rotary axes is least: follows a path of directions
 };
 
 struct OrientationRequest {
   /// From the tip to the spindle as the workpiece sees it; any length above zero.
   Vec3 direction = Vec3::UnitZ();
-  Angles present{};       ///< where the rotary axes stand: ways are counted from there, free axes stay there
+  Angles present{};       ///< present positions of the rotary axes: travels start there, free axes stay there
   AngleTravels travel{};  ///< allowed positions
-  WayChoice way = WayChoice::shortest;
+  SolutionChoice choice = SolutionChoice::shortest;
   /// A direction the machine misses by less than this (degrees) is replaced by the nearest it reaches.
   double tolerance = 1e-7;
 };
@@ -38,7 +38,7 @@ enum class OrientationStatus : std::uint8_t {
   found,
   not_a_direction,  ///< no length, or a component is infinite or not a number
   unreachable,      ///< no position of the rotary axes has this direction, whatever their travel
-  outside_travel,   ///< only beyond the travel of a rotary axis, or against the asked sense of rotation
+  outside_travel,   ///< only beyond the travel of a rotary axis, or against the requested sense of rotation
 };
 
 struct Orientation {
@@ -55,7 +55,7 @@ struct OrientationAnswer {
   Vec3 nearest = Vec3::UnitZ();  ///< when unreachable: unit vector of the nearest reachable direction
 };
 
-/// Two axes of a chain while the others stand still, with directions as the workpiece sees them.
+/// Two axes of a chain with the others at rest; directions in the workpiece frame.
 struct MovingPair {
   AxisPair axes;
   std::size_t first = 0, second = 0;  ///< entries of Angles
@@ -64,11 +64,11 @@ struct MovingPair {
 /// Solves tool_direction_in_workpiece(angles) = direction for one chain.
 ///
 /// Two axes solve it; a machine with more of them uses the pair nearest the tool that has a solution within
-/// travel and leaves the other axes where they stand. Each of at most two solutions is repeated by full turns
+/// travel and does not move the other axes. Each of at most two solutions is repeated by full turns
 /// over the travel; of an endless axis only the position nearest to the present one counts, or the nearest in
-/// the asked sense. Equal ways: the solution with the greater position of the leading axis, then of the
-/// others. Directions come out within 1e-12. Pure, allocation-free and safe to use from any thread; a copy is
-/// cheap.
+/// the requested sense. Equal travels: the solution with the greater position of the leading axis, then of
+/// the others. Directions come out within 1e-12. Pure, allocation-free and safe to use from any thread; a
+/// copy is cheap.
 class OrientationSolver {
  public:
   explicit OrientationSolver(const Chain& chain);
@@ -79,11 +79,11 @@ class OrientationSolver {
   /// Most solutions all() can list: two, each with up to nine turns of both axes.
   static constexpr std::size_t most_solutions = 2 * 9 * 9;
 
-  /// Every solution, best first, as far as `out` has room. Returns how many; the status as best().
+  /// Every solution, best first, at most out.size(). Returns their number; the status as best().
   std::size_t all(const OrientationRequest& request, std::span<Orientation> out,
                   OrientationAnswer& answer) const;
 
-  /// Axes `i` < `j` counted from the workpiece to the tool; the others stand at `present`. Nothing when the
+  /// Axes `i` < `j` counted from the workpiece to the tool; the others are at `present`. Nothing when the
   /// two are parallel or the second turns about the tool itself.
   std::optional<MovingPair> pair(std::size_t i, std::size_t j, const Angles& present) const;
   std::size_t axis_count() const { return count_; }

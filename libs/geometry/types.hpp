@@ -1,4 +1,4 @@
-// The few types every kinematic function speaks in.
+// The types that every kinematic function uses.
 #pragma once
 
 #include <Eigen/Core>

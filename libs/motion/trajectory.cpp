@@ -15,7 +15,7 @@ using canonical::CommandKind;
 constexpr double longest_dwell_cycles = 1e9;
 // Blocks kept behind the oldest that may be moved on, since roundings reach back.
 constexpr std::uint64_t blocks_behind = 2 * BlendedPath::most_joins + 8;
-// A path that has come to rest begins anew beyond this, mm or degrees: its coordinate gets too coarse.
+// A path at rest is started again beyond this length, mm or degrees: its coordinate becomes too coarse.
 constexpr double longest_path = 1e5;
 // Moves shorter than this share of the tolerance are joined to the next one.
 constexpr double merge_share = 0.05;

@@ -35,7 +35,7 @@ class MemorySink final : public Sink {
   Bytes data;
 };
 
-/// Reads bytes that somebody else keeps alive.
+/// Reads bytes that the caller keeps valid.
 class MemorySource final : public Source {
  public:
   explicit MemorySource(std::span<const std::uint8_t> data) : data_(data) {}

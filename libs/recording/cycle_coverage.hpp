@@ -29,7 +29,7 @@ class CycleCoverage {
   /// The first cycle and the one after the last; 0 and 0 when there is none.
   std::uint64_t begin() const { return runs_.empty() ? 0 : runs_.begin()->first; }
   std::uint64_t end() const { return runs_.empty() ? 0 : runs_.rbegin()->second.end; }
-  /// The first frame says that nothing was before it.
+  /// The first batch states that nothing was before it.
   bool begins_at_a_start() const { return runs_.empty() || runs_.begin()->second.starts; }
   /// Frames that brought nothing new.
   std::uint64_t repeated() const { return repeated_; }

@@ -21,7 +21,7 @@ Reader::Reader(Source& source, std::uint64_t largest_record)
   std::array<std::uint8_t, 8> magic{};
   const auto count = source_.read(0, magic);
   if (!std::equal(magic.begin(), magic.begin() + static_cast<std::ptrdiff_t>(count), mcap_magic.begin()))
-    end(Ending::damaged, "not an MCAP file: it begins otherwise");
+    end(Ending::damaged, "not an MCAP file: the magic bytes are missing");
   else if (count < magic.size())
     end(Ending::cut_off, "the file ends before its first record");
   offset_ = magic.size();
@@ -46,13 +46,13 @@ bool Reader::read_record() {
   const auto length = reader.number<std::uint64_t>();
   if (opcode_ == Opcode{0}) return end(Ending::damaged, at + ": a record without an opcode");
   const auto left = source_.size() - std::min(source_.size(), offset_ + record_head);
-  if (length > left) return end(Ending::cut_off, "the file ends inside of the record " + at);
+  if (length > left) return end(Ending::cut_off, "the file ends inside the record " + at);
   if (length > largest_record_)
     return end(Ending::damaged, at + ": a record of " + std::to_string(length) +
                                     " bytes is beyond the limit of " + std::to_string(largest_record_));
   record_.resize(static_cast<std::size_t>(length));
   if (source_.read(offset_ + record_head, record_) < record_.size())
-    return end(Ending::cut_off, "the file ends inside of the record " + at);
+    return end(Ending::cut_off, "the file ends inside the record " + at);
   offset_ += record_head + length;
   return true;
 }
@@ -66,7 +66,7 @@ bool Reader::open_chunk(std::span<const std::uint8_t> content) {
   const auto compression = in.text();
   const auto records = in.take(in.number<std::uint64_t>());
   const std::string where = "the chunk that ends at byte " + std::to_string(offset_);
-  if (!in.ok()) return end(Ending::damaged, where + " is shorter than it says");
+  if (!in.ok()) return end(Ending::damaged, where + " is shorter than its length field states");
   if (size > largest_record_) return end(Ending::damaged, where + " is beyond the limit");
   if (compression.empty()) {
     chunk_.assign(records.begin(), records.end());
@@ -132,8 +132,8 @@ bool Reader::parse(Opcode opcode, std::span<const std::uint8_t> content, Message
     default:
       break;  // indexes, and records of later versions, are not needed
   }
-  return in.ok() ||
-         end(Ending::damaged, "a record before byte " + std::to_string(offset_) + " is shorter than it says");
+  return in.ok() || end(Ending::damaged, "a record before byte " + std::to_string(offset_) +
+                                             " is shorter than its length field states");
 }
 
 bool Reader::next(MessageView& message) {
@@ -144,7 +144,7 @@ bool Reader::next(MessageView& message) {
       const auto opcode = static_cast<Opcode>(in.number<std::uint8_t>());
       const auto content = in.take(in.number<std::uint64_t>());
       if (!in.ok())
-        return end(Ending::damaged, "a record runs out of its chunk before byte " + std::to_string(offset_));
+        return end(Ending::damaged, "a record exceeds its chunk before byte " + std::to_string(offset_));
       in_chunk_ = in.rest();
       if (!parse(opcode, content, message, is_message)) return false;
     } else {

@@ -23,7 +23,8 @@ enum class Ending : std::uint8_t {
   damaged,   ///< not a recording, or a record that contradicts itself or its checksum
 };
 
-/// Trusts no length: memory stays below `largest_record` bytes per record and chunk, whatever the file says.
+/// Trusts no length: memory stays below `largest_record` bytes per record and chunk for any content of the
+/// file.
 class Reader {
  public:
   /// `source` must outlive the reader.

@@ -15,7 +15,7 @@ struct WriterOptions {
 };
 
 /// A file that is cut off anywhere can be read up to its last whole chunk. After a sink's failure nothing
-/// more is written and every call says false.
+/// more is written and every call returns false.
 class Writer {
  public:
   explicit Writer(Sink& sink, WriterOptions options = {});
@@ -52,7 +52,7 @@ class Writer {
     Channel channel;
     bool written = false;
     std::uint64_t count = 0;
-    Index index;  // of the chunk under way
+    Index index;  // of the current chunk
   };
   struct SchemaEntry {
     Schema schema;

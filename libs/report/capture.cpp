@@ -46,7 +46,7 @@ class Collector {
       out_.late_frames += coverage.late();
       out_.repeated_frames += coverage.repeated();
       if (key.first == "path_frame" && !coverage.begins_at_a_start() && out_.problem.empty())
-        out_.problem = "the recording begins after the motion did";
+        out_.problem = "the recording starts after the start of the motion";
     }
     // Of a cycle that was written again in a later epoch the first was void.
     std::stable_sort(out_.path.begin(), out_.path.end(), [](const PathRow& a, const PathRow& b) {
@@ -119,7 +119,7 @@ class Collector {
 
   static void stamp(FrameTimes& times, std::size_t stage, std::int64_t time, std::uint64_t last) {
     times.last_cycle = last;
-    // Of two copies the first to arrive is what the next stage took.
+    // Of two replicas the next stage used the first to arrive.
     auto& written = times.written[stage];
     if (written == 0 || time < written) written = time;
   }

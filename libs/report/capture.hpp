@@ -1,4 +1,4 @@
-// What a recording says of one channel's motion, cycle by cycle.
+// One channel's motion in a recording, cycle by cycle.
 #pragma once
 
 #include <array>
@@ -62,7 +62,7 @@ struct Capture {
   std::vector<FeedbackTime> feedback;
   std::map<std::string, std::uint64_t> lost;  ///< cycles missing between frames, by topic handle
   std::uint64_t late_frames = 0;              ///< that came after a later one, and were still news
-  std::uint64_t repeated_frames = 0;          ///< that brought nothing new: the copies of twins
+  std::uint64_t repeated_frames = 0;          ///< without new cycles: those of the second replica
   std::uint64_t messages = 0;
   std::map<std::string, std::string> metadata;
   std::uint64_t starved = 0;  ///< periods during the recording

@@ -224,7 +224,7 @@ std::string feed_picture(const Report& report) {
   fastest = std::max(1.0, fastest * 1.25);
   const double worst = std::max(1e-6, largest_of(commanded_error, actual_error) * 1.08);
   Plot feed(110, 120, 1080, 250, {0, duration}, {0, fastest});
-  feed.title("Feed of the tool tip over the workpiece (rapids leave the frame)");
+  feed.title("Feed of the tool tip over the workpiece (rapids exceed the scale)");
   feed.labels("time [s]", "feed [mm/min]");
   feed.curve(actual, actual_style);
   feed.curve(commanded, commanded_style);

@@ -37,7 +37,7 @@ class Tracer {
     piece_.rapid = command.kind == language::CommandKind::rapid;
     const Vec3 end = tip_at(segment.length());
     if (arc || (!rtcp && turns)) {
-      // Quarters of a turn to begin with, or a symmetric curve would look like its chord.
+      // Start with quarters of a turn: a symmetric curve could coincide with its chord.
       const int parts = 4 + static_cast<int>((arc ? command.arc.sweep : 0) / 22.5);
       Vec3 last = tip_at(0);
       for (int k = 1; k <= parts; ++k) {
@@ -110,7 +110,7 @@ ProgrammedPath programmed_path(const std::string& text, const MachineTables& tab
             break;
           case language::CommandKind::transformation: {
             at = command.target;
-            // A tool length that begins to count moves the point that is looked at, not the machine.
+            // A tool length that becomes active moves the evaluated point, not the machine.
             const bool rtcp = command.modal.transformation == language::Transformation::rtcp;
             const auto tip = rtcp ? at : environment.tip_from_machine(at, command.modal.tool_length);
             if (result.path.pieces().empty())

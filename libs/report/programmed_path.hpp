@@ -1,4 +1,4 @@
-// What the program asks for: the path of the tool tip over the workpiece, as the interpreter understands the
+// The programmed path: the path of the tool tip over the workpiece, as the interpreter understands the
 // text.
 #pragma once
 

@@ -161,7 +161,7 @@ class Evaluation {
     return chain_.tip_from_machine({p[0], p[1], p[2]}, geometry::angles_of(p.data()), row.tool_length);
   }
 
-  // Axes without a column stand at zero, as in the frames.
+  // Axes without a column are at zero, as in the setpoint batches.
   Vec3 tip_of_joints(const double* joints, const std::vector<int>& columns, const PathRow& row) const {
     AxisValues p{};
     for (std::size_t i = 0; i < columns.size(); ++i)

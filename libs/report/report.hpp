@@ -58,7 +58,7 @@ struct Report {
   std::uint64_t cycles = 0;    ///< commanded
   std::uint64_t executed = 0;  ///< of them in the feedback
   double wall_seconds = 0;     ///< between the first and the last feedback of the motion
-  double speed = 0;            ///< machine time over wall time; 0 when it cannot be told
+  double speed = 0;            ///< machine time over wall time; 0 when unknown
 
   ContourError commanded_feed, commanded_rapid, actual_feed, actual_rapid;
   /// Forward kinematics of the axes' setpoints against the tip they were made from: the kinematics' rounding,
@@ -76,7 +76,7 @@ struct Report {
 };
 
 /// `recording` is a file's path. Throws std::runtime_error when it cannot be read or when neither it nor the
-/// inputs have parameters; anything less is said in Report::problem.
+/// inputs have parameters; anything missing is stated in Report::problem.
 Report make_report(const std::string& recording, const ReportInputs& inputs);
 
 /// Writes report.json, report.txt, path.svg and feed.svg into `directory`, which is made when it does not

@@ -87,7 +87,7 @@ std::string terminal_text(const Report& report) {
   if (report.speed > 0)
     text +=
         row("Speed", format("%.2f x real time (%.3f s of wall clock)", report.speed, report.wall_seconds));
-  text += row("Cycles lost", format("%llu (frames late: %llu, from copies: %llu)",
+  text += row("Cycles lost", format("%llu (batches late: %llu, from replicas: %llu)",
                                     static_cast<unsigned long long>(lost_in_all(report)),
                                     static_cast<unsigned long long>(report.late_frames),
                                     static_cast<unsigned long long>(report.repeated_frames)));

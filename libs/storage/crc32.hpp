@@ -7,7 +7,7 @@
 
 namespace trunnion::storage {
 
-/// Goes on from `crc` of the bytes before, 0 at the start.
+/// Continues from `crc` of the bytes before, 0 at the start.
 std::uint32_t crc32(std::uint32_t crc, std::span<const std::uint8_t> bytes);
 
 /// Of a whole text.

@@ -17,7 +17,7 @@ class StorageError : public std::runtime_error {
 /// An open file that closes itself. Every member throws StorageError.
 class File {
  public:
-  /// `flags` as open(2) takes them; a new file may be read by everybody and written by its owner.
+  /// `flags` as open(2) takes them; a new file is readable by all users and writable by its owner.
   File(std::string path, int flags);
   ~File();
   File(const File&) = delete;
@@ -25,7 +25,7 @@ class File {
 
   /// Bytes from `offset`, fewer at the end of the file; returns how many.
   std::size_t read(std::uint64_t offset, std::span<std::uint8_t> bytes) const;
-  /// Writes at the end, which the caller says is `end`; when this throws the file ends there again.
+  /// Writes at the end, which the caller gives as `end`; when this throws, the file ends there again.
   void append(std::uint64_t end, std::span<const std::uint8_t> bytes);
   /// Cuts or lengthens with zeros.
   void truncate(std::uint64_t size);

@@ -55,7 +55,7 @@ class RecordRing {
   }
 
  private:
-  // Says that records are gone before it overwrites them.
+  // Marks records as gone before it overwrites them.
   void make_room(std::uint64_t written, std::uint64_t end) {
     std::uint64_t oldest = oldest_.load(std::memory_order_relaxed);
     if (written - oldest > capacity) oldest = written;  // the memory was no ring

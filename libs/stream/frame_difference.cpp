@@ -18,7 +18,7 @@ std::string number(std::uint64_t value) { return std::to_string(value); }
 class Comparison {
  public:
   Comparison(std::uint8_t stage, unsigned copy_a, unsigned copy_b, std::uint64_t first)
-      : head_("Copies " + std::to_string(copy_a) + " and " + std::to_string(copy_b) + " of " +
+      : head_("Replicas " + std::to_string(copy_a) + " and " + std::to_string(copy_b) + " of " +
               stage_name(stage) + " differ"),
         first_(first) {}
 

@@ -11,7 +11,7 @@ namespace trunnion::stream {
 struct FrameDifference {
   std::uint64_t cycle = 0;
   std::string values;  ///< what differs, in the first frame and in the second
-  std::string text;    ///< all of it: names the stage, both copies, the cycle and both values
+  std::string text;    ///< all of it: names the stage, both replicas, the cycle and both values
 };
 
 /// Two frames of the same epoch and first cycle are the same in what a stage computes: shape, revision,

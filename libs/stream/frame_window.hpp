@@ -1,4 +1,5 @@
-// Frames of one channel between two stages: keyed by their first cycle, first arrival wins, order restored.
+// Setpoint batches of one channel between two stages: keyed by their first cycle; the first arrival counts;
+// in order.
 #pragma once
 
 #include <cstdint>
@@ -11,20 +12,20 @@ namespace trunnion::stream {
 
 enum class Arrival { news, duplicate, differs, stale };
 
-/// Holds the frames from `next()` on. Frame boundaries are the channel's and every copy of a stage keeps
-/// them, so a whole frame is the unit. Slots are reused by swapping, so the steady state does not allocate.
+/// Holds the batches from `next()` on. Their boundaries are the channel's and every replica of a stage keeps
+/// them, so a whole batch is the unit. Slots are reused by swapping, so the steady state does not allocate.
 template <class Frame>
 class FrameWindow {
  public:
   static constexpr std::size_t slots = 1024;  // above 2 * lead + 6 frames for every lead of the catalogue
   FrameWindow() : slots_(slots) {}
 
-  /// `frame` is swapped with an old one when it is news.
+  /// `frame` is swapped with an old one when it is new.
   Arrival put(Frame& frame) {
     if (frame.epoch < epoch_ ||
         (frame.epoch == epoch_ && frame.first + frame.count <= next_ && !frame.starts)) {
-      // A frame behind `next` may still be checked against what was taken: a copy that computes otherwise
-      // must be seen.
+      // A batch before `next` is still compared with the one taken: a replica with other results must be
+      // detected.
       const auto& old = slots_[frame.first % slots];
       if (old.used && old.frame.epoch == frame.epoch && old.frame.first == frame.first)
         return same_values(old.frame, frame) ? Arrival::duplicate : Arrival::differs;
@@ -61,24 +62,24 @@ class FrameWindow {
     return true;
   }
 
-  /// Goes on at `cycle` of `epoch`, for a process that has just begun.
+  /// Continues at `cycle` of `epoch`, for a process that has just started.
   void set_next(std::uint32_t epoch, std::uint64_t cycle) {
     epoch_ = epoch;
     next_ = cycle;
   }
 
-  /// The frame that begins at next(), or null.
+  /// The batch that starts at next(), or null.
   const Frame* peek() const {
     const auto& slot = slots_[next_ % slots];
     return slot.used && slot.frame.epoch == epoch_ && slot.frame.first == next_ ? &slot.frame : nullptr;
   }
-  /// Any frame held, by its first cycle.
+  /// Any batch held, by its first cycle.
   const Frame* find(std::uint64_t first) const {
     const auto& slot = slots_[first % slots];
     return slot.used && slot.frame.epoch == epoch_ && slot.frame.first == first ? &slot.frame : nullptr;
   }
-  /// The frame that arrived first of those which `frame` is a copy of, or null.
-  const Frame* copy_of(const Frame& frame) const {
+  /// The first batch that arrived for the cycles of `frame`, or null.
+  const Frame* first_arrival(const Frame& frame) const {
     const auto& slot = slots_[frame.first % slots];
     return slot.used && slot.frame.epoch == frame.epoch && slot.frame.first == frame.first ? &slot.frame
                                                                                            : nullptr;
@@ -89,7 +90,7 @@ class FrameWindow {
   std::uint64_t next() const { return next_; }
   std::uint32_t epoch() const { return epoch_; }
   bool has_next() const { return peek() != nullptr; }
-  /// A later frame is here while the next is missing.
+  /// A later batch is present while the next is missing.
   bool gap() const { return std::pair(newest_epoch_, newest_) > std::pair(epoch_, next_) && !has_next(); }
 
  private:

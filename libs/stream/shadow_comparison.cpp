@@ -22,7 +22,7 @@ void ShadowComparison::take(const idl::stream::AxisFrame& frame, Frames& own, Fr
   for (auto* frames : {&own, &others})
     for (auto it = frames->lower_bound({frame.channel, 0, 0});
          it != frames->end() && std::get<0>(it->first) == frame.channel &&
-         (std::get<1>(it->first) < frame.epoch || std::get<2>(it->first) + patience < frame.first);)
+         (std::get<1>(it->first) < frame.epoch || std::get<2>(it->first) + window_cycles < frame.first);)
       it = frames->erase(it);
 }
 

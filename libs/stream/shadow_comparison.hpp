@@ -1,4 +1,4 @@
-// Compares what a shadow of a stage writes with what the stage itself writes, whoever is first.
+// Compares the output of a stage's shadow with that of the stage, in any order of arrival.
 #pragma once
 
 #include <map>
@@ -12,14 +12,14 @@ namespace trunnion::stream {
 class ShadowComparison {
  public:
   /// Frames that have no counterpart yet are kept for this many cycles.
-  static constexpr std::uint64_t patience = 8192;
+  static constexpr std::uint64_t window_cycles = 8192;
 
   void original(const idl::stream::AxisFrame& frame) { take(frame, originals_, shadows_, true); }
   void shadow(const idl::stream::AxisFrame& frame) { take(frame, shadows_, originals_, false); }
 
   /// Cycles of all channels that both have written with the same values.
   std::uint64_t equal_cycles() const { return equal_cycles_; }
-  /// The first difference found; the original's value stands first.
+  /// The first difference found; the original's value comes first.
   const std::optional<FrameDifference>& first_difference() const { return difference_; }
 
  private:

@@ -1,4 +1,5 @@
-// The shell of kinematics, compensation and gantry: frames in, frames out, joining, restarting, revisions.
+// The shell of kinematics, compensation and gantry: setpoint batches in and out, joining, restarts,
+// revisions.
 #pragma once
 
 #include <algorithm>
@@ -17,9 +18,9 @@
 
 namespace trunnion::stream {
 
-/// How many frames a writer of the stream must keep: twice the lead, in frames, and a few, for every channel.
-/// Never fewer than 1024: in virtual time that is how late a recorder may be before cycles are lost to it,
-/// about a quarter of a second.
+/// The number of batches that a writer of the stream must keep: twice the lead, in batches, and a few, for
+/// every channel. Never fewer than 1024: in virtual time that is how late a recorder may be before cycles are
+/// lost to it, about a quarter of a second.
 inline int stream_depth(int lead, int frame_cycles, int channels) {
   return std::max(1024, (2 * lead / std::max(1, frame_cycles) + 6) * std::max(1, channels));
 }
@@ -27,7 +28,7 @@ inline int stream_depth(int lead, int frame_cycles, int channels) {
 /// Topic on which a stage writes while it is on standby, only compared with the one it is to replace.
 inline std::string standby_name(const std::string& topic) { return topic + topics::standby_suffix; }
 
-/// Raises the alarm of copies that differ, once until it is reset: it stops the machine.
+/// Raises the alarm of replicas that differ, once until it is reset: it stops the machine.
 inline void raise_difference(service::AlarmBoard& alarms, const auto& first, const auto& second) {
   if (alarms.active(alarm::copies_differ, first.channel)) return;
   const auto what = difference(first, second);
@@ -74,7 +75,7 @@ class StageService : public service::Service {
       const auto channel = frame_.channel;
       auto& window = lane(channel).window;
       if (window.put(frame_) == Arrival::differs)
-        raise_difference(node_.alarms(), *window.copy_of(frame_), frame_);
+        raise_difference(node_.alarms(), *window.first_arrival(frame_), frame_);
     }
     for (auto& [channel, lane] : lanes_) {
       run(channel, lane);
@@ -108,7 +109,7 @@ class StageService : public service::Service {
   }
 
  protected:
-  /// The computation itself needs the feedback. Other stages read it only until they are in step.
+  /// True when the computation itself needs the feedback. Other stages read it only until they are in step.
   virtual bool needs_feedback() const { return false; }
   /// For supervision that does not belong to a setpoint.
   virtual void on_feedback(const idl::stream::FeedbackFrame&) {}
@@ -120,14 +121,14 @@ class StageService : public service::Service {
     FrameWindow<In> window;
     std::unique_ptr<StageCore<In>> core;
     std::uint64_t revision = 0;
-    std::optional<StateValues> cut;  // to go on from; a core cannot take it before it is configured
+    std::optional<StateValues> cut;  // to continue from; a core cannot load it before it is configured
     bool in_step = false;
-    bool settled = false;  // since it is in step it has computed all that was here, and there is a reader
+    bool settled = false;  // since it is in step it has computed all input, and its output has a reader
     double gap_since = 0;
     bool at_rest = false;  // the newest frame it computed was the last of a motion
-    bool told_at_rest = false;
-    idl::stream::StageProgress told;
-    double told_at = 0;
+    bool reported_at_rest = false;
+    idl::stream::StageProgress reported;
+    double reported_at = 0;
   };
 
   void start() {
@@ -138,8 +139,8 @@ class StageService : public service::Service {
                                         static_cast<int>(node_.options().machine.channels))});
     lead_ = static_cast<std::uint64_t>(p.integer(parameter::stream_lead));
     const auto& services = node_.options().machine.services;
-    twins_ = std::count_if(services.begin(), services.end(),
-                           [&](const auto& entry) { return entry.service == stage_name(stage_); }) > 1;
+    replicated_ = std::count_if(services.begin(), services.end(),
+                                [&](const auto& entry) { return entry.service == stage_name(stage_); }) > 1;
     standby_ = node_.on_standby();
     const auto standby_topic = standby_name(out_topic_.name);
     auto out = out_topic_;
@@ -159,21 +160,21 @@ class StageService : public service::Service {
     for (auto& [channel, lane] : lanes_) lane.settled = false;
   }
 
-  // What keeps it from being in step.
+  // The reason why it is not in step.
   std::string waiting_for() const {
     for (const auto& [channel, lane] : lanes_) {
       if (lane.in_step && lane.settled) continue;
-      const auto what = !lane.in_step             ? "the cut to go on from"
+      const auto what = !lane.in_step             ? "the consistent cut"
                         : lane.window.has_next()  ? "parameters"
                         : writer_->matched() == 0 ? "a reader"
-                                                  : "the next frame";
+                                                  : "the next setpoint batch";
       return std::string("waiting for ") + what + " of channel " + std::to_string(channel);
     }
     return "";
   }
 
-  // Ten times a second; of a stage with twins also whenever a lead was computed, for the channel waits for
-  // it.
+  // Ten times a second; of a stage with replicas also whenever a lead was computed, because the channel waits
+  // for it.
   void report_progress(std::uint16_t channel, Lane& lane) {
     if (lane.in_step && !lane.settled) lane.settled = !lane.window.has_next() && writer_->matched() > 0;
     if (standby_) return;
@@ -183,14 +184,15 @@ class StageService : public service::Service {
                                               lane.in_step && lane.settled,
                                               lane.window.epoch(),
                                               lane.window.next()};
-    const auto& told = lane.told;
-    const bool news = twins_ && (progress.in_step != told.in_step || progress.epoch != told.epoch ||
-                                 progress.next >= told.next + lead_ || lane.at_rest != lane.told_at_rest);
+    const auto& reported = lane.reported;
+    const bool news =
+        replicated_ && (progress.in_step != reported.in_step || progress.epoch != reported.epoch ||
+                        progress.next >= reported.next + lead_ || lane.at_rest != lane.reported_at_rest);
     const double now = service::monotonic_seconds();
-    if (!news && now - lane.told_at <= 0.1) return;
-    lane.told = progress;
-    lane.told_at = now;
-    lane.told_at_rest = lane.at_rest;
+    if (!news && now - lane.reported_at <= 0.1) return;
+    lane.reported = progress;
+    lane.reported_at = now;
+    lane.reported_at_rest = lane.at_rest;
     progress_writer_.write(progress);
   }
 
@@ -218,8 +220,8 @@ class StageService : public service::Service {
     return nullptr;
   }
 
-  // A process that has just begun, or has fallen behind, goes on from the consistent cut in the drive's
-  // feedback as soon as it holds the input that follows it.
+  // A process that has just started, or has fallen behind, continues from the consistent cut in the drive's
+  // feedback as soon as it has the input that follows it.
   void join(std::uint16_t channel, Lane& lane) {
     const auto* cut = echo(channel);
     if (cut == nullptr) return;
@@ -245,8 +247,8 @@ class StageService : public service::Service {
       if (unknown_since_ == 0) unknown_since_ = now;
       if (now - unknown_since_ > 1)
         node_.alarms().raise(alarm::revision_unknown, channel,
-                             "Frames are made with parameter revision " + std::to_string(revision) +
-                                 ", which has not arrived");
+                             "Setpoint batches require parameter revision " + std::to_string(revision) +
+                                 ", which has not arrived within 1 s");
       return false;
     }
     unknown_since_ = 0;
@@ -297,15 +299,15 @@ class StageService : public service::Service {
       lane.gap_since = 0;
       lane.window.jump_to_start();
     }
-    // The next frame is missing while later ones are here: it will not come any more, so go on from the cut.
+    // The next batch is missing while later ones are present: it will not arrive any more, so continue from
+    // the cut.
     if (lane.window.gap()) {
       const double now = service::monotonic_seconds();
       if (lane.gap_since == 0) lane.gap_since = now;
       if (now - lane.gap_since > 0.02) {
         ++frames_lost_;
         lane.in_step = lane.settled = false;
-        feedback_until_ =
-            now + 2;  // who fell behind may do so again, and a new reader is sent all the history
+        feedback_until_ = now + 2;  // it may fall behind again, and a new reader receives the whole history
         lane.gap_since = 0;
       }
     }
@@ -328,7 +330,7 @@ class StageService : public service::Service {
   std::uint64_t frames_in_ = 0, frames_out_ = 0, frames_lost_ = 0;
   double unknown_since_ = 0, feedback_until_ = 0;
   std::uint64_t lead_ = 0;
-  bool twins_ = false, standby_ = false;
+  bool replicated_ = false, standby_ = false;
   std::string fault_;
 };
 

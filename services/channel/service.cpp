@@ -41,8 +41,8 @@ ChannelService::ChannelService(service::Node& node)
       record_file_(node.options().state_directory + "/channel-" + std::to_string(node.options().channel) +
                    ".program"),
       record_(record_file_) {
-  copies_ = stream::CopyWatch(node.options().machine.services, service::monotonic_seconds());
-  if (!copies_.copies().empty()) progress_reader_.emplace(node.bus().reader(topics::stage_progress));
+  replicas_ = stream::ReplicaWatch(node.options().machine.services, service::monotonic_seconds());
+  if (!replicas_.replicas().empty()) progress_reader_.emplace(node.bus().reader(topics::stage_progress));
   std::ifstream boot(node.options().state_directory + "/cluster.boot");
   std::getline(boot, boot_);
   read_variables();
@@ -204,20 +204,20 @@ void ChannelService::watch_copies() {
   const double now = service::monotonic_seconds();
   idl::stream::StageProgress progress;
   while (progress_reader_->take(progress))
-    if (progress.channel == node_.options().channel) copies_.heard(progress, now);
+    if (progress.channel == node_.options().channel) replicas_.update(progress, now);
   const auto lead = static_cast<std::uint64_t>(core_.machine().lead());
-  for (const auto& change : copies_.judge(lead, now)) {
-    const auto part = stream::copy_part(change.stage, change.copy);
+  for (const auto& change : replicas_.evaluate(lead, now)) {
+    const auto part = stream::replica_part(change.stage, change.number);
     if (change.lost)
       node_.alarms().raise(alarm::redundancy_lost, part,
-                           "Copy " + std::to_string(change.copy) + " of " + stream::stage_name(change.stage) +
-                               " was dropped: it makes no progress",
+                           "Replica " + std::to_string(change.number) + " of " +
+                               stream::stage_name(change.stage) + " was dropped: no progress for 0.1 s",
                            core_.link().executed());
     else
       node_.alarms().clear(alarm::redundancy_lost, part);
   }
-  core_.set_copies(copies_.may_start(now),
-                   node_.options().virtual_time ? copies_.floor() : stream::CopyWatch::everywhere);
+  core_.set_copies(replicas_.may_start(now),
+                   node_.options().virtual_time ? replicas_.floor() : stream::ReplicaWatch::everywhere);
 }
 
 void ChannelService::answer_requests() {

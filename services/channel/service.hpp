@@ -8,7 +8,7 @@
 #include "service/parameter_client.hpp"
 #include "service/request.hpp"
 #include "src/channel_core.hpp"
-#include "stream/copy_watch.hpp"
+#include "stream/replica_watch.hpp"
 
 namespace trunnion::channel {
 
@@ -50,7 +50,7 @@ class ChannelService : public service::Service {
   bus::Reader<idl::plc::Outputs> outputs_;
   bus::Reader<idl::service::Alarm> alarm_reader_;
   bus::Reader<idl::service::Cluster> cluster_reader_;
-  stream::CopyWatch copies_;
+  stream::ReplicaWatch replicas_;
   std::optional<bus::Reader<idl::stream::StageProgress>> progress_reader_;  ///< of a machine with twins
   bus::Writer<idl::channel::ChannelState> state_writer_;
   bus::Writer<idl::channel::AuxiliaryRequest> auxiliary_writer_;

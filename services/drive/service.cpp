@@ -75,7 +75,7 @@ void DriveService::drain() {
     }
     applied(Input::GANTRY_FRAME, identity(*frames_));
     if (!core_.put(frame_)) {
-      stream::raise_difference(node_.alarms(), *core_.copy_of(frame_), frame_);
+      stream::raise_difference(node_.alarms(), *core_.first_arrival(frame_), frame_);
       core_.stop();
     }
   }

@@ -13,12 +13,13 @@
 namespace trunnion::plc {
 namespace {
 
-constexpr std::size_t most_applied = 256;    // inputs that one message of the log can name
-constexpr double outputs_period = 0.2;       // s between two signs of life for the drive
-constexpr double log_period = 0.02;          // s between two words on how far it is
-constexpr double image_period = 0.1;         // s, fastest publication of the image
-constexpr double drive_patience = 0.15;      // s that PLC time goes on by the clock without feedback
-constexpr double standstill_patience = 0.5;  // s that a request waits for the drive to confirm the standstill
+constexpr std::size_t most_applied = 256;  // inputs that one message of the log can name
+constexpr double outputs_period = 0.2;     // s between two messages to the drive
+constexpr double log_period = 0.02;        // s between two progress messages
+constexpr double image_period = 0.1;       // s, fastest publication of the image
+constexpr double drive_timeout = 0.15;     // s for which PLC time continues by the clock without feedback
+constexpr double standstill_timeout =
+    0.5;  // s for which a request waits for the drive's confirmation of the standstill
 
 std::string read_file(const std::string& path) {
   std::ifstream in(path, std::ios::binary);
@@ -50,7 +51,7 @@ PlcService::PlcService(service::Node& node)
       log_(node.bus().writer(topics::plc_input_log)),
       panel_(node.bus(), topics::panel_request, topics::panel_reply) {
   if (const auto kept = retained_.load()) {
-    // Only within one life of the cluster may a spindle turn on without an order of the program.
+    // Only within one run of the cluster may a spindle keep turning without a new command of the program.
     if (!boot_.empty() && kept->boot == boot_)
       core_.restore(kept->memory);
     else
@@ -82,15 +83,15 @@ void PlcService::end_round(const std::vector<idl::plc::AuxiliaryDone>& done) {
 
 void PlcService::advance(std::uint64_t tick) {
   core_.advance(tick);
-  rounds_.told(StepKind::advance, tick);
+  rounds_.record(StepKind::advance, tick);
 }
 
 void PlcService::applied(idl::stream::Input input, std::int64_t source_time) {
   inputs_.applied.push_back({input, core_.memory().tick, static_cast<std::uint64_t>(source_time)});
-  if (inputs_.applied.size() == most_applied) tell_inputs(service::monotonic_seconds());
+  if (inputs_.applied.size() == most_applied) publish_inputs(service::monotonic_seconds());
 }
 
-void PlcService::tell_inputs(double now) {
+void PlcService::publish_inputs(double now) {
   const bool further = core_.memory().tick != inputs_.tick;
   if (inputs_.applied.empty() && (!further || now - log_written_ < log_period)) return;
   inputs_.instance = node_.options().instance;
@@ -105,8 +106,8 @@ void PlcService::take_inputs() {
   while (feedback_.take(frame_)) {
     ++frames_in_;
     core_.set_feedback(frame_);
-    rounds_.told(frame_);
-    // Frame by frame, so that it does not matter how many have come at once.
+    rounds_.record(frame_);
+    // One message at a time, so that the result does not depend on how many have arrived.
     advance(node_.options().virtual_time ? frame_.tick : std::max(frame_.tick, core_.memory().tick));
     if (frame_.tick != tick_) {
       tick_ = frame_.tick;
@@ -117,13 +118,13 @@ void PlcService::take_inputs() {
   while (channels_.take(state)) {
     applied(Input::CHANNEL_STATE, channels_.info().source_timestamp);
     core_.set_channel(state);
-    rounds_.told(StepKind::channel, state);
+    rounds_.record(StepKind::channel, state);
   }
   idl::channel::AuxiliaryRequest request;
   while (requests_.take(request)) {
     applied(Input::AUXILIARY_REQUEST, requests_.info().source_timestamp);
     core_.set_request(request);
-    rounds_.told(StepKind::request, request);
+    rounds_.record(StepKind::request, request);
   }
   idl::service::Alarm alarm;
   while (alarms_.take(alarm)) {
@@ -139,22 +140,22 @@ void PlcService::take_inputs() {
     return entry.second.reaction != idl::service::Reaction::SHOW;
   });
   core_.set_alarms(any, stops);
-  rounds_.told(StepKind::alarms, (any ? 1u : 0u) | (stops ? 2u : 0u));
+  rounds_.record(StepKind::alarms, (any ? 1u : 0u) | (stops ? 2u : 0u));
   idl::plc::PanelRequest panel;
   while (panel_.take(panel)) {
     applied(Input::PANEL_REQUEST, panel_.info().source_timestamp);
     idl::plc::PanelReply reply;
     reply.reason = core_.panel(panel.kind, panel.address, panel.value);
     reply.accepted = reply.reason.empty();
-    rounds_.told(StepKind::panel, panel);
+    rounds_.record(StepKind::panel, panel);
     panel_.reply(panel, reply);
   }
 }
 
-/// In real time the ticks between two frames of the drive follow the clock, for at most drive_patience.
+/// In real time the ticks between two frames of the drive follow the clock, for at most drive_timeout.
 std::uint64_t PlcService::tick_now(double now) const {
   if (node_.options().virtual_time || tick_seen_ == 0) return tick_;
-  const double ahead = std::clamp(now - tick_seen_, 0.0, drive_patience) / period_;
+  const double ahead = std::clamp(now - tick_seen_, 0.0, drive_timeout) / period_;
   return std::max(tick_ + static_cast<std::uint64_t>(ahead), core_.memory().tick);
 }
 
@@ -162,7 +163,7 @@ void PlcService::pump() {
   begin_round();
   if (parameters_.poll()) {
     core_.configure(*parameters_.newest(), node_.options().virtual_time);
-    rounds_.told(StepKind::parameters, parameters_.newest()->revision);
+    rounds_.record(StepKind::parameters, parameters_.newest()->revision);
     period_ = parameters_.newest()->integer(parameter::interpolation_cycle) * 1e-6;
   }
   take_inputs();
@@ -172,12 +173,12 @@ void PlcService::pump() {
     waiting_since_ = 0;
   } else if (waiting_since_ == 0) {
     waiting_since_ = now;
-  } else if (now - waiting_since_ > standstill_patience) {
+  } else if (now - waiting_since_ > standstill_timeout) {
     core_.give_up_waiting();
-    rounds_.told(StepKind::give_up);
+    rounds_.record(StepKind::give_up);
   }
   advance(tick_now(now));
-  tell_inputs(now);
+  publish_inputs(now);
   retained_.save(boot_, core_.memory());
   publish(now);
 }
@@ -187,7 +188,7 @@ void PlcService::publish(double now) {
   auto same = last_outputs_;
   same.tick = outputs.tick;
   if (!node_.options().virtual_time) same.run_until_tick = outputs.run_until_tick;
-  // A run_until_tick in the past orders nothing.
+  // A run_until_tick in the past requests nothing.
   if (same.run_until_tick <= outputs.tick && outputs.run_until_tick <= outputs.tick)
     same.run_until_tick = outputs.run_until_tick;
   if (first_ || same != outputs || now - outputs_written_ >= outputs_period) {
@@ -202,16 +203,21 @@ void PlcService::publish(double now) {
   end_round(finished);
   for (const auto& done : finished) {
     if (done.failed)
-      node_.alarms().raise(alarm::auxiliary_refused, done.channel,
-                           "An auxiliary function was not carried out",
-                           core_.memory().handshakes[done.channel].cycle);
+      node_.alarms().raise(
+          alarm::auxiliary_refused, done.channel,
+          "An auxiliary function of channel " + std::to_string(done.channel) +
+              " was not executed: the PLC program reports a failure. Check the machine, then "
+              "reset the alarms",
+          core_.memory().handshakes[done.channel].cycle);
     node_.alarms().release(alarm::auxiliary_refused, done.channel);
     done_.write(done);
   }
   first_ = false;
   if (fault_.empty()) {
     if (core_.emergency_stop())
-      node_.alarms().raise(alarm::emergency_stop, 0, "Emergency stop: release the button and reset",
+      node_.alarms().raise(alarm::emergency_stop, 0,
+                           "Emergency stop is active: release the button, reset the emergency stop, then the "
+                           "alarms and the channel",
                            outputs.tick);
     else
       node_.alarms().clear(alarm::emergency_stop, 0);

@@ -5,19 +5,19 @@
 #include <tuple>
 
 #include "plc_core.hpp"
-#include "rehearsal_service.hpp"
 #include "retained_memory.hpp"
 #include "round_recorder.hpp"
 #include "service/node.hpp"
 #include "service/parameter_client.hpp"
 #include "service/request.hpp"
+#include "standby_service.hpp"
 
 namespace trunnion::plc {
 
 class PlcService : public service::Service {
  public:
-  /// What it does while it is a shadow.
-  using Rehearsal = RehearsalService;
+  /// The service while it is a shadow.
+  using Rehearsal = StandbyService;
 
   explicit PlcService(service::Node& node);
   void pump() override;
@@ -28,7 +28,7 @@ class PlcService : public service::Service {
   void alarms_reset(std::uint16_t channel) override {
     if (channel != service::all_channels) return;  // the reset button is the machine's
     core_.press_reset();
-    rounds_.told(StepKind::reset);
+    rounds_.record(StepKind::reset);
   }
 
  private:
@@ -39,7 +39,7 @@ class PlcService : public service::Service {
   std::uint64_t tick_now(double now) const;
   void publish(double now);
   void applied(idl::stream::Input input, std::int64_t source_time);
-  void tell_inputs(double now);
+  void publish_inputs(double now);
 
   service::Node& node_;
   RetainedMemory retained_;

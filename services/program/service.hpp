@@ -4,16 +4,16 @@
 
 #include "directory_files.hpp"
 #include "program_store.hpp"
-#include "rehearsal_service.hpp"
 #include "service/node.hpp"
 #include "service/request.hpp"
+#include "standby_service.hpp"
 
 namespace trunnion::program {
 
 class ProgramService : public service::Service {
  public:
-  /// What it does while it is a shadow.
-  using Rehearsal = RehearsalService;
+  /// The service while it is a shadow.
+  using Rehearsal = StandbyService;
 
   explicit ProgramService(service::Node& node);
   void pump() override;

@@ -32,20 +32,21 @@ int main(int argc, char** argv) {
       ->check(CLI::Range(1, 65536));
   double part_mebibytes = 0;
   auto* part_size = app.add_option("--part-size", part_mebibytes,
-                                   "MiB after which a new part begins, numbered FILE-0001 and so on")
+                                   "MiB after which a new part starts, numbered FILE-0001 and so on")
                         ->check(CLI::PositiveNumber);
   auto* part_time =
-      app.add_option("--part-time", options.parts.seconds, "Seconds after which a new part begins")
+      app.add_option("--part-time", options.parts.seconds, "Seconds after which a new part starts")
           ->check(CLI::PositiveNumber);
   app.add_option("--parts", options.parts.keep, "Newest parts to keep (default: all)")
       ->check(CLI::PositiveNumber);
   auto* last =
-      app.add_option("--last", options.last,
-                     "Flight recorder: keep this many seconds in memory, and save them when an alarm fires")
+      app.add_option(
+             "--last", options.last,
+             "Flight recorder: keep this many seconds in memory, and save them when an alarm is raised")
           ->check(CLI::PositiveNumber)
           ->excludes(part_size)
           ->excludes(part_time);
-  app.add_option("--after", options.after, "Seconds to save of what follows the alarm")
+  app.add_option("--after", options.after, "Seconds to save after the alarm")
       ->check(CLI::NonNegativeNumber)
       ->needs(last);
   app.add_option_function<std::string>(
@@ -54,14 +55,14 @@ int main(int argc, char** argv) {
            options.severity = static_cast<idl::service::Severity>(
                std::find(severities.begin(), severities.end(), name) - severities.begin());
          },
-         "Least severity that saves: hint, warning, error or emergency (default: warning)")
+         "Lowest severity that saves: hint, warning, error or emergency (default: warning)")
       ->check(CLI::IsMember(severities))
       ->needs(last);
-  app.add_option("--memory", options.memory_mebibytes, "MiB the flight recorder may keep")
+  app.add_option("--memory", options.memory_mebibytes, "Maximum MiB that the flight recorder keeps")
       ->check(CLI::Range(1, 65536))
       ->needs(last);
   app.add_flag("--json", options.json, "Summary as JSON");
-  app.add_flag("--parent-bound", options.parent_bound, "Stop when the parent process is gone");
+  app.add_flag("--parent-bound", options.parent_bound, "Stop when the parent process ends");
   CLI11_PARSE(app, argc, argv);
   options.parts.bytes = static_cast<std::uint64_t>(part_mebibytes * (1 << 20));
   options.network.identity = "recorder";

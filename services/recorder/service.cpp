@@ -27,12 +27,12 @@
 namespace trunnion::recorder {
 namespace {
 
-constexpr double match_seconds = 1.0;    // how long to wait for the writers of the stream
-constexpr double cluster_seconds = 5.0;  // the same when a launcher says which services there are
-// To wake up for every message would take as much of the processor as a stage of the stream does. What
-// writers keep lasts for a thousand frames.
+constexpr double match_seconds = 1.0;    // waiting time for the writers of the stream
+constexpr double cluster_seconds = 5.0;  // the same when a launcher publishes the list of services
+// A wake-up for every message would cost as much processor time as a stage of the stream. Writers keep a
+// thousand batches.
 constexpr auto pause = std::chrono::milliseconds(20);
-constexpr int priority = 10;  // whatever it does can wait, the stream cannot
+constexpr int priority = 10;  // the recorder can wait, the stream cannot
 
 volatile sig_atomic_t stop_requested = 0;
 
@@ -77,7 +77,7 @@ class Sources {
   void begin(std::int64_t now) {
     for (auto& topic : topics_) topic.begin(now);
   }
-  /// Takes what has arrived; true when there was anything.
+  /// Takes the messages that have arrived; true when there were any.
   bool drain(MessageQueue& queue);
 
   // Of the topics that carry the stream:
@@ -110,7 +110,7 @@ bool Sources::drain(MessageQueue& queue) {
   bool any = false;
   bus::SampleInfo info;
   for (std::size_t i = 0; i < topics_.size(); ++i) {
-    // A bounded number at a time, so that one topic in full flow does not keep the others waiting.
+    // A bounded number at a time, so that one busy topic does not delay the others.
     for (int n = 0; n < 256 && topics_[i].take(message_.cdr, info); ++n) {
       any = true;
       message_.topic = static_cast<std::uint16_t>(i);
@@ -123,7 +123,7 @@ bool Sources::drain(MessageQueue& queue) {
   return any;
 }
 
-// The thread that compresses and writes. It reads what it has to know of the stream from the bytes it writes.
+// The thread that compresses and writes. It derives the figures of the stream from the bytes it writes.
 class FileThread {
  public:
   FileThread(const Options& options, const FileHeader& header, MessageQueue& queue)
@@ -160,15 +160,15 @@ class FileThread {
         destination_->take(message, now);
       }
       destination_->idle(now);
-      tell();
+      report_files();
     }
     destination_->finish(service::monotonic_seconds());
-    tell();
+    report_files();
   }
 
-  void tell() {
-    for (; told_ < destination_->files().size(); ++told_) {
-      const auto& file = destination_->files()[told_];
+  void report_files() {
+    for (; reported_files_ < destination_->files().size(); ++reported_files_) {
+      const auto& file = destination_->files()[reported_files_];
       if (file.why.empty()) continue;
       if (json_)
         std::cout << bus::Json{{"saved", file.path}, {"bytes", file.bytes}, {"because", file.why}}.dump()
@@ -186,34 +186,34 @@ class FileThread {
   MessageQueue& queue_;
   std::unique_ptr<Destination> destination_;
   recording::StreamTally tally_;
-  std::size_t told_ = 0;
+  std::size_t reported_files_ = 0;
   bool reported_ = false;
   std::thread thread_;
 };
 
-// Motion that begins before the stream's writers know of our readers would be missing from the recording. A
-// writer learns of a participant's readers in the order in which they were made; so a service whose state
-// reaches a reader made last knows of all the others. Where the machine stands is in the feedback, so one
-// frame of it must have come. Without a launcher nobody says which services there are, and a matched writer
-// must do.
+// Motion that starts before the stream's writers have discovered the recorder's readers would be missing from
+// the recording. A writer discovers a participant's readers in the order of their creation; so a service
+// whose state reaches the reader created last has discovered all others. The machine's position is in the
+// feedback, so one message of it must have arrived. Without a launcher the list of services is unknown, and a
+// matched writer is sufficient.
 void wait_for_writers(bus::Bus& bus, Sources& sources, MessageQueue& queue) {
   auto clusters = bus.reader(topics::cluster);
   auto states = bus.reader(topics::service_state);
   idl::service::Cluster cluster;
   idl::service::ServiceState state;
-  std::set<std::uint32_t> heard;
+  std::set<std::uint32_t> received;
   const double began = service::monotonic_seconds();
   while (stop_requested == 0) {
     sources.drain(queue);
     while (clusters.take(cluster)) {
     }
-    while (states.take(state)) heard.insert(state.instance);
+    while (states.take(state)) received.insert(state.instance);
     const bool known = !cluster.services.empty();
-    const bool all_heard =
+    const bool all_received =
         std::all_of(cluster.services.begin(), cluster.services.end(),
-                    [&](const auto& service) { return heard.count(service.instance) != 0; });
+                    [&](const auto& service) { return received.count(service.instance) != 0; });
     const bool matched = sources.all_have_writers();
-    if (known && all_heard && matched && sources.feedback_has_come()) return;
+    if (known && all_received && matched && sources.feedback_has_come()) return;
     const double waited = service::monotonic_seconds() - began;
     if (waited > (known ? cluster_seconds : match_seconds) ||
         (!known && matched && waited > match_seconds / 2))
@@ -270,7 +270,8 @@ void print_summary(const Options& options, const FileThread& thread, const Losse
   if (losses.dropped != 0)
     std::cout << "  " << losses.dropped << " messages dropped: the disk was slower than the stream\n";
   if (losses.overwritten != 0)
-    std::cout << "  " << losses.overwritten << " messages overwritten: the recorder got too little time\n";
+    std::cout << "  " << losses.overwritten
+              << " messages overwritten: the recorder had too little processor time\n";
   if (destination.unwritten() != 0)
     std::cout << "  " << destination.unwritten() << " messages not written: " << destination.problem()
               << "\n";
@@ -288,8 +289,8 @@ int record(const Options& options) {
                            {"domain", std::to_string(options.network.domain)},
                            {"contract", topics::contract_hash},
                            {"version", TRUNNION_VERSION}}};
-  // A recorder that puts a stage aside whenever packets come slows the stream. What writers keep for whoever
-  // is late, a thousand frames, lasts much longer than its turn to come.
+  // A recorder that displaces a stage from the processor whenever packets arrive slows the stream. Writers
+  // keep a thousand batches, much longer than the recorder waits for the processor.
   setpriority(PRIO_PROCESS, 0, priority);
   FileThread file(options, header, queue);
   bus::Gathering gathering;
@@ -300,18 +301,19 @@ int record(const Options& options) {
   std::cout << "recording " << options.output << std::endl;
 
   const double started = service::monotonic_seconds();
-  std::uint64_t told = 0;
+  std::uint64_t reported = 0;
   while (stop_requested == 0 &&
          (options.duration <= 0 || service::monotonic_seconds() - started < options.duration)) {
     if (sources->drain(queue)) {
-      if (queue.dropped() != 0 && told == 0) {
-        told = queue.dropped();
+      if (queue.dropped() != 0 && reported == 0) {
+        reported = queue.dropped();
         std::cerr << "trunnion-recorder: warning: messages are dropped: the disk is slower than the stream\n";
       }
     }
     std::this_thread::sleep_for(pause);
   }
-  // What has arrived by now belongs to the recording; a stream in full flow does not keep us for ever.
+  // Messages that have arrived by now belong to the recording; a running stream must not extend it without
+  // limit.
   const double until = service::monotonic_seconds() + 2;
   while (sources->drain(queue) && service::monotonic_seconds() < until) {
   }

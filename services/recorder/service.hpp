@@ -1,4 +1,4 @@
-// The recorder: every topic of the cluster into one file, from beside the stream.
+// The recorder: writes every topic of the cluster to one file, without a part in the stream.
 #pragma once
 
 #include <string>
@@ -19,8 +19,8 @@ struct Options {
   double duration = 0;  ///< s; 0 = until a signal
   std::size_t queue_mebibytes = 256;
   PartLimits parts;
-  double last = 0;   ///< s; above 0: a flight recorder, which saves so much from before an alarm
-  double after = 1;  ///< s saved of what follows the alarm
+  double last = 0;   ///< s; above 0: a flight recorder, which saves this time before an alarm
+  double after = 1;  ///< s saved after the alarm
   idl::service::Severity severity = idl::service::Severity::WARNING;  ///< the least that saves
   std::size_t memory_mebibytes = 256;                                 ///< of the flight recorder
   bool json = false;
@@ -28,7 +28,7 @@ struct Options {
 };
 
 /// Records until SIGTERM, SIGINT or the end of the duration; returns the exit status: 0, or 1 when something
-/// is missing from the file. Throws std::runtime_error when it cannot begin.
+/// is missing from the file. Throws std::runtime_error when it cannot start.
 int record(const Options& options);
 
 }  // namespace trunnion::recorder

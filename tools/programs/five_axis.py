@@ -51,7 +51,7 @@ def angles(machine, tool):
 
 
 def follow(machine, tools):
-    """(swing, C) of each direction; C goes on without jumps and, where its travel ends, about the middle of it."""
+    """(swing, C) of each direction; C continues without jumps and, where its travel ends, about the middle of it."""
     path = []
     for tool in tools:
         swing, c = angles(machine, tool)

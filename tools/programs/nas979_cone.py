@@ -39,7 +39,7 @@ class Cone:
         diameter, self.thickness, self.slope, self.tilt, height = SIZES[size]
         self.radius = diameter / 2
         self.centre = (0.0, 0.0, height)
-        # The tilted face looks at the operator: its normal leans towards -Y.
+        # The tilted face is turned to the operator: its normal leans towards -Y.
         t = math.radians(self.tilt)
         self.u, self.v, self.axis = (1.0, 0.0, 0.0), (0.0, math.cos(t), math.sin(t)), (0.0, -math.sin(t), math.cos(t))
 

@@ -24,7 +24,7 @@ def surface(f):
 
 
 def angles(place, c_before):
-    """A and C of a tool along the normal that leans outwards; C goes on from `c_before` without a jump."""
+    """A and C of a tool along the normal that leans outwards; C continues from `c_before` without a jump."""
     x, y, _, slope_x, slope_y = place
     radius = math.hypot(x, y)
     nx, ny = -slope_x + LEAN * x / radius, -slope_y + LEAN * y / radius

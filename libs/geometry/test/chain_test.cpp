@@ -12,7 +12,7 @@ namespace trunnion::geometry {
 namespace {
 
 // A turns about -X, so A90 turns about +X by -90: (x, y, z) -> (x, z, -y). With both offsets zero the point
-// (1, 2, 3) goes to (1, 3, -2), and the tool of 100 stands above it at z = 98.
+// (1, 2, 3) goes to (1, 3, -2), and the tool of 100 is above it at z = 98.
 TEST(Chain, ac_trunnion_at_a90_turns_a_point_of_the_table_by_hand) {
   ChainParameters p;
   p.table_1 = RotaryAxis{Vec3(-1, 0, 0), Vec3::Zero(), 0};

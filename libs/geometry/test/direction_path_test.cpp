@@ -21,7 +21,7 @@ Vec3 leaning(double lean, double towards) {
   return {l.sine * t.cosine, l.sine * t.sine, l.cosine};
 }
 
-DirectionPathRequest way(const Vec3& from, const Vec3& to, const Angles& present = {}) {
+DirectionPathRequest request_between(const Vec3& from, const Vec3& to, const Angles& present = {}) {
   DirectionPathRequest request;
   request.from = from;
   request.to = to;
@@ -33,7 +33,7 @@ DirectionPath path(const ChainParameters& p, const DirectionPathRequest& request
   auto made = DirectionPath::make(OrientationSolver(make(p)), request);
   if (const auto* fault = std::get_if<DirectionPathFault>(&made)) {
     ADD_FAILURE() << "fault " << int{fault->kind} << " at " << fault->s;
-    return path(p, way(Vec3::UnitZ(), Vec3::UnitZ()));
+    return path(p, request_between(Vec3::UnitZ(), Vec3::UnitZ()));
   }
   return std::get<DirectionPath>(made);
 }
@@ -69,8 +69,8 @@ Observed observe(const Chain& chain, const DirectionPath& p, int places = 4000) 
   return seen;
 }
 
-// From 30 degrees towards -Y to 30 degrees towards +X: half way the unit vector (1, -1, 2 / tan 30)
-// normalized.
+// From 30 degrees towards -Y to 30 degrees towards +X: half request_between the unit vector (1, -1, 2 / tan
+// 30) normalized.
 TEST(DirectionArc, is_an_even_turn_in_the_plane_of_both_vectors) {
   const auto arc = *DirectionArc::make(2 * leaning(30, -90), 0.5 * leaning(30, 0));
   EXPECT_LT((arc.at(0.5) - Vec3(1, -1, 2 * std::sqrt(3.0)).normalized()).norm(), 1e-15);
@@ -93,7 +93,7 @@ TEST(DirectionArc, derivatives_agree_with_central_differences) {
 
 // A leans the tool to -Y, C turns that to +X: A30 C0 -> A30 C90.
 TEST(DirectionPath, an_ac_table_goes_from_a30_c0_to_a30_c90_over_the_great_circle) {
-  const auto p = path(ac_table(), way(leaning(30, -90), leaning(30, 0), {30, 0, 0}));
+  const auto p = path(ac_table(), request_between(leaning(30, -90), leaning(30, 0), {30, 0, 0}));
   EXPECT_NEAR(p.angles(0)[a], 30, 1e-12);
   EXPECT_NEAR(p.angles(0)[c], 0, 1e-12);
   EXPECT_NEAR(p.angles(0.5)[c], 45, 1e-12);
@@ -104,9 +104,9 @@ TEST(DirectionPath, an_ac_table_goes_from_a30_c0_to_a30_c90_over_the_great_circl
   EXPECT_EQ(p.windows(), 0u);
 }
 
-// Straight across the pole: A runs from 20 through 0 to -20 while C stands.
+// Straight across the pole: A runs from 20 through 0 to -20 with C at rest.
 TEST(DirectionPath, through_the_pole_the_table_stands_and_the_trunnion_goes_on) {
-  const auto p = path(ac_table(), way(leaning(20, -90), leaning(20, 90), {20, 0, 0}));
+  const auto p = path(ac_table(), request_between(leaning(20, -90), leaning(20, 90), {20, 0, 0}));
   const auto seen = observe(make(ac_table()), p);
   EXPECT_LT(seen.off_circle, 1e-9);
   EXPECT_LT(seen.steps[c], 1e-9);
@@ -117,7 +117,7 @@ TEST(DirectionPath, through_the_pole_the_table_stands_and_the_trunnion_goes_on) 
 // Past the pole at 0.03 degrees, within the tolerance of 0.05: C no longer swings by half a turn.
 TEST(DirectionPath, near_the_pole_the_tolerance_keeps_the_table_slow) {
   const Vec3 side = std::tan(0.03 * radians_per_degree) * Vec3::UnitX();
-  const auto request = way(Vec3(0, -0.4, 1) + side, Vec3(0, 0.4, 1) + side, {21, 0, 0});
+  const auto request = request_between(Vec3(0, -0.4, 1) + side, Vec3(0, 0.4, 1) + side, {21, 0, 0});
   const auto p = path(ac_table(), request);
   EXPECT_EQ(p.windows(), 1u);
   const auto seen = observe(make(ac_table()), p);
@@ -138,9 +138,10 @@ TEST(DirectionPath, near_the_pole_the_tolerance_keeps_the_table_slow) {
   EXPECT_LT(observe(make(ac_table()), q).off_circle, 1e-9);
 }
 
-// Upright, C at 17: the way to +X needs C90 first, or C-90 with A the other way: 73 or 107 degrees.
+// Upright, C at 17: the request_between to +X needs C90 first, or C-90 with A the other request_between: 73
+// or 107 degrees.
 TEST(DirectionPath, a_path_that_begins_at_the_pole_says_where_the_table_must_stand) {
-  const auto p = path(ac_table(), way(Vec3::UnitZ(), leaning(40, 0), {0, 0, 17}));
+  const auto p = path(ac_table(), request_between(Vec3::UnitZ(), leaning(40, 0), {0, 0, 17}));
   EXPECT_NEAR(p.start()[c], 90, 1e-9);
   EXPECT_NEAR(p.start()[a], 0, 1e-9);
   EXPECT_NEAR(p.angles(1)[a], 40, 1e-9);
@@ -148,41 +149,43 @@ TEST(DirectionPath, a_path_that_begins_at_the_pole_says_where_the_table_must_sta
   EXPECT_LT(seen.off_circle, 1e-9);
   EXPECT_LT(seen.steps[c], 1e-9);
   // And one that ends there arrives with C where it was.
-  const auto back = path(ac_table(), way(leaning(40, 0), Vec3::UnitZ(), {40, 0, 450}));
+  const auto back = path(ac_table(), request_between(leaning(40, 0), Vec3::UnitZ(), {40, 0, 450}));
   EXPECT_NEAR(back.angles(1)[c], 450, 1e-9);
   EXPECT_NEAR(back.angles(1)[a], 0, 1e-9);
 }
 
 TEST(DirectionPath, faults_are_found_before_motion_and_say_where) {
-  EXPECT_EQ(fault(ac_table(), way(Vec3::Zero(), Vec3::UnitZ())).kind, DirectionPathFault::not_a_direction);
-  EXPECT_EQ(fault(ac_table(), way(Vec3::UnitZ(), Vec3(infinity, 0, 0))).kind,
+  EXPECT_EQ(fault(ac_table(), request_between(Vec3::Zero(), Vec3::UnitZ())).kind,
             DirectionPathFault::not_a_direction);
-  EXPECT_EQ(fault(ac_table(), way(Vec3::UnitX(), -Vec3::UnitX())).kind, DirectionPathFault::opposite);
+  EXPECT_EQ(fault(ac_table(), request_between(Vec3::UnitZ(), Vec3(infinity, 0, 0))).kind,
+            DirectionPathFault::not_a_direction);
+  EXPECT_EQ(fault(ac_table(), request_between(Vec3::UnitX(), -Vec3::UnitX())).kind,
+            DirectionPathFault::opposite);
   // The 45 degree head reaches down to the horizon.
-  const auto low = fault(nutating_b_head_c_table(), way(leaning(80, 0), leaning(100, 0)));
+  const auto low = fault(nutating_b_head_c_table(), request_between(leaning(80, 0), leaning(100, 0)));
   EXPECT_EQ(low.kind, DirectionPathFault::unreachable);
   EXPECT_EQ(low.s, 1);
   EXPECT_LT((low.nearest - Vec3::UnitX()).norm(), 1e-9);
-  // A from 30 to 40 passes its limit of 35 half way.
-  auto request = way(leaning(30, -90), leaning(40, -90), {30, 0, 0});
+  // A from 30 to 40 passes its limit of 35 half request_between.
+  auto request = request_between(leaning(30, -90), leaning(40, -90), {30, 0, 0});
   request.travel[a] = {-35, 35};
   const auto travel = fault(ac_table(), request);
   EXPECT_EQ(travel.kind, DirectionPathFault::outside_travel);
-  EXPECT_GT(travel.s, 0.5) << "at the next of the places that are looked at, a degree apart";
+  EXPECT_GT(travel.s, 0.5) << "at the next of the checked places, a degree apart";
   EXPECT_LE(travel.s, 0.6);
-  request = way(leaning(20, -90), leaning(20, 90), {20, 0, 0});
+  request = request_between(leaning(20, -90), leaning(20, 90), {20, 0, 0});
   request.avoid_poles = true;
   const auto pole = fault(ac_table(), request);
   EXPECT_EQ(pole.kind, DirectionPathFault::pole);
   EXPECT_NEAR(pole.s, 0.5, 1e-9);
-  request = way(leaning(20, -90), leaning(20, 0), {20, 0, 0});
+  request = request_between(leaning(20, -90), leaning(20, 0), {20, 0, 0});
   request.avoid_poles = true;
   EXPECT_LT(path(ac_table(), request).angles(0)[a] - 20, 1e-9);
 }
 
 // Only one solution has A within 0 .. 100: the path changes over before it begins, and says so by start().
 TEST(DirectionPath, takes_the_other_solution_when_the_travel_demands_it) {
-  auto request = way(leaning(5, -90), leaning(20, 90), {5, 0, 0});
+  auto request = request_between(leaning(5, -90), leaning(20, 90), {5, 0, 0});
   request.travel[a] = {-10, 100};
   const auto p = path(ac_table(), request);
   EXPECT_NEAR(p.start()[a], -5, 1e-9);
@@ -191,14 +194,15 @@ TEST(DirectionPath, takes_the_other_solution_when_the_travel_demands_it) {
 }
 
 TEST(DirectionPath, one_rotary_axis_goes_along_its_own_circle_only) {
-  const auto p = path(a_table(), way(leaning(10, -90), leaning(50, 90), {10, 0, 0}));
+  const auto p = path(a_table(), request_between(leaning(10, -90), leaning(50, 90), {10, 0, 0}));
   EXPECT_NEAR(p.angles(0.5)[a], -20, 1e-9);
   EXPECT_NEAR(p.derivatives(0.5)[1][a], -60, 1e-9);
-  EXPECT_EQ(fault(a_table(), way(leaning(10, -90), leaning(10, 0))).kind, DirectionPathFault::unreachable);
+  EXPECT_EQ(fault(a_table(), request_between(leaning(10, -90), leaning(10, 0))).kind,
+            DirectionPathFault::unreachable);
 }
 
 TEST(DirectionPath, equal_directions_stand_still) {
-  const auto p = path(ac_table(), way(leaning(30, -90), 3 * leaning(30, -90), {30, 0, 720}));
+  const auto p = path(ac_table(), request_between(leaning(30, -90), 3 * leaning(30, -90), {30, 0, 720}));
   EXPECT_NEAR(p.angles(0.7)[c], 720, 1e-9);
   EXPECT_EQ(p.derivatives(0.5)[1][c], 0);
 }
@@ -226,10 +230,10 @@ TEST(DirectionPath, holds_its_promises_between_random_directions) {
         request.to = -back + (back.z() + unit(random)) * Vec3::UnitZ() +
                      0.1 * radians_per_degree * unit(random) * aside;
       }
-      const auto standing =
-          solver.best({request.from, {}, request.travel, WayChoice::continuous, request.tolerance});
-      if (standing.status != OrientationStatus::found) continue;
-      request.present = standing.best.angles;
+      const auto at_rest =
+          solver.best({request.from, {}, request.travel, SolutionChoice::continuous, request.tolerance});
+      if (at_rest.status != OrientationStatus::found) continue;
+      request.present = at_rest.best.angles;
       const auto made = DirectionPath::make(solver, request);
       if (!std::holds_alternative<DirectionPath>(made)) continue;
       const auto& path = std::get<DirectionPath>(made);

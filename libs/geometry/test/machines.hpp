@@ -1,4 +1,4 @@
-// The machines the tests of this room run over.
+// The machines of the tests of this directory.
 #pragma once
 
 #include <ostream>
@@ -94,7 +94,7 @@ inline ChainParameters slanted_linear_axes() {  // a slant-bed machine: Y leans,
   return p;
 }
 
-inline ChainParameters linear_axes_on_a_turning_column() {  // C turns X and Y and the head, Z stands still
+inline ChainParameters linear_axes_on_a_turning_column() {  // C turns X and Y and the head, Z does not move
   ChainParameters p;
   p.head_1 = RotaryAxis{Vec3(0, 0, 1), Vec3(-3, 4, 0), 2};
   p.head_2 = RotaryAxis{Vec3(0, 1, 0), Vec3(0.2, 0, 150), 1};

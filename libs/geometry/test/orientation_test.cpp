@@ -35,7 +35,7 @@ OrientationAnswer best(const ChainParameters& p, const OrientationRequest& reque
 }
 
 // A turns the table about -X: the tool leans to (0, -sin A, cos A). The other solution leans the other way
-// and turns the table by half a turn. C of this machine is endless, so each stands there once.
+// and turns the table by half a turn. C of this machine is endless, so each is listed once.
 TEST(Orientation, ac_table_has_two_solutions_and_prefers_the_shorter_way_of_c) {
   const auto solutions = every(ac_table(), towards(Vec3(0, -half, root_three_quarters)));
   ASSERT_EQ(solutions.size(), 2u);
@@ -64,13 +64,13 @@ TEST(Orientation, p1_and_p2_turn_the_axis_nearest_the_tool_only_one_way) {
   auto request = towards(Vec3(0, -half, root_three_quarters));
   request.present[a] = -10;
   EXPECT_NEAR(best(ac_table(), request).best.angles[a], -30, 1e-12) << "20 degrees instead of 40";
-  request.way = WayChoice::positive;
+  request.choice = SolutionChoice::positive;
   EXPECT_NEAR(best(ac_table(), request).best.angles[a], 30, 1e-12);
-  request.way = WayChoice::negative;
+  request.choice = SolutionChoice::negative;
   EXPECT_NEAR(best(ac_table(), request).best.angles[a], -30, 1e-12);
   request.travel[a] = {-20, 110};
   EXPECT_EQ(best(ac_table(), request).status, OrientationStatus::outside_travel);
-  request.way = WayChoice::shortest;
+  request.choice = SolutionChoice::shortest;
   EXPECT_NEAR(best(ac_table(), request).best.angles[a], 30, 1e-12) << "all that the travel leaves";
 }
 
@@ -78,7 +78,7 @@ TEST(Orientation, p1_and_p2_turn_the_axis_nearest_the_tool_only_one_way) {
 // C90: 3 + 10 or 7 + 170.
 TEST(Orientation, continuity_keeps_the_branch_the_rotary_axes_are_on) {
   auto request = towards(make(ac_table()).tool_direction_in_workpiece({2, 0, 100}));
-  request.way = WayChoice::continuous;
+  request.choice = SolutionChoice::continuous;
   request.present = {-5, 0, 0};
   EXPECT_NEAR(best(ac_table(), request).best.angles[c], -80, 1e-9);
   request.present = {5, 0, 90};
@@ -108,7 +108,7 @@ TEST(Orientation, regularity_bounds_how_far_the_axes_turn) {
     const OrientationSolver solver(chain);
     for (int i = 0; i < 200; ++i) {
       OrientationRequest request;
-      request.way = WayChoice::continuous;
+      request.choice = SolutionChoice::continuous;
       for (auto& angle : request.present) angle = lean(random);
       const Vec3 u = chain.tool_direction_in_workpiece(request.present);
       const auto here = solver.best(towards(u)), same = solver.best([&] {

@@ -119,7 +119,7 @@ TEST(CellBuilder, a_line_is_one_cell_with_the_limits_of_its_weakest_axis) {
 // At R = 10 mm an axis needs v^2 / 10 times the cosine of its angle for the circle: with 1000 mm/s^2 no more
 // than 100 mm/s where it alone bears it, 119 where two axes share it. Cells that leave something to
 // acceleration keep below that; checked axis by axis nearly all of it can be used. A cell is not longer than
-// 0.025 rad and looks at its ends: in the middle a sine is at most 1 / cos(0.0125) times as large.
+// 0.025 rad and is evaluated at its ends: in the middle a sine is at most 1 / cos(0.0125) times as large.
 TEST(CellBuilder, the_cells_of_an_arc_keep_the_axes_within_their_limits_and_use_most_of_them) {
   const double radius = 10, middle = 1 / std::cos(0.0125) - 1;
   const BlendedPath path = path_of({block_of(circle(radius, 180))});

@@ -151,7 +151,7 @@ TEST(Mcap, ForgedLengthsAreRefusedWithoutAllocating) {
   EXPECT_EQ(read(file).ending, Ending::cut_off);
   EXPECT_EQ(read({}).ending, Ending::cut_off);
   EXPECT_EQ(read(Bytes(100, 'x')).ending, Ending::damaged);
-  EXPECT_EQ(read(Bytes(100, 'x')).problem, "not an MCAP file: it begins otherwise");
+  EXPECT_EQ(read(Bytes(100, 'x')).problem, "not an MCAP file: the magic bytes are missing");
 }
 
 // Writes until `capacity` bytes are used up, as a disk does.

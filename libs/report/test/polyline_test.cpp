@@ -30,7 +30,7 @@ TEST(Polyline, APathWithoutLengthIsAPoint) {
   EXPECT_DOUBLE_EQ(path.nearest({1, 2, 5}, 0).distance, 2);
 }
 
-// The tree finds what looking at every piece finds, whatever the guess.
+// The tree finds the same as a search over every piece, for any initial guess.
 TEST(Polyline, FindsTheNearestPieceOfRandomPaths) {
   std::mt19937 random(11);
   std::uniform_real_distribution<double> coordinate(-10, 10);

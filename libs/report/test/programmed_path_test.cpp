@@ -34,7 +34,7 @@ TEST(ProgrammedPath, ChordsOfACircleStayWithinANanometre) {
   }
 }
 
-// A C axis that turns under a standing tool draws a circle on the workpiece: radius 30 mm, half a turn.
+// A C axis that turns under a tool at rest draws a circle on the workpiece: radius 30 mm, half a turn.
 TEST(ProgrammedPath, ATurningTableDrawsACircleOnTheWorkpiece) {
   const auto p = programmed_path("G54 G90\nG0 X30 Y0 Z0\nG1 C180 F1000\nM30\n", test::ac_table(), {});
   EXPECT_EQ(p.problem, "");

@@ -86,12 +86,12 @@ TEST_F(ReportOfARun, MissingFramesAreLostCycles) {
 TEST_F(ReportOfARun, ALateRecordingIsAProblem) {
   run.late_frames = 5;
   const auto r = report();
-  EXPECT_EQ(r.problem, "the recording begins after the motion did");
+  EXPECT_EQ(r.problem, "the recording starts after the start of the motion");
   EXPECT_EQ(r.cycles, cycles - 5 * test::frame_cycles);
 }
 
 TEST_F(ReportOfARun, CopiesOfTwinsAreNeitherLostNorCountedTwice) {
-  run.twins = true;
+  run.replicas = true;
   const auto r = report();
   EXPECT_EQ(r.lost.at("kinematics_frame"), 0u);
   EXPECT_EQ(r.repeated_frames, (cycles + test::frame_cycles - 1) / test::frame_cycles);
@@ -99,7 +99,7 @@ TEST_F(ReportOfARun, CopiesOfTwinsAreNeitherLostNorCountedTwice) {
 }
 
 TEST_F(ReportOfARun, LatenciesAndSpeedComeFromTheTimeStamps) {
-  run.twins = true;  // the later copy must not count
+  run.replicas = true;  // the later copy must not count
   const auto r = report();
   ASSERT_EQ(r.latencies.size(), 4u);
   for (std::size_t i = 0; i < 4; ++i) {

@@ -185,7 +185,7 @@ std::uint64_t record_run(const RunOptions& options) {
       joints.stage = static_cast<std::uint8_t>(stage);
       time += stage_latency[stage - 2];
       if (stage == 2) file.write(topics::kinematics_frame, joints, time);
-      if (stage == 2 && options.twins) {
+      if (stage == 2 && options.replicas) {
         joints.copy = 1;
         file.write(topics::kinematics_frame, joints, time + 500);
         joints.copy = 0;

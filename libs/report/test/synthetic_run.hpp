@@ -20,7 +20,7 @@ struct RunOptions {
   std::function<void(std::uint64_t n, std::array<double, 5>& axes)> encoder_error;
   int skipped_frame = -1;  ///< this gantry frame is left out of the recording
   int late_frames = 0;     ///< the recording begins so many path frames late
-  bool twins = false;      ///< every kinematics frame comes twice
+  bool replicas = false;   ///< every kinematics frame comes twice
   bool cut_off = false;    ///< the file ends without a summary
 };
 

@@ -38,7 +38,7 @@ TEST(FrameDifference, NamesStageCopiesCycleColumnAndBothValuesToTheLastBit) {
   EXPECT_EQ(found->cycle, 402u);
   // 0.1 * 7 is 0.70000000000000007 (17 digits tell doubles apart), its neighbour above 0.70000000000000018.
   EXPECT_EQ(found->text,
-            "Copies 0 and 1 of compensation differ in cycle 402, column 1: 0.70000000000000007 and "
+            "Replicas 0 and 1 of compensation differ in cycle 402, column 1: 0.70000000000000007 and "
             "0.70000000000000018");
 }
 

@@ -52,7 +52,7 @@ TEST(ShadowComparison, ChannelsAreApartAndWhatHasNoCounterpartIsForgotten) {
   comparison.original(frame(8, 0));
   comparison.shadow(frame(8, 1, 1));
   EXPECT_FALSE(comparison.first_difference());
-  comparison.original(frame(8 + ShadowComparison::patience + 4, 0));
+  comparison.original(frame(8 + ShadowComparison::window_cycles + 4, 0));
   comparison.shadow(frame(8, 0, 1));  // its counterpart is too old
   EXPECT_FALSE(comparison.first_difference());
 }

@@ -55,8 +55,8 @@ class DriveCore {
   /// A frame of the gantry stage; swapped away. False when a copy differs from what is here.
   bool put(idl::stream::AxisFrame& frame);
   /// What is here of the same channel, epoch and first cycle; null when nothing is.
-  const idl::stream::AxisFrame* copy_of(const idl::stream::AxisFrame& frame) {
-    return channels_[frame.channel].window.copy_of(frame);
+  const idl::stream::AxisFrame* first_arrival(const idl::stream::AxisFrame& frame) {
+    return channels_[frame.channel].window.first_arrival(frame);
   }
   void request(const idl::stream::StreamRequest& request);
   void set_enables(const std::vector<std::uint8_t>& enable, bool emergency_stop);

@@ -89,10 +89,9 @@ class Parser {
     if (!open_.empty()) fail(open_.back().token, "the parenthesis is not closed");
     for (const auto& jump : jumps_) {
       const auto found = labels_.find(jump.token.text);
-      if (found == labels_.end())
-        fail(jump.token, "there is no label '" + std::string(jump.token.text) + "'");
+      if (found == labels_.end()) fail(jump.token, "unknown label '" + std::string(jump.token.text) + "'");
       if (found->second <= jump.instruction)
-        fail(jump.token, "a jump leads forward only, so that every scan ends");
+        fail(jump.token, "a jump must lead forward, so that every scan ends");
       program_.instructions[jump.instruction].target = static_cast<std::uint32_t>(found->second);
     }
     for (const auto instruction : returns_)
@@ -203,7 +202,7 @@ class Parser {
   }
 
   void need(const Token& token, Type type) const {
-    if (result_ == Type::undefined) fail(token, "there is no current result here: begin with LD");
+    if (result_ == Type::undefined) fail(token, "no current result: start with LD");
     if (result_ != type)
       fail(token, type == Type::boolean ? "the current result is a word, a bit is needed"
                                         : "the current result is a bit, a word is needed");
@@ -231,10 +230,10 @@ class Parser {
     if (token.kind != TokenKind::word) fail(token, "expected an instruction");
     if (is_symbol(":")) {
       ++at_;
-      if (!open_.empty()) fail(token, "a label within a parenthesis");
+      if (!open_.empty()) fail(token, "a label inside a parenthesis");
       if (!labels_.emplace(token.text, program_.instructions.size()).second)
         fail(token, "the label '" + std::string(token.text) + "' is defined already");
-      result_ = Type::undefined;  // whoever jumps here may have any
+      result_ = Type::undefined;  // a jump to here may have any result type
       if (peek().kind == TokenKind::end_of_line) return;
       token = next();
     }
@@ -321,7 +320,7 @@ class Parser {
       }
       case Form::jump:
       case Form::end:
-        if (!open_.empty()) fail(token, "a jump within a parenthesis");
+        if (!open_.empty()) fail(token, "a jump inside a parenthesis");
         if (mnemonic.op != Op::jump) need(token, Type::boolean);
         if (mnemonic.form == Form::jump) {
           if (where.kind != TokenKind::word) fail(where, "expected a label");
@@ -340,7 +339,7 @@ class Parser {
   /// "(" with an operand loads it; without one the next line does.
   void parenthesis(const Token& token, Instruction made, Form form) {
     ++at_;
-    if (open_.size() >= deepest_nesting) fail(token, "too many parentheses in each other");
+    if (open_.size() >= deepest_nesting) fail(token, "the parentheses are nested too deeply");
     open_.push_back({made.op, result_, form, token});
     made.opens = true;
     program_.instructions.push_back(made);

@@ -13,7 +13,7 @@ void execute(const Program& program, Registers& registers, Blocks& blocks, std::
 
 /// PLC time in ms at which the next running timer after `now` runs out.
 std::optional<std::uint64_t> next_timer_end(const Blocks& blocks, std::uint64_t now);
-/// True when a timer has run out since the program last looked at it.
+/// True when a timer has run out since the program last read it.
 bool timer_due(const Blocks& blocks, std::uint64_t now);
 
 }  // namespace trunnion::plc

@@ -34,7 +34,7 @@ std::vector<Token> tokenize(std::string_view source, const std::string& file) {
         }
         ++i;
       }
-      if (i >= source.size()) throw CompileError(file, here.line, here.column, "the comment does not end");
+      if (i >= source.size()) throw CompileError(file, here.line, here.column, "the comment is not closed");
       i += 2;
     } else {
       std::size_t end = i + 1;

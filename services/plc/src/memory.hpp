@@ -1,4 +1,4 @@
-// Everything the PLC remembers: plain data, so that it can lie in a mapped file and outlive the process.
+// The retained state of the PLC: plain data, so that it can be in a mapped file and survive the process.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@ inline constexpr std::size_t register_count = 512;  ///< of each area
 inline constexpr std::size_t channel_count = 8, spindle_count = 8;
 inline constexpr std::size_t timer_count = 256, counter_count = 256, edge_count = 512;
 
-/// The register image; idl/plc.idl says what the areas are for.
+/// The register image; idl/plc.idl defines the areas.
 struct Registers {
   std::array<std::uint8_t, register_count> x{}, y{}, r{};
   std::array<std::uint16_t, register_count> f{}, g{};
@@ -40,7 +40,7 @@ struct Blocks {
 
 enum class HandshakeState : std::uint32_t { none, waiting, strobe, done };
 
-/// M, S or T of one channel on its way.
+/// A pending M, S or T of one channel.
 struct Handshake {
   HandshakeState state = HandshakeState::none;
   std::uint32_t number = 0, kind = 0, code = 0;
@@ -53,16 +53,16 @@ struct Memory {
   Registers registers;
   Blocks blocks;
   std::array<Handshake, channel_count> handshakes{};
-  std::uint64_t now_us = 0;                           ///< PLC time
-  std::uint64_t scans = 0;                            ///< whole milliseconds of it that were scanned
-  std::uint64_t tick = 0;                             ///< drive tick that belongs to now_us
-  std::array<double, spindle_count> spindle_order{};  ///< 1/min, signed
+  std::uint64_t now_us = 0;                             ///< PLC time
+  std::uint64_t scans = 0;                              ///< whole milliseconds of it that were scanned
+  std::uint64_t tick = 0;                               ///< drive tick that belongs to now_us
+  std::array<double, spindle_count> spindle_command{};  ///< 1/min, signed
   std::array<std::uint64_t, spindle_count>
-      spindle_since{};  ///< PLC time in ms of the last change of the order
+      spindle_since{};  ///< PLC time in ms of the last change of the command
 };
 static_assert(std::is_trivially_copyable_v<Memory>);
 
-/// What the PLC has heard of the machine and does not remember: a process that starts again hears it anew.
+/// The received state of the machine, which is not retained: a restarted process receives it again.
 struct View {
   struct Channel {
     bool seen = false, active = false;
@@ -70,14 +70,14 @@ struct View {
   };
   std::array<Channel, channel_count> channels{};
   std::array<double, spindle_count> spindle_actual{};  ///< 1/min
-  std::uint32_t spindles_heard = 0;                    ///< entries of spindle_actual
+  std::uint32_t spindles_received = 0;                 ///< entries of spindle_actual
   std::uint64_t executed = 0;                          ///< cycles of the stream
   bool drive_seen = false;
-  bool gave_up = false;  ///< to wait for the drive's word on a standstill
-  bool changed = true;   ///< an input, since the image was stable
+  bool stopped_waiting = false;  ///< waiting for the drive's confirmation of a standstill
+  bool changed = true;           ///< an input, since the image was stable
 };
 
-/// Everything that decides what the PLC does next, besides its programs and parameters.
+/// Everything that determines the next step of the PLC, besides its programs and parameters.
 struct Snapshot {
   Memory memory;
   View view;

@@ -11,9 +11,9 @@
 namespace trunnion::plc {
 namespace {
 
-constexpr double speed_tolerance = 0.05;           // of the order
-constexpr double slowest_tolerance = 5;            // 1/min, for small orders and standstill
-constexpr std::uint64_t spindle_patience = 30000;  // ms that virtual time goes on for a spindle
+constexpr double speed_tolerance = 0.05;          // share of the commanded speed
+constexpr double slowest_tolerance = 5;           // 1/min, for low speeds and standstill
+constexpr std::uint64_t spindle_timeout = 30000;  // ms for which virtual time continues for a spindle
 
 std::int64_t percent(double fraction) { return std::llround(fraction * 100); }
 
@@ -41,7 +41,7 @@ PlcCore::PlcCore() {
                            of("fin_failed")};
     for (const auto address : {channel_symbols_[c].feed_override, channel_symbols_[c].rapid_override,
                                channel_symbols_[c].spindle_override})
-      store(memory_.registers, address, 100);  // until the channel says otherwise
+      store(memory_.registers, address, 100);  // until the channel publishes its values
   }
   for (std::size_t s = 0; s < spindle_count; ++s) {
     const auto of = [s](const char* text) { return interface_address(text, s); };
@@ -112,7 +112,7 @@ void PlcCore::set_request(const idl::channel::AuxiliaryRequest& request) {
     return;
   }
   h = {HandshakeState::waiting, request.number, request.kind, request.code, request.value, request.cycle, 0};
-  view_.gave_up = false;
+  view_.stopped_waiting = false;
   view_.changed = true;
 }
 
@@ -124,7 +124,7 @@ void PlcCore::set_feedback(const idl::stream::FeedbackFrame& frame) {
   for (const auto& echo : frame.channels)
     if (echo.channel < channel_count) view_.channels[echo.channel].active = echo.active;
   const auto spindles = std::min(spindle_count, frame.spindle_speed.size());
-  view_.spindles_heard = static_cast<std::uint32_t>(spindles);
+  view_.spindles_received = static_cast<std::uint32_t>(spindles);
   std::copy_n(frame.spindle_speed.begin(), spindles, view_.spindle_actual.begin());
   input(drive_present_, 1);
   input(drives_on_, !frame.enabled.empty() && std::all_of(frame.enabled.begin(), frame.enabled.end(),
@@ -160,20 +160,20 @@ std::string PlcCore::panel(std::uint8_t kind, std::uint32_t address, std::uint32
   }
 }
 
-bool PlcCore::standing(std::size_t channel) const {
-  if (!virtual_time_ || view_.gave_up) return true;
+bool PlcCore::at_standstill(std::size_t channel) const {
+  if (!virtual_time_ || view_.stopped_waiting) return true;
   return view_.drive_seen && !view_.channels[channel].active &&
          view_.executed >= memory_.handshakes[channel].cycle;
 }
 
 bool PlcCore::waits_for_standstill() const {
   for (std::size_t c = 0; c < channel_count; ++c)
-    if (memory_.handshakes[c].state == HandshakeState::waiting && !standing(c)) return true;
+    if (memory_.handshakes[c].state == HandshakeState::waiting && !at_standstill(c)) return true;
   return false;
 }
 
 void PlcCore::give_up_waiting() {
-  view_.gave_up = true;
+  view_.stopped_waiting = true;
   view_.changed = true;
 }
 
@@ -182,9 +182,9 @@ void PlcCore::set_strobes(bool present) {
   for (std::size_t c = 0; c < channel_count; ++c) {
     auto& h = memory_.handshakes[c];
     const auto& s = channel_symbols_[c];
-    // A strobe rises when the answer to the one before has fallen, and never in scans that make up for past
-    // ticks: what follows would count from then.
-    if (present && h.state == HandshakeState::waiting && plc::load(r, s.fin) == 0 && standing(c)) {
+    // A strobe rises after the answer to the one before has fallen, and never in scans for past ticks: the
+    // times after it would count from then.
+    if (present && h.state == HandshakeState::waiting && plc::load(r, s.fin) == 0 && at_standstill(c)) {
       h.state = HandshakeState::strobe;
       if (h.kind == 1) store(r, s.m_code, h.code);
       if (h.kind == 2) store(r, s.s_value, std::llround(std::clamp(h.value, 0.0, 65535.0)));
@@ -199,10 +199,10 @@ void PlcCore::set_strobes(bool present) {
 
 bool PlcCore::at_speed(std::size_t s) const {
   if (s >= spindles_) return true;
-  if (s >= view_.spindles_heard) return view_.drive_seen;
-  const double order = memory_.spindle_order[s];
-  return std::abs(view_.spindle_actual[s] - order) <=
-         std::max(speed_tolerance * std::abs(order), slowest_tolerance);
+  if (s >= view_.spindles_received) return view_.drive_seen;
+  const double command = memory_.spindle_command[s];
+  return std::abs(view_.spindle_actual[s] - command) <=
+         std::max(speed_tolerance * std::abs(command), slowest_tolerance);
 }
 
 void PlcCore::check_spindles() {
@@ -211,9 +211,9 @@ void PlcCore::check_spindles() {
     const auto& symbols = spindle_symbols_[s];
     const bool on = plc::load(r, symbols.enable) != 0 && !emergency_stop();
     const double speed = on ? plc::load(r, symbols.speed) : 0;
-    const double order = plc::load(r, symbols.counterclockwise) != 0 && speed > 0 ? -speed : speed;
-    if (order != memory_.spindle_order[s]) {
-      memory_.spindle_order[s] = order;
+    const double command = plc::load(r, symbols.counterclockwise) != 0 && speed > 0 ? -speed : speed;
+    if (command != memory_.spindle_command[s]) {
+      memory_.spindle_command[s] = command;
       memory_.spindle_since[s] = memory_.scans;
     }
     input(symbols.at_speed, at_speed(s));
@@ -292,9 +292,9 @@ idl::plc::Outputs PlcCore::outputs() const {
     outputs.coolant.push_back(!outputs.emergency_stop && plc::load(r, address) != 0 ? 1 : 0);
   bool spindle_moves = false;
   for (std::size_t s = 0; s < spindles_; ++s) {
-    outputs.spindle_speed.push_back(outputs.emergency_stop ? 0 : memory_.spindle_order[s]);
+    outputs.spindle_speed.push_back(outputs.emergency_stop ? 0 : memory_.spindle_command[s]);
     spindle_moves =
-        spindle_moves || (!at_speed(s) && memory_.scans - memory_.spindle_since[s] < spindle_patience);
+        spindle_moves || (!at_speed(s) && memory_.scans - memory_.spindle_since[s] < spindle_timeout);
   }
   outputs.run_until_tick = memory_.tick;
   if (period_us_ > 0) {

@@ -1,4 +1,4 @@
-// The PLC: inputs into the image, tasks by the drive's ticks, outputs and finished auxiliary functions out of
+// The PLC: inputs into the image, tasks by the drive's ticks, outputs and finished auxiliary functions from
 // it.
 #pragma once
 
@@ -14,7 +14,7 @@ namespace trunnion::plc {
 
 inline constexpr std::uint64_t main_period = 10;  ///< ms of the main task; the fast task runs every ms
 inline constexpr std::uint64_t most_catch_up =
-    200;                                  ///< scans at once; what is older is skipped, timers stay right
+    200;                                  ///< scans at once; older ones are skipped, timers stay correct
 inline constexpr int most_settling = 16;  ///< scans at the same time until the image is stable
 
 /// Panel requests, as in idl/plc.idl.
@@ -34,9 +34,9 @@ class PlcCore {
   /// After a restart of the cluster: only the kept registers B.
   void power_up(const Memory& memory) { memory_.registers.b = memory.registers.b; }
   const Memory& memory() const { return memory_; }
-  /// To be taken when take_done() has emptied what is finished.
+  /// Valid after take_done() has returned the finished functions.
   Snapshot snapshot() const { return {memory_, view_}; }
-  /// Goes on as the core that the snapshot is of would, given the same programs and parameters.
+  /// Continues like the core of the snapshot, given the same programs and parameters.
   void adopt(const Snapshot& snapshot) { memory_ = snapshot.memory, view_ = snapshot.view; }
   /// The registers as they would be if the main task ran once more until they are stable.
   Registers rescanned() const;
@@ -48,7 +48,7 @@ class PlcCore {
   /// Returns an empty text or why the request is refused.
   std::string panel(std::uint8_t kind, std::uint32_t address, std::uint32_t value);
   void press_reset() { input(reset_button_, 1); }
-  /// The standstill that a request waits for is not confirmed by the drive: go on without.
+  /// The drive does not confirm the standstill that a request waits for: continue without.
   void give_up_waiting();
   bool waits_for_standstill() const;
 
@@ -56,9 +56,9 @@ class PlcCore {
   void advance(std::uint64_t tick);
   idl::plc::Outputs outputs() const;
   idl::plc::Image image() const;
-  /// Functions finished since the last call, and those that are asked for again although they are finished.
+  /// Functions finished since the last call, and finished ones that are requested again.
   std::vector<idl::plc::AuxiliaryDone> take_done();
-  /// Every finished function: for a process that starts again, whose publications are gone.
+  /// Every finished function: for a restarted process, whose publications are lost.
   std::vector<idl::plc::AuxiliaryDone> all_done() const;
   bool emergency_stop() const;
 
@@ -78,7 +78,7 @@ class PlcCore {
   void check_spindles();
   void finish();
   bool at_speed(std::size_t spindle) const;
-  bool standing(std::size_t channel) const;
+  bool at_standstill(std::size_t channel) const;
 
   Program fast_, main_;
   bool loaded_ = false, virtual_time_ = false;

@@ -9,7 +9,7 @@
 
 namespace trunnion::plc {
 
-/// Two slots, written in turn: whoever dies while writing one leaves the other.
+/// Two slots, written in turn: when the process ends during a write, the other slot is valid.
 class RetainedMemory {
  public:
   /// Throws storage::StorageError naming the file.

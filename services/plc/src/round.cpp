@@ -59,14 +59,14 @@ std::uint64_t state_digest(const Snapshot& snapshot) {
     digest.add(h.value), digest.add(h.cycle), digest.add(h.failed);
   }
   digest.add(m.now_us), digest.add(m.scans), digest.add(m.tick);
-  for (const double order : m.spindle_order) digest.add(order);
+  for (const double command : m.spindle_command) digest.add(command);
   digest.add(m.spindle_since);
   const auto& view = snapshot.view;
   for (const auto& channel : view.channels)
     digest.add(channel.seen), digest.add(channel.active), digest.add(channel.resets);
   for (const double speed : view.spindle_actual) digest.add(speed);
-  digest.add(view.spindles_heard), digest.add(view.executed), digest.add(view.drive_seen);
-  digest.add(view.gave_up), digest.add(view.changed);
+  digest.add(view.spindles_received), digest.add(view.executed), digest.add(view.drive_seen);
+  digest.add(view.stopped_waiting), digest.add(view.changed);
   return digest.value();
 }
 

@@ -1,5 +1,4 @@
-// One round of a running PLC as it is shown to the one that is to replace it: what it was told, in its order,
-// and what came of it.
+// One round of a running PLC for the one that is to replace it: its inputs, in their order, and the results.
 #pragma once
 
 #include <cstdint>
@@ -41,11 +40,11 @@ struct RegisterValue {
 using Changes = std::vector<RegisterValue>;
 
 struct Round {
-  std::uint32_t generation = 0;  ///< counts how often was asked to begin anew
-  std::uint64_t number = 0;      ///< from 0, the one that only begins
+  std::uint32_t generation = 0;  ///< counts the requests for a new start
+  std::uint64_t number = 0;      ///< from 0, the one that only starts
   bus::Bytes start;              ///< of number 0: the Snapshot; its layout is that of one build
   std::uint64_t revision = 0;    ///< of number 0: of the parameters
-  Changes rescanned;             ///< of number 0: what running the main task once more would change
+  Changes rescanned;             ///< of number 0: changes of one more scan of the main task
   std::vector<Step> steps;
   std::uint64_t tick = 0;  ///< after the round
   Changes changed;
@@ -60,7 +59,7 @@ Changes changes(const Registers& before, const Registers& after);
 std::string register_name(const RegisterValue& value);
 /// A number that differs when any timer, counter, edge, handshake or time differs.
 std::uint64_t state_digest(const Snapshot& snapshot);
-/// Says which build wrote a snapshot, as far as that matters to its bytes.
+/// Identifies the layout of a snapshot's bytes.
 inline constexpr std::uint64_t snapshot_layout = (std::uint64_t{1} << 32) | sizeof(Snapshot);
 
 }  // namespace trunnion::plc

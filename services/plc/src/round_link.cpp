@@ -16,15 +16,15 @@ namespace trunnion::plc {
 struct RoundRing {
   static constexpr std::uint64_t own_layout = 0x504c4352494e4702;
   std::uint64_t layout;
-  std::atomic<std::uint32_t> asked, breath;
+  std::atomic<std::uint32_t> requested, heartbeat;
   storage::RecordRing<std::uint64_t{1} << 22> rounds;
 };
 
 namespace {
 
-constexpr double look_period = 0.1, breath_patience = 1;  // s
+constexpr double poll_period = 0.1, heartbeat_timeout = 1;  // s
 
-// With every block on the disk: whoever writes into the mapping must not meet a full one.
+// Allocates every block: a write into the mapping must not meet a full disk.
 void make_file(const std::string& path) {
   unlink(path.c_str());
   const int file = ::open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
@@ -32,33 +32,33 @@ void make_file(const std::string& path) {
   if (file >= 0) ::close(file);
   if (reason == 0) return;
   unlink(path.c_str());
-  throw storage::StorageError(path + ": cannot be made: " + std::strerror(reason));
+  throw storage::StorageError(path + ": cannot be created: " + std::strerror(reason));
 }
 
 }  // namespace
 
-// The file of one that died is used again: the other side has it mapped already.
+// The file of a reader that ended without cleanup is used again: the other side may still map it.
 RoundReader::RoundReader(const std::string& path) : path_(path) {
   std::error_code missing;
   if (std::filesystem::file_size(path, missing) != sizeof(RoundRing) || missing) make_file(path);
   file_.emplace(path, sizeof(RoundRing));
   ring_ = static_cast<RoundRing*>(file_->data());
-  ask();
+  request_start();
   std::atomic_thread_fence(std::memory_order_seq_cst);
-  ring_->layout = RoundRing::own_layout;  // from now on it is looked at
+  ring_->layout = RoundRing::own_layout;  // from here on the writer accepts it
 }
 
 RoundReader::~RoundReader() { unlink(path_.c_str()); }
 
-void RoundReader::ask() {
+void RoundReader::request_start() {
   at_ = ring_->rounds.end();
   lost_ = false;
-  ++ring_->asked;
+  ++ring_->requested;
 }
 
-std::uint32_t RoundReader::generation() const { return ring_->asked; }
+std::uint32_t RoundReader::generation() const { return ring_->requested; }
 
-void RoundReader::breathe() { ++ring_->breath; }
+void RoundReader::send_heartbeat() { ++ring_->heartbeat; }
 
 bool RoundReader::read(bus::Bytes& bytes) {
   using Ring = decltype(RoundRing::rounds);
@@ -74,20 +74,20 @@ void RoundWriter::open() {
   try {
     file_.emplace(path_, sizeof(RoundRing));
   } catch (const storage::StorageError&) {
-    return;  // it was taken away in this moment
+    return;  // removed in the meantime
   }
   ring_ = static_cast<RoundRing*>(file_->data());
   if (ring_->layout != RoundRing::own_layout) file_.reset(), ring_ = nullptr;
 }
 
-// Whoever asked has died, or has taken its file away: then another one may be in that place.
+// The reader has ended or has removed its file; a new file may be in that place.
 void RoundWriter::close() {
-  ring_->asked = 0;
+  ring_->requested = 0;
   file_.reset();
   ring_ = nullptr;
   open();
   if (ring_ == nullptr) return;
-  const bool left_behind = ring_->asked == 0;
+  const bool left_behind = ring_->requested == 0;
   file_.reset();
   ring_ = nullptr;
   if (left_behind) unlink(path_.c_str());
@@ -95,21 +95,21 @@ void RoundWriter::close() {
 
 std::uint32_t RoundWriter::wanted(double now) {
   if (ring_ == nullptr) {
-    if (now - looked_ < look_period) return 0;
-    looked_ = now;
+    if (now - polled_at_ < poll_period) return 0;
+    polled_at_ = now;
     open();
     if (ring_ == nullptr) return 0;
-    breath_ = ring_->breath;
-    breathed_at_ = now;
+    heartbeat_ = ring_->heartbeat;
+    heartbeat_at_ = now;
   }
-  if (const std::uint32_t breath = ring_->breath; breath != breath_) {
-    breath_ = breath;
-    breathed_at_ = now;
-  } else if (now - breathed_at_ > breath_patience) {
+  if (const std::uint32_t heartbeat = ring_->heartbeat; heartbeat != heartbeat_) {
+    heartbeat_ = heartbeat;
+    heartbeat_at_ = now;
+  } else if (now - heartbeat_at_ > heartbeat_timeout) {
     close();
     return 0;
   }
-  return ring_->asked;
+  return ring_->requested;
 }
 
 bool RoundWriter::write(const bus::Bytes& bytes) { return ring_ != nullptr && ring_->rounds.write(0, bytes); }

@@ -1,6 +1,5 @@
-// How rounds get from the running PLC to the one that is to replace it: a ring in a file that both have
-// mapped. The running one never waits, allocates only when a rehearsal begins, and does nothing while nobody
-// asks.
+// Passes rounds from the running PLC to the one that is to replace it: a ring in a file that both map. The
+// running one never waits, allocates only when a comparison starts, and does nothing without a request.
 #pragma once
 
 #include <optional>
@@ -13,7 +12,7 @@ namespace trunnion::plc {
 
 struct RoundRing;
 
-/// The side that is to take over: makes the file, and takes it away again.
+/// The replacing side: creates the file, and removes it again.
 class RoundReader {
  public:
   /// Throws storage::StorageError naming the file.
@@ -22,14 +21,14 @@ class RoundReader {
   RoundReader(const RoundReader&) = delete;
   RoundReader& operator=(const RoundReader&) = delete;
 
-  /// Asks for rounds that begin anew; drops what has not been read.
-  void ask();
+  /// Requests rounds from a new start; drops those that have not been read.
+  void request_start();
   std::uint32_t generation() const;
-  /// Tells the other side that somebody still listens. Call it at least every 0.5 s.
-  void breathe();
+  /// Shows the other side that this reader is active. Call it at least every 0.5 s.
+  void send_heartbeat();
   /// The next round's bytes; false when there is none yet.
   bool read(bus::Bytes& bytes);
-  /// The writer has overtaken the reader: only ask() helps.
+  /// The writer has overtaken the reader: call request_start().
   bool lost() const { return lost_; }
 
  private:
@@ -45,10 +44,10 @@ class RoundWriter {
  public:
   explicit RoundWriter(std::string path) : path_(std::move(path)) {}
 
-  /// Looks for somebody who asks, at most every 0.1 s, and gives one up that has not breathed for 1 s. `now`
-  /// in seconds. Returns the generation wanted, 0 for none.
+  /// Checks for a reader, at most every 0.1 s, and drops one without a heartbeat for 1 s. `now` in seconds.
+  /// Returns the requested generation, 0 for none.
   std::uint32_t wanted(double now);
-  /// False when it does not fit: whoever asked has to ask again.
+  /// False when it does not fit: the reader has to request a new start.
   bool write(const bus::Bytes& bytes);
 
  private:
@@ -58,8 +57,8 @@ class RoundWriter {
   std::string path_;
   std::optional<storage::MappedFile> file_;
   RoundRing* ring_ = nullptr;
-  double looked_ = 0, breathed_at_ = 0;
-  std::uint32_t breath_ = 0;
+  double polled_at_ = 0, heartbeat_at_ = 0;
+  std::uint32_t heartbeat_ = 0;
 };
 
 }  // namespace trunnion::plc

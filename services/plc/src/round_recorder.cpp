@@ -24,11 +24,11 @@ bool RoundRecorder::begin_round(std::uint32_t generation, const PlcCore& core, s
   return true;
 }
 
-void RoundRecorder::told(StepKind kind, std::uint64_t value) {
+void RoundRecorder::record(StepKind kind, std::uint64_t value) {
   if (on()) steps_.push_back({static_cast<std::uint8_t>(kind), value, {}});
 }
 
-void RoundRecorder::told(const idl::stream::FeedbackFrame& frame) {
+void RoundRecorder::record(const idl::stream::FeedbackFrame& frame) {
   if (!on()) return;
   idl::stream::FeedbackFrame seen;
   seen.first = frame.first;
@@ -41,7 +41,7 @@ void RoundRecorder::told(const idl::stream::FeedbackFrame& frame) {
     kept.channel = echo.channel;
     kept.active = echo.active;
   }
-  told(StepKind::feedback, seen);
+  record(StepKind::feedback, seen);
 }
 
 const Round& RoundRecorder::end_round(const PlcCore& core, const std::vector<idl::plc::AuxiliaryDone>& done) {

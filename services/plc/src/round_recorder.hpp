@@ -1,4 +1,4 @@
-// Writes down the rounds of a running PLC while somebody asks for them.
+// Records the rounds of a running PLC while a reader requests them.
 #pragma once
 
 #include "plc_core.hpp"
@@ -6,28 +6,28 @@
 
 namespace trunnion::plc {
 
-/// Costs nothing while nobody asks. Between begin_round() and end_round() every call that changes the core is
-/// told, in its order; a reset may also be told before.
+/// Costs nothing without a request. Between begin_round() and end_round() every call that changes the core is
+/// recorded, in its command; a reset may also be recorded before.
 class RoundRecorder {
  public:
   bool on() const { return generation_ != 0; }
 
-  /// `generation` is what was asked for, 0 for nothing. A new one begins with the core as it is now, whose
-  /// parameters have `revision`; the round to be written first is then in first_round().
+  /// `generation` is the requested one, 0 for none. A new one starts with the present core, whose parameters
+  /// have `revision`; the round to be written first is then in first_round().
   bool begin_round(std::uint32_t generation, const PlcCore& core, std::uint64_t revision);
   const Round& first_round() const { return round_; }
 
-  void told(StepKind kind, std::uint64_t value = 0);
+  void record(StepKind kind, std::uint64_t value = 0);
   template <bus::Struct T>
-  void told(StepKind kind, const T& sample) {
+  void record(StepKind kind, const T& sample) {
     if (!on()) return;
-    told(kind);
+    record(kind);
     bus::encode(sample, steps_.back().sample);
   }
-  /// Keeps of the frame what the PLC looks at.
-  void told(const idl::stream::FeedbackFrame& frame);
+  /// Keeps the part of the feedback that the PLC reads.
+  void record(const idl::stream::FeedbackFrame& frame);
 
-  /// What became of the core. `done` are the functions it has finished in the round.
+  /// The state of the core after the round. `done` are the functions finished in it.
   const Round& end_round(const PlcCore& core, const std::vector<idl::plc::AuxiliaryDone>& done);
 
  private:

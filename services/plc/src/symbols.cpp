@@ -38,7 +38,7 @@ const Symbols& interface_symbols() {
 
 Address interface_address(const std::string& name) {
   const auto found = interface_symbols().find(name);
-  if (found == interface_symbols().end()) throw std::out_of_range("no register is called " + name);
+  if (found == interface_symbols().end()) throw std::out_of_range("unknown register " + name);
   return found->second;
 }
 

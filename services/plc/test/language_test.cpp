@@ -197,7 +197,7 @@ TEST(Compiler, ErrorsSayFileLineColumnAndWhat) {
   using testing::StartsWith;
   EXPECT_THAT(error_of("LD X0.8\n"), StartsWith("t.il:1:4: error: 'X0.8' is neither"));
   EXPECT_THAT(error_of("\n  LDD X0.0\n"), StartsWith("t.il:2:3: error: unknown instruction"));
-  EXPECT_THAT(error_of("ST Y0.0\n"), StartsWith("t.il:1:1: error: there is no current result"));
+  EXPECT_THAT(error_of("ST Y0.0\n"), StartsWith("t.il:1:1: error: no current result"));
   EXPECT_THAT(error_of("LD X0.0\nADD 3\n"), StartsWith("t.il:2:1: error: the current result is a bit"));
   EXPECT_THAT(error_of("LD 3\nAND X0.0\n"), StartsWith("t.il:2:1: error: the current result is a word"));
   EXPECT_THAT(error_of("LD X0.0\nAND F1\n"), StartsWith("t.il:2:5: error: the operand must be a bit"));
@@ -206,13 +206,13 @@ TEST(Compiler, ErrorsSayFileLineColumnAndWhat) {
   EXPECT_THAT(error_of("LD X0.0\nTON 1, 5\nLD X0.0\nTOF 1, 5\n"),
               StartsWith("t.il:4:5: error: number 1 is used already in t.il:2"));
   EXPECT_THAT(error_of("back:\nLD X0.0\nJMPC back\n"),
-              StartsWith("t.il:3:6: error: a jump leads forward only"));
-  EXPECT_THAT(error_of("JMP away\n"), StartsWith("t.il:1:5: error: there is no label"));
+              StartsWith("t.il:3:6: error: a jump must lead forward"));
+  EXPECT_THAT(error_of("JMP away\n"), StartsWith("t.il:1:5: error: unknown label"));
   EXPECT_THAT(error_of("LD X0.0\nAND( X0.1\n"), StartsWith("t.il:2:1: error: the parenthesis is not closed"));
   EXPECT_THAT(error_of("LD X0.0\n)\n"), StartsWith("t.il:2:1: error: ')' without '('"));
   EXPECT_THAT(error_of("LD X0.0 X0.1\n"), StartsWith("t.il:1:9: error: unexpected 'X0.1'"));
   EXPECT_THAT(error_of("LD 5\nST 6\n"), StartsWith("t.il:2:4: error: a constant cannot be written"));
-  EXPECT_THAT(error_of("(* never\nends"), StartsWith("t.il:1:1: error: the comment does not end"));
+  EXPECT_THAT(error_of("(* never\nends"), StartsWith("t.il:1:1: error: the comment is not closed"));
   EXPECT_THAT(error_of("VAR//"), StartsWith("t.il:1:1: error: VAR without END_VAR"));
   EXPECT_THAT(error_of("VAR\na AT"), StartsWith("t.il:2:5: error:"));
   EXPECT_THAT(error_of("LD"), StartsWith("t.il:1:3: error: expected an operand"));

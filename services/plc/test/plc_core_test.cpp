@@ -28,7 +28,7 @@ machine::Parameters parameters() {
   return p;
 }
 
-/// The PLC with a drive in virtual time beside it: while nothing moves, time goes on to run_until_tick.
+/// The PLC with a drive in virtual time beside it: while nothing moves, time continues to run_until_tick.
 struct Bench {
   explicit Bench(const std::string& machine = "ac-table", bool drive_answers = true) {
     core.configure(parameters(), true);
@@ -54,7 +54,7 @@ struct Bench {
     core.advance(tick);
     for (const auto& done : core.take_done()) finished.push_back(done);
   }
-  /// Time goes on for as long as the PLC asks for it; returns the ticks that passed.
+  /// Time continues for as long as the PLC requests it; returns the ticks that passed.
   std::uint64_t run() {
     const auto start = tick;
     for (int i = 0; i < 10000; ++i) {
@@ -100,10 +100,10 @@ TEST(Handshake, AnUnknownMAndATAreFinishedWithoutTime) {
 TEST(Handshake, M3WaitsUntilTheSpindleIsWithinFivePercent) {
   Bench bench;
   bench.request(S, 0, 1000);
-  ASSERT_TRUE(bench.done());  // the spindle stands and is ordered to: S alone moves nothing
+  ASSERT_TRUE(bench.done());  // the spindle is at standstill by command: S alone moves nothing
   bench.request(M, 3);
   EXPECT_FALSE(bench.done());
-  // 2 1/min in each ms reach 950 after 475 ms; the PLC looks every 10 ms.
+  // 2 1/min in each ms reach 950 after 475 ms; the PLC checks every 10 ms.
   std::uint64_t waited = 0;
   while (!bench.done() && waited < 2000) {
     const auto until = bench.core.outputs().run_until_tick;
@@ -298,7 +298,7 @@ TEST(EmergencyStop, LatchesUntilReleasedAndReset) {
   outputs = bench.core.outputs();
   EXPECT_FALSE(outputs.emergency_stop);
   EXPECT_EQ(outputs.axis_enable[0], 1);
-  EXPECT_EQ(outputs.spindle_speed[0], 0) << "the spindle waits for a new order";
+  EXPECT_EQ(outputs.spindle_speed[0], 0) << "the spindle waits for a new command";
 }
 
 TEST(EmergencyStop, AFunctionUnderWayFails) {

@@ -105,7 +105,7 @@ TEST(PlcServiceOverDds, HandshakesTakeTheSameTicksAndAKillChangesNoOutput) {
   EXPECT_EQ(machine.tick, 100u);
   machine.ask(2, 1, 3, 0);
   ASSERT_TRUE(machine.run_until_done(2));
-  // 2 1/min per tick reach 950 of 1000 after 475 ticks, looked at every 10.
+  // 2 1/min per tick reach 950 of 1000 after 475 ticks, checked every 10.
   EXPECT_EQ(machine.tick, 100u + 480u);
   ASSERT_TRUE(machine.wait_for([&] { return machine.outputs.run_until_tick <= machine.tick; }));
   const auto before = machine.outputs;

@@ -50,7 +50,7 @@ TEST_F(RoundLink, AReaderThatWasOvertakenSaysSoAndGoesOnWhenItAsksAgain) {
   bus::Bytes bytes;
   EXPECT_FALSE(reader.read(bytes));
   EXPECT_TRUE(reader.lost());
-  reader.ask();
+  reader.request_start();
   EXPECT_FALSE(reader.lost());
   EXPECT_FALSE(reader.read(bytes)) << "what was there is dropped";
   EXPECT_EQ(writer.wanted(10.01), generation + 1);
@@ -74,13 +74,13 @@ TEST_F(RoundLink, NobodyAsksUntilThereIsAReaderAndNobodyAfterItHasStoppedBreathi
   EXPECT_EQ(writer.wanted(10), 0u);
   EXPECT_FALSE(writer.write(record(10, 1)));
   auto reader = std::make_unique<RoundReader>(path_);
-  EXPECT_EQ(writer.wanted(10.05), 0u) << "it looks every 0.1 s";
+  EXPECT_EQ(writer.wanted(10.05), 0u) << "it polls every 0.1 s";
   EXPECT_NE(writer.wanted(10.2), 0u);
   EXPECT_NE(writer.wanted(11.1), 0u);
-  reader->breathe();
+  reader->send_heartbeat();
   EXPECT_NE(writer.wanted(11.3), 0u);
   EXPECT_NE(writer.wanted(12.2), 0u);
-  EXPECT_EQ(writer.wanted(12.4), 0u) << "1.1 s without a breath";
+  EXPECT_EQ(writer.wanted(12.4), 0u) << "1.1 s without a heartbeat";
   EXPECT_FALSE(std::filesystem::exists(path_)) << "what a dead one leaves behind is taken away";
   EXPECT_EQ(writer.wanted(13), 0u);
 }

@@ -1,4 +1,4 @@
-// What somebody else's directory would become: everything is read from it, nothing is written to it.
+// A view of another process's directory: reads come from it, writes stay in memory.
 #pragma once
 
 #include <map>

@@ -33,7 +33,7 @@ void TextScan::add(std::span<const std::uint8_t> bytes) {
   for (std::size_t i = 0; i < bytes.size() && head_.size() < head_length; ++i) {
     const char c = static_cast<char>(bytes[i]);
     const bool blank = c == ' ' || c == '\t' || c == '\r' || c == '\n';
-    // A line with nothing but % only opens the tape: the number stands in the next one.
+    // A line that contains only % starts the tape: the number is in the next one.
     if (blank && (head_.empty() || head_ == "%")) {
       if (c == '\n') head_.clear();
       continue;

@@ -37,7 +37,7 @@ struct IndexedProgram {
 /// store.
 bool valid_name(const std::string& name);
 
-/// The number that a name or a program call asks for: O1234, %1234, 1234, each with or without an extension.
+/// The number of a name or a program call: O1234, %1234, 1234, each with or without an extension.
 std::optional<std::uint32_t> number_in_name(const std::string& name);
 
 /// Reads the whole file in pieces of 64 KiB. Throws StorageError.

@@ -90,7 +90,7 @@ void ProgramStore::set_cycles(Files& cycles) {
   for (const auto& name : cycles.list()) {
     if (!valid_name(name)) continue;
     const auto text = scan(cycles, name);
-    // The checksum stands for the revision: a cycle changes only with the machine's files.
+    // The checksum is the revision: a cycle changes only with the machine's files.
     cycles_[name] = {{name, (std::uint64_t{1} << 32) | text.crc32(), text.size(), text.crc32(), text.lines()},
                      text.number()};
   }
@@ -235,7 +235,7 @@ std::string ProgramStore::begin(const Request& request, double now) {
 
 std::string ProgramStore::write(const Request& request, Reply& reply, double now) {
   const auto found = uploads_.find({request.client, request.name});
-  if (found == uploads_.end()) return "no upload of '" + request.name + "' is under way";
+  if (found == uploads_.end()) return "no upload of '" + request.name + "' exists";
   auto& upload = found->second;
   reply.offset = upload.text.size();
   if (request.offset != upload.text.size())
@@ -251,7 +251,7 @@ std::string ProgramStore::write(const Request& request, Reply& reply, double now
 
 std::string ProgramStore::commit(const Request& request, Reply& reply) {
   const auto found = uploads_.find({request.client, request.name});
-  if (found == uploads_.end()) return "no upload of '" + request.name + "' is under way";
+  if (found == uploads_.end()) return "no upload of '" + request.name + "' exists";
   const auto text = found->second.text;
   reply.offset = text.size();
   if (request.size != text.size())
@@ -274,7 +274,7 @@ std::string ProgramStore::commit(const Request& request, Reply& reply) {
 
 std::string ProgramStore::abort(const Request& request) {
   const auto found = uploads_.find({request.client, request.name});
-  if (found == uploads_.end()) return "no upload of '" + request.name + "' is under way";
+  if (found == uploads_.end()) return "no upload of '" + request.name + "' exists";
   drop(found);
   return "";
 }

@@ -1,4 +1,4 @@
-// Where the recorder's messages go. All of it runs in the thread that writes files.
+// The output of the recorder. Everything runs in the thread that writes files.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace trunnion::recorder {
 
-/// A file that is whole, or the one that was being written when the recorder ended.
+/// A complete file, or the one that was open when the recorder ended.
 struct FileReport {
   std::string path;
   std::uint64_t bytes = 0;
@@ -19,15 +19,15 @@ struct FileReport {
 class Destination {
  public:
   virtual ~Destination() = default;
-  /// Takes the message, at `now` seconds of a clock that never goes back. It may take its bytes away.
+  /// Takes the message, at `now` seconds of a monotonic clock. It may move its bytes.
   virtual void take(Message& message, double now) = 0;
   /// Called several times a second.
   virtual void idle(double now) = 0;
   virtual void finish(double now) = 0;
 
-  /// Files so far, the oldest first; those that were removed again to make room are not there.
+  /// Files so far, the oldest first; without those that were removed for new parts.
   virtual const std::vector<FileReport>& files() const = 0;
-  /// Messages that could not be written, and why: one line, empty when all are well.
+  /// Messages that could not be written, and why: one line, empty without a problem.
   virtual std::uint64_t unwritten() const = 0;
   virtual const std::string& problem() const = 0;
 };

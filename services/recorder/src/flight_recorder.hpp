@@ -1,4 +1,4 @@
-// Keeps the last seconds in memory and writes them to a file when an alarm fires.
+// Keeps the last seconds in memory and writes them to a file when an alarm is raised.
 #pragma once
 
 #include <deque>
@@ -14,22 +14,22 @@
 namespace trunnion::recorder {
 
 struct FlightLimits {
-  double before = 30;             ///< s kept, and so saved from before the alarm
-  double after = 1;               ///< s of what follows it
-  std::size_t bytes = 256 << 20;  ///< that may be kept; when it is less than `before`, the oldest go
+  double before = 30;             ///< s kept, and so saved before the alarm
+  double after = 1;               ///< s saved after it
+  std::size_t bytes = 256 << 20;  ///< that may be kept; the oldest are removed first
   idl::service::Severity severity = idl::service::Severity::WARNING;  ///< the least that saves
 };
 
-/// Files are `path` numbered from the next free number on; each begins with the states that held then.
-/// Alarms while another is being followed are in its file. A problem with one file does not end the watch.
+/// Files are `path` numbered from the next free number on; each starts with the states that were valid then.
+/// Further alarms during `after` are in the same file. A problem with one file does not end the recording.
 class FlightRecorder final : public Destination {
  public:
-  /// Alarms the bus keeps from before `began` (ns since the epoch) are not news.
+  /// Alarms that the bus keeps from before `began` (ns since the epoch) are ignored.
   FlightRecorder(std::string path, FileHeader header, FlightLimits limits, std::int64_t began);
 
   void take(Message& message, double now) override;
   void idle(double now) override;
-  /// An alarm that is still being followed is saved with what there is.
+  /// A pending alarm is saved with the messages so far.
   void finish(double now) override;
   const std::vector<FileReport>& files() const override { return files_; }
   std::uint64_t unwritten() const override { return unwritten_; }

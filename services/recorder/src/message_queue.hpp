@@ -1,5 +1,4 @@
-// Between the thread that empties the readers and the one that writes the file: bounded, and never waits for
-// room.
+// Between the thread that empties the readers and the one that writes the file: bounded; push() never waits.
 #pragma once
 
 #include <condition_variable>
@@ -9,7 +8,7 @@
 
 namespace trunnion::recorder {
 
-/// One sample on its way to the file.
+/// One sample for the file.
 struct Message {
   std::uint16_t topic = 0;       ///< channel number of the recording
   std::uint32_t sequence = 0;    ///< of the topic, from 1
@@ -24,11 +23,11 @@ class MessageQueue {
   /// Takes the message's bytes and leaves a used buffer in their place. False, and nothing taken, when the
   /// queue is full: the message is counted as dropped.
   bool push(Message& message);
-  /// Lets pop_all() return. Once for all that was pushed: to wake the other thread for each would cost more
-  /// than the messages.
+  /// Lets pop_all() return. Once for all that was pushed: a wake-up for each would cost more than the
+  /// messages.
   void wake() { arrived_.notify_one(); }
-  /// Everything queued, waiting up to `seconds` for something to come; `messages` are given back for their
-  /// buffers. False when the queue was closed and is empty.
+  /// Everything queued, waiting up to `seconds` for messages; the buffers of `messages` are used again. False
+  /// when the queue was closed and is empty.
   bool pop_all(std::vector<Message>& messages, double seconds);
   /// Nothing more will be pushed.
   void close();

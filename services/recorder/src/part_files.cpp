@@ -52,7 +52,7 @@ void PartFiles::take(Message& message, double now) {
                     (limits_.seconds > 0 && now - began_ >= limits_.seconds);
   if (full && problem_.empty()) {
     end_part();
-    // The oldest part goes before the new one needs room.
+    // The oldest part is removed before the new one needs space.
     while (limits_.keep != 0 && files_.size() >= limits_.keep && files_.size() > 1) {
       std::error_code ignored;
       std::filesystem::remove(files_.front().path, ignored);

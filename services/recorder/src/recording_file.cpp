@@ -41,7 +41,7 @@ std::uint32_t next_number(const std::string& path) {
   auto folder = whole.parent_path();
   if (folder.empty()) folder = ".";
   std::uint32_t highest = 0;
-  std::error_code ignored;  // a folder that cannot be read is told by whoever creates the file
+  std::error_code ignored;  // the creation of the file reports a directory that cannot be read
   for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
     const auto name = entry.path().stem().string();
     if (entry.path().extension() != whole.extension() || !name.starts_with(stem)) continue;

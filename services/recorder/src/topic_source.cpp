@@ -22,8 +22,8 @@ void TopicSource::open_reader() {
   reader_ = backend_->reader(entry_->description, {with_past, 0}, signal_);
 }
 
-// A process that stands still for longer than its lease is no writer for DDS until it goes on; its memory is
-// there all the time.
+// A process that is suspended for longer than its lease is no writer for DDS until it continues; its memory
+// is there all the time.
 void TopicSource::see(const std::vector<bus::DiscoveredWriter>& writers) {
   using bus::SharedHistoryReader;
   if (!is_stream()) return;

@@ -1,5 +1,4 @@
-// Where the messages of one topic come from: out of the memory of writers on this host, by DDS from all
-// others.
+// The messages of one topic: from the memory of writers on this host, by DDS from all others.
 #pragma once
 
 #include <cstdint>
@@ -13,8 +12,8 @@
 
 namespace trunnion::recorder {
 
-/// A topic without frames is read by DDS alone. One with frames has a DDS reader only while some writer needs
-/// it, because its cost is borne by all writers of the topic.
+/// A topic without setpoint batches is read by DDS alone. One with batches has a DDS reader only while a
+/// writer requires it, because all writers of the topic bear its cost.
 class TopicSource {
  public:
   /// `signal` is notified by the vendor's threads.
@@ -22,14 +21,14 @@ class TopicSource {
 
   /// Call whenever the writers of the domain have changed: `writers` are all of them.
   void see(const std::vector<bus::DiscoveredWriter>& writers);
-  /// From `now`, a bus::source_time(), on everything is recorded. Before, setpoints are left out: of them it
-  /// would only be a thousand frames for each stage. With the feedback comes where the machine stands and
-  /// what the drive was told.
+  /// From `now`, a bus::source_time(), on everything is recorded. Before, setpoints are left out: they would
+  /// be only a thousand batches for each stage. The feedback contains the machine's position and the inputs
+  /// of the drive.
   void begin(std::int64_t now) { began_ = now; }
 
   /// The next message to be recorded; false when there is none yet.
   bool take(bus::Bytes& cdr, bus::SampleInfo& info);
-  /// True when somebody writes the topic and is read.
+  /// True when the topic has a writer and it is read.
   bool has_writer() const;
   /// Messages that were overwritten in memory before they were taken.
   std::uint64_t overwritten() const;
@@ -42,7 +41,7 @@ class TopicSource {
   struct History {
     bus::WriterId writer{};
     std::unique_ptr<bus::SharedHistoryReader> reader;
-    bool ended = false;  // nothing more will be written
+    bool ended = false;  // no more messages follow
   };
   bool has_past() const { return !is_stream() || is_feedback(); }
   void open_reader();

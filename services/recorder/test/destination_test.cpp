@@ -199,7 +199,7 @@ TEST_F(Destinations, AlarmsThatAreNoNewsSaveNothing) {
   EXPECT_EQ(take(alarm(100, true, 1)), 0u) << "the same again";
   EXPECT_EQ(take(alarm(101, true, 1, idl::service::Severity::HINT)), 0u) << "too small";
   EXPECT_EQ(take(alarm(100, false, 1)), 0u) << "over";
-  EXPECT_EQ(take(alarm(100, true, 1)), 1u) << "raised anew by a source that has been started again";
+  EXPECT_EQ(take(alarm(100, true, 1)), 1u) << "raised again by a restarted source";
   EXPECT_EQ(take(alarm(100, true, 2)), 2u) << "once more";
 }
 

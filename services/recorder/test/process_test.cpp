@@ -90,7 +90,7 @@ TEST_P(RecorderProcess, WritesEveryMessageAndFinishesOnSigterm) {
   frame.count = 8;
   constexpr std::uint64_t count = 500;
   for (std::uint64_t i = 0; i < count; ++i) {
-    frame.first = 8 * i + (i >= 300 ? 16 : 0);  // sixteen cycles that nobody wrote
+    frame.first = 8 * i + (i >= 300 ? 16 : 0);  // sixteen cycles without a writer
     frame.starts = i == 0;
     frame.setpoints.assign(72, static_cast<double>(i));
     ASSERT_TRUE(frames.write(frame));
@@ -165,7 +165,7 @@ TEST_P(RecorderProcess, TakesEachFrameOnceWhetherItComesFromMemoryOrByDds) {
       std::this_thread::sleep_for(std::chrono::milliseconds(300));
       by_dds.reset();
       EXPECT_TRUE(testing_support::eventually([&] { return in_memory.matched() == 0; }))
-          << "it is no longer sent to the recorder when nobody needs that";
+          << "it is no longer sent to the recorder when that is not needed";
     }
   }
   std::this_thread::sleep_for(std::chrono::milliseconds(300));
@@ -186,7 +186,7 @@ TEST_P(RecorderProcess, TakesEachFrameOnceWhetherItComesFromMemoryOrByDds) {
   EXPECT_EQ(seen[1], 101);
 }
 
-// A recorder that stands still, as when it gets no processor, loses the oldest and says so.
+// A suspended recorder, as one without processor time, loses the oldest messages and reports this.
 TEST_P(RecorderProcess, SaysHowManyFramesWereOverwrittenBeforeItCouldTakeThem) {
   const auto [vendor, domain] = GetParam();
   bus::Bus bus(vendor, {domain + 4}, {64});

@@ -137,7 +137,7 @@ TEST_F(Frames, AWriterThatDiscoveryLosesForAWhileIsReadOnAndNothingOfItIsTakenTw
   topic.see({writer(here, history->address())});
   write(1, 104);
   EXPECT_EQ(taken(topic), Numbers{1});
-  topic.see({});  // its lease has ended while it stood still
+  topic.see({});  // its lease has ended while it was suspended
   write(2, 112);
   EXPECT_EQ(taken(topic), Numbers{2});
   topic.see({writer({9}, history->address()), writer(elsewhere, "")});  // back, with another number
@@ -169,7 +169,7 @@ TEST(Topics, WithoutFramesAreReadByDds) {
   bus::SampleInfo info;
   EXPECT_TRUE(topic.take(cdr, info));
   EXPECT_FALSE(topic.take(cdr, info));
-  EXPECT_EQ(side.readers, 1) << "whoever comes is heard";
+  EXPECT_EQ(side.readers, 1) << "every new writer is read";
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "rehearsal_service.hpp"
+#include "standby_service.hpp"
 
 #include <algorithm>
 #include <filesystem>
@@ -8,20 +8,20 @@
 
 namespace trunnion::program {
 
-RehearsalService::RehearsalService(service::Node& node)
+StandbyService::StandbyService(service::Node& node)
     : node_(node),
       programs_(node.options().state_directory + "/programs"),
       state_(node.options().state_directory),
       list_reader_(node.bus().reader(topics::program_list)) {}
 
-void RehearsalService::pump() {
+void StandbyService::pump() {
   idl::program::ProgramList list;
   const bool news = list_reader_.take_newest(list);
   if (news) list_ = std::move(list);
   if (list_) clock_.poll(news, service::monotonic_seconds(), [this] { return difference(); });
 }
 
-std::string RehearsalService::difference() {
+std::string StandbyService::difference() {
   PrivateFiles programs(programs_), state(state_);
   ProgramStore own(programs, state);
   const auto delivered = node_.options().machine.programs_directory();

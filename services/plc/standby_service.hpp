@@ -1,24 +1,24 @@
 #pragma once
 
-#include "rehearsal.hpp"
 #include "round_link.hpp"
 #include "service/node.hpp"
 #include "service/parameter_client.hpp"
+#include "standby_comparison.hpp"
 
 namespace trunnion::plc {
 
-/// The PLC as long as another one is the machine's: it repeats in private what that one does and reports in
-/// its heartbeat how many ticks were equal and what was not. It writes nothing else.
-class RehearsalService : public service::Service {
+/// The PLC while another one controls the machine: it repeats that one's rounds and reports in its heartbeat
+/// the number of equal ticks and the difference. It writes nothing else.
+class StandbyService : public service::Service {
  public:
   /// Throws what load_programs() and RoundReader throw.
-  explicit RehearsalService(service::Node& node);
+  explicit StandbyService(service::Node& node);
   void pump() override;
   service::Health health() const override;
 
  private:
   service::ParameterClient parameters_;
-  Rehearsal rehearsal_;
+  StandbyComparison comparison_;
   RoundReader rounds_;
   bus::Bytes bytes_;
   Round round_;

@@ -1,4 +1,4 @@
-#include "rehearsal.hpp"
+#include "standby_comparison.hpp"
 
 #include <algorithm>
 #include <cstring>
@@ -28,7 +28,7 @@ const RegisterValue* find(const Changes& changes, const RegisterValue& at) {
 
 }  // namespace
 
-Rehearsal::Outcome Rehearsal::play(const Round& round, std::uint32_t generation) {
+StandbyComparison::Outcome StandbyComparison::play(const Round& round, std::uint32_t generation) {
   if (!difference_.empty()) return Outcome::differs;
   if (round.generation != generation) return Outcome::equal;
   if (round.number == 0) return begin(round);
@@ -38,8 +38,7 @@ Rehearsal::Outcome Rehearsal::play(const Round& round, std::uint32_t generation)
       return Outcome::waiting;
   const Registers before = core_.memory().registers;
   for (const Step& step : round.steps)
-    if (!repeat(step))
-      return differ(round.tick, "a step of kind " + std::to_string(step.kind) + " that it does not know");
+    if (!repeat(step)) return differ(round.tick, "unknown step kind " + std::to_string(step.kind));
   number_ = round.number;
   const Outcome outcome = compare(round, before);
   if (outcome == Outcome::equal) equal_ticks_ += round.tick - std::min(tick_, round.tick);
@@ -47,29 +46,29 @@ Rehearsal::Outcome Rehearsal::play(const Round& round, std::uint32_t generation)
   return outcome;
 }
 
-Rehearsal::Outcome Rehearsal::begin(const Round& round) {
+StandbyComparison::Outcome StandbyComparison::begin(const Round& round) {
   Snapshot snapshot;
-  if (round.start.size() != sizeof snapshot) return differ(round.tick, "a memory of another layout");
+  if (round.start.size() != sizeof snapshot) return differ(round.tick, "a different memory layout");
   if (!parameters(round.revision)) return Outcome::waiting;
   std::memcpy(&snapshot, round.start.data(), sizeof snapshot);
   core_.adopt(snapshot);
   generation_ = round.generation;
   number_ = 0;
   tick_ = round.tick;
-  begun_ = true;
+  started_ = true;
   const Registers& registers = core_.memory().registers;
   if (const auto own = changes(registers, core_.rescanned()); own != round.rescanned)
     return differ(round.tick, registers, round.rescanned, own);
   return compare(round, registers);
 }
 
-bool Rehearsal::parameters(std::uint64_t revision) {
+bool StandbyComparison::parameters(std::uint64_t revision) {
   const auto found = find_(revision);
   if (found) core_.configure(*found, virtual_time_);
   return found != nullptr;
 }
 
-bool Rehearsal::repeat(const Step& step) {
+bool StandbyComparison::repeat(const Step& step) {
   switch (static_cast<StepKind>(step.kind)) {
     case StepKind::parameters:
       return parameters(step.value);
@@ -98,7 +97,7 @@ bool Rehearsal::repeat(const Step& step) {
   return false;
 }
 
-Rehearsal::Outcome Rehearsal::compare(const Round& round, const Registers& before) {
+StandbyComparison::Outcome StandbyComparison::compare(const Round& round, const Registers& before) {
   if (const auto own = changes(before, core_.memory().registers); own != round.changed)
     return differ(round.tick, before, round.changed, own);
   if (core_.outputs() != round.outputs) return differ(round.tick, "the outputs");
@@ -108,15 +107,15 @@ Rehearsal::Outcome Rehearsal::compare(const Round& round, const Registers& befor
   return Outcome::equal;
 }
 
-Rehearsal::Outcome Rehearsal::differ(std::uint64_t tick, const std::string& what) {
+StandbyComparison::Outcome StandbyComparison::differ(std::uint64_t tick, const std::string& what) {
   difference_ = "tick " + std::to_string(tick) + ", " + what;
   return Outcome::differs;
 }
 
-// The first register of the image whose value is not the same; what only one of the two has changed has kept
-// its value with the other.
-Rehearsal::Outcome Rehearsal::differ(std::uint64_t tick, const Registers& before, const Changes& running,
-                                     const Changes& own) {
+// The first register of the image whose value is not the same; a register that only one of the two has
+// changed has kept its value in the other.
+StandbyComparison::Outcome StandbyComparison::differ(std::uint64_t tick, const Registers& before,
+                                                     const Changes& running, const Changes& own) {
   const auto order = [](const RegisterValue& a, const RegisterValue& b) {
     return std::pair(a.area, a.index) < std::pair(b.area, b.index);
   };

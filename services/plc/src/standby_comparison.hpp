@@ -1,4 +1,4 @@
-// A PLC that does in private what the running one has done, round by round, and says where it differs.
+// A PLC that repeats the rounds of the running one without outputs, and reports where it differs.
 #pragma once
 
 #include <functional>
@@ -11,30 +11,29 @@
 
 namespace trunnion::plc {
 
-class Rehearsal {
+class StandbyComparison {
  public:
   /// The parameters of a revision, nullptr when they have not arrived.
   using FindParameters = std::function<std::shared_ptr<const machine::Parameters>(std::uint64_t revision)>;
 
   /// `core` has its programs loaded.
-  Rehearsal(PlcCore core, bool virtual_time, FindParameters find)
+  StandbyComparison(PlcCore core, bool virtual_time, FindParameters find)
       : core_(std::move(core)), virtual_time_(virtual_time), find_(std::move(find)) {}
 
   enum class Outcome : std::uint8_t {
-    equal,    ///< or nothing to be compared: rounds of an older generation
-    waiting,  ///< for parameters: play the same round again
-    gap,      ///< a round is missing: ask for another beginning
-    differs,  ///< difference() says where; nothing more is played
+    equal,    ///< or nothing to compare: rounds of an older generation
+    waiting,  ///< for parameters: repeat the same round
+    gap,      ///< a round is missing: request a new start
+    differs,  ///< difference() names it; nothing more is repeated
   };
-  /// Does what the running PLC did in the round and compares what came of it. `generation` is the one asked
-  /// for last.
+  /// Repeats the round of the running PLC and compares the results. `generation` is the one requested last.
   Outcome play(const Round& round, std::uint32_t generation);
 
-  /// Has taken over the running one's memory, and agrees with it since.
-  bool in_step() const { return begun_ && difference_.empty(); }
-  /// Of the drive, over all rounds that came out equal.
+  /// Has loaded the running one's memory, and agrees with it since.
+  bool in_step() const { return started_ && difference_.empty(); }
+  /// Ticks of the drive over all equal rounds.
   std::uint64_t equal_ticks() const { return equal_ticks_; }
-  /// "tick 1200, register R12: 1 and 0": the running one's value stands first. Empty while there is none.
+  /// "tick 1200, register R12: 1 and 0": the running one's value comes first. Empty without a difference.
   const std::string& difference() const { return difference_; }
 
  private:
@@ -48,7 +47,7 @@ class Rehearsal {
   PlcCore core_;
   bool virtual_time_;
   FindParameters find_;
-  bool begun_ = false;
+  bool started_ = false;
   std::uint32_t generation_ = 0;
   std::uint64_t number_ = 0, tick_ = 0, equal_ticks_ = 0;
   std::string difference_;

@@ -8,11 +8,11 @@
 
 namespace trunnion::program {
 
-/// The keeper of programs as long as another one is the cluster's: it scans the same files and compares the
-/// list it would publish with the one the other has published. It writes nothing.
-class RehearsalService : public service::Service {
+/// The program service while another one runs: it reads the same files and compares the list it would publish
+/// with the published one. It writes nothing.
+class StandbyService : public service::Service {
  public:
-  explicit RehearsalService(service::Node& node);
+  explicit StandbyService(service::Node& node);
   void pump() override;
   service::Health health() const override { return clock_.health(); }
 
