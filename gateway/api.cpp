@@ -198,7 +198,7 @@ void Api::order_channel(const Match& match, const Json& body, const Respond& res
   mailbox_.post([request, respond](Links& links, double now) {
     using idl::channel::CommandKind;
     const bool continuous = request.command == CommandKind::JOG_AXIS && request.increment == 0;
-    if (continuous && !links.jog.press(request.channel, request.axis, request.value, now))
+    if (continuous && !links.jog.press(request.channel, request.axis, request.speed, now))
       return respond(json_answer(200, {{"accepted", true}, {"renewed", true}}));
     if (request.command == CommandKind::JOG_STOP) links.jog.forget(request.channel, request.axis);
     links.channel.submit(

@@ -73,25 +73,25 @@ std::size_t axis(const idl::channel::ChannelState& state, char letter) {
 }
 
 // "off", "all", or letters such as XZ: bit i for axis i of the channel.
-double axis_mask(const idl::channel::ChannelState& state, const std::string& text) {
+std::uint16_t axis_mask(const idl::channel::ChannelState& state, const std::string& text) {
   if (text == "off") return 0;
   std::uint32_t mask = 0;
   if (text == "all")
     mask = (1u << state.letters.size()) - 1;
   else
     for (const char letter : text) mask |= 1u << axis(state, letter);
-  return mask;
+  return static_cast<std::uint16_t>(mask);
 }
 
 // "off", or levels such as 13: bit 0 for level 1.
-double level_mask(const std::string& text) {
+std::uint16_t level_mask(const std::string& text) {
   if (text == "off") return 0;
   std::uint32_t mask = 0;
   for (const char level : text) {
     if (level < '1' || level > '9') throw std::runtime_error("'" + text + "': levels 1 to 9, or off");
     mask |= 1u << (level - '1');
   }
-  return mask;
+  return static_cast<std::uint16_t>(mask);
 }
 
 ChannelRequest request_of(Client& client, const Order& order) {
@@ -110,31 +110,35 @@ ChannelRequest request_of(Client& client, const Order& order) {
   };
   if (order.what == "start" && order.from_line != 0) {
     request.command = CommandKind::START_FROM_LINE;
-    request.value = order.from_line;
+    request.line = order.from_line;
   } else if (const auto found = plain.find(order.what); found != plain.end()) {
     request.command = found->second;
   } else if (const auto change = switches.find(order.what); change != switches.end()) {
     request.command = change->second;
-    request.value = on(order) ? 1 : 0;
+    request.on = on(order);
   } else if (order.what == "select") {
     request.command = CommandKind::SELECT_PROGRAM;
-    request.text = argument(order, 0, "a program");
+    request.program = argument(order, 0, "a program");
   } else if (order.what == "mode") {
     request.command = CommandKind::SET_MODE;
     request.mode = mode(argument(order, 0, "auto, mdi, jog or ref"));
   } else if (order.what == "axis-lock") {
     request.command = CommandKind::AXIS_LOCK;
-    request.value = axis_mask(state(), argument(order, 0, "axis letters, all or off"));
+    request.axes = axis_mask(state(), argument(order, 0, "axis letters, all or off"));
   } else if (order.what == "block-skip") {
     request.command = CommandKind::BLOCK_SKIP;
-    request.value = level_mask(argument(order, 0, "levels, or off"));
+    request.levels = level_mask(argument(order, 0, "levels, or off"));
   } else {  // jog AXIS SPEED [DISTANCE], handwheel AXIS COUNTS INCREMENT
     const bool wheel = order.what == "handwheel";
     const auto& letter = argument(order, 0, "an axis");
     if (letter.size() != 1) throw std::runtime_error("'" + letter + "' is no axis");
     request.axis = static_cast<std::uint8_t>(axis(state(), letter[0]));
     request.command = wheel ? CommandKind::HANDWHEEL : CommandKind::JOG_AXIS;
-    request.value = number(argument(order, 1, wheel ? "counts" : "a speed"));
+    const double value = number(argument(order, 1, wheel ? "counts" : "a speed"));
+    if (wheel)
+      request.counts = static_cast<std::int32_t>(std::clamp(value, -1e6, 1e6));
+    else
+      request.speed = value;
     if (wheel || order.arguments.size() > 2) request.increment = number(argument(order, 2, "an increment"));
   }
   return request;

@@ -54,8 +54,8 @@ void wait_until_idle(Client& client, std::uint16_t channel, double timeout) {
 int mdi(const Common& common, const std::string& line, std::uint16_t channel, double timeout) {
   const auto cluster = find_cluster(common.domain);
   Client client(cluster.run.domain);
-  client.channel(channel, CommandKind::SET_MODE, "", 0, Mode::MDI);
-  client.channel(channel, CommandKind::MDI_LINE, line);
+  client.set_mode(channel, Mode::MDI);
+  client.mdi(channel, line);
   wait_until_idle(client, channel, timeout);
   const auto state = client.newest(topics::channel_state);
   if (common.json) {
@@ -100,7 +100,7 @@ int alarms(const Common& common, bool reset) {
   return 0;
 }
 
-int panel(const Common& common, std::uint8_t kind) {
+int panel(const Common& common, idl::plc::PanelRequestKind kind) {
   const auto cluster = find_cluster(common.domain);
   Client(cluster.run.domain).panel(kind);
   if (common.json) std::cout << bus::Json{{"accepted", true}}.dump() << "\n";
@@ -130,7 +130,10 @@ void add_operator_commands(CLI::App& app, Common& common) {
       app, common, "estop",
       "Press or release the emergency stop of the operator panel (no substitute for a hard-wired one)",
       [&common, what] {
-        return panel(common, *what == "press" ? 1 : *what == "release" ? 2 : 3);
+        using idl::plc::PanelRequestKind;
+        return panel(common, *what == "press"     ? PanelRequestKind::PRESS_EMERGENCY_STOP
+                             : *what == "release" ? PanelRequestKind::RELEASE_EMERGENCY_STOP
+                                                  : PanelRequestKind::RESET_EMERGENCY_STOP);
       });
   command->add_option("what", *what, "press, release or reset")
       ->required()

@@ -31,10 +31,10 @@ constexpr double overlap = 0.15;          // both take part: more than two leads
 constexpr double end_patience = 2;        // until a process that is told to end is killed
 constexpr double take_over_patience = 5;  // until a service that was told to take over is active
 
-const bus::Topic<idl::stream::AxisFrame>& output_of(std::uint8_t stage) {
-  return stage == stream::stage_kinematics     ? topics::kinematics_frame
-         : stage == stream::stage_compensation ? topics::compensation_frame
-                                               : topics::gantry_frame;
+const bus::Topic<idl::stream::AxisFrame>& output_of(stream::Stage stage) {
+  return stage == stream::Stage::KINEMATICS     ? topics::kinematics_frame
+         : stage == stream::Stage::COMPENSATION ? topics::compensation_frame
+                                                : topics::gantry_frame;
 }
 
 ServiceProcess make_fresh(const ServiceProcess& old, const idl::service::SwapRequest& request,
@@ -70,8 +70,8 @@ Swap::Swap(bus::Bus& bus, const LaunchOptions& options, ServiceProcess& old,
       alarms_(bus.reader(topics::alarm)),
       alarm_writer_(bus.writer(topics::alarm)) {
   began_ = entered_ = moved_ = node::monotonic_seconds();
-  if (stage_ != 0) {
-    auto topic = output_of(stage_);
+  if (stage_) {
+    auto topic = output_of(*stage_);
     originals_.emplace(bus.reader(topic));
     shadow_topic_ = stream::shadow_name(topic.name);
     topic.name = shadow_topic_.c_str();
@@ -148,7 +148,7 @@ std::uint64_t Swap::compared() const {
 std::optional<std::string> Swap::difference() const {
   if (const auto& found = comparison_.first_difference()) return where(*found);
   const std::string mark = node::differs_detail;
-  if (stage_ == 0 && fresh_.detail.starts_with(mark)) return fresh_.detail.substr(mark.size());
+  if (!stage_ && fresh_.detail.starts_with(mark)) return fresh_.detail.substr(mark.size());
   return std::nullopt;
 }
 
@@ -224,7 +224,7 @@ std::optional<SwapReply> Swap::after_retirement(double now) {
     if (now - retired_at_ > end_patience) kill(old_.pid, SIGKILL);
     return std::nullopt;
   }
-  if (stage_ != 0) return done(now);
+  if (stage_) return done(now);
   kill(fresh_.pid, SIGUSR1);
   promoted_cycle_ = executed_;
   enter(Phase::taking_over, now);

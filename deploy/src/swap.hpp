@@ -45,7 +45,7 @@ class Swap {
   void read();
   std::optional<std::string> at_rest() const;
   std::optional<idl::service::SwapReply> after_start(double now);
-  bool compares() const { return stage_ != 0 || counts_ticks_; }
+  bool compares() const { return stage_.has_value() || counts_ticks_; }
   std::uint64_t compared() const;
   std::optional<std::string> difference() const;
   std::optional<idl::service::SwapReply> after_comparison(double now);
@@ -62,9 +62,9 @@ class Swap {
   ServiceProcess fresh_;
   const Announcements& announced_;
   idl::service::SwapRequest request_;
-  std::uint8_t stage_;  ///< 0 when it is no stage
-  bool counts_ticks_;   ///< it is no stage and yet compared over a number of cycles, as the heartbeat of the
-                        ///< new one tells
+  std::optional<stream::Stage> stage_;  ///< nothing when it is no stage
+  bool counts_ticks_;  ///< it is no stage and yet compared over a number of cycles, as the heartbeat of the
+                       ///< new one tells
   std::string shadow_topic_;
   std::optional<bus::Reader<idl::stream::AxisFrame>> originals_, shadows_;
   bus::Reader<idl::stream::FeedbackFrame> feedback_;

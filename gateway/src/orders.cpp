@@ -84,18 +84,18 @@ std::uint8_t axis(const Json& body, const idl::channel::ChannelState& state) {
 }
 
 /// {"axes": ["X", 1]}, by letter or index: bit i for axis i of the channel.
-double axis_mask(const Json& body, const idl::channel::ChannelState& state) {
+std::uint16_t axis_mask(const Json& body, const idl::channel::ChannelState& state) {
   only(body, {"axes"});
   const auto& axes = required(body, "axes");
   if (!axes.is_array() || axes.size() > state.axes.size())
     throw BadRequest("axes", "axes must be a list of axes of the channel; empty unlocks them all");
   std::uint32_t mask = 0;
   for (const auto& one : axes) mask |= 1u << axis(Json{{"axis", one}}, state);
-  return mask;
+  return static_cast<std::uint16_t>(mask);
 }
 
 /// {"levels": [1, 3]}: bit 0 for level 1.
-double level_mask(const Json& body) {
+std::uint16_t level_mask(const Json& body) {
   only(body, {"levels"});
   const auto& levels = required(body, "levels");
   if (!levels.is_array() || levels.size() > 9)
@@ -106,7 +106,13 @@ double level_mask(const Json& body) {
     if (value < 1) throw BadRequest("levels", "levels count from 1");
     mask |= 1u << (value - 1);
   }
-  return mask;
+  return static_cast<std::uint16_t>(mask);
+}
+
+std::int32_t counts(const Json& body) {
+  const double value = number(required(body, "counts"), "counts", -most_counts, most_counts);
+  if (std::floor(value) != value) throw BadRequest("counts", "counts must be a whole number");
+  return static_cast<std::int32_t>(value);
 }
 
 CommandKind switch_of(Operation operation) {
@@ -140,13 +146,13 @@ void set_override(const Json& body, ChannelRequest& request) {
   const auto& value = required(body, "value");
   if (kind == "feed") {
     request.command = CommandKind::FEED_OVERRIDE;
-    request.value = number(value, "value", 0, 1.5);
+    request.fraction = number(value, "value", 0, 1.5);
   } else if (kind == "rapid") {
     request.command = CommandKind::RAPID_OVERRIDE;
-    request.value = number(value, "value", 0, 1);
+    request.fraction = number(value, "value", 0, 1);
   } else if (kind == "spindle") {
     request.command = CommandKind::SPINDLE_OVERRIDE;
-    request.value = number(value, "value", 0.5, 1.5);
+    request.fraction = number(value, "value", 0.5, 1.5);
   } else {
     throw BadRequest("kind", "kind must be feed, rapid or spindle");
   }
@@ -187,19 +193,19 @@ ChannelRequest channel_order(Operation operation, const Json& body, const idl::c
     case Operation::select:
       only(body, {"program"});
       request.command = CommandKind::SELECT_PROGRAM;
-      request.text = text(required(body, "program"), "program", name_bytes);
-      check_program_name(request.text);
+      request.program = text(required(body, "program"), "program", name_bytes);
+      check_program_name(request.program);
       return request;
     case Operation::mdi:
       request.command = CommandKind::MDI_LINE;
-      request.text = mdi_line(body);
+      request.block = mdi_line(body);
       return request;
     case Operation::jog:
       only(body, {"axis", "speed", "increment"});
       request.command = CommandKind::JOG_AXIS;
       request.axis = axis(body, state);
-      request.value = number(required(body, "speed"), "speed", -fastest, fastest);
-      if (request.value == 0) throw BadRequest("speed", "speed must not be 0: its sign is the direction");
+      request.speed = number(required(body, "speed"), "speed", -fastest, fastest);
+      if (request.speed == 0) throw BadRequest("speed", "speed must not be 0: its sign is the direction");
       if (body.contains("increment"))
         request.increment = number(body["increment"], "increment", 0, longest_step);
       return request;
@@ -223,29 +229,27 @@ ChannelRequest channel_order(Operation operation, const Json& body, const idl::c
     case Operation::retrace:
     case Operation::handwheel_offset:
       request.command = switch_of(operation);
-      request.value = on(body) ? 1 : 0;
+      request.on = on(body);
       return request;
     case Operation::start_from_line:
       only(body, {"line"});
       request.command = CommandKind::START_FROM_LINE;
-      request.value = whole(required(body, "line"), "line", most_lines);
-      if (request.value < 1) throw BadRequest("line", "lines count from 1");
+      request.line = whole(required(body, "line"), "line", most_lines);
+      if (request.line < 1) throw BadRequest("line", "lines count from 1");
       return request;
     case Operation::axis_lock:
       request.command = CommandKind::AXIS_LOCK;
-      request.value = axis_mask(body, state);
+      request.axes = axis_mask(body, state);
       return request;
     case Operation::block_skip:
       request.command = CommandKind::BLOCK_SKIP;
-      request.value = level_mask(body);
+      request.levels = level_mask(body);
       return request;
     case Operation::handwheel:
       only(body, {"axis", "counts", "increment"});
       request.command = CommandKind::HANDWHEEL;
       request.axis = axis(body, state);
-      request.value = number(required(body, "counts"), "counts", -most_counts, most_counts);
-      if (std::floor(request.value) != request.value)
-        throw BadRequest("counts", "counts must be a whole number");
+      request.counts = counts(body);
       request.increment = number(required(body, "increment"), "increment", 0, longest_step);
       return request;
     case Operation::cycle_start:
@@ -264,7 +268,10 @@ ChannelRequest channel_order(Operation operation, const Json& body, const idl::c
 idl::plc::PanelRequest panel_order(Operation operation, const Json& body) {
   only(body, {});
   idl::plc::PanelRequest request{};
-  request.kind = operation == Operation::emergency_stop ? 1 : operation == Operation::release ? 2 : 3;
+  using idl::plc::PanelRequestKind;
+  request.kind = operation == Operation::emergency_stop ? PanelRequestKind::PRESS_EMERGENCY_STOP
+                 : operation == Operation::release      ? PanelRequestKind::RELEASE_EMERGENCY_STOP
+                                                        : PanelRequestKind::RESET_EMERGENCY_STOP;
   return request;
 }
 

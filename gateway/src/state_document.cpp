@@ -177,7 +177,7 @@ Json StateDocument::document(double now) {
   if (has_feedback_)
     json["drive"] = {{"executed", feedback_.first + feedback_.count},
                      {"tick", feedback_.tick},
-                     {"mode", feedback_.mode},
+                     {"mode", bus::to_string(feedback_.mode)},
                      {"starved", feedback_.starved},
                      {"spindle_speed", rounded_row(feedback_.spindle_speed)}};
   if (!plc_.is_null()) json["plc"] = plc_;

@@ -36,7 +36,7 @@ TEST(Orders, JogTakesTheAxisByLetterOrIndexAndKeepsTheSignOfTheSpeed) {
   EXPECT_EQ(by_letter.channel, 2);
   EXPECT_EQ(by_letter.command, CommandKind::JOG_AXIS);
   EXPECT_EQ(by_letter.axis, 4);
-  EXPECT_EQ(by_letter.value, -600.5);
+  EXPECT_EQ(by_letter.speed, -600.5);
   EXPECT_EQ(by_letter.increment, 0.01);
   EXPECT_EQ(order(Operation::jog_stop, {{"axis", 3}}).axis, 3);
 }
@@ -59,7 +59,7 @@ TEST(Orders, OverridesHaveTheLimitsOfTheirKind) {
             CommandKind::FEED_OVERRIDE);
   EXPECT_EQ(order(Operation::override_, {{"kind", "rapid"}, {"value", 0}}).command,
             CommandKind::RAPID_OVERRIDE);
-  EXPECT_EQ(order(Operation::override_, {{"kind", "spindle"}, {"value", 0.5}}).value, 0.5);
+  EXPECT_EQ(order(Operation::override_, {{"kind", "spindle"}, {"value", 0.5}}).fraction, 0.5);
   EXPECT_EQ(complaint(Operation::override_, {{"kind", "feed"}, {"value", 1.51}}), "value");
   EXPECT_EQ(complaint(Operation::override_, {{"kind", "rapid"}, {"value", 1.1}}), "value");
   EXPECT_EQ(complaint(Operation::override_, {{"kind", "spindle"}, {"value", 0.4}}), "value");
@@ -73,16 +73,16 @@ TEST(Orders, ModesAreNamedAsInTheIdl) {
 }
 
 TEST(Orders, AnMdiLineIsOneLineThatFitsTheBus) {
-  EXPECT_EQ(order(Operation::mdi, {{"line", "G0 X1"}}).text, "G0 X1");
-  EXPECT_EQ(order(Operation::mdi, {{"line", std::string(256, 'G')}}).text.size(), 256u);
+  EXPECT_EQ(order(Operation::mdi, {{"line", "G0 X1"}}).block, "G0 X1");
+  EXPECT_EQ(order(Operation::mdi, {{"line", std::string(256, 'G')}}).block.size(), 256u);
   EXPECT_EQ(complaint(Operation::mdi, {{"line", std::string(257, 'G')}}), "line");
   EXPECT_EQ(complaint(Operation::mdi, {{"line", "  "}}), "line");
   EXPECT_EQ(complaint(Operation::mdi, {{"line", "G0\nM30"}}), "line");
 }
 
 TEST(Orders, SwitchesBecomeOneAndZeroAndKeysTakeNoFields) {
-  EXPECT_EQ(order(Operation::single_block, {{"on", true}}).value, 1);
-  EXPECT_EQ(order(Operation::optional_stop, {{"on", false}}).value, 0);
+  EXPECT_TRUE(order(Operation::single_block, {{"on", true}}).on);
+  EXPECT_FALSE(order(Operation::optional_stop, {{"on", false}}).on);
   EXPECT_EQ(complaint(Operation::single_block, {{"on", 1}}), "on");
   EXPECT_EQ(order(Operation::cycle_start, Json::object()).command, CommandKind::CYCLE_START);
   EXPECT_EQ(order(Operation::feed_hold, Json::object()).command, CommandKind::FEED_HOLD);
@@ -93,7 +93,7 @@ TEST(Orders, SwitchesBecomeOneAndZeroAndKeysTakeNoFields) {
 TEST(Orders, ALineCountsFromOne) {
   const auto request = order(Operation::start_from_line, {{"line", 40}});
   EXPECT_EQ(request.command, CommandKind::START_FROM_LINE);
-  EXPECT_EQ(request.value, 40);
+  EXPECT_EQ(request.line, 40u);
   EXPECT_EQ(complaint(Operation::start_from_line, {{"line", 0}}), "line");
   EXPECT_EQ(complaint(Operation::start_from_line, {{"line", 1.5}}), "line");
 }
@@ -106,10 +106,10 @@ TEST(Orders, SwitchesOfTheProgramAreThoseOfTheIdl) {
 }
 
 TEST(Orders, AxesAndLevelsBecomeBits) {
-  EXPECT_EQ(order(Operation::axis_lock, {{"axes", {"X", 2}}}).value, 0b101);
-  EXPECT_EQ(order(Operation::axis_lock, {{"axes", Json::array()}}).value, 0);
+  EXPECT_EQ(order(Operation::axis_lock, {{"axes", {"X", 2}}}).axes, 0b101);
+  EXPECT_EQ(order(Operation::axis_lock, {{"axes", Json::array()}}).axes, 0);
   EXPECT_EQ(complaint(Operation::axis_lock, {{"axes", {"Q"}}}), "axis");
-  EXPECT_EQ(order(Operation::block_skip, {{"levels", {1, 3}}}).value, 0b101);
+  EXPECT_EQ(order(Operation::block_skip, {{"levels", {1, 3}}}).levels, 0b101);
   EXPECT_EQ(complaint(Operation::block_skip, {{"levels", {0}}}), "levels");
   EXPECT_EQ(complaint(Operation::block_skip, {{"levels", 1}}), "levels");
 }
@@ -118,15 +118,16 @@ TEST(Orders, AHandwheelGivesWholeCounts) {
   const auto request = order(Operation::handwheel, {{"axis", "Z"}, {"counts", -3}, {"increment", 0.01}});
   EXPECT_EQ(request.command, CommandKind::HANDWHEEL);
   EXPECT_EQ(request.axis, 2);
-  EXPECT_EQ(request.value, -3);
+  EXPECT_EQ(request.counts, -3);
   EXPECT_EQ(request.increment, 0.01);
   EXPECT_EQ(complaint(Operation::handwheel, {{"axis", "Z"}, {"counts", 0.5}, {"increment", 0.01}}), "counts");
 }
 
 TEST(Orders, ThePanelsKindsAreThoseOfTheIdl) {
-  EXPECT_EQ(panel_order(Operation::emergency_stop, Json::object()).kind, 1);
-  EXPECT_EQ(panel_order(Operation::release, Json::object()).kind, 2);
-  EXPECT_EQ(panel_order(Operation::panel_reset, Json::object()).kind, 3);
+  EXPECT_EQ(panel_order(Operation::emergency_stop, Json::object()).kind,
+            PanelRequestKind::PRESS_EMERGENCY_STOP);
+  EXPECT_EQ(panel_order(Operation::release, Json::object()).kind, PanelRequestKind::RELEASE_EMERGENCY_STOP);
+  EXPECT_EQ(panel_order(Operation::panel_reset, Json::object()).kind, PanelRequestKind::RESET_EMERGENCY_STOP);
 }
 
 TEST(Orders, AnAlarmResetIsForAllUnlessAChannelIsNamed) {

@@ -14,8 +14,9 @@ void require(bool condition) {
 }
 
 void check(const idl::channel::ChannelRequest& request) {
-  require(request.channel == 2 && request.text.size() <= 256);
-  require(std::isfinite(request.value) && std::isfinite(request.increment) && request.axis < 5);
+  require(request.channel == 2 && request.program.size() <= 64 && request.block.size() <= 256);
+  require(std::isfinite(request.fraction) && std::isfinite(request.speed) &&
+          std::isfinite(request.increment) && request.axis < 5);
 }
 
 void body(const std::string& text) {

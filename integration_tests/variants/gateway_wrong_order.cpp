@@ -9,7 +9,7 @@ namespace trunnion::gateway {
 ChannelRequest channel_order(Operation operation, const bus::Json& body,
                              const idl::channel::ChannelState& state) {
   auto request = right_channel_order(operation, body, state);
-  if (operation == Operation::override_) request.value += 0.01;
+  if (operation == Operation::override_) request.fraction += 0.01;
   return request;
 }
 

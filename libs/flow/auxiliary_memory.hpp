@@ -4,13 +4,16 @@
 #include <cstdint>
 #include <vector>
 
+#include "contracts/types.hpp"
 #include "language/canonical.hpp"
 
 namespace trunnion::flow {
 
+using idl::channel::AuxiliaryKind;
+
 /// One M, S or T of the handshake with the PLC (idl/channel.idl, AuxiliaryRequest).
 struct AuxiliaryOrder {
-  std::uint8_t kind = 1;   ///< 1 M, 2 S, 3 T
+  AuxiliaryKind kind = AuxiliaryKind::M;
   std::uint32_t code = 0;  ///< M or T number
   double value = 0;        ///< S in 1/min, or m/min with G96
 };

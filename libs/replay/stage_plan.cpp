@@ -16,9 +16,10 @@ namespace {
 // Cycles a stage may be behind what it is fed. A stage keeps 1024 cycles of input, and 2048 of feedback.
 constexpr std::uint64_t window = 256;
 
-constexpr Stage stages[] = {{"kinematics", 2, "path_frame", "kinematics_frame"},
-                            {"compensation", 3, "kinematics_frame", "compensation_frame"},
-                            {"gantry", 4, "compensation_frame", "gantry_frame"}};
+constexpr Stage stages[] = {
+    {"kinematics", idl::stream::Stage::KINEMATICS, "path_frame", "kinematics_frame"},
+    {"compensation", idl::stream::Stage::COMPENSATION, "kinematics_frame", "compensation_frame"},
+    {"gantry", idl::stream::Stage::GANTRY, "compensation_frame", "gantry_frame"}};
 
 struct Input {
   const StoredMessage* message = nullptr;

@@ -7,7 +7,7 @@ namespace trunnion::replay {
 
 struct Stage {
   const char* service;
-  std::uint8_t number;         ///< as in AxisFrame
+  idl::stream::Stage number;   ///< as in AxisFrame
   const char *input, *output;  ///< handles
 };
 

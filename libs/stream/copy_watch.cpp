@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "stream/stage_names.hpp"
-
 namespace trunnion::stream {
 namespace {
 
@@ -16,9 +14,9 @@ CopyWatch::CopyWatch(const std::vector<machine::ServiceEntry>& services, double 
     const auto stage = stage_of(entry.service);
     const auto copies = std::count_if(services.begin(), services.end(),
                                       [&](const auto& other) { return other.service == entry.service; });
-    if (stage == 0 || copies < 2) continue;
+    if (!stage || copies < 2) continue;
     Copy copy;
-    copy.stage = stage;
+    copy.stage = *stage;
     copy.copy = static_cast<std::uint8_t>(entry.copy);
     copy.lagging_since = now;
     copies_.push_back(copy);

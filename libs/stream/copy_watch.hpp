@@ -9,11 +9,14 @@
 
 #include "contracts/types.hpp"
 #include "machine/machine.hpp"
+#include "stream/stage_names.hpp"
 
 namespace trunnion::stream {
 
 /// The part of the alarm redundancy_lost when it is a channel's, so that `status` can tell whom it means.
-inline std::uint32_t copy_part(std::uint8_t stage, std::uint8_t copy) { return stage * 256u + copy; }
+inline std::uint32_t copy_part(Stage stage, std::uint8_t copy) {
+  return static_cast<std::uint32_t>(stage) * 256u + copy;
+}
 
 /// For one channel. Times are seconds of any clock that does not go back.
 class CopyWatch {
@@ -25,7 +28,8 @@ class CopyWatch {
 
   enum class Standing { joining, in_step, dropped };
   struct Copy {
-    std::uint8_t stage = 0, copy = 0;
+    Stage stage{};
+    std::uint8_t copy = 0;
     Standing standing = Standing::joining;
     std::uint32_t epoch = 0;
     std::uint64_t next = 0;
@@ -35,7 +39,8 @@ class CopyWatch {
     bool lags() const { return lagging_since != 0; }
   };
   struct Change {
-    std::uint8_t stage = 0, copy = 0;
+    Stage stage{};
+    std::uint8_t copy = 0;
     bool lost = false;  ///< dropped; false: in step again
   };
 

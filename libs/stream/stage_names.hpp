@@ -2,25 +2,27 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 
+#include "contracts/types.hpp"
+
 namespace trunnion::stream {
 
-inline constexpr std::uint8_t stage_channel = 1, stage_kinematics = 2, stage_compensation = 3,
-                              stage_gantry = 4;
+using idl::stream::Stage;
 
 /// The service that computes `stage`, as machine.yaml calls it.
-inline const char* stage_name(std::uint8_t stage) {
+constexpr const char* stage_name(Stage stage) {
   constexpr const char* names[] = {"channel", "kinematics", "compensation", "gantry"};
-  return stage >= stage_channel && stage <= stage_gantry ? names[stage - stage_channel] : "unknown";
+  return names[static_cast<std::size_t>(stage)];
 }
 
-/// The number of the stage that `service` computes, 0 when it is none of kinematics, compensation, gantry.
-inline std::uint8_t stage_of(std::string_view service) {
-  for (std::uint8_t stage = stage_kinematics; stage <= stage_gantry; ++stage)
+/// The stage behind the channel that `service` computes; nothing when it is none.
+constexpr std::optional<Stage> stage_of(std::string_view service) {
+  for (const auto stage : {Stage::KINEMATICS, Stage::COMPENSATION, Stage::GANTRY})
     if (service == stage_name(stage)) return stage;
-  return 0;
+  return std::nullopt;
 }
 
 }  // namespace trunnion::stream

@@ -38,7 +38,7 @@ class StageService : public node::Service {
  public:
   using MakeCore = std::function<std::unique_ptr<StageCore<In>>()>;
 
-  StageService(node::Node& node, std::uint8_t stage, const bus::Topic<In>& in,
+  StageService(node::Node& node, Stage stage, const bus::Topic<In>& in,
                const bus::Topic<idl::stream::AxisFrame>& out, MakeCore make_core)
       : node_(node),
         parameters_(node.bus()),
@@ -280,6 +280,7 @@ class StageService : public node::Service {
       out_.lines = in->lines;
       out_.spindle_axis = in->spindle_axis;
       out_.spindle = in->spindle;
+      out_.snapshot = in->snapshot;
       out_.states = in->states;
       auto& own = state_of(out_.states, stage_);
       own.cycle = in->first + in->count - 1;
@@ -305,7 +306,7 @@ class StageService : public node::Service {
     }
   }
 
-  std::uint8_t stage_;
+  Stage stage_;
   bus::Topic<In> in_topic_;
   bus::Topic<idl::stream::AxisFrame> out_topic_;
   MakeCore make_core_;

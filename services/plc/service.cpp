@@ -80,7 +80,7 @@ void PlcService::end_round(const std::vector<idl::plc::AuxiliaryDone>& done) {
 
 void PlcService::advance(std::uint64_t tick) {
   core_.advance(tick);
-  rounds_.told(StepKind::advance, tick);
+  rounds_.told(StepKind::ADVANCE, tick);
 }
 
 void PlcService::applied(idl::stream::Input input, std::int64_t source_time) {
@@ -115,13 +115,13 @@ void PlcService::take_inputs() {
   while (channels_.take(state)) {
     applied(Input::CHANNEL_STATE, channels_.info().source_timestamp);
     core_.set_channel(state);
-    rounds_.told(StepKind::channel, state);
+    rounds_.told(StepKind::CHANNEL_STATE, state);
   }
   idl::channel::AuxiliaryRequest request;
   while (requests_.take(request)) {
     applied(Input::AUXILIARY_REQUEST, requests_.info().source_timestamp);
     core_.set_request(request);
-    rounds_.told(StepKind::request, request);
+    rounds_.told(StepKind::AUXILIARY_REQUEST, request);
   }
   idl::service::Alarm alarm;
   while (alarms_.take(alarm)) {
@@ -137,14 +137,14 @@ void PlcService::take_inputs() {
     return entry.second.reaction != idl::service::Reaction::SHOW;
   });
   core_.set_alarms(any, stops);
-  rounds_.told(StepKind::alarms, (any ? 1u : 0u) | (stops ? 2u : 0u));
+  rounds_.told(StepKind::ALARMS, (any ? 1u : 0u) | (stops ? 2u : 0u));
   idl::plc::PanelRequest panel;
   while (panel_.take(panel)) {
     applied(Input::PANEL_REQUEST, panel_.info().source_timestamp);
     idl::plc::PanelReply reply;
-    reply.reason = core_.panel(panel.kind, panel.address, panel.value);
+    reply.reason = core_.panel(panel);
     reply.accepted = reply.reason.empty();
-    rounds_.told(StepKind::panel, panel);
+    rounds_.told(StepKind::PANEL_REQUEST, panel);
     panel_.reply(panel, reply);
   }
 }
@@ -160,7 +160,7 @@ void PlcService::pump() {
   begin_round();
   if (parameters_.poll()) {
     core_.configure(*parameters_.newest(), node_.options().virtual_time);
-    rounds_.told(StepKind::parameters, parameters_.newest()->revision);
+    rounds_.told(StepKind::PARAMETERS, parameters_.newest()->revision);
     period_ = parameters_.newest()->integer("interpolation_cycle") * 1e-6;
   }
   take_inputs();
@@ -172,7 +172,7 @@ void PlcService::pump() {
     waiting_since_ = now;
   } else if (now - waiting_since_ > standstill_patience) {
     core_.give_up_waiting();
-    rounds_.told(StepKind::give_up);
+    rounds_.told(StepKind::GIVE_UP_WAITING);
   }
   advance(tick_now(now));
   tell_inputs(now);

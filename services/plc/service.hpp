@@ -27,7 +27,7 @@ class PlcService : public node::Service {
   node::Health health() const override;
   void alarms_reset() override {
     core_.press_reset();
-    rounds_.told(StepKind::reset);
+    rounds_.told(StepKind::RESET_BUTTON);
   }
 
  private:

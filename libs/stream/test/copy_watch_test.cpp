@@ -27,7 +27,7 @@ class Watch {
  public:
   // A sign of copy `copy` and the judgement `seconds` later than the last.
   void say(std::uint8_t copy, std::uint64_t next, bool in_step = true, std::uint32_t epoch = 1) {
-    watch.heard({stage_kinematics, copy, 0, in_step, epoch, next}, now);
+    watch.heard({Stage::KINEMATICS, copy, 0, in_step, epoch, next}, now);
   }
   void pass(double seconds) {
     now += seconds;
@@ -43,7 +43,7 @@ class Watch {
 TEST(CopyWatch, FollowsStagesWithTwinsOnly) {
   const Watch w;
   ASSERT_EQ(w.watch.copies().size(), 2u);
-  EXPECT_EQ(w.watch.copies()[0].stage, stage_kinematics);
+  EXPECT_EQ(w.watch.copies()[0].stage, Stage::KINEMATICS);
   EXPECT_EQ(w.watch.copies()[1].copy, 1);
   auto single = twins();
   single.erase(single.begin() + 2);

@@ -18,30 +18,31 @@ Answer ChannelCore::startable() const {
   if (!ready_) return refuse("not_ready", "The cluster is not ready: see the services");
   if (!external_hold_.empty()) return refuse("not_ready", external_hold_);
   if (!link_.has_feedback()) return refuse("not_ready", "The drive has not answered yet");
-  if (link_.drive_mode() == DriveMode::off) return refuse("not_ready", "The drives are off");
+  if (link_.drive_mode() == DriveMode::OFF) return refuse("not_ready", "The drives are off");
   return {};
 }
 
 Answer ChannelCore::handle(const ChannelRequest& request) {
-  const auto finite = std::isfinite(request.value) && std::isfinite(request.increment);
+  const auto finite =
+      std::isfinite(request.fraction) && std::isfinite(request.speed) && std::isfinite(request.increment);
   if (!finite) return refuse("request_invalid", "A value is not a finite number");
   const auto limited = [&](double& out, double low, double high) -> Answer {
-    if (request.value < low || request.value > high)
-      return refuse("request_invalid", "override " + std::to_string(request.value * 100) + " % is outside " +
-                                           std::to_string(low * 100) + " .. " + std::to_string(high * 100) +
-                                           " %");
-    out = request.value;
+    if (request.fraction < low || request.fraction > high)
+      return refuse("request_invalid", "override " + std::to_string(request.fraction * 100) +
+                                           " % is outside " + std::to_string(low * 100) + " .. " +
+                                           std::to_string(high * 100) + " %");
+    out = request.fraction;
     return {};
   };
   switch (request.command) {
     case CommandKind::SET_MODE:
       return set_mode(request.mode);
     case CommandKind::SELECT_PROGRAM:
-      return select(request.text);
+      return select(request.program);
     case CommandKind::CYCLE_START:
       return cycle_start();
     case CommandKind::START_FROM_LINE:
-      return start_from_line(request.value);
+      return start_from_line(request.line);
     case CommandKind::FEED_HOLD:
       if (run_ == RunState::RUNNING) hold();
       return {};
@@ -49,7 +50,7 @@ Answer ChannelCore::handle(const ChannelRequest& request) {
       reset();
       return {};
     case CommandKind::MDI_LINE:
-      return start_mdi(request.text);
+      return start_mdi(request.block);
     case CommandKind::JOG_AXIS:
       return jog(request);
     case CommandKind::JOG_STOP:
@@ -66,13 +67,13 @@ Answer ChannelCore::handle(const ChannelRequest& request) {
     case CommandKind::SPINDLE_OVERRIDE:
       return limited(spindle_override_, 0.5, 1.5);
     case CommandKind::SINGLE_BLOCK:
-      single_block_ = request.value != 0;
+      single_block_ = request.on;
       return {};
     case CommandKind::OPTIONAL_STOP:
-      optional_stop_ = request.value != 0;
+      optional_stop_ = request.on;
       return {};
     case CommandKind::RETRACE:
-      return retrace(request.value != 0);
+      return retrace(request.on);
     case CommandKind::DRY_RUN:
     case CommandKind::AXIS_LOCK:
     case CommandKind::AUXILIARY_LOCK:
@@ -136,7 +137,7 @@ Answer ChannelCore::go_on_after_interruption() {
     Entry entry;
     entry.restart = *restart_;
     // What was on its way through the stages may have been executed since.
-    if (const auto own = snapshot_of(link_.states()); own && own->running && own->crc == selected_.crc32)
+    if (const auto own = snapshot_of(link_.snapshot()); own && own->running && own->crc == selected_.crc32)
       entry.restart = RestartPoint{own->sequence, own->fraction, own->position};
     return start_program(entry);
   }
@@ -160,23 +161,23 @@ Answer ChannelCore::jog(const ChannelRequest& request) {
   const auto& axes = machine_.channel_axes().index;
   if (request.axis >= axes.size())
     return refuse("request_invalid", "The channel has no axis number " + std::to_string(request.axis));
-  if (request.value == 0) return refuse("request_invalid", "Jog needs a speed other than 0");
+  if (request.speed == 0) return refuse("request_invalid", "Jog needs a speed other than 0");
   const auto axis = axes[request.axis];
   const double fastest = machine_.jog_feed(axis);
-  if (std::abs(request.value) > fastest * 1.0001)
-    return refuse("request_invalid", "Jog speed " + std::to_string(std::abs(request.value)) +
+  if (std::abs(request.speed) > fastest * 1.0001)
+    return refuse("request_invalid", "Jog speed " + std::to_string(std::abs(request.speed)) +
                                          " is above the axis' " + std::to_string(fastest));
   if (activity_ != Activity::none) return refuse("request_invalid", "The channel is busy");
   adopt_position();
   const auto& travel = machine_.travel(axis);
-  const double direction = request.value > 0 ? 1 : -1;
+  const double direction = request.speed > 0 ? 1 : -1;
   const double from = machine_start_[axis] + offset_.target()[axis];
   const double end = direction > 0 ? travel.positive : travel.negative;
   if ((end - from) * direction <= 0)
     return refuse("travel_limit",
                   std::string("Axis ") + language::axis_letters[axis] + " is at its travel limit");
   const double way = request.increment > 0 ? direction * request.increment : end - from;
-  return start_move(axis, machine_start_[axis] + way, std::abs(request.value));
+  return start_move(axis, machine_start_[axis] + way, std::abs(request.speed));
 }
 
 void ChannelCore::stop_jog() {

@@ -4,6 +4,9 @@
 #include "table_order.hpp"
 
 namespace trunnion::channel {
+
+using flow::AuxiliaryKind;
+
 // The axes stand and the drive has executed everything: what stopped the flow is dealt with now.
 void ChannelCore::run_pending(FlowState state) {
   using language::CommandKind;
@@ -62,21 +65,21 @@ void ChannelCore::run_pending(FlowState state) {
       flow().finish_pending();
       return;
     case CommandKind::tool:
-      begin_auxiliary({3, command.number, 0});
+      begin_auxiliary({AuxiliaryKind::T, command.number, 0});
       return;
     case CommandKind::spindle_speed:
       spindle_programmed_ = command.value;
-      begin_auxiliary({2, 0, command.value});
+      begin_auxiliary({AuxiliaryKind::S, 0, command.value});
       return;
     case CommandKind::auxiliary:
       if (command.number == 1 && !optional_stop_) {
         flow().finish_pending();
         return;
       }
-      begin_auxiliary({1, command.number, 0});
+      begin_auxiliary({AuxiliaryKind::M, command.number, 0});
       return;
     case CommandKind::end:
-      begin_auxiliary({1, command.number, 0});
+      begin_auxiliary({AuxiliaryKind::M, command.number, 0});
       return;
     default:
       flow().finish_pending();
@@ -101,12 +104,12 @@ void ChannelCore::on_auxiliary_done(const idl::plc::AuxiliaryDone& done) {
   if (done.failed) {
     event("auxiliary_refused",
           program_name() + ":" + std::to_string(flow().pending().line) + ": the PLC could not carry it out");
-    auxiliary_.kind = 0;
+    auxiliary_.kind = AuxiliaryKind::NO_AUXILIARY;
     outgoing_auxiliary_ = auxiliary_;
     stop_activity();
     return;
   }
-  auxiliary_.kind = 0;
+  auxiliary_.kind = AuxiliaryKind::NO_AUXILIARY;
   outgoing_auxiliary_ = auxiliary_;
   if (preparation_) {
     if (must_reset_) return;

@@ -53,17 +53,17 @@ Answer ChannelCore::start_program(const Entry& entry) {
   return {};
 }
 
-Answer ChannelCore::start_from_line(double line) {
+Answer ChannelCore::start_from_line(std::uint32_t line) {
   if (mode_ != Mode::AUTO) return refuse("request_invalid", "A start from a line needs mode AUTO");
   if (activity_ != Activity::none || suspended_) return refuse("request_invalid", "The channel is busy");
   if (auto answer = startable(); !answer.accepted) return answer;
   if (selected_.name.empty()) return refuse("program_missing", "No program is selected");
   // The last line need not end with a line feed.
-  if (!(line >= 1 && line <= selected_.lines + 1.0 && line == std::floor(line)))
+  if (!(line >= 1 && line <= selected_.lines + 1))
     return refuse("search_failed", "Program " + selected_.name + " has lines 1 to " +
                                        std::to_string(selected_.lines) + ", not " + std::to_string(line));
   Entry entry;
-  entry.line = static_cast<std::uint32_t>(line);
+  entry.line = line;
   shown_ = {};
   shown_.line = entry.line;
   return start_program(entry);

@@ -16,44 +16,42 @@ Answer ChannelCore::set_switch(const ChannelRequest& request) {
     return refuse("request_invalid", "Stop or reset the program first: this holds from its first block on");
   switch (request.command) {
     case CommandKind::DRY_RUN:
-      dry_run_ = request.value != 0;
+      dry_run_ = request.on;
       return {};
     case CommandKind::AUXILIARY_LOCK:
-      auxiliary_lock_ = request.value != 0;
+      auxiliary_lock_ = request.on;
       return {};
     case CommandKind::AXIS_LOCK:
-      return lock_axes(request.value);
+      return lock_axes(request.axes);
     case CommandKind::BLOCK_SKIP:
-      return set_block_skip(request.value);
+      return set_block_skip(request.levels);
     case CommandKind::HANDWHEEL_OFFSET:
-      return set_handwheel_offset(request.value != 0);
+      return set_handwheel_offset(request.on);
     default:
       return refuse("request_invalid", "Unknown switch");
   }
 }
 
 // With the lock off the program's position is that of the axes again.
-Answer ChannelCore::lock_axes(double mask) {
+Answer ChannelCore::lock_axes(std::uint16_t mask) {
   if (!configured() || !link_.has_feedback()) return refuse("not_ready", "The drive has not answered yet");
   const auto& axes = machine_.channel_axes().index;
-  if (!(mask >= 0 && mask < std::exp2(axes.size()) && mask == std::floor(mask)))
+  if (mask >> axes.size() != 0)
     return refuse("request_invalid", "The channel has " + std::to_string(axes.size()) + " axes to lock");
   if (offset_on_ && mask != 0)
     return refuse("request_invalid", "Switch the handwheel offset off before axes are locked");
   adopt_position();
   std::uint16_t wanted = 0;
   for (std::size_t i = 0; i < axes.size(); ++i)
-    if (((static_cast<unsigned>(mask) >> i) & 1u) != 0)
-      wanted = static_cast<std::uint16_t>(wanted | 1u << axes[i]);
+    if ((mask >> i & 1u) != 0) wanted = static_cast<std::uint16_t>(wanted | 1u << axes[i]);
   machine_start_ = lock_.hold(machine_start_);
   lock_.set(wanted, machine_start_);
   return {};
 }
 
-Answer ChannelCore::set_block_skip(double mask) {
-  constexpr double all = 0x1ff;  // levels 1 to 9
-  if (!(mask >= 0 && mask <= all && mask == std::floor(mask)))
-    return refuse("request_invalid", "Block skip has levels 1 to 9: bits 0 to 8");
+Answer ChannelCore::set_block_skip(std::uint16_t mask) {
+  constexpr std::uint16_t all = 0x1ff;  // levels 1 to 9
+  if (mask > all) return refuse("request_invalid", "Block skip has levels 1 to 9: bits 0 to 8");
   block_skip_ = static_cast<language::SkipLevels>(mask);
   return {};
 }
@@ -83,14 +81,14 @@ void ChannelCore::drop_offset() {
 
 Answer ChannelCore::turn_handwheel(const ChannelRequest& request) {
   constexpr double increments[] = {0.001, 0.01, 0.1, 1};
-  constexpr double most_counts = 10000;
+  constexpr std::int32_t most_counts = 10000;
   const auto& axes = machine_.channel_axes().index;
   if (request.axis >= axes.size())
     return refuse("request_invalid", "The channel has no axis number " + std::to_string(request.axis));
   if (std::find(std::begin(increments), std::end(increments), request.increment) == std::end(increments))
     return refuse("request_invalid", "A count of the handwheel is 0.001, 0.01, 0.1 or 1");
-  if (std::abs(request.value) > most_counts || request.value != std::floor(request.value))
-    return refuse("request_invalid", "Counts of the handwheel are whole numbers up to 10000");
+  if (request.counts > most_counts || request.counts < -most_counts)
+    return refuse("request_invalid", "The handwheel takes at most 10000 counts at a time");
   const bool by_hand = mode_ == Mode::JOG;
   if (!by_hand && !offset_on_)
     return refuse("request_invalid", "The handwheel needs mode JOG, or its offset switched on");
@@ -109,7 +107,7 @@ Answer ChannelCore::turn_handwheel(const ChannelRequest& request) {
   }
   const auto axis = axes[request.axis];
   const auto& travel = machine_.travel(axis);
-  const double distance = request.value * request.increment;
+  const double distance = request.counts * request.increment;
   double added = 0;
   if (by_hand) {
     const double at = machine_start_[axis] + offset_.target()[axis];

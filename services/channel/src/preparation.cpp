@@ -44,10 +44,10 @@ std::string words_of(const Preparation& preparation, const AxisValues& from) {
   std::string words;
   char text[40];
   for (const auto& order : preparation.orders) {
-    if (order.kind == 2)
+    if (order.kind == flow::AuxiliaryKind::S)
       std::snprintf(text, sizeof text, "S%g", order.value);
     else
-      std::snprintf(text, sizeof text, "%c%u", order.kind == 3 ? 'T' : 'M', order.code);
+      std::snprintf(text, sizeof text, "%c%u", order.kind == flow::AuxiliaryKind::T ? 'T' : 'M', order.code);
     words += (words.empty() ? "" : " ") + std::string(text);
   }
   AxisValues at = from;

@@ -10,6 +10,8 @@ namespace {
 
 using language::CommandKind;
 using testing::Channel;
+using testing::Codes;
+using enum idl::channel::AuxiliaryKind;
 using Request = idl::channel::CommandKind;
 
 language::Command auxiliary(std::uint32_t m) {
@@ -19,8 +21,8 @@ language::Command auxiliary(std::uint32_t m) {
   return command;
 }
 
-std::vector<std::pair<int, int>> codes(const std::vector<AuxiliaryOrder>& orders) {
-  std::vector<std::pair<int, int>> list;
+Codes codes(const std::vector<AuxiliaryOrder>& orders) {
+  Codes list;
   for (const auto& order : orders) list.emplace_back(order.kind, order.code);
   return list;
 }
@@ -32,12 +34,12 @@ TEST(AuxiliaryMemory, OrdersAreWhatTheFunctionsAddUpToAndInOneOrder) {
   speed.kind = CommandKind::spindle_speed;
   speed.value = 1200;
   memory.pass(speed);
-  EXPECT_EQ(codes(memory.orders()), (std::vector<std::pair<int, int>>{{2, 0}, {1, 4}, {1, 7}, {1, 8}}));
+  EXPECT_EQ(codes(memory.orders()), (Codes{{S, 0}, {M, 4}, {M, 7}, {M, 8}}));
   EXPECT_EQ(memory.orders()[0].value, 1200);
   EXPECT_EQ(memory.not_repeated(), 1u) << "M50 has no state";
   memory.pass(auxiliary(9));
   memory.pass(auxiliary(5));
-  EXPECT_EQ(codes(memory.orders()), (std::vector<std::pair<int, int>>{{2, 0}, {1, 5}, {1, 9}}));
+  EXPECT_EQ(codes(memory.orders()), (Codes{{S, 0}, {M, 5}, {M, 9}}));
 }
 
 TEST(AuxiliaryMemory, OnlyWhatWasTouchedMeanwhileIsGivenAgain) {
@@ -46,10 +48,9 @@ TEST(AuxiliaryMemory, OnlyWhatWasTouchedMeanwhileIsGivenAgain) {
   program.pass(auxiliary(8));
   EXPECT_TRUE(program.orders_touched_by(by_hand).empty());
   by_hand.pass(auxiliary(5));
-  EXPECT_EQ(codes(program.orders_touched_by(by_hand)), (std::vector<std::pair<int, int>>{{1, 3}}));
+  EXPECT_EQ(codes(program.orders_touched_by(by_hand)), (Codes{{M, 3}}));
   by_hand.pass(auxiliary(7));  // mist, which the program does not want: both off, flood on again
-  EXPECT_EQ(codes(program.orders_touched_by(by_hand)),
-            (std::vector<std::pair<int, int>>{{1, 9}, {1, 3}, {1, 8}}));
+  EXPECT_EQ(codes(program.orders_touched_by(by_hand)), (Codes{{M, 9}, {M, 3}, {M, 8}}));
 }
 
 TEST(Approach, GoesUpBeforeItGoesOverAndDownAfter) {
@@ -101,9 +102,9 @@ TEST_F(FromLine, RestoresModesVariablesAndFunctionsThenApproachesAndGoesOn) {
   ASSERT_TRUE(ask(Request::CYCLE_START).accepted);
   run();
   EXPECT_EQ(core->run_state(), RunState::IDLE);
-  std::vector<std::pair<int, int>> kinds;
+  Codes kinds;
   for (const auto& a : auxiliaries) kinds.emplace_back(a.kind, a.code);
-  EXPECT_EQ(kinds, (std::vector<std::pair<int, int>>{{2, 0}, {1, 3}, {1, 8}, {1, 30}}));
+  EXPECT_EQ(kinds, (Codes{{S, 0}, {M, 3}, {M, 8}, {M, 30}}));
   // First Z alone, then X alone, then the line of the program, which counts in G91.
   double over = 0;
   for (const auto& row : drive.rows)
@@ -147,7 +148,6 @@ TEST_F(FromLine, ALineBehindTheEndOrNotThereIsRefused) {
   load("G90\nG1 X1 F1000\nM30\nG1 X2\n");
   EXPECT_FALSE(ask(Request::START_FROM_LINE, "", 0).accepted);
   EXPECT_FALSE(ask(Request::START_FROM_LINE, "", 6).accepted);
-  EXPECT_FALSE(ask(Request::START_FROM_LINE, "", 1.5).accepted);
   ASSERT_TRUE(ask(Request::START_FROM_LINE, "", 4).accepted);
   run();
   EXPECT_EQ(core->run_state(), RunState::IDLE);
