@@ -10,6 +10,7 @@
 #include "client.hpp"
 #include "cluster.hpp"
 #include "commands.hpp"
+#include "commands/command_table.hpp"
 
 namespace trunnion::deploy {
 namespace {
@@ -129,15 +130,10 @@ void add_operator_commands(CLI::App& app, Common& common) {
   command = add_command(
       app, common, "estop",
       "Press or release the emergency stop of the operator panel (no substitute for a hard-wired one)",
-      [&common, what] {
-        using idl::plc::PanelRequestKind;
-        return panel(common, *what == "press"     ? PanelRequestKind::PRESS_EMERGENCY_STOP
-                             : *what == "release" ? PanelRequestKind::RELEASE_EMERGENCY_STOP
-                                                  : PanelRequestKind::RESET_EMERGENCY_STOP);
-      });
-  command->add_option("what", *what, "press, release or reset")
-      ->required()
-      ->check(CLI::IsMember({"press", "release", "reset"}));
+      [&common, what] { return panel(common, commands::find_panel_word(*what)->kind); });
+  std::vector<std::string> words;
+  for (const auto& row : commands::panel_commands()) words.emplace_back(row.word);
+  command->add_option("what", *what, "What to do")->required()->check(CLI::IsMember(words));
 }
 
 }  // namespace trunnion::deploy

@@ -76,7 +76,7 @@ class Collector {
     if (!news) return true;
     for (std::size_t i = 0; i < rows; ++i) {
       const bool rtcp = path_.transformation == idl::stream::Transformation::RTCP;
-      PathRow row{path_.first + i, path_.epoch, i < path_.lines.size() ? path_.lines[i] : 0, rtcp,
+      PathRow row{path_.first + i,   path_.epoch, i < path_.lines.size() ? path_.lines[i] : 0, rtcp,
                   path_.tool_length, {}};
       std::copy_n(&path_.setpoints[i * path_width], path_width, row.position.begin());
       out_.path.push_back(row);

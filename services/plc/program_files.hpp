@@ -10,7 +10,7 @@ namespace trunnion::plc {
 /// file:line:column.
 void load_programs(const std::string& directory, PlcCore& core);
 
-/// Where in the state directory a rehearsal and the running PLC meet.
+/// Where in the state directory a standby PLC and the running one meet.
 inline constexpr const char* rounds_file = "/plc.rounds";
 
 }  // namespace trunnion::plc

@@ -17,13 +17,13 @@ PlcCore with_programs(const node::Node& node) {
 
 RehearsalService::RehearsalService(node::Node& node)
     : parameters_(node.bus()),
-      rehearsal_(with_programs(node), node.options().virtual_time,
-                 [this](std::uint64_t revision) { return parameters_.find(revision); }),
+      comparison_(with_programs(node), node.options().virtual_time,
+                  [this](std::uint64_t revision) { return parameters_.find(revision); }),
       rounds_(node.options().state_directory + rounds_file) {}
 
 void RehearsalService::pump() {
   parameters_.poll();
-  rounds_.breathe();
+  rounds_.keep_alive();
   for (int i = 0; i < most_at_once; ++i) {
     if (!play_again_) {
       if (!rounds_.read(bytes_)) break;
@@ -33,10 +33,10 @@ void RehearsalService::pump() {
         break;
       }
     }
-    const auto outcome = rehearsal_.play(round_, rounds_.generation());
-    play_again_ = outcome == Rehearsal::Outcome::waiting;
-    if (outcome == Rehearsal::Outcome::gap) rounds_.ask();
-    if (play_again_ || outcome == Rehearsal::Outcome::differs) break;
+    const auto outcome = comparison_.play(round_, rounds_.generation());
+    play_again_ = outcome == StandbyComparison::Outcome::waiting;
+    if (outcome == StandbyComparison::Outcome::gap) rounds_.ask();
+    if (play_again_ || outcome == StandbyComparison::Outcome::differs) break;
   }
   if (!rounds_.lost()) return;
   ++rounds_lost_;
@@ -47,11 +47,11 @@ void RehearsalService::pump() {
 node::Health RehearsalService::health() const {
   node::Health health;
   health.lifecycle = idl::service::Lifecycle::INACTIVE;
-  health.detail =
-      rehearsal_.difference().empty() ? node::shadow_detail : node::differs_detail + rehearsal_.difference();
-  health.in_step = rehearsal_.in_step();
+  health.detail = comparison_.difference().empty() ? node::shadow_detail
+                                                   : node::differs_detail + comparison_.difference();
+  health.in_step = comparison_.in_step();
   health.frames_in = rounds_in_;
-  health.frames_out = rehearsal_.equal_ticks();
+  health.frames_out = comparison_.equal_ticks();
   health.frames_lost = rounds_lost_;
   return health;
 }

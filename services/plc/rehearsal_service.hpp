@@ -2,8 +2,8 @@
 
 #include "node/node.hpp"
 #include "node/parameter_client.hpp"
-#include "rehearsal.hpp"
 #include "round_link.hpp"
+#include "standby_comparison.hpp"
 
 namespace trunnion::plc {
 
@@ -18,7 +18,7 @@ class RehearsalService : public node::Service {
 
  private:
   node::ParameterClient parameters_;
-  Rehearsal rehearsal_;
+  StandbyComparison comparison_;
   RoundReader rounds_;
   bus::Bytes bytes_;
   Round round_;

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "channel_core.hpp"
+#include "commands/channel_request.hpp"
 #include "machine/alarms.hpp"
 
 namespace trunnion::channel {
@@ -23,17 +24,8 @@ Answer ChannelCore::startable() const {
 }
 
 Answer ChannelCore::handle(const ChannelRequest& request) {
-  const auto finite =
-      std::isfinite(request.fraction) && std::isfinite(request.speed) && std::isfinite(request.increment);
-  if (!finite) return refuse("request_invalid", "A value is not a finite number");
-  const auto limited = [&](double& out, double low, double high) -> Answer {
-    if (request.fraction < low || request.fraction > high)
-      return refuse("request_invalid", "override " + std::to_string(request.fraction * 100) +
-                                           " % is outside " + std::to_string(low * 100) + " .. " +
-                                           std::to_string(high * 100) + " %");
-    out = request.fraction;
-    return {};
-  };
+  if (auto why = commands::outside_limits(request); !why.empty())
+    return refuse("request_invalid", std::move(why));
   switch (request.command) {
     case CommandKind::SET_MODE:
       return set_mode(request.mode);
@@ -61,11 +53,14 @@ Answer ChannelCore::handle(const ChannelRequest& request) {
     case CommandKind::HANDWHEEL:
       return turn_handwheel(request);
     case CommandKind::FEED_OVERRIDE:
-      return limited(feed_override_, 0, 1.5);
+      feed_override_ = request.fraction;
+      return {};
     case CommandKind::RAPID_OVERRIDE:
-      return limited(rapid_override_, 0, 1);
+      rapid_override_ = request.fraction;
+      return {};
     case CommandKind::SPINDLE_OVERRIDE:
-      return limited(spindle_override_, 0.5, 1.5);
+      spindle_override_ = request.fraction;
+      return {};
     case CommandKind::SINGLE_BLOCK:
       single_block_ = request.on;
       return {};
@@ -161,7 +156,6 @@ Answer ChannelCore::jog(const ChannelRequest& request) {
   const auto& axes = machine_.channel_axes().index;
   if (request.axis >= axes.size())
     return refuse("request_invalid", "The channel has no axis number " + std::to_string(request.axis));
-  if (request.speed == 0) return refuse("request_invalid", "Jog needs a speed other than 0");
   const auto axis = axes[request.axis];
   const double fastest = machine_.jog_feed(axis);
   if (std::abs(request.speed) > fastest * 1.0001)

@@ -80,15 +80,9 @@ void ChannelCore::drop_offset() {
 }
 
 Answer ChannelCore::turn_handwheel(const ChannelRequest& request) {
-  constexpr double increments[] = {0.001, 0.01, 0.1, 1};
-  constexpr std::int32_t most_counts = 10000;
   const auto& axes = machine_.channel_axes().index;
   if (request.axis >= axes.size())
     return refuse("request_invalid", "The channel has no axis number " + std::to_string(request.axis));
-  if (std::find(std::begin(increments), std::end(increments), request.increment) == std::end(increments))
-    return refuse("request_invalid", "A count of the handwheel is 0.001, 0.01, 0.1 or 1");
-  if (request.counts > most_counts || request.counts < -most_counts)
-    return refuse("request_invalid", "The handwheel takes at most 10000 counts at a time");
   const bool by_hand = mode_ == Mode::JOG;
   if (!by_hand && !offset_on_)
     return refuse("request_invalid", "The handwheel needs mode JOG, or its offset switched on");

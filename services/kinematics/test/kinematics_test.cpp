@@ -99,7 +99,7 @@ TEST(Kinematics, CommandsTheBitsOfTheLibrary) {
   for (int i = 0; i < 20000; ++i) {
     const geometry::Vec3 tip(place(random), place(random), place(random));
     const double a = angle(random), c = angle(random);
-    core.process(frame({tip.x(), tip.y(), tip.z(), a, 0, c, 0, 0, 0}, 1, 123.4), {}, out);
+    core.process(frame({tip.x(), tip.y(), tip.z(), a, 0, c, 0, 0, 0}, RTCP, 123.4), {}, out);
     const geometry::Vec3 at = chain.machine_from_tip(tip, {a, 0, c}, 123.4);
     ASSERT_EQ(out.setpoints, (std::vector<double>{at.x(), at.y(), at.z(), a, c}));
   }

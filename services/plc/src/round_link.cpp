@@ -16,13 +16,13 @@ namespace trunnion::plc {
 struct RoundRing {
   static constexpr std::uint64_t own_layout = 0x504c4352494e4702;
   std::uint64_t layout;
-  std::atomic<std::uint32_t> asked, breath;
+  std::atomic<std::uint32_t> asked, alive;
   storage::RecordRing<std::uint64_t{1} << 22> rounds;
 };
 
 namespace {
 
-constexpr double look_period = 0.1, breath_patience = 1;  // s
+constexpr double poll_period = 0.1, reader_timeout = 1;  // s
 
 // With every block on the disk: whoever writes into the mapping must not meet a full one.
 void make_file(const std::string& path) {
@@ -58,7 +58,7 @@ void RoundReader::ask() {
 
 std::uint32_t RoundReader::generation() const { return ring_->asked; }
 
-void RoundReader::breathe() { ++ring_->breath; }
+void RoundReader::keep_alive() { ++ring_->alive; }
 
 bool RoundReader::read(bus::Bytes& bytes) {
   using Ring = decltype(RoundRing::rounds);
@@ -95,17 +95,17 @@ void RoundWriter::close() {
 
 std::uint32_t RoundWriter::wanted(double now) {
   if (ring_ == nullptr) {
-    if (now - looked_ < look_period) return 0;
-    looked_ = now;
+    if (now - polled_ < poll_period) return 0;
+    polled_ = now;
     open();
     if (ring_ == nullptr) return 0;
-    breath_ = ring_->breath;
-    breathed_at_ = now;
+    alive_count_ = ring_->alive;
+    alive_at_ = now;
   }
-  if (const std::uint32_t breath = ring_->breath; breath != breath_) {
-    breath_ = breath;
-    breathed_at_ = now;
-  } else if (now - breathed_at_ > breath_patience) {
+  if (const std::uint32_t alive = ring_->alive; alive != alive_count_) {
+    alive_count_ = alive;
+    alive_at_ = now;
+  } else if (now - alive_at_ > reader_timeout) {
     close();
     return 0;
   }

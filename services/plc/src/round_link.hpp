@@ -1,5 +1,5 @@
 // How rounds get from the running PLC to the one that is to replace it: a ring in a file that both have
-// mapped. The running one never waits, allocates only when a rehearsal begins, and does nothing while nobody
+// mapped. The running one never waits, allocates only when a comparison starts, and does nothing while no one
 // asks.
 #pragma once
 
@@ -26,7 +26,7 @@ class RoundReader {
   void ask();
   std::uint32_t generation() const;
   /// Tells the other side that somebody still listens. Call it at least every 0.5 s.
-  void breathe();
+  void keep_alive();
   /// The next round's bytes; false when there is none yet.
   bool read(bus::Bytes& bytes);
   /// The writer has overtaken the reader: only ask() helps.
@@ -58,8 +58,8 @@ class RoundWriter {
   std::string path_;
   std::optional<storage::MappedFile> file_;
   RoundRing* ring_ = nullptr;
-  double looked_ = 0, breathed_at_ = 0;
-  std::uint32_t breath_ = 0;
+  double polled_ = 0, alive_at_ = 0;
+  std::uint32_t alive_count_ = 0;
 };
 
 }  // namespace trunnion::plc

@@ -205,7 +205,7 @@ TEST(Handshake, ARepeatedRequestIsConfirmedAgainButNotCarriedOutAgain) {
 TEST(Handshake, AWithdrawnRequestIsNotFinished) {
   Bench bench;
   bench.request(M, 6);
-  bench.core.set_request({0, bench.number, 0, 0, 0, bench.executed});
+  bench.core.set_request({0, bench.number, NO_AUXILIARY, 0, 0, bench.executed});
   bench.run();
   EXPECT_TRUE(bench.finished.empty());
 }

@@ -77,7 +77,7 @@ TEST_F(RoundLink, NobodyAsksUntilThereIsAReaderAndNobodyAfterItHasStoppedBreathi
   EXPECT_EQ(writer.wanted(10.05), 0u) << "it looks every 0.1 s";
   EXPECT_NE(writer.wanted(10.2), 0u);
   EXPECT_NE(writer.wanted(11.1), 0u);
-  reader->breathe();
+  reader->keep_alive();
   EXPECT_NE(writer.wanted(11.3), 0u);
   EXPECT_NE(writer.wanted(12.2), 0u);
   EXPECT_EQ(writer.wanted(12.4), 0u) << "1.1 s without a breath";

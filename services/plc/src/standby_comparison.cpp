@@ -1,4 +1,4 @@
-#include "rehearsal.hpp"
+#include "standby_comparison.hpp"
 
 #include <algorithm>
 #include <cstring>
@@ -28,7 +28,7 @@ const RegisterValue* find(const Changes& changes, const RegisterValue& at) {
 
 }  // namespace
 
-Rehearsal::Outcome Rehearsal::play(const Round& round, std::uint32_t generation) {
+StandbyComparison::Outcome StandbyComparison::play(const Round& round, std::uint32_t generation) {
   if (!difference_.empty()) return Outcome::differs;
   if (round.generation != generation) return Outcome::equal;
   if (round.number == 0) return begin(round);
@@ -47,7 +47,7 @@ Rehearsal::Outcome Rehearsal::play(const Round& round, std::uint32_t generation)
   return outcome;
 }
 
-Rehearsal::Outcome Rehearsal::begin(const Round& round) {
+StandbyComparison::Outcome StandbyComparison::begin(const Round& round) {
   Snapshot snapshot;
   if (round.start.size() != sizeof snapshot) return differ(round.tick, "a memory of another layout");
   if (!parameters(round.revision)) return Outcome::waiting;
@@ -63,13 +63,13 @@ Rehearsal::Outcome Rehearsal::begin(const Round& round) {
   return compare(round, registers);
 }
 
-bool Rehearsal::parameters(std::uint64_t revision) {
+bool StandbyComparison::parameters(std::uint64_t revision) {
   const auto found = find_(revision);
   if (found) core_.configure(*found, virtual_time_);
   return found != nullptr;
 }
 
-bool Rehearsal::repeat(const Step& step) {
+bool StandbyComparison::repeat(const Step& step) {
   switch (step.kind) {
     case StepKind::PARAMETERS:
       return parameters(step.value);
@@ -97,7 +97,7 @@ bool Rehearsal::repeat(const Step& step) {
   return false;
 }
 
-Rehearsal::Outcome Rehearsal::compare(const Round& round, const Registers& before) {
+StandbyComparison::Outcome StandbyComparison::compare(const Round& round, const Registers& before) {
   if (const auto own = changes(before, core_.memory().registers); own != round.changed)
     return differ(round.tick, before, round.changed, own);
   if (core_.outputs() != round.outputs) return differ(round.tick, "the outputs");
@@ -107,15 +107,15 @@ Rehearsal::Outcome Rehearsal::compare(const Round& round, const Registers& befor
   return Outcome::equal;
 }
 
-Rehearsal::Outcome Rehearsal::differ(std::uint64_t tick, const std::string& what) {
+StandbyComparison::Outcome StandbyComparison::differ(std::uint64_t tick, const std::string& what) {
   difference_ = "tick " + std::to_string(tick) + ", " + what;
   return Outcome::differs;
 }
 
 // The first register of the image whose value is not the same; what only one of the two has changed has kept
 // its value with the other.
-Rehearsal::Outcome Rehearsal::differ(std::uint64_t tick, const Registers& before, const Changes& running,
-                                     const Changes& own) {
+StandbyComparison::Outcome StandbyComparison::differ(std::uint64_t tick, const Registers& before,
+                                                     const Changes& running, const Changes& own) {
   const auto order = [](const RegisterValue& a, const RegisterValue& b) {
     return std::pair(a.area, a.index) < std::pair(b.area, b.index);
   };

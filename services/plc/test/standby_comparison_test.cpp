@@ -1,5 +1,5 @@
-// The rehearsal of a PLC beside the running one: two cores, the rounds of the one played on the other.
-#include "rehearsal.hpp"
+// A standby PLC beside the running one: two cores, the rounds of the one played on the other.
+#include "standby_comparison.hpp"
 
 #include <gtest/gtest.h>
 
@@ -121,7 +121,7 @@ class Running {
   std::uint32_t number_ = 0, resets_ = 0;
 };
 
-Rehearsal rehearsal_of(const std::string& program) { return {core_with(program), true, parameters}; }
+StandbyComparison comparison_of(const std::string& program) { return {core_with(program), true, parameters}; }
 
 Round over_the_wire(const Round& round) {
   bus::Bytes bytes;
@@ -131,135 +131,139 @@ Round over_the_wire(const Round& round) {
   return result;
 }
 
-TEST(Rehearsal, TheSameProgramDoesTheSameTickByTickWhateverTheInputs) {
+TEST(StandbyComparison, TheSameProgramDoesTheSameTickByTickWhateverTheInputs) {
   for (std::uint64_t seed = 1; seed <= 8; ++seed) {
     Running running(seed);
     for (int k = 0; k < 50; ++k) running.round();
-    auto rehearsal = rehearsal_of(main_program);
-    ASSERT_EQ(rehearsal.play(over_the_wire(running.begin(1)), 1), Rehearsal::Outcome::equal);
+    auto comparison = comparison_of(main_program);
+    ASSERT_EQ(comparison.play(over_the_wire(running.begin(1)), 1), StandbyComparison::Outcome::equal);
     const auto from = running.tick();
     for (int k = 0; k < 300; ++k)
-      ASSERT_EQ(rehearsal.play(over_the_wire(running.round()), 1), Rehearsal::Outcome::equal)
-          << "seed " << seed << ", round " << k << ": " << rehearsal.difference();
-    EXPECT_TRUE(rehearsal.in_step());
-    EXPECT_EQ(rehearsal.equal_ticks(), running.tick() - from);
+      ASSERT_EQ(comparison.play(over_the_wire(running.round()), 1), StandbyComparison::Outcome::equal)
+          << "seed " << seed << ", round " << k << ": " << comparison.difference();
+    EXPECT_TRUE(comparison.in_step());
+    EXPECT_EQ(comparison.equal_ticks(), running.tick() - from);
     EXPECT_GT(running.memory().registers.b[0], 100) << "the program has run";
   }
 }
 
-TEST(Rehearsal, AnotherProgramIsFoundInTheRegisterItChangesWithTheTickAndBothValues) {
+TEST(StandbyComparison, AnotherProgramIsFoundInTheRegisterItChangesWithTheTickAndBothValues) {
   Running running(3);
   for (int k = 0; k < 50; ++k) running.round();
   std::string other = main_program;
   other.replace(other.find("TON 1, 7"), 8, "TON 1, 6");
-  auto rehearsal = rehearsal_of(other);
-  ASSERT_EQ(rehearsal.play(running.begin(1), 1), Rehearsal::Outcome::equal);
-  auto outcome = Rehearsal::Outcome::equal;
+  auto comparison = comparison_of(other);
+  ASSERT_EQ(comparison.play(running.begin(1), 1), StandbyComparison::Outcome::equal);
+  auto outcome = StandbyComparison::Outcome::equal;
   Memory before;
   Round round;
-  for (int k = 0; k < 3000 && outcome == Rehearsal::Outcome::equal; ++k) {
+  for (int k = 0; k < 3000 && outcome == StandbyComparison::Outcome::equal; ++k) {
     before = running.memory();
     round = running.round();
-    outcome = rehearsal.play(round, 1);
+    outcome = comparison.play(round, 1);
   }
-  ASSERT_EQ(outcome, Rehearsal::Outcome::differs);
-  EXPECT_FALSE(rehearsal.in_step());
+  ASSERT_EQ(outcome, StandbyComparison::Outcome::differs);
+  EXPECT_FALSE(comparison.in_step());
   // The timer of 6 ms ends in another scan, or shows first in the state of the timer itself.
-  EXPECT_EQ(rehearsal.difference().find("tick " + std::to_string(round.tick) + ", "), 0u);
-  const auto ticks = rehearsal.equal_ticks();
-  EXPECT_EQ(rehearsal.play(running.round(), 1), Rehearsal::Outcome::differs) << "it stays found";
-  EXPECT_EQ(rehearsal.equal_ticks(), ticks);
+  EXPECT_EQ(comparison.difference().find("tick " + std::to_string(round.tick) + ", "), 0u);
+  const auto ticks = comparison.equal_ticks();
+  EXPECT_EQ(comparison.play(running.round(), 1), StandbyComparison::Outcome::differs) << "it stays found";
+  EXPECT_EQ(comparison.equal_ticks(), ticks);
 }
 
 // Y16.0 is on where the running one has it off: known at once, by what one more scan would change.
-TEST(Rehearsal, AtRestTheDifferenceIsFoundWithoutATickPassing) {
+TEST(StandbyComparison, AtRestTheDifferenceIsFoundWithoutATickPassing) {
   Running running(3);
   for (int k = 0; k < 50; ++k) running.round();
-  auto rehearsal = rehearsal_of(std::string(main_program) + "LDN X500.0\nST Y18.2\n");
+  auto comparison = comparison_of(std::string(main_program) + "LDN X500.0\nST Y18.2\n");
   const Round start = running.begin(1);
-  EXPECT_EQ(rehearsal.play(start, 1), Rehearsal::Outcome::differs);
-  EXPECT_EQ(rehearsal.difference(), "tick " + std::to_string(start.tick) + ", register Y18: 0 and 4");
+  EXPECT_EQ(comparison.play(start, 1), StandbyComparison::Outcome::differs);
+  EXPECT_EQ(comparison.difference(), "tick " + std::to_string(start.tick) + ", register Y18: 0 and 4");
 }
 
-TEST(Rehearsal, ARegisterChangedInOneBitIsNamed) {
+TEST(StandbyComparison, ARegisterChangedInOneBitIsNamed) {
   Running running(3);
-  auto rehearsal = rehearsal_of(main_program);
+  auto comparison = comparison_of(main_program);
   Round round;
-  ASSERT_EQ(rehearsal.play(running.begin(1), 1), Rehearsal::Outcome::equal);
+  ASSERT_EQ(comparison.play(running.begin(1), 1), StandbyComparison::Outcome::equal);
   do {
     round = running.round();
     if (!round.changed.empty()) break;
-    ASSERT_EQ(rehearsal.play(round, 1), Rehearsal::Outcome::equal);
+    ASSERT_EQ(comparison.play(round, 1), StandbyComparison::Outcome::equal);
   } while (true);
   const RegisterValue right = round.changed[0];
   round.changed[0].value ^= 1;
-  ASSERT_EQ(rehearsal.play(round, 1), Rehearsal::Outcome::differs);
-  EXPECT_EQ(rehearsal.difference(), "tick " + std::to_string(round.tick) + ", register " +
-                                        register_name(right) + ": " + std::to_string(right.value ^ 1) +
-                                        " and " + std::to_string(right.value));
+  ASSERT_EQ(comparison.play(round, 1), StandbyComparison::Outcome::differs);
+  EXPECT_EQ(comparison.difference(), "tick " + std::to_string(round.tick) + ", register " +
+                                         register_name(right) + ": " + std::to_string(right.value ^ 1) +
+                                         " and " + std::to_string(right.value));
 }
 
-TEST(Rehearsal, OutputsFinishedFunctionsAndHiddenStateCountAsWell) {
+TEST(StandbyComparison, OutputsFinishedFunctionsAndHiddenStateCountAsWell) {
   for (int what = 0; what < 3; ++what) {
     Running running(3);
-    auto rehearsal = rehearsal_of(main_program);
-    ASSERT_EQ(rehearsal.play(running.begin(1), 1), Rehearsal::Outcome::equal);
+    auto comparison = comparison_of(main_program);
+    ASSERT_EQ(comparison.play(running.begin(1), 1), StandbyComparison::Outcome::equal);
     Round round = running.round();
     if (what == 0) round.outputs.run_until_tick += 1;
     if (what == 1) round.done.push_back({0, 77, false});
     if (what == 2) round.state ^= 1;
-    EXPECT_EQ(rehearsal.play(round, 1), Rehearsal::Outcome::differs) << what;
-    EXPECT_NE(rehearsal.difference(), "");
+    EXPECT_EQ(comparison.play(round, 1), StandbyComparison::Outcome::differs) << what;
+    EXPECT_NE(comparison.difference(), "");
   }
 }
 
-TEST(Rehearsal, AfterAMissingRoundItBeginsAnewAndKeepsWhatItHasCounted) {
+TEST(StandbyComparison, AfterAMissingRoundItBeginsAnewAndKeepsWhatItHasCounted) {
   Running running(5);
-  auto rehearsal = rehearsal_of(main_program);
-  ASSERT_EQ(rehearsal.play(running.begin(1), 1), Rehearsal::Outcome::equal);
-  for (int k = 0; k < 20; ++k) ASSERT_EQ(rehearsal.play(running.round(), 1), Rehearsal::Outcome::equal);
-  const auto ticks = rehearsal.equal_ticks();
+  auto comparison = comparison_of(main_program);
+  ASSERT_EQ(comparison.play(running.begin(1), 1), StandbyComparison::Outcome::equal);
+  for (int k = 0; k < 20; ++k)
+    ASSERT_EQ(comparison.play(running.round(), 1), StandbyComparison::Outcome::equal);
+  const auto ticks = comparison.equal_ticks();
   running.round();
-  EXPECT_EQ(rehearsal.play(running.round(), 1), Rehearsal::Outcome::gap);
-  EXPECT_EQ(rehearsal.play(running.round(), 2), Rehearsal::Outcome::equal) << "of an older generation";
+  EXPECT_EQ(comparison.play(running.round(), 1), StandbyComparison::Outcome::gap);
+  EXPECT_EQ(comparison.play(running.round(), 2), StandbyComparison::Outcome::equal)
+      << "of an older generation";
   const auto from = running.tick();
-  ASSERT_EQ(rehearsal.play(running.begin(2), 2), Rehearsal::Outcome::equal);
-  for (int k = 0; k < 20; ++k) ASSERT_EQ(rehearsal.play(running.round(), 2), Rehearsal::Outcome::equal);
-  EXPECT_EQ(rehearsal.equal_ticks(), ticks + running.tick() - from);
+  ASSERT_EQ(comparison.play(running.begin(2), 2), StandbyComparison::Outcome::equal);
+  for (int k = 0; k < 20; ++k)
+    ASSERT_EQ(comparison.play(running.round(), 2), StandbyComparison::Outcome::equal);
+  EXPECT_EQ(comparison.equal_ticks(), ticks + running.tick() - from);
 }
 
-TEST(Rehearsal, ItWaitsForParametersThatHaveNotArrived) {
+TEST(StandbyComparison, ItWaitsForParametersThatHaveNotArrived) {
   Running running(5);
   bool arrived = false;
-  Rehearsal rehearsal(core_with(main_program), true,
-                      [&](std::uint64_t revision) { return arrived ? parameters(revision) : nullptr; });
+  StandbyComparison comparison(core_with(main_program), true, [&](std::uint64_t revision) {
+    return arrived ? parameters(revision) : nullptr;
+  });
   const Round start = running.begin(1);
-  EXPECT_EQ(rehearsal.play(start, 1), Rehearsal::Outcome::waiting);
-  EXPECT_FALSE(rehearsal.in_step());
+  EXPECT_EQ(comparison.play(start, 1), StandbyComparison::Outcome::waiting);
+  EXPECT_FALSE(comparison.in_step());
   arrived = true;
-  EXPECT_EQ(rehearsal.play(start, 1), Rehearsal::Outcome::equal);
-  EXPECT_TRUE(rehearsal.in_step());
+  EXPECT_EQ(comparison.play(start, 1), StandbyComparison::Outcome::equal);
+  EXPECT_TRUE(comparison.in_step());
 }
 
-TEST(Rehearsal, BytesThatAreNoRoundAndAMemoryOfAnotherBuildAreRefused) {
+TEST(StandbyComparison, BytesThatAreNoRoundAndAMemoryOfAnotherBuildAreRefused) {
   Running running(5);
-  auto rehearsal = rehearsal_of(main_program);
+  auto comparison = comparison_of(main_program);
   Round start = running.begin(1);
   start.start.pop_back();
-  EXPECT_EQ(rehearsal.play(start, 1), Rehearsal::Outcome::differs);
-  EXPECT_NE(rehearsal.difference().find("memory of another layout"), std::string::npos);
+  EXPECT_EQ(comparison.play(start, 1), StandbyComparison::Outcome::differs);
+  EXPECT_NE(comparison.difference().find("memory of another layout"), std::string::npos);
 
-  auto second = rehearsal_of(main_program);
-  ASSERT_EQ(second.play(running.begin(2), 2), Rehearsal::Outcome::equal);
+  auto second = comparison_of(main_program);
+  ASSERT_EQ(second.play(running.begin(2), 2), StandbyComparison::Outcome::equal);
   Round round = running.round();
-  round.steps.push_back({200, 0, {}});
-  EXPECT_EQ(second.play(round, 2), Rehearsal::Outcome::differs);
+  round.steps.push_back({static_cast<StepKind>(200), 0, {}});
+  EXPECT_EQ(second.play(round, 2), StandbyComparison::Outcome::differs);
 
-  auto third = rehearsal_of(main_program);
-  ASSERT_EQ(third.play(running.begin(3), 3), Rehearsal::Outcome::equal);
+  auto third = comparison_of(main_program);
+  ASSERT_EQ(third.play(running.begin(3), 3), StandbyComparison::Outcome::equal);
   round = running.round();
-  round.steps.push_back({static_cast<std::uint8_t>(StepKind::CHANNEL_STATE), 0, {0, 1, 0, 0, 9}});
-  EXPECT_EQ(third.play(round, 3), Rehearsal::Outcome::differs);
+  round.steps.push_back({StepKind::CHANNEL_STATE, 0, {0, 1, 0, 0, 9}});
+  EXPECT_EQ(third.play(round, 3), StandbyComparison::Outcome::differs);
 }
 
 }  // namespace

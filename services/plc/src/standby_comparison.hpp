@@ -11,13 +11,13 @@
 
 namespace trunnion::plc {
 
-class Rehearsal {
+class StandbyComparison {
  public:
   /// The parameters of a revision, nullptr when they have not arrived.
   using FindParameters = std::function<std::shared_ptr<const machine::Parameters>(std::uint64_t revision)>;
 
   /// `core` has its programs loaded.
-  Rehearsal(PlcCore core, bool virtual_time, FindParameters find)
+  StandbyComparison(PlcCore core, bool virtual_time, FindParameters find)
       : core_(std::move(core)), virtual_time_(virtual_time), find_(std::move(find)) {}
 
   enum class Outcome : std::uint8_t {
