@@ -10,6 +10,7 @@ namespace trunnion::deploy {
 
 using idl::channel::ChannelReply;
 using idl::channel::ChannelRequest;
+using idl::channel::CommandKind;
 
 class Client {
  public:
@@ -22,7 +23,7 @@ class Client {
   /// Client and number of the request are given by this client.
   void channel(const ChannelRequest& request);
   /// A command without fields.
-  void channel(std::uint16_t channel, idl::channel::CommandKind command);
+  void channel(std::uint16_t channel, CommandKind command);
   void set_mode(std::uint16_t channel, idl::channel::Mode mode);
   void select_program(std::uint16_t channel, const std::string& name);
   void mdi(std::uint16_t channel, const std::string& block);

@@ -15,7 +15,6 @@
 namespace trunnion::deploy {
 namespace {
 
-using idl::channel::CommandKind;
 using idl::channel::Mode;
 using idl::channel::RunState;
 

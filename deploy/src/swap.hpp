@@ -9,6 +9,7 @@
 #include "contracts/topics.hpp"
 #include "service_process.hpp"
 #include "stream/shadow_comparison.hpp"
+#include "stream/stage_names.hpp"
 
 namespace trunnion::deploy {
 

@@ -63,7 +63,7 @@ export interface ChannelState {
   letters: string;
   /** mm, deg: machine coordinates */
   machine: number[];
-  /** mm, deg: tool tip, as words of the block being executed would say it */
+  /** mm, deg: tool tip, in the coordinates of the block being executed */
   workpiece: number[];
   /** mm, deg */
   distance_to_go: number[];
@@ -79,7 +79,7 @@ export interface ChannelState {
   dry_run: boolean;
   /** M S T are passed over but for those of the program's flow */
   auxiliary_lock: boolean;
-  /** 1 for each axis whose setpoints stand while the program runs */
+  /** 1 for each locked axis: it stays at rest while the program runs */
   locked: number[];
   /** levels 1..9 that are left out: bit 0 is level 1 */
   block_skip: number;

@@ -58,6 +58,15 @@ TEST(Cdr, RefusesASequenceBeyondItsBoundOnBothSides) {
   EXPECT_THROW(encode(frame, bytes), CdrError);
 }
 
+TEST(Enumerators, HaveTheNamesOfTheIdlBothWays) {
+  using idl::stream::DriveMode;
+  EXPECT_STREQ(to_string(DriveMode::RETURNING), "RETURNING");
+  EXPECT_EQ(from_string<DriveMode>("OFF"), DriveMode::OFF);
+  EXPECT_EQ(from_string<DriveMode>("off"), std::nullopt);
+  EXPECT_EQ(from_string<DriveMode>(""), std::nullopt);
+  EXPECT_STREQ(to_string(static_cast<DriveMode>(99)), "?");
+}
+
 TEST(Cdr, RefusesAnEnumeratorThatDoesNotExist) {
   idl::channel::ChannelReply reply;
   idl::service::Alarm alarm;
