@@ -7,7 +7,8 @@
 #include "compensation.h"
 #include "stream.h"
 
-enum { FRAMES = 1024, STAGE = trunnion_stream_COMPENSATION, MAXIMUM_STATES = 8 };
+#define STAGE trunnion_stream_COMPENSATION
+enum { FRAMES = 1024, MAXIMUM_STATES = 8 };
 
 struct lane {
   trunnion_stream_AxisFrame frames[FRAMES]; /* by first cycle; a frame has a `count` when it is there */
