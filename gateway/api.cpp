@@ -2,7 +2,7 @@
 
 #include <fstream>
 
-#include "src/orders.hpp"
+#include "src/requests.hpp"
 #include "src/static_files.hpp"
 #include "storage/crc32.hpp"
 
@@ -92,12 +92,10 @@ void Api::handle(const Match& match, const std::string& query, const std::string
                  const Respond& respond) {
   try {
     switch (match.operation) {
-      case Operation::emergency_stop:
-      case Operation::release:
-      case Operation::panel_reset:
-        return order_panel(match.operation, parse_body(body), respond);
+      case Operation::panel_command:
+        return send_panel(match.command, parse_body(body), respond);
       case Operation::alarms_reset: {
-        const auto reset = alarm_reset_order(parse_body(body));
+        const auto reset = alarm_reset(parse_body(body));
         mailbox_.post([reset, respond](Links& links, double) {
           auto answer = json_answer(200, {{"accepted", true}});
           answer.asked = links.alarm_resets.write(reset);
@@ -107,30 +105,11 @@ void Api::handle(const Match& match, const std::string& query, const std::string
       }
       case Operation::set_parameter:
       case Operation::set_work_offset:
-        return order_parameters(match, parse_body(body), respond);
+        return send_parameters(match, parse_body(body), respond);
       case Operation::remove_program:
         return remove_program(match.parts.at(0), respond);
-      case Operation::mode:
-      case Operation::select:
-      case Operation::cycle_start:
-      case Operation::feed_hold:
-      case Operation::reset:
-      case Operation::mdi:
-      case Operation::jog:
-      case Operation::jog_stop:
-      case Operation::reference:
-      case Operation::override_:
-      case Operation::single_block:
-      case Operation::optional_stop:
-      case Operation::start_from_line:
-      case Operation::dry_run:
-      case Operation::axis_lock:
-      case Operation::auxiliary_lock:
-      case Operation::block_skip:
-      case Operation::retrace:
-      case Operation::handwheel:
-      case Operation::handwheel_offset:
-        return order_channel(match, parse_body(body), respond);
+      case Operation::channel_command:
+        return send_channel(match, parse_body(body), respond);
       default:
         return respond(read(match, query));
     }
@@ -183,18 +162,18 @@ Answer Api::read(const Match& match, const std::string& query) const {
   }
 }
 
-void Api::order_channel(const Match& match, const Json& body, const Respond& respond) {
+void Api::send_channel(const Match& match, const Json& body, const Respond& respond) {
   const auto number = path_number(match.parts.at(0), 65535);
   const auto snapshot = mailbox_.newest();
   const auto known = snapshot && number ? snapshot->channels.find(static_cast<std::uint16_t>(*number))
                                         : decltype(snapshot->channels.end()){};
   if (!snapshot || !number || known == snapshot->channels.end())
     return respond(error_answer(404, "no channel " + match.parts[0]));
-  const auto request = channel_order(match.operation, body, known->second);
+  const auto request = channel_request(match.command, body, known->second);
   mailbox_.post([request, respond](Links& links, double now) {
     using idl::channel::CommandKind;
     const bool continuous = request.command == CommandKind::JOG_AXIS && request.increment == 0;
-    if (continuous && !links.jog.press(request.channel, request.axis, request.value, now))
+    if (continuous && !links.jog.press(request.channel, request.axis, request.speed, now))
       return respond(json_answer(200, {{"accepted", true}, {"renewed", true}}));
     if (request.command == CommandKind::JOG_STOP) links.jog.forget(request.channel, request.axis);
     links.channel.submit(
@@ -209,8 +188,8 @@ void Api::order_channel(const Match& match, const Json& body, const Respond& res
   });
 }
 
-void Api::order_panel(Operation operation, const Json& body, const Respond& respond) {
-  mailbox_.post([request = panel_order(operation, body), respond](Links& links, double now) {
+void Api::send_panel(std::string_view route, const Json& body, const Respond& respond) {
+  mailbox_.post([request = panel_request(route, body), respond](Links& links, double now) {
     links.panel.submit(
         request,
         [respond](const auto& asked, const auto& reply) {
@@ -220,15 +199,15 @@ void Api::order_panel(Operation operation, const Json& body, const Respond& resp
   });
 }
 
-void Api::order_parameters(const Match& match, const Json& body, const Respond& respond) {
+void Api::send_parameters(const Match& match, const Json& body, const Respond& respond) {
   idl::parameters::ParameterRequest request;
   if (match.operation == Operation::set_work_offset) {
-    request = work_offset_order(body);
+    request = work_offset_request(body);
   } else {
     const auto number = path_number(match.parts.at(0), 999999);
     const auto* definition = number ? machine::Catalogue::instance().find(*number) : nullptr;
     if (definition == nullptr) return respond(error_answer(404, "no parameter " + match.parts[0]));
-    request = parameter_order(*number, definition->type == machine::ParameterType::text, body);
+    request = parameter_request(*number, definition->type == machine::ParameterType::text, body);
   }
   mailbox_.post([request, respond](Links& links, double now) {
     links.parameters.submit(
@@ -243,7 +222,7 @@ void Api::order_parameters(const Match& match, const Json& body, const Respond& 
 }
 
 void Api::remove_program(const std::string& name, const Respond& respond) {
-  check_program_name(name);
+  commands::check_program_name(name);
   idl::program::ProgramRequest request{};
   request.operation = idl::program::Operation::REMOVE;
   request.name = name;

@@ -50,9 +50,9 @@ class Api {
 
  private:
   Answer read(const Match& match, const std::string& query) const;
-  void order_channel(const Match& match, const bus::Json& body, const Respond& respond);
-  void order_panel(Operation operation, const bus::Json& body, const Respond& respond);
-  void order_parameters(const Match& match, const bus::Json& body, const Respond& respond);
+  void send_channel(const Match& match, const bus::Json& body, const Respond& respond);
+  void send_panel(std::string_view route, const bus::Json& body, const Respond& respond);
+  void send_parameters(const Match& match, const bus::Json& body, const Respond& respond);
   void remove_program(const std::string& name, const Respond& respond);
 
   Mailbox& mailbox_;

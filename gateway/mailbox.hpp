@@ -1,4 +1,4 @@
-// What the two threads exchange: orders from the HTTP side to the bus, the newest snapshot the other way.
+// What the two threads exchange: requests from the HTTP side to the bus, the newest snapshot the other way.
 #pragma once
 
 #include <functional>
@@ -29,7 +29,7 @@ class Journal {
   std::uint64_t lines_ = 0;
 };
 
-/// Nobody answers them.
+/// They have no replies.
 class AlarmResets {
  public:
   explicit AlarmResets(bus::Bus& bus)

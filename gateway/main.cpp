@@ -1,16 +1,16 @@
 #include <CLI/CLI.hpp>
 #include <iostream>
 
-#include "rehearsal_service.hpp"
 #include "service.hpp"
+#include "standby_service.hpp"
 
 namespace {
 
 /// False when the process is told to end before it is needed.
 bool stand_by(trunnion::service::Node& node, std::uint16_t port) {
-  if (!node.on_standby()) return node.stand_by();
-  trunnion::gateway::RehearsalService rehearsal(node, port);
-  return node.stand_by(&rehearsal);
+  if (!node.shadow()) return node.stand_by();
+  trunnion::gateway::StandbyService standby(node, port);
+  return node.stand_by(&standby);
 }
 
 }  // namespace

@@ -20,6 +20,7 @@ namespace trunnion::integration {
 using idl::channel::CommandKind;
 using idl::channel::Mode;
 using idl::channel::RunState;
+using idl::stream::DriveMode;
 
 enum class Time { real, virtual_ };
 
@@ -153,10 +154,10 @@ class Cluster {
     start(name, channel);
   }
   void start(const std::string& name, std::uint16_t channel = 0) {
-    client_->channel(channel, CommandKind::SET_MODE, "", 0, Mode::AUTO);
+    client_->set_mode(channel, Mode::AUTO);
     // The list with a new program may reach the channel after the store's answer.
     for (int i = 0;; ++i) try {
-        client_->channel(channel, CommandKind::SELECT_PROGRAM, name);
+        client_->select_program(channel, name);
         break;
       } catch (const std::exception&) {
         if (i == 50) throw;

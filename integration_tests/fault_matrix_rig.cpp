@@ -105,8 +105,8 @@ std::optional<double> FaultRig::kept_variable(unsigned number) const {
 
 void FaultRig::mdi(const std::string& line) {
   wait_for_news([&] {
-    cluster_.client().channel(0, CommandKind::SET_MODE, "", 0, Mode::MDI);
-    cluster_.client().channel(0, CommandKind::MDI_LINE, line);
+    cluster_.client().set_mode(0, Mode::MDI);
+    cluster_.client().mdi(0, line);
   });
   EXPECT_TRUE(cluster_.finish()) << line << ": " << cluster_.told();
 }
@@ -218,12 +218,12 @@ void FaultRig::strike(const std::string& service, Fault fault) {
 
 // No setpoint is being executed, and none will be before somebody orders it.
 bool FaultRig::stands() {
-  constexpr int held = 2, off = 4;
   const auto state = cluster_.state();
   const bool waits = state == RunState::INTERRUPTED || state == RunState::HELD || state == RunState::IDLE;
   const auto& channels = cluster_.feedback.channels;
   const bool owed = std::any_of(channels.begin(), channels.end(), [](const auto& c) { return c.active; });
-  return waits && (!owed || cluster_.feedback.mode == held || cluster_.feedback.mode == off);
+  return waits &&
+         (!owed || cluster_.feedback.mode == DriveMode::HELD || cluster_.feedback.mode == DriveMode::OFF);
 }
 
 Observation FaultRig::await(const std::string& service, Fault fault, bool in_motion) {

@@ -33,10 +33,9 @@ TEST_P(KillInMotion, StopsNamesTheServiceBecomesReadyAndTheProgramGoesOn) {
   })) << "stopped; state "
       << bus::to_string(cluster.state());
   // A channel may be back before the drive's patience with the silence of the old one ends and it brakes.
-  constexpr int held = 2;
   ASSERT_TRUE(cluster.until([&] {
     const auto& channels = cluster.feedback.channels;
-    return cluster.feedback.mode == held ||
+    return cluster.feedback.mode == DriveMode::HELD ||
            std::none_of(channels.begin(), channels.end(), [](const auto& channel) { return channel.active; });
   })) << cluster.told();
   cluster.until([] { return false; }, 0.1);  // the state with that position arrives
@@ -101,17 +100,18 @@ TEST(Faults, EmergencyStopStopsSwitchesOffAndNeedsAReset) {
   Cluster cluster("ac-table");
   cluster.start_text(long_program());
   ASSERT_TRUE(cluster.until([&] { return cluster.channels[0].line >= 8; }));
-  cluster.client().panel(1);
-  ASSERT_TRUE(cluster.until([&] { return cluster.feedback.mode == 4 && cluster.has_alarm(130); }))
-      << cluster.active_alarms();
+  cluster.client().panel(idl::plc::PanelRequestKind::PRESS_EMERGENCY_STOP);
+  ASSERT_TRUE(cluster.until([&] {
+    return cluster.feedback.mode == DriveMode::OFF && cluster.has_alarm(130);
+  })) << cluster.active_alarms();
   ASSERT_TRUE(cluster.until([&] { return cluster.state() == RunState::INTERRUPTED; }));
   EXPECT_THROW(cluster.client().channel(0, CommandKind::CYCLE_START), std::runtime_error);
-  cluster.client().panel(2);
-  cluster.client().panel(3);
+  cluster.client().panel(idl::plc::PanelRequestKind::RELEASE_EMERGENCY_STOP);
+  cluster.client().panel(idl::plc::PanelRequestKind::RESET_EMERGENCY_STOP);
   cluster.client().channel(0, CommandKind::RESET);
   ASSERT_TRUE(cluster.until([&] {
     cluster.reset_alarms();
-    return cluster.feedback.mode == 0 && !cluster.has_alarm(130);
+    return cluster.feedback.mode == DriveMode::FOLLOWING && !cluster.has_alarm(130);
   })) << cluster.active_alarms();
   // States are published twenty times a second.
   ASSERT_TRUE(cluster.until([&] { return cluster.state() == RunState::IDLE; }, 5)) << cluster.active_alarms();

@@ -251,8 +251,7 @@ TEST_F(Hosts, ACableCutForFiftyMillisecondsIsNotNoticedAndForASecondIsAStopOnThe
         << cluster.told();
     hosts.expect("cut", " motion 1");
     ASSERT_TRUE(cluster.until([&] { return cluster.has_alarm(110); })) << cluster.told();
-    constexpr int held = 2;
-    ASSERT_TRUE(cluster.until([&] { return cluster.feedback.mode == held; })) << cluster.told();
+    ASSERT_TRUE(cluster.until([&] { return cluster.feedback.mode == DriveMode::HELD; })) << cluster.told();
     ASSERT_TRUE(cluster.until([&] { return cluster.state() != RunState::RUNNING; })) << cluster.told();
     ASSERT_TRUE(cluster.go_on()) << cluster.told();
     ASSERT_TRUE(cluster.finish()) << cluster.told();

@@ -182,7 +182,7 @@ TEST(Kinematics, TheServiceComputesTheBitsOfTheLibrary) {
     for (std::uint32_t row = 0; row < std::min(path.count, machine.count); ++row) {
       std::array<double, 9> expected;
       std::copy_n(path.setpoints.begin() + row * 9, 9, expected.begin());
-      if (path.transformation == 1) {
+      if (path.transformation == idl::stream::Transformation::RTCP) {
         const Vec3 at = chain.machine_from_tip(Vec3(expected[0], expected[1], expected[2]),
                                                geometry::angles_of(expected.data()), path.tool_length);
         std::copy_n(at.data(), 3, expected.begin());

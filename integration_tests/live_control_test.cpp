@@ -27,12 +27,7 @@ const char* const part =
     "G49\n"                    // 10
     "M30\n";                   // 11
 
-void ask(Cluster& cluster, CommandKind command, double value = 0, std::uint8_t axis = 0,
-         double increment = 0) {
-  cluster::ChannelRequest request;
-  request.command = command, request.value = value, request.axis = axis, request.increment = increment;
-  cluster.client().channel(request);
-}
+void ask(Cluster& cluster, const deploy::ChannelRequest& request) { cluster.client().channel(request); }
 
 // The state is one that was published after what was asked last.
 void refresh(Cluster& cluster) {
@@ -42,10 +37,10 @@ void refresh(Cluster& cluster) {
 
 void select(Cluster& cluster, const std::string& text) {
   cluster.client().upload("live.nc", text);
-  cluster.client().channel(0, CommandKind::SET_MODE, "", 0, Mode::AUTO);
+  cluster.client().set_mode(0, Mode::AUTO);
   ASSERT_TRUE(cluster.until([&] {
     try {
-      cluster.client().channel(0, CommandKind::SELECT_PROGRAM, "live.nc");
+      cluster.client().select_program(0, "live.nc");
       return true;
     } catch (const std::exception&) {
       return false;
@@ -62,7 +57,7 @@ TEST(LiveControl, AProgramStartsFromALineWithItsFrameFunctionsAndPosition) {
   ASSERT_FALSE(cluster.rows.empty());
   const auto whole_end = cluster.rows.back();
   cluster.rows.clear();
-  ask(cluster, CommandKind::START_FROM_LINE, 8);
+  cluster.client().start_from_line(0, 8);
   ASSERT_TRUE(cluster.until([&] { return cluster.state() == RunState::HELD; })) << cluster.told();
   EXPECT_TRUE(cluster.rows.empty()) << "nothing moves before cycle start";
   EXPECT_NE(cluster.channels[0].detail.find("S500 M3 M8, approach"), std::string::npos)
@@ -78,8 +73,8 @@ TEST(LiveControl, AProgramStartsFromALineWithItsFrameFunctionsAndPosition) {
 TEST(LiveControl, UnderAxisLockAndDryRunTheProgramRunsAndTheAxesStand) {
   Cluster cluster("ac-table", Time::virtual_, "", false, 71);
   select(cluster, part);
-  ask(cluster, CommandKind::DRY_RUN, 1);
-  ask(cluster, CommandKind::AXIS_LOCK, 0b11111);
+  ask(cluster, {.command = CommandKind::DRY_RUN, .on = true});
+  ask(cluster, {.command = CommandKind::AXIS_LOCK, .axes = 0b11111});
   refresh(cluster);
   EXPECT_TRUE(cluster.channels[0].dry_run);
   const auto before = cluster.channels[0].machine;
@@ -91,7 +86,7 @@ TEST(LiveControl, UnderAxisLockAndDryRunTheProgramRunsAndTheAxesStand) {
     for (std::size_t i = 0; i < row.size(); ++i) ASSERT_EQ(row[i], cluster.rows.front()[i]);
   refresh(cluster);
   EXPECT_GT(std::abs(cluster.channels[0].machine[0] - before[0]), 10) << "the program's position is shown";
-  ask(cluster, CommandKind::AXIS_LOCK, 0);
+  ask(cluster, {.command = CommandKind::AXIS_LOCK, .axes = 0});
   refresh(cluster);
   EXPECT_NEAR(cluster.channels[0].machine[0], before[0], 0.01) << "and that of the axes again";
 }
@@ -101,7 +96,7 @@ TEST(LiveControl, RetraceGoesBackToTheBeginningOfThePathAndForwardsToTheEnd) {
   select(cluster, long_program());
   cluster.cycle_start();
   ASSERT_TRUE(cluster.until([&] { return cluster.channels[0].line >= 12; })) << cluster.told();
-  ask(cluster, CommandKind::RETRACE, 1);
+  ask(cluster, {.command = CommandKind::RETRACE, .on = true});
   ASSERT_TRUE(cluster.until([&] { return cluster.state() == RunState::HELD; }, 60)) << cluster.told();
   EXPECT_LE(cluster.channels[0].line, 4u) << "G43.4 is where the path begins";
   cluster.cycle_start();
@@ -113,18 +108,20 @@ TEST(LiveControl, RetraceGoesBackToTheBeginningOfThePathAndForwardsToTheEnd) {
 
 TEST(LiveControl, TheHandwheelMovesAnAxisAndShiftsAProgram) {
   Cluster cluster("ac-table", Time::virtual_, "", false, 73);
-  cluster.client().channel(0, CommandKind::SET_MODE, "", 0, Mode::JOG);
+  cluster.client().set_mode(0, Mode::JOG);
   refresh(cluster);
   const double x = cluster.channels[0].machine[0];
-  ask(cluster, CommandKind::HANDWHEEL, 5, 0, 0.1);
+  ask(cluster, {.command = CommandKind::HANDWHEEL, .axis = 0, .increment = 0.1, .counts = 5});
   ASSERT_TRUE(cluster.until([&] {
     return cluster.state() == RunState::IDLE && std::abs(cluster.channels[0].machine[0] - x - 0.5) < 0.005;
   })) << cluster.channels[0].machine[0];
-  EXPECT_THROW(ask(cluster, CommandKind::HANDWHEEL, 1, 0, 0.5), std::runtime_error) << "no such increment";
+  EXPECT_THROW(ask(cluster, {.command = CommandKind::HANDWHEEL, .axis = 0, .increment = 0.5, .counts = 1}),
+               std::runtime_error)
+      << "no such increment";
 
   select(cluster, part);
-  ask(cluster, CommandKind::HANDWHEEL_OFFSET, 1);
-  ask(cluster, CommandKind::HANDWHEEL, 3, 2, 1);
+  ask(cluster, {.command = CommandKind::HANDWHEEL_OFFSET, .on = true});
+  ask(cluster, {.command = CommandKind::HANDWHEEL, .axis = 2, .increment = 1, .counts = 3});
   ASSERT_TRUE(cluster.until([&] {
     return cluster.state() == RunState::IDLE && cluster.channels[0].handwheel_offset[2] == 3;
   })) << cluster.told();
@@ -159,9 +156,9 @@ TEST(LiveControl, TheLineOfThePowerFailureIsOfferedAndTheProgramStartsFromIt) {
     const auto cluster = cluster::start_cluster(up);
     cluster::Client client(cluster.run.domain);
     client.upload("live.nc", long_program());
-    client.channel(0, CommandKind::SET_MODE, "", 0, Mode::AUTO);
+    client.set_mode(0, Mode::AUTO);
     for (int i = 0; i < 100; ++i) try {
-        client.channel(0, CommandKind::SELECT_PROGRAM, "live.nc");
+        client.select_program(0, "live.nc");
         break;
       } catch (const std::exception&) {
         std::this_thread::sleep_for(std::chrono::milliseconds(20));
@@ -205,8 +202,8 @@ TEST(LiveControl, TheLineOfThePowerFailureIsOfferedAndTheProgramStartsFromIt) {
     EXPECT_GE(newest.restart_line, line);
     EXPECT_LE(newest.restart_line, line + 2) << "a line takes four seconds";
     EXPECT_EQ(newest.program, "live.nc");
-    client.channel(0, CommandKind::SET_MODE, "", 0, Mode::AUTO);
-    client.channel(0, CommandKind::START_FROM_LINE, "", newest.restart_line);
+    client.set_mode(0, Mode::AUTO);
+    client.start_from_line(0, newest.restart_line);
     EXPECT_TRUE(until([&] { return newest.state == RunState::HELD; }));
     client.channel(0, CommandKind::CYCLE_START);
     EXPECT_TRUE(until([&] { return newest.state == RunState::RUNNING && newest.line > line + 4; }));

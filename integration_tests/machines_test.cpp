@@ -22,10 +22,10 @@ TEST(Machines, TheGantryMachineRunsItsProgramAndTheSlaveFollows) {
 TEST(Machines, TwoChannelsRunTwoProgramsAtOnce) {
   Cluster cluster("two-channel");
   cluster.keep_rows = true;
-  cluster.client().channel(0, CommandKind::SET_MODE, "", 0, Mode::AUTO);
-  cluster.client().channel(1, CommandKind::SET_MODE, "", 0, Mode::AUTO);
-  cluster.client().channel(0, CommandKind::SELECT_PROGRAM, "left.nc");
-  cluster.client().channel(1, CommandKind::SELECT_PROGRAM, "right.nc");
+  cluster.client().set_mode(0, Mode::AUTO);
+  cluster.client().set_mode(1, Mode::AUTO);
+  cluster.client().select_program(0, "left.nc");
+  cluster.client().select_program(1, "right.nc");
   cluster.client().channel(0, CommandKind::CYCLE_START);
   cluster.cycle_start(1);
   ASSERT_TRUE(cluster.finish(0)) << cluster.active_alarms();
@@ -57,12 +57,12 @@ TEST(Machines, ParametersTakeEffectAtResetAndWrongOnesAreRefusedWithTheirLimits)
   request.values = {{100007, -350, ""}};
   const auto reply = cluster.client().parameter(request);
   EXPECT_EQ(reply.pending, 1u) << "activation: reset";
-  cluster.client().channel(0, CommandKind::SET_MODE, "", 0, Mode::MDI);
-  cluster.client().channel(0, CommandKind::MDI_LINE, "G90 G0 X-380");
+  cluster.client().set_mode(0, Mode::MDI);
+  cluster.client().mdi(0, "G90 G0 X-380");
   ASSERT_TRUE(cluster.until([&] { return std::abs(cluster.channels[0].machine[0] + 380) < 0.01; }))
       << cluster.active_alarms();
   ASSERT_TRUE(cluster.until([&] { return cluster.state() == RunState::IDLE; }));
-  cluster.client().channel(0, CommandKind::MDI_LINE, "G90 G0 X0");
+  cluster.client().mdi(0, "G90 G0 X0");
   ASSERT_TRUE(cluster.until(
       [&] { return std::abs(cluster.channels[0].machine[0]) < 0.01 && cluster.state() == RunState::IDLE; }));
   const auto revision = cluster.channels[0].revision;
@@ -70,7 +70,7 @@ TEST(Machines, ParametersTakeEffectAtResetAndWrongOnesAreRefusedWithTheirLimits)
   ASSERT_TRUE(cluster.until([&] { return cluster.channels[0].revision > revision; }))
       << "the reset activates it";
   try {
-    cluster.client().channel(0, CommandKind::MDI_LINE, "G90 G0 X-380");
+    cluster.client().mdi(0, "G90 G0 X-380");
     cluster.until([&] { return cluster.has_alarm(140); }, 2);
     EXPECT_TRUE(cluster.has_alarm(140)) << cluster.active_alarms();
   } catch (const std::exception& e) {

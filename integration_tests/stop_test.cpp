@@ -88,8 +88,7 @@ TEST_P(StageLost, StopsOnThePathWithinTheLeadAndTheWorkpieceDoesNotShowIt) {
   const auto killed = cluster.expected_cycle;
   ASSERT_EQ(kill(cluster.service(victim)->pid, SIGKILL), 0);
   ASSERT_TRUE(cluster.until([&] { return cluster.has_alarm(110); })) << cluster.told();
-  constexpr int held = 2;
-  ASSERT_TRUE(cluster.until([&] { return cluster.feedback.mode == held; })) << cluster.told();
+  ASSERT_TRUE(cluster.until([&] { return cluster.feedback.mode == DriveMode::HELD; })) << cluster.told();
   const auto stood = cluster.expected_cycle;  // the first cycle that is not executed
 
   // The drive says with which cycle the setpoints ended, how many were at hand and how many it needed.

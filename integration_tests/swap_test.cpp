@@ -249,9 +249,12 @@ TEST_F(Swapping, InRealTimeThePlcIsComparedAtTheTicksTheClockGaveTheOldOne) {
   ASSERT_TRUE(cluster.until([&] { return cluster.channels[0].line > line + 4; })) << cluster.told();
   EXPECT_TRUE(runs(cluster)) << cluster.told();
   EXPECT_TRUE(cluster.history.empty()) << cluster.told();
-  cluster.client().panel(1);  // emergency stop: the PLC that has taken over is the machine's
-  EXPECT_TRUE(cluster.until([&] { return cluster.feedback.mode == 4 && cluster.has_alarm(130); }))
-      << cluster.told();
+  cluster.client().panel(
+      idl::plc::PanelRequestKind::PRESS_EMERGENCY_STOP);  // emergency stop: the PLC that has taken over is
+                                                          // the machine's
+  EXPECT_TRUE(cluster.until([&] {
+    return cluster.feedback.mode == DriveMode::OFF && cluster.has_alarm(130);
+  })) << cluster.told();
 }
 
 TEST_F(Swapping, APlcAndKeepersThatWouldDoOtherwiseAreNotTaken) {
@@ -369,8 +372,8 @@ INSTANTIATE_TEST_SUITE_P(Services, SwappingInMotion,
 
 TEST_F(Swapping, ChannelAndDriveAreSwappedAtRestWithTheirStateAndNotInMotion) {
   Cluster cluster("ac-table");
-  cluster.client().channel(0, CommandKind::SET_MODE, "", 0, Mode::MDI);
-  cluster.client().channel(0, CommandKind::MDI_LINE, "G91 G55 G1 X12.5 F3000");
+  cluster.client().set_mode(0, Mode::MDI);
+  cluster.client().mdi(0, "G91 G55 G1 X12.5 F3000");
   ASSERT_TRUE(cluster.finish()) << cluster.told();
   cluster.until([] { return false; }, 0.3);
   const auto before = cluster.channels[0];
@@ -384,7 +387,7 @@ TEST_F(Swapping, ChannelAndDriveAreSwappedAtRestWithTheirStateAndNotInMotion) {
   EXPECT_EQ(cluster.channels[0].work_offset, before.work_offset);
   EXPECT_NEAR(cluster.channels[0].machine[0], before.machine[0], 1e-6);
   // G91 still holds: it is 12.5 mm farther on.
-  cluster.client().channel(0, CommandKind::MDI_LINE, "X12.5");
+  cluster.client().mdi(0, "X12.5");
   ASSERT_TRUE(cluster.finish()) << cluster.told();
   EXPECT_TRUE(cluster.until(
       [&] { return std::abs(cluster.channels[0].machine[0] - before.machine[0] - 12.5) < 0.01; }, 5))

@@ -156,8 +156,7 @@ TEST_P(CopiesThatDiffer, StopTheMotionWithAnAlarmThatNamesStageCycleAndBothValue
   ASSERT_TRUE(cluster.until([&] { return cluster.has_alarm(103); })) << cluster.told();
   EXPECT_TRUE(cluster.has_alarm(103, "of " + stage + " differ in cycle 700, column 0: ")) << cluster.told();
   EXPECT_TRUE(cluster.has_alarm(103, " and ")) << "both values";
-  constexpr int held = 2;
-  ASSERT_TRUE(cluster.until([&] { return cluster.feedback.mode == held; })) << cluster.told();
+  ASSERT_TRUE(cluster.until([&] { return cluster.feedback.mode == DriveMode::HELD; })) << cluster.told();
   const auto stopped = cluster.expected_cycle;
   std::printf("%s: differs in cycle 700, the machine stands at cycle %llu\n", stage.c_str(),
               static_cast<unsigned long long>(stopped));

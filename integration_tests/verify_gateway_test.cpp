@@ -55,13 +55,10 @@ class Operator {
   }
 
   // One order to the channel, accepted at cycle 77.
-  void order(const std::string& target, const std::string& body, CommandKind command, double value,
+  void order(const std::string& target, const std::string& body, idl::channel::ChannelRequest request,
              Sender sender = Sender::TOOL) {
-    idl::channel::ChannelRequest request{};
     request.client = client;
     request.number = ++number_;
-    request.command = command;
-    request.value = value;
     add(topics::channel_request, request);
     idl::channel::ChannelReply reply{};
     reply.client = client;
@@ -125,17 +122,19 @@ class VerifyGateway : public testing::Test {
     // Whatever its operator did is taken out: the requests here are all.
     std::erase_if(recording.messages, [](const auto& m) { return m.topic->handle == "operator_request"; });
     Operator with(recording);
-    with.order("/api/channels/0/override", R"({"kind":"feed","value":0.5})", CommandKind::FEED_OVERRIDE, 0.5,
-               Sender::PAGE);
+    with.order("/api/channels/0/override", R"({"kind":"feed","value":0.5})",
+               {.command = CommandKind::FEED_OVERRIDE, .fraction = 0.5}, Sender::PAGE);
     with.line("POST", "/api/channels/0/cycle-start", "", 403,
               R"({"error":"a page of another site must not operate this machine"})", 0, Sender::FOREIGN_PAGE);
     with.upload("A.NC", std::string(3000, ';'));
     with.line("POST", "/api/channels/0/mdi", "{}", 400,
               R"({"error":"the field line is missing","field":"line"})", 0);
-    with.order("/api/channels/0/jog", R"({"axis":"X","speed":600})", CommandKind::JOG_AXIS, 600);
+    with.order("/api/channels/0/jog", R"({"axis":"X","speed":600})",
+               {.command = CommandKind::JOG_AXIS, .speed = 600});
     with.line("POST", "/api/channels/0/jog", R"({"axis":"X","speed":600})", 200,
               R"({"accepted":true,"renewed":true})", 0);
-    with.order("/api/channels/0/jog-stop", R"({"axis":0})", CommandKind::JOG_STOP, 0, Sender::ITSELF);
+    with.order("/api/channels/0/jog-stop", R"({"axis":0})", {.command = CommandKind::JOG_STOP},
+               Sender::ITSELF);
     options_.recording =
         (fs::temp_directory_path() / ("trunnion-operator-" + std::to_string(getpid()) + ".mcap")).string();
     write(recording, options_.recording);

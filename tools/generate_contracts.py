@@ -94,7 +94,7 @@ class Parser:
                 key = False
                 if self.peek() == "@key": self.take(); key = True
                 t = self.type(); line = self.line(); name = self.take(); self.take(";")
-                if key and t.base not in PRIMITIVES: self.fail(line, "a key must be a primitive")
+                if key and t.base in ("string", "sequence"): self.fail(line, "a key must be a primitive or an enum")
                 s.fields.append((name, t, key, self.comments.get(line, "")))
             self.take("}"); self.take(";"); self.types.append(s)
         else: self.fail(self.line(), f"expected struct or enum, found '{kind}'")
@@ -183,8 +183,7 @@ def generate(args):
             scope.module = t.module
             hpp.append(f"struct {t.name} {{")
             for name, ft, _, comment in t.fields:
-                init = "" if ft.base in ("string", "sequence") else "{}"
-                hpp.append(f"  {ft.cpp(scope)} {name}{init};" + (f"  ///< {comment}" if comment else ""))
+                hpp.append(f"  {ft.cpp(scope)} {name}{{}};" + (f"  ///< {comment}" if comment else ""))
             hpp += [f"  bool operator==(const {t.name}&) const = default;", "};"]
         hpp.append("}")
     hpp.append("namespace trunnion::bus {")

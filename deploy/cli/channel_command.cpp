@@ -1,142 +1,50 @@
-// channel: what an operator asks of a channel.
+// channel: an operator's command to a channel. The words are the table's (idl/operator_commands.yaml).
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <iostream>
-#include <map>
 #include <memory>
 
 #include "bus/json.hpp"
 #include "cluster/client.hpp"
 #include "cluster/cluster.hpp"
 #include "commands.hpp"
+#include "commands/channel_request.hpp"
 
 namespace trunnion::cli {
 namespace {
 
 using idl::channel::CommandKind;
-using idl::channel::Mode;
 using idl::channel::RunState;
 
-struct Order {
-  std::uint16_t channel = 0;
-  std::string what;
+struct Options {
+  std::string word;
   std::vector<std::string> arguments;
+  std::uint16_t channel = 0;
   std::uint32_t from_line = 0;
 };
 
-const std::map<std::string, CommandKind> plain{{"start", CommandKind::CYCLE_START},
-                                               {"hold", CommandKind::FEED_HOLD},
-                                               {"reset", CommandKind::RESET},
-                                               {"jog-stop", CommandKind::JOG_STOP}};
-const std::map<std::string, CommandKind> switches{
-    {"dry-run", CommandKind::DRY_RUN},           {"auxiliary-lock", CommandKind::AUXILIARY_LOCK},
-    {"retrace", CommandKind::RETRACE},           {"handwheel-offset", CommandKind::HANDWHEEL_OFFSET},
-    {"single-block", CommandKind::SINGLE_BLOCK}, {"optional-stop", CommandKind::OPTIONAL_STOP}};
-
-const std::string& argument(const Order& order, std::size_t index, const char* meaning) {
-  if (index >= order.arguments.size())
-    throw std::runtime_error("channel " + order.what + " needs " + meaning);
-  return order.arguments[index];
-}
-
-double number(const std::string& text) {
-  std::size_t read = 0;
-  double value = 0;
-  try {
-    value = std::stod(text, &read);
-  } catch (const std::exception&) {
-    read = 0;
+// Of the axes, in the order of their indices.
+std::string letters_of(Client& client, std::uint16_t channel) {
+  auto reader = client.bus().reader(topics::channel_state);
+  const double until = service::monotonic_seconds() + 2;
+  idl::channel::ChannelState newest;
+  while (service::monotonic_seconds() < until) {
+    while (reader.take(newest))
+      if (newest.channel == channel) return newest.letters;
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
   }
-  if (read == 0 || read != text.size()) throw std::runtime_error("'" + text + "' is not a number");
-  return value;
+  throw std::runtime_error("channel " + std::to_string(channel) + " is not there");
 }
 
-bool on(const Order& order) {
-  const auto& text = argument(order, 0, "on or off");
-  if (text != "on" && text != "off") throw std::runtime_error("'" + text + "': on or off");
-  return text == "on";
-}
-
-Mode mode(const std::string& text) {
-  const std::map<std::string, Mode> modes{
-      {"auto", Mode::AUTO}, {"mdi", Mode::MDI}, {"jog", Mode::JOG}, {"ref", Mode::REF}};
-  const auto found = modes.find(text);
-  if (found == modes.end()) throw std::runtime_error("mode '" + text + "': auto, mdi, jog or ref");
-  return found->second;
-}
-
-std::size_t axis(const idl::channel::ChannelState& state, char letter) {
-  const auto at = state.letters.find(letter);
-  if (at == std::string::npos)
-    throw std::runtime_error(std::string("the channel has no axis ") + letter + ", it has " + state.letters);
-  return at;
-}
-
-// "off", "all", or letters such as XZ: bit i for axis i of the channel.
-double axis_mask(const idl::channel::ChannelState& state, const std::string& text) {
-  if (text == "off") return 0;
-  std::uint32_t mask = 0;
-  if (text == "all")
-    mask = (1u << state.letters.size()) - 1;
-  else
-    for (const char letter : text) mask |= 1u << axis(state, letter);
-  return mask;
-}
-
-// "off", or levels such as 13: bit 0 for level 1.
-double level_mask(const std::string& text) {
-  if (text == "off") return 0;
-  std::uint32_t mask = 0;
-  for (const char level : text) {
-    if (level < '1' || level > '9') throw std::runtime_error("'" + text + "': levels 1 to 9, or off");
-    mask |= 1u << (level - '1');
-  }
-  return mask;
-}
-
-cluster::ChannelRequest request_of(cluster::Client& client, const Order& order) {
-  cluster::ChannelRequest request;
-  request.channel = order.channel;
-  const auto state = [&] {
-    auto reader = client.bus().reader(topics::channel_state);
-    const double until = service::monotonic_seconds() + 2;
-    idl::channel::ChannelState newest;
-    while (service::monotonic_seconds() < until) {
-      while (reader.take(newest))
-        if (newest.channel == order.channel) return newest;
-      std::this_thread::sleep_for(std::chrono::milliseconds(2));
-    }
-    throw std::runtime_error("channel " + std::to_string(order.channel) + " is not there");
-  };
-  if (order.what == "start" && order.from_line != 0) {
-    request.command = CommandKind::START_FROM_LINE;
-    request.value = order.from_line;
-  } else if (const auto found = plain.find(order.what); found != plain.end()) {
-    request.command = found->second;
-  } else if (const auto change = switches.find(order.what); change != switches.end()) {
-    request.command = change->second;
-    request.value = on(order) ? 1 : 0;
-  } else if (order.what == "select") {
-    request.command = CommandKind::SELECT_PROGRAM;
-    request.text = argument(order, 0, "a program");
-  } else if (order.what == "mode") {
-    request.command = CommandKind::SET_MODE;
-    request.mode = mode(argument(order, 0, "auto, mdi, jog or ref"));
-  } else if (order.what == "axis-lock") {
-    request.command = CommandKind::AXIS_LOCK;
-    request.value = axis_mask(state(), argument(order, 0, "axis letters, all or off"));
-  } else if (order.what == "block-skip") {
-    request.command = CommandKind::BLOCK_SKIP;
-    request.value = level_mask(argument(order, 0, "levels, or off"));
-  } else {  // jog AXIS SPEED [DISTANCE], handwheel AXIS COUNTS INCREMENT
-    const bool wheel = order.what == "handwheel";
-    const auto& letter = argument(order, 0, "an axis");
-    if (letter.size() != 1) throw std::runtime_error("'" + letter + "' is no axis");
-    request.axis = static_cast<std::uint8_t>(axis(state(), letter[0]));
-    request.command = wheel ? CommandKind::HANDWHEEL : CommandKind::JOG_AXIS;
-    request.value = number(argument(order, 1, wheel ? "counts" : "a speed"));
-    if (wheel || order.arguments.size() > 2) request.increment = number(argument(order, 2, "an increment"));
-  }
+ChannelRequest request_of(Client& client, const Options& options) {
+  if (options.word == "start" && options.from_line != 0)
+    return {.channel = options.channel, .command = CommandKind::START_FROM_LINE, .line = options.from_line};
+  const auto* command = commands::find_word(options.word);
+  if (command == nullptr) throw std::runtime_error("no such command: " + options.word);
+  const bool axes = commands::names_axes(*command) && !options.arguments.empty();
+  const auto letters = axes ? letters_of(client, options.channel) : "";
+  auto request = commands::request_of(*command, options.arguments, letters);
+  request.channel = options.channel;
   return request;
 }
 
@@ -164,12 +72,12 @@ std::string await_line(cluster::Client& client, std::uint16_t channel) {
   throw std::runtime_error("the line was not found within 60 s");
 }
 
-int run(const Common& common, const Order& order) {
-  const auto cluster = cluster::find_cluster(common.domain);
-  cluster::Client client(cluster.run.domain);
-  client.channel(request_of(client, order));
+int run(const Common& common, const Options& options) {
+  const auto cluster = find_cluster(common.domain);
+  Client client(cluster.run.domain);
+  client.channel(request_of(client, options));
   std::string detail;
-  if (order.what == "start" && order.from_line != 0) detail = await_line(client, order.channel);
+  if (options.word == "start" && options.from_line != 0) detail = await_line(client, options.channel);
   if (common.json)
     std::cout << bus::text_of({{"accepted", true}, {"detail", detail}}) << "\n";
   else if (!detail.empty())
@@ -177,27 +85,31 @@ int run(const Common& common, const Order& order) {
   return 0;
 }
 
+std::string list_of_commands() {
+  std::string text = "COMMANDS, described in docs/operator-commands.md:";
+  for (const auto& row : commands::channel_commands()) {
+    const auto usage = commands::usage(row);
+    text +=
+        "\n  " + usage + std::string(usage.size() < 34 ? 34 - usage.size() : 1, ' ') + std::string(row.about);
+  }
+  return text;
+}
+
 }  // namespace
 
 void add_channel_command(CLI::App& app, Common& common) {
-  auto order = std::make_shared<Order>();
-  auto* command = add_command(
-      app, common, "channel",
-      "Operate a channel: start [--from-line N], hold, reset, select PROGRAM, mode auto|mdi|jog|ref, "
-      "single-block|optional-stop|dry-run|auxiliary-lock|retrace|handwheel-offset on|off, "
-      "axis-lock XYZ|all|off, block-skip 13|off, jog AXIS SPEED [DISTANCE], jog-stop, "
-      "handwheel AXIS COUNTS INCREMENT",
-      [&common, order] { return run(common, *order); });
-  command->add_option("what", order->what, "What to do")
-      ->required()
-      ->check(CLI::IsMember({"start", "hold", "reset", "select", "mode", "single-block", "optional-stop",
-                             "dry-run", "auxiliary-lock", "retrace", "handwheel-offset", "axis-lock",
-                             "block-skip", "jog", "jog-stop", "handwheel"}));
-  command->add_option("arguments", order->arguments, "Program, mode, on or off, axes, levels")
+  auto options = std::make_shared<Options>();
+  auto* command = add_command(app, common, "channel", "Operate a channel",
+                              [&common, options] { return run(common, *options); });
+  std::vector<std::string> words;
+  for (const auto& row : commands::channel_commands()) words.emplace_back(row.word);
+  command->add_option("what", options->word, "What to do")->required()->check(CLI::IsMember(words));
+  command->add_option("arguments", options->arguments, "Program, mode, on or off, axes, levels, numbers")
       ->expected(0, 3);
-  command->add_option("--channel", order->channel, "Channel number");
-  command->add_option("--from-line", order->from_line,
-                      "With start: search this line, say what will happen, and wait for another start");
+  command->add_option("--channel", options->channel, "Channel number");
+  command->add_option("--from-line", options->from_line,
+                      "With start: search this line, report what will happen, and wait for another start");
+  command->footer(list_of_commands());
 }
 
 }  // namespace trunnion::cli

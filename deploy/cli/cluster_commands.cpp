@@ -87,12 +87,12 @@ std::string remark(const Json& row) {
 std::string replica_state(const idl::service::ClusterService& service, bool in_step,
                           const std::map<std::array<std::uint32_t, 3>, idl::service::Alarm>& alarms) {
   const auto stage = stream::stage_of(service.service);
-  if (stage == 0 || service.pid == 0) return "";
-  const auto part = stream::replica_part(stage, service.copy);
+  if (!stage || service.pid == 0) return "";
+  const auto part = stream::replica_part(*stage, service.copy);
   const auto number = alarm::redundancy_lost.number;
   for (const auto& [key, alarm] : alarms)
     if (alarm.active && alarm.number == number && alarm.part == part &&
-        alarm.source == stream::stage_name(stream::stage_channel))
+        alarm.source == stream::stage_name(stream::Stage::CHANNEL))
       return "dropped";
   return in_step ? "in step" : "joining";
 }

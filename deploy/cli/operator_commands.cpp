@@ -10,11 +10,11 @@
 #include "cluster/client.hpp"
 #include "cluster/cluster.hpp"
 #include "commands.hpp"
+#include "commands/command_table.hpp"
 
 namespace trunnion::cli {
 namespace {
 
-using idl::channel::CommandKind;
 using idl::channel::Mode;
 using idl::channel::RunState;
 
@@ -52,10 +52,10 @@ void wait_until_idle(cluster::Client& client, std::uint16_t channel, double time
 }
 
 int mdi(const Common& common, const std::string& line, std::uint16_t channel, double timeout) {
-  const auto cluster = cluster::find_cluster(common.domain);
-  cluster::Client client(cluster.run.domain);
-  client.channel(channel, CommandKind::SET_MODE, "", 0, Mode::MDI);
-  client.channel(channel, CommandKind::MDI_LINE, line);
+  const auto cluster = find_cluster(common.domain);
+  Client client(cluster.run.domain);
+  client.set_mode(channel, Mode::MDI);
+  client.mdi(channel, line);
   wait_until_idle(client, channel, timeout);
   const auto state = client.newest(topics::channel_state);
   if (common.json) {
@@ -100,9 +100,9 @@ int alarms(const Common& common, bool reset) {
   return 0;
 }
 
-int panel(const Common& common, std::uint8_t kind) {
-  const auto cluster = cluster::find_cluster(common.domain);
-  cluster::Client(cluster.run.domain).panel(kind);
+int panel(const Common& common, idl::plc::PanelRequestKind kind) {
+  const auto cluster = find_cluster(common.domain);
+  Client(cluster.run.domain).panel(kind);
   if (common.json) std::cout << bus::Json{{"accepted", true}}.dump() << "\n";
   return 0;
 }
@@ -129,12 +129,10 @@ void add_operator_commands(CLI::App& app, Common& common) {
   command = add_command(
       app, common, "estop",
       "Press or release the emergency stop of the operator panel (no substitute for a hard-wired one)",
-      [&common, what] {
-        return panel(common, *what == "press" ? 1 : *what == "release" ? 2 : 3);
-      });
-  command->add_option("what", *what, "press, release or reset")
-      ->required()
-      ->check(CLI::IsMember({"press", "release", "reset"}));
+      [&common, what] { return panel(common, commands::find_panel_word(*what)->kind); });
+  std::vector<std::string> words;
+  for (const auto& row : commands::panel_commands()) words.emplace_back(row.word);
+  command->add_option("what", *what, "What to do")->required()->check(CLI::IsMember(words));
 }
 
 }  // namespace trunnion::cli

@@ -126,7 +126,7 @@ void await_recorder(cluster::Client& client) {
 void select(cluster::Client& client, std::uint16_t channel, const std::string& name) {
   for (int i = 0;; ++i) {
     try {
-      return client.channel(channel, CommandKind::SELECT_PROGRAM, name);
+      return client.select_program(channel, name);
     } catch (const std::exception&) {
       if (i == 50) throw;
       std::this_thread::sleep_for(std::chrono::milliseconds(10));
@@ -152,7 +152,7 @@ void draw_progress(const std::vector<idl::channel::ChannelState>& states, double
 
 // Searches the line; the cycle start that follows goes on from there. The program may as well have an alarm.
 void search_line(cluster::Client& client, std::uint32_t line) {
-  client.channel(0, CommandKind::START_FROM_LINE, "", line);
+  client.start_from_line(0, line);
   auto states = client.bus().reader(topics::channel_state);
   const double until = service::monotonic_seconds() + 60;
   int idle = 0;
@@ -173,7 +173,8 @@ void search_line(cluster::Client& client, std::uint32_t line) {
 std::string execute(cluster::Client& client, std::size_t channels, const RunOptions& options, bool bar) {
   const double timeout = options.timeout;
   if (options.dry_run)
-    for (std::uint16_t c = 0; c < channels; ++c) client.channel(c, CommandKind::DRY_RUN, "", 1);
+    for (std::uint16_t c = 0; c < channels; ++c)
+      client.channel({.channel = c, .command = CommandKind::DRY_RUN, .on = true});
   if (options.from_line != 0) search_line(client, options.from_line);
   auto states = client.bus().reader(topics::channel_state);
   auto alarms = client.bus().reader(topics::alarm);
@@ -267,7 +268,7 @@ RunResult run_programs(const RunOptions& options) {
     for (std::uint16_t c = 0; c < options.programs.size(); ++c) {
       names.push_back(place_program(client, machine, options.programs[c]));
       texts.push_back(client.download(names.back()));
-      client.channel(c, CommandKind::SET_MODE, "", 0, Mode::AUTO);
+      client.set_mode(c, Mode::AUTO);
       select(client, c, names.back());
     }
     result.alarm = execute(client, options.programs.size(), options, !options.quiet && isatty(2) != 0);
@@ -294,7 +295,7 @@ RecordingCost measure_recording(const RunOptions& options, int rounds) {
   ClusterGuard cluster(cluster::start_cluster(up_options(directory, options)));
   cluster::Client client(cluster.get().run.domain);
   const auto name = place_program(client, machine, options.programs.at(0));
-  client.channel(0, CommandKind::SET_MODE, "", 0, Mode::AUTO);
+  client.set_mode(0, Mode::AUTO);
   select(client, 0, name);
   RecordingCost cost;
   for (int round = 0; round < 2 * rounds; ++round) {

@@ -6,7 +6,8 @@ static int before(uint32_t epoch_a, uint64_t cycle_a, uint32_t epoch_b, uint64_t
   return epoch_a < epoch_b || (epoch_a == epoch_b && cycle_a < cycle_b);
 }
 
-const trunnion_stream_StageState *find_state(const dds_sequence_trunnion_stream_StageState *states, uint8_t stage) {
+const trunnion_stream_StageState *find_state(const dds_sequence_trunnion_stream_StageState *states,
+                                             trunnion_stream_Stage stage) {
   for (uint32_t i = 0; i < states->_length; ++i)
     if (states->_buffer[i].stage == stage) return &states->_buffer[i];
   return NULL;

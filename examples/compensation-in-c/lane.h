@@ -7,7 +7,8 @@
 #include "compensation.h"
 #include "stream.h"
 
-enum { FRAMES = 1024, STAGE = 3, MAXIMUM_STATES = 8 };
+#define STAGE trunnion_stream_COMPENSATION
+enum { FRAMES = 1024, MAXIMUM_STATES = 8 };
 
 struct lane {
   trunnion_stream_AxisFrame frames[FRAMES]; /* by first cycle; a frame has a `count` when it is there */
@@ -34,6 +35,7 @@ void lane_join(struct lane *l, const trunnion_stream_ChannelEcho *echo);
 /* A later frame is here while the next one is missing. */
 int lane_gap(struct lane *l);
 
-const trunnion_stream_StageState *find_state(const dds_sequence_trunnion_stream_StageState *states, uint8_t stage);
+const trunnion_stream_StageState *find_state(const dds_sequence_trunnion_stream_StageState *states,
+                                             trunnion_stream_Stage stage);
 
 #endif

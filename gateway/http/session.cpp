@@ -6,7 +6,7 @@
 #include <boost/beast/http/read.hpp>
 #include <boost/beast/http/write.hpp>
 
-#include "src/orders.hpp"
+#include "src/requests.hpp"
 
 namespace trunnion::gateway {
 
@@ -17,7 +17,7 @@ using std::chrono::seconds;
 
 namespace {
 
-constexpr seconds patience{30};
+constexpr seconds timeout{30};
 constexpr unsigned http_version = 11;
 
 std::string_view view(beast::string_view text) { return {text.data(), text.size()}; }
@@ -31,7 +31,7 @@ void HttpSession::read_header() {
   header_.emplace();
   header_->header_limit(16 << 10);
   header_->body_limit(largest_program);
-  stream_.expires_after(patience);
+  stream_.expires_after(timeout);
   http::async_read_header(
       stream_, buffer_, *header_, [self = shared_from_this()](beast::error_code error, std::size_t) {
         if (error == http::error::body_limit)
@@ -148,7 +148,7 @@ void HttpSession::send(Answer made) {
   response_.keep_alive(keep_alive_);
   response_.body() = std::move(made.body);
   response_.prepare_payload();
-  stream_.expires_after(patience);
+  stream_.expires_after(timeout);
   http::async_write(stream_, response_, [self = shared_from_this()](beast::error_code error, std::size_t) {
     if (error) return;
     if (self->keep_alive_) return self->read_header();
@@ -178,7 +178,7 @@ ProgramDone HttpSession::here(Completion next) {
 
 void HttpSession::begin_upload() {
   try {
-    check_program_name(match_.parts.at(0));
+    commands::check_program_name(match_.parts.at(0));
   } catch (const BadRequest& bad) {
     return answer_and_close(error_answer(400, bad.what(), bad.field));
   }
@@ -201,7 +201,7 @@ void HttpSession::read_part() {
   parts_->get().body().data = part_.data();
   parts_->get().body().size = part_.size();
   parts_->get().body().more = true;
-  stream_.expires_after(patience);
+  stream_.expires_after(timeout);
   http::async_read(
       stream_, buffer_, *parts_, [self = shared_from_this()](beast::error_code error, std::size_t) {
         if (error == http::error::need_buffer) error = {};
@@ -256,7 +256,7 @@ bool HttpSession::listed(const std::string& name) const {
 void HttpSession::begin_download() {
   const auto& name = match_.parts.at(0);
   try {
-    check_program_name(name);
+    commands::check_program_name(name);
   } catch (const BadRequest&) {
     return answer(error_answer(404, "no program " + name));
   }
@@ -308,7 +308,7 @@ void HttpSession::send_part() {
   body.data = download_->part.empty() ? nullptr : download_->part.data();
   body.size = download_->part.size();
   body.more = download_->offset < download_->size;
-  stream_.expires_after(patience);
+  stream_.expires_after(timeout);
   http::async_write(stream_, *download_->serializer,
                     [self = shared_from_this()](beast::error_code error, std::size_t) {
                       if (error == http::error::need_buffer) error = {};

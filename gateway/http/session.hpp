@@ -44,7 +44,7 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
   /// Answers a request whose body has not been read; the connection ends with it.
   void answer_and_close(Answer answer);
   void too_large(const char* why);
-  /// A callback for the bus thread that goes on here, on the thread of the connection.
+  /// A callback for the bus thread that continues here, on the thread of the connection.
   ProgramDone here(Completion next);
 
   void begin_upload();

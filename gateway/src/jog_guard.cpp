@@ -14,7 +14,7 @@ void JogGuard::forget(std::uint16_t channel, std::uint8_t axis) { held_.erase({c
 std::vector<std::pair<std::uint16_t, std::uint8_t>> JogGuard::expired(double now) {
   std::vector<std::pair<std::uint16_t, std::uint8_t>> over;
   for (auto held = held_.begin(); held != held_.end();) {
-    if (now - held->second.renewed <= jog_patience) {
+    if (now - held->second.renewed <= jog_timeout) {
       ++held;
       continue;
     }

@@ -8,13 +8,13 @@
 
 namespace trunnion::gateway {
 
-/// Seconds a continuous jog goes on without being renewed.
-inline constexpr double jog_patience = 0.5;
+/// Seconds that a continuous jog continues without being renewed.
+inline constexpr double jog_timeout = 0.5;
 
 class JogGuard {
  public:
-  /// An order to jog `axis` of `channel` continuously at `speed`. True when the channel must be told; false
-  /// when it only renews a movement that is under way.
+  /// A request to jog `axis` of `channel` continuously at `speed`. True when it must be sent to the channel;
+  /// false when it only renews a movement that is being executed.
   bool press(std::uint16_t channel, std::uint8_t axis, double speed, double now);
   /// The movement ended: stopped, or refused.
   void forget(std::uint16_t channel, std::uint8_t axis);

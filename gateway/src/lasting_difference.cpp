@@ -12,9 +12,9 @@ std::string value_at(const bus::Json& flat, const std::string& path) {
 
 }  // namespace
 
-void LastingDifference::look(const bus::Json& running, const bus::Json& before, const bus::Json& after,
-                             double now) {
-  if (looks_++ == 0) began_ = now;
+void LastingDifference::sample(const bus::Json& running, const bus::Json& before, const bus::Json& after,
+                               double now) {
+  if (samples_++ == 0) began_ = now;
   const auto theirs = running.flatten(), first = before.flatten(), last = after.flatten();
   std::set<std::string> paths;
   for (const auto* flat : {&theirs, &first, &last})
@@ -25,16 +25,16 @@ void LastingDifference::look(const bus::Json& running, const bus::Json& before, 
     if (earlier != own || here == own)
       differing_.erase(path);
     else
-      look_at(path, here, own, now);
+      count(path, here, own, now);
   }
 }
 
-void LastingDifference::look_at(const std::string& path, const std::string& running, const std::string& own,
-                                double now) {
+void LastingDifference::count(const std::string& path, const std::string& running, const std::string& own,
+                              double now) {
   auto& one = differing_[path];
-  if (one.looks == 0 || one.own != own) one = {own, now, 0};
-  ++one.looks;
-  if (difference_.empty() && one.looks >= looks_in_a_row && now - one.since >= patience)
+  if (one.samples == 0 || one.own != own) one = {own, now, 0};
+  ++one.samples;
+  if (difference_.empty() && one.samples >= samples_in_a_row && now - one.since >= duration)
     difference_ = (path.empty() ? "all" : path.substr(1)) + ": " + running + " and " + own;
 }
 

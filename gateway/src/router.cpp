@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "commands/command_table.hpp"
+
 namespace trunnion::gateway {
 namespace {
 
@@ -40,36 +42,15 @@ bool fits(std::string_view pattern, std::string_view path, std::vector<std::stri
 
 }  // namespace
 
-const std::vector<Route>& routes() {
-  static const std::vector<Route> table = {
+namespace {
+
+std::vector<Route> all_routes() {
+  std::vector<Route> table = {
       {"GET", "/api/status", Operation::status},
       {"GET", "/api/alarms", Operation::alarms},
       {"POST", "/api/alarms/reset", Operation::alarms_reset},
       {"GET", "/api/channels", Operation::channels},
       {"GET", "/api/channels/{channel}", Operation::channel},
-      {"POST", "/api/channels/{channel}/mode", Operation::mode},
-      {"POST", "/api/channels/{channel}/select", Operation::select},
-      {"POST", "/api/channels/{channel}/cycle-start", Operation::cycle_start},
-      {"POST", "/api/channels/{channel}/feed-hold", Operation::feed_hold},
-      {"POST", "/api/channels/{channel}/reset", Operation::reset},
-      {"POST", "/api/channels/{channel}/mdi", Operation::mdi},
-      {"POST", "/api/channels/{channel}/jog", Operation::jog},
-      {"POST", "/api/channels/{channel}/jog-stop", Operation::jog_stop},
-      {"POST", "/api/channels/{channel}/reference", Operation::reference},
-      {"POST", "/api/channels/{channel}/override", Operation::override_},
-      {"POST", "/api/channels/{channel}/single-block", Operation::single_block},
-      {"POST", "/api/channels/{channel}/optional-stop", Operation::optional_stop},
-      {"POST", "/api/channels/{channel}/start-from-line", Operation::start_from_line},
-      {"POST", "/api/channels/{channel}/dry-run", Operation::dry_run},
-      {"POST", "/api/channels/{channel}/axis-lock", Operation::axis_lock},
-      {"POST", "/api/channels/{channel}/auxiliary-lock", Operation::auxiliary_lock},
-      {"POST", "/api/channels/{channel}/block-skip", Operation::block_skip},
-      {"POST", "/api/channels/{channel}/retrace", Operation::retrace},
-      {"POST", "/api/channels/{channel}/handwheel", Operation::handwheel},
-      {"POST", "/api/channels/{channel}/handwheel-offset", Operation::handwheel_offset},
-      {"POST", "/api/panel/emergency-stop", Operation::emergency_stop},
-      {"POST", "/api/panel/release", Operation::release},
-      {"POST", "/api/panel/reset", Operation::panel_reset},
       {"GET", "/api/parameters", Operation::parameters},
       {"GET", "/api/parameters/{number}", Operation::parameter},
       {"PUT", "/api/parameters/{number}", Operation::set_parameter},
@@ -84,6 +65,22 @@ const std::vector<Route>& routes() {
       {"GET", "/api/openapi.json", Operation::openapi},
       {"GET", "/api/stream", Operation::stream},
   };
+  const auto add = [&](const std::string& base, std::string_view route, Operation operation) {
+    const auto pattern = base + std::string(route);
+    if (std::none_of(table.begin(), table.end(),
+                     [&](const Route& known) { return known.pattern == pattern; }))
+      table.push_back({"POST", pattern, operation, route});
+  };
+  for (const auto& row : commands::channel_commands())
+    add("/api/channels/{channel}/", row.route, Operation::channel_command);
+  for (const auto& row : commands::panel_commands()) add("/api/panel/", row.route, Operation::panel_command);
+  return table;
+}
+
+}  // namespace
+
+const std::vector<Route>& routes() {
+  static const std::vector<Route> table = all_routes();
   return table;
 }
 
@@ -92,7 +89,7 @@ Match match(std::string_view method, std::string_view path) {
   for (const auto& route : routes()) {
     std::vector<std::string> parts;
     if (!fits(route.pattern, path, parts)) continue;
-    if (route.method == method) return {RouteResult::found, route.operation, std::move(parts)};
+    if (route.method == method) return {RouteResult::found, route.operation, route.command, std::move(parts)};
     found.result = RouteResult::no_method;
   }
   return found;

@@ -25,37 +25,17 @@ enum class Operation {
   plc_image,
   openapi,
   stream,
-  mode,
-  select,
-  cycle_start,
-  feed_hold,
-  reset,
-  mdi,
-  jog,
-  jog_stop,
-  reference,
-  override_,
-  single_block,
-  optional_stop,
-  start_from_line,
-  dry_run,
-  axis_lock,
-  auxiliary_lock,
-  block_skip,
-  retrace,
-  handwheel,
-  handwheel_offset,
-  emergency_stop,
-  release,
-  panel_reset,
+  channel_command,  ///< one of commands::channel_commands()
+  panel_command,    ///< one of commands::panel_commands()
   alarms_reset
 };
 
-/// One line of the table: `{x}` in the pattern stands for one part of a path.
+/// One line of the table: `{x}` in the pattern is one part of a path.
 struct Route {
   std::string_view method;
-  std::string_view pattern;
+  std::string pattern;
   Operation operation;
+  std::string_view command{};  ///< the route of a command in its table
 };
 
 const std::vector<Route>& routes();
@@ -65,6 +45,7 @@ enum class RouteResult { found, no_path, no_method };
 struct Match {
   RouteResult result = RouteResult::no_path;
   Operation operation = Operation::status;
+  std::string_view command;        ///< as in Route
   std::vector<std::string> parts;  ///< what stood for each `{x}`, percent-decoded
 };
 

@@ -28,8 +28,8 @@ void StateDocument::apply(const idl::service::Announcement& announcement) {
 void StateDocument::apply(const idl::service::ServiceState& state, double now) {
   auto& known = services_[state.instance];
   if (known.beating && known.state.pid != state.pid)
-    // Another process took the place: nobody is left to clear what its predecessor had raised. What arrived
-    // after the predecessor's last heartbeat may be the successor's and stays.
+    // Another process took the place: no process is left to clear what its predecessor had raised. What
+    // arrived after the predecessor's last heartbeat may be the successor's and stays.
     std::erase_if(alarms_, [&](const auto& entry) {
       return std::get<0>(entry.first) == state.instance && entry.second.heard <= known.heard;
     });
@@ -96,7 +96,7 @@ Json StateDocument::services(double now) const {
     const auto& plan = wanted != nullptr ? *wanted : unplanned;
     const auto& state = known.state;
     const auto& announcement = known.announcement;
-    const bool alive = known.beating && now - known.heard < heartbeat_patience;
+    const bool alive = known.beating && now - known.heard < heartbeat_timeout;
     const bool same = !known.announced || announcement.contract == contract_;
     auto& entry = json[std::to_string(instance)] = Json::object();
     // The newest of what is known: its heartbeat, else its announcement, else what the launcher expects.
@@ -177,7 +177,7 @@ Json StateDocument::document(double now) {
   if (has_feedback_)
     json["drive"] = {{"executed", feedback_.first + feedback_.count},
                      {"tick", feedback_.tick},
-                     {"mode", feedback_.mode},
+                     {"mode", bus::to_string(feedback_.mode)},
                      {"starved", feedback_.starved},
                      {"spindle_speed", rounded_row(feedback_.spindle_speed)}};
   if (!plc_.is_null()) json["plc"] = plc_;

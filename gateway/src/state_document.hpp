@@ -1,4 +1,4 @@
-// What the page is told: one JSON document made of the newest samples of the bus.
+// What the page is sent: one JSON document made of the newest samples of the bus.
 #pragma once
 
 #include <map>
@@ -13,7 +13,7 @@
 namespace trunnion::gateway {
 
 /// Seconds without a heartbeat after which a service counts as silent; it sends four a second.
-inline constexpr double heartbeat_patience = 1.2;
+inline constexpr double heartbeat_timeout = 1.2;
 
 /// `now` is in monotonic seconds, `time` an ISO 8601 instant; both only for display.
 class StateDocument {

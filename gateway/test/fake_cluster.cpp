@@ -156,52 +156,53 @@ idl::channel::ChannelReply FakeCluster::apply(const idl::channel::ChannelRequest
       channel.state = RunState::IDLE;
       break;
     case CommandKind::FEED_OVERRIDE:
-      channel.feed_override = request.value;
+      channel.feed_override = request.fraction;
       break;
     case CommandKind::RAPID_OVERRIDE:
-      channel.rapid_override = request.value;
+      channel.rapid_override = request.fraction;
       break;
     case CommandKind::SPINDLE_OVERRIDE:
-      channel.spindle_override = request.value;
+      channel.spindle_override = request.fraction;
       break;
     case CommandKind::SINGLE_BLOCK:
-      channel.single_block = request.value != 0;
+      channel.single_block = request.on;
       break;
     case CommandKind::OPTIONAL_STOP:
-      channel.optional_stop = request.value != 0;
+      channel.optional_stop = request.on;
       break;
     case CommandKind::DRY_RUN:
-      channel.dry_run = request.value != 0;
+      channel.dry_run = request.on;
       break;
     case CommandKind::AUXILIARY_LOCK:
-      channel.auxiliary_lock = request.value != 0;
+      channel.auxiliary_lock = request.on;
       break;
     case CommandKind::AXIS_LOCK:
       for (std::size_t i = 0; i < channel.locked.size(); ++i)
-        channel.locked[i] = (static_cast<unsigned>(request.value) >> i & 1u) != 0 ? 1 : 0;
+        channel.locked[i] = (request.axes >> i & 1u) != 0 ? 1 : 0;
       break;
     case CommandKind::BLOCK_SKIP:
-      channel.block_skip = static_cast<std::uint16_t>(request.value);
+      channel.block_skip = request.levels;
       break;
     case CommandKind::HANDWHEEL_OFFSET:
-      channel.handwheel_offset_on = request.value != 0;
+      channel.handwheel_offset_on = request.on;
       break;
     case CommandKind::HANDWHEEL:
-      channel.handwheel_offset.at(request.axis) += request.value * request.increment;
+      channel.handwheel_offset.at(request.axis) += request.counts * request.increment;
       break;
     case CommandKind::START_FROM_LINE:
       channel.state = RunState::HELD;
-      channel.line = static_cast<std::uint32_t>(request.value);
+      channel.line = request.line;
       channel.detail = "cycle start: S1000 M3, approach Z20.0000, then X25.0000";
       break;
     case CommandKind::MDI_LINE:
-      if (std::strchr("GXYZMTSFN", request.text[0]) == nullptr)
-        return {0, 0, false, 1001, "unknown word in '" + request.text + "'", cycle_};
+      if (std::strchr("GXYZMTSFN", request.block[0]) == nullptr)
+        return {0, 0, false, 1001, "unknown word in '" + request.block + "'", cycle_};
       break;
     case CommandKind::SELECT_PROGRAM:
-      if (!programs.contains(request.text)) return {0, 0, false, 141, "no program " + request.text, cycle_};
-      channel.program = request.text;
-      channel.lines_total = lines_of(programs[request.text]);
+      if (!programs.contains(request.program))
+        return {0, 0, false, 141, "no program " + request.program, cycle_};
+      channel.program = request.program;
+      channel.lines_total = lines_of(programs[request.program]);
       break;
     default:
       break;
@@ -275,7 +276,7 @@ void FakeCluster::answer_others() {
   idl::plc::PanelRequest panel;
   while (panel_server_.take(panel)) {
     panel_requests.push_back(panel);
-    plc_.emergency_stop = panel.kind == 1;
+    plc_.emergency_stop = panel.kind == idl::plc::PanelRequestKind::PRESS_EMERGENCY_STOP;
     outputs_.write(plc_);
     if (plc_.emergency_stop) channel.state = idl::channel::RunState::IDLE;
     panel_server_.reply(panel, {0, 0, true, ""});

@@ -21,7 +21,7 @@ int main(int argc, char** argv) {
     cluster.step();
     for (; told < cluster.channel_requests.size(); ++told) {
       const auto& request = cluster.channel_requests[told];
-      std::printf("%s %s\n", bus::to_string(request.command), request.text.c_str());
+      std::printf("%s %s\n", bus::to_string(request.command), (request.program + request.block).c_str());
       std::fflush(stdout);
     }
     std::this_thread::sleep_for(std::chrono::milliseconds(2));

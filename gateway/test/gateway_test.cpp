@@ -223,7 +223,7 @@ TEST_F(Gateway, ASilentServiceIsAGatewayTimeoutAndOthersGoOnMeanwhile) {
   cluster([](auto& c) {
     EXPECT_EQ(c.channel_requests.size(), 1u) << "repetitions are the same request";
     ASSERT_EQ(c.panel_requests.size(), 1u);
-    EXPECT_EQ(c.panel_requests[0].kind, 1);
+    EXPECT_EQ(c.panel_requests[0].kind, idl::plc::PanelRequestKind::PRESS_EMERGENCY_STOP);
   });
   EXPECT_TRUE(
       eventually([&] { return json::parse(get("/api/status").body)["plc"]["emergency_stop"] == true; }));
@@ -334,7 +334,7 @@ TEST_F(Gateway, AContinuousJogEndsWithoutRenewal) {
   EXPECT_TRUE(eventually([&] { return cluster([](auto& c) { return c.channel_requests.size() == 2; }); }));
   cluster([](auto& c) {
     EXPECT_EQ(c.channel_requests[0].command, idl::channel::CommandKind::JOG_AXIS);
-    EXPECT_EQ(c.channel_requests[0].value, -300);
+    EXPECT_EQ(c.channel_requests[0].speed, -300);
     EXPECT_EQ(c.channel_requests[1].command, idl::channel::CommandKind::JOG_STOP);
     EXPECT_EQ(c.channel_requests[1].axis, 1);
   });

@@ -1,9 +1,9 @@
-// Any request line and body: they are refused with the field, or become an order that is within its limits.
+// Any request line and body: they are refused with the field, or become a request that is within its limits.
 #include <cmath>
 #include <cstdlib>
 #include <string>
 
-#include "src/orders.hpp"
+#include "src/requests.hpp"
 #include "src/router.hpp"
 
 namespace trunnion::gateway {
@@ -14,8 +14,9 @@ void require(bool condition) {
 }
 
 void check(const idl::channel::ChannelRequest& request) {
-  require(request.channel == 2 && request.text.size() <= 256);
-  require(std::isfinite(request.value) && std::isfinite(request.increment) && request.axis < 5);
+  require(request.channel == 2 && request.program.size() <= 64 && request.block.size() <= 256);
+  require(std::isfinite(request.fraction) && std::isfinite(request.speed) &&
+          std::isfinite(request.increment) && request.axis < 5);
 }
 
 void body(const std::string& text) {
@@ -29,41 +30,21 @@ void body(const std::string& text) {
   } catch (const BadRequest&) {
     return;
   }
-  const auto refused_or = [](auto order) {
+  const auto refused_or = [](auto make) {
     try {
-      order();
+      make();
     } catch (const BadRequest& bad) {
       require(bad.what()[0] != 0);
     }
   };
-  for (const auto operation : {Operation::mode,
-                               Operation::select,
-                               Operation::cycle_start,
-                               Operation::feed_hold,
-                               Operation::reset,
-                               Operation::mdi,
-                               Operation::jog,
-                               Operation::jog_stop,
-                               Operation::reference,
-                               Operation::override_,
-                               Operation::single_block,
-                               Operation::optional_stop,
-                               Operation::start_from_line,
-                               Operation::dry_run,
-                               Operation::axis_lock,
-                               Operation::auxiliary_lock,
-                               Operation::block_skip,
-                               Operation::retrace,
-                               Operation::handwheel,
-                               Operation::handwheel_offset})
-    refused_or([&] { check(channel_order(operation, json, state)); });
-  for (const auto operation : {Operation::emergency_stop, Operation::release, Operation::panel_reset})
-    refused_or([&] { panel_order(operation, json); });
-  refused_or([&] { alarm_reset_order(json); });
+  for (const auto& row : commands::channel_commands())
+    refused_or([&] { check(channel_request(row.route, json, state)); });
+  for (const auto& row : commands::panel_commands()) refused_or([&] { panel_request(row.route, json); });
+  refused_or([&] { alarm_reset(json); });
   for (const bool is_text : {false, true})
-    refused_or([&] { require(std::isfinite(parameter_order(100034, is_text, json).values.at(0).value)); });
+    refused_or([&] { require(std::isfinite(parameter_request(100034, is_text, json).values.at(0).value)); });
   refused_or([&] {
-    const auto request = work_offset_order(json);
+    const auto request = work_offset_request(json);
     for (const double value : request.offsets.at(0).values) require(std::isfinite(value));
   });
 }
@@ -85,7 +66,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   for (const auto& part : found.parts) {
     path_number(part, 999999);
     try {
-      check_program_name(part);
+      trunnion::commands::check_program_name(part);
       require(!part.empty() && part.size() <= 64 && part.find('/') == std::string::npos);
     } catch (const BadRequest&) {
     }

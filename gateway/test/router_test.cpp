@@ -14,7 +14,8 @@ using testing::ElementsAre;
 TEST(Router, FindsTheOperationAndTheParts) {
   const auto found = match("POST", "/api/channels/3/cycle-start");
   EXPECT_EQ(found.result, RouteResult::found);
-  EXPECT_EQ(found.operation, Operation::cycle_start);
+  EXPECT_EQ(found.operation, Operation::channel_command);
+  EXPECT_EQ(found.command, "cycle-start");
   EXPECT_THAT(found.parts, ElementsAre("3"));
 }
 

@@ -58,7 +58,7 @@ TEST(JogGuard, WhatIsNotRenewedIsStoppedOnce) {
   JogGuard guard;
   guard.press(0, 1, 500, 10.0);
   guard.press(3, 2, 500, 10.3);
-  EXPECT_TRUE(guard.expired(10.0 + jog_patience).empty());
+  EXPECT_TRUE(guard.expired(10.0 + jog_timeout).empty());
   EXPECT_EQ(guard.expired(10.6), (std::vector<std::pair<std::uint16_t, std::uint8_t>>{{0, 1}}));
   EXPECT_TRUE(guard.expired(10.6).empty());
   EXPECT_TRUE(guard.watching());
@@ -130,14 +130,14 @@ TEST(StateDocument, AServiceIsSilentWithoutHeartbeatAndAbsentWhenExpectedButNeve
   expected.restarts = 2;
   cluster.services.push_back(expected);
   document.apply(cluster);
-  auto json = document.document(10.0 + heartbeat_patience / 2)["services"];
+  auto json = document.document(10.0 + heartbeat_timeout / 2)["services"];
   EXPECT_EQ(json["4"]["alive"], true);
   EXPECT_EQ(json["4"]["lifecycle"], "ACTIVE");
   EXPECT_EQ(json["9"]["alive"], false);
   EXPECT_EQ(json["9"]["lifecycle"], "ABSENT");
   EXPECT_EQ(json["9"]["service"], "plc");
   EXPECT_EQ(json["9"]["restarts"], 2);
-  json = document.document(10.0 + 2 * heartbeat_patience)["services"];
+  json = document.document(10.0 + 2 * heartbeat_timeout)["services"];
   EXPECT_EQ(json["4"]["alive"], false);
 }
 

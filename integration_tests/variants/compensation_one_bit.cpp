@@ -8,7 +8,7 @@ using Core = OneBitOff<compensation::CompensationCore, idl::stream::AxisFrame>;
 class Service : public stream::StageService<idl::stream::AxisFrame> {
  public:
   explicit Service(service::Node& node)
-      : StageService(node, stream::stage_compensation, topics::kinematics_frame, topics::compensation_frame,
+      : StageService(node, stream::Stage::COMPENSATION, topics::kinematics_frame, topics::compensation_frame,
                      [] { return std::make_unique<Core>(); }) {}
 };
 

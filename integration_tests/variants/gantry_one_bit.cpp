@@ -8,7 +8,7 @@ using Core = OneBitOff<gantry::GantryCore, idl::stream::AxisFrame>;
 class Service : public stream::StageService<idl::stream::AxisFrame> {
  public:
   explicit Service(service::Node& node)
-      : StageService(node, stream::stage_gantry, topics::compensation_frame, topics::gantry_frame,
+      : StageService(node, stream::Stage::GANTRY, topics::compensation_frame, topics::gantry_frame,
                      [] { return std::make_unique<Core>(); }) {}
 
  protected:

@@ -1,15 +1,15 @@
-// A gateway that orders a little more than it was asked to: what verification must find. This unit takes the
-// place of gateway/src/orders.cpp.
-#define channel_order right_channel_order
-#include "src/orders.cpp"  // NOLINT(bugprone-suspicious-include)
-#undef channel_order
+// A gateway that asks for a little more than it was asked to: what verification must find. This unit takes
+// the place of gateway/src/requests.cpp.
+#define channel_request right_channel_request
+#include "src/requests.cpp"  // NOLINT(bugprone-suspicious-include)
+#undef channel_request
 
 namespace trunnion::gateway {
 
-ChannelRequest channel_order(Operation operation, const bus::Json& body,
-                             const idl::channel::ChannelState& state) {
-  auto request = right_channel_order(operation, body, state);
-  if (operation == Operation::override_) request.value += 0.01;
+idl::channel::ChannelRequest channel_request(std::string_view route, const bus::Json& body,
+                                             const idl::channel::ChannelState& state) {
+  auto request = right_channel_request(route, body, state);
+  if (route == "override") request.fraction += 0.01;
   return request;
 }
 

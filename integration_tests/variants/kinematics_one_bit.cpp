@@ -8,7 +8,7 @@ using Core = OneBitOff<kinematics::KinematicsCore, idl::stream::PathFrame>;
 class Service : public stream::StageService<idl::stream::PathFrame> {
  public:
   explicit Service(service::Node& node)
-      : StageService(node, stream::stage_kinematics, topics::path_frame, topics::kinematics_frame,
+      : StageService(node, stream::Stage::KINEMATICS, topics::path_frame, topics::kinematics_frame,
                      [] { return std::make_unique<Core>(); }) {}
 };
 

@@ -3,6 +3,8 @@
 
 #include <cstddef>
 #include <iterator>
+#include <optional>
+#include <string_view>
 
 namespace trunnion::bus {
 
@@ -35,6 +37,14 @@ template <Enumeration E>
 constexpr const char* to_string(E value) {
   const auto index = static_cast<std::size_t>(value);
   return index < enum_size<E>() ? EnumNames<E>::names[index] : "?";
+}
+
+/// The enumerator of this name as in the IDL; nothing when there is none.
+template <Enumeration E>
+constexpr std::optional<E> from_string(std::string_view name) {
+  for (std::size_t i = 0; i < enum_size<E>(); ++i)
+    if (name == EnumNames<E>::names[i]) return static_cast<E>(i);
+  return std::nullopt;
 }
 
 }  // namespace trunnion::bus

@@ -19,12 +19,24 @@ Client::Client(const bus::NetworkSettings& network)
       parameter_(bus_, topics::parameter_request, topics::parameter_reply),
       panel_(bus_, topics::panel_request, topics::panel_reply) {}
 
-void Client::channel(std::uint16_t channel, idl::channel::CommandKind command, const std::string& text,
-                     double value, idl::channel::Mode mode) {
-  ChannelRequest request;
-  request.channel = channel, request.command = command, request.text = text, request.value = value,
-  request.mode = mode;
-  this->channel(request);
+void Client::channel(std::uint16_t channel, CommandKind command) {
+  this->channel({.channel = channel, .command = command});
+}
+
+void Client::set_mode(std::uint16_t channel, idl::channel::Mode mode) {
+  this->channel({.channel = channel, .command = CommandKind::SET_MODE, .mode = mode});
+}
+
+void Client::select_program(std::uint16_t channel, const std::string& name) {
+  this->channel({.channel = channel, .command = CommandKind::SELECT_PROGRAM, .program = name});
+}
+
+void Client::mdi(std::uint16_t channel, const std::string& block) {
+  this->channel({.channel = channel, .command = CommandKind::MDI_LINE, .block = block});
+}
+
+void Client::start_from_line(std::uint16_t channel, std::uint32_t line) {
+  this->channel({.channel = channel, .command = CommandKind::START_FROM_LINE, .line = line});
 }
 
 void Client::channel(const ChannelRequest& request) {
@@ -49,10 +61,8 @@ idl::parameters::ParameterReply Client::parameter(idl::parameters::ParameterRequ
   return *reply;
 }
 
-idl::plc::PanelReply Client::panel(std::uint8_t kind) {
-  idl::plc::PanelRequest request;
-  request.kind = kind;
-  const auto reply = panel_.call(request, timeout);
+idl::plc::PanelReply Client::panel(idl::plc::PanelRequestKind kind) {
+  const auto reply = panel_.call({.kind = kind}, timeout);
   if (!reply) throw std::runtime_error("the PLC does not answer");
   if (!reply->accepted) throw std::runtime_error(reply->reason);
   return *reply;

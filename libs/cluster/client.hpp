@@ -10,6 +10,7 @@ namespace trunnion::cluster {
 
 using idl::channel::ChannelReply;
 using idl::channel::ChannelRequest;
+using idl::channel::CommandKind;
 
 class Client {
  public:
@@ -19,13 +20,18 @@ class Client {
 
   bus::Bus& bus() { return bus_; }
   /// Throws std::runtime_error with the reason when it is refused or nobody answers.
-  void channel(std::uint16_t channel, idl::channel::CommandKind command, const std::string& text = "",
-               double value = 0, idl::channel::Mode mode = idl::channel::Mode::AUTO);
-  /// The same with every field of the request; client and number are given by this client.
+  /// Client and number of the request are given by this client.
   void channel(const ChannelRequest& request);
+  /// A command without fields.
+  void channel(std::uint16_t channel, CommandKind command);
+  void set_mode(std::uint16_t channel, idl::channel::Mode mode);
+  void select_program(std::uint16_t channel, const std::string& name);
+  void mdi(std::uint16_t channel, const std::string& block);
+  /// `line` counts from 1.
+  void start_from_line(std::uint16_t channel, std::uint32_t line);
   idl::program::ProgramReply program(idl::program::ProgramRequest request);
   idl::parameters::ParameterReply parameter(idl::parameters::ParameterRequest request);
-  idl::plc::PanelReply panel(std::uint8_t kind);
+  idl::plc::PanelReply panel(idl::plc::PanelRequestKind kind);
   /// Stores `text` under `name` in chunks.
   void upload(const std::string& name, const std::string& text);
   std::string download(const std::string& name);

@@ -37,12 +37,12 @@ void AuxiliaryMemory::pass(const language::Command& command) {
 
 std::vector<AuxiliaryFunction> AuxiliaryMemory::functions(bool speed, bool spindle, bool coolant) const {
   std::vector<AuxiliaryFunction> list;
-  if (speed && has_speed_) list.push_back({AuxiliaryKind::s, 0, speed_});
-  if (spindle && has_spindle_) list.push_back({AuxiliaryKind::m, spindle_, 0});
+  if (speed && has_speed_) list.push_back({AuxiliaryKind::S, 0, speed_});
+  if (spindle && has_spindle_) list.push_back({AuxiliaryKind::M, spindle_, 0});
   if (coolant && has_coolant_) {
-    if (mist_) list.push_back({AuxiliaryKind::m, 7, 0});
-    if (flood_) list.push_back({AuxiliaryKind::m, 8, 0});
-    if (!mist_ && !flood_) list.push_back({AuxiliaryKind::m, 9, 0});
+    if (mist_) list.push_back({AuxiliaryKind::M, 7, 0});
+    if (flood_) list.push_back({AuxiliaryKind::M, 8, 0});
+    if (!mist_ && !flood_) list.push_back({AuxiliaryKind::M, 9, 0});
   }
   return list;
 }
@@ -54,9 +54,9 @@ std::vector<AuxiliaryFunction> AuxiliaryMemory::functions_changed_by(const Auxil
   const auto list = functions(other.has_speed_, other.has_spindle_, other.has_coolant_);
   std::vector<AuxiliaryFunction> undo;
   undo.reserve(list.size() + 2);
-  if (other.has_spindle_ && !has_spindle_) undo.push_back({AuxiliaryKind::m, 5, 0});
+  if (other.has_spindle_ && !has_spindle_) undo.push_back({AuxiliaryKind::M, 5, 0});
   if (other.has_coolant_ && (!has_coolant_ || (other.mist_ && !mist_) || (other.flood_ && !flood_)))
-    undo.push_back({AuxiliaryKind::m, 9, 0});
+    undo.push_back({AuxiliaryKind::M, 9, 0});
   undo.insert(undo.end(), list.begin(), list.end());
   return undo;
 }

@@ -4,16 +4,16 @@
 #include <cstdint>
 #include <vector>
 
+#include "contracts/types.hpp"
 #include "language/canonical.hpp"
 
 namespace trunnion::program_execution {
 
-/// The kinds of auxiliary function, numbered as in AuxiliaryRequest (idl/channel.idl).
-enum class AuxiliaryKind : std::uint8_t { none = 0, m = 1, s = 2, t = 3 };
+using idl::channel::AuxiliaryKind;
 
 /// One M, S or T of the handshake with the PLC.
 struct AuxiliaryFunction {
-  AuxiliaryKind kind = AuxiliaryKind::m;
+  AuxiliaryKind kind = AuxiliaryKind::M;
   std::uint32_t code = 0;  ///< M or T number
   double value = 0;        ///< S in 1/min, or m/min with G96
 };

@@ -75,8 +75,9 @@ class Collector {
     stamp(times, 0, time, path_.first + path_.count - 1);
     if (!news) return true;
     for (std::size_t i = 0; i < rows; ++i) {
-      PathRow row{path_.first + i,           path_.epoch,       i < path_.lines.size() ? path_.lines[i] : 0,
-                  path_.transformation == 1, path_.tool_length, {}};
+      const bool rtcp = path_.transformation == idl::stream::Transformation::RTCP;
+      PathRow row{path_.first + i,   path_.epoch, i < path_.lines.size() ? path_.lines[i] : 0, rtcp,
+                  path_.tool_length, {}};
       std::copy_n(&path_.setpoints[i * path_width], path_width, row.position.begin());
       out_.path.push_back(row);
     }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "bus/json.hpp"
 #include "stream/stage_names.hpp"
 
 namespace trunnion::stream {
@@ -17,7 +18,7 @@ std::string number(std::uint64_t value) { return std::to_string(value); }
 
 class Comparison {
  public:
-  Comparison(std::uint8_t stage, unsigned copy_a, unsigned copy_b, std::uint64_t first)
+  Comparison(Stage stage, unsigned copy_a, unsigned copy_b, std::uint64_t first)
       : head_("Replicas " + std::to_string(copy_a) + " and " + std::to_string(copy_b) + " of " +
               stage_name(stage) + " differ"),
         first_(first) {}
@@ -48,10 +49,22 @@ class Comparison {
     value("number of states", first_, std::uint64_t{a.size()}, std::uint64_t{b.size()});
     for (std::size_t i = 0; i < std::min(a.size(), b.size()) && !found_; ++i) {
       const std::string what = std::string("state of ") + stage_name(a[i].stage);
-      value("stage of state " + std::to_string(i), first_, std::uint64_t{a[i].stage},
-            std::uint64_t{b[i].stage});
+      value("stage of state " + std::to_string(i), first_, static_cast<std::uint64_t>(a[i].stage),
+            static_cast<std::uint64_t>(b[i].stage));
       value(what + ", cycle", a[i].cycle, a[i].cycle, b[i].cycle);
       list(what + ", value", a[i].cycle, a[i].values, b[i].values);
+    }
+  }
+  // The name of the first field that differs.
+  void snapshot(const idl::stream::ChannelSnapshot& a, const idl::stream::ChannelSnapshot& b) {
+    if (found_ || a == b) return;
+    bus::Json left = bus::to_json(a), right = bus::to_json(b);
+    for (const auto& [name, own] : left.items()) {
+      if (own == right[name]) continue;
+      const auto values =
+          "snapshot of the channel, " + name + ": " + own.dump() + " and " + right[name].dump();
+      found_ = {a.cycle, values, head_ + " in cycle " + std::to_string(a.cycle) + ", " + values};
+      return;
     }
   }
   std::optional<FrameDifference> take() { return std::move(found_); }
@@ -74,14 +87,14 @@ void compare_shape(Comparison& comparison, const Frame& a, const Frame& b) {
 bool same_values(const idl::stream::AxisFrame& a, const idl::stream::AxisFrame& b) {
   return a.count == b.count && a.revision == b.revision && a.ends == b.ends && a.axes == b.axes &&
          a.spindle_axis == b.spindle_axis && a.spindle == b.spindle && a.setpoints == b.setpoints &&
-         a.states == b.states;
+         a.snapshot == b.snapshot && a.states == b.states;
 }
 
 bool same_values(const idl::stream::PathFrame& a, const idl::stream::PathFrame& b) {
   return a.count == b.count && a.revision == b.revision && a.ends == b.ends &&
          a.transformation == b.transformation && a.tool_length == b.tool_length &&
          a.spindle_axis == b.spindle_axis && a.spindle == b.spindle && a.setpoints == b.setpoints &&
-         a.states == b.states;
+         a.snapshot == b.snapshot && a.states == b.states;
 }
 
 std::optional<FrameDifference> difference(const idl::stream::AxisFrame& a, const idl::stream::AxisFrame& b) {
@@ -91,19 +104,21 @@ std::optional<FrameDifference> difference(const idl::stream::AxisFrame& a, const
   comparison.value("spindle axis", a.first, std::uint64_t{a.spindle_axis}, std::uint64_t{b.spindle_axis});
   comparison.list("spindle", a.first, a.spindle, b.spindle);
   comparison.rows(a.setpoints, b.setpoints, a.axes.size());
+  comparison.snapshot(a.snapshot, b.snapshot);
   comparison.states(a.states, b.states);
   return comparison.take();
 }
 
 std::optional<FrameDifference> difference(const idl::stream::PathFrame& a, const idl::stream::PathFrame& b) {
-  Comparison comparison(stage_channel, a.copy, b.copy, a.first);
+  Comparison comparison(Stage::CHANNEL, a.copy, b.copy, a.first);
   compare_shape(comparison, a, b);
-  comparison.value("transformation", a.first, std::uint64_t{a.transformation},
-                   std::uint64_t{b.transformation});
+  comparison.value("transformation", a.first, static_cast<std::uint64_t>(a.transformation),
+                   static_cast<std::uint64_t>(b.transformation));
   comparison.value("tool length", a.first, a.tool_length, b.tool_length);
   comparison.value("spindle axis", a.first, std::uint64_t{a.spindle_axis}, std::uint64_t{b.spindle_axis});
   comparison.list("spindle", a.first, a.spindle, b.spindle);
   comparison.rows(a.setpoints, b.setpoints, 9);
+  comparison.snapshot(a.snapshot, b.snapshot);
   comparison.states(a.states, b.states);
   return comparison.take();
 }

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "stream/stage_names.hpp"
-
 namespace trunnion::stream {
 namespace {
 
@@ -16,9 +14,9 @@ ReplicaWatch::ReplicaWatch(const std::vector<machine::ServiceEntry>& services, d
     const auto stage = stage_of(entry.service);
     const auto replicas = std::count_if(services.begin(), services.end(),
                                         [&](const auto& other) { return other.service == entry.service; });
-    if (stage == 0 || replicas < 2) continue;
+    if (!stage || replicas < 2) continue;
     Replica replica;
-    replica.stage = stage;
+    replica.stage = *stage;
     replica.number = static_cast<std::uint8_t>(entry.copy);
     replica.lagging_since = now;
     replicas_.push_back(replica);

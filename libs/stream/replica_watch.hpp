@@ -9,11 +9,14 @@
 
 #include "contracts/types.hpp"
 #include "machine/machine.hpp"
+#include "stream/stage_names.hpp"
 
 namespace trunnion::stream {
 
 /// The part of the alarm redundancy_lost when it is a channel's, so that `status` can name the replica.
-inline std::uint32_t replica_part(std::uint8_t stage, std::uint8_t number) { return stage * 256u + number; }
+inline std::uint32_t replica_part(Stage stage, std::uint8_t number) {
+  return static_cast<std::uint32_t>(stage) * 256u + number;
+}
 
 /// For one channel. Times are seconds of a monotonic clock.
 class ReplicaWatch {
@@ -25,7 +28,8 @@ class ReplicaWatch {
 
   enum class Status { joining, in_step, dropped };
   struct Replica {
-    std::uint8_t stage = 0, number = 0;
+    Stage stage{};
+    std::uint8_t number = 0;
     Status status = Status::joining;
     std::uint32_t epoch = 0;
     std::uint64_t next = 0;
@@ -35,7 +39,8 @@ class ReplicaWatch {
     bool lags() const { return lagging_since != 0; }
   };
   struct Change {
-    std::uint8_t stage = 0, number = 0;
+    Stage stage{};
+    std::uint8_t number = 0;
     bool lost = false;  ///< dropped; false: in step again
   };
 

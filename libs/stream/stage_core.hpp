@@ -33,13 +33,13 @@ class StageCore {
 
 /// The state of `stage` in a list of states, or null.
 inline const idl::stream::StageState* find_state(const std::vector<idl::stream::StageState>& states,
-                                                 std::uint8_t stage) {
+                                                 Stage stage) {
   for (const auto& state : states)
     if (state.stage == stage) return &state;
   return nullptr;
 }
 
-inline idl::stream::StageState& state_of(std::vector<idl::stream::StageState>& states, std::uint8_t stage) {
+inline idl::stream::StageState& state_of(std::vector<idl::stream::StageState>& states, Stage stage) {
   for (auto& state : states)
     if (state.stage == stage) return state;
   states.push_back({stage, 0, {}});

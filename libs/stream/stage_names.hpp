@@ -1,29 +1,36 @@
-// The stages of the stream, by number and by name.
+// The stages of the stream: enum Stage of the contracts, and their names in the registry of services.
 #pragma once
 
-#include <cstdint>
 #include <iterator>
+#include <optional>
 #include <string_view>
 
+#include "contracts/types.hpp"
 #include "machine/services.hpp"
 
 namespace trunnion::stream {
 
-inline constexpr std::uint8_t stage_channel = machine::service::channel.stage,
-                              stage_kinematics = machine::service::kinematics.stage,
-                              stage_compensation = machine::service::compensation.stage,
-                              stage_gantry = machine::service::gantry.stage;
+using idl::stream::Stage;
+
+static_assert(std::size(machine::service::stages) == bus::enum_size<Stage>(),
+              "enum Stage of idl/stream.idl and the stages of libs/machine/services.yaml differ");
 
 /// The service that computes `stage`, as machine.yaml calls it.
-inline const char* stage_name(std::uint8_t stage) {
-  return stage > 0 && stage <= std::size(machine::service::stages) ? machine::service::stages[stage - 1].name
-                                                                   : "unknown";
+constexpr const char* stage_name(Stage stage) {
+  const auto index = static_cast<std::size_t>(stage);
+  return index < std::size(machine::service::stages) ? machine::service::stages[index].name : "unknown";
 }
 
-/// The number of the stage that `service` computes from another's output, 0 when it computes none.
-inline std::uint8_t stage_of(std::string_view service) {
+/// The stage of this row of the registry, which must be one.
+constexpr Stage stage_of(const machine::ServiceDefinition& definition) {
+  return static_cast<Stage>(definition.stage - 1);
+}
+
+/// The stage that `service` computes from another's output; nothing when it computes none.
+constexpr std::optional<Stage> stage_of(std::string_view service) {
   const auto* definition = machine::find_service(service);
-  return definition != nullptr && definition->transforms() ? definition->stage : std::uint8_t{0};
+  if (definition == nullptr || !definition->transforms()) return std::nullopt;
+  return stage_of(*definition);
 }
 
 }  // namespace trunnion::stream

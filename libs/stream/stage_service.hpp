@@ -42,7 +42,7 @@ class StageService : public service::Service {
  public:
   using MakeCore = std::function<std::unique_ptr<StageCore<In>>()>;
 
-  StageService(service::Node& node, std::uint8_t stage, const bus::Topic<In>& in,
+  StageService(service::Node& node, Stage stage, const bus::Topic<In>& in,
                const bus::Topic<idl::stream::AxisFrame>& out, MakeCore make_core)
       : node_(node),
         parameters_(node.bus()),
@@ -288,6 +288,7 @@ class StageService : public service::Service {
       out_.lines = in->lines;
       out_.spindle_axis = in->spindle_axis;
       out_.spindle = in->spindle;
+      out_.snapshot = in->snapshot;
       out_.states = in->states;
       auto& own = state_of(out_.states, stage_);
       own.cycle = in->first + in->count - 1;
@@ -313,7 +314,7 @@ class StageService : public service::Service {
     }
   }
 
-  std::uint8_t stage_;
+  Stage stage_;
   bus::Topic<In> in_topic_;
   bus::Topic<idl::stream::AxisFrame> out_topic_;
   MakeCore make_core_;

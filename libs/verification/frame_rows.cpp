@@ -25,10 +25,20 @@ void flatten(const std::string& name, const bus::Json& value, std::vector<Field>
 
 template <class Frame>
 void states_of(const Frame& f, std::vector<Field>& out) {
+  using Snapshot = bus::Fields<idl::stream::ChannelSnapshot>;
+  if (f.snapshot.valid)
+    Snapshot::visit(f.snapshot, [&](const char* name, const auto& field, auto...) {
+      if constexpr (requires { field.begin(); }) {
+        for (std::size_t i = 0; i < field.size(); ++i)
+          out.push_back({"snapshot." + std::string(name) + "[" + std::to_string(i) + "]", field[i], true});
+      } else {
+        out.push_back({"snapshot." + std::string(name), bus::to_json(field), true});
+      }
+    });
   for (const auto& state : f.states)
     for (std::size_t i = 0; i < state.values.size(); ++i)
-      out.push_back(
-          {"state" + std::to_string(state.stage) + "[" + std::to_string(i) + "]", state.values[i], true});
+      out.push_back({"state." + std::string(bus::to_string(state.stage)) + "[" + std::to_string(i) + "]",
+                     state.values[i], true});
 }
 
 template <class Frame>
@@ -86,7 +96,7 @@ void MessageRows::fields(std::size_t row, std::vector<Field>& out) const {
   switch (kind_) {
     case Kind::path:
       frame(path_);
-      out.push_back({"transformation", path_.transformation});
+      out.push_back({"transformation", bus::to_string(path_.transformation)});
       out.push_back({"tool_length", path_.tool_length});
       for (std::size_t i = 0; i < path_width; ++i)
         out.push_back({std::string("setpoint.") + path_letters[i], path_.setpoints[row * path_width + i]});

@@ -45,7 +45,7 @@ std::pair<Mark, bool> Progress::observe(const StoredMessage& message) {
         !numbered(
             message, "auxiliary_request", auxiliary_request_,
             [](const auto& v) {
-              return Place{v.number, v.kind == 0 ? 1u : 0u};
+              return Place{v.number, v.kind == idl::channel::AuxiliaryKind::NO_AUXILIARY ? 1u : 0u};
             },
             mark) &&
         !numbered(

@@ -83,7 +83,7 @@ void ShownState::observe(const StoredMessage& message) {
     }
     drive_ = {{"executed", feedback.first + feedback.count},
               {"tick", feedback.tick},
-              {"mode", feedback.mode},
+              {"mode", bus::to_string(feedback.mode)},
               {"starved", feedback.starved},
               {"spindle_speed", feedback.spindle_speed}};
     feedback_ = std::move(feedback);

@@ -3,7 +3,7 @@
 namespace trunnion::compensation {
 
 CompensationService::CompensationService(service::Node& node)
-    : StageService(node, stream::stage_compensation, topics::kinematics_frame, topics::compensation_frame,
+    : StageService(node, stream::Stage::COMPENSATION, topics::kinematics_frame, topics::compensation_frame,
                    [] { return std::make_unique<CompensationCore>(); }) {}
 
 }  // namespace trunnion::compensation

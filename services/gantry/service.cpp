@@ -9,7 +9,7 @@
 namespace trunnion::gantry {
 
 GantryService::GantryService(service::Node& node)
-    : StageService(node, stream::stage_gantry, topics::compensation_frame, topics::gantry_frame,
+    : StageService(node, stream::Stage::GANTRY, topics::compensation_frame, topics::gantry_frame,
                    [] { return std::make_unique<GantryCore>(); }) {}
 
 void GantryService::on_feedback(const idl::stream::FeedbackFrame& feedback) {

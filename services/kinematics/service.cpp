@@ -3,7 +3,7 @@
 namespace trunnion::kinematics {
 
 KinematicsService::KinematicsService(service::Node& node)
-    : StageService(node, stream::stage_kinematics, topics::path_frame, topics::kinematics_frame,
+    : StageService(node, stream::Stage::KINEMATICS, topics::path_frame, topics::kinematics_frame,
                    [] { return std::make_unique<KinematicsCore>(); }) {}
 
 }  // namespace trunnion::kinematics

@@ -83,7 +83,7 @@ void PlcService::end_round(const std::vector<idl::plc::AuxiliaryDone>& done) {
 
 void PlcService::advance(std::uint64_t tick) {
   core_.advance(tick);
-  rounds_.record(StepKind::advance, tick);
+  rounds_.record(StepKind::ADVANCE, tick);
 }
 
 void PlcService::applied(idl::stream::Input input, std::int64_t source_time) {
@@ -118,13 +118,13 @@ void PlcService::take_inputs() {
   while (channels_.take(state)) {
     applied(Input::CHANNEL_STATE, channels_.info().source_timestamp);
     core_.set_channel(state);
-    rounds_.record(StepKind::channel, state);
+    rounds_.record(StepKind::CHANNEL_STATE, state);
   }
   idl::channel::AuxiliaryRequest request;
   while (requests_.take(request)) {
     applied(Input::AUXILIARY_REQUEST, requests_.info().source_timestamp);
     core_.set_request(request);
-    rounds_.record(StepKind::request, request);
+    rounds_.record(StepKind::AUXILIARY_REQUEST, request);
   }
   idl::service::Alarm alarm;
   while (alarms_.take(alarm)) {
@@ -140,14 +140,14 @@ void PlcService::take_inputs() {
     return entry.second.reaction != idl::service::Reaction::SHOW;
   });
   core_.set_alarms(any, stops);
-  rounds_.record(StepKind::alarms, (any ? 1u : 0u) | (stops ? 2u : 0u));
+  rounds_.record(StepKind::ALARMS, (any ? 1u : 0u) | (stops ? 2u : 0u));
   idl::plc::PanelRequest panel;
   while (panel_.take(panel)) {
     applied(Input::PANEL_REQUEST, panel_.info().source_timestamp);
     idl::plc::PanelReply reply;
-    reply.reason = core_.panel(panel.kind, panel.address, panel.value);
+    reply.reason = core_.panel(panel);
     reply.accepted = reply.reason.empty();
-    rounds_.record(StepKind::panel, panel);
+    rounds_.record(StepKind::PANEL_REQUEST, panel);
     panel_.reply(panel, reply);
   }
 }
@@ -163,7 +163,7 @@ void PlcService::pump() {
   begin_round();
   if (parameters_.poll()) {
     core_.configure(*parameters_.newest(), node_.options().virtual_time);
-    rounds_.record(StepKind::parameters, parameters_.newest()->revision);
+    rounds_.record(StepKind::PARAMETERS, parameters_.newest()->revision);
     period_ = parameters_.newest()->integer(parameter::interpolation_cycle) * 1e-6;
   }
   take_inputs();
@@ -175,7 +175,7 @@ void PlcService::pump() {
     waiting_since_ = now;
   } else if (now - waiting_since_ > standstill_timeout) {
     core_.give_up_waiting();
-    rounds_.record(StepKind::give_up);
+    rounds_.record(StepKind::GIVE_UP_WAITING);
   }
   advance(tick_now(now));
   publish_inputs(now);

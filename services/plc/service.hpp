@@ -28,7 +28,7 @@ class PlcService : public service::Service {
   void alarms_reset(std::uint16_t channel) override {
     if (channel != service::all_channels) return;  // the reset button is the machine's
     core_.press_reset();
-    rounds_.record(StepKind::reset);
+    rounds_.record(StepKind::RESET_BUTTON);
   }
 
  private:

@@ -1,4 +1,5 @@
 // The gateway's HTTP side. An answer is never thrown: a refusal is something the operator must read.
+export type { Parameter, PlcImage, ProgramEntry, Tool, WorkOffset } from "./contract";
 
 export interface Answer<T = unknown> {
   ok: boolean;
@@ -47,51 +48,4 @@ export async function programBytes(name: string): Promise<Uint8Array | null> {
   } catch {
     return null;
   }
-}
-
-export interface ProgramEntry {
-  name: string;
-  revision: number;
-  size: number;
-  lines: number;
-}
-
-export interface Parameter {
-  number: number;
-  name: string;
-  unit: string;
-  type: string;
-  minimum?: number;
-  maximum?: number;
-  default?: number | string;
-  value: number | string;
-  activation: string;
-  access: string;
-  pending: boolean;
-  help: string;
-}
-
-export interface Tool {
-  number: number;
-  length: number;
-  length_wear: number;
-  radius: number;
-  radius_wear: number;
-  name: string;
-}
-
-export interface WorkOffset {
-  channel: number;
-  index: number;
-  values: number[];
-}
-
-export interface PlcImage {
-  scan: number;
-  x: number[];
-  y: number[];
-  f: number[];
-  g: number[];
-  r: number[];
-  b: number[];
 }

@@ -30,7 +30,9 @@ test("a trace that is still in the state is recorded once", () => {
 
 test("the largest following error is kept by magnitude for each axis of the channel", () => {
   const history = new History();
-  const axis = (following_peak: number) => ({ commanded: 0, actual: 0, following_error: 0, following_peak, enabled: true });
+  const axis = (following_peak: number) => ({
+    commanded: 0, actual: 0, following_error: 0, following_peak, position: 0, velocity: 0, torque: 0, enabled: true,
+  });
   history.record(1.5, { ...emptyState, axes: { "2": axis(-0.3), "0": axis(0.1) } }, channel);
   expect([0, 1, 2, 3, 4].map((column) => history.samples.at(0, column))).toEqual([1.5, 500, 0.3, 0.1, 0]);
 });

@@ -42,7 +42,8 @@ test("alarms: the worst first, then the oldest", () => {
 });
 
 test("a row takes its following error from the drive's axis of that logical number and its unit from the letter", () => {
-  const axes = { "5": { commanded: 3, actual: 2.9, following_error: 0.1, following_peak: 0.2, enabled: true } };
+  const error = { following_error: 0.1, following_peak: 0.2 };
+  const axes = { "5": { commanded: 3, actual: 2.9, ...error, position: 2.9, velocity: 0, torque: 0, enabled: true } };
   const rows = axisRows({ ...emptyState, axes }, channel);
   expect(rows.map((row) => row.unit)).toEqual(["mm", "mm", "deg"]);
   expect(rows[2]).toMatchObject({ letter: "C", machine: 3, workpiece: 13, distanceToGo: 0.5, followingError: 0.1 });
@@ -50,7 +51,9 @@ test("a row takes its following error from the drive's axis of that logical numb
 });
 
 test("cycle start: not without a program, not while running, not under an emergency stop, but always to go on", () => {
-  const plc = (emergency_stop: boolean) => ({ ...emptyState, plc: { emergency_stop, feed_hold: false, coolant: [] } });
+  const plc = (emergency_stop: boolean) => ({
+    ...emptyState, plc: { emergency_stop, feed_hold: false, coolant: [], spindle_speed: [] },
+  });
   expect(canStart(plc(false), channel)).toBe(true);
   expect(canStart(plc(true), channel)).toBe(false);
   expect(canStart(emptyState, { ...channel, program: "" })).toBe(false);

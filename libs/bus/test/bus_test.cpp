@@ -25,7 +25,8 @@ TEST_P(BusOverVendors, KeyedStateReachesALateJoinerWithTheNewestOfEachKey) {
   Bus a(from, {domain}), b(to, {domain});
   auto writer = a.writer(topics::stream_request);
   for (std::uint16_t channel = 0; channel < 3; ++channel)
-    for (std::uint32_t request = 1; request <= 4; ++request) writer.write({channel, request, 1, 0});
+    for (std::uint32_t request = 1; request <= 4; ++request)
+      writer.write({channel, request, idl::stream::StreamRequestKind::START, 0});
   auto reader = b.reader(topics::stream_request);
   std::vector<int> newest(3);
   EXPECT_TRUE(eventually([&] {

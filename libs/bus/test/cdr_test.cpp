@@ -11,15 +11,16 @@ namespace {
 
 TEST(Cdr, AlignsPrimitivesToTheirSizeFromTheEndOfTheHeader) {
   idl::stream::StageState state;
-  state.stage = 3;
+  state.stage = idl::stream::Stage::COMPENSATION;
   state.cycle = 0x0102030405060708;
   state.values = {1.0};
   Bytes bytes;
   encode(state, bytes);
-  // header 4, octet at 0, padding to 8, uint64 at 8, length at 16, padding to 24, one double: 4 + 32 bytes.
+  // header 4, enumerator at 0, padding to 8, uint64 at 8, length at 16, padding to 24, one double: 4 + 32
+  // bytes.
   ASSERT_EQ(bytes.size(), 36u);
   EXPECT_EQ(bytes[1], 1) << "little-endian plain CDR";
-  EXPECT_EQ(bytes[4], 3);
+  EXPECT_EQ(bytes[4], 2) << "of the enumerators, from 0";
   EXPECT_EQ(bytes[4 + 8], 0x08);
   EXPECT_EQ(bytes[4 + 16], 1);
   EXPECT_EQ(bytes[4 + 31], 0x3f) << "1.0 is 0x3ff0000000000000";
@@ -41,8 +42,9 @@ TEST(Cdr, DecodesWhatItEncodes) {
   frame.count = 2;
   frame.setpoints.assign(18, 0.1);
   frame.lines = {5, 6};
-  frame.states.push_back({1, 78, {1, 2, 3}});
-  frame.states.push_back({2, 78, {}});
+  frame.states.push_back({idl::stream::Stage::KINEMATICS, 78, {1, 2, 3}});
+  frame.states.push_back({idl::stream::Stage::GANTRY, 78, {}});
+  frame.snapshot.valid = true, frame.snapshot.program_revision = (std::uint64_t{1} << 53) + 1;
   Bytes bytes;
   encode(frame, bytes);
   ASSERT_TRUE(decode(bytes, copy));
@@ -54,6 +56,15 @@ TEST(Cdr, RefusesASequenceBeyondItsBoundOnBothSides) {
   frame.lines.assign(65, 0);
   Bytes bytes;
   EXPECT_THROW(encode(frame, bytes), CdrError);
+}
+
+TEST(Enumerators, HaveTheNamesOfTheIdlBothWays) {
+  using idl::stream::DriveMode;
+  EXPECT_STREQ(to_string(DriveMode::RETURNING), "RETURNING");
+  EXPECT_EQ(from_string<DriveMode>("OFF"), DriveMode::OFF);
+  EXPECT_EQ(from_string<DriveMode>("off"), std::nullopt);
+  EXPECT_EQ(from_string<DriveMode>(""), std::nullopt);
+  EXPECT_STREQ(to_string(static_cast<DriveMode>(99)), "?");
 }
 
 TEST(Cdr, RefusesAnEnumeratorThatDoesNotExist) {

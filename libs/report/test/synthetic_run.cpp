@@ -151,7 +151,8 @@ std::uint64_t record_run(const RunOptions& options) {
     path.first = cycle;
     path.revision = 1;
     path.starts = i == 0;
-    path.transformation = rows[i].rtcp;
+    path.transformation =
+        rows[i].rtcp ? idl::stream::Transformation::RTCP : idl::stream::Transformation::NO_TRANSFORMATION;
     path.tool_length = rows[i].tool_length;
     idl::stream::AxisFrame joints;
     idl::stream::FeedbackFrame feedback;
@@ -181,17 +182,19 @@ std::uint64_t record_run(const RunOptions& options) {
     joints.lines = path.lines;
     std::int64_t time = start_time + frame_number * frame_interval;
     if (frame_number >= options.late_frames) file.write(topics::path_frame, path, time);
-    for (int stage = 2; stage <= 4; ++stage) {
-      joints.stage = static_cast<std::uint8_t>(stage);
-      time += stage_latency[stage - 2];
-      if (stage == 2) file.write(topics::kinematics_frame, joints, time);
-      if (stage == 2 && options.replicas) {
+    using idl::stream::Stage;
+    for (const auto stage : {Stage::KINEMATICS, Stage::COMPENSATION, Stage::GANTRY}) {
+      joints.stage = stage;
+      time += stage_latency[static_cast<int>(stage) - static_cast<int>(Stage::KINEMATICS)];
+      if (stage == Stage::KINEMATICS) file.write(topics::kinematics_frame, joints, time);
+      if (stage == Stage::KINEMATICS && options.replicas) {
         joints.copy = 1;
         file.write(topics::kinematics_frame, joints, time + 500);
         joints.copy = 0;
       }
-      if (stage == 3) file.write(topics::compensation_frame, joints, time);
-      if (stage == 4 && frame_number != options.skipped_frame) file.write(topics::gantry_frame, joints, time);
+      if (stage == Stage::COMPENSATION) file.write(topics::compensation_frame, joints, time);
+      if (stage == Stage::GANTRY && frame_number != options.skipped_frame)
+        file.write(topics::gantry_frame, joints, time);
     }
     file.write(topics::feedback_frame, feedback, time + stage_latency[3]);
   }

@@ -10,14 +10,15 @@ namespace trunnion::stream {
 namespace {
 
 using idl::stream::AxisFrame;
+using idl::stream::Stage;
 using testing::HasSubstr;
 
 AxisFrame frame() {
   AxisFrame f;
-  f.stage = 3, f.copy = 0, f.epoch = 2, f.first = 400, f.count = 4, f.revision = 7;
+  f.stage = Stage::COMPENSATION, f.copy = 0, f.epoch = 2, f.first = 400, f.count = 4, f.revision = 7;
   f.axes = {0, 1, 5};
   for (int i = 0; i < 12; ++i) f.setpoints.push_back(0.1 * i);
-  f.states = {{2, 403, {}}, {3, 403, {1, 2, 3}}};
+  f.states = {{Stage::KINEMATICS, 403, {}}, {Stage::COMPENSATION, 403, {1, 2, 3}}};
   return f;
 }
 
@@ -51,6 +52,18 @@ TEST(FrameDifference, NamesTheStateThatDiffers) {
   EXPECT_THAT(found->text, HasSubstr("state of compensation, value 2: 3 and 4"));
 }
 
+TEST(FrameDifference, NamesTheFieldOfTheChannelsSnapshot) {
+  auto other = frame();
+  other.snapshot.cycle = 403, other.snapshot.tool = 7;
+  auto own = frame();
+  own.snapshot.cycle = 403, own.snapshot.tool = 5;
+  EXPECT_FALSE(same_values(own, other));
+  const auto found = difference(own, other);
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->cycle, 403u);
+  EXPECT_THAT(found->text, HasSubstr("snapshot of the channel, tool: 5 and 7"));
+}
+
 TEST(FrameDifference, ShapeCounts) {
   auto other = frame();
   other.axes = {0, 1, 4};
@@ -71,7 +84,7 @@ TEST(FrameDifference, OfPathFramesTheToolAndTheFrameCount) {
   b.tool_length = 100;
   EXPECT_THAT(difference(a, b)->text, HasSubstr("of channel differ in cycle 8, tool length: 0 and 100"));
   b = a;
-  b.transformation = 1;
+  b.transformation = idl::stream::Transformation::RTCP;
   EXPECT_THAT(difference(a, b)->text, HasSubstr("transformation: 0 and 1"));
 }
 

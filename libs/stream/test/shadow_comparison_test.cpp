@@ -10,7 +10,7 @@ namespace {
 
 idl::stream::AxisFrame frame(std::uint64_t first, std::uint16_t channel = 0, double add = 0) {
   idl::stream::AxisFrame f;
-  f.channel = channel, f.stage = 2, f.epoch = 1, f.first = first, f.count = 4;
+  f.channel = channel, f.stage = idl::stream::Stage::KINEMATICS, f.epoch = 1, f.first = first, f.count = 4;
   f.axes = {0};
   for (int i = 0; i < 4; ++i) f.setpoints.push_back(static_cast<double>(first) + i + add);
   return f;

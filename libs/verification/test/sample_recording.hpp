@@ -38,7 +38,7 @@ inline idl::stream::PathFrame path_frame(std::uint64_t first, bool starts, bool 
 inline idl::stream::AxisFrame axis_frame(std::uint64_t first, bool starts, bool ends,
                                          std::uint32_t epoch = 1) {
   idl::stream::AxisFrame frame;
-  frame.stage = 2;
+  frame.stage = idl::stream::Stage::KINEMATICS;
   frame.epoch = epoch;
   frame.first = first;
   frame.count = frame_cycles;
@@ -49,7 +49,7 @@ inline idl::stream::AxisFrame axis_frame(std::uint64_t first, bool starts, bool 
   for (std::uint64_t c = first; c < first + frame_cycles; ++c)
     for (int axis = 0; axis < 2; ++axis) frame.setpoints.push_back(static_cast<double>(c) + axis * 0.1);
   frame.lines.assign(frame_cycles, 7);
-  frame.states = {{2, first + frame_cycles - 1, {static_cast<double>(first)}}};
+  frame.states = {{idl::stream::Stage::KINEMATICS, first + frame_cycles - 1, {static_cast<double>(first)}}};
   return frame;
 }
 

@@ -121,7 +121,9 @@ TEST(Csv, WritesALineForEachCycleThatReadsBackToTheSameBits) {
   std::istringstream in(out.str());
   std::string line;
   std::getline(in, line);
-  EXPECT_EQ(line, "cycle,channel,epoch,revision,starts,ends,line,setpoint.axis0,setpoint.axis1,state2[0]");
+  EXPECT_EQ(
+      line,
+      "cycle,channel,epoch,revision,starts,ends,line,setpoint.axis0,setpoint.axis1,state.KINEMATICS[0]");
   std::getline(in, line);
   EXPECT_EQ(line, "0,0,1,1,true,false,7,0,0.10000000000000001,") << "the state is told after the frame only";
   for (int i = 1; i < 8; ++i) std::getline(in, line);

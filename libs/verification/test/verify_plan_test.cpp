@@ -151,7 +151,7 @@ TEST(StagePlan, ARecordingThatBeginsInMotionIsJoinedAtAConsistentCut) {
     frame.channels.resize(1);
     frame.channels[0].epoch = 1;
     frame.channels[0].active = true;
-    frame.channels[0].states = {{2, frame.first + frame.count - 1, {}}};
+    frame.channels[0].states = {{idl::stream::Stage::KINEMATICS, frame.first + frame.count - 1, {}}};
     bus::encode(frame, message.cdr);
   }
   const auto plan = plan_verification(recording, "kinematics", 0);
@@ -186,7 +186,8 @@ TEST(OrderedPlan, FeedsEachInputOnceTheServiceHasWrittenWhatItHadWrittenBefore) 
   recording.messages = {
       parameters(1, 1),
       stored(topics::auxiliary_done, idl::plc::AuxiliaryDone{0, 4097, false}, 10),
-      stored(topics::auxiliary_request, idl::channel::AuxiliaryRequest{0, 4097, 0, 3, 0, 0}, 20),
+      stored(topics::auxiliary_request,
+             idl::channel::AuxiliaryRequest{0, 4097, idl::channel::AuxiliaryKind::NO_AUXILIARY, 3, 0, 0}, 20),
       stored(topics::auxiliary_done, idl::plc::AuxiliaryDone{0, 4098, false}, 30),
       stored(topics::feedback_frame, feedback_frame(0, 8), 5),
   };

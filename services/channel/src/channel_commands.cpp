@@ -37,11 +37,11 @@ Answer ChannelCore::handle(const ChannelRequest& request) {
     case CommandKind::SET_MODE:
       return set_mode(request.mode);
     case CommandKind::SELECT_PROGRAM:
-      return select(request.text);
+      return select(request.program);
     case CommandKind::CYCLE_START:
       return cycle_start();
     case CommandKind::START_FROM_LINE:
-      return start_from_line(request.value);
+      return start_from_line(request.line);
     case CommandKind::FEED_HOLD:
       if (run_ == RunState::RUNNING) hold();
       return {};
@@ -49,7 +49,7 @@ Answer ChannelCore::handle(const ChannelRequest& request) {
       reset();
       return {};
     case CommandKind::MDI_LINE:
-      return start_mdi(request.text);
+      return start_mdi(request.block);
     case CommandKind::JOG_AXIS:
       return jog(request);
     case CommandKind::JOG_STOP:
@@ -60,19 +60,22 @@ Answer ChannelCore::handle(const ChannelRequest& request) {
     case CommandKind::HANDWHEEL:
       return turn_handwheel(request);
     case CommandKind::FEED_OVERRIDE:
-      return limited(feed_override_, 0, 1.5);
+      feed_override_ = request.fraction;
+      return {};
     case CommandKind::RAPID_OVERRIDE:
-      return limited(rapid_override_, 0, 1);
+      rapid_override_ = request.fraction;
+      return {};
     case CommandKind::SPINDLE_OVERRIDE:
-      return limited(spindle_override_, 0.5, 1.5);
+      spindle_override_ = request.fraction;
+      return {};
     case CommandKind::SINGLE_BLOCK:
-      single_block_ = request.value != 0;
+      single_block_ = request.on;
       return {};
     case CommandKind::OPTIONAL_STOP:
-      optional_stop_ = request.value != 0;
+      optional_stop_ = request.on;
       return {};
     case CommandKind::RETRACE:
-      return retrace(request.value != 0);
+      return retrace(request.on);
     case CommandKind::DRY_RUN:
     case CommandKind::AXIS_LOCK:
     case CommandKind::AUXILIARY_LOCK:
@@ -136,7 +139,7 @@ Answer ChannelCore::go_on_after_interruption() {
     Entry entry;
     entry.restart = *restart_;
     // What was on its way through the stages may have been executed since.
-    if (const auto own = snapshot_of(link_.states()); own && own->running && own->crc == selected_.crc32)
+    if (const auto own = snapshot_of(link_.snapshot()); own && own->running && own->crc == selected_.crc32)
       entry.restart = RestartPoint{own->sequence, own->fraction, own->position};
     return start_program(entry);
   }
@@ -169,14 +172,14 @@ Answer ChannelCore::jog(const ChannelRequest& request) {
   if (activity_ != Activity::none) return refuse(alarm::request_invalid, "The channel is busy");
   adopt_position();
   const auto& travel = machine_.travel(axis);
-  const double direction = request.value > 0 ? 1 : -1;
+  const double direction = request.speed > 0 ? 1 : -1;
   const double from = machine_start_[axis] + offset_.target()[axis];
   const double end = direction > 0 ? travel.positive : travel.negative;
   if ((end - from) * direction <= 0)
     return refuse(alarm::travel_limit,
                   std::string("Axis ") + language::axis_letters[axis] + " is at its travel limit");
   const double way = request.increment > 0 ? direction * request.increment : end - from;
-  return start_move(axis, machine_start_[axis] + way, std::abs(request.value));
+  return start_move(axis, machine_start_[axis] + way, std::abs(request.speed));
 }
 
 void ChannelCore::stop_jog() {

@@ -93,7 +93,7 @@ void ChannelCore::set_programs(const idl::program::ProgramList& programs) {
 
 void ChannelCore::on_feedback(const idl::stream::FeedbackFrame& feedback) {
   const bool first = !link_.has_feedback();
-  const bool was_off = link_.drive_mode() == DriveMode::off;
+  const bool was_off = link_.drive_mode() == DriveMode::OFF;
   link_.on_feedback(feedback);
   skip_.on_feedback(feedback, machine_.channel_axes(), machine_.columns());
   exact_stop_.on_feedback(feedback);
@@ -104,18 +104,18 @@ void ChannelCore::on_feedback(const idl::stream::FeedbackFrame& feedback) {
   if (link_.state() == LinkState::lost)
     interrupt("The drive was restarted");
   else if (link_.state() == LinkState::refused)
-    interrupt(mode == DriveMode::off ? "The drives are off" : "The drive gave no place in the stream");
-  else if (streaming && (mode == DriveMode::held || mode == DriveMode::off) && !link_.resuming() &&
+    interrupt(mode == DriveMode::OFF ? "The drives are off" : "The drive gave no place in the stream");
+  else if (streaming && (mode == DriveMode::HELD || mode == DriveMode::OFF) && !link_.resuming() &&
            run_ != RunState::INTERRUPTED)
-    interrupt(mode == DriveMode::off ? "The drives were switched off" : "The drive stopped on the path");
-  else if (mode == DriveMode::off && !first && !was_off && !link_.drive_restarted() && !must_reset_)
+    interrupt(mode == DriveMode::OFF ? "The drives were switched off" : "The drive stopped on the path");
+  else if (mode == DriveMode::OFF && !first && !was_off && !link_.drive_restarted() && !must_reset_)
     interrupt("The drives were switched off");  // while the program was held or waited
 }
 
 void ChannelCore::recover() {
   if (recovered_ || !configured() || !link_.has_feedback()) return;
   recovered_ = true;
-  const auto own = snapshot_of(link_.states());
+  const auto own = snapshot_of(link_.snapshot());
   if (own) {
     tool_ = own->tool;
     if (own->offset_on) {
@@ -172,13 +172,13 @@ RunningProgram ChannelCore::running_program() const {
 }
 
 void ChannelCore::interrupt(const std::string& why) {
-  must_reset_ = must_reset_ || (link_.drive_mode() == DriveMode::off && link_.state() != LinkState::lost &&
+  must_reset_ = must_reset_ || (link_.drive_mode() == DriveMode::OFF && link_.state() != LinkState::lost &&
                                 (activity_ != Activity::none || suspended_));
   if (link_.state() == LinkState::lost || link_.state() == LinkState::refused) {
     // What was written is void: go on from the newest consistent cut, if there is a program to go on with.
     const bool was_lost = link_.state() == LinkState::lost;
     link_.acknowledge();
-    const auto own = snapshot_of(link_.states());
+    const auto own = snapshot_of(link_.snapshot());
     offset_.start(own && own->offset_on ? own->offset : AxisValues{});
     const bool entering = preparation_ && !restart_;
     if (activity_ == Activity::program && !entering && !(was_lost && lock_.any())) {
@@ -267,7 +267,7 @@ void ChannelCore::stop_activity() {
   wheel_.start({});
   if (auxiliary_open_) {
     auxiliary_open_ = false;
-    auxiliary_.kind = 0;
+    auxiliary_.kind = idl::channel::AuxiliaryKind::NO_AUXILIARY;
     outgoing_auxiliary_ = auxiliary_;
   }
   apply_parameters();

@@ -154,8 +154,8 @@ class ChannelCore {
 
   // channel_switches.cpp: dry run, locks, block skip, handwheel.
   Answer set_switch(const idl::channel::ChannelRequest& request);
-  Answer lock_axes(double mask);
-  Answer set_block_skip(double mask);
+  Answer lock_axes(std::uint16_t mask);
+  Answer set_block_skip(std::uint16_t mask);
   Answer set_handwheel_offset(bool on);
   Answer turn_handwheel(const idl::channel::ChannelRequest& request);
   Answer retrace(bool on);
@@ -163,7 +163,7 @@ class ChannelCore {
 
   // channel_starts.cpp: how programs, lines and moves begin, stop for a while and go on.
   Answer start_program(const Entry& entry);
-  Answer start_from_line(double line);
+  Answer start_from_line(std::uint32_t line);
   Answer start_mdi(const std::string& line);
   Answer start_move(std::uint8_t axis, double target, double feed);
   void begin_manual(Activity activity);
@@ -202,7 +202,7 @@ class ChannelCore {
   AxisValues machine_of(const AxisValues& path) const;
   bool in_machine_coordinates() const { return lock_.any() || offset_on_; }
   void remember_executed();
-  void store_state(FlowState state, std::vector<double>& values) const;
+  void store_state(FlowState state, idl::stream::ChannelSnapshot& out) const;
 
   ProgramFlow& flow() { return activity_ == Activity::mdi ? mdi_flow_ : program_flow_; }
   const ProgramFlow& flow() const { return activity_ == Activity::mdi ? mdi_flow_ : program_flow_; }

@@ -5,6 +5,9 @@
 #include "table_order.hpp"
 
 namespace trunnion::channel {
+
+using program_execution::AuxiliaryKind;
+
 // The axes stand and the drive has executed everything: what stopped the flow is dealt with now.
 void ChannelCore::run_pending(FlowState state) {
   using language::CommandKind;
@@ -103,12 +106,12 @@ void ChannelCore::on_auxiliary_done(const idl::plc::AuxiliaryDone& done) {
   if (done.failed) {
     event(alarm::auxiliary_refused,
           program_name() + ":" + std::to_string(flow().pending().line) + ": the PLC could not carry it out");
-    auxiliary_.kind = 0;
+    auxiliary_.kind = AuxiliaryKind::NO_AUXILIARY;
     outgoing_auxiliary_ = auxiliary_;
     stop_activity();
     return;
   }
-  auxiliary_.kind = 0;
+  auxiliary_.kind = AuxiliaryKind::NO_AUXILIARY;
   outgoing_auxiliary_ = auxiliary_;
   if (preparation_) {
     if (must_reset_) return;

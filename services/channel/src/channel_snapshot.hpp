@@ -1,5 +1,4 @@
-// The channel's entry in the stream's states: what a process that has just begun needs to go on for the one
-// before it.
+// The channel's snapshot in the stream: what a fresh process needs to continue for the one before it.
 #pragma once
 
 #include <optional>
@@ -13,8 +12,9 @@ namespace trunnion::channel {
 using language::AxisValues;
 using program_execution::SkipResult;
 
+/// idl::stream::ChannelSnapshot in the types of the channel.
 struct ChannelSnapshot {
-  bool running = false;  ///< a program is under way that can be gone on with
+  bool running = false;  ///< a program is executed that can be continued
   std::uint32_t crc = 0;
   std::uint64_t revision = 0;
   std::uint32_t sequence = 0, line = 0;  ///< of the newest setpoint's command
@@ -31,11 +31,15 @@ struct ChannelSnapshot {
   std::vector<SkipResult> skips;  ///< results of the program's skip moves so far
 };
 
-/// Writes into `values`, which keeps its memory; `skips` take the place of the snapshot's. More of them than
-/// the state has room for are left out: the program is then not resumable.
+/// Makes `out` valid, but for its cycle; it keeps its memory. `skips` take the place of the snapshot's. More
+/// of them than the message has room for are left out: the program can then not be continued.
 void store(const ChannelSnapshot& snapshot, const std::vector<SkipResult>& skips,
-           std::vector<double>& values);
-/// Nothing when the states have none of a channel.
-std::optional<ChannelSnapshot> snapshot_of(const std::vector<idl::stream::StageState>& states);
+           idl::stream::ChannelSnapshot& out);
+/// Nothing when it is not valid.
+std::optional<ChannelSnapshot> snapshot_of(const idl::stream::ChannelSnapshot& stored);
+
+/// To and from the enumerator of the contract.
+idl::stream::Transformation idl_of(language::Transformation transformation);
+language::Transformation transformation_of(idl::stream::Transformation transformation);
 
 }  // namespace trunnion::channel

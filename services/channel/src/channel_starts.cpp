@@ -65,7 +65,7 @@ Answer ChannelCore::start_from_line(double line) {
                                             std::to_string(selected_.lines) + ", not " +
                                             std::to_string(line));
   Entry entry;
-  entry.line = static_cast<std::uint32_t>(line);
+  entry.line = line;
   shown_ = {};
   shown_.line = entry.line;
   return start_program(entry);

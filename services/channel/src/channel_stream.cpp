@@ -166,19 +166,18 @@ bool ChannelCore::produce(idl::stream::PathFrame& frame) {
   frame.revision = machine_.revision();
   frame.starts = link_.starts();
   const bool rtcp = frame_ == language::Transformation::rtcp && !in_machine_coordinates();
-  frame.transformation = rtcp ? 1 : 0;
+  frame.transformation = idl_of(rtcp ? language::Transformation::rtcp : language::Transformation::none);
   frame.tool_length = in_machine_coordinates() ? 0 : frame_tool_length_;
   frame.spindle_axis = machine_.tapping_spindle(tapping_.axis()).axis.value_or(0);
   frame.states.clear();
   if (frame.starts) frame.states = link_.states();
-  auto& own = stream::state_of(frame.states, stream::stage_channel);
-  own.cycle = frame.first + frame.count - 1;
-  store_state(flow, own.values);
+  store_state(flow, frame.snapshot);
+  frame.snapshot.cycle = frame.first + frame.count - 1;
   link_.written(frame.count, frame.ends);
   return true;
 }
 
-void ChannelCore::store_state(FlowState state, std::vector<double>& values) const {
+void ChannelCore::store_state(FlowState state, idl::stream::ChannelSnapshot& out) const {
   const bool last = state == FlowState::end ||
                     (state == FlowState::command && flow().pending().kind == language::CommandKind::end);
   ChannelSnapshot s;
@@ -207,7 +206,7 @@ void ChannelCore::store_state(FlowState state, std::vector<double>& values) cons
     s.position = restart_->position;
   }
   s.sequence = point.sequence, s.line = point.line, s.fraction = point.fraction;
-  store(s, program_flow_.skips(), values);
+  store(s, program_flow_.skips(), out);
 }
 
 // Commands are counted anew; what was written before is not of them.

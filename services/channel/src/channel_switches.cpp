@@ -18,17 +18,17 @@ Answer ChannelCore::set_switch(const ChannelRequest& request) {
                   "Stop or reset the program first: this holds from its first block on");
   switch (request.command) {
     case CommandKind::DRY_RUN:
-      dry_run_ = request.value != 0;
+      dry_run_ = request.on;
       return {};
     case CommandKind::AUXILIARY_LOCK:
-      auxiliary_lock_ = request.value != 0;
+      auxiliary_lock_ = request.on;
       return {};
     case CommandKind::AXIS_LOCK:
-      return lock_axes(request.value);
+      return lock_axes(request.axes);
     case CommandKind::BLOCK_SKIP:
-      return set_block_skip(request.value);
+      return set_block_skip(request.levels);
     case CommandKind::HANDWHEEL_OFFSET:
-      return set_handwheel_offset(request.value != 0);
+      return set_handwheel_offset(request.on);
     default:
       return refuse(alarm::request_invalid, "Unknown switch");
   }
@@ -46,8 +46,7 @@ Answer ChannelCore::lock_axes(double mask) {
   adopt_position();
   std::uint16_t wanted = 0;
   for (std::size_t i = 0; i < axes.size(); ++i)
-    if (((static_cast<unsigned>(mask) >> i) & 1u) != 0)
-      wanted = static_cast<std::uint16_t>(wanted | 1u << axes[i]);
+    if ((mask >> i & 1u) != 0) wanted = static_cast<std::uint16_t>(wanted | 1u << axes[i]);
   machine_start_ = lock_.hold(machine_start_);
   lock_.set(wanted, machine_start_);
   return {};
@@ -85,8 +84,6 @@ void ChannelCore::drop_offset() {
 }
 
 Answer ChannelCore::turn_handwheel(const ChannelRequest& request) {
-  constexpr double increments[] = {0.001, 0.01, 0.1, 1};
-  constexpr double most_counts = 10000;
   const auto& axes = machine_.channel_axes().index;
   if (request.axis >= axes.size())
     return refuse(alarm::request_invalid, "The channel has no axis number " + std::to_string(request.axis));
@@ -112,7 +109,7 @@ Answer ChannelCore::turn_handwheel(const ChannelRequest& request) {
   }
   const auto axis = axes[request.axis];
   const auto& travel = machine_.travel(axis);
-  const double distance = request.value * request.increment;
+  const double distance = request.counts * request.increment;
   double added = 0;
   if (by_hand) {
     const double at = machine_start_[axis] + offset_.target()[axis];

@@ -5,8 +5,10 @@
 
 namespace trunnion::channel {
 
+using idl::stream::StreamRequestKind;
+
 void StreamLink::on_feedback(const idl::stream::FeedbackFrame& feedback) {
-  mode_ = static_cast<DriveMode>(feedback.mode);
+  mode_ = feedback.mode;
   executed_ = std::max(executed_, feedback.first + feedback.count);
   positions_ = feedback.position;
   // The first word of a drive that has just begun names its parameters, and nobody who could have switched it
@@ -20,6 +22,7 @@ void StreamLink::on_feedback(const idl::stream::FeedbackFrame& feedback) {
     drive_restarted_ = drive_restarted_ || forgotten;
     answered_ = echo.request;
     if (forgotten && state_ == LinkState::idle) new_epoch_ = true;  // it knows no epoch of ours
+    if (echo.snapshot.valid) snapshot_ = echo.snapshot;
     if (!echo.states.empty()) states_ = echo.states;
     if (!asked_) {  // a process before this one may have: numbers and epochs go on from its newest
       request_ = echo.request;
@@ -50,7 +53,7 @@ void StreamLink::on_feedback(const idl::stream::FeedbackFrame& feedback) {
   }
 }
 
-void StreamLink::request(std::uint8_t kind) {
+void StreamLink::request(StreamRequestKind kind) {
   asked_ = true;
   outgoing_ = {channel_, ++request_, kind, epoch_};
 }
@@ -58,16 +61,16 @@ void StreamLink::request(std::uint8_t kind) {
 void StreamLink::request_start() {
   if (new_epoch_) ++epoch_;
   state_ = LinkState::requested;
-  request(new_epoch_ ? 3 : 1);
+  request(new_epoch_ ? StreamRequestKind::NEW_EPOCH : StreamRequestKind::START);
 }
 
 void StreamLink::request_resume() {
-  request(2);
+  request(StreamRequestKind::RESUME);
   resuming_ = true;
 }
 
 void StreamLink::leave() {
-  request(4);
+  request(StreamRequestKind::LEAVE);
   state_ = LinkState::idle;
   new_epoch_ = true;
 }

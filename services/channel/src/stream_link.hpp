@@ -17,7 +17,7 @@ enum class LinkState {
   lost,       ///< the drive forgot the stream: it was restarted
 };
 
-enum class DriveMode : std::uint8_t { following, braking, held, returning, off, unknown = 255 };
+using idl::stream::DriveMode;
 
 class StreamLink {
  public:
@@ -48,14 +48,17 @@ class StreamLink {
   /// A resume was asked for and the drive has not answered: its hold is old news.
   bool resuming() const { return resuming_; }
   LinkState state() const { return state_; }
-  DriveMode drive_mode() const { return mode_; }
-  bool has_feedback() const { return mode_ != DriveMode::unknown; }
+  /// Nothing before the first feedback.
+  std::optional<DriveMode> drive_mode() const { return mode_; }
+  bool has_feedback() const { return mode_.has_value(); }
   std::uint64_t next() const { return next_; }
   std::uint64_t executed() const { return executed_; }
   std::uint32_t epoch() const { return epoch_; }
   bool starts() const { return starts_; }
   bool needs_epoch() const { return new_epoch_; }
-  /// States of every stage at the consistent cut.
+  /// Of the channel at the consistent cut; not valid while there is none.
+  const idl::stream::ChannelSnapshot& snapshot() const { return snapshot_; }
+  /// States of the stages behind the channel at the consistent cut.
   const std::vector<idl::stream::StageState>& states() const { return states_; }
   const std::vector<double>& positions() const { return positions_; }
   /// The drive still executes (or holds) a stream of ours that this process did not write.
@@ -65,14 +68,15 @@ class StreamLink {
   std::optional<idl::stream::StreamRequest> take_request();
 
  private:
-  void request(std::uint8_t kind);
+  void request(idl::stream::StreamRequestKind kind);
   std::uint16_t channel_;
   LinkState state_ = LinkState::idle;
-  DriveMode mode_ = DriveMode::unknown;
+  std::optional<DriveMode> mode_;
   std::uint64_t next_ = 0, executed_ = 0;
   std::uint32_t epoch_ = 0, request_ = 0, answered_ = 0;
   bool new_epoch_ = true, starts_ = false, echo_active_ = false, resuming_ = false, drive_restarted_ = false,
        asked_ = false;  // the drive, by this process
+  idl::stream::ChannelSnapshot snapshot_;
   std::vector<idl::stream::StageState> states_;
   std::vector<double> positions_;
   std::optional<idl::stream::StreamRequest> outgoing_;

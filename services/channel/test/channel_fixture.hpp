@@ -12,6 +12,9 @@ namespace trunnion::channel::testing {
 using idl::channel::ChannelRequest;
 using idl::channel::CommandKind;
 
+/// M, S and T as the PLC is asked for them.
+using Codes = std::vector<std::pair<idl::channel::AuxiliaryKind, std::uint32_t>>;
+
 /// X Y Z of 400 mm to either side.
 inline std::shared_ptr<machine::Parameters> three_axes(std::uint64_t revision = 1) {
   auto p = std::make_shared<machine::Parameters>();
@@ -56,12 +59,39 @@ struct Channel : ::testing::Test {
                              static_cast<std::uint32_t>(std::count(text.begin(), text.end(), '\n'))});
     core->set_programs(list);
   }
+  Answer ask(const ChannelRequest& request) { return core->handle(request); }
+  /// `argument` and `value` are what the command's own field of the request holds.
   Answer ask(CommandKind command, const std::string& argument = "", double value = 0, double increment = 0,
              Mode mode = Mode::AUTO, std::uint8_t axis = 0) {
     ChannelRequest request;
-    request.axis = axis;
-    request.command = command, request.text = argument, request.value = value, request.increment = increment,
-    request.mode = mode;
+    request.command = command, request.mode = mode, request.axis = axis, request.increment = increment;
+    request.program = command == CommandKind::SELECT_PROGRAM ? argument : "";
+    request.block = command == CommandKind::MDI_LINE ? argument : "";
+    switch (command) {
+      case CommandKind::FEED_OVERRIDE:
+      case CommandKind::RAPID_OVERRIDE:
+      case CommandKind::SPINDLE_OVERRIDE:
+        request.fraction = value;
+        break;
+      case CommandKind::JOG_AXIS:
+        request.speed = value;
+        break;
+      case CommandKind::START_FROM_LINE:
+        request.line = static_cast<std::uint32_t>(value);
+        break;
+      case CommandKind::AXIS_LOCK:
+        request.axes = static_cast<std::uint16_t>(value);
+        break;
+      case CommandKind::BLOCK_SKIP:
+        request.levels = static_cast<std::uint16_t>(value);
+        break;
+      case CommandKind::HANDWHEEL:
+        request.counts = static_cast<std::int32_t>(value);
+        break;
+      default:
+        request.on = value != 0;
+        break;
+    }
     return core->handle(request);
   }
   void load(const std::string& program) {
@@ -81,7 +111,8 @@ struct Channel : ::testing::Test {
     if (const auto request = core->take_stream_request()) drive.request(*request);
     idl::stream::PathFrame frame;
     while (core->produce(frame)) drive.put(frame);
-    if (const auto auxiliary = core->take_auxiliary(); auxiliary && auxiliary->kind != 0) {
+    if (const auto auxiliary = core->take_auxiliary();
+        auxiliary && auxiliary->kind != idl::channel::AuxiliaryKind::NO_AUXILIARY) {
       auxiliaries.push_back(*auxiliary);
       if (answer_plc) core->on_auxiliary_done({0, auxiliary->number, false});
     }

@@ -10,6 +10,8 @@ namespace {
 
 using idl::channel::CommandKind;
 using testing::Channel;
+using testing::Codes;
+using enum idl::channel::AuxiliaryKind;
 using testing::FakeDrive;
 using testing::three_axes;
 
@@ -97,9 +99,9 @@ TEST_F(Channel, MCodesGoToThePlcInOrderAndMotionWaitsForThem) {
     core->on_auxiliary_done({0, auxiliaries.back().number, false});
     for (int k = 0; k < 2000 && core->run_state() == RunState::RUNNING; ++k) round();
   }
-  std::vector<std::pair<int, int>> kinds;
+  Codes kinds;
   for (const auto& a : auxiliaries) kinds.emplace_back(a.kind, a.code);
-  EXPECT_EQ(kinds, (std::vector<std::pair<int, int>>{{3, 1}, {1, 6}, {2, 0}, {1, 3}, {1, 8}, {1, 30}}));
+  EXPECT_EQ(kinds, (Codes{{T, 1}, {M, 6}, {S, 0}, {M, 3}, {M, 8}, {M, 30}}));
   EXPECT_EQ(core->run_state(), RunState::IDLE);
   EXPECT_EQ(core->state().tool, 1u);
 }
@@ -129,7 +131,7 @@ TEST_F(Channel, AHoldOfTheDriveInterruptsAndCycleStartResumesTheSameStream) {
   cycles_per_round = 8;
   ask(CommandKind::CYCLE_START);
   for (int i = 0; i < 20; ++i) round();
-  drive.mode = 2;
+  drive.mode = DriveMode::HELD;
   round();
   EXPECT_EQ(core->run_state(), RunState::INTERRUPTED);
   ASSERT_TRUE(ask(CommandKind::CYCLE_START).accepted);
@@ -164,7 +166,7 @@ TEST_F(Channel, AFreshProcessGoesOnWhereTheKilledOneWas) {
     for (int i = 0; i < kill_after; ++i) round();
     const double x = drive.rows.back()[0];
     drive.lose_queue();
-    drive.mode = 2;
+    drive.mode = DriveMode::HELD;
     begin();  // the process is killed and started again
     EXPECT_EQ(core->run_state(), RunState::INTERRUPTED) << "after " << kill_after;
     EXPECT_EQ(core->state().program, "part.nc");
@@ -197,11 +199,11 @@ TEST_F(Channel, ADriveThatWasRestartedWhileTheProgramWasHeldTakesItAgainWithTheF
   ASSERT_EQ(core->run_state(), RunState::HELD);
   for (int life = 0; life < 3; ++life) {
     drive.forget();
-    drive.mode = 4;  // its drives are off until the PLC's enables have arrived
+    drive.mode = DriveMode::OFF;  // its drives are off until the PLC's enables have arrived
     auto first_word = drive.run(0);
     first_word.applied = {{idl::stream::Input::PARAMETER_SET, 0, 1}};
     core->on_feedback(first_word);
-    drive.mode = 0;
+    drive.mode = DriveMode::FOLLOWING;
     core->on_feedback(drive.run(0));
     ASSERT_EQ(core->run_state(), RunState::HELD) << life;
   }
@@ -219,9 +221,9 @@ TEST_F(Channel, DrivesThatWereOffWhileTheProgramWasHeldMakeItBeginAgain) {
   ask(CommandKind::FEED_HOLD);
   run();
   ASSERT_EQ(core->run_state(), RunState::HELD);
-  drive.mode = 4;
+  drive.mode = DriveMode::OFF;
   core->on_feedback(drive.run(0));
-  drive.mode = 0;
+  drive.mode = DriveMode::FOLLOWING;
   core->on_feedback(drive.run(0));
   EXPECT_EQ(core->run_state(), RunState::INTERRUPTED);
   EXPECT_FALSE(ask(CommandKind::CYCLE_START).accepted) << "the spindle may stand";
@@ -338,8 +340,7 @@ TEST_F(Channel, RequestsThatMakeNoSenseAreRefusedWithAReason) {
   EXPECT_NE(ask(CommandKind::SELECT_PROGRAM, "none.nc").reason.find("none.nc"), std::string::npos);
   EXPECT_FALSE(ask(CommandKind::CYCLE_START).accepted) << "mode JOG";
   EXPECT_FALSE(ask(CommandKind::MDI_LINE, "G0 X1").accepted);
-  EXPECT_EQ(ask(CommandKind::FEED_OVERRIDE, "", 1.6).reason,
-            "override 160.000000 % is outside 0.000000 .. 150.000000 %");
+  EXPECT_EQ(ask(CommandKind::FEED_OVERRIDE, "", 1.6).reason, "value 1.6 must be from 0 to 1.5");
   EXPECT_FALSE(ask(CommandKind::FEED_OVERRIDE, "", std::nan("")).accepted);
   core->set_ready(false);
   ask(CommandKind::SET_MODE);

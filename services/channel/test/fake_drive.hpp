@@ -13,25 +13,28 @@
 
 namespace trunnion::channel::testing {
 
+using idl::stream::StreamRequestKind;
+
 class FakeDrive {
  public:
   explicit FakeDrive(std::size_t axes) : position_(axes, 0.0) {}
 
   void request(const idl::stream::StreamRequest& request) {
     echo_.request = request.request;
-    if (request.kind == 1 || request.kind == 3) {
+    if (request.kind == StreamRequestKind::START || request.kind == StreamRequestKind::NEW_EPOCH) {
       echo_.epoch = request.epoch;
-      if (request.kind == 3 && mode == 2) mode = 0;  // a new epoch ends the hold of the old one
-      echo_.active = mode == 0;
+      if (request.kind == StreamRequestKind::NEW_EPOCH && mode == DriveMode::HELD)
+        mode = DriveMode::FOLLOWING;  // a new epoch ends the hold of the old one
+      echo_.active = mode == DriveMode::FOLLOWING;
       echo_.start = next;
       ++starts;
-    } else if (request.kind == 2) {
-      mode = 0;
+    } else if (request.kind == StreamRequestKind::RESUME) {
+      mode = DriveMode::FOLLOWING;
       ++resumes;
     } else {
       echo_.active = false;
       queue_.clear();
-      mode = 0;
+      mode = DriveMode::FOLLOWING;
     }
   }
   void put(const idl::stream::PathFrame& frame) { queue_.push_back(frame); }
@@ -48,7 +51,7 @@ class FakeDrive {
   idl::stream::FeedbackFrame run(std::uint64_t cycles = ~0ull) {
     std::uint64_t done = 0;
     idl::stream::FeedbackFrame feedback;
-    while (mode == 0 && !queue_.empty() && done < cycles) {
+    while (mode == DriveMode::FOLLOWING && !queue_.empty() && done < cycles) {
       const auto& f = queue_.front();
       if (f.epoch == echo_.epoch) {
         for (std::uint32_t i = 0; i < f.count; ++i) {
@@ -68,6 +71,7 @@ class FakeDrive {
         for (std::size_t a = 0; a < position_.size(); ++a) position_[a] = rows.back()[a];
         next = f.first + f.count;
         done += f.count;
+        echo_.snapshot = f.snapshot;
         echo_.states = f.states;
         if (f.ends) echo_.active = false;
       }
@@ -78,7 +82,7 @@ class FakeDrive {
     std::copy(actual_.end() - static_cast<long>(feedback.actual.size()), actual_.end(),
               feedback.actual.begin());
     feedback.first = next - feedback.count;
-    feedback.mode = static_cast<std::uint8_t>(mode);
+    feedback.mode = mode;
     feedback.axis_count = static_cast<std::uint16_t>(position_.size());
     feedback.position = position_;
     echo_.next = next;
@@ -94,7 +98,8 @@ class FakeDrive {
   /// Frames that are not executed are lost with their stage; the consistent cut stays.
   void lose_queue() { queue_.clear(); }
 
-  int mode = 0, starts = 0, resumes = 0;
+  DriveMode mode = DriveMode::FOLLOWING;
+  int starts = 0, resumes = 0;
   std::uint64_t next = 0;
   std::vector<std::vector<double>> rows;
   std::vector<std::uint32_t> lines;

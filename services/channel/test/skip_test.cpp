@@ -1,6 +1,6 @@
 // G31: a skip input ends the move, the program goes on from where the axes are and knows where they were.
+#include "bus/cdr.hpp"
 #include "channel_fixture.hpp"
-#include "stream/stage_core.hpp"
 
 namespace trunnion::channel {
 namespace {
@@ -139,7 +139,7 @@ TEST_F(Skip, AFreshProcessGoesOnBehindATouchThatTheOneBeforeItMade) {
   ask(CommandKind::CYCLE_START);
   while (drive.rows.empty() || drive.rows.back()[0] < 40) round();
   drive.lose_queue();
-  drive.mode = 2;
+  drive.mode = DriveMode::HELD;
   begin();
   EXPECT_EQ(core->run_state(), RunState::INTERRUPTED);
   ASSERT_TRUE(ask(CommandKind::CYCLE_START).accepted);
@@ -156,37 +156,69 @@ SkipResult touch(double x, double z) {
   return result;
 }
 
-std::vector<SkipResult> brought_back(const std::vector<SkipResult>& skips, std::size_t& size) {
-  std::vector<double> values;
-  store({}, skips, values);
-  size = values.size();
-  idl::stream::StageState state;
-  state.stage = stream::stage_channel;
-  state.values = values;
-  return snapshot_of({state})->skips;
+std::vector<SkipResult> brought_back(const std::vector<SkipResult>& skips) {
+  idl::stream::ChannelSnapshot stored;
+  store({}, skips, stored);
+  bus::Bytes bytes;
+  bus::encode(stored, bytes);  // within the bounds of the message
+  return snapshot_of(stored)->skips;
 }
 
-// A state has 512 values, 40 are the snapshot's own and one says which axes: with X and Z 117 results of four
-// values find room.
+// A message has 234 values for either position: with X and Z that are 117 results.
 TEST(ChannelSnapshot, HoldsTheResultsOfAsManySkipMovesAsItHasRoomForOrOfNone) {
-  std::size_t size = 0;
-  EXPECT_TRUE(brought_back({}, size).empty());
-  const std::size_t own = size;
+  EXPECT_TRUE(brought_back({}).empty());
   std::vector<SkipResult> skips;
   for (int i = 1; i <= 117; ++i) {
     skips.push_back(touch(i, -i));
-    const auto back = brought_back(skips, size);
-    ASSERT_LE(size, 512u);
+    const auto back = brought_back(skips);
     ASSERT_EQ(back.size(), skips.size());
     EXPECT_EQ(back.front().touched, skips.front().touched);
     EXPECT_EQ(back.back().stopped, skips.back().stopped);
     EXPECT_EQ(back.back().touched, skips.back().touched);
   }
-  EXPECT_EQ(size, own + 1 + 117 * 4);
   skips.push_back(touch(200, 1));
-  EXPECT_TRUE(brought_back(skips, size).empty());
-  EXPECT_EQ(brought_back({SkipResult{}, SkipResult{}}, size).size(), 2u) << "touched at zero";
+  EXPECT_TRUE(brought_back(skips).empty());
+  EXPECT_EQ(brought_back({SkipResult{}, SkipResult{}}).size(), 2u) << "touched at zero";
 }
+
+TEST(ChannelSnapshot, BringsEveryFieldBackToTheLastBit) {
+  ChannelSnapshot s;
+  s.running = true, s.crc = 0xfedcba98;
+  s.revision = (std::uint64_t{1} << 53) + 1;  // no double holds it
+  s.sequence = 7, s.line = 9, s.fraction = 1.0 / 3;
+  s.transformation = language::Transformation::rtcp;
+  s.tool_length = 50.1, s.tool = 12;
+  for (std::size_t i = 0; i < s.position.size(); ++i)
+    s.position[i] = 0.1 * static_cast<double>(i), s.start[i] = -s.position[i],
+    s.offset[i] = 1e-9 * s.start[i];
+  s.offset_on = s.dry_run = s.auxiliary_lock = true;
+  s.block_skip = 0b101;
+  idl::stream::ChannelSnapshot stored, arrived;
+  store(s, {touch(1, 2)}, stored);
+  bus::Bytes bytes;
+  bus::encode(stored, bytes);
+  ASSERT_TRUE(bus::decode(bytes, arrived));
+  const auto back = snapshot_of(arrived);
+  ASSERT_TRUE(back);
+  EXPECT_TRUE(back->running);
+  EXPECT_EQ(back->crc, s.crc);
+  EXPECT_EQ(back->revision, s.revision);
+  EXPECT_EQ(back->sequence, s.sequence);
+  EXPECT_EQ(back->line, s.line);
+  EXPECT_EQ(back->fraction, s.fraction);
+  EXPECT_EQ(back->transformation, s.transformation);
+  EXPECT_EQ(back->tool_length, s.tool_length);
+  EXPECT_EQ(back->tool, s.tool);
+  EXPECT_EQ(back->position, s.position);
+  EXPECT_EQ(back->start, s.start);
+  EXPECT_TRUE(back->offset_on && back->dry_run && back->auxiliary_lock);
+  EXPECT_EQ(back->offset, s.offset);
+  EXPECT_EQ(back->block_skip, s.block_skip);
+  ASSERT_EQ(back->skips.size(), 1u);
+  EXPECT_EQ(back->skips[0].touched, touch(1, 2).touched);
+}
+
+TEST(ChannelSnapshot, IsNoneBeforeAnyoneHasWrittenOne) { EXPECT_FALSE(snapshot_of({})); }
 
 }  // namespace
 }  // namespace trunnion::channel

@@ -32,7 +32,7 @@ struct Tap : Channel {
   std::vector<int> m_codes() const {
     std::vector<int> codes;
     for (const auto& a : auxiliaries)
-      if (a.kind == 1) codes.push_back(static_cast<int>(a.code));
+      if (a.kind == idl::channel::AuxiliaryKind::M) codes.push_back(static_cast<int>(a.code));
     return codes;
   }
 };

@@ -17,10 +17,10 @@ namespace trunnion::drive {
 void DriveCore::begin_braking() {
   rate_step_ = rate_step();
   dip_periods_ = 0;
-  if (reserve_ == 0 && mode_ == Mode::following && phase_ == 0 && supply().cycles == 0)
+  if (reserve_ == 0 && mode_ == Mode::FOLLOWING && phase_ == 0 && supply().cycles == 0)
     rate_ = 0;  // standing still
-  if (mode_ == Mode::returning) rate_ = 0;
-  mode_ = Mode::braking;
+  if (mode_ == Mode::RETURNING) rate_ = 0;
+  mode_ = Mode::BRAKING;
   resume_ = false;
 }
 
@@ -47,7 +47,7 @@ void DriveCore::return_to_whole_cycles() {
 
 // Another part of the controller has found a reason to stop: along the path, as for a missing setpoint.
 void DriveCore::stop() {
-  if (mode_ == Mode::following && any_active()) begin_braking();
+  if (mode_ == Mode::FOLLOWING && any_active()) begin_braking();
 }
 
 void DriveCore::brake() {
@@ -70,9 +70,9 @@ void DriveCore::brake() {
 void DriveCore::stopped() {
   rate_ = 0, reserve_ = 0;
   if (!enabled_) {
-    mode_ = Mode::off;
+    mode_ = Mode::OFF;
   } else {
-    mode_ = any_active() ? Mode::held : Mode::following;
+    mode_ = any_active() ? Mode::HELD : Mode::FOLLOWING;
     if (!any_active()) rate_ = 1, phase_ = 0;
   }
 }
@@ -87,7 +87,7 @@ void DriveCore::resume() {
     return;
   }
   rate_ = 0;
-  mode_ = Mode::following;
+  mode_ = Mode::FOLLOWING;
 }
 
 // A move with a quintic profile: its largest speed is 1.875 d/T, its largest acceleration 5.774 d/T^2.
@@ -103,7 +103,7 @@ void DriveCore::plan_return(const std::vector<double>& target) {
   return_periods_ = static_cast<std::uint32_t>(std::ceil(seconds / dt_));
   return_done_ = 0;
   off_path_ = false;
-  mode_ = Mode::returning;
+  mode_ = Mode::RETURNING;
 }
 
 void DriveCore::step_return() {
@@ -115,7 +115,7 @@ void DriveCore::step_return() {
   if (return_done_ < return_periods_) return;
   command_ = return_to_;
   target_ = return_to_;
-  mode_ = Mode::following;
+  mode_ = Mode::FOLLOWING;
   rate_ = phase_ == 0 && rate_ == 1 ? 1 : 0;
 }
 

@@ -10,6 +10,8 @@
 
 namespace trunnion::drive {
 namespace {
+
+using idl::stream::StreamRequestKind;
 constexpr std::uint32_t settling = 250;  // periods after motion in virtual time, until the servos stand still
 constexpr std::uint64_t forever = std::numeric_limits<std::uint64_t>::max();
 }  // namespace
@@ -95,7 +97,7 @@ void DriveCore::leave(Channel& channel) {
   channel.active = false;
   release_spindle(channel);
   if (any_active()) return;
-  if (mode_ == Mode::held || mode_ == Mode::returning) mode_ = Mode::following;
+  if (mode_ == Mode::HELD || mode_ == Mode::RETURNING) mode_ = Mode::FOLLOWING;
   target_ = command_;
   std::fill(velocity_.begin(), velocity_.end(), 0.0);
   rate_ = 1, phase_ = 0, reserve_ = 0;
@@ -107,16 +109,17 @@ void DriveCore::request(const idl::stream::StreamRequest& request) {
   if (request.request == channel.request && request.epoch == channel.epoch) return;
   channel.request = request.request;
   switch (request.kind) {
-    case 1:
-    case 3: {
+    case StreamRequestKind::START:
+    case StreamRequestKind::NEW_EPOCH: {
       leave(channel);
       // A start within an epoch this process did not see begin is a message from before it was restarted.
-      const bool known =
-          request.kind == 3 ? request.epoch > channel.epoch : channel.begun && request.epoch == channel.epoch;
+      const bool known = request.kind == StreamRequestKind::NEW_EPOCH
+                             ? request.epoch > channel.epoch
+                             : channel.begun && request.epoch == channel.epoch;
       if (!known) break;
       channel.epoch = request.epoch;
       channel.begun = true;
-      channel.active = mode_ != Mode::off && mode_ != Mode::braking;
+      channel.active = mode_ != Mode::OFF && mode_ != Mode::BRAKING;
       channel.prefilled = false;
       channel.start = next_ + (std::count_if(channels_.begin(), channels_.end(),
                                              [](const auto& c) { return c.second.active; }) > 1
@@ -125,13 +128,11 @@ void DriveCore::request(const idl::stream::StreamRequest& request) {
       channel.window.set_next(channel.epoch, channel.start);
       break;
     }
-    case 2:
-      resume_ = mode_ == Mode::held;
+    case StreamRequestKind::RESUME:
+      resume_ = mode_ == Mode::HELD;
       break;
-    case 4:
+    case StreamRequestKind::LEAVE:
       leave(channel);
-      break;
-    default:
       break;
   }
 }
@@ -142,13 +143,13 @@ void DriveCore::set_enables(const std::vector<std::uint8_t>& enable, bool emerge
   const bool on = all && !emergency_stop;
   emergency_stop_ = emergency_stop;
   enabled_ = on;
-  if (on && mode_ == Mode::off) {
-    mode_ = any_active() ? Mode::held : Mode::following;
+  if (on && mode_ == Mode::OFF) {
+    mode_ = any_active() ? Mode::HELD : Mode::FOLLOWING;
     rate_ = any_active() ? 0 : 1;
-  } else if (!on && mode_ != Mode::off) {
-    if (mode_ == Mode::held || (mode_ == Mode::following && !any_active()))
-      mode_ = Mode::off;
-    else if (mode_ != Mode::braking)
+  } else if (!on && mode_ != Mode::OFF) {
+    if (mode_ == Mode::HELD || (mode_ == Mode::FOLLOWING && !any_active()))
+      mode_ = Mode::OFF;
+    else if (mode_ != Mode::BRAKING)
       begin_braking();
   }
 }
@@ -218,18 +219,18 @@ bool DriveCore::enough(const Supply& s) const { return s.cycles > 0 && (s.ends |
 
 bool DriveCore::prefilled(const Supply& s) const { return s.ends || s.cycles >= prefill_; }
 
-bool DriveCore::waiting() const { return mode_ == Mode::following && any_active() && !enough(supply()); }
+bool DriveCore::waiting() const { return mode_ == Mode::FOLLOWING && any_active() && !enough(supply()); }
 
 bool DriveCore::can_step(bool give_up) const {
   switch (mode_) {
-    case Mode::braking:
-    case Mode::returning:
+    case Mode::BRAKING:
+    case Mode::RETURNING:
       return true;
-    case Mode::held:
+    case Mode::HELD:
       return resume_ && prefilled(supply());
-    case Mode::off:
+    case Mode::OFF:
       return false;
-    case Mode::following:
+    case Mode::FOLLOWING:
       break;
   }
   if (!any_active()) return settle_ > 0;
@@ -240,21 +241,21 @@ bool DriveCore::can_step(bool give_up) const {
 void DriveCore::step() {
   ++tick_;
   switch (mode_) {
-    case Mode::off:
+    case Mode::OFF:
       for (auto& servo : servos_) servo.hold();
       for (std::size_t i = 0; i < axes_.size(); ++i) command_[i] = servos_[i].command();
       move_spindles(false);
       return;
-    case Mode::held:
+    case Mode::HELD:
       if (resume_ && prefilled(supply())) resume();
       break;
-    case Mode::returning:
+    case Mode::RETURNING:
       step_return();
       break;
-    case Mode::braking:
+    case Mode::BRAKING:
       brake();
       break;
-    case Mode::following: {
+    case Mode::FOLLOWING: {
       if (!any_active()) {
         if (settle_ > 0) --settle_;
         break;
@@ -302,7 +303,7 @@ bool DriveCore::pass_cycle() {
                     limits_[i].velocity * dt_);
       raise(alarm::setpoint_jump, axes_[i].number, text);
       rate_ = 0;
-      mode_ = Mode::held;
+      mode_ = Mode::HELD;
       return false;
     }
   }
@@ -318,6 +319,7 @@ bool DriveCore::pass_cycle() {
     if (!channel.active) continue;
     const auto* frame = channel.window.peek();
     if (frame == nullptr || next_ + 1 != frame->first + frame->count) continue;
+    channel.snapshot = frame->snapshot;
     channel.states = frame->states;
     const bool ends = frame->ends;
     channel.window.advance();
@@ -338,7 +340,7 @@ void DriveCore::advance(double cycles) {
     }
     phase_ -= 1;
   }
-  if (mode_ == Mode::held) return;
+  if (mode_ == Mode::HELD) return;
   if (phase_ > 0 && supply().cycles > 0) {
     target_of(next_, scratch_);
     for (std::size_t i = 0; i < axes_.size(); ++i)
@@ -346,7 +348,7 @@ void DriveCore::advance(double cycles) {
     lead_spindles(phase_);
   } else {
     command_ = target_;
-    if (phase_ > 0 && mode_ == Mode::braking) {  // the last setpoint at hand is passed while still moving
+    if (phase_ > 0 && mode_ == Mode::BRAKING) {  // the last setpoint at hand is passed while still moving
       for (std::size_t i = 0; i < axes_.size(); ++i) command_[i] += phase_ * velocity_[i];
       for (auto& spindle : spindles_) spindle.lead_on(phase_);
       off_path_ = true;
@@ -424,7 +426,7 @@ void DriveCore::supervise() {
       continue;
     }
     reported_[i] = true;
-    if (mode_ == Mode::following && any_active()) begin_braking();
+    if (mode_ == Mode::FOLLOWING && any_active()) begin_braking();
   }
 }
 
@@ -441,7 +443,7 @@ void DriveCore::fill(idl::stream::FeedbackFrame& out) {
   out.first = rows_ > 0 ? first_row_ : next_;
   out.count = rows_;
   out.tick = tick_;
-  out.mode = static_cast<std::uint8_t>(mode_ == Mode::held && resume_ ? Mode::returning : mode_);
+  out.mode = mode_ == Mode::HELD && resume_ ? Mode::RETURNING : mode_;
   out.revision = revision_;
   out.axis_count = static_cast<std::uint16_t>(n);
   std::swap(out.commanded, commanded_rows_);
@@ -461,7 +463,7 @@ void DriveCore::fill(idl::stream::FeedbackFrame& out) {
     out.velocity[i] = servos_[i].velocity();
     out.torque[i] = servos_[i].torque();
     out.position[i] = servos_[i].encoder();
-    out.enabled[i] = mode_ == Mode::off ? 0 : 1;
+    out.enabled[i] = mode_ == Mode::OFF ? 0 : 1;
   }
   out.spindle_speed.resize(spindles_.size());
   for (std::size_t i = 0; i < spindles_.size(); ++i) out.spindle_speed[i] = spindles_[i].speed();
@@ -476,6 +478,7 @@ void DriveCore::fill(idl::stream::FeedbackFrame& out) {
     echo.next = next_;
     echo.request = channel.request;
     echo.start = channel.start;
+    echo.snapshot = channel.snapshot;
     echo.states = channel.states;
   }
 }

@@ -17,7 +17,7 @@
 
 namespace trunnion::drive {
 
-enum class Mode : std::uint8_t { following, braking, held, returning, off };
+using Mode = idl::stream::DriveMode;
 
 /// mm or deg: axes nearer than this to a point of the path need not be moved there.
 inline constexpr double on_path_distance = 1e-6;
@@ -101,6 +101,7 @@ class DriveCore {
     bool begun = false;      // an epoch was begun in this process
     std::uint32_t epoch = 0, request = 0;
     std::uint64_t start = 0;
+    idl::stream::ChannelSnapshot snapshot;
     std::vector<idl::stream::StageState> states;
     std::vector<std::uint16_t> axes;  // of the frames, and the column of each
     std::vector<int> columns;
@@ -150,7 +151,7 @@ class DriveCore {
   std::vector<ServoAxis> servos_;
   std::map<std::uint16_t, Channel> channels_;
 
-  Mode mode_ = Mode::off;
+  Mode mode_ = Mode::OFF;
   bool emergency_stop_ = true;
   bool enabled_ = false;
   std::uint64_t next_ = 0, tick_ = 0, starved_ = 0;

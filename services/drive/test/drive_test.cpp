@@ -10,6 +10,7 @@ namespace trunnion::drive {
 namespace {
 
 using idl::stream::AxisFrame;
+using idl::stream::StreamRequestKind;
 
 // Two axes; 1 mm/cycle is the fastest, 4 m/s2 the acceleration: from 0.1 mm/cycle it takes 25 cycles to stop.
 machine::Parameters two_axes() {
@@ -34,8 +35,8 @@ struct Fixture : testing::Test {
     core.configure(two_axes(), true);
     core.set_enables({1, 1}, false);
   }
-  void begin(std::uint8_t kind = 3) {
-    if (kind == 3) ++epoch;
+  void begin(StreamRequestKind kind = StreamRequestKind::NEW_EPOCH) {
+    if (kind == StreamRequestKind::NEW_EPOCH) ++epoch;
     core.request({0, ++number, kind, epoch});
   }
   // A ramp from 0 to `speed` mm per cycle within 100 cycles and on.
@@ -48,7 +49,7 @@ struct Fixture : testing::Test {
       f.ends = end && first + 8 >= to;
       for (std::uint64_t n = first; n < first + 8; ++n)
         f.setpoints.insert(f.setpoints.end(), {path(n), 2 * path(n)});
-      f.states = {{2, first + 7, {}}};
+      f.states = {{idl::stream::Stage::KINEMATICS, first + 7, {}}};
       ASSERT_TRUE(core.put(f));
     }
   }
@@ -72,7 +73,7 @@ TEST_F(Fixture, ExecutesEverySetpointBitForBitAndEndsIdle) {
   ASSERT_EQ(commanded.size(), 400u);
   for (std::size_t n = 0; n < 400; ++n) EXPECT_EQ(commanded[n], path(n));
   EXPECT_FALSE(core.any_active());
-  EXPECT_EQ(core.mode(), Mode::following);
+  EXPECT_EQ(core.mode(), Mode::FOLLOWING);
   EXPECT_EQ(core.starved(), 0u);
 }
 
@@ -92,15 +93,15 @@ TEST_F(Fixture, AMissingSetpointStopsOnThePathAndTheRestIsExecutedUnchangedAfter
   core.set_spindle_speed({});
   feed(160, 200);
   run(true);  // waited long enough
-  EXPECT_EQ(core.mode(), Mode::held);
+  EXPECT_EQ(core.mode(), Mode::HELD);
   ASSERT_FALSE(core.take_events().empty());
   EXPECT_LE(core.next(), 200u);
   const double x = core.commands()[0], y = core.commands()[1];
   EXPECT_NEAR(y, 2 * x, 1e-9) << "along the path, which is a straight line here, also beyond its known end";
   run();
-  EXPECT_EQ(core.mode(), Mode::held) << "it does not go on by itself";
+  EXPECT_EQ(core.mode(), Mode::HELD) << "it does not go on by itself";
   feed(200, 400, true);
-  begin(2);
+  begin(StreamRequestKind::RESUME);
   run();
   ASSERT_EQ(commanded.size(), 400u);
   for (std::size_t n = 0; n < 400; ++n) EXPECT_EQ(commanded[n], path(n));
@@ -111,9 +112,9 @@ TEST_F(Fixture, AResumeWaitsForNoMoreThanTheChannelsCreditLetsItWrite) {
   feed(0, 160);
   run();
   run(true);
-  ASSERT_EQ(core.mode(), Mode::held);
+  ASSERT_EQ(core.mode(), Mode::HELD);
   ASSERT_LE(core.next() + 16, 160u + 16u);
-  begin(2);
+  begin(StreamRequestKind::RESUME);
   // Lead 32 and whole frames of 16: with 17 cycles at hand another frame would be beyond the credit.
   const auto put = [&](std::uint64_t first, std::uint64_t count) {
     AxisFrame f;
@@ -144,9 +145,9 @@ TEST_F(Fixture, BrakingAndResumingNeedAtMostTheLimitOnTopOfThePathsOwnAccelerati
   }
   while (tick(true)) {
   }
-  EXPECT_EQ(core.mode(), Mode::held);
+  EXPECT_EQ(core.mode(), Mode::HELD);
   feed(200, 600);
-  begin(2);
+  begin(StreamRequestKind::RESUME);
   while (tick(false)) {
   }
   double most = 0;
@@ -170,7 +171,7 @@ TEST_F(Fixture, StoppingAndResumingOnACircleAtTheLimitNeedsAtMostTwiceTheLimit) 
         const double a = angle(static_cast<double>(n));
         f.setpoints.insert(f.setpoints.end(), {10 - 10 * std::cos(a), 10 * std::sin(a)});
       }
-      f.states = {{2, first + 7, {}}};
+      f.states = {{idl::stream::Stage::KINEMATICS, first + 7, {}}};
       ASSERT_TRUE(core.put(f));
     }
   };
@@ -195,9 +196,9 @@ TEST_F(Fixture, StoppingAndResumingOnACircleAtTheLimitNeedsAtMostTwiceTheLimit) 
     }
     while (tick(true)) {
     }
-    ASSERT_EQ(core.mode(), Mode::held);
+    ASSERT_EQ(core.mode(), Mode::HELD);
     circle(200 + more, 600);
-    begin(2);
+    begin(StreamRequestKind::RESUME);
     while (tick(false)) {
     }
     double most = 0, off = 0;
@@ -219,15 +220,15 @@ TEST_F(Fixture, EmergencyStopStopsOnThePathAndNothingMovesUntilANewEpoch) {
   run(false, 200);
   core.set_enables({1, 1}, true);
   run();
-  EXPECT_EQ(core.mode(), Mode::off);
+  EXPECT_EQ(core.mode(), Mode::OFF);
   const double x = core.commands()[0];
   EXPECT_NEAR(core.commands()[1], 2 * x, 1e-4);
   core.set_enables({1, 1}, false);
   run();
-  EXPECT_EQ(core.mode(), Mode::held);
+  EXPECT_EQ(core.mode(), Mode::HELD);
   const auto cycle = core.next();
-  begin(3);
-  EXPECT_EQ(core.mode(), Mode::following);
+  begin();
+  EXPECT_EQ(core.mode(), Mode::FOLLOWING);
   EXPECT_EQ(core.next(), cycle);
   run();
   EXPECT_NEAR(core.commands()[0], x, 1e-3) << "frames of the old epoch are dead";
@@ -241,9 +242,10 @@ TEST_F(Fixture, AProcessThatTakesOverAtRestKnowsTheEpochAndWhatWasAnswered) {
   next.configure(two_axes(), true);
   next.restore(core.memory());
   next.set_enables({1, 1}, false);
-  next.request({0, number, 3, epoch});  // the newest request is still in the topic: it was answered
+  next.request({0, number, StreamRequestKind::NEW_EPOCH,
+                epoch});  // the newest request is still in the topic: it was answered
   EXPECT_FALSE(next.any_active());
-  next.request({0, number + 1, 1, epoch});
+  next.request({0, number + 1, StreamRequestKind::START, epoch});
   EXPECT_TRUE(next.any_active()) << "a start within the epoch that the process before has seen begin";
   idl::stream::FeedbackFrame f;
   next.fill(f);
@@ -259,7 +261,7 @@ TEST_F(Fixture, ASetpointThatJumpsIsRefused) {
   for (int i = 0; i < 8; ++i) f.setpoints.insert(f.setpoints.end(), {500.0, 500.0});
   core.put(f);
   run();
-  EXPECT_EQ(core.mode(), Mode::held);
+  EXPECT_EQ(core.mode(), Mode::HELD);
   EXPECT_LT(core.commands()[0], 10);
   const auto events = core.take_events();
   ASSERT_FALSE(events.empty());
@@ -304,16 +306,16 @@ TEST(TwoChannels, ASecondChannelThatStartsDoesNotDisturbTheFirst) {
       core.step();
       core.fill(out);
       for (std::uint32_t i = 0; i < out.count; ++i) x.push_back(out.commanded[2 * i]);
-      EXPECT_NE(core.mode(), Mode::returning);
+      EXPECT_NE(core.mode(), Mode::RETURNING);
     }
   };
-  core.request({0, 1, 3, 1});
+  core.request({0, 1, StreamRequestKind::NEW_EPOCH, 1});
   for (std::uint64_t first = 0; first < 80; first += 8) {
     auto f = frame(0, first, false);
     core.put(f);
   }
   run();
-  core.request({1, 1, 3, 1});
+  core.request({1, 1, StreamRequestKind::NEW_EPOCH, 1});
   idl::stream::FeedbackFrame echo;
   core.fill(echo);
   const auto start = echo.channels[1].start;

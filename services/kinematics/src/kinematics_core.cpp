@@ -17,7 +17,7 @@ bool KinematicsCore::process(const idl::stream::PathFrame& in, const stream::Fee
   for (std::size_t row = 0; row < rows; ++row) {
     double position[width];
     std::copy_n(&in.setpoints[row * width], width, position);
-    if (in.transformation == 1) {
+    if (in.transformation == idl::stream::Transformation::RTCP) {
       const auto machine = chain_->machine_from_tip({position[0], position[1], position[2]},
                                                     geometry::angles_of(position), in.tool_length);
       position[0] = machine[0], position[1] = machine[1], position[2] = machine[2];

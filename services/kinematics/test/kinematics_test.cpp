@@ -22,10 +22,13 @@ machine::Parameters ac_table() {
   return p;
 }
 
-idl::stream::PathFrame frame(std::initializer_list<double> row, int transformation, double length) {
+using enum idl::stream::Transformation;
+
+idl::stream::PathFrame frame(std::initializer_list<double> row, idl::stream::Transformation transformation,
+                             double length) {
   idl::stream::PathFrame f;
   f.count = 1;
-  f.transformation = static_cast<std::uint8_t>(transformation);
+  f.transformation = transformation;
   f.tool_length = length;
   f.setpoints.assign(row);
   return f;
@@ -35,7 +38,7 @@ TEST(Kinematics, WithoutTransformationTheAxesAreWhatTheChannelSays) {
   KinematicsCore core;
   core.configure(ac_table(), 0);
   idl::stream::AxisFrame out;
-  ASSERT_TRUE(core.process(frame({1, 2, 3, 40, 0, 50, 0, 0, 0}, 0, 100), {}, out));
+  ASSERT_TRUE(core.process(frame({1, 2, 3, 40, 0, 50, 0, 0, 0}, NO_TRANSFORMATION, 100), {}, out));
   EXPECT_EQ(out.axes, (std::vector<std::uint16_t>{0, 1, 2, 3, 4}));
   EXPECT_EQ(out.setpoints, (std::vector<double>{1, 2, 3, 40, 50}));
 }
@@ -47,7 +50,7 @@ TEST(Kinematics, RtcpTurnsTheWorkpiecePointAboutC) {
   // C axis at (-200, -190), turning about -Z: C90 takes the point 10 to the right of the axis, (-190, -190),
   // to
   // (-200, -200); the spindle face is the tool length above the tip.
-  core.process(frame({-190, -190, -500, 0, 0, 90, 0, 0, 0}, 1, 100), {}, out);
+  core.process(frame({-190, -190, -500, 0, 0, 90, 0, 0, 0}, RTCP, 100), {}, out);
   EXPECT_NEAR(out.setpoints[0], -200, 1e-9);
   EXPECT_NEAR(out.setpoints[1], -200, 1e-9);
   EXPECT_NEAR(out.setpoints[2], -400, 1e-9);
@@ -61,7 +64,7 @@ TEST(Kinematics, ACorrectionOfTheChainIsPartOfARevision) {
   parameters.values[40960] = {0.25, ""};
   after.configure(parameters, 0);
   idl::stream::AxisFrame out, corrected;
-  const auto in = frame({-190, -190, -500, 0, 0, 180, 0, 0, 0}, 1, 100);
+  const auto in = frame({-190, -190, -500, 0, 0, 180, 0, 0, 0}, RTCP, 100);
   ASSERT_TRUE(before.process(in, {}, out));
   ASSERT_TRUE(after.process(in, {}, corrected));
   EXPECT_NEAR(corrected.setpoints[0] - out.setpoints[0], 0.5, 1e-12);
@@ -79,7 +82,7 @@ TEST(Kinematics, ForwardOfWhatItCommandsIsTheTipWithin1e9) {
   for (int i = 0; i < 20000; ++i) {
     const geometry::Vec3 tip(place(random), place(random), place(random));
     const double a = angle(random), c = angle(random), length = std::abs(place(random));
-    core.process(frame({tip.x(), tip.y(), tip.z(), a, 0, c, 0, 0, 0}, 1, length), {}, out);
+    core.process(frame({tip.x(), tip.y(), tip.z(), a, 0, c, 0, 0, 0}, RTCP, length), {}, out);
     const auto back =
         chain.tip_from_machine({out.setpoints[0], out.setpoints[1], out.setpoints[2]}, {a, 0, c}, length);
     ASSERT_LT((back - tip).norm(), 1e-9);
@@ -96,7 +99,7 @@ TEST(Kinematics, CommandsTheBitsOfTheLibrary) {
   for (int i = 0; i < 20000; ++i) {
     const geometry::Vec3 tip(place(random), place(random), place(random));
     const double a = angle(random), c = angle(random);
-    core.process(frame({tip.x(), tip.y(), tip.z(), a, 0, c, 0, 0, 0}, 1, 123.4), {}, out);
+    core.process(frame({tip.x(), tip.y(), tip.z(), a, 0, c, 0, 0, 0}, RTCP, 123.4), {}, out);
     const geometry::Vec3 at = chain.machine_from_tip(tip, {a, 0, c}, 123.4);
     ASSERT_EQ(out.setpoints, (std::vector<double>{at.x(), at.y(), at.z(), a, c}));
   }

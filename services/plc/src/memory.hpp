@@ -5,7 +5,11 @@
 #include <cstdint>
 #include <type_traits>
 
+#include "contracts/types.hpp"
+
 namespace trunnion::plc {
+
+using idl::channel::AuxiliaryKind;
 
 inline constexpr std::size_t register_count = 512;  ///< of each area
 inline constexpr std::size_t channel_count = 8, spindle_count = 8;
@@ -43,7 +47,9 @@ enum class HandshakeState : std::uint32_t { none, waiting, strobe, done };
 /// A pending M, S or T of one channel.
 struct Handshake {
   HandshakeState state = HandshakeState::none;
-  std::uint32_t number = 0, kind = 0, code = 0;
+  std::uint32_t number = 0;
+  AuxiliaryKind kind = AuxiliaryKind::NO_AUXILIARY;
+  std::uint32_t code = 0;
   double value = 0;
   std::uint64_t cycle = 0;
   std::uint32_t failed = 0;

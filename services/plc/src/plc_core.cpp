@@ -99,7 +99,7 @@ void PlcCore::set_channel(const idl::channel::ChannelState& state) {
 void PlcCore::set_request(const idl::channel::AuxiliaryRequest& request) {
   if (request.channel >= channel_count) return;
   auto& h = memory_.handshakes[request.channel];
-  if (request.kind == 0) {
+  if (request.kind == AuxiliaryKind::NO_AUXILIARY) {
     if (h.state == HandshakeState::waiting || h.state == HandshakeState::strobe)
       h.state = HandshakeState::none;
     view_.changed = true;
@@ -139,25 +139,26 @@ void PlcCore::set_alarms(bool any, bool stops) {
   input(alarm_stops_, stops);
 }
 
-std::string PlcCore::panel(std::uint8_t kind, std::uint32_t address, std::uint32_t value) {
-  switch (kind) {
-    case panel_press:
+std::string PlcCore::panel(const idl::plc::PanelRequest& request) {
+  using idl::plc::PanelRequestKind;
+  switch (request.kind) {
+    case PanelRequestKind::PRESS_EMERGENCY_STOP:
       input(emergency_button_, 1);
-      return "";
-    case panel_release:
+      break;
+    case PanelRequestKind::RELEASE_EMERGENCY_STOP:
       input(emergency_button_, 0);
-      return "";
-    case panel_reset:
+      break;
+    case PanelRequestKind::RESET_EMERGENCY_STOP:
       press_reset();
-      return "";
-    case panel_force:
-      if (address >= register_count) return "input byte " + std::to_string(address) + " is outside 0 .. 511";
-      if (value > 255) return "value " + std::to_string(value) + " is outside 0 .. 255";
-      input({Area::x, static_cast<std::uint16_t>(address), -1}, value);
-      return "";
-    default:
-      return "kind " + std::to_string(kind) + " is outside 1 .. 4";
+      break;
+    case PanelRequestKind::FORCE_INPUT:
+      if (request.address >= register_count)
+        return "input byte " + std::to_string(request.address) + " is outside 0 .. 511";
+      if (request.value > 255) return "value " + std::to_string(request.value) + " is outside 0 .. 255";
+      input({Area::x, static_cast<std::uint16_t>(request.address), -1}, request.value);
+      break;
   }
+  return "";
 }
 
 bool PlcCore::at_standstill(std::size_t channel) const {
@@ -186,14 +187,14 @@ void PlcCore::set_strobes(bool present) {
     // times after it would count from then.
     if (present && h.state == HandshakeState::waiting && plc::load(r, s.fin) == 0 && at_standstill(c)) {
       h.state = HandshakeState::strobe;
-      if (h.kind == 1) store(r, s.m_code, h.code);
-      if (h.kind == 2) store(r, s.s_value, std::llround(std::clamp(h.value, 0.0, 65535.0)));
-      if (h.kind == 3) store(r, s.t_code, h.code);
+      if (h.kind == AuxiliaryKind::M) store(r, s.m_code, h.code);
+      if (h.kind == AuxiliaryKind::S) store(r, s.s_value, std::llround(std::clamp(h.value, 0.0, 65535.0)));
+      if (h.kind == AuxiliaryKind::T) store(r, s.t_code, h.code);
     }
     const bool strobe = h.state == HandshakeState::strobe;
-    store(r, s.m_strobe, strobe && h.kind == 1);
-    store(r, s.s_strobe, strobe && h.kind == 2);
-    store(r, s.t_strobe, strobe && h.kind == 3);
+    store(r, s.m_strobe, strobe && h.kind == AuxiliaryKind::M);
+    store(r, s.s_strobe, strobe && h.kind == AuxiliaryKind::S);
+    store(r, s.t_strobe, strobe && h.kind == AuxiliaryKind::T);
   }
 }
 

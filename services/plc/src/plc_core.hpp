@@ -18,7 +18,6 @@ inline constexpr std::uint64_t most_catch_up =
 inline constexpr int most_settling = 16;  ///< scans at the same time until the image is stable
 
 /// Panel requests, as in idl/plc.idl.
-inline constexpr std::uint8_t panel_press = 1, panel_release = 2, panel_reset = 3, panel_force = 4;
 
 class PlcCore {
  public:
@@ -46,7 +45,7 @@ class PlcCore {
   void set_feedback(const idl::stream::FeedbackFrame& frame);
   void set_alarms(bool any, bool stops);
   /// Returns an empty text or why the request is refused.
-  std::string panel(std::uint8_t kind, std::uint32_t address, std::uint32_t value);
+  std::string panel(const idl::plc::PanelRequest& request);
   void press_reset() { input(reset_button_, 1); }
   /// The drive does not confirm the standstill that a request waits for: continue without.
   void give_up_waiting();

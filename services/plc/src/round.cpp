@@ -9,7 +9,7 @@ template <class Values>
 void compare(Area area, const Values& before, const Values& after, Changes& changes) {
   for (std::size_t i = 0; i < after.size(); ++i)
     if (before[i] != after[i])
-      changes.push_back({static_cast<std::uint8_t>(area), static_cast<std::uint16_t>(i), after[i]});
+      changes.push_back({static_cast<idl::plc::RegisterArea>(area), static_cast<std::uint16_t>(i), after[i]});
 }
 
 // FNV-1a over the values: what lies between them in memory does not count.
@@ -41,8 +41,7 @@ Changes changes(const Registers& before, const Registers& after) {
 }
 
 std::string register_name(const RegisterValue& value) {
-  constexpr const char* letters = "XYFGRB";
-  return (value.area < 6 ? letters[value.area] : '?') + std::to_string(value.index);
+  return bus::to_string(value.area) + std::to_string(value.index);
 }
 
 std::uint64_t state_digest(const Snapshot& snapshot) {

@@ -25,7 +25,7 @@ bool RoundRecorder::begin_round(std::uint32_t generation, const PlcCore& core, s
 }
 
 void RoundRecorder::record(StepKind kind, std::uint64_t value) {
-  if (on()) steps_.push_back({static_cast<std::uint8_t>(kind), value, {}});
+  if (on()) steps_.push_back({kind, value, {}});
 }
 
 void RoundRecorder::record(const idl::stream::FeedbackFrame& frame) {
@@ -41,7 +41,7 @@ void RoundRecorder::record(const idl::stream::FeedbackFrame& frame) {
     kept.channel = echo.channel;
     kept.active = echo.active;
   }
-  record(StepKind::feedback, seen);
+  record(StepKind::FEEDBACK, seen);
 }
 
 const Round& RoundRecorder::end_round(const PlcCore& core, const std::vector<idl::plc::AuxiliaryDone>& done) {

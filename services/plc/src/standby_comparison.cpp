@@ -34,11 +34,12 @@ StandbyComparison::Outcome StandbyComparison::play(const Round& round, std::uint
   if (round.number == 0) return begin(round);
   if (round.generation != generation_ || round.number != number_ + 1) return Outcome::gap;
   for (const Step& step : round.steps)
-    if (static_cast<StepKind>(step.kind) == StepKind::parameters && find_(step.value) == nullptr)
-      return Outcome::waiting;
+    if (step.kind == StepKind::PARAMETERS && find_(step.value) == nullptr) return Outcome::waiting;
   const Registers before = core_.memory().registers;
   for (const Step& step : round.steps)
-    if (!repeat(step)) return differ(round.tick, "unknown step kind " + std::to_string(step.kind));
+    if (!repeat(step))
+      return differ(round.tick,
+                    std::string("a step ") + bus::to_string(step.kind) + " whose sample it cannot read");
   number_ = round.number;
   const Outcome outcome = compare(round, before);
   if (outcome == Outcome::equal) equal_ticks_ += round.tick - std::min(tick_, round.tick);
@@ -69,28 +70,27 @@ bool StandbyComparison::parameters(std::uint64_t revision) {
 }
 
 bool StandbyComparison::repeat(const Step& step) {
-  switch (static_cast<StepKind>(step.kind)) {
-    case StepKind::parameters:
+  switch (step.kind) {
+    case StepKind::PARAMETERS:
       return parameters(step.value);
-    case StepKind::feedback:
+    case StepKind::FEEDBACK:
       return with_sample<idl::stream::FeedbackFrame>(step, [&](const auto& s) { core_.set_feedback(s); });
-    case StepKind::channel:
+    case StepKind::CHANNEL_STATE:
       return with_sample<idl::channel::ChannelState>(step, [&](const auto& s) { core_.set_channel(s); });
-    case StepKind::request:
+    case StepKind::AUXILIARY_REQUEST:
       return with_sample<idl::channel::AuxiliaryRequest>(step, [&](const auto& s) { core_.set_request(s); });
-    case StepKind::alarms:
+    case StepKind::ALARMS:
       core_.set_alarms((step.value & 1) != 0, (step.value & 2) != 0);
       return true;
-    case StepKind::panel:
-      return with_sample<idl::plc::PanelRequest>(
-          step, [&](const auto& s) { core_.panel(s.kind, s.address, s.value); });
-    case StepKind::reset:
+    case StepKind::PANEL_REQUEST:
+      return with_sample<idl::plc::PanelRequest>(step, [&](const auto& s) { core_.panel(s); });
+    case StepKind::RESET_BUTTON:
       core_.press_reset();
       return true;
-    case StepKind::give_up:
+    case StepKind::GIVE_UP_WAITING:
       core_.give_up_waiting();
       return true;
-    case StepKind::advance:
+    case StepKind::ADVANCE:
       core_.advance(step.value);
       return true;
   }

@@ -69,7 +69,7 @@ struct Bench {
     }
     return tick - start;
   }
-  void request(std::uint8_t kind, std::uint32_t code, double value = 0, std::uint16_t channel = 0) {
+  void request(AuxiliaryKind kind, std::uint32_t code, double value = 0, std::uint16_t channel = 0) {
     ++number;
     core.set_request({channel, number, kind, code, value, executed});
     step();
@@ -85,7 +85,8 @@ struct Bench {
   std::vector<idl::plc::AuxiliaryDone> finished;
 };
 
-constexpr std::uint8_t M = 1, S = 2, T = 3;
+using enum AuxiliaryKind;
+using idl::plc::PanelRequestKind;
 
 TEST(Handshake, AnUnknownMAndATAreFinishedWithoutTime) {
   Bench bench;
@@ -162,12 +163,12 @@ TEST(Handshake, TicksAreTheSameEveryTime) {
   const auto ticks = [] {
     Bench bench;
     std::vector<std::uint64_t> result;
-    const std::vector<std::pair<std::uint8_t, std::uint32_t>> sequence = {{S, 3000}, {M, 3}, {M, 8}, {S, 500},
-                                                                          {M, 6},    {M, 4}, {M, 30}};
+    const std::vector<std::pair<AuxiliaryKind, std::uint32_t>> sequence = {
+        {S, 3000}, {M, 3}, {M, 8}, {S, 500}, {M, 6}, {M, 4}, {M, 30}};
     for (const auto& [kind, code] : sequence) {
       bench.request(kind, code, code);
       result.push_back(bench.run());
-      EXPECT_TRUE(bench.done()) << static_cast<int>(kind) << " " << code;
+      EXPECT_TRUE(bench.done()) << bus::to_string(kind) << " " << code;
     }
     return result;
   };
@@ -204,7 +205,7 @@ TEST(Handshake, ARepeatedRequestIsConfirmedAgainButNotCarriedOutAgain) {
 TEST(Handshake, AWithdrawnRequestIsNotFinished) {
   Bench bench;
   bench.request(M, 6);
-  bench.core.set_request({0, bench.number, 0, 0, 0, bench.executed});
+  bench.core.set_request({0, bench.number, NO_AUXILIARY, 0, 0, bench.executed});
   bench.run();
   EXPECT_TRUE(bench.finished.empty());
 }
@@ -279,7 +280,7 @@ TEST(EmergencyStop, LatchesUntilReleasedAndReset) {
   EXPECT_EQ(bench.core.outputs().axis_enable[1], 0);  // does not exist
   EXPECT_EQ(bench.core.outputs().axis_enable[2], 1);
 
-  bench.core.panel(panel_press, 0, 0);
+  bench.core.panel({.kind = PanelRequestKind::PRESS_EMERGENCY_STOP});
   bench.step();
   auto outputs = bench.core.outputs();
   EXPECT_TRUE(outputs.emergency_stop);
@@ -287,13 +288,13 @@ TEST(EmergencyStop, LatchesUntilReleasedAndReset) {
   EXPECT_EQ(outputs.spindle_speed[0], 0);
   EXPECT_EQ(outputs.coolant[0], 0);
 
-  bench.core.panel(panel_reset, 0, 0);
+  bench.core.panel({.kind = PanelRequestKind::RESET_EMERGENCY_STOP});
   bench.step();
   EXPECT_TRUE(bench.core.emergency_stop()) << "reset while the button is pressed";
-  bench.core.panel(panel_release, 0, 0);
+  bench.core.panel({.kind = PanelRequestKind::RELEASE_EMERGENCY_STOP});
   bench.step();
   EXPECT_TRUE(bench.core.emergency_stop()) << "released but not reset";
-  bench.core.panel(panel_reset, 0, 0);
+  bench.core.panel({.kind = PanelRequestKind::RESET_EMERGENCY_STOP});
   bench.step();
   outputs = bench.core.outputs();
   EXPECT_FALSE(outputs.emergency_stop);
@@ -304,7 +305,7 @@ TEST(EmergencyStop, LatchesUntilReleasedAndReset) {
 TEST(EmergencyStop, AFunctionUnderWayFails) {
   Bench bench;
   bench.request(M, 6);
-  bench.core.panel(panel_press, 0, 0);
+  bench.core.panel({.kind = PanelRequestKind::PRESS_EMERGENCY_STOP});
   bench.step();
   ASSERT_EQ(bench.finished.size(), 1u);
   EXPECT_TRUE(bench.finished[0].failed);
@@ -318,14 +319,17 @@ TEST(EmergencyStop, WithoutAProgramTheOutputsAreSafe) {
   EXPECT_EQ(core.outputs().axis_enable, std::vector<std::uint8_t>(32, 0));
 }
 
+idl::plc::PanelRequest force(std::uint32_t address, std::uint32_t value) {
+  return {.kind = PanelRequestKind::FORCE_INPUT, .address = address, .value = value};
+}
+
 TEST(Panel, ForcesInputBytesWithinTheirBounds) {
   Bench bench;
-  EXPECT_EQ(bench.core.panel(panel_force, 0, 4), "");  // X0.2 is the feed hold button
+  EXPECT_EQ(bench.core.panel(force(0, 4)), "");  // X0.2 is the feed hold button
   bench.step();
   EXPECT_TRUE(bench.core.outputs().feed_hold);
-  EXPECT_EQ(bench.core.panel(panel_force, 512, 0), "input byte 512 is outside 0 .. 511");
-  EXPECT_EQ(bench.core.panel(panel_force, 0, 256), "value 256 is outside 0 .. 255");
-  EXPECT_EQ(bench.core.panel(9, 0, 0), "kind 9 is outside 1 .. 4");
+  EXPECT_EQ(bench.core.panel(force(512, 0)), "input byte 512 is outside 0 .. 511");
+  EXPECT_EQ(bench.core.panel(force(0, 256)), "value 256 is outside 0 .. 255");
 }
 
 TEST(Restart, AProcessThatComesBackGoesOnWhereItWas) {

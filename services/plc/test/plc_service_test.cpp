@@ -10,6 +10,8 @@
 namespace trunnion::plc {
 namespace {
 
+using idl::channel::AuxiliaryKind;
+using idl::plc::PanelRequestKind;
 using testing_support::eventually;
 using testing_support::RunningService;
 constexpr int domain = 63;
@@ -38,7 +40,7 @@ class Machine {
     frame.enabled = {1};
     feedback_.write(frame);
   }
-  void ask(std::uint32_t number, std::uint8_t kind, std::uint32_t code, double value) {
+  void ask(std::uint32_t number, idl::channel::AuxiliaryKind kind, std::uint32_t code, double value) {
     request_.write({0, number, kind, code, value, 10});
   }
   /// The drive's side of virtual time, until request `number` is done; 1/min per tick: 2.
@@ -59,7 +61,7 @@ class Machine {
     while (states_.take(state)) {
     }
   }
-  bool press(std::uint8_t kind) {
+  bool press(idl::plc::PanelRequestKind kind) {
     idl::plc::PanelRequest request;
     request.kind = kind;
     const auto reply = panel_.call(request, 10);
@@ -100,10 +102,10 @@ TEST(PlcServiceOverDds, HandshakesTakeTheSameTicksAndAKillChangesNoOutput) {
   service.start({"--virtual-time"});
   Machine machine;
   ASSERT_TRUE(machine.wait_for([&] { return machine.outputs.axis_enable.at(0) == 1; }));
-  machine.ask(1, 2, 0, 1000);
+  machine.ask(1, AuxiliaryKind::S, 0, 1000);
   ASSERT_TRUE(machine.run_until_done(1));
   EXPECT_EQ(machine.tick, 100u);
-  machine.ask(2, 1, 3, 0);
+  machine.ask(2, AuxiliaryKind::M, 3, 0);
   ASSERT_TRUE(machine.run_until_done(2));
   // 2 1/min per tick reach 950 of 1000 after 475 ticks, checked every 10.
   EXPECT_EQ(machine.tick, 100u + 480u);
@@ -121,11 +123,11 @@ TEST(PlcServiceOverDds, HandshakesTakeTheSameTicksAndAKillChangesNoOutput) {
   EXPECT_FALSE(machine.outputs.emergency_stop);
   EXPECT_EQ(machine.done.number, 2u);  // what was done is said again, not done again
 
-  ASSERT_TRUE(machine.press(1));
+  ASSERT_TRUE(machine.press(PanelRequestKind::PRESS_EMERGENCY_STOP));
   ASSERT_TRUE(machine.wait_for([&] { return machine.outputs.emergency_stop; }));
   EXPECT_EQ(machine.outputs.spindle_speed.at(0), 0);
-  ASSERT_TRUE(machine.press(2));
-  ASSERT_TRUE(machine.press(3));
+  ASSERT_TRUE(machine.press(PanelRequestKind::RELEASE_EMERGENCY_STOP));
+  ASSERT_TRUE(machine.press(PanelRequestKind::RESET_EMERGENCY_STOP));
   ASSERT_TRUE(machine.wait_for([&] { return !machine.outputs.emergency_stop; }));
   EXPECT_EQ(machine.outputs.axis_enable.at(0), 1);
 }

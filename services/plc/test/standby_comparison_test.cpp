@@ -1,4 +1,4 @@
-// The comparison of a PLC beside the running one: two cores, the rounds of the one played on the other.
+// A standby PLC beside the running one: two cores, the rounds of the one played on the other.
 #include "standby_comparison.hpp"
 
 #include <gtest/gtest.h>
@@ -77,30 +77,31 @@ class Running {
       state.feed_override = static_cast<double>(random_() % 150) / 100;
       state.reset_count = resets_ += random_() % 3 == 0;
       core_.set_channel(state);
-      recorder_.record(StepKind::channel, state);
+      recorder_.record(StepKind::CHANNEL_STATE, state);
     }
     if (random_() % 8 == 0) {
-      const idl::channel::AuxiliaryRequest request{0, ++number_, 1, 8, 0, 0};
+      const idl::channel::AuxiliaryRequest request{0, ++number_, AuxiliaryKind::M, 8, 0, 0};
       core_.set_request(request);
-      recorder_.record(StepKind::request, request);
+      recorder_.record(StepKind::AUXILIARY_REQUEST, request);
     }
     if (random_() % 8 == 0) {
-      idl::plc::PanelRequest panel;
-      panel.kind = panel_force, panel.address = 16, panel.value = static_cast<std::uint32_t>(random_() % 4);
-      core_.panel(panel.kind, panel.address, panel.value);
-      recorder_.record(StepKind::panel, panel);
+      const idl::plc::PanelRequest panel{.kind = idl::plc::PanelRequestKind::FORCE_INPUT,
+                                         .address = 16,
+                                         .value = static_cast<std::uint32_t>(random_() % 4)};
+      core_.panel(panel);
+      recorder_.record(StepKind::PANEL_REQUEST, panel);
     }
     if (random_() % 30 == 0) {
       core_.press_reset();
-      recorder_.record(StepKind::reset);
+      recorder_.record(StepKind::RESET_BUTTON);
     }
     if (random_() % 30 == 0) {
       core_.give_up_waiting();
-      recorder_.record(StepKind::give_up);
+      recorder_.record(StepKind::GIVE_UP_WAITING);
     }
     const bool alarm = random_() % 5 == 0;
     core_.set_alarms(alarm, false);
-    recorder_.record(StepKind::alarms, alarm ? 1 : 0);
+    recorder_.record(StepKind::ALARMS, alarm ? 1 : 0);
     advance();
     return recorder_.end_round(core_, core_.take_done());
   }
@@ -111,7 +112,7 @@ class Running {
  private:
   void advance() {
     core_.advance(tick_);
-    recorder_.record(StepKind::advance, tick_);
+    recorder_.record(StepKind::ADVANCE, tick_);
   }
   PlcCore core_;
   RoundRecorder recorder_;
@@ -255,13 +256,13 @@ TEST(StandbyComparison, BytesThatAreNoRoundAndAMemoryOfAnotherBuildAreRefused) {
   auto second = comparison_of(main_program);
   ASSERT_EQ(second.play(running.begin(2), 2), StandbyComparison::Outcome::equal);
   Round round = running.round();
-  round.steps.push_back({200, 0, {}});
+  round.steps.push_back({static_cast<StepKind>(200), 0, {}});
   EXPECT_EQ(second.play(round, 2), StandbyComparison::Outcome::differs);
 
   auto third = comparison_of(main_program);
   ASSERT_EQ(third.play(running.begin(3), 3), StandbyComparison::Outcome::equal);
   round = running.round();
-  round.steps.push_back({static_cast<std::uint8_t>(StepKind::channel), 0, {0, 1, 0, 0, 9}});
+  round.steps.push_back({StepKind::CHANNEL_STATE, 0, {0, 1, 0, 0, 9}});
   EXPECT_EQ(third.play(round, 3), StandbyComparison::Outcome::differs);
 }
 

@@ -1,6 +1,7 @@
 // The one place with live state: the stream, the chosen channel and view, and the last thing that was refused.
 import { computed, signal } from "@preact/signals";
 import { post } from "../api";
+import type { ChannelCommands } from "../contract";
 import { History } from "./history";
 import { channelNumbers, emptyStream, type Message, receive, type Stream } from "./model";
 
@@ -51,8 +52,8 @@ export function tell(text: string, refused: boolean): void {
   noticeTimer = setTimeout(() => (notice.value = null), refused ? 12000 : 4000);
 }
 
-/** Sends an order and shows the refusal, if there is one; true when accepted. */
-export async function order(what: string, path: string, body: object = {}): Promise<boolean> {
+/** Sends a request and shows the refusal, if there is one; true when accepted. */
+export async function request(what: string, path: string, body: object = {}): Promise<boolean> {
   const answer = await post(path, body);
   if (answer.ok) {
     if (notice.value?.refused) notice.value = null;
@@ -62,11 +63,19 @@ export async function order(what: string, path: string, body: object = {}): Prom
   return answer.ok;
 }
 
-/** An order to the chosen channel. */
-export function command(what: string, verb: string, body: object = {}): Promise<boolean> {
+/** A command to a channel; `what` names it for the operator when it is refused. */
+export function commandTo<Route extends keyof ChannelCommands>(
+  channel: number, what: string, route: Route, body: ChannelCommands[Route],
+): Promise<boolean> {
+  return request(what, `/api/channels/${channel}/${route}`, body);
+}
+
+/** A command to the chosen channel. */
+export function command<Route extends keyof ChannelCommands>(
+  what: string, route: Route, body: ChannelCommands[Route],
+): Promise<boolean> {
   const number = channelNumber.value;
-  if (number === null) return Promise.resolve(false);
-  return order(what, `/api/channels/${number}/${verb}`, body);
+  return number === null ? Promise.resolve(false) : commandTo(number, what, route, body);
 }
 
 // The gateway sends something at least twice a second, so silence of this length means that it is gone.

@@ -1,6 +1,6 @@
 import { timeOfDay } from "../format";
 import { sortedAlarms } from "../state/model";
-import { machine, order } from "../state/store";
+import { machine, request } from "../state/store";
 
 export function Alarms() {
   const alarms = sortedAlarms(machine.value);
@@ -12,7 +12,7 @@ export function Alarms() {
         <button
           class="end"
           disabled={alarms.length === 0}
-          onClick={() => void order("Alarm reset", "/api/alarms/reset")}
+          onClick={() => void request("Alarm reset", "/api/alarms/reset")}
         >
           Reset alarms
         </button>

@@ -75,14 +75,14 @@ export function Controls() {
           data-test="cycle-start"
           title="Ctrl+Enter"
           aria-disabled={!canStart(machine.value, one)}
-          onClick={() => void command("Cycle start", "cycle-start")}
+          onClick={() => void command("Cycle start", "cycle-start", {})}
         >
           Cycle start
         </button>
-        <button class="hold" data-test="feed-hold" title="Esc" onClick={() => void command("Feed hold", "feed-hold")}>
+        <button class="hold" data-test="feed-hold" title="Esc" onClick={() => void command("Feed hold", "feed-hold", {})}>
           Feed hold
         </button>
-        <button data-test="reset" onClick={() => void command("Reset", "reset")}>Reset</button>
+        <button data-test="reset" onClick={() => void command("Reset", "reset", {})}>Reset</button>
         <button
           class="toggle"
           aria-pressed={one.single_block}

@@ -9,14 +9,16 @@ const line = signal("");
 const wheelAxis = signal(0);
 const wheelIncrement = signal(0.01);
 
-function Switch({ title, about, verb, on }: { title: string; about: string; verb: string; on: boolean }) {
+type SwitchRoute = "dry-run" | "auxiliary-lock" | "retrace" | "handwheel-offset";
+
+function Switch({ title, about, route, on }: { title: string; about: string; route: SwitchRoute; on: boolean }) {
   return (
     <button
       class="toggle"
       aria-pressed={on}
       title={about}
-      data-test={verb}
-      onClick={() => void command(title, verb, { on: !on })}
+      data-test={route}
+      onClick={() => void command(title, route, { on: !on })}
     >
       {title}
     </button>
@@ -113,9 +115,9 @@ export function Functions() {
       <FromLine offered={one.restart_line} />
       <h3>Program</h3>
       <div class="row">
-        <Switch title="Dry run" about="Feed of parameter 04c914 in place of the program's" verb="dry-run" on={one.dry_run} />
-        <Switch title="M S T lock" about="Functions are passed over" verb="auxiliary-lock" on={one.auxiliary_lock} />
-        <Switch title="Retrace" about="Backwards along the path; again: forwards" verb="retrace" on={one.retracing} />
+        <Switch title="Dry run" about="Feed of parameter 04c914 in place of the program's" route="dry-run" on={one.dry_run} />
+        <Switch title="M S T lock" about="Functions are skipped" route="auxiliary-lock" on={one.auxiliary_lock} />
+        <Switch title="Retrace" about="Backwards along the path; again: forwards" route="retrace" on={one.retracing} />
       </div>
       <div class="row">
         <span class="name">Axis lock</span>
@@ -156,7 +158,7 @@ export function Functions() {
         <Switch
           title="Offset on the program"
           about="Counts are added to the path, until reset"
-          verb="handwheel-offset"
+          route="handwheel-offset"
           on={one.handwheel_offset_on}
         />
         <span class="digits">{offset.join("  ")}</span>

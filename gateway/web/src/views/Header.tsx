@@ -1,4 +1,4 @@
-import { channel, channelList, channelNumber, channels, chooseChannel, machine, order, view, type ViewName } from "../state/store";
+import { channel, channelList, channelNumber, channels, chooseChannel, machine, request, view, type ViewName } from "../state/store";
 
 const views: [ViewName, string][] = [
   ["operate", "Operate"],
@@ -15,7 +15,7 @@ function EmergencyStop() {
         class="estop"
         data-test="estop"
         title="Ask the PLC for an emergency stop. Not a replacement for the hard-wired one."
-        onClick={() => void order("Emergency stop", "/api/panel/emergency-stop")}
+        onClick={() => void request("Emergency stop", "/api/panel/emergency-stop")}
       >
         E-STOP
       </button>
@@ -23,13 +23,13 @@ function EmergencyStop() {
   }
   return (
     <div class="estop-engaged">
-      <button class="estop engaged" onClick={() => void order("Emergency stop", "/api/panel/emergency-stop")}>
+      <button class="estop engaged" onClick={() => void request("Emergency stop", "/api/panel/emergency-stop")}>
         STOPPED
       </button>
-      <button data-test="release" onClick={() => void order("Release", "/api/panel/release")}>
+      <button data-test="release" onClick={() => void request("Release", "/api/panel/release")}>
         Release
       </button>
-      <button onClick={() => void order("Reset", "/api/panel/reset")}>Reset</button>
+      <button onClick={() => void request("Reset", "/api/panel/reset")}>Reset</button>
     </div>
   );
 }

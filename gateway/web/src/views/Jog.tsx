@@ -2,7 +2,7 @@ import { signal } from "@preact/signals";
 import { useEffect, useMemo } from "preact/hooks";
 import { JogHold } from "../state/jog";
 import { axisRows } from "../state/model";
-import { channel, channelNumber, machine, order } from "../state/store";
+import { channel, channelNumber, commandTo, machine } from "../state/store";
 
 const increments = [0, 0.001, 0.01, 0.1, 1, 10];
 const speeds = [60, 200, 600, 2000, 6000];
@@ -13,10 +13,10 @@ const speed = signal(600);
 export function Jog() {
   const number = channelNumber.value;
   const hold = useMemo(() => {
-    const path = `/api/channels/${number}`;
+    const none = Promise.resolve(false);
     return new JogHold({
-      start: (jog) => order("Jog", `${path}/jog`, jog),
-      stop: (axis) => order("Jog stop", `${path}/jog-stop`, { axis }),
+      start: (jog) => (number === null ? none : commandTo(number, "Jog", "jog", jog)),
+      stop: (axis) => (number === null ? none : commandTo(number, "Jog stop", "jog-stop", { axis })),
     });
   }, [number]);
   useEffect(() => {
@@ -83,7 +83,7 @@ export function Jog() {
                 class="home"
                 data-test={`reference-${row.letter}`}
                 title={`reference ${row.letter}`}
-                onClick={() => void order("Reference", `/api/channels/${one.channel}/reference`, { axis: row.index })}
+                onClick={() => void commandTo(one.channel, "Reference", "reference", { axis: row.index })}
               >
                 ⌂ {row.letter}
               </button>

@@ -80,9 +80,9 @@ export function Page() {
         view.value = viewOfKey[event.key]!;
         event.preventDefault();
       } else if (event.key === "Escape") {
-        void command("Feed hold", "feed-hold");
+        void command("Feed hold", "feed-hold", {});
       } else if (event.key === "Enter" && event.ctrlKey && view.value === "operate") {
-        void command("Cycle start", "cycle-start");
+        void command("Cycle start", "cycle-start", {});
         event.preventDefault();
       }
     };

@@ -4,7 +4,7 @@ import { get, programBytes, type ProgramEntry, remove, upload } from "../api";
 import { bytes } from "../format";
 import { ProgramText } from "../program/lines";
 import { reminders } from "../state/functions";
-import { channel, command, machine, order, tell } from "../state/store";
+import { channel, command, commandTo, machine, tell } from "../state/store";
 import { ProgramView } from "./ProgramView";
 
 const programs = signal<ProgramEntry[]>([]);
@@ -100,7 +100,7 @@ function Mdi() {
     if (one.mode !== "MDI" && !(await command("Mode", "mode", { mode: "MDI" }))) return;
     mdiHistory.value = [entered, ...mdiHistory.value.filter((old) => old !== entered)].slice(0, 50);
     at.value = -1;
-    if (await order("MDI", `/api/channels/${one.channel}/mdi`, { line: entered })) line.value = "";
+    if (await commandTo(one.channel, "MDI", "mdi", { line: entered })) line.value = "";
   };
   const recall = (step: number) => {
     const next = Math.min(mdiHistory.value.length - 1, Math.max(-1, at.value + step));

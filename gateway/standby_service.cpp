@@ -1,4 +1,4 @@
-#include "rehearsal_service.hpp"
+#include "standby_service.hpp"
 
 #include "http/first_message.hpp"
 
@@ -7,9 +7,9 @@ namespace {
 
 using bus::Json;
 
-constexpr double look_period = 0.1;  // s
+constexpr double poll_period = 0.1;  // s
 
-// What does not depend on when somebody looked, nor on what was before this process began.
+// What depends neither on the time of the sample nor on what was before this process started.
 Json comparable(Json document) {
   document.erase("trace");
   if (document.contains("axes"))
@@ -26,7 +26,7 @@ Json own(const Snapshot& snapshot) {
   return Json::parse(bus::text_of(comparable(snapshot.document)));  // numbers as they come over the line
 }
 
-// Null when nobody answers there.
+// Null when no gateway answers there.
 Json running(std::uint16_t port) {
   const auto first = first_message(port, "/api/stream", 1);
   auto message = first ? Json::parse(*first, nullptr, false) : Json();
@@ -36,35 +36,34 @@ Json running(std::uint16_t port) {
 
 }  // namespace
 
-RehearsalService::RehearsalService(service::Node& node, std::uint16_t port)
-    : view_(node.bus()), port_(port) {}
+StandbyService::StandbyService(service::Node& node, std::uint16_t port) : view_(node.bus()), port_(port) {}
 
-void RehearsalService::look(double now) {
+void StandbyService::compare(double now) {
   const auto before = own(*view_.snapshot(now));
   const auto theirs = running(port_);
-  nobody_answers_ = theirs.is_null();
-  if (nobody_answers_) return;
+  no_answer_ = theirs.is_null();
+  if (no_answer_) return;
   const double then = service::monotonic_seconds();
   view_.drain(then);
-  comparison_.look(theirs, before, own(*view_.snapshot(then)), then);
+  comparison_.sample(theirs, before, own(*view_.snapshot(then)), then);
 }
 
-void RehearsalService::pump() {
+void StandbyService::pump() {
   const double now = service::monotonic_seconds();
   view_.drain(now);
-  if (now - looked_ < look_period || !comparison_.difference().empty()) return;
-  looked_ = now;
-  look(now);
+  if (now - compared_ < poll_period || !comparison_.difference().empty()) return;
+  compared_ = now;
+  compare(now);
 }
 
-service::Health RehearsalService::health() const {
+service::Health StandbyService::health() const {
   service::Health health;
   health.lifecycle = idl::service::Lifecycle::INACTIVE;
   health.frames_in = view_.frames();
   health.revision = view_.revision();
   health.difference = comparison_.difference();
   // Of a gateway that does not answer there is nothing that could be compared.
-  health.in_step = nobody_answers_ || comparison_.settled(service::monotonic_seconds());
+  health.in_step = no_answer_ || comparison_.settled(service::monotonic_seconds());
   return health;
 }
 

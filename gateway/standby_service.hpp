@@ -6,23 +6,23 @@
 
 namespace trunnion::gateway {
 
-/// The gateway as long as another one has the port: it looks at the same cluster and compares what it would
+/// The gateway as long as another one has the port: it reads the same cluster and compares what it would
 /// show with what the other one shows its clients. It writes nothing.
-class RehearsalService : public service::Service {
+class StandbyService : public service::Service {
  public:
   /// `port` of the running gateway on this computer.
-  RehearsalService(service::Node& node, std::uint16_t port);
+  StandbyService(service::Node& node, std::uint16_t port);
   void pump() override;
   service::Health health() const override;
 
  private:
-  void look(double now);
+  void compare(double now);
 
   ClusterView view_;
   std::uint16_t port_;
   LastingDifference comparison_;
-  double looked_ = 0;
-  bool nobody_answers_ = false;
+  double compared_ = 0;
+  bool no_answer_ = false;
 };
 
 }  // namespace trunnion::gateway

@@ -1,0 +1,87 @@
+#include "src/requests.hpp"
+
+#include <gtest/gtest.h>
+
+namespace trunnion::gateway {
+namespace {
+
+using bus::Json;
+using idl::channel::CommandKind;
+
+idl::channel::ChannelState five_axes() {
+  idl::channel::ChannelState state{};
+  state.channel = 2;
+  state.axes = {0, 1, 2, 4, 6};
+  state.letters = "XYZAC";
+  return state;
+}
+
+// The commands themselves are tested in libs/commands.
+TEST(Requests, ACommandGoesToTheChannelWithItsAxes) {
+  const auto request = channel_request("jog", {{"axis", "C"}, {"speed", -600.5}}, five_axes());
+  EXPECT_EQ(request.channel, 2);
+  EXPECT_EQ(request.command, CommandKind::JOG_AXIS);
+  EXPECT_EQ(request.axis, 4);
+  EXPECT_EQ(request.speed, -600.5);
+  EXPECT_THROW(channel_request("jog", {{"axis", "B"}, {"speed", 1}}, five_axes()), BadRequest);
+}
+
+TEST(Requests, ThePanelsRoutesAreTheKindsOfTheIdl) {
+  using idl::plc::PanelRequestKind;
+  EXPECT_EQ(panel_request("emergency-stop", Json::object()).kind, PanelRequestKind::PRESS_EMERGENCY_STOP);
+  EXPECT_EQ(panel_request("release", Json::object()).kind, PanelRequestKind::RELEASE_EMERGENCY_STOP);
+  EXPECT_EQ(panel_request("reset", Json::object()).kind, PanelRequestKind::RESET_EMERGENCY_STOP);
+  EXPECT_THROW(panel_request("release", {{"on", true}}), BadRequest);
+}
+
+TEST(Requests, AnAlarmResetIsForAllUnlessAChannelIsNamed) {
+  EXPECT_EQ(alarm_reset(Json::object()).channel, 65535);
+  EXPECT_EQ(alarm_reset({{"channel", 1}}).channel, 1);
+  EXPECT_THROW(alarm_reset({{"channel", 0.5}}), BadRequest);
+  EXPECT_THROW(alarm_reset({{"channel", -1}}), BadRequest);
+}
+
+TEST(Requests, AParameterIsSetByWhatItsTypeTakes) {
+  const auto set = parameter_request(100034, false, {{"value", 12.5}, {"who", "test"}});
+  EXPECT_EQ(set.operation, idl::parameters::Operation::SET);
+  EXPECT_EQ(set.who, "test");
+  ASSERT_EQ(set.values.size(), 1u);
+  EXPECT_EQ(set.values[0].number, 100034u);
+  EXPECT_EQ(set.values[0].value, 12.5);
+  EXPECT_EQ(parameter_request(100000, true, {{"text", "X"}}).values[0].text, "X");
+  EXPECT_EQ(parameter_request(100034, false, {{"reset", true}}).operation,
+            idl::parameters::Operation::RESET_TO_DEFAULT);
+  EXPECT_THROW(parameter_request(100034, false, {{"text", "1"}}), BadRequest);
+  EXPECT_THROW(parameter_request(100000, true, {{"value", 1}}), BadRequest);
+  EXPECT_THROW(parameter_request(100034, false, Json::object()), BadRequest);
+  EXPECT_THROW(parameter_request(100034, false, {{"value", 1}, {"reset", true}}), BadRequest);
+  EXPECT_THROW(parameter_request(100034, false, {{"reset", false}}), BadRequest);
+}
+
+TEST(Requests, AWorkOffsetHasNineNumbers) {
+  const Json nine = {1, 2, 3, 4, 5, 6, 7, 8, 9};
+  const auto set = work_offset_request({{"channel", 0}, {"index", 5}, {"values", nine}});
+  EXPECT_EQ(set.offsets.at(0).values, (std::vector<double>{1, 2, 3, 4, 5, 6, 7, 8, 9}));
+  EXPECT_THROW(work_offset_request({{"channel", 0}, {"index", 54}, {"values", nine}}), BadRequest);
+  EXPECT_THROW(work_offset_request({{"channel", 0}, {"index", 0}, {"values", {1, 2}}}), BadRequest);
+  EXPECT_THROW(work_offset_request({{"channel", 0}, {"index", 0}}), BadRequest);
+}
+
+TEST(Requests, BodiesThatAreNoObjectsAreRefused) {
+  EXPECT_TRUE(parse_body(" \r\n").empty());
+  EXPECT_THROW(parse_body("{"), BadRequest);
+  EXPECT_THROW(parse_body("[1]"), BadRequest);
+  EXPECT_THROW(parse_body("{\"a\":1e999}"), BadRequest);
+}
+
+TEST(Requests, NumbersInPathsAreDecimalDigitsOnly) {
+  EXPECT_EQ(path_number("000001", 999999), 1u);
+  EXPECT_EQ(path_number("", 9), std::nullopt);
+  EXPECT_EQ(path_number("-1", 9), std::nullopt);
+  EXPECT_EQ(path_number("1x", 9), std::nullopt);
+  EXPECT_EQ(path_number("10", 9), std::nullopt);
+  EXPECT_EQ(path_number("99999999999999999999", 9), std::nullopt);
+}
+
+}  // namespace
+}  // namespace trunnion::gateway

@@ -1,0 +1,365 @@
+// Generated from gateway/openapi.json by tools/generate_api.py.
+export interface Accepted {
+  accepted: true;
+  /** Interpolation cycle it was applied at */
+  cycle?: number;
+}
+
+export type Mode = "AUTO" | "MDI" | "JOG" | "REF";
+
+export type RunState = "IDLE" | "RUNNING" | "HOLDING" | "HELD" | "WAITING" | "INTERRUPTED";
+
+export type Severity = "HINT" | "WARNING" | "ERROR" | "EMERGENCY";
+
+export type Reaction = "SHOW" | "FEED_HOLD" | "AXIS_STOP" | "EMERGENCY_STOP";
+
+export type DriveMode = "FOLLOWING" | "BRAKING" | "HELD" | "RETURNING" | "OFF";
+
+/** Lengths in mm, angles in degrees, feeds in mm/min, spindle speeds in 1/min, as in idl/channel.idl. */
+export interface ChannelState {
+  channel: number;
+  name: string;
+  /** interpolation cycle this was true at */
+  cycle: number;
+  mode: Mode;
+  state: RunState;
+  /** selected program */
+  program: string;
+  program_revision: number;
+  /** line being executed, from 1 */
+  line: number;
+  /** lines of the selected program */
+  lines_total: number;
+  /** executed part of the program, 0..1, by bytes */
+  progress: number;
+  /** active G codes, one of each group */
+  modal: string[];
+  /** mm/min along the path now */
+  feed: number;
+  /** F in mm/min */
+  programmed_feed: number;
+  /** S in 1/min */
+  spindle_programmed: number;
+  /** 0..1.5 */
+  feed_override: number;
+  /** 0..1 */
+  rapid_override: number;
+  /** 0.5..1.5 */
+  spindle_override: number;
+  /** tool in the spindle */
+  tool: number;
+  /** active H */
+  length_offset: number;
+  /** mm */
+  tool_length: number;
+  /** 0 = G54 .. 5 = G59 */
+  work_offset: number;
+  rtcp: boolean;
+  single_block: boolean;
+  optional_stop: boolean;
+  /** logical axis number of each of the channel's axes */
+  axes: number[];
+  /** their letters in the same order */
+  letters: string;
+  /** mm, deg: machine coordinates */
+  machine: number[];
+  /** mm, deg: tool tip, in the coordinates of the block being executed */
+  workpiece: number[];
+  /** mm, deg */
+  distance_to_go: number[];
+  /** counts resets; parameters with activation Reset take effect at each */
+  reset_count: number;
+  /** parameter revision in use */
+  revision: number;
+  /** cycles written and not yet executed */
+  frames_ahead: number;
+  /** every axis has its reference */
+  homed: boolean;
+  /** parameter 04c914 takes the place of programmed feeds */
+  dry_run: boolean;
+  /** M S T are passed over but for those of the program's flow */
+  auxiliary_lock: boolean;
+  /** 1 for each locked axis: it stays at rest while the program runs */
+  locked: number[];
+  /** levels 1..9 that are left out: bit 0 is level 1 */
+  block_skip: number;
+  /** the path is executed backwards */
+  retracing: boolean;
+  /** the program is held and the axes are moved by hand or MDI meanwhile */
+  suspended: boolean;
+  /** counts of the handwheel are added to the path */
+  handwheel_offset_on: boolean;
+  /** mm, deg: of each axis in machine coordinates */
+  handwheel_offset: number[];
+  /** line in which the control was switched off in the program, 0 = none */
+  restart_line: number;
+  /** what the channel waits for or does besides the program, empty = nothing */
+  detail: string;
+}
+
+/** One axis of a channel: the channel's coordinates, and what the drive reports of the axis once it has. */
+export interface AxisPosition {
+  /** X Y Z A B C U V W */
+  letter: string;
+  /** Logical axis number */
+  axis: number;
+  /** mm or deg, machine coordinates */
+  machine?: number;
+  /** mm or deg, tool tip */
+  workpiece?: number;
+  /** mm or deg */
+  distance_to_go?: number;
+}
+
+/** The state of one channel, with a row for each axis. */
+export type ChannelWithPositions = ChannelState & { positions: AxisPosition[]; };
+
+/** An active alarm. */
+export interface Alarm {
+  /** who raised it */
+  instance: number;
+  /** docs/alarms.md */
+  number: number;
+  /** axis, channel or service it is about, 0 when none */
+  part: number;
+  severity: Severity;
+  reaction: Reaction;
+  /** service name */
+  source: string;
+  text: string;
+  /** stream cycle it was raised at */
+  cycle: number;
+  occurrences: number;
+  /** When the gateway saw it first, ISO 8601 */
+  since: string;
+}
+
+/** What is known of one service: its heartbeat, else its announcement, else what the launcher expects. */
+export interface Service {
+  /** e.g. kinematics */
+  service: string;
+  /** Number of the replica */
+  copy: number;
+  /** fastdds or cyclonedds */
+  vendor: string;
+  host: string;
+  pid: number;
+  lifecycle: "UNCONFIGURED" | "INACTIVE" | "ACTIVE" | "FAULT" | "ABSENT";
+  /** What it waits for, or what is wrong */
+  detail: string;
+  frames_per_second: number;
+  frames_lost: number;
+  /** s */
+  uptime: number;
+  /** Parameter revision in use, 0 = none yet */
+  revision: number;
+  /** Of replicas of a stage */
+  in_step: boolean;
+  alive: boolean;
+  /** The launcher's list has it */
+  expected: boolean;
+  restarts: number;
+  /** Hash of its contract */
+  contract: string;
+  contract_match: boolean;
+}
+
+/** One logical axis at the newest executed cycle. */
+export interface Axis {
+  /** mm or deg */
+  commanded: number;
+  /** mm or deg: encoder */
+  actual: number;
+  /** mm or deg */
+  following_error: number;
+  /** Largest following error, by magnitude, since the message before */
+  following_peak: number;
+  /** mm or deg, now */
+  position: number;
+  /** mm/s or deg/s */
+  velocity: number;
+  /** Fraction of the rated torque */
+  torque: number;
+  enabled: boolean;
+}
+
+export interface ClusterState {
+  domain: number;
+  machine: string;
+  ready: boolean;
+  virtual_time: boolean;
+  /** Cycles the channel may run ahead of the drive */
+  lead: number;
+}
+
+export interface DriveState {
+  /** Cycles executed */
+  executed: number;
+  /** Periods, holds included */
+  tick: number;
+  mode: DriveMode;
+  /** Periods without a setpoint */
+  starved: number;
+  /** 1/min */
+  spindle_speed: number[];
+}
+
+export interface PlcState {
+  emergency_stop: boolean;
+  feed_hold: boolean;
+  coolant: number[];
+  /** 1/min commanded */
+  spindle_speed: number[];
+}
+
+/** Actual positions since the message before: one row per sample, one column per logical axis of `axes`. */
+export interface Trace {
+  /** Cycle of the first row */
+  first: number;
+  /** Logical axis number of each column */
+  axes: number[];
+  rows: number[][];
+}
+
+export interface Revisions {
+  parameters?: number;
+  /** Values that wait for reset or restart */
+  pending?: number;
+  tools?: number;
+  work_offsets?: number;
+  programs?: number;
+}
+
+/** The state of the cluster as the stream carries it; services by instance, channels and axes by number. */
+export interface MachineState {
+  cluster?: ClusterState;
+  services: Record<string, Service>;
+  alarms: Record<string, Alarm>;
+  channels: Record<string, ChannelState>;
+  axes: Record<string, Axis>;
+  drive?: DriveState;
+  plc?: PlcState;
+  trace?: Trace;
+  revisions: Revisions;
+}
+
+export interface Parameter {
+  /** Number */
+  number: number;
+  /** Name */
+  name: string;
+  /** Unit */
+  unit: string;
+  /** integer, real or text */
+  type: string;
+  /** Lower limit */
+  minimum?: number;
+  /** Upper limit */
+  maximum?: number;
+  /** Default */
+  default?: number | string;
+  /** Active value */
+  value: number | string;
+  /** save, reset or restart */
+  activation: string;
+  /** Who may change it */
+  access: string;
+  /** A stored value waits for its activation */
+  pending: boolean;
+  /** What it does */
+  help: string;
+  /** Class */
+  group: string;
+}
+
+export interface Tool {
+  number: number;
+  /** mm, spindle face to tip */
+  length: number;
+  /** mm, added */
+  length_wear: number;
+  /** mm */
+  radius: number;
+  /** mm, added */
+  radius_wear: number;
+  name: string;
+}
+
+export interface ToolTable {
+  /** 0 */
+  set: number;
+  revision: number;
+  /** ascending by number */
+  tools: Tool[];
+}
+
+export interface WorkOffset {
+  channel: number;
+  /** 0 = G54 .. 5 = G59 */
+  index: number;
+  /** X Y Z A B C U V W, mm and deg, machine coordinates of the workpiece zero */
+  values: number[];
+}
+
+export interface WorkOffsets {
+  /** 0 */
+  set: number;
+  revision: number;
+  offsets: WorkOffset[];
+}
+
+export interface ProgramEntry {
+  name: string;
+  /** counts changes of this program */
+  revision: number;
+  /** bytes */
+  size: number;
+  /** of the whole text */
+  crc32: number;
+  lines: number;
+}
+
+export interface ProgramList {
+  /** 0 */
+  set: number;
+  /** counts changes of the store */
+  revision: number;
+  /** ascending by name */
+  programs: ProgramEntry[];
+}
+
+export interface PlcImage {
+  plc: number;
+  /** 1 ms scans since the start */
+  scan: number;
+  x: number[];
+  y: number[];
+  f: number[];
+  g: number[];
+  r: number[];
+  b: number[];
+}
+
+/** Bodies of POST /api/channels/{channel}/..., by the last part of the path. */
+export interface ChannelCommands {
+  "cycle-start": Record<string, never>;
+  "feed-hold": Record<string, never>;
+  "reset": Record<string, never>;
+  "select": { program: string; };
+  "mode": { mode: Mode; };
+  "mdi": { line: string; };
+  "override": { kind: "feed"; value: number; } | { kind: "rapid"; value: number; } | { kind: "spindle"; value: number; };
+  "single-block": { on: boolean; };
+  "optional-stop": { on: boolean; };
+  "start-from-line": { line: number; };
+  "dry-run": { on: boolean; };
+  "axis-lock": { axes: (string | number)[]; };
+  "auxiliary-lock": { on: boolean; };
+  "block-skip": { levels: number[]; };
+  "retrace": { on: boolean; };
+  "jog": { axis: string | number; speed: number; increment?: number; };
+  "jog-stop": { axis: string | number; };
+  "reference": { axis: string | number; };
+  "handwheel": { axis: string | number; counts: number; increment: number; };
+  "handwheel-offset": { on: boolean; };
+}

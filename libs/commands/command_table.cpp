@@ -1,0 +1,30 @@
+#include "commands/command_table.hpp"
+
+#include <algorithm>
+
+namespace trunnion::commands {
+
+const ChannelCommand* find_word(std::string_view word) {
+  const auto rows = channel_commands();
+  const auto found =
+      std::find_if(rows.begin(), rows.end(), [&](const auto& row) { return row.word == word; });
+  return found == rows.end() ? nullptr : &*found;
+}
+
+const PanelCommand* find_panel_word(std::string_view word) {
+  const auto rows = panel_commands();
+  const auto found =
+      std::find_if(rows.begin(), rows.end(), [&](const auto& row) { return row.word == word; });
+  return found == rows.end() ? nullptr : &*found;
+}
+
+std::string usage(const ChannelCommand& command) {
+  std::string text(command.word);
+  for (const auto& field : command.fields) {
+    const bool optional = field.optional || field.word_optional;
+    text.append(optional ? " [" : " ").append(field.argument).append(optional ? "]" : "");
+  }
+  return text;
+}
+
+}  // namespace trunnion::commands

@@ -1,0 +1,91 @@
+// The table of operator commands says in which modes a command is accepted and whether while the channel is
+// busy: the channel does as it says.
+#include "channel_fixture.hpp"
+#include "commands/command_table.hpp"
+
+namespace trunnion::channel {
+namespace {
+
+using testing::Channel;
+using testing::ChannelRequest;
+using testing::CommandKind;
+using testing::FakeDrive;
+
+// Within the limits of every command.
+ChannelRequest valid(CommandKind command) {
+  return {.command = command,
+          .program = "part.nc",
+          .block = "G91 G1 X1 F100",
+          .line = 1,
+          .on = true,
+          .fraction = 1,
+          .speed = 100,
+          .increment = 0.1,
+          .counts = 1,
+          .axes = 1,
+          .levels = 1};
+}
+
+struct OperatorCommands : Channel {
+  void begin_anew() {
+    drive = FakeDrive{3};
+    begin();
+  }
+  void set(Mode mode) { ASSERT_TRUE(ask(CommandKind::SET_MODE, "", 0, 0, mode).accepted); }
+};
+
+TEST_F(OperatorCommands, AreRefusedInTheModesThatTheTableLeavesOut) {
+  int restricted = 0;
+  for (const auto& row : commands::channel_commands()) {
+    if (row.modes.empty()) continue;
+    ++restricted;
+    for (const auto mode : {Mode::AUTO, Mode::MDI, Mode::JOG, Mode::REF}) {
+      begin_anew();
+      load("G90 G1 X5 F1000\nM30\n");
+      set(mode);
+      const bool named = std::find(row.modes.begin(), row.modes.end(), mode) != row.modes.end();
+      const auto answer = ask(valid(row.kind));
+      EXPECT_EQ(answer.accepted, named)
+          << bus::to_string(row.kind) << " in " << bus::to_string(mode) << ": " << answer.reason;
+    }
+  }
+  EXPECT_GE(restricted, 4);
+}
+
+TEST_F(OperatorCommands, AreRefusedInAProgramUnlessTheTableSaysThatBusyDoesNotMatter) {
+  int refused = 0;
+  for (const auto& row : commands::channel_commands()) {
+    if (row.busy) continue;
+    ++refused;
+    begin_anew();
+    load("G90 G1 X300 F1000\nM30\n");
+    cycles_per_round = 8;
+    ASSERT_TRUE(ask(CommandKind::CYCLE_START).accepted);
+    for (int i = 0; i < 5; ++i) round();
+    ASSERT_EQ(core->run_state(), RunState::RUNNING);
+    EXPECT_FALSE(ask(valid(row.kind)).accepted) << bus::to_string(row.kind);
+    EXPECT_EQ(core->run_state(), RunState::RUNNING) << bus::to_string(row.kind);
+  }
+  EXPECT_GE(refused, 8);
+}
+
+TEST_F(OperatorCommands, OutsideTheirLimitsAreRefusedAndChangeNothing) {
+  set(Mode::JOG);
+  auto request = valid(CommandKind::JOG_AXIS);
+  request.speed = 0;
+  EXPECT_EQ(ask(request).reason, "speed must not be 0: its sign is the direction");
+  request = valid(CommandKind::HANDWHEEL);
+  request.increment = 0.5;
+  EXPECT_EQ(ask(request).reason, "increment 0.5 must be one of 0.001, 0.01, 0.1, 1");
+  request = valid(CommandKind::HANDWHEEL);
+  request.counts = 10001;
+  EXPECT_EQ(ask(request).reason, "counts 10001 must be from -10000 to 10000");
+  request = valid(CommandKind::RAPID_OVERRIDE);
+  request.fraction = 1.2;
+  EXPECT_FALSE(ask(request).accepted);
+  EXPECT_EQ(core->state().rapid_override, 1);
+  EXPECT_EQ(core->run_state(), RunState::IDLE);
+}
+
+}  // namespace
+}  // namespace trunnion::channel
