@@ -55,7 +55,7 @@ class ThermalService : public stream::StageService<idl::stream::AxisFrame> {
     "service.cpp": """#include "service.hpp"
 namespace trunnion::thermal {
 ThermalService::ThermalService(service::Node& node)
-    : StageService(node, machine::service::thermal.stage, topics::gantry_frame, topics::thermal_frame,
+    : StageService(node, stream::Stage::THERMAL, topics::gantry_frame, topics::thermal_frame,
                    [] { return std::make_unique<ThermalCore>(); }),
       growth_(node.bus().writer(topics::spindle_growth)) {}
 }
@@ -145,6 +145,7 @@ def add_stage(s):
     topic = ('  - {handle: thermal_frame, name: trunnion/thermal/axis_frame/1, type: "trunnion::stream::AxisFrame", qos: frame, '
              "writers: [thermal], readers: [drive], about: the same with the growth of the spindle}\n")
     s.edit("idl/topics.yaml", r"\Z", topic)
+    s.edit("idl/stream.idl", r"(enum Stage \{[^}]*GANTRY)", rf"\g<1>, {STAGE.upper()}")
     s.edit("idl/topics.yaml", r"(handle: gantry_frame,.*?readers: \[)drive", rf"\g<1>{STAGE}")
     for path, _, files in os.walk(s.path("services/drive")):
         for name in files:
