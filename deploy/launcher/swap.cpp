@@ -28,7 +28,7 @@ bus::Topic<idl::stream::AxisFrame> output_of(const std::string& service) {
 }
 
 Comparison comparison_of(const std::string& service) {
-  return stream::stage_of(service) != 0 ? Comparison::frames
+  return stream::stage_of(service) ? Comparison::frames
          : service == "plc"             ? Comparison::ticks
                                         : Comparison::once;
 }

@@ -11,6 +11,7 @@
 #include "machine/parameters.hpp"
 #include "machine/services.hpp"
 #include "recording/cycle_coverage.hpp"
+#include "stream/stage_names.hpp"
 
 namespace trunnion::verification {
 namespace {
@@ -128,7 +129,7 @@ class StagePlan {
       for (const auto& echo : frame.channels) {
         if (echo.channel != channel || !echo.active) continue;
         const auto state = std::find_if(echo.states.begin(), echo.states.end(),
-                                        [&](const auto& s) { return s.stage == stage_.stage; });
+                                        [&](const auto& s) { return s.stage == stream::stage_of(stage_); });
         // What is computed next looks back by the lead.
         if (state == echo.states.end() || !first_row || state->cycle < *first_row + lead_) continue;
         const auto next = std::find_if(inputs.begin(), inputs.end(), [&](const Input& input) {

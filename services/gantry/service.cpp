@@ -24,7 +24,7 @@ void GantryService::on_feedback(const idl::stream::FeedbackFrame& feedback) {
   }
   for (const auto& echo : feedback.channels) {
     const auto found = channels_.find(echo.channel);
-    const auto* state = stream::find_state(echo.states, stream::stage_gantry);
+    const auto* state = stream::find_state(echo.states, stream::Stage::GANTRY);
     if (found == channels_.end() || state == nullptr) continue;
     const auto offsets = compensated_offsets(found->second.size(), state->values);
     for (std::size_t k = 0; k < offsets.size(); ++k) found->second[k].offset = offsets[k];

@@ -27,7 +27,7 @@ class Watch {
  public:
   // A report of `replica`; pass() evaluates `seconds` after the last evaluation.
   void report(std::uint8_t replica, std::uint64_t next, bool in_step = true, std::uint32_t epoch = 1) {
-    watch.update({stage_kinematics, replica, 0, in_step, epoch, next}, now);
+    watch.update({Stage::KINEMATICS, replica, 0, in_step, epoch, next}, now);
   }
   void pass(double seconds) {
     now += seconds;
@@ -43,7 +43,7 @@ class Watch {
 TEST(ReplicaWatch, FollowsStagesWithReplicasOnly) {
   const Watch w;
   ASSERT_EQ(w.watch.replicas().size(), 2u);
-  EXPECT_EQ(w.watch.replicas()[0].stage, stage_kinematics);
+  EXPECT_EQ(w.watch.replicas()[0].stage, Stage::KINEMATICS);
   EXPECT_EQ(w.watch.replicas()[1].number, 1);
   auto single = replicated();
   single.erase(single.begin() + 2);
