@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 
 #include "node/node.hpp"
@@ -11,11 +12,12 @@ namespace trunnion::drive {
 
 class DriveService : public node::Service {
  public:
-  explicit DriveService(node::Node& node);
+  DriveService(node::Node& node, std::unique_ptr<DriveHardware> hardware);
   void pump() override;
   double period() const override;
   node::Health health() const override;
   void alarms_reset() override { core_.acknowledge(); }
+  void end() override { core_.hardware().end(); }
 
  private:
   void start();
@@ -39,7 +41,7 @@ class DriveService : public node::Service {
   std::optional<bus::Writer<idl::stream::FeedbackFrame>> writer_;
   idl::stream::AxisFrame frame_;
   idl::stream::FeedbackFrame feedback_;
-  std::vector<idl::stream::AppliedInput> applied_;  // not told yet
+  std::vector<idl::stream::AppliedInput> applied_;  // not reported yet
   idl::plc::Outputs plc_;
   bool have_plc_ = false;
   double plc_seen_ = 0;

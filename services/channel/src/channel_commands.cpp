@@ -19,6 +19,8 @@ Answer ChannelCore::startable() const {
   if (!external_hold_.empty()) return refuse("not_ready", external_hold_);
   if (!link_.has_feedback()) return refuse("not_ready", "The drive has not answered yet");
   if (link_.drive_mode() == DriveMode::off) return refuse("not_ready", "The drives are off");
+  if (link_.drive_mode() == DriveMode::homing)
+    return refuse("not_ready", "An axis searches its reference: wait until it has found it");
   return {};
 }
 
@@ -151,6 +153,13 @@ Answer ChannelCore::reference(std::uint8_t index) {
   const auto& axes = machine_.channel_axes().index;
   if (index >= axes.size())
     return refuse("request_invalid", "The channel has no axis number " + std::to_string(index));
+  const auto number = machine_.channel_axes().number[index];
+  if (parameters_ && parameters_->integer("homing_direction", number) != 0) {
+    if (activity_ != Activity::none || suspended_) return refuse("request_invalid", "The channel is busy");
+    if (auto answer = startable(); !answer.accepted) return answer;
+    link_.request_homing(number);
+    return {};
+  }
   return start_move(axes[index], machine_.reference_position()[axes[index]],
                     machine_.reference_feed(axes[index]));
 }

@@ -61,6 +61,11 @@ void StreamLink::request_start() {
   request(new_epoch_ ? 3 : 1);
 }
 
+void StreamLink::request_homing(std::uint16_t axis) {
+  asked_ = new_epoch_ = true;
+  outgoing_ = {channel_, ++request_, 5, axis};
+}
+
 void StreamLink::request_resume() {
   request(2);
   resuming_ = true;

@@ -21,8 +21,10 @@ struct SkipInput : ::testing::Test {
   void at(double x, double y) {
     servos[0].place(x);
     servos[1].place(y);
-    inputs.step(servos);
-    inputs.report(++cycle, edges);
+    ++cycle;
+    const auto before = edges.size();
+    inputs.step(servos, edges);
+    for (auto i = before; i < edges.size(); ++i) edges[i].cycle = cycle;
   }
   std::uint64_t cycle = 0;
 };

@@ -1,0 +1,41 @@
+#include "executed_rows.hpp"
+
+#include <utility>
+
+namespace trunnion::drive {
+
+void ExecutedRows::handed_over(std::uint64_t cycle, std::uint64_t number,
+                               const std::vector<double>& setpoints) {
+  pending_.push_back({cycle, number});
+  pending_setpoints_.insert(pending_setpoints_.end(), setpoints.begin(), setpoints.end());
+}
+
+void ExecutedRows::encoder_row(const EncoderRow& row) {
+  const auto axes = static_cast<std::ptrdiff_t>(row.axes.size());
+  std::ptrdiff_t done = 0;
+  while (done < std::ssize(pending_) && pending_[static_cast<std::size_t>(done)].number <= row.number) {
+    if (count_ == 0) first_ = pending_[static_cast<std::size_t>(done)].cycle;
+    ++count_;
+    const auto setpoints = pending_setpoints_.begin() + done * axes;
+    commanded_.insert(commanded_.end(), setpoints, setpoints + axes);
+    actual_.insert(actual_.end(), row.axes.begin(), row.axes.end());
+    spindle_angle_.insert(spindle_angle_.end(), row.spindles.begin(), row.spindles.end());
+    ++done;
+  }
+  if (done == 0) return;
+  pending_.erase(pending_.begin(), pending_.begin() + done);
+  pending_setpoints_.erase(pending_setpoints_.begin(), pending_setpoints_.begin() + done * axes);
+}
+
+void ExecutedRows::fill(idl::stream::FeedbackFrame& out, std::uint64_t next) {
+  out.first = count_ > 0 ? first_ : next - pending();
+  out.count = std::exchange(count_, 0);
+  std::swap(out.commanded, commanded_);
+  std::swap(out.actual, actual_);
+  std::swap(out.spindle_angle, spindle_angle_);
+  commanded_.clear();
+  actual_.clear();
+  spindle_angle_.clear();
+}
+
+}  // namespace trunnion::drive
