@@ -13,8 +13,9 @@ run: build
 test: build
 	ctest --test-dir $(BUILD) --output-on-failure -j $(JOBS)
 
+# `make run` alone needs no package that only tests use.
 packages:
-	@deploy/install-packages.sh
+	@deploy/install-packages.sh $(if $(filter-out run build,$(or $(MAKECMDGOALS),run)),test,run)
 
 configure: packages
 	@mkdir -p build

@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Installs what building, running and testing Trunnion needs on Debian 12. Does nothing when all of it is there.
+# deploy/install-packages.sh [run|test]: installs what building and running Trunnion needs on Debian 12, and unless it is
+# `run` what testing needs. Does nothing when all of it is there.
 set -euo pipefail
 
 packages=(
@@ -10,6 +11,11 @@ packages=(
   clang-14 clang-tidy-14 clang-format-14 clang-tools-14 libclang-rt-14-dev
   chromium procps iproute2 iptables util-linux openssl hostname systemd
 )
+
+# Only for tests and for machines behind LinuxCNC's HAL (docs/hal.md): `make run` asks for the set "run".
+if [ "${1:-test}" = test ]; then
+  packages+=(linuxcnc-uspace linuxcnc-uspace-dev)
+fi
 
 # Another Node.js than Debian's (18) will do from version 18 on.
 node_version=$(node --version 2>/dev/null | sed 's/^v\([0-9]*\).*/\1/' || true)

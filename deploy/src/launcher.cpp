@@ -52,7 +52,7 @@ Launcher::Launcher(LaunchOptions options)
     ServiceProcess process;
     process.entry = entry;
     process.local = entry.host == options_.host;
-    process.executable = binary_directory() + "/trunnion-" + entry.service;
+    process.executable = binary_directory() + "/" + machine::program_of(options_.machine, entry);
     process.log = options_.run.log_file(
         entry.service + "-" + std::to_string(entry.service == "channel" ? entry.channel : entry.copy));
     processes_.push_back(std::move(process));

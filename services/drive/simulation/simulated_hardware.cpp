@@ -66,7 +66,7 @@ void SimulatedHardware::exchange(const SetpointRow& row, DriveStatus& out, Encod
     home.on = on;
   }
   for (std::size_t i = 0; i < spindles_.size(); ++i) spindles_[i].step(row.spindles[i], row.controlled);
-  if (row.controlled) skip_inputs_.step(servos_, out.skip_edges);
+  if (row.controlled) skip_inputs_.step(servos_, row.number, rows);
   status(out);
 }
 

@@ -11,7 +11,7 @@ void SkipInputs::configure(const machine::Parameters& p, const std::vector<machi
   }
 }
 
-void SkipInputs::step(const std::vector<ServoAxis>& servos, std::vector<idl::stream::SkipEdge>& edges) {
+void SkipInputs::step(const std::vector<ServoAxis>& servos, std::uint64_t number, EncoderRowSink& rows) {
   const bool first = load_.size() != servos.size();
   if (first) {
     load_.resize(servos.size());
@@ -19,7 +19,7 @@ void SkipInputs::step(const std::vector<ServoAxis>& servos, std::vector<idl::str
   }
   for (std::size_t k = 0; k < inputs_.size() && !first; ++k) {
     const Input& input = inputs_[k];
-    if (input.column < 0 || edges.size() == most_skip_edges) continue;
+    if (input.column < 0) continue;
     const auto column = static_cast<std::size_t>(input.column);
     const double before = (load_[column] - input.position) * input.side;
     const double after = (servos[column].load() - input.position) * input.side;
@@ -29,7 +29,7 @@ void SkipInputs::step(const std::vector<ServoAxis>& servos, std::vector<idl::str
     edge.input = static_cast<std::uint8_t>(k + 1);
     for (std::size_t i = 0; i < servos.size(); ++i)
       edge.position.push_back(encoder_[i] + share * (servos[i].encoder() - encoder_[i]));
-    edges.push_back(std::move(edge));
+    rows.skip_edge(number + 1, edge);
   }
   for (std::size_t i = 0; i < servos.size(); ++i) {
     load_[i] = servos[i].load();

@@ -13,10 +13,9 @@ class SkipInputs {
  public:
   /// `axes` are the columns of the servos. Throws as Parameters::get() does.
   void configure(const machine::Parameters& parameters, const std::vector<machine::AxisInfo>& axes);
-  /// One period is over. Within it every axis is taken to have moved evenly, so a position is latched more
-  /// finely than by the period. What has come on is appended to `edges`, which takes at most
-  /// `most_skip_edges`. The first call only learns where the axes are.
-  void step(const std::vector<ServoAxis>& servos, std::vector<idl::stream::SkipEdge>& edges);
+  /// The period of row `number` is over. Within it every axis is taken to have moved evenly, so a position is
+  /// latched more finely than by the period. The first call only learns where the axes are.
+  void step(const std::vector<ServoAxis>& servos, std::uint64_t number, EncoderRowSink& rows);
 
  private:
   struct Input {

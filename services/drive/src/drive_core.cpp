@@ -25,7 +25,6 @@ void DriveCore::configure(const machine::Parameters& p, bool virtual_time) {
     axes_ = machine::drive_axes(p);
     const std::size_t n = axes_.size();
     row_.axes.resize(n);
-    status_.skip_edges.reserve(most_skip_edges);
     for (auto* v : {&command_, &target_, &velocity_, &scratch_, &return_from_, &return_to_})
       v->assign(n, 0.0);
     reported_.assign(n, false);
@@ -208,7 +207,7 @@ void DriveCore::stop_at_newest_row(std::uint64_t starved) {
 
 void DriveCore::step() {
   ++tick_;
-  if (const auto starved = hardware_->take_starved(); starved > 0) stop_at_newest_row(starved);
+  if (const auto starved = hardware_->read(status_, rows_); starved > 0) stop_at_newest_row(starved);
   if (mode_ == Mode::off && enabled_)
     switch_on();
   else if (mode_ != Mode::off && !hardware_->enabled())
@@ -284,7 +283,6 @@ bool DriveCore::pass_cycle() {
   }
   target_ = scratch_;
   rows_.handed_over(next_, row_.number + 1, target_);
-  report_skip_edges();
   couple_spindles();
   for (auto& [number, channel] : channels_) {
     if (!channel.active) continue;
@@ -300,17 +298,6 @@ bool DriveCore::pass_cycle() {
   }
   ++next_;
   return true;
-}
-
-// What has come on since the cycle before, as having come before this one: no more than the feedback can
-// carry.
-void DriveCore::report_skip_edges() {
-  for (auto& edge : status_.skip_edges) {
-    if (skips_.size() == most_skip_edges) break;
-    edge.cycle = next_;
-    skips_.push_back(std::move(edge));
-  }
-  status_.skip_edges.clear();
 }
 
 void DriveCore::advance(double cycles) {

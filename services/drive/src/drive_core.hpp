@@ -150,7 +150,6 @@ class DriveCore {
   void release_spindle(Channel& channel);
   void exchange();
   void place_at_hardware();
-  void report_skip_edges();
   void switch_on();
   void lose_control();
   void stop_at_newest_row(std::uint64_t starved);
@@ -200,7 +199,6 @@ class DriveCore {
 
   std::vector<DriveEvent> events_;
   ExecutedRows rows_;
-  std::vector<idl::stream::SkipEdge> skips_;
   std::vector<bool> reported_;  // per axis: supervision has fired since the last acknowledge
 };
 

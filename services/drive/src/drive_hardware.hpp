@@ -65,10 +65,13 @@ struct EncoderRow {
   std::span<const double> spindles;
 };
 
-/// Takes encoder rows in the order of their numbers.
+/// What comes back of the rows that were handed over, in the order of their numbers.
 class EncoderRowSink {
  public:
   virtual ~EncoderRowSink() = default;
+  /// A skip input has come on before the row `number` came into force and after the one before. `edge` has
+  /// the encoder positions of that moment; its cycle is filled in by the executor.
+  virtual void skip_edge(std::uint64_t number, const idl::stream::SkipEdge& edge) = 0;
   virtual void encoder_row(const EncoderRow& row) = 0;
 };
 
@@ -76,13 +79,7 @@ class EncoderRowSink {
 struct DriveStatus {
   std::vector<AxisStatus> axes;
   std::vector<SpindleStatus> spindles;
-  /// Skip inputs that have come on, with the encoder positions at that moment: the hardware appends them, the
-  /// executor fills in the cycle and takes them away. At most `most_skip_edges`.
-  std::vector<idl::stream::SkipEdge> skip_edges;
 };
-
-/// What one FeedbackFrame can carry; further edges are a bouncing contact and dropped.
-inline constexpr std::size_t most_skip_edges = 16;
 
 class DriveHardware {
  public:
@@ -107,15 +104,15 @@ class DriveHardware {
   /// standstill.
   virtual void set_reference(std::size_t axis, double shift) = 0;
 
-  /// One period: hands over the row and reads the machine. Cyclic: no allocation once vectors have their
-  /// size, no lock, no waiting. Every row that was handed over comes back through `rows` once it was in
-  /// force, in this call (a simulation) or in a later one (hardware with a queue of rows). Rows that got lost
-  /// on the way are left out.
+  /// Before a row is computed: reads what has come from the machine. Returns the periods since the last call
+  /// in which the hardware was without a row; it has stopped the axes at the newest one then. Cyclic: no
+  /// allocation once vectors have their size, no lock, no waiting. A simulation has nothing to read.
+  virtual std::uint64_t read(DriveStatus&, EncoderRowSink&) { return 0; }
+  /// One period: hands over the row. Cyclic, as read(). Every row comes back through `rows` once it was in
+  /// force, in this call (a simulation) or in a later read() (hardware with a queue). Rows that got lost on
+  /// the way are left out.
   virtual void exchange(const SetpointRow& row, DriveStatus& status, EncoderRowSink& rows) = 0;
 
-  /// Periods since the last call in which the hardware was without a row: it has stopped the axes at the
-  /// newest one. Cyclic, asked before a row is computed.
-  virtual std::uint64_t take_starved() { return 0; }
   /// True: the hardware is the clock, and period_due() says when the next row is wanted. False: the caller
   /// is.
   virtual bool is_clock() const { return false; }

@@ -10,8 +10,6 @@ void DriveCore::fill(idl::stream::FeedbackFrame& out) {
   out.mode = static_cast<std::uint8_t>(mode_ == Mode::held && resume_ ? Mode::returning : mode_);
   out.revision = revision_;
   out.axis_count = static_cast<std::uint16_t>(n);
-  std::swap(out.skips, skips_);
-  skips_.clear();
   out.velocity.resize(n);
   out.torque.resize(n);
   out.position.resize(n);

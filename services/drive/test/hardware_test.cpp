@@ -82,6 +82,19 @@ TEST_F(Hardware, ACycleIsExecutedWhenItsRowHasBeenInForceAndTheEncoderRowIsOfTha
   }
 }
 
+TEST_F(Hardware, ASkipEdgeHasTheCycleThatCameIntoForceAfterItAndComesWithIt) {
+  start();
+  feed(0, 160, true);
+  periods(40);
+  ASSERT_EQ(commanded.size(), 40u - queue);
+  hardware->edges.push_back({2, 0, {1.5}});
+  periods(1);
+  ASSERT_EQ(feedback.skips.size(), 1u);
+  EXPECT_EQ(feedback.skips[0].cycle, 40u - queue);
+  EXPECT_EQ(feedback.first, 40u - queue);
+  EXPECT_EQ(feedback.skips[0].position, std::vector<double>{1.5});
+}
+
 TEST_F(Hardware, VelocityAndAccelerationAreThoseOfTheSetpoints) {
   start();
   feed(0, 160);

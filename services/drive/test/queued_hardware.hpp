@@ -34,6 +34,8 @@ class QueuedHardware : public DriveHardware {
     newest = row;
     rows_.push_back(row);
     if (rows_.size() > queue_) {
+      for (const auto& edge : edges) rows.skip_edge(rows_.front().number, edge);
+      edges.clear();
       rows.encoder_row({rows_.front().number, position, {}});
       for (std::size_t i = 0; i < position.size() && rows_.front().controlled; ++i)
         position[i] = rows_.front().axes[i].position;
@@ -41,10 +43,11 @@ class QueuedHardware : public DriveHardware {
     }
     status(out);
   }
-  std::uint64_t take_starved() override { return std::exchange(starved, 0); }
+  std::uint64_t read(DriveStatus&, EncoderRowSink&) override { return std::exchange(starved, 0); }
 
   bool on = true;
   std::uint64_t starved = 0;
+  std::vector<idl::stream::SkipEdge> edges;  // that come before the next row comes into force
   int resets = 0;
   std::vector<double> position;
   std::vector<bool> fault;
