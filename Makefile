@@ -16,6 +16,7 @@ run: product
 test: build
 	ctest --test-dir $(BUILD) --output-on-failure -j $(JOBS)
 
+# `make run` alone needs no package that only tests use.
 packages:
 	@deploy/install-packages.sh test
 

@@ -14,6 +14,7 @@ case "${1:-test}" in
     packages+=(
       cyclonedds-tools libgtest-dev libgmock-dev libbenchmark-dev librapidcheck-dev
       clang-14 clang-tidy-14 clang-format-14 clang-tools-14 libclang-rt-14-dev
+      linuxcnc-uspace linuxcnc-uspace-dev  # for machines behind its HAL: docs/hal.md
       chromium iproute2 iptables util-linux openssl hostname systemd
     )
     ;;

@@ -11,7 +11,7 @@ trunnion=$build/bin/trunnion
 domain=${GOLDEN_DOMAIN:-76}
 port=${GOLDEN_PORT:-18476}
 machines=("$@")
-[ ${#machines[@]} -gt 0 ] || machines=($(ls "$root/configs/machines"))
+[ ${#machines[@]} -gt 0 ] || machines=($(grep -L '^hardware: hal' "$root"/configs/machines/*/machine.yaml | xargs -n1 dirname | xargs -n1 basename))
 work=$(mktemp -d)
 recorder=
 finish() {

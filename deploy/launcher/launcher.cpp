@@ -56,7 +56,7 @@ Launcher::Launcher(LaunchOptions options)
     ServiceProcess process;
     process.entry = entry;
     process.local = entry.host == options_.host;
-    process.executable = cluster::binary_directory() + "/trunnion-" + entry.service;
+    process.executable = cluster::binary_directory() + "/" + machine::program_of(options_.machine, entry);
     process.log = options_.run.log_file(
         entry.service + "-" + std::to_string(entry.service == "channel" ? entry.channel : entry.copy));
     processes_.push_back(std::move(process));

@@ -34,6 +34,19 @@ std::vector<std::string> launcher_arguments(const UpOptions& up, const RunningCl
   return args;
 }
 
+// Reported before anything is started.
+void check_hardware(const machine::MachineConfig& config, bool virtual_time) {
+  if (config.hardware != machine::Hardware::hal) return;
+  if (virtual_time)
+    throw std::runtime_error("machine '" + config.name +
+                             "' has 'hardware: hal', whose servo thread is the clock: it needs --time real");
+  if (!fs::exists(binary_directory() + "/trunnion-drive-hal"))
+    throw std::runtime_error(
+        "machine '" + config.name +
+        "' has 'hardware: hal' and trunnion-drive-hal is not here: install linuxcnc-uspace and "
+        "linuxcnc-uspace-dev, then build again (docs/hal.md)");
+}
+
 }  // namespace
 
 RunningCluster start_cluster(const UpOptions& up) {
@@ -54,6 +67,7 @@ RunningCluster start_cluster(const UpOptions& up) {
   cluster.machine = config.name;
   cluster.machine_directory = config.directory;
   cluster.virtual_time = up.virtual_time.value_or(config.virtual_time);
+  check_hardware(config, cluster.virtual_time);
   cluster.port = up.with_gateway ? up.port.value_or(config.port) : std::uint16_t{0};
   cluster.state_directory = up.state_directory.empty()          ? default_state_directory(config.name)
                             : up.state_directory == "temporary" ? cluster.run.path() + "/state"

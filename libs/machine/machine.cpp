@@ -1,6 +1,7 @@
 #include "machine/machine.hpp"
 
 #include <algorithm>
+#include <filesystem>
 #include <stdexcept>
 
 #include "machine/chain_section.hpp"
@@ -39,6 +40,35 @@ void check_keys(const std::string& file, const YAML::Node& map, const std::vecto
   }
 }
 
+void read_hardware(const std::string& file, const YAML::Node& document, MachineConfig& config) {
+  const auto hardware = value<std::string>(file, document, "hardware", "simulation");
+  if (hardware != "simulation" && hardware != "hal")
+    throw std::runtime_error(at(file, document["hardware"]) + "hardware must be 'simulation' or 'hal'");
+  const auto hal = document["hal"];
+  if (hardware == "simulation") {
+    if (hal) throw std::runtime_error(at(file, hal) + "'hal' needs 'hardware: hal'");
+    return;
+  }
+  config.hardware = Hardware::hal;
+  if (!hal)
+    throw std::runtime_error(
+        at(file, document["hardware"]) +
+        "'hardware: hal' needs 'hal: {file: NAME.hal}', the file that describes the machine");
+  check_keys(file, hal, {"file", "queue"});
+  const auto name = value<std::string>(file, hal, "file", "");
+  if (name.empty()) throw std::runtime_error(at(file, hal) + "'file' is missing");
+  const auto path = std::filesystem::path(config.directory) / name;
+  if (!std::filesystem::is_regular_file(path))
+    throw std::runtime_error(at(file, hal["file"]) + "there is no file '" + path.string() + "'");
+  config.hal.file = std::filesystem::absolute(path).lexically_normal().string();
+  config.hal.queue = value<std::uint32_t>(file, hal, "queue", config.hal.queue);
+  if (config.hal.queue < 2 || config.hal.queue > 256)
+    throw std::runtime_error(at(file, hal["queue"]) + "queue must be 2 .. 256 setpoint rows");
+  if (config.virtual_time)
+    throw std::runtime_error(at(file, document["time"]) +
+                             "time must be 'real' with 'hardware: hal': HAL's servo thread is the clock");
+}
+
 }  // namespace
 
 MachineConfig parse_machine(const std::string& text, const std::string& directory,
@@ -46,8 +76,8 @@ MachineConfig parse_machine(const std::string& text, const std::string& director
   const std::string file = directory + "/machine.yaml";
   const auto document = parse_yaml(text, file);
   check_keys(file, document,
-             {"name", "title", "domain", "port", "time", "vendor", "hosts", "network", "security", "services",
-              "chains"});
+             {"name", "title", "domain", "port", "time", "vendor", "hardware", "hal", "hosts", "network",
+              "security", "services", "chains"});
   MachineConfig config;
   config.directory = directory;
   config.name = value<std::string>(file, document, "name", "");
@@ -63,6 +93,7 @@ MachineConfig parse_machine(const std::string& text, const std::string& director
   if (time != "real" && time != "virtual")
     throw std::runtime_error(at(file, document["time"]) + "time must be 'real' or 'virtual'");
   config.virtual_time = time == "virtual";
+  read_hardware(file, document, config);
   const auto default_vendor = value<std::string>(file, document, "vendor", "cyclonedds");
 
   config.hosts = read_hosts(document["hosts"], file);
@@ -117,6 +148,11 @@ MachineConfig parse_machine(const std::string& text, const std::string& director
 
 MachineConfig load_machine(const std::string& directory, const std::string& vendor_override) {
   return parse_machine(read_text(directory + "/machine.yaml"), directory, vendor_override);
+}
+
+std::string program_of(const MachineConfig& config, const ServiceEntry& entry) {
+  const bool hal = entry.service == "drive" && config.hardware == Hardware::hal;
+  return "trunnion-" + entry.service + (hal ? "-hal" : "");
 }
 
 void forget_hosts(MachineConfig& config) {

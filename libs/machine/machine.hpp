@@ -21,6 +21,18 @@ struct ServiceEntry {
   std::string host;            ///< where it runs; empty when the machine has no `hosts`
 };
 
+/// What the drive service moves.
+enum class Hardware {
+  simulation,  ///< simulated servo axes, spindles and skip inputs, in the process of the drive
+  hal,         ///< LinuxCNC's hardware abstraction layer: docs/hal.md
+};
+
+/// Of a machine with `hardware: hal`.
+struct HalSettings {
+  std::string file;          ///< absolute path of the .hal file that describes the machine
+  std::uint32_t queue = 16;  ///< setpoint rows kept in HAL's FIFO ahead of its servo thread, 2 .. 256
+};
+
 struct MachineConfig {
   std::string directory;
   std::string name;
@@ -28,6 +40,8 @@ struct MachineConfig {
   std::uint32_t domain = 1;
   std::uint16_t port = 8080;  ///< of the gateway
   bool virtual_time = false;
+  Hardware hardware = Hardware::simulation;
+  HalSettings hal;
   std::uint32_t channels = 1;
   std::vector<ServiceEntry> services;
   std::vector<Host> hosts;  ///< empty: everything on one computer, over its loopback
@@ -46,6 +60,9 @@ MachineConfig parse_machine(const std::string& text, const std::string& director
                             const std::string& vendor_override = "");
 /// The same from the file; throws std::runtime_error also when it cannot be read.
 MachineConfig load_machine(const std::string& directory, const std::string& vendor_override = "");
+
+/// Name of the program that runs `entry`; the drive has one for each kind of hardware.
+std::string program_of(const MachineConfig& config, const ServiceEntry& entry);
 
 /// Everything on one computer, over its loopback.
 void forget_hosts(MachineConfig& config);

@@ -1,5 +1,8 @@
 #include "service.hpp"
 
+#include <cstdio>
+
+#include "src/timeouts.hpp"
 #include "stream/stage_service.hpp"
 
 #include "machine/alarm_constants.hpp"
@@ -7,11 +10,9 @@
 
 namespace trunnion::drive {
 namespace {
-constexpr double patience = 1.0;           // s of wall time that virtual time waits for a missing setpoint
-constexpr double plc_patience = 1.5;       // s without a sign of the PLC until the drive stops
 constexpr double own_pause = 0.5;          // s the drive itself may not run and still judge the PLC
-constexpr double idle_feedback = 0.1;      // s between two feedback frames while nothing moves
-constexpr std::size_t most_applied = 256;  // inputs that one feedback frame can name
+constexpr double idle_feedback = 0.1;      // s between two feedback messages while nothing moves
+constexpr std::size_t most_applied = 256;  // inputs that one feedback message can name
 
 template <class T>
 std::uint64_t identity(const bus::Reader<T>& reader) {
@@ -19,11 +20,12 @@ std::uint64_t identity(const bus::Reader<T>& reader) {
 }
 }  // namespace
 
-DriveService::DriveService(service::Node& node)
+DriveService::DriveService(service::Node& node, std::unique_ptr<DriveHardware> hardware)
     : node_(node),
       parameters_(node.bus()),
       encoders_(node.options().state_directory + "/encoders.bin", sizeof(Memory)),
-      memory_(static_cast<Memory*>(encoders_.data())) {}
+      memory_(static_cast<Memory*>(encoders_.data())),
+      core_(std::move(hardware)) {}
 
 void DriveService::start() {
   const auto& p = *parameters_.newest();
@@ -103,13 +105,15 @@ void DriveService::drain() {
       applied(Input::ALARM, identity(*alarms_));
       core_.stop();
     }
-  // A process that was suspended has not heard what was said meanwhile.
+  // A process that was suspended has not received what was published meanwhile.
   if (now - last_drain_ > own_pause) plc_seen_ = now;
   last_drain_ = now;
-  // An emergency stop is also the drive's own reaction to the silence of the one who could order it.
-  if (have_plc_ && now - plc_seen_ > plc_patience) {
-    node_.alarms().raise(alarm::plc_absent, 0,
-                         "No sign of the PLC for " + std::to_string(plc_patience) + " s", core_.next());
+  // An emergency stop is also the drive's own reaction to the silence of the PLC that could demand it.
+  if (have_plc_ && now - plc_seen_ > plc_timeout) {
+    char text[120];
+    std::snprintf(text, sizeof text, "No sign of the PLC for %.1f s: see why it does not run, then reset",
+                  plc_timeout);
+    node_.alarms().raise(alarm::plc_absent, 0, text, core_.next());
     core_.set_enables({}, true);
     have_plc_ = false;
     changed_ = true;
@@ -134,32 +138,37 @@ void DriveService::run_virtual() {
   if (core_.waiting()) {
     const double now = service::monotonic_seconds();
     if (waiting_since_ == 0) waiting_since_ = now;
-    give_up = now - waiting_since_ > patience;
+    give_up = now - waiting_since_ > missing_setpoint_timeout;
   } else {
     waiting_since_ = 0;
   }
   while (core_.can_step(give_up)) {
     core_.step();
     waiting_since_ = 0;
-    if (core_.pending_rows() >= frame_cycles_) send();
+    if (core_.rows() >= frame_cycles_) send();
     if (core_.tick() % 256 == 0)
-      drain();  // an emergency stop is not kept waiting by a long way back to the path
+      drain();  // an emergency stop is not kept waiting by a long return to the path
   }
-  // Nobody moves: time goes on as far as the PLC asked for its timers and the spindle.
+  // Nothing moves: time passes as far as the PLC asked for its timers and the spindle.
   while (!core_.any_active() && have_plc_ && core_.tick() < plc_.run_until_tick) {
     core_.step();
     changed_ = true;
   }
-  if (core_.pending_rows() > 0) send();
+  if (core_.rows() > 0) send();
 }
 
 void DriveService::run_real() {
   const double now = service::monotonic_seconds();
-  if (now - next_tick_ > 0.5) next_tick_ = now;  // suspended: time that nobody lived through is not made up
-  while (next_tick_ <= now) {
+  // Suspended: time that this process did not live through is not made up.
+  if (now - next_tick_ > 0.5) next_tick_ = now;
+  const auto due = [&] {
+    if (core_.hardware().is_clock()) return core_.hardware().period_due();
+    return next_tick_ <= now;
+  };
+  while (due()) {
     core_.step();
     next_tick_ += core_.period();
-    if (core_.pending_rows() >= frame_cycles_) send();
+    if (core_.rows() >= frame_cycles_) send();
   }
 }
 
@@ -183,6 +192,7 @@ void DriveService::pump() {
 
 double DriveService::period() const {
   if (!core_.configured() || node_.options().virtual_time) return 0.02;
+  if (core_.hardware().is_clock()) return core_.period();
   return std::max(0.0, next_tick_ - service::monotonic_seconds());
 }
 

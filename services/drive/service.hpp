@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 
 #include "machine/gantry_pairs.hpp"
@@ -12,7 +13,7 @@ namespace trunnion::drive {
 
 class DriveService : public service::Service {
  public:
-  explicit DriveService(service::Node& node);
+  DriveService(service::Node& node, std::unique_ptr<DriveHardware> hardware);
   void pump() override;
   double period() const override;
   service::Health health() const override;
@@ -20,6 +21,7 @@ class DriveService : public service::Service {
   bool axis_concerns(std::uint16_t axis, std::uint16_t channel) const override {
     return parameters_.newest() && machine::axis_moves_with(*parameters_.newest(), axis, channel);
   }
+  void end() override { core_.hardware().end(); }
 
  private:
   void start();
@@ -43,7 +45,7 @@ class DriveService : public service::Service {
   std::optional<bus::Writer<idl::stream::FeedbackFrame>> writer_;
   idl::stream::AxisFrame frame_;
   idl::stream::FeedbackFrame feedback_;
-  std::vector<idl::stream::AppliedInput> applied_;  // not told yet
+  std::vector<idl::stream::AppliedInput> applied_;  // not reported yet
   idl::plc::Outputs plc_;
   bool have_plc_ = false;
   double plc_seen_ = 0;

@@ -46,6 +46,46 @@ TEST(Machine, MixedAlternatesTheVendors) {
     EXPECT_NE(config.services[i].vendor, config.services[i - 1].vendor);
 }
 
+TEST(Machine, HardwareIsASimulationUnlessTheFileSaysHal) {
+  auto config = load_machine(directory_with("name: m\n" + all_services));
+  EXPECT_EQ(config.hardware, Hardware::simulation);
+  const ServiceEntry drive{"drive", "cyclonedds", 4, 0, 0, ""}, plc{"plc", "cyclonedds", 3, 0, 0, ""};
+  EXPECT_EQ(program_of(config, drive), "trunnion-drive");
+  const auto directory =
+      directory_with("name: m\nhardware: hal\nhal: {file: x.hal, queue: 40}\n" + all_services);
+  std::ofstream(directory + "/x.hal") << "# empty\n";
+  config = load_machine(directory);
+  EXPECT_EQ(config.hardware, Hardware::hal);
+  EXPECT_EQ(config.hal.file, directory + "/x.hal");
+  EXPECT_EQ(config.hal.queue, 40u);
+  EXPECT_EQ(program_of(config, drive), "trunnion-drive-hal");
+  EXPECT_EQ(program_of(config, plc), "trunnion-plc");
+}
+
+TEST(Machine, ErrorsOfTheHardwareNameLineAndColumn) {
+  const auto directory = directory_with("");
+  std::ofstream(directory + "/x.hal") << "# empty\n";
+  EXPECT_EQ(error_of("name: m\nhardware: laser\n" + all_services),
+            "machine.yaml:2:11: error: hardware must be 'simulation' or 'hal'");
+  EXPECT_EQ(error_of("name: m\nhal: {file: x.hal}\n" + all_services),
+            "machine.yaml:2:6: error: 'hal' needs 'hardware: hal'");
+  EXPECT_EQ(
+      error_of("name: m\nhardware: hal\n" + all_services),
+      "machine.yaml:2:11: error: 'hardware: hal' needs 'hal: {file: NAME.hal}', the file that describes the "
+      "machine");
+  EXPECT_EQ(error_of("name: m\nhardware: hal\nhal: {queue: 3}\n" + all_services),
+            "machine.yaml:3:6: error: 'file' is missing");
+  EXPECT_EQ(error_of("name: m\nhardware: hal\nhal: {file: none.hal}\n" + all_services),
+            "machine.yaml:3:13: error: there is no file '" + directory + "/none.hal'");
+  EXPECT_EQ(error_of("name: m\nhardware: hal\nhal: {file: x.hal, queue: 1}\n" + all_services),
+            "machine.yaml:3:27: error: queue must be 2 .. 256 setpoint rows");
+  EXPECT_EQ(error_of("name: m\nhardware: hal\nhal: {file: x.hal, depth: 1}\n" + all_services),
+            "machine.yaml:3:20: error: unknown key 'depth'");
+  EXPECT_EQ(
+      error_of("name: m\ntime: virtual\nhardware: hal\nhal: {file: x.hal}\n" + all_services),
+      "machine.yaml:2:7: error: time must be 'real' with 'hardware: hal': HAL's servo thread is the clock");
+}
+
 TEST(Machine, ErrorsNameLineAndColumn) {
   EXPECT_EQ(error_of("name: m\ndomain: 101\n" + all_services),
             "machine.yaml:2:9: error: domain must be 0 .. 100");

@@ -64,6 +64,11 @@ void StreamLink::request_start() {
   request(new_epoch_ ? StreamRequestKind::NEW_EPOCH : StreamRequestKind::START);
 }
 
+void StreamLink::request_homing(std::uint16_t axis) {
+  asked_ = new_epoch_ = true;
+  outgoing_ = {channel_, ++request_, 5, axis};
+}
+
 void StreamLink::request_resume() {
   request(StreamRequestKind::RESUME);
   resuming_ = true;

@@ -26,6 +26,9 @@ class StreamLink {
   void on_feedback(const idl::stream::FeedbackFrame& feedback);
   /// Asks for a place; with a new epoch when the drive's position is where the stream must begin.
   void request_start();
+  /// Demands that the drive searches the home switch of an axis, by its logical number; the next start is a
+  /// new epoch.
+  void request_homing(std::uint16_t axis);
   /// A hold of the drive is over.
   void request_resume();
   /// What was written and not executed is void; the next start is a new epoch.

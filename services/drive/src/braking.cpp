@@ -1,4 +1,4 @@
-// Leaving the path and coming back to it: braking, holding, resuming.
+// Leaving the path and returning to it: braking, holding, resuming.
 //
 // Acceleration. With A' = acceleration * dt^2 the largest second difference the path uses itself, and a rate
 // that goes from r1 to r2 between two periods, the second difference of an axis is
@@ -17,8 +17,7 @@ namespace trunnion::drive {
 void DriveCore::begin_braking() {
   rate_step_ = rate_step();
   dip_periods_ = 0;
-  if (reserve_ == 0 && mode_ == Mode::FOLLOWING && phase_ == 0 && supply().cycles == 0)
-    rate_ = 0;  // standing still
+  if (reserve_ == 0 && mode_ == Mode::FOLLOWING && phase_ == 0 && supply().cycles == 0) rate_ = 0;  // at rest
   if (mode_ == Mode::RETURNING) rate_ = 0;
   mode_ = Mode::BRAKING;
   resume_ = false;
@@ -47,6 +46,7 @@ void DriveCore::return_to_whole_cycles() {
 
 // Another part of the controller has found a reason to stop: along the path, as for a missing setpoint.
 void DriveCore::stop() {
+  if (mode_ == Mode::HOMING) abort_homing();
   if (mode_ == Mode::FOLLOWING && any_active()) begin_braking();
 }
 
@@ -60,7 +60,7 @@ void DriveCore::brake() {
     advance(rate_);
     return;
   }
-  // Out of setpoints: on along the tangent. The path is left at its last known point.
+  // Out of setpoints: continue along the tangent. The path is left at its last known point.
   off_path_ = true;
   phase_ = 0;
   for (std::size_t i = 0; i < axes_.size(); ++i) command_[i] += rate_ * velocity_[i];

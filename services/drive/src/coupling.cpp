@@ -24,7 +24,9 @@ void DriveCore::couple_spindles() {
     }
     if (channel.spindle < 0)
       channel.spindle = machine::column_of(spindle_axes_, channel.window.peek()->spindle_axis);
-    if (channel.spindle >= 0) spindles_[static_cast<std::size_t>(channel.spindle)].couple(*revolutions);
+    if (channel.spindle < 0) continue;
+    const auto spindle = static_cast<std::size_t>(channel.spindle);
+    spindles_[spindle].couple(*revolutions, status_.spindles[spindle].angle);
   }
 }
 
@@ -39,10 +41,6 @@ void DriveCore::lead_spindles(double phase) {
 void DriveCore::release_spindle(Channel& channel) {
   if (channel.spindle >= 0) spindles_[static_cast<std::size_t>(channel.spindle)].release();
   channel.spindle = -1;
-}
-
-void DriveCore::move_spindles(bool powered) {
-  for (auto& spindle : spindles_) spindle.step(powered);
 }
 
 }  // namespace trunnion::drive

@@ -3,17 +3,16 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <limits>
+
 
 #include "machine/alarm_constants.hpp"
 #include "machine/parameter_constants.hpp"
 
 namespace trunnion::drive {
-namespace {
 
 using idl::stream::StreamRequestKind;
-constexpr std::uint32_t settling = 250;  // periods after motion in virtual time, until the servos stand still
-constexpr std::uint64_t forever = std::numeric_limits<std::uint64_t>::max();
+namespace {
+constexpr std::uint32_t settling = 250;  // periods after motion in virtual time, until the servos are at rest
 }  // namespace
 
 void DriveCore::configure(const machine::Parameters& p, bool virtual_time) {
@@ -29,14 +28,10 @@ void DriveCore::configure(const machine::Parameters& p, bool virtual_time) {
   if (first) {
     axes_ = machine::drive_axes(p);
     const std::size_t n = axes_.size();
-    servos_.resize(n);
+    row_.axes.resize(n);
     for (auto* v : {&command_, &target_, &velocity_, &scratch_, &return_from_, &return_to_})
       v->assign(n, 0.0);
     reported_.assign(n, false);
-    for (std::size_t i = 0; i < n; ++i) {
-      command_[i] = target_[i] = p.get(parameter::reference_coordinate, axes_[i].number);
-      servos_[i].place(command_[i]);
-    }
     for (std::uint16_t c = 0; c < 10; ++c)
       if (!machine::channel_axes(p, c).number.empty()) channels_[c];
   }
@@ -44,15 +39,32 @@ void DriveCore::configure(const machine::Parameters& p, bool virtual_time) {
   for (std::size_t i = 0; i < axes_.size(); ++i) {
     const auto a = axes_[i].number;
     limits_[i] = {std::max(p.get(parameter::rapid_feed, a), p.get(parameter::maximum_feed, a)) / 60,
-                  p.get(parameter::maximum_acceleration, a), p.get(parameter::positive_limit, a),
-                  p.get(parameter::negative_limit, a), p.get(parameter::following_error_limit, a)};
-    servos_[i].configure(ServoParameters::from(p, a));
+                  p.get(parameter::maximum_acceleration, a),
+                  p.get(parameter::positive_limit, a),
+                  p.get(parameter::negative_limit, a),
+                  p.get(parameter::following_error_limit, a),
+                  p.integer(parameter::homing_direction, a),
+                  p.get(parameter::reference_feed, a) / 60,
+                  p.get(parameter::homing_creep_feed, a) / 60,
+                  p.get(parameter::reference_coordinate, a)};
   }
   spindle_axes_ = machine::spindles(p);
   spindles_.resize(spindle_axes_.size());
-  for (std::size_t i = 0; i < spindles_.size(); ++i)
-    spindles_[i].configure(p.get(parameter::maximum_acceleration, spindle_axes_[i].number), dt_);
-  skip_inputs_.configure(p, axes_);
+  row_.spindles.resize(spindle_axes_.size());
+  hardware_->configure(p, axes_, spindle_axes_, dt_);
+  if (first)
+    place_at_hardware();
+  else
+    hardware_->status(status_);
+}
+
+// The commands begin where the hardware finds the axes.
+void DriveCore::place_at_hardware() {
+  hardware_->status(status_);
+  for (std::size_t i = 0; i < axes_.size(); ++i) {
+    command_[i] = target_[i] = status_.axes[i].hold_position;
+    row_.axes[i] = {command_[i], 0, 0};
+  }
 }
 
 void DriveCore::restore(const Memory& memory) {
@@ -65,10 +77,8 @@ void DriveCore::restore(const Memory& memory) {
     channel.epoch = channel.begun ? kept.epoch : memory.epoch;
     channel.request = kept.request;
   }
-  for (std::size_t i = 0; i < axes_.size(); ++i) {
-    command_[i] = target_[i] = memory.position[i];
-    servos_[i].place(memory.position[i]);
-  }
+  hardware_->restore({memory.position.data(), axes_.size()});
+  place_at_hardware();
 }
 
 Memory DriveCore::memory() const {
@@ -81,7 +91,7 @@ Memory DriveCore::memory() const {
     memory.epoch = std::max(memory.epoch, channel.epoch);
     memory.channels[number % memory.channels.size()] = {channel.epoch, channel.request, channel.begun};
   }
-  for (std::size_t i = 0; i < axes_.size(); ++i) memory.position[i] = servos_[i].encoder();
+  for (std::size_t i = 0; i < axes_.size(); ++i) memory.position[i] = status_.axes[i].position;
   return memory;
 }
 
@@ -94,7 +104,7 @@ bool DriveCore::any_active() const {
 }
 
 void DriveCore::leave(Channel& channel) {
-  channel.active = false;
+  channel.active = channel.ending = false;
   release_spindle(channel);
   if (any_active()) return;
   if (mode_ == Mode::HELD || mode_ == Mode::RETURNING) mode_ = Mode::FOLLOWING;
@@ -110,142 +120,105 @@ void DriveCore::request(const idl::stream::StreamRequest& request) {
   channel.request = request.request;
   switch (request.kind) {
     case StreamRequestKind::START:
-    case StreamRequestKind::NEW_EPOCH: {
-      leave(channel);
-      // A start within an epoch this process did not see begin is a message from before it was restarted.
-      const bool known = request.kind == StreamRequestKind::NEW_EPOCH
-                             ? request.epoch > channel.epoch
-                             : channel.begun && request.epoch == channel.epoch;
-      if (!known) break;
-      channel.epoch = request.epoch;
-      channel.begun = true;
-      channel.active = mode_ != Mode::OFF && mode_ != Mode::BRAKING;
-      channel.prefilled = false;
-      channel.start = next_ + (std::count_if(channels_.begin(), channels_.end(),
-                                             [](const auto& c) { return c.second.active; }) > 1
-                                   ? lead_
-                                   : 0);
-      channel.window.set_next(channel.epoch, channel.start);
+    case StreamRequestKind::NEW_EPOCH:
+      start(channel, request);
       break;
-    }
     case StreamRequestKind::RESUME:
       resume_ = mode_ == Mode::HELD;
       break;
     case StreamRequestKind::LEAVE:
       leave(channel);
       break;
+    case StreamRequestKind::HOME:
+      home(request.axis);
+      break;
   }
+}
+
+void DriveCore::start(Channel& channel, const idl::stream::StreamRequest& request) {
+  leave(channel);
+  // A start within an epoch whose start this process did not see is a message from before it was restarted.
+  const bool new_epoch = request.kind == StreamRequestKind::NEW_EPOCH;
+  const bool known =
+      new_epoch ? request.epoch > channel.epoch : channel.begun && request.epoch == channel.epoch;
+  if (!known) return;
+  channel.epoch = request.epoch;
+  channel.begun = true;
+  channel.active = mode_ != Mode::OFF && mode_ != Mode::BRAKING && mode_ != Mode::HOMING && all_homed();
+  channel.prefilled = false;
+  const auto active =
+      std::count_if(channels_.begin(), channels_.end(), [](const auto& c) { return c.second.active; });
+  channel.start = next_ + (active > 1 ? lead_ : 0);
+  channel.window.set_next(channel.epoch, channel.start);
 }
 
 void DriveCore::set_enables(const std::vector<std::uint8_t>& enable, bool emergency_stop) {
   bool all = !axes_.empty();
   for (const auto& axis : axes_) all = all && axis.number < enable.size() && enable[axis.number] != 0;
-  const bool on = all && !emergency_stop;
-  emergency_stop_ = emergency_stop;
-  enabled_ = on;
-  if (on && mode_ == Mode::OFF) {
-    mode_ = any_active() ? Mode::HELD : Mode::FOLLOWING;
-    rate_ = any_active() ? 0 : 1;
-  } else if (!on && mode_ != Mode::OFF) {
-    if (mode_ == Mode::HELD || (mode_ == Mode::FOLLOWING && !any_active()))
-      mode_ = Mode::OFF;
-    else if (mode_ != Mode::BRAKING)
-      begin_braking();
+  enabled_ = all && !emergency_stop;
+  if (enabled_) {
+    switch_on();
+  } else if (mode_ == Mode::HELD || (mode_ == Mode::FOLLOWING && !any_active())) {
+    mode_ = Mode::OFF;
+  } else if (mode_ == Mode::HOMING) {
+    abort_homing();
+  } else if (mode_ != Mode::OFF && mode_ != Mode::BRAKING) {
+    begin_braking();
   }
 }
 
-const double* DriveCore::row(const Channel& channel, std::uint64_t cycle) const {
-  for (const auto* frame = channel.window.peek(); frame != nullptr;
-       frame = channel.window.find(frame->first + frame->count))
-    if (cycle >= frame->first && cycle < frame->first + frame->count)
-      return &frame->setpoints[(cycle - frame->first) * frame->axes.size()];
-  return nullptr;
+// As soon as the drives are on: those of real hardware take their time.
+void DriveCore::switch_on() {
+  if (mode_ != Mode::OFF || control_lost_ || !hardware_->enabled()) return;
+  mode_ = any_active() ? Mode::HELD : Mode::FOLLOWING;
+  rate_ = any_active() ? 0 : 1;
 }
 
-DriveCore::Supply DriveCore::supply() const {
-  std::uint64_t until = forever, last = next_;
-  bool ends = true;
-  for (const auto& [number, channel] : channels_) {
-    if (!channel.active) continue;
-    std::uint64_t end = std::max(channel.window.next(), next_);
-    bool ended = false;
-    for (const auto* frame = channel.window.peek(); frame != nullptr && !ended && end < next_ + 4 * lead_;
-         frame = channel.window.find(frame->first + frame->count)) {
-      end = frame->first + frame->count;
-      ended = frame->ends;
-    }
-    last = std::max(last, end);
-    if (!ended) {
-      ends = false;
-      until = std::min(until, end);
-    }
+// The hardware has switched the drives off: nothing can be braked on the path any longer.
+void DriveCore::lose_control() {
+  const auto faulty =
+      std::find_if(status_.axes.begin(), status_.axes.end(), [](const auto& a) { return a.fault; });
+  std::string text = "The hardware has switched the drives off";
+  if (faulty != status_.axes.end()) {
+    const auto& axis = axes_[static_cast<std::size_t>(faulty - status_.axes.begin())];
+    text = "The drive of axis " + axis.name + " reports a fault; the axes were switched off";
+    raise(alarm::drive_fault, axis.number, text + ": remove the cause, then reset the alarms");
+  } else {
+    raise(alarm::drive_fault, 0, text + ": see to its emergency stop chain, then reset the alarms");
   }
-  return {(ends ? last : until) - next_, ends};
+  control_lost_ = true;
+  off_path_ = any_active();
+  rate_ = 0, reserve_ = 0, phase_ = 0;
+  mode_ = Mode::OFF;
 }
 
-// Setpoints of every axis at `cycle`; axes no channel moves then keep the point of the path they are at.
-void DriveCore::target_of(std::uint64_t cycle, std::vector<double>& out) {
-  out = target_;
-  for (auto& [number, channel] : channels_) {
-    if (!channel.active) continue;
-    const double* values = row(channel, cycle);
-    if (values == nullptr) continue;
-    const auto* frame = channel.window.peek();
-    if (channel.axes != frame->axes) {
-      channel.axes = frame->axes;
-      channel.columns.clear();
-      for (const auto axis : channel.axes) channel.columns.push_back(machine::column_of(axes_, axis));
-    }
-    for (std::size_t i = 0; i < channel.columns.size(); ++i)
-      if (channel.columns[i] >= 0) out[static_cast<std::size_t>(channel.columns[i])] = values[i];
-  }
-}
-
-// Periods it takes to stop from the fastest speed of the next `cycles` cycles with every axis within its
-// acceleration.
-double DriveCore::stop_periods(std::uint64_t cycles) {
-  double periods = 0;
-  before_ = target_;
-  for (std::uint64_t c = next_; c < next_ + cycles; ++c) {
-    target_of(c, scratch_);
-    for (std::size_t i = 0; i < axes_.size(); ++i)
-      periods = std::max(periods, std::abs(scratch_[i] - before_[i]) / (limits_[i].acceleration * dt_ * dt_));
-    std::swap(before_, scratch_);
-  }
-  return periods;
-}
-
-bool DriveCore::enough(const Supply& s) const { return s.cycles > 0 && (s.ends || s.cycles > reserve_); }
-
-bool DriveCore::prefilled(const Supply& s) const { return s.ends || s.cycles >= prefill_; }
-
-bool DriveCore::waiting() const { return mode_ == Mode::FOLLOWING && any_active() && !enough(supply()); }
-
-bool DriveCore::can_step(bool give_up) const {
-  switch (mode_) {
-    case Mode::BRAKING:
-    case Mode::RETURNING:
-      return true;
-    case Mode::HELD:
-      return resume_ && prefilled(supply());
-    case Mode::OFF:
-      return false;
-    case Mode::FOLLOWING:
-      break;
-  }
-  if (!any_active()) return settle_ > 0;
-  const auto s = supply();
-  return enough(s) || (give_up && reserve_ > 0);
+// The hardware ran out of rows and has stopped the axes at the newest one.
+void DriveCore::stop_at_newest_row(std::uint64_t starved) {
+  starved_ += starved;
+  const bool homing = mode_ == Mode::HOMING;
+  const bool moving = mode_ == Mode::BRAKING || mode_ == Mode::RETURNING || homing || reserve_ > 0;
+  if (!moving) return;
+  char text[160];
+  std::snprintf(text, sizeof text,
+                "The hardware was without setpoints for %llu periods before cycle %llu and stopped the axes",
+                static_cast<unsigned long long>(starved), static_cast<unsigned long long>(next_));
+  raise(alarm::setpoint_missing, 0, text);
+  if (mode_ == Mode::RETURNING) off_path_ = true;
+  if (homing) target_ = command_;
+  for (auto& axis : row_.axes) axis.velocity = 0;
+  stopped();
 }
 
 void DriveCore::step() {
   ++tick_;
+  if (const auto starved = hardware_->read(status_, rows_); starved > 0) stop_at_newest_row(starved);
+  if (mode_ == Mode::OFF && enabled_)
+    switch_on();
+  else if (mode_ != Mode::OFF && !hardware_->enabled())
+    lose_control();
   switch (mode_) {
     case Mode::OFF:
-      for (auto& servo : servos_) servo.hold();
-      for (std::size_t i = 0; i < axes_.size(); ++i) command_[i] = servos_[i].command();
-      move_spindles(false);
-      return;
+      break;
     case Mode::HELD:
       if (resume_ && prefilled(supply())) resume();
       break;
@@ -255,38 +228,43 @@ void DriveCore::step() {
     case Mode::BRAKING:
       brake();
       break;
-    case Mode::FOLLOWING: {
-      if (!any_active()) {
-        if (settle_ > 0) --settle_;
-        break;
-      }
-      const auto s = supply();
-      bool begun = reserve_ > 0;
-      for (auto& [number, channel] : channels_) {
-        if (channel.active && !channel.prefilled && channel.start <= next_)
-          channel.prefilled = virtual_time_ || prefilled(s);
-        begun = begun || (channel.active && channel.prefilled);
-      }
-      if (!begun) break;
-      if (enough(s)) {
-        follow();
-      } else if (reserve_ > 0) {  // moving: stop within what is at hand
-        ++starved_;
-        char text[160];
-        std::snprintf(text, sizeof text,
-                      "No setpoint for cycle %llu in time; %llu cycles at hand, %llu needed to stop",
-                      static_cast<unsigned long long>(next_ + s.cycles),
-                      static_cast<unsigned long long>(s.cycles), static_cast<unsigned long long>(reserve_));
-        raise(alarm::setpoint_missing, 0, text);
-        begin_braking();
-        brake();
-      } else {
-        ++starved_;
-      }
+    case Mode::HOMING:
+      step_homing();
       break;
-    }
+    case Mode::FOLLOWING:
+      if (any_active())
+        follow_supply();
+      else if (settle_ > 0)
+        --settle_;
+      break;
   }
-  move_axes();
+  exchange();
+}
+
+void DriveCore::follow_supply() {
+  const auto s = supply();
+  bool begun = reserve_ > 0;
+  for (auto& [number, channel] : channels_) {
+    if (channel.active && !channel.prefilled && channel.start <= next_)
+      channel.prefilled = virtual_time_ || prefilled(s);
+    begun = begun || (channel.active && channel.prefilled);
+  }
+  if (!begun) return;
+  if (enough(s)) {
+    follow();
+    return;
+  }
+  ++starved_;
+  if (reserve_ == 0) return;
+  // Moving: stop within what is at hand.
+  char text[160];
+  std::snprintf(text, sizeof text,
+                "No setpoint for cycle %llu in time; %llu cycles at hand, %llu needed to stop",
+                static_cast<unsigned long long>(next_ + s.cycles), static_cast<unsigned long long>(s.cycles),
+                static_cast<unsigned long long>(reserve_));
+  raise(alarm::setpoint_missing, 0, text);
+  begin_braking();
+  brake();
 }
 
 // The setpoint of the next cycle is passed: it is executed, reported and forgotten. False when it is not
@@ -308,12 +286,7 @@ bool DriveCore::pass_cycle() {
     }
   }
   target_ = scratch_;
-  if (rows_ == 0) first_row_ = next_;
-  ++rows_;
-  commanded_rows_.insert(commanded_rows_.end(), target_.begin(), target_.end());
-  for (const auto& servo : servos_) actual_rows_.push_back(servo.encoder());
-  for (const auto& spindle : spindles_) spindle_rows_.push_back(spindle.angle());
-  skip_inputs_.report(next_, skips_);
+  rows_.handed_over(next_, row_.number + 1, target_);
   couple_spindles();
   for (auto& [number, channel] : channels_) {
     if (!channel.active) continue;
@@ -325,6 +298,7 @@ bool DriveCore::pass_cycle() {
     channel.window.advance();
     if (!ends) continue;
     channel.active = false;
+    channel.ending = true;
     release_spindle(channel);
   }
   ++next_;
@@ -399,18 +373,34 @@ void DriveCore::follow() {
   }
 }
 
-void DriveCore::move_axes() {
-  for (std::size_t i = 0; i < axes_.size(); ++i) servos_[i].step(command_[i], dt_);
-  move_spindles(true);
-  skip_inputs_.step(servos_);
-  supervise();
+// Hands the setpoints of this period over and reads the machine.
+void DriveCore::exchange() {
+  ++row_.number;
+  row_.controlled = mode_ != Mode::OFF;
+  row_.enable = row_.controlled || (enabled_ && !control_lost_);
+  for (std::size_t i = 0; i < axes_.size(); ++i) {
+    auto& axis = row_.axes[i];
+    const double velocity = row_.controlled ? (command_[i] - axis.position) / dt_ : 0;
+    const double acceleration = row_.controlled ? (velocity - axis.velocity) / dt_ : 0;
+    axis = {command_[i], velocity, acceleration};
+  }
+  for (std::size_t i = 0; i < spindles_.size(); ++i) row_.spindles[i] = spindles_[i].setpoint();
+  hardware_->exchange(row_, status_, rows_);
+  if (row_.controlled) {
+    supervise();
+  } else if (!row_.enable) {
+    for (std::size_t i = 0; i < axes_.size(); ++i)
+      command_[i] = row_.axes[i].position = status_.axes[i].hold_position;
+  }
+  if (rows_.pending() > 0) return;
+  for (auto& [number, channel] : channels_) channel.ending = false;
 }
 
 void DriveCore::supervise() {
   for (std::size_t i = 0; i < axes_.size(); ++i) {
     if (reported_[i]) continue;
     const auto& l = limits_[i];
-    const double error = command_[i] - servos_[i].encoder();
+    const double error = status_.axes[i].following_error;
     char text[200];
     if (l.following > 0 && std::abs(error) > l.following) {
       std::snprintf(text, sizeof text, "Axis %s: following error %.4f, limit %.4f (parameter %s)",
@@ -426,61 +416,20 @@ void DriveCore::supervise() {
       continue;
     }
     reported_[i] = true;
-    if (mode_ == Mode::FOLLOWING && any_active()) begin_braking();
+    stop();
   }
 }
 
-void DriveCore::acknowledge() { std::fill(reported_.begin(), reported_.end(), false); }
+void DriveCore::acknowledge() {
+  std::fill(reported_.begin(), reported_.end(), false);
+  control_lost_ = false;
+  hardware_->reset_faults();
+}
 
 void DriveCore::raise(const machine::AlarmDefinition& alarm, std::uint32_t part, std::string text) {
   events_.push_back({&alarm, part, std::move(text)});
 }
 
 std::vector<DriveEvent> DriveCore::take_events() { return std::exchange(events_, {}); }
-
-void DriveCore::fill(idl::stream::FeedbackFrame& out) {
-  const std::size_t n = axes_.size();
-  out.first = rows_ > 0 ? first_row_ : next_;
-  out.count = rows_;
-  out.tick = tick_;
-  out.mode = mode_ == Mode::HELD && resume_ ? Mode::RETURNING : mode_;
-  out.revision = revision_;
-  out.axis_count = static_cast<std::uint16_t>(n);
-  std::swap(out.commanded, commanded_rows_);
-  std::swap(out.actual, actual_rows_);
-  commanded_rows_.clear();
-  actual_rows_.clear();
-  rows_ = 0;
-  std::swap(out.spindle_angle, spindle_rows_);
-  spindle_rows_.clear();
-  std::swap(out.skips, skips_);
-  skips_.clear();
-  out.velocity.resize(n);
-  out.torque.resize(n);
-  out.position.resize(n);
-  out.enabled.resize(n);
-  for (std::size_t i = 0; i < n; ++i) {
-    out.velocity[i] = servos_[i].velocity();
-    out.torque[i] = servos_[i].torque();
-    out.position[i] = servos_[i].encoder();
-    out.enabled[i] = mode_ == Mode::OFF ? 0 : 1;
-  }
-  out.spindle_speed.resize(spindles_.size());
-  for (std::size_t i = 0; i < spindles_.size(); ++i) out.spindle_speed[i] = spindles_[i].speed();
-  out.starved = starved_;
-  out.channels.resize(channels_.size());
-  std::size_t k = 0;
-  for (const auto& [number, channel] : channels_) {
-    auto& echo = out.channels[k++];
-    echo.channel = number;
-    echo.epoch = channel.epoch;
-    echo.active = channel.active;
-    echo.next = next_;
-    echo.request = channel.request;
-    echo.start = channel.start;
-    echo.snapshot = channel.snapshot;
-    echo.states = channel.states;
-  }
-}
 
 }  // namespace trunnion::drive

@@ -1,18 +1,21 @@
-// The end of the stream: executes setpoints cycle by cycle, brakes along the path when one is missing, goes
-// on where it stopped. No clock: the caller says when a period has passed.
+// The end of the stream: executes setpoints cycle by cycle, brakes along the path when one is missing,
+// continues where it stopped. No clock: the caller says when a period has passed. What moves is behind
+// DriveHardware.
 #pragma once
 
 #include <array>
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "contracts/types.hpp"
+#include "drive_hardware.hpp"
+#include "executed_rows.hpp"
+#include "homing.hpp"
 #include "machine/alarm_definition.hpp"
 #include "machine/axes.hpp"
-#include "servo_axis.hpp"
-#include "skip_inputs.hpp"
-#include "spindle.hpp"
+#include "spindle_coupling.hpp"
 #include "stream/frame_window.hpp"
 
 namespace trunnion::drive {
@@ -27,7 +30,7 @@ struct Memory {
   static constexpr std::uint32_t magic_value = 0x54524e31;
   struct Channel {
     std::uint32_t epoch = 0, request = 0;
-    std::uint32_t begun = 0;  ///< the epoch's begin was seen: a start within it is no old message
+    std::uint32_t begun = 0;  ///< the start of the epoch was seen: a start within it is no old message
   };
   std::uint32_t magic = 0;
   std::uint32_t axes = 0;
@@ -37,7 +40,7 @@ struct Memory {
   std::array<Channel, 32> channels{};  ///< behind what older files have, which end here
 };
 
-/// Something the drive wants to tell: the service turns it into an alarm.
+/// Something to report: the service turns it into an alarm.
 struct DriveEvent {
   const machine::AlarmDefinition* alarm = nullptr;
   std::uint32_t part = 0;
@@ -46,9 +49,11 @@ struct DriveEvent {
 
 class DriveCore {
  public:
+  explicit DriveCore(std::unique_ptr<DriveHardware> hardware) : hardware_(std::move(hardware)) {}
+
   void configure(const machine::Parameters& parameters, bool virtual_time);
   bool configured() const { return !axes_.empty(); }
-  /// Goes on from what an earlier process left. Call after the first configure().
+  /// Continues from what an earlier process left. Call after the first configure().
   void restore(const Memory& memory);
   Memory memory() const;
 
@@ -61,7 +66,8 @@ class DriveCore {
   void request(const idl::stream::StreamRequest& request);
   void set_enables(const std::vector<std::uint8_t>& enable, bool emergency_stop);
   void set_spindle_speed(const std::vector<double>& speed) {
-    for (std::size_t i = 0; i < spindles_.size(); ++i) spindles_[i].order(i < speed.size() ? speed[i] : 0);
+    for (std::size_t i = 0; i < spindles_.size(); ++i)
+      spindles_[i].demand_speed(i < speed.size() ? speed[i] : 0);
   }
 
   /// True when a tick would execute, brake, return or settle; false when there is nothing to do but wait.
@@ -72,7 +78,8 @@ class DriveCore {
 
   /// Rows executed since the last call and the state now; empty rows when nothing was executed.
   void fill(idl::stream::FeedbackFrame& out);
-  std::uint32_t pending_rows() const { return rows_; }
+  /// Executed rows that fill() will report.
+  std::uint32_t rows() const { return rows_.count(); }
   std::vector<DriveEvent> take_events();
   /// Stops along the path and holds.
   void stop();
@@ -89,16 +96,21 @@ class DriveCore {
   double period() const { return dt_; }
   std::size_t axes() const { return axes_.size(); }
   const std::vector<double>& commands() const { return command_; }
+  DriveHardware& hardware() { return *hardware_; }
+  const DriveHardware& hardware() const { return *hardware_; }
 
  private:
   struct Limits {
     double velocity, acceleration, positive, negative, following;
+    int homing_direction;  // 0: none is needed
+    double homing_search, homing_creep, reference;
   };
   struct Channel {
     stream::FrameWindow<idl::stream::AxisFrame> window;
     bool active = false;
+    bool ending = false;     // its last setpoints are handed over and not all executed
     bool prefilled = false;  // enough has arrived to begin
-    bool begun = false;      // an epoch was begun in this process
+    bool begun = false;      // an epoch was started in this process
     std::uint32_t epoch = 0, request = 0;
     std::uint64_t start = 0;
     idl::stream::ChannelSnapshot snapshot;
@@ -119,6 +131,12 @@ class DriveCore {
   double stop_periods(std::uint64_t cycles);
   bool enough(const Supply& supply) const;
   bool prefilled(const Supply& supply) const;
+  void start(Channel& channel, const idl::stream::StreamRequest& request);
+  bool all_homed();
+  void home(std::uint16_t axis);
+  void step_homing();
+  void abort_homing();
+  void follow_supply();
   void begin_braking();
   bool pass_cycle();
   void advance(double cycles);
@@ -132,8 +150,11 @@ class DriveCore {
   void couple_spindles();
   void lead_spindles(double phase);
   void release_spindle(Channel& channel);
-  void move_spindles(bool powered);
-  void move_axes();
+  void exchange();
+  void place_at_hardware();
+  void switch_on();
+  void lose_control();
+  void stop_at_newest_row(std::uint64_t starved);
   void supervise();
   void stopped();
   double rate_step();
@@ -148,14 +169,16 @@ class DriveCore {
   std::uint64_t revision_ = 0;
   std::vector<machine::AxisInfo> axes_;
   std::vector<Limits> limits_;
-  std::vector<ServoAxis> servos_;
+  std::unique_ptr<DriveHardware> hardware_;
+  SetpointRow row_;
+  DriveStatus status_;
   std::map<std::uint16_t, Channel> channels_;
 
   Mode mode_ = Mode::OFF;
-  bool emergency_stop_ = true;
   bool enabled_ = false;
+  bool control_lost_ = false;  // the hardware has switched a drive off; until the alarms are reset
   std::uint64_t next_ = 0, tick_ = 0, starved_ = 0;
-  std::vector<double> command_;   // what the servos are told in this period
+  std::vector<double> command_;   // setpoint of this period
   std::vector<double> target_;    // setpoint of cycle next_ - 1: a point of the path
   std::vector<double> velocity_;  // of the path at target_, per cycle
   std::vector<double> scratch_, before_;
@@ -164,22 +187,20 @@ class DriveCore {
   double rate_ = 1, rate_step_ = 0, phase_ = 0;
   double dip_step_ = 0;
   std::uint32_t dip_depth_ = 0, dip_periods_ = 0;
-  bool off_path_ = false;  // braking went on along the tangent, so the axes are not on the path
+  bool off_path_ = false;  // braking continued along the tangent, so the axes are not on the path
   bool resume_ = false;
   std::uint64_t reserve_ = 0;  // cycles it takes to stop within the axes' limits
-  std::uint32_t settle_ = 0;   // periods until the servos stand still, in virtual time
+  std::uint32_t settle_ = 0;   // periods until the servos are at rest, in virtual time
+  Homing homing_;
+  std::size_t homing_axis_ = 0;  // column
   std::vector<double> return_from_, return_to_;
   std::uint32_t return_periods_ = 0, return_done_ = 0;
 
   std::vector<machine::AxisInfo> spindle_axes_;
-  std::vector<Spindle> spindles_;
-  SkipInputs skip_inputs_;
+  std::vector<SpindleCoupling> spindles_;
 
   std::vector<DriveEvent> events_;
-  std::uint64_t first_row_ = 0;
-  std::uint32_t rows_ = 0;
-  std::vector<double> commanded_rows_, actual_rows_, spindle_rows_;
-  std::vector<idl::stream::SkipEdge> skips_;
+  ExecutedRows rows_;
   std::vector<bool> reported_;  // per axis: supervision has fired since the last acknowledge
 };
 

@@ -5,6 +5,7 @@
 
 #include "drive_core.hpp"
 #include "machine/alarm_constants.hpp"
+#include "simulated_hardware.hpp"
 
 namespace trunnion::drive {
 namespace {
@@ -25,8 +26,10 @@ machine::Parameters two_axes() {
   return p;
 }
 
+DriveCore simulated() { return DriveCore(std::make_unique<SimulatedHardware>()); }
+
 struct Fixture : testing::Test {
-  DriveCore core;
+  DriveCore core = simulated();
   std::vector<double> commanded;  // X of every executed cycle
   std::uint64_t expected = 0;
   std::uint32_t epoch = 0, number = 0;
@@ -177,7 +180,7 @@ TEST_F(Fixture, StoppingAndResumingOnACircleAtTheLimitNeedsAtMostTwiceTheLimit) 
   };
   // Stops after any number of cycles, so at any phase and any direction of the path.
   for (std::uint64_t more = 0; more < 64; more += 8) {
-    core = DriveCore();
+    core = simulated();
     auto parameters = two_axes();
     parameters.values[900] = {64, ""};  // half of the lead covers the 0.19 / 0.004 / 2 = 24 cycles to stop
     core.configure(parameters, true);
@@ -238,7 +241,7 @@ TEST_F(Fixture, AProcessThatTakesOverAtRestKnowsTheEpochAndWhatWasAnswered) {
   begin();
   feed(0, 400, true);
   run();
-  DriveCore next;
+  DriveCore next = simulated();
   next.configure(two_axes(), true);
   next.restore(core.memory());
   next.set_enables({1, 1}, false);
@@ -288,7 +291,7 @@ TEST(TwoChannels, ASecondChannelThatStartsDoesNotDisturbTheFirst) {
   auto p = two_axes();
   p.values.erase(40002);
   p.values[41001] = {1, ""};  // axis 1 belongs to channel 1
-  DriveCore core;
+  DriveCore core = simulated();
   core.configure(p, true);
   core.set_enables({1, 1}, false);
   const auto frame = [](std::uint16_t channel, std::uint64_t first, bool end) {
@@ -339,7 +342,7 @@ TEST_F(Fixture, PositionsAndCyclesSurviveTheProcess) {
   feed(0, 400, true);
   run();
   const auto memory = core.memory();
-  DriveCore other;
+  DriveCore other = simulated();
   other.configure(two_axes(), true);
   other.restore(memory);
   EXPECT_EQ(other.next(), 400u);

@@ -7,8 +7,18 @@
 namespace trunnion::drive {
 namespace {
 
-ServoAxis axis(ServoParameters p = {}) {
-  ServoAxis a;
+// An axis with the feed-forward that the executor gives it.
+struct Axis : ServoAxis {
+  void step(double position, double dt) {
+    const double velocity = (position - setpoint.position) / dt;
+    setpoint = {position, velocity, (velocity - setpoint.velocity) / dt};
+    ServoAxis::step(setpoint, dt);
+  }
+  AxisSetpoint setpoint;
+};
+
+Axis axis(ServoParameters p = {}) {
+  Axis a;
   a.configure(p);
   a.place(0);
   return a;

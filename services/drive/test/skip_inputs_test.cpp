@@ -5,7 +5,12 @@
 namespace trunnion::drive {
 namespace {
 
-struct SkipInput : ::testing::Test {
+struct SkipInput : ::testing::Test, EncoderRowSink {
+  void skip_edge(std::uint64_t number, const idl::stream::SkipEdge& edge) override {
+    edges.push_back(edge);
+    edges.back().cycle = number;
+  }
+  void encoder_row(const EncoderRow&) override {}
   SkipInputs inputs;
   std::vector<ServoAxis> servos{2};
   std::vector<idl::stream::SkipEdge> edges;
@@ -21,8 +26,7 @@ struct SkipInput : ::testing::Test {
   void at(double x, double y) {
     servos[0].place(x);
     servos[1].place(y);
-    inputs.step(servos);
-    inputs.report(++cycle, edges);
+    inputs.step(servos, cycle++, *this);
   }
   std::uint64_t cycle = 0;
 };

@@ -1,22 +1,33 @@
-#include "spindle.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 
+#include "simulated_spindle.hpp"
+#include "spindle_coupling.hpp"
+
 namespace trunnion::drive {
 namespace {
 
-// 60000 deg/s2 are 10000 1/min in a second, 10 1/min in a period of 1 ms.
-Spindle spindle() {
-  Spindle s;
-  s.configure(60000, 0.001);
-  return s;
-}
+// A spindle and what gives it its setpoints: 60000 deg/s2 are 10000 1/min in a second, 10 1/min in a period
+// of 1 ms.
+struct Spindle {
+  Spindle() { machine.configure(60000, 0.001); }
+  void demand(double speed) { coupling.demand_speed(speed); }
+  void couple(double revolutions) { coupling.couple(revolutions, machine.angle()); }
+  void lead(double phase, double next) { coupling.lead(phase, next); }
+  void release() { coupling.release(); }
+  void step(bool powered) { machine.step(coupling.setpoint(), powered); }
+  double speed() const { return machine.speed(); }
+  double angle() const { return machine.angle(); }
+  SimulatedSpindle machine;
+  SpindleCoupling coupling;
+};
 
-TEST(Spindle, ReachesTheOrderedSpeedWithinItsAccelerationAndRunsDownWithoutPower) {
+Spindle spindle() { return {}; }
+
+TEST(Spindle, ReachesTheDemandedSpeedWithinItsAccelerationAndRunsDownWithoutPower) {
   auto s = spindle();
-  s.order(-500);
+  s.demand(-500);
   for (int i = 0; i < 49; ++i) s.step(true);
   EXPECT_NEAR(s.speed(), -490, 1e-9);
   for (int i = 0; i < 10; ++i) s.step(true);
@@ -25,11 +36,11 @@ TEST(Spindle, ReachesTheOrderedSpeedWithinItsAccelerationAndRunsDownWithoutPower
   EXPECT_NEAR(s.speed(), -250, 1e-9);
 }
 
-TEST(Spindle, FollowsAnAngleFromWhereItStandsAndStaysThereWhenReleased) {
+TEST(Spindle, FollowsAnAngleFromItsPlaceAndStaysThereWhenReleased) {
   auto s = spindle();
-  s.order(60);
+  s.demand(60);
   for (int i = 0; i < 1000; ++i) s.step(true);
-  s.order(0);
+  s.demand(0);
   for (int i = 0; i < 10; ++i) s.step(true);
   const double from = s.angle();
   // Two turns in a second and back, 1 - cos: at most 2 pi^2 2 rev/s2 = 14213 deg/s2.

@@ -38,20 +38,20 @@ void ServoAxis::hold() {
   command_velocity_ = velocity_ = torque_ = integral_ = 0;
 }
 
-void ServoAxis::step(double command, double dt) {
+void ServoAxis::step(const AxisSetpoint& setpoint, double dt) {
   const double h = dt / substeps;
-  const double command_velocity = (command - command_) / dt;
-  const double command_acceleration = (command_velocity - command_velocity_) / dt;
+  const double command_velocity = setpoint.velocity;
+  const double command_acceleration = setpoint.acceleration;
   for (int i = 1; i <= substeps; ++i) {
     const double set = command_ + command_velocity * (i - 0.5) * h;
     const double speed_set = p_.position_gain * (set - position_) +
                              p_.velocity_feedforward * (command_velocity_ + command_acceleration * i * h);
     const double speed_error = speed_set - velocity_;
-    const double wanted =
+    const double demand =
         p_.speed_gain * speed_error + integral_ + p_.acceleration_feedforward * command_acceleration;
-    const double limited = std::clamp(wanted, -p_.peak_torque, p_.peak_torque);
+    const double limited = std::clamp(demand, -p_.peak_torque, p_.peak_torque);
     // The integrator stops while the torque is at its limit, so that it does not wind up.
-    if (p_.speed_integral_time > 0 && wanted == limited)
+    if (p_.speed_integral_time > 0 && demand == limited)
       integral_ += p_.speed_gain / p_.speed_integral_time * speed_error * h;
     torque_ += (limited - torque_) * std::min(1.0, h / p_.current_time_constant);
     // Coulomb friction is steep rather than a step around standstill, so that the solution does not chatter.
@@ -61,7 +61,7 @@ void ServoAxis::step(double command, double dt) {
     velocity_ += (torque_ - friction) / p_.inertia * h;
     position_ += velocity_ * h;
   }
-  command_ = command;
+  command_ = setpoint.position;
   command_velocity_ = command_velocity;
   load_ = std::clamp(load_, position_ - p_.backlash / 2, position_ + p_.backlash / 2);
   encoder_ = std::round(position_ / p_.resolution) * p_.resolution;

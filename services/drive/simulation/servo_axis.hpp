@@ -2,7 +2,7 @@
 // Everything is in units of the load: mm or deg, and torque as the acceleration it gives the nominal inertia.
 #pragma once
 
-#include "machine/parameters.hpp"
+#include "drive_hardware.hpp"
 
 namespace trunnion::drive {
 
@@ -23,14 +23,13 @@ struct ServoParameters {
   static ServoParameters from(const machine::Parameters& parameters, std::uint32_t axis);
 };
 
-/// Explicit state, so that a simulated machine can be kept over a restart of the process.
 class ServoAxis {
  public:
   void configure(const ServoParameters& parameters) { p_ = parameters; }
-  /// Stands still at `position`, as an absolute encoder finds it.
+  /// Is at rest at `position`, as an absolute encoder finds it.
   void place(double position);
-  /// One period `dt` seconds: the command moves linearly from where it was to `command`.
-  void step(double command, double dt);
+  /// One period `dt` seconds: the command moves linearly from where it was to the position of `setpoint`.
+  void step(const AxisSetpoint& setpoint, double dt);
   /// Drives off: the brake holds the axis where it is.
   void hold();
 

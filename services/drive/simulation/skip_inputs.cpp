@@ -3,9 +3,6 @@
 #include "machine/parameter_constants.hpp"
 
 namespace trunnion::drive {
-namespace {
-constexpr std::size_t most_edges = 16;  // FeedbackFrame::skips
-}
 
 void SkipInputs::configure(const machine::Parameters& p, const std::vector<machine::AxisInfo>& axes) {
   for (std::uint32_t k = 0; k < inputs_.size(); ++k) {
@@ -16,7 +13,7 @@ void SkipInputs::configure(const machine::Parameters& p, const std::vector<machi
   }
 }
 
-void SkipInputs::step(const std::vector<ServoAxis>& servos) {
+void SkipInputs::step(const std::vector<ServoAxis>& servos, std::uint64_t number, EncoderRowSink& rows) {
   const bool first = load_.size() != servos.size();
   if (first) {
     load_.resize(servos.size());
@@ -24,7 +21,7 @@ void SkipInputs::step(const std::vector<ServoAxis>& servos) {
   }
   for (std::size_t k = 0; k < inputs_.size() && !first; ++k) {
     const Input& input = inputs_[k];
-    if (input.column < 0 || edges_.size() == most_edges) continue;
+    if (input.column < 0) continue;
     const auto column = static_cast<std::size_t>(input.column);
     const double before = (load_[column] - input.position) * input.side;
     const double after = (servos[column].load() - input.position) * input.side;
@@ -34,21 +31,12 @@ void SkipInputs::step(const std::vector<ServoAxis>& servos) {
     edge.input = static_cast<std::uint8_t>(k + 1);
     for (std::size_t i = 0; i < servos.size(); ++i)
       edge.position.push_back(encoder_[i] + share * (servos[i].encoder() - encoder_[i]));
-    edges_.push_back(std::move(edge));
+    rows.skip_edge(number + 1, edge);
   }
   for (std::size_t i = 0; i < servos.size(); ++i) {
     load_[i] = servos[i].load();
     encoder_[i] = servos[i].encoder();
   }
-}
-
-void SkipInputs::report(std::uint64_t cycle, std::vector<idl::stream::SkipEdge>& out) {
-  for (auto& edge : edges_) {
-    if (out.size() == most_edges) break;
-    edge.cycle = cycle;
-    out.push_back(std::move(edge));
-  }
-  edges_.clear();
 }
 
 }  // namespace trunnion::drive

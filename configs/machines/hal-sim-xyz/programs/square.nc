@@ -1,0 +1,20 @@
+%
+(a square with rounded corners, once round)
+G21 G90 G17 G54
+T1 M6
+G43 H1
+S1200 M3
+G0 X0 Y0 Z20
+G1 Z5 F2000
+G1 X40 F3000
+G3 X50 Y10 R10
+G1 Y40
+G3 X40 Y50 R10
+G1 X0
+G3 X-10 Y40 R10
+G1 Y10
+G3 X0 Y0 R10
+G0 Z20
+M5
+M30
+%

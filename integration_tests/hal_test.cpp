@@ -1,0 +1,278 @@
+// A machine behind LinuxCNC's HAL: a real, headless HAL with its own simulated axes and switches. What HAL
+// does is also looked at from outside, with LinuxCNC's program halcmd.
+#include <sched.h>
+#include <sys/shm.h>
+
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <sstream>
+
+#include "cluster_harness.hpp"
+
+namespace trunnion::integration {
+namespace {
+namespace fs = std::filesystem;
+
+constexpr int hal_memory = 0x48414c32;                      // key of HAL's shared memory
+constexpr std::uint8_t following = 0, off = 4, homing = 5;  // FeedbackFrame::mode
+
+std::string text_of(const fs::path& path) {
+  std::ifstream in(path);
+  std::stringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+void replace(const fs::path& path, const std::string& from, const std::string& to) {
+  auto text = text_of(path);
+  const auto at = text.find(from);
+  ASSERT_NE(at, std::string::npos) << path << " has no '" << from << "'";
+  std::ofstream(path) << text.replace(at, from.size(), to);
+}
+
+std::string output_of(const std::string& command) {
+  std::string text;
+  FILE* pipe = popen((command + " 2>/dev/null").c_str(), "r");
+  char buffer[256];
+  while (pipe != nullptr && fgets(buffer, sizeof buffer, pipe) != nullptr) text += buffer;
+  if (pipe != nullptr) pclose(pipe);
+  while (!text.empty() && text.back() == '\n') text.pop_back();
+  return text;
+}
+
+double signal(const std::string& name) {
+  const auto text = output_of("halcmd gets " + name);
+  if (text.empty()) ADD_FAILURE() << "HAL has no signal " << name;
+  return text == "TRUE" ? 1 : text == "FALSE" ? 0 : std::atof(text.c_str());
+}
+
+/// A copy of hal-sim-xyz whose queue and lead cover the stalls of a computer that runs other tests. One HAL
+/// can run on a computer; with a namespace of its own, which root can have, this test does not meet another
+/// one.
+struct Hal : ::testing::Test {
+  void SetUp() override {
+    if (geteuid() == 0) {
+      ASSERT_EQ(unshare(CLONE_NEWIPC), 0) << std::strerror(errno);
+    }
+    // Another user's or worktree's test may have HAL.
+    for (int i = 0; i < 600 && shmget(hal_memory, 0, 0) >= 0; ++i)
+      std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    directory = fs::temp_directory_path() / ("trunnion-hal-test-" + std::to_string(getpid()));
+    fs::remove_all(directory);
+    fs::copy(TRUNNION_HAL_MACHINE, directory, fs::copy_options::recursive);
+    replace(directory / "machine.yaml", "queue: 32", "queue: 100");
+    replace(directory / "parameters.yaml", "\"000900\": 160", "\"000900\": 400");
+  }
+  void TearDown() override {
+    cluster.reset();
+    fs::remove_all(directory);
+  }
+
+  void up() {
+    cluster.emplace(directory.string(), Time::real);
+    EXPECT_TRUE(cluster->until([&] { return cluster->feedback.mode == following; })) << cluster->told();
+  }
+  void home(std::uint8_t axis) {
+    cluster->client().channel(0, CommandKind::SET_MODE, "", 0, Mode::REF);
+    deploy::ChannelRequest request;
+    request.command = CommandKind::REFERENCE_AXIS;
+    request.axis = axis;
+    cluster->client().channel(request);
+    EXPECT_TRUE(cluster->until([&] { return cluster->feedback.mode == homing; })) << cluster->told();
+    EXPECT_TRUE(cluster->until([&] { return cluster->feedback.mode == following; }, 60)) << cluster->told();
+  }
+  void home_all() {
+    for (std::uint8_t axis = 0; axis < 3; ++axis) home(axis);
+  }
+  /// A long way in X at 100 mm/s.
+  void start_long_move() {
+    cluster->start_text("G90 G53 G0 X-100\nG1 X150 F6000\nX-100\nX150\nM30\n");
+    EXPECT_TRUE(cluster->until([&] { return cluster->feedback.position[0] < -95; })) << cluster->told();
+    EXPECT_TRUE(cluster->until([&] { return cluster->feedback.position[0] > -60; })) << cluster->told();
+  }
+  int drive_pid() {
+    cluster->until(
+        [&] { return cluster->service("drive") != nullptr && cluster->service("drive")->pid != 0; });
+    return cluster->service("drive")->pid;
+  }
+  /// Waits until HAL's axis X is at rest, and says where.
+  static double rest_of_x() {
+    double before = signal("x-position");
+    for (int i = 0, calm = 0; i < 400 && calm < 10; ++i) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+      const double now = signal("x-position");
+      calm = std::abs(now - before) < 1e-6 ? calm + 1 : 0;
+      before = now;
+    }
+    return before;
+  }
+
+  fs::path directory;
+  std::optional<Cluster> cluster;
+};
+
+TEST_F(Hal, AxesWithoutAReferenceRefuseToMoveAndFindItAtTheirSwitches) {
+  up();
+  cluster->client().channel(0, CommandKind::SET_MODE, "", 0, Mode::MDI);
+  cluster->client().channel(0, CommandKind::MDI_LINE, "G53 G0 X5");
+  EXPECT_TRUE(cluster->until([&] { return cluster->has_alarm(115, "X, Y, Z"); })) << cluster->told();
+  cluster->client().channel(0, CommandKind::RESET);
+  cluster->reset_alarms();
+  home_all();
+  // HAL has the switches at 12, 9 and 6; the machine positions of them are 10, 8 and 2. The edge is taken at
+  // 1 mm/s, in a period of 1 ms; behind it an axis brakes from that speed.
+  const double shift[] = {10 - 12, 8 - 9, 2 - 6};
+  const char* names[] = {"x-position", "y-position", "z-position"};
+  cluster->until([] { return false; }, 0.5);
+  for (std::size_t i = 0; i < 3; ++i)
+    EXPECT_NEAR(cluster->feedback.position[i] - signal(names[i]), shift[i], 0.005) << names[i];
+  EXPECT_TRUE(cluster->until([&] { return cluster->active_alarms().empty(); })) << cluster->told();
+}
+
+TEST_F(Hal, AProgramIsExecutedAndTheSampledPositionsAreTheCommandedOnes) {
+  up();
+  home_all();
+  const double shift = cluster->feedback.position[0] - signal("x-position");
+  double most = 0;
+  std::size_t rows = 0;
+  std::vector<double> commanded(3), before(3);
+  cluster->on_frame = [&](const idl::stream::FeedbackFrame& frame) {
+    for (std::uint32_t i = 0; i < frame.count; ++i, ++rows) {
+      before = commanded;
+      commanded.assign(frame.commanded.begin() + i * 3, frame.commanded.begin() + (i + 1) * 3);
+      // An encoder row is of the moment at which the setpoint comes into force: the setpoint before it was
+      // reached.
+      for (std::size_t a = 0; a < 3 && rows > 0; ++a)
+        most = std::max(most, std::abs(frame.actual[i * 3 + a] - before[a]));
+    }
+  };
+  cluster->start("square.nc");
+  ASSERT_TRUE(cluster->finish()) << cluster->told();
+  EXPECT_TRUE(cluster->until([&] { return rows > 3000; }, 5)) << rows;
+  cluster->until([] { return false; }, 0.5);
+  // The position loop with Kv 50 1/s and full feed-forward has no error in steady motion; in a change of
+  // acceleration of 1500 mm/s2 within 20 ms it is some micrometres, and 0.05 mm leave room for that.
+  EXPECT_LT(most, 0.05);
+  EXPECT_GT(most, 0) << "simulated axes are not copies of the setpoints";
+  EXPECT_EQ(cluster->lost_frames, 0u);
+  // G54 X10 Y20 Z-100 and the tool of 50: X0 Y0 Z20 is there.
+  EXPECT_NEAR(commanded[0], 10, 1e-6);
+  EXPECT_NEAR(commanded[1], 20, 1e-6);
+  EXPECT_NEAR(commanded[2], -100 + 20 + 50, 1e-6);
+  EXPECT_NEAR(signal("x-position") + shift, 10, 0.005);
+  EXPECT_EQ(cluster->active_alarms(), "");
+}
+
+TEST_F(Hal, AProbeEndsAMoveAndItsPositionIsLatched) {
+  up();
+  home_all();
+  std::vector<idl::stream::SkipEdge> edges;
+  cluster->on_frame = [&](const idl::stream::FeedbackFrame& frame) {
+    edges.insert(edges.end(), frame.skips.begin(), frame.skips.end());
+  };
+  // The probe is at machine position -60; G54 has Z -100, no tool length.
+  cluster->start_text("G90 G54 G49\nG0 Z50\nG31 L1 Z0 F600\nM30\n");
+  ASSERT_TRUE(cluster->finish()) << cluster->told();
+  EXPECT_TRUE(cluster->until([&] { return !edges.empty(); }, 5));
+  ASSERT_EQ(edges.size(), 1u);
+  EXPECT_EQ(edges[0].input, 1);
+  // 10 mm/s: latched within a period, 0.01 mm; homing adds 0.001.
+  EXPECT_NEAR(edges[0].position[2], -60, 0.02);
+  EXPECT_GT(cluster->feedback.position[2], -75) << "braked the lead behind it";
+  EXPECT_EQ(cluster->active_alarms(), "");
+}
+
+TEST_F(Hal, AKilledDriveLeavesTheAxesBrakedAndSwitchedOffByHal) {
+  up();
+  home_all();
+  start_long_move();
+  EXPECT_EQ(signal("drives-on"), 1);
+  const int launcher = *cluster->running().run.launcher();
+  kill(launcher, SIGSTOP);  // nobody starts the drive again meanwhile
+  const double at = signal("x-position");
+  kill(drive_pid(), SIGKILL);
+  const double rest = rest_of_x();
+  // 100 rows in the queue at 0.1 mm, 20 mm of what halcmd takes, and braking: far from the end of the move at
+  // 150.
+  EXPECT_LT(rest - at, 45);
+  EXPECT_EQ(signal("drives-on"), 0);
+  EXPECT_TRUE(cluster->until([] { return signal("amplifiers-on") == 0; })) << "0.3 s later";
+  EXPECT_EQ(signal("x-speed"), 0);
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  EXPECT_EQ(signal("x-position"), rest) << "it stays at rest";
+  cluster->drain();
+  cluster->feedback.mode = 255;  // what the killed process has told is old
+  kill(launcher, SIGCONT);
+  // The next process finds the axes where they are, still homed, and the program can be gone on with.
+  EXPECT_TRUE(cluster->until([&] { return cluster->feedback.mode == following && cluster->ready(); }, 30))
+      << cluster->told();
+  EXPECT_NEAR(signal("x-position"), rest, 1e-6) << "switching on moves nothing";
+  EXPECT_NEAR(cluster->feedback.position[0] - rest, -2, 0.005) << "the reference is the old one";
+  EXPECT_TRUE(cluster->go_on()) << cluster->told();
+  EXPECT_TRUE(cluster->finish()) << cluster->told();
+}
+
+TEST_F(Hal, RowsThatAreMissingAreCountedAndTheAxesStopAtTheNewestOne) {
+  replace(directory / "machine.hal", "setp watchdog.timeout-0 0.05", "setp watchdog.timeout-0 5");
+  up();
+  home_all();
+  const auto starved = cluster->feedback.starved;
+  start_long_move();
+  const int pid = drive_pid();
+  kill(pid, SIGSTOP);
+  std::this_thread::sleep_for(std::chrono::milliseconds(450));
+  const double rest = rest_of_x();
+  kill(pid, SIGCONT);
+  // At least 0.45 s less the queue of 0.1 s, and what this process itself was slow.
+  EXPECT_TRUE(cluster->until([&] { return cluster->feedback.starved > starved + 200; })) << cluster->told();
+  EXPECT_TRUE(cluster->until([&] { return cluster->has_alarm(110, "without setpoints"); }))
+      << cluster->told();
+  EXPECT_TRUE(cluster->until([&] { return cluster->state() == RunState::INTERRUPTED; })) << cluster->told();
+  EXPECT_NEAR(rest_of_x(), rest, 1.0) << "it holds where it has stopped";
+  EXPECT_TRUE(cluster->go_on()) << cluster->told();
+  EXPECT_TRUE(cluster->finish()) << cluster->told();
+}
+
+TEST_F(Hal, AFaultOfADriveSwitchesAllOffAndIsNamed) {
+  up();
+  home_all();
+  start_long_move();
+  output_of("halcmd sets x-fault 1");
+  EXPECT_TRUE(cluster->until([&] { return cluster->has_alarm(114, "axis X"); })) << cluster->told();
+  EXPECT_TRUE(cluster->until([&] { return cluster->feedback.mode == off; })) << cluster->told();
+  rest_of_x();
+  EXPECT_EQ(signal("enable"), 0);
+  output_of("halcmd sets x-fault 0");
+  cluster->until([] { return false; }, 0.3);
+  EXPECT_EQ(cluster->feedback.mode, off) << "until the alarms are reset";
+  cluster->client().channel(0, CommandKind::RESET);
+  cluster->reset_alarms();
+  EXPECT_TRUE(cluster->until([&] { return cluster->feedback.mode == following; })) << cluster->told();
+}
+
+TEST_F(Hal, NothingIsLeftWhenTheClusterIsDown) {
+  up();
+  const auto session =
+      "/tmp/trunnion-hal-" + std::to_string(getuid()) + "-" + std::to_string(cluster->running().run.domain);
+  EXPECT_TRUE(fs::exists(session + "/ready"));
+  EXPECT_GE(shmget(hal_memory, 0, 0), 0);
+  cluster.reset();
+  EXPECT_FALSE(fs::exists(session));
+  EXPECT_LT(shmget(hal_memory, 0, 0), 0) << "HAL is still there";
+}
+
+TEST_F(Hal, AFaultyFileIsRefusedWithItsLine) {
+  replace(directory / "machine.hal", "setp probe.in1 -56", "setp probe.in2 -56");
+  try {
+    up();
+    FAIL() << "it was started";
+  } catch (const std::runtime_error& e) {
+    EXPECT_NE(std::string(e.what()).find("machine.hal:"), std::string::npos) << e.what();
+    EXPECT_NE(std::string(e.what()).find("probe.in2"), std::string::npos) << e.what();
+  }
+  cluster.reset();
+}
+
+}  // namespace
+}  // namespace trunnion::integration

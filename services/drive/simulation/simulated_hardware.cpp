@@ -1,0 +1,74 @@
+#include "simulated_hardware.hpp"
+#include "machine/parameter_constants.hpp"
+
+namespace trunnion::drive {
+
+void SimulatedHardware::configure(const machine::Parameters& p, const std::vector<machine::AxisInfo>& axes,
+                                  const std::vector<machine::AxisInfo>& spindles, double period) {
+  period_ = period;
+  const bool first = servos_.size() != axes.size();
+  servos_.resize(axes.size());
+  home_switches_.resize(axes.size());
+  for (std::size_t i = 0; i < axes.size(); ++i) {
+    const auto number = axes[i].number;
+    if (first) servos_[i].place(p.get(parameter::reference_coordinate, number));
+    servos_[i].configure(ServoParameters::from(p, number));
+    home_switches_[i].position = p.get(parameter::reference_coordinate, number);
+    home_switches_[i].direction = p.integer(parameter::homing_direction, number);
+  }
+  spindles_.resize(spindles.size());
+  for (std::size_t i = 0; i < spindles.size(); ++i)
+    spindles_[i].configure(p.get(parameter::maximum_acceleration, spindles[i].number), period);
+  skip_inputs_.configure(p, axes);
+  encoder_.resize(axes.size());
+  angle_.resize(spindles.size());
+}
+
+void SimulatedHardware::restore(std::span<const double> positions) {
+  for (std::size_t i = 0; i < servos_.size(); ++i) servos_[i].place(positions[i]);
+}
+
+void SimulatedHardware::status(DriveStatus& out) const {
+  out.axes.resize(servos_.size());
+  for (std::size_t i = 0; i < servos_.size(); ++i) {
+    const auto& servo = servos_[i];
+    auto& axis = out.axes[i];
+    axis.position = servo.encoder();
+    axis.following_error = servo.command() - servo.encoder();
+    axis.hold_position = servo.command();
+    axis.velocity = servo.velocity();
+    axis.torque = servo.torque();
+    axis.home_switch = home_switches_[i].on;
+    axis.home_latch = home_switches_[i].latch;
+  }
+  out.spindles.resize(spindles_.size());
+  for (std::size_t i = 0; i < spindles_.size(); ++i)
+    out.spindles[i] = {spindles_[i].speed(), spindles_[i].angle()};
+}
+
+void SimulatedHardware::set_reference(std::size_t i, double shift) {
+  servos_[i].place(servos_[i].command() + shift);
+}
+
+void SimulatedHardware::exchange(const SetpointRow& row, DriveStatus& out, EncoderRowSink& rows) {
+  for (std::size_t i = 0; i < servos_.size(); ++i) encoder_[i] = servos_[i].encoder();
+  for (std::size_t i = 0; i < spindles_.size(); ++i) angle_[i] = spindles_[i].angle();
+  rows.encoder_row({row.number, encoder_, angle_});
+  for (std::size_t i = 0; i < servos_.size(); ++i) {
+    if (row.controlled)
+      servos_[i].step(row.axes[i], period_);
+    else
+      servos_[i].hold();
+  }
+  for (std::size_t i = 0; i < servos_.size(); ++i) {
+    auto& home = home_switches_[i];
+    const bool on = (servos_[i].load() - home.position) * home.direction > 0;
+    if (on && !home.on) home.latch = servos_[i].encoder();
+    home.on = on;
+  }
+  for (std::size_t i = 0; i < spindles_.size(); ++i) spindles_[i].step(row.spindles[i], row.controlled);
+  if (row.controlled) skip_inputs_.step(servos_, row.number, rows);
+  status(out);
+}
+
+}  // namespace trunnion::drive

@@ -1,0 +1,38 @@
+// A simulated machine: servo loops with their mechanics, spindles, skip inputs, and home switches at the
+// reference coordinates. Its encoders are absolute, its axes always homed, and a row is executed while it is
+// handed over.
+#pragma once
+
+#include "drive_hardware.hpp"
+#include "servo_axis.hpp"
+#include "simulated_spindle.hpp"
+#include "skip_inputs.hpp"
+
+namespace trunnion::drive {
+
+class SimulatedHardware : public DriveHardware {
+ public:
+  void configure(const machine::Parameters& parameters, const std::vector<machine::AxisInfo>& axes,
+                 const std::vector<machine::AxisInfo>& spindles, double period) override;
+  void restore(std::span<const double> positions) override;
+  void status(DriveStatus& out) const override;
+  bool enabled() const override { return true; }
+  void reset_faults() override {}
+  void set_reference(std::size_t axis, double shift) override;
+  void exchange(const SetpointRow& row, DriveStatus& status, EncoderRowSink& rows) override;
+
+ private:
+  struct HomeSwitch {
+    double position = 0, direction = 0;
+    bool on = false;
+    double latch = 0;
+  };
+  double period_ = 0.001;
+  std::vector<HomeSwitch> home_switches_;
+  std::vector<ServoAxis> servos_;
+  std::vector<SimulatedSpindle> spindles_;
+  SkipInputs skip_inputs_;
+  std::vector<double> encoder_, angle_;  // of the row that is handed over
+};
+
+}  // namespace trunnion::drive

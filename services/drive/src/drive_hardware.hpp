@@ -1,0 +1,126 @@
+// What the executor of setpoints needs of the machine: axes, spindles, switches and probes. The
+// implementations are simulation/ (servo loops and mechanics in this process) and hal/ (LinuxCNC's HAL). A
+// more exact model of a machine (masses, encoders, measuring instruments) is one more implementation.
+//
+// One thread calls everything here. Positions are machine coordinates: mm or deg, velocities mm/s or deg/s,
+// accelerations mm/s2 or deg/s2; spindle speeds 1/min, spindle angles revolutions, clockwise positive, turns
+// counted. Nothing here is safety-rated.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "contracts/types.hpp"
+#include "machine/axes.hpp"
+#include "machine/parameters.hpp"
+
+namespace trunnion::drive {
+
+/// What an axis is to do in one period: reach `position` at its end. The other two are feed-forward.
+struct AxisSetpoint {
+  double position = 0, velocity = 0, acceleration = 0;
+};
+
+struct SpindleSetpoint {
+  double speed = 0;      ///< demanded by the PLC; not in force while coupled
+  bool coupled = false;  ///< the spindle follows `angle` (tapping)
+  double angle = 0;
+};
+
+/// One period of every axis and spindle.
+struct SetpointRow {
+  std::uint64_t number = 0;  ///< counts the periods of this process from 1 on
+  bool enable = false;       ///< the drives shall be switched on; false: braked or held by the hardware
+  /// The axes follow the row. When false its positions are without effect and the spindles run down.
+  bool controlled = false;
+  std::vector<AxisSetpoint> axes;
+  std::vector<SpindleSetpoint> spindles;
+};
+
+struct AxisStatus {
+  double position = 0;         ///< of the encoder
+  double following_error = 0;  ///< setpoint that was in force less `position`
+  /// Setpoint that leaves the axis where it is: the newest one while the axis is controlled, its place
+  /// otherwise.
+  double hold_position = 0;
+  double velocity = 0;
+  double torque = 0;         ///< share of the rated torque; 0 where it is not measured
+  bool enabled = true;       ///< the drive of the axis is switched on
+  bool fault = false;        ///< the drive of the axis reports an error, cleared by reset_faults()
+  bool homed = true;         ///< the position has its reference
+  bool home_switch = false;  ///< state of the home switch
+  double home_latch = 0;     ///< position at the newest rising edge of the home switch
+};
+
+struct SpindleStatus {
+  double speed = 0, angle = 0;
+};
+
+/// Encoder positions at the moment at which the row `number` came into force.
+struct EncoderRow {
+  std::uint64_t number = 0;
+  std::span<const double> axes;
+  std::span<const double> spindles;
+};
+
+/// What comes back of the rows that were handed over, in the order of their numbers.
+class EncoderRowSink {
+ public:
+  virtual ~EncoderRowSink() = default;
+  /// A skip input has come on before the row `number` came into force and after the one before. `edge` has
+  /// the encoder positions of that moment; its cycle is filled in by the executor.
+  virtual void skip_edge(std::uint64_t number, const idl::stream::SkipEdge& edge) = 0;
+  virtual void encoder_row(const EncoderRow& row) = 0;
+};
+
+/// The machine after a period.
+struct DriveStatus {
+  std::vector<AxisStatus> axes;
+  std::vector<SpindleStatus> spindles;
+};
+
+class DriveHardware {
+ public:
+  virtual ~DriveHardware() = default;
+
+  /// Not cyclic, while nothing moves or in motion when a parameter revision changes. The first call makes the
+  /// axes; those of a simulation are at rest at their reference coordinates then. `period` s. Throws
+  /// std::runtime_error.
+  virtual void configure(const machine::Parameters& parameters, const std::vector<machine::AxisInfo>& axes,
+                         const std::vector<machine::AxisInfo>& spindles, double period) = 0;
+  /// Not cyclic, after the first configure(): positions an earlier process has left, as absolute encoders
+  /// would. Hardware that knows its positions itself ignores them.
+  virtual void restore(std::span<const double> positions) = 0;
+  /// The machine now, without a period; not cyclic.
+  virtual void status(DriveStatus& out) const = 0;
+
+  /// The drives of all axes are switched on and without a fault. Cyclic.
+  virtual bool enabled() const = 0;
+  /// The operator resets alarms. Cyclic.
+  virtual void reset_faults() = 0;
+  /// From now on the positions of an axis are greater by `shift`, and the axis is homed. Not cyclic, at
+  /// standstill.
+  virtual void set_reference(std::size_t axis, double shift) = 0;
+
+  /// Before a row is computed: reads what has come from the machine. Returns the periods since the last call
+  /// in which the hardware was without a row; it has stopped the axes at the newest one then. Cyclic: no
+  /// allocation once vectors have their size, no lock, no waiting. A simulation has nothing to read.
+  virtual std::uint64_t read(DriveStatus&, EncoderRowSink&) { return 0; }
+  /// One period: hands over the row. Cyclic, as read(). Every row comes back through `rows` once it was in
+  /// force, in this call (a simulation) or in a later read() (hardware with a queue). Rows that got lost on
+  /// the way are left out.
+  virtual void exchange(const SetpointRow& row, DriveStatus& status, EncoderRowSink& rows) = 0;
+
+  /// True: the hardware is the clock, and period_due() says when the next row is wanted. False: the caller
+  /// is.
+  virtual bool is_clock() const { return false; }
+  /// The hardware has room for another row. Cyclic, asked before every exchange() when is_clock(). Throws
+  /// std::runtime_error with one line when the hardware does not run any longer.
+  virtual bool period_due() { return true; }
+  /// The process is told to end. Not cyclic.
+  virtual void end() {}
+};
+
+}  // namespace trunnion::drive

@@ -1,0 +1,41 @@
+// What the drive reports: executed rows, the axes, and the consistent cut of every channel.
+#include "drive_core.hpp"
+
+namespace trunnion::drive {
+
+void DriveCore::fill(idl::stream::FeedbackFrame& out) {
+  const std::size_t n = axes_.size();
+  rows_.fill(out, next_);
+  out.tick = tick_;
+  out.mode = mode_ == Mode::HELD && resume_ ? Mode::RETURNING : mode_;
+  out.revision = revision_;
+  out.axis_count = static_cast<std::uint16_t>(n);
+  out.velocity.resize(n);
+  out.torque.resize(n);
+  out.position.resize(n);
+  out.enabled.resize(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    out.velocity[i] = status_.axes[i].velocity;
+    out.torque[i] = status_.axes[i].torque;
+    out.position[i] = status_.axes[i].position;
+    out.enabled[i] = mode_ == Mode::OFF ? 0 : 1;
+  }
+  out.spindle_speed.resize(spindles_.size());
+  for (std::size_t i = 0; i < spindles_.size(); ++i) out.spindle_speed[i] = status_.spindles[i].speed;
+  out.starved = starved_;
+  out.channels.resize(channels_.size());
+  std::size_t k = 0;
+  for (const auto& [number, channel] : channels_) {
+    auto& echo = out.channels[k++];
+    echo.channel = number;
+    echo.epoch = channel.epoch;
+    echo.active = channel.active || channel.ending;
+    echo.next = next_;
+    echo.request = channel.request;
+    echo.start = channel.start;
+    echo.snapshot = channel.snapshot;
+    echo.states = channel.states;
+  }
+}
+
+}  // namespace trunnion::drive

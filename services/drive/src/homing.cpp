@@ -1,0 +1,73 @@
+#include "homing.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace trunnion::drive {
+namespace {
+// Periods at rest after which the axis has followed, also behind a queue of setpoint rows.
+constexpr std::uint32_t settling = 500;
+}  // namespace
+
+void Homing::start(const Settings& settings, double position) {
+  *this = {};
+  settings_ = settings;
+  position_ = start_ = position;
+  state_ = State::moving;
+  phase_ = Phase::leave_fast;
+}
+
+void Homing::abort() {
+  aborted_ = true;
+  phase_ = Phase::settle;
+}
+
+double Homing::demand() const {
+  switch (phase_) {
+    case Phase::leave_fast:
+      return -settings_.direction * settings_.search;
+    case Phase::search:
+      return settings_.direction * settings_.search;
+    case Phase::leave:
+      return -settings_.direction * settings_.creep;
+    case Phase::creep:
+      return settings_.direction * settings_.creep;
+    case Phase::settle:
+      break;
+  }
+  return 0;
+}
+
+void Homing::next_phase(const AxisStatus& axis) {
+  switch (phase_) {
+    case Phase::leave_fast:
+      if (!axis.home_switch) phase_ = Phase::search;
+      break;
+    case Phase::search:
+      if (axis.home_switch) phase_ = Phase::leave;
+      break;
+    case Phase::leave:
+      if (!axis.home_switch) phase_ = Phase::creep;
+      break;
+    case Phase::creep:
+      if (!axis.home_switch) break;
+      latch_ = axis.home_latch;
+      phase_ = Phase::settle;
+      break;
+    case Phase::settle:
+      break;
+  }
+}
+
+double Homing::step(const AxisStatus& axis, double dt) {
+  next_phase(axis);
+  if (std::abs(position_ - start_) > settings_.travel) abort();
+  const double change = settings_.acceleration * dt;
+  velocity_ += std::clamp(demand() - velocity_, -change, change);
+  position_ += velocity_ * dt;
+  at_rest_ = phase_ == Phase::settle && velocity_ == 0 ? at_rest_ + 1 : 0;
+  if (at_rest_ >= (aborted_ ? 1 : settling)) state_ = aborted_ ? State::failed : State::done;
+  return position_;
+}
+
+}  // namespace trunnion::drive

@@ -1,0 +1,10 @@
+// How long the drive waits. docs/architecture.md and docs/faults.md name these figures; a test compares them.
+#pragma once
+
+namespace trunnion::drive {
+
+inline constexpr double missing_setpoint_timeout =
+    1.0;                                    ///< s of wall time, in virtual time, until the drive brakes
+inline constexpr double plc_timeout = 1.5;  ///< s without a sign of the PLC until the drive stops
+
+}  // namespace trunnion::drive

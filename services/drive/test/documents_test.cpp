@@ -1,0 +1,38 @@
+// The figures that documents name are those of the code.
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <fstream>
+#include <sstream>
+
+#include "timeouts.hpp"
+
+namespace trunnion::drive {
+namespace {
+
+std::string document(const std::string& name) {
+  std::ifstream in(std::string(TRUNNION_DOCUMENTS) + "/" + name);
+  std::stringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+std::string seconds(const char* format, double value) {
+  char text[120];
+  std::snprintf(text, sizeof text, format, value);
+  return text;
+}
+
+TEST(Documents, TheWaitForAMissingSetpointInVirtualTimeIsTheOneOfTheCode) {
+  EXPECT_NE(document("architecture.md")
+                .find(seconds("In virtual time it waits %g s of wall time first", missing_setpoint_timeout)),
+            std::string::npos);
+}
+
+TEST(Documents, TheTimeWithoutASignOfThePlcIsTheOneOfTheCode) {
+  EXPECT_NE(document("faults.md").find(seconds("silence of the PLC for %g s", plc_timeout)),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace trunnion::drive
