@@ -155,7 +155,7 @@ void ChannelService::save_variables() {
 
 void ChannelService::change_tables() {
   if (auto reply = table_client_.poll()) core_.on_table_changed(reply->accepted ? "" : reply->reason);
-  if (auto order = core_.take_table_order()) table_client_.send(std::move(*order));
+  if (auto request = core_.take_table_request()) table_client_.send(std::move(*request));
 }
 
 void ChannelService::start_stream() {

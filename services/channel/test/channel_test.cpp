@@ -337,8 +337,7 @@ TEST_F(Channel, RequestsThatMakeNoSenseAreRefusedWithAReason) {
   EXPECT_NE(ask(CommandKind::SELECT_PROGRAM, "none.nc").reason.find("none.nc"), std::string::npos);
   EXPECT_FALSE(ask(CommandKind::CYCLE_START).accepted) << "mode JOG";
   EXPECT_FALSE(ask(CommandKind::MDI_LINE, "G0 X1").accepted);
-  EXPECT_EQ(ask(CommandKind::FEED_OVERRIDE, "", 1.6).reason,
-            "override 160.000000 % is outside 0.000000 .. 150.000000 %");
+  EXPECT_EQ(ask(CommandKind::FEED_OVERRIDE, "", 1.6).reason, "override 160 % is outside 0 .. 150 %");
   EXPECT_FALSE(ask(CommandKind::FEED_OVERRIDE, "", std::nan("")).accepted);
   core->set_ready(false);
   ask(CommandKind::SET_MODE);
@@ -376,10 +375,10 @@ TEST_F(Channel, AProgramThatChangesATableWaitsUntilItsOwnerHasDoneSo) {
   ask(CommandKind::CYCLE_START);
   for (int i = 0; i < 20; ++i) round();
   EXPECT_EQ(core->run_state(), RunState::WAITING);
-  const auto order = core->take_table_order();
-  ASSERT_TRUE(order);
-  ASSERT_EQ(order->offsets.size(), 1u);
-  EXPECT_EQ(order->offsets[0].values[0], 5);
+  const auto request = core->take_table_request();
+  ASSERT_TRUE(request);
+  ASSERT_EQ(request->offsets.size(), 1u);
+  EXPECT_EQ(request->offsets[0].values[0], 5);
   core->on_table_changed("");
   run();
   EXPECT_EQ(core->run_state(), RunState::IDLE);
@@ -390,7 +389,7 @@ TEST_F(Channel, ARefusedTableStopsTheProgramWithTheReason) {
   load("G10 L2 P1 X5\nG1 X10 F6000\nM30\n");
   ask(CommandKind::CYCLE_START);
   for (int i = 0; i < 20; ++i) round();
-  ASSERT_TRUE(core->take_table_order());
+  ASSERT_TRUE(core->take_table_request());
   core->on_table_changed("the disk is full");
   EXPECT_EQ(core->run_state(), RunState::IDLE);
   const auto told = core->take_events();
