@@ -12,7 +12,7 @@ namespace trunnion::channel {
 namespace {
 constexpr double history_pause = 1.0;   // without feedback: longer than a drive that lives is ever silent
 constexpr double record_seconds = 0.2;  // between two records of the executed line
-constexpr double text_patience = 0.5;   // without the text that motion waits for, before somebody is told
+constexpr double text_timeout = 0.5;    // without the text that motion waits for, before the alarm
 }  // namespace
 
 ChannelService::ChannelService(node::Node& node)
@@ -48,7 +48,7 @@ ChannelService::ChannelService(node::Node& node)
   read_hand_over();
 }
 
-// A record that cannot be read says nothing about the program: it is put aside and named.
+// A record that cannot be read is renamed, and an alarm names it.
 void ChannelService::read_record() {
   std::ifstream in(record_file_, std::ios::binary);
   if (!in) return;
@@ -89,13 +89,13 @@ void ChannelService::watch_text() {
     text_missing_since_ = 0;
   } else if (text_missing_since_ == 0) {
     text_missing_since_ = now;
-  } else if (text_missing_since_ > 0 && now - text_missing_since_ > text_patience) {
+  } else if (text_missing_since_ > 0 && now - text_missing_since_ > text_timeout) {
     node_.alarms().raise("text_late", channel, "The program's text does not arrive: see the program service");
-    text_missing_since_ = -1;  // told
+    text_missing_since_ = -1;  // the alarm is raised
   }
 }
 
-// It is good for one process only: one that is killed leaves none, and what then holds is in the drive's cut.
+// It serves one process only: one that is killed leaves none, and the drive's cut is valid then.
 void ChannelService::read_hand_over() {
   std::ifstream in(hand_over_file_, std::ios::binary);
   if (!in) return;
@@ -192,7 +192,7 @@ void ChannelService::watch_alarms() {
                                           : "");
 }
 
-// Twins: a start waits for both copies; in virtual time no copy is left farther behind than 2 * lead.
+// Replicas: a start waits for both; in virtual time neither is left farther behind than 2 * lead.
 void ChannelService::watch_copies() {
   if (!progress_reader_) return;
   const double now = node::monotonic_seconds();
@@ -204,14 +204,14 @@ void ChannelService::watch_copies() {
     const auto part = stream::copy_part(change.stage, change.copy);
     if (change.lost)
       node_.alarms().raise("redundancy_lost", part,
-                           "Copy " + std::to_string(change.copy) + " of " + stream::stage_name(change.stage) +
-                               " was dropped: it makes no progress",
+                           "Replica " + std::to_string(change.copy) + " of " +
+                               stream::stage_name(change.stage) + " was dropped: it makes no progress",
                            core_.link().executed());
     else
       node_.alarms().clear("redundancy_lost", part);
   }
-  core_.set_copies(copies_.may_start(now),
-                   node_.options().virtual_time ? copies_.floor() : stream::CopyWatch::everywhere);
+  core_.set_replicas(copies_.may_start(now),
+                     node_.options().virtual_time ? copies_.floor() : stream::CopyWatch::everywhere);
 }
 
 void ChannelService::answer_requests() {
@@ -260,9 +260,9 @@ void ChannelService::drain() {
   watch_alarms();
 }
 
-// The history of the drive's feedback arrives before its newest, and on a busy machine takes its time: to go
-// on from an older cut would be to cut again what was executed. What a reader without history gets is the
-// present.
+// The history of the drive's feedback arrives before its newest sample, on a busy computer much before it. To
+// continue from an older cut would execute a part of the path twice. A reader without history gets the
+// newest.
 void ChannelService::recover() {
   if (core_.recovered() || !core_.link().has_feedback()) return;
   if (!have_present_) have_present_ = present_reader_->take(present_);

@@ -83,9 +83,10 @@ Answer ChannelCore::set_override(double& value, double demand, double low, doubl
   return {};
 }
 
-// A program that is held may be left for MDI and manual motion; cycle start in AUTO returns to it.
+// A program that is held may be left for MDI and manual motion; cycle start in AUTO returns to it. Before its
+// restart point is reached it may not: its trajectory starts there, wherever the axes are.
 Answer ChannelCore::set_mode(Mode mode) {
-  const bool leaves = states_.may_suspend() && !tapping_.active() && !skip_.active();
+  const bool leaves = states_.may_suspend() && !restart_ && !tapping_.active() && !skip_.active();
   if (states_.busy() && !leaves && mode != mode_)
     return refuse("request_invalid",
                   "The mode cannot change while the channel is busy: stop or reset it first");
@@ -125,7 +126,7 @@ Answer ChannelCore::cycle_start() {
 Answer ChannelCore::continue_after_interruption() {
   if (states_.needs_reset())
     return refuse("not_ready", "The drives were switched off in the program: reset the channel");
-  if (restart_) {  // the stream was lost: restart at the newest point that was executed
+  if (restart_ && stream_.idle()) {  // the stream was lost: restart at the newest point that was executed
     Entry entry;
     entry.restart = *restart_;
     // What was on its way through the stages may have been executed since.

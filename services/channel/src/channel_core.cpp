@@ -79,6 +79,7 @@ RunningProgram ChannelCore::running_program() const {
 // MDI in a held program works on its own variables: a restart of the program must find what it started with.
 void ChannelCore::keep_variables() {
   if (!states_.interpreting() || (states_.is(Activity::mdi) && states_.suspended() != nullptr)) return;
+  if (!flow().started()) return;  // interrupted before this process
   *variables_ = flow().variables();
   variables_news_ = true;
 }

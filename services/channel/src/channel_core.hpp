@@ -72,7 +72,7 @@ class ChannelCore {
   void set_hold(const std::string& why);
   void set_ready(bool ready) { ready_ = ready; }
   /// As StreamWriter::set_replicas().
-  void set_copies(bool may_start, std::uint64_t floor) { stream_.set_replicas(may_start, floor); }
+  void set_replicas(bool may_start, std::uint64_t floor) { stream_.set_replicas(may_start, floor); }
   Answer handle(const idl::channel::ChannelRequest& request);
   std::optional<ChunkWanted> wanted() const;
   void deliver(const std::string& name, std::uint64_t offset, std::vector<std::uint8_t> data);

@@ -117,7 +117,7 @@ void ChannelCore::suspend() {
   program.mdi_modal = mdi_.modal;
   mdi_.modal = program_flow_.executing();
   mdi_.modal.tool = static_cast<std::uint16_t>(tool_);
-  states_.suspend(std::move(program));
+  states_.suspend(program);
   manual_path_.start(machine_start_);
 }
 

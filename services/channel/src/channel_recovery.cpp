@@ -32,8 +32,8 @@ void ChannelCore::interrupt(const std::string& why) {
     link.acknowledge();
     const auto own = snapshot_of(link.states());
     manual_.place_offset(own && own->offset_on ? own->offset : AxisValues{});
-    const bool entering = states_.preparing() != nullptr && !restart_;
-    if (states_.is(Activity::program) && !entering && !(was_lost && lock_.any())) {
+    const bool entering = states_.preparing() != nullptr && !restart_, reset = states_.resetting();
+    if (states_.is(Activity::program) && !entering && !reset && !(was_lost && lock_.any())) {
       states_.drop_preparation();
       if (own && own->running && own->crc == selected_.crc32)
         restart_ = RestartPoint{own->sequence, own->fraction, own->position};
@@ -42,6 +42,7 @@ void ChannelCore::interrupt(const std::string& why) {
     } else if (states_.busy()) {
       stop_activity();
       states_.interrupt(off);
+      if (reset) drop_offset();
       event("interrupted", why);
       return;
     }

@@ -41,6 +41,14 @@ Active* ChannelStates::active() {
                     state_);
 }
 
+const Active* ChannelStates::active() const {
+  return std::visit(
+      Overloaded{[](const Waiting& s) { return &s.then; }, [](const Holding& s) { return &s.then; },
+                 [](const Held& s) { return &s.then; }, [](const Interrupted& s) { return &s.then; },
+                 [](const auto&) { return static_cast<const Active*>(nullptr); }},
+      state_);
+}
+
 Active ChannelStates::take_active() {
   if (auto* running = std::get_if<Running>(&state_)) return *running;
   if (auto* preparing = std::get_if<Preparing>(&state_)) return std::move(*preparing);
@@ -218,7 +226,7 @@ void ChannelStates::drop_preparation() {
 
 void ChannelStates::suspend(SuspendedProgram program) {
   require(may_suspend());
-  suspended_ = std::move(program);
+  suspended_ = program;
   state_ = Suspended{};
 }
 

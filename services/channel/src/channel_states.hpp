@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <variant>
 
 #include "contracts/types.hpp"
@@ -88,10 +89,10 @@ class ChannelStates {
   bool interpreting() const { return is(Activity::program) || is(Activity::mdi); }
   bool is(Activity activity) const { return this->activity() == activity; }
   /// The running or preparing part, also while it waits, brakes, is held or interrupted; else null.
-  Running* running() { return part<Running>(); }
-  const Running* running() const { return const_cast<ChannelStates*>(this)->part<Running>(); }
-  Preparing* preparing() { return part<Preparing>(); }
-  const Preparing* preparing() const { return const_cast<ChannelStates*>(this)->part<Preparing>(); }
+  Running* running() { return part<Running>(*this); }
+  const Running* running() const { return part<const Running>(*this); }
+  Preparing* preparing() { return part<Preparing>(*this); }
+  const Preparing* preparing() const { return part<const Preparing>(*this); }
   bool retracing() const { return running() != nullptr && running()->retracing; }
   /// The setpoints brake for a feed hold.
   bool feed_hold() const;
@@ -153,14 +154,16 @@ class ChannelStates {
   void forget_suspended() { suspended_.reset(); }
 
  private:
+  /// The state to which this one returns, or null.
   Active* active();
+  const Active* active() const;
   Active take_active();
   static void require(bool allowed);
-  template <class S>
-  S* part() {
-    if (auto* alone = std::get_if<S>(&state_)) return alone;
-    auto* inner = active();
-    return inner == nullptr ? nullptr : std::get_if<S>(inner);
+  template <class S, class Self>
+  static S* part(Self& self) {
+    if (auto* alone = std::get_if<std::remove_const_t<S>>(&self.state_)) return alone;
+    auto* inner = self.active();
+    return inner == nullptr ? nullptr : std::get_if<std::remove_const_t<S>>(inner);
   }
   void advance(Active active);
 

@@ -155,14 +155,14 @@ void ChannelCore::store_state(FlowState state, std::vector<double>& values) cons
   s.running = states_.is(Activity::program) && states_.running() != nullptr && !states_.abandoned() &&
               !lock_.any() && !(last && path->trajectory().at_rest());
   if (const auto* suspended = states_.suspended()) {
-    s.running = !states_.abandoned() && !lock_.any();
+    s.running = !lock_.any();
     point = suspended->progress.point;
     path = &program_path_;
   }
   s.transformation = path->transformation();
   s.tool_length = path->tool_length();
   s.position = path->position();
-  if (restart_ && states_.suspended() == nullptr) {
+  if (restart_) {
     s.running = true;
     point = {restart_->sequence, point.line, restart_->fraction};
     s.transformation = program_flow_.executing().transformation;

@@ -5,6 +5,12 @@
 #include <iterator>
 
 namespace trunnion::channel {
+namespace {
+const char* unit(std::uint8_t axis) {
+  const bool rotary = axis >= language::A && axis <= language::C;
+  return rotary ? " deg" : " mm";
+}
+}  // namespace
 
 void ManualMotion::configure() {
   const auto& limits = machine_.limits();
@@ -41,8 +47,9 @@ std::optional<Refusal> ManualMotion::jog_error(std::uint8_t index, double feed) 
   if (feed == 0) return Refusal{"request_invalid", "Jog needs a speed other than 0"};
   const double fastest = machine_.jog_feed(axis(index));
   if (std::abs(feed) > fastest * 1.0001)
-    return Refusal{"request_invalid", "Jog speed " + number_text(std::abs(feed)) + " is above the axis' " +
-                                          number_text(fastest)};
+    return Refusal{"request_invalid", "Jog speed " + number_text(std::abs(feed)) + unit(axis(index)) +
+                                          "/min is above the " + number_text(fastest) + unit(axis(index)) +
+                                          "/min of axis " + language::axis_letters[axis(index)]};
   return std::nullopt;
 }
 
@@ -86,9 +93,9 @@ std::optional<Refusal> ManualMotion::handwheel_error(std::uint8_t index, double 
   constexpr double most_counts = 10000;
   if (auto error = axis_error(index)) return error;
   if (std::find(std::begin(increments), std::end(increments), increment) == std::end(increments))
-    return Refusal{"request_invalid", "A count of the handwheel is 0.001, 0.01, 0.1 or 1"};
+    return Refusal{"request_invalid", "A count of the handwheel is 0.001, 0.01, 0.1 or 1 mm or degree"};
   if (std::abs(counts) > most_counts || counts != std::floor(counts))
-    return Refusal{"request_invalid", "Counts of the handwheel are whole numbers up to 10000"};
+    return Refusal{"request_invalid", "Counts of the handwheel are whole numbers from -10000 to 10000"};
   return std::nullopt;
 }
 

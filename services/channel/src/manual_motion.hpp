@@ -58,7 +58,7 @@ class ManualMotion {
 
   void step_wheel() { wheel_.step(); }
   bool wheel_at_rest() const { return wheel_.at_rest(); }
-  /// The way of the wheel since it last ended.
+  /// The distance of each axis since the wheel was last ended.
   const AxisValues& wheel() const { return wheel_.position(); }
   void end_wheel() { wheel_.start({}); }
 

@@ -11,7 +11,7 @@
 
 namespace trunnion::channel {
 
-/// One cycle on its way to the drive.
+/// What is written of one cycle.
 struct StreamCycle {
   WrittenSetpoint shown;  ///< its cycle is the writer's
   AxisValues setpoint{};

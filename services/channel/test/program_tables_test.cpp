@@ -52,7 +52,7 @@ TEST(VariableText, AWrongLineIsNamed) {
   }
 }
 
-TEST(TableOrder, ChangesOneFieldOfAToolAndKeepsTheOthers) {
+TEST(TableRequest, ChangesOneFieldOfAToolAndKeepsTheOthers) {
   idl::parameters::ToolTable tools;
   tools.tools = {{3, 100, 0.1, 5, 0.2, "End mill"}};
   language::Command command;
@@ -68,7 +68,7 @@ TEST(TableOrder, ChangesOneFieldOfAToolAndKeepsTheOthers) {
   EXPECT_EQ(request.tools[0].name, "End mill");
 }
 
-TEST(TableOrder, NamesTheWorkOffsetAndItsChannel) {
+TEST(TableRequest, NamesTheWorkOffsetAndItsChannel) {
   language::Command command;
   command.kind = language::CommandKind::table;
   command.table = language::Table::work_offset;
