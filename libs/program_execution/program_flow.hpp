@@ -65,6 +65,7 @@ class ProgramFlow {
   void start(motion::Trajectory& trajectory, language::TextSource& text, const AxisValues& position,
              const language::ModalState& initial, const language::VariableStore& variables,
              const Entry& entry = {}, language::Beginning beginning = language::Beginning::program);
+  bool started() const { return trajectory_ != nullptr; }
   /// Only after start(). Reads until one of the states is reached, at most some thousand commands.
   FlowState fill(bool single_block);
   /// The command fill() stopped at, and done with it.

@@ -14,7 +14,7 @@ namespace trunnion::channel {
 namespace {
 constexpr double history_pause = 1.0;   // without feedback: longer than a drive that lives is ever silent
 constexpr double record_seconds = 0.2;  // between two records of the executed line
-constexpr double text_patience = 0.5;   // without the text that motion waits for, before somebody is told
+constexpr double text_timeout = 0.5;    // without the text that motion waits for, before the alarm
 }  // namespace
 
 ChannelService::ChannelService(service::Node& node)
@@ -50,7 +50,7 @@ ChannelService::ChannelService(service::Node& node)
   read_hand_over();
 }
 
-// A record that cannot be read says nothing about the program: it is put aside and named.
+// A record that cannot be read is renamed, and an alarm names it.
 void ChannelService::read_record() {
   std::ifstream in(record_file_, std::ios::binary);
   if (!in) return;
@@ -92,14 +92,14 @@ void ChannelService::watch_text() {
     text_missing_since_ = 0;
   } else if (text_missing_since_ == 0) {
     text_missing_since_ = now;
-  } else if (text_missing_since_ > 0 && now - text_missing_since_ > text_patience) {
+  } else if (text_missing_since_ > 0 && now - text_missing_since_ > text_timeout) {
     node_.alarms().raise(alarm::text_late, channel,
                          "The program's text does not arrive: see the program service");
-    text_missing_since_ = -1;  // told
+    text_missing_since_ = -1;  // the alarm is raised
   }
 }
 
-// It is good for one process only: one that is killed leaves none, and what then holds is in the drive's cut.
+// It serves one process only: one that is killed leaves none, and the drive's cut is valid then.
 void ChannelService::read_hand_over() {
   std::ifstream in(hand_over_file_, std::ios::binary);
   if (!in) return;
@@ -161,7 +161,7 @@ void ChannelService::save_variables() {
 
 void ChannelService::change_tables() {
   if (auto reply = table_client_.poll()) core_.on_table_changed(reply->accepted ? "" : reply->reason);
-  if (auto order = core_.take_table_order()) table_client_.send(std::move(*order));
+  if (auto request = core_.take_table_request()) table_client_.send(std::move(*request));
 }
 
 void ChannelService::start_stream() {
@@ -198,8 +198,8 @@ void ChannelService::watch_alarms() {
                                           : "");
 }
 
-// Twins: a start waits for both copies; in virtual time no copy is left farther behind than 2 * lead.
-void ChannelService::watch_copies() {
+// Replicas: a start waits for both; in virtual time neither is left farther behind than 2 * lead.
+void ChannelService::watch_replicas() {
   if (!progress_reader_) return;
   const double now = service::monotonic_seconds();
   idl::stream::StageProgress progress;
@@ -216,8 +216,8 @@ void ChannelService::watch_copies() {
     else
       node_.alarms().clear(alarm::redundancy_lost, part);
   }
-  core_.set_copies(replicas_.may_start(now),
-                   node_.options().virtual_time ? replicas_.floor() : stream::ReplicaWatch::everywhere);
+  core_.set_replicas(replicas_.may_start(now),
+                     node_.options().virtual_time ? replicas_.floor() : stream::ReplicaWatch::everywhere);
 }
 
 void ChannelService::answer_requests() {
@@ -266,9 +266,9 @@ void ChannelService::drain() {
   watch_alarms();
 }
 
-// The history of the drive's feedback arrives before its newest, and on a busy machine takes its time: to go
-// on from an older cut would be to cut again what was executed. What a reader without history gets is the
-// present.
+// The history of the drive's feedback arrives before its newest sample, on a busy computer much before it. To
+// continue from an older cut would execute a part of the path twice. A reader without history gets the
+// newest.
 void ChannelService::recover() {
   if (core_.recovered() || !core_.link().has_feedback()) return;
   if (!have_present_) have_present_ = present_reader_->take(present_);
@@ -291,7 +291,7 @@ void ChannelService::pump() {
     core_.on_feedback(feedback_);
   }
   recover();
-  watch_copies();
+  watch_replicas();
   answer_requests();
   fetch_text();
   core_.advance();

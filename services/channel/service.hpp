@@ -34,7 +34,7 @@ class ChannelService : public service::Service {
   void watch_text();
   void read_hand_over();
   void watch_alarms();
-  void watch_copies();
+  void watch_replicas();
   void publish();
 
   service::Node& node_;
@@ -51,7 +51,7 @@ class ChannelService : public service::Service {
   bus::Reader<idl::service::Alarm> alarm_reader_;
   bus::Reader<idl::service::Cluster> cluster_reader_;
   stream::ReplicaWatch replicas_;
-  std::optional<bus::Reader<idl::stream::StageProgress>> progress_reader_;  ///< of a machine with twins
+  std::optional<bus::Reader<idl::stream::StageProgress>> progress_reader_;  ///< of a machine with replicas
   bus::Writer<idl::channel::ChannelState> state_writer_;
   bus::Writer<idl::channel::AuxiliaryRequest> auxiliary_writer_;
   bus::Writer<idl::stream::StreamRequest> stream_writer_;

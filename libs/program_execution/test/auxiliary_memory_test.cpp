@@ -16,9 +16,12 @@ Command auxiliary(std::uint32_t m) {
   return command;
 }
 
-std::vector<std::pair<int, int>> codes(const std::vector<AuxiliaryFunction>& functions) {
-  std::vector<std::pair<int, int>> list;
-  for (const auto& function : functions) list.emplace_back(static_cast<int>(function.kind), function.code);
+using Codes = std::vector<std::pair<AuxiliaryKind, std::uint32_t>>;
+using enum AuxiliaryKind;
+
+Codes codes(const std::vector<AuxiliaryFunction>& functions) {
+  Codes list;
+  for (const auto& function : functions) list.emplace_back(function.kind, function.code);
   return list;
 }
 
@@ -29,12 +32,12 @@ TEST(AuxiliaryMemory, GivesTheFunctionsThatAddUpToTheStateInOneSequence) {
   speed.kind = CommandKind::spindle_speed;
   speed.value = 1200;
   memory.pass(speed);
-  EXPECT_EQ(codes(memory.functions()), (std::vector<std::pair<int, int>>{{2, 0}, {1, 4}, {1, 7}, {1, 8}}));
+  EXPECT_EQ(codes(memory.functions()), (Codes{{S, 0}, {M, 4}, {M, 7}, {M, 8}}));
   EXPECT_EQ(memory.functions()[0].value, 1200);
   EXPECT_EQ(memory.not_repeated(), 1u) << "M50 has no state";
   memory.pass(auxiliary(9));
   memory.pass(auxiliary(5));
-  EXPECT_EQ(codes(memory.functions()), (std::vector<std::pair<int, int>>{{2, 0}, {1, 5}, {1, 9}}));
+  EXPECT_EQ(codes(memory.functions()), (Codes{{S, 0}, {M, 5}, {M, 9}}));
 }
 
 TEST(AuxiliaryMemory, GivesOnlyTheGroupsAgainThatWereChangedMeanwhile) {
@@ -43,10 +46,9 @@ TEST(AuxiliaryMemory, GivesOnlyTheGroupsAgainThatWereChangedMeanwhile) {
   program.pass(auxiliary(8));
   EXPECT_TRUE(program.functions_changed_by(by_hand).empty());
   by_hand.pass(auxiliary(5));
-  EXPECT_EQ(codes(program.functions_changed_by(by_hand)), (std::vector<std::pair<int, int>>{{1, 3}}));
+  EXPECT_EQ(codes(program.functions_changed_by(by_hand)), (Codes{{M, 3}}));
   by_hand.pass(auxiliary(7));  // mist, which the program does not want: both off, flood on again
-  EXPECT_EQ(codes(program.functions_changed_by(by_hand)),
-            (std::vector<std::pair<int, int>>{{1, 9}, {1, 3}, {1, 8}}));
+  EXPECT_EQ(codes(program.functions_changed_by(by_hand)), (Codes{{M, 9}, {M, 3}, {M, 8}}));
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Axis lock: the program runs and what is shown moves, the locked axes stand.
+// Axis lock: the program runs and the displayed positions move, the locked axes stay at rest.
 #pragma once
 
 #include <cstdint>
@@ -11,8 +11,7 @@ using language::AxisValues;
 
 class AxisLock {
  public:
-  /// Locks the axes of `mask` (bit a for language::Axis a) where they stand, `position`, in machine
-  /// coordinates.
+  /// Locks the axes of `mask` (bit a for language::Axis a) at `position`, in machine coordinates.
   void set(std::uint16_t mask, const AxisValues& position) {
     mask_ = mask;
     held_ = position;
@@ -21,11 +20,11 @@ class AxisLock {
   bool locked(std::size_t axis) const { return ((mask_ >> axis) & 1u) != 0; }
   std::uint16_t mask() const { return mask_; }
 
-  /// What the machine is told: `values` with the locked axes where they stand.
+  /// The setpoints: `values` with the locked axes at their position.
   AxisValues hold(AxisValues values) const { return replace(values, held_); }
-  /// What is shown: the machine's `real` position with that of the program for the locked axes.
+  /// For the display: the machine's `real` position with that of the program for the locked axes.
   AxisValues show(AxisValues real, const AxisValues& program) const { return replace(real, program); }
-  /// The axes stand somewhere else now: `real` of the locked ones.
+  /// The locked axes are at `real` now.
   void adopt(const AxisValues& real) { held_ = real; }
 
  private:

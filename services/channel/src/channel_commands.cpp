@@ -1,8 +1,8 @@
 // What an operator may ask of a channel, and when.
-#include <cmath>
-
 #include "channel_core.hpp"
+#include "commands/channel_request.hpp"
 #include "machine/alarm_constants.hpp"
+#include "machine/parameter_constants.hpp"
 
 namespace trunnion::channel {
 
@@ -17,22 +17,16 @@ Answer ChannelCore::startable() const {
   if (!configured()) return refuse(alarm::not_ready, "The channel has no parameters yet");
   if (!ready_) return refuse(alarm::not_ready, "The cluster is not ready: see the services");
   if (!external_hold_.empty()) return refuse(alarm::not_ready, external_hold_);
-  if (!link_.has_feedback()) return refuse(alarm::not_ready, "The drive has not answered yet");
-  if (link_.drive_mode() == DriveMode::off) return refuse(alarm::not_ready, "The drives are off");
+  if (!recovered_) return refuse(alarm::not_ready, "The drive has not answered yet");
+  if (link().drive_mode() == DriveMode::OFF) return refuse(alarm::not_ready, "The drives are off");
+  if (link().drive_mode() == DriveMode::HOMING)
+    return refuse(alarm::not_ready, "An axis searches its reference: wait until it has found it");
   return {};
 }
 
 Answer ChannelCore::handle(const ChannelRequest& request) {
-  const auto finite = std::isfinite(request.value) && std::isfinite(request.increment);
-  if (!finite) return refuse(alarm::request_invalid, "A value is not a finite number");
-  const auto limited = [&](double& out, double low, double high) -> Answer {
-    if (request.value < low || request.value > high)
-      return refuse(alarm::request_invalid, "override " + std::to_string(request.value * 100) +
-                                                " % is outside " + std::to_string(low * 100) + " .. " +
-                                                std::to_string(high * 100) + " %");
-    out = request.value;
-    return {};
-  };
+  if (auto why = commands::outside_limits(request); !why.empty())
+    return refuse(alarm::request_invalid, std::move(why));
   switch (request.command) {
     case CommandKind::SET_MODE:
       return set_mode(request.mode);
@@ -43,7 +37,7 @@ Answer ChannelCore::handle(const ChannelRequest& request) {
     case CommandKind::START_FROM_LINE:
       return start_from_line(request.line);
     case CommandKind::FEED_HOLD:
-      if (run_ == RunState::RUNNING) hold();
+      if (states_.advances()) hold();
       return {};
     case CommandKind::RESET:
       reset();
@@ -60,19 +54,19 @@ Answer ChannelCore::handle(const ChannelRequest& request) {
     case CommandKind::HANDWHEEL:
       return turn_handwheel(request);
     case CommandKind::FEED_OVERRIDE:
-      feed_override_ = request.fraction;
+      switches_.feed_override = request.fraction;
       return {};
     case CommandKind::RAPID_OVERRIDE:
-      rapid_override_ = request.fraction;
+      switches_.rapid_override = request.fraction;
       return {};
     case CommandKind::SPINDLE_OVERRIDE:
-      spindle_override_ = request.fraction;
+      switches_.spindle_override = request.fraction;
       return {};
     case CommandKind::SINGLE_BLOCK:
-      single_block_ = request.on;
+      switches_.single_block = request.on;
       return {};
     case CommandKind::OPTIONAL_STOP:
-      optional_stop_ = request.on;
+      switches_.optional_stop = request.on;
       return {};
     case CommandKind::RETRACE:
       return retrace(request.on);
@@ -86,26 +80,26 @@ Answer ChannelCore::handle(const ChannelRequest& request) {
   return refuse(alarm::request_invalid, "Unknown command");
 }
 
-// A program that is held may be left for MDI and jog; its way back is part of cycle start in AUTO.
+// A program that is held may be left for MDI and manual motion; cycle start in AUTO returns to it. Before its
+// restart point is reached it may not: its trajectory starts there, wherever the axes are.
 Answer ChannelCore::set_mode(Mode mode) {
-  const bool held_program = activity_ == Activity::program && run_ == RunState::HELD && !preparation_ &&
-                            !retracing_ && !tapping_.active() && !skip_.active();
-  if (activity_ != Activity::none && !held_program && mode != mode_)
+  const bool leaves = states_.may_suspend() && !restart_ && !tapping_.active() && !skip_.active();
+  if (states_.busy() && !leaves && mode != mode_)
     return refuse(alarm::request_invalid,
                   "The mode cannot change while the channel is busy: stop or reset it first");
-  if (held_program && mode != Mode::AUTO) suspend();
+  if (leaves && mode != Mode::AUTO) suspend();
   mode_ = mode;
   return {};
 }
 
 Answer ChannelCore::select(const std::string& name) {
-  if (activity_ != Activity::none || suspended_)
+  if (!states_.in<Idle>())
     return refuse(alarm::request_invalid, "A program cannot be selected while the channel is busy");
   for (const auto& entry : programs_.programs)
     if (entry.name == name) {
       if (interrupted_.name != name) interrupted_ = {};
       selected_ = entry;
-      shown_ = {};
+      progress_.executed = {};
       return {};
     }
   return refuse(alarm::program_missing, "Program '" + name + "' is not in the store");
@@ -113,106 +107,86 @@ Answer ChannelCore::select(const std::string& name) {
 
 Answer ChannelCore::cycle_start() {
   if (auto answer = startable(); !answer.accepted) return answer;
-  switch (run_) {
-    case RunState::IDLE:
-      if (mode_ != Mode::AUTO)
-        return refuse(alarm::request_invalid, "Cycle start needs mode AUTO (or an MDI line)");
-      if (selected_.name.empty()) return refuse(alarm::program_missing, "No program is selected");
-      return start_program({});
-    case RunState::HELD:
-      if (suspended_ && activity_ == Activity::none) return go_on_after_suspension();
-      retracing_ = hold_ = false;
-      trajectory_->retrace(false);
-      run_ = RunState::RUNNING;
-      return {};
-    case RunState::INTERRUPTED:
-      return go_on_after_interruption();
-    default:
-      return refuse(alarm::request_invalid, "The channel is busy");
+  if (states_.in<Idle>()) {
+    if (mode_ != Mode::AUTO)
+      return refuse(alarm::request_invalid, "Cycle start needs mode AUTO (or an MDI line)");
+    if (selected_.name.empty()) return refuse(alarm::program_missing, "No program is selected");
+    return start_program({});
   }
+  if (states_.in<Suspended>()) return continue_after_suspension();
+  if (states_.in<Interrupted>()) return continue_after_interruption();
+  if (!states_.in<Held>()) return refuse(alarm::request_invalid, "The channel is busy");
+  path().trajectory().retrace(false);
+  states_.resume();
+  return {};
 }
 
-Answer ChannelCore::go_on_after_interruption() {
-  if (must_reset_)
+Answer ChannelCore::continue_after_interruption() {
+  if (states_.needs_reset())
     return refuse(alarm::not_ready, "The drives were switched off in the program: reset the channel");
-  if (restart_) {  // the stream was lost: begin anew at the newest point that was executed
+  if (restart_ && stream_.idle()) {  // the stream was lost: restart at the newest point that was executed
     Entry entry;
     entry.restart = *restart_;
     // What was on its way through the stages may have been executed since.
-    if (const auto own = snapshot_of(link_.snapshot()); own && own->running && own->crc == selected_.crc32)
+    if (const auto own = snapshot_of(link().snapshot()); own && own->running && own->crc == selected_.crc32)
       entry.restart = RestartPoint{own->sequence, own->fraction, own->position};
     return start_program(entry);
   }
-  link_.request_resume();
-  hold_ = false;
-  run_ = aborting_ ? RunState::HOLDING : RunState::RUNNING;
+  stream_.link().request_resume();
+  states_.resume_interrupted();
   return {};
 }
 
 Answer ChannelCore::reference(std::uint8_t index) {
   if (mode_ != Mode::REF) return refuse(alarm::request_invalid, "Reference return needs mode REF");
-  const auto& axes = machine_.channel_axes().index;
-  if (index >= axes.size())
-    return refuse(alarm::request_invalid, "The channel has no axis number " + std::to_string(index));
-  return start_move(axes[index], machine_.reference_position()[axes[index]],
-                    machine_.reference_feed(axes[index]));
+  auto move = manual_.reference(index);
+  if (auto* refusal = std::get_if<Refusal>(&move)) return refuse(std::move(*refusal));
+  const auto number = machine_.channel_axes().number[index];
+  if (parameters_ && parameters_->integer(parameter::homing_direction, number) != 0) {
+    if (states_.busy()) return refuse(alarm::request_invalid, "The channel is busy");
+    if (auto answer = startable(); !answer.accepted) return answer;
+    stream_.link().request_homing(number);
+    return {};
+  }
+  return start_move(std::get<AxisMove>(move));
 }
 
 Answer ChannelCore::jog(const ChannelRequest& request) {
   if (mode_ != Mode::JOG) return refuse(alarm::request_invalid, "Jog needs mode JOG");
-  const auto& axes = machine_.channel_axes().index;
-  if (request.axis >= axes.size())
-    return refuse(alarm::request_invalid, "The channel has no axis number " + std::to_string(request.axis));
-  if (request.value == 0) return refuse(alarm::request_invalid, "Jog needs a speed other than 0");
-  const auto axis = axes[request.axis];
-  const double fastest = machine_.jog_feed(axis);
-  if (std::abs(request.value) > fastest * 1.0001)
-    return refuse(alarm::request_invalid, "Jog speed " + std::to_string(std::abs(request.value)) +
-                                              " is above the axis' " + std::to_string(fastest));
-  if (activity_ != Activity::none) return refuse(alarm::request_invalid, "The channel is busy");
+  if (auto error = manual_.jog_error(request.axis, request.speed)) return refuse(std::move(*error));
+  if (states_.busy()) return refuse(alarm::request_invalid, "The channel is busy");
   adopt_position();
-  const auto& travel = machine_.travel(axis);
-  const double direction = request.speed > 0 ? 1 : -1;
-  const double from = machine_start_[axis] + offset_.target()[axis];
-  const double end = direction > 0 ? travel.positive : travel.negative;
-  if ((end - from) * direction <= 0)
-    return refuse(alarm::travel_limit,
-                  std::string("Axis ") + language::axis_letters[axis] + " is at its travel limit");
-  const double way = request.increment > 0 ? direction * request.increment : end - from;
-  return start_move(axis, machine_start_[axis] + way, std::abs(request.speed));
+  auto move = manual_.jog(request.axis, request.speed, request.increment, machine_start_);
+  if (auto* refusal = std::get_if<Refusal>(&move)) return refuse(std::move(*refusal));
+  return start_move(std::get<AxisMove>(move));
 }
 
 void ChannelCore::stop_jog() {
-  if (activity_ == Activity::handwheel) {
-    wheel_.stop();
-    offset_.stop();
-  }
-  if (activity_ != Activity::jog || aborting_) return;
-  aborting_ = true;
-  trajectory_->abort();
+  if (states_.is(Activity::handwheel)) manual_.stop();
+  if (!states_.is(Activity::jog) || states_.abandoned()) return;
+  states_.stop_jog();
+  path().trajectory().abort();
 }
 
 void ChannelCore::reset() {
   ++reset_count_;
-  must_reset_ = retracing_ = false;
   interrupted_ = {};
-  const bool moving = activity_ != Activity::none && link_.state() == LinkState::active &&
-                      run_ != RunState::INTERRUPTED && run_ != RunState::HELD;
-  suspended_.reset();
-  modal_ = power_on_modal();
-  frames_kept_ = false;
+  const bool moving = states_.busy() && link().state() == LinkState::active && !states_.in<Interrupted>() &&
+                      !states_.in<Held>();
+  states_.forget_suspended();
+  mdi_.modal = power_on_modal();
+  mdi_.frames_kept = false;
   if (moving) {
-    aborting_ = true;
-    reset_due_ = true;
-    run_ = RunState::HOLDING;
-    offset_.stop();
-    wheel_.stop();
-    trajectory_->abort();
+    states_.reset_at_rest();
+    manual_.stop();
+    path().trajectory().abort();
     return;
   }
-  if (activity_ != Activity::none) stop_activity();
-  run_ = RunState::IDLE;
-  if (link_.state() == LinkState::idle) drop_offset();
+  if (states_.busy())
+    stop_activity();
+  else
+    states_.end();
+  if (stream_.idle()) drop_offset();
   apply_parameters();
 }
 

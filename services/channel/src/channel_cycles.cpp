@@ -3,22 +3,21 @@
 
 namespace trunnion::channel {
 
-// The axes stand, and nothing is read on before the move has ended.
+// The axes are at rest, and nothing is read ahead before the move has ended.
 void ChannelCore::begin_skip() {
   const auto input = flow().pending().number;
   if (flow().push_pending() != FlowState::alarm) skip_.begin(input);
 }
 
 void ChannelCore::finish_skip() {
+  const auto& path = this->path();
   SkipResult result;
-  result.stopped = result.touched = trajectory_->position();
+  result.stopped = result.touched = path.position();
   if (const auto& touch = skip_.touch()) {
-    // The path at the cycle of the edge, and how far the axes were off it when the input came on.
-    AxisValues at = written_[touch->cycle % history].position;
-    const bool tip = frame_ == language::Transformation::rtcp;
-    if (tip) at = machine_.machine_from_tip(at, frame_tool_length_);
-    for (std::size_t i = 0; i < at.size(); ++i) at[i] += touch->deviation[i];
-    result.touched = tip ? machine_.tip_from_machine(at, frame_tool_length_) : at;
+    // The path at the cycle of the edge, and the axes' deviation from it when the input came on.
+    AxisValues machine = path.machine_of(stream_.at(touch->cycle).position);
+    for (std::size_t i = 0; i < machine.size(); ++i) machine[i] += touch->deviation[i];
+    result.touched = path.path_of(machine);
   }
   skip_.end();
   flow().skip_ended(result);
@@ -30,9 +29,9 @@ void ChannelCore::begin_tapping() {
     flow().refuse_pending(language::AlarmNumber::tapping_spindle_missing);
     return;
   }
-  tapping_.begin(trajectory_->position(), flow().pending());
-  trajectory_->set_limits(tapping_.limits(path_limits_, spindle.acceleration));
-  trajectory_->start(trajectory_->position(), frame_, frame_tool_length_);
+  tapping_.begin(path().position(), flow().pending());
+  path().trajectory().set_limits(tapping_.limits(manual_.path_limits(), spindle.acceleration));
+  path().restart();
   flow().set_tapping(true);
 }
 
@@ -40,8 +39,8 @@ void ChannelCore::finish_tapping() {
   if (!tapping_.active()) return;
   tapping_.end();
   flow().set_tapping(false);
-  trajectory_->set_limits(path_limits_);
-  trajectory_->start(trajectory_->position(), frame_, frame_tool_length_);
+  path().trajectory().set_limits(manual_.path_limits());
+  path().restart();
 }
 
 }  // namespace trunnion::channel

@@ -8,33 +8,36 @@
 namespace trunnion::channel {
 
 std::string ChannelCore::detail() const {
-  const bool running = run_ == RunState::RUNNING;
-  if (preparation_ && run_ == RunState::HELD)
-    return "cycle start: " + words_of(*preparation_, machine_start_);
-  if (running && activity_ == Activity::program && program_flow_.searching())
-    return "searching line " + std::to_string(shown_.line);
+  const bool running = states_.advances(), held = states_.in<Held>();
+  const auto* preparing = states_.preparing();
+  const auto& executed = progress_.executed;
+  if (preparing != nullptr && held) return "cycle start: " + words_of(preparing->preparation, machine_start_);
+  if (running && states_.is(Activity::program) && program_flow_.searching())
+    return "searching line " + std::to_string(executed.line);
   if (waits_for_text()) return "waiting for the text of the program";
-  if (running && preparing_motion_) return "approaching the program";
-  if (running && interpreting() && (shown_.rapid ? rapid_override_ : feed_override_) == 0)
-    return shown_.rapid ? "the rapid override is 0 %" : "the feed override is 0 %";
-  if (retracing_ && run_ == RunState::HELD)
-    return "gone back as far as the path is kept; cycle start: forwards";
-  if (suspended_) return "the program is held in line " + std::to_string(suspended_->shown.line);
-  if (!external_hold_.empty() && run_ == RunState::HELD) return external_hold_;
-  return "";
+  if (running && preparing != nullptr && preparing->approaching) return "approaching the program";
+  if (running && states_.interpreting() &&
+      (executed.rapid ? switches_.rapid_override : switches_.feed_override) == 0)
+    return executed.rapid ? "the rapid override is 0 %" : "the feed override is 0 %";
+  if (held && states_.retracing()) return "gone back as far as the path is kept; cycle start: forwards";
+  if (const auto* suspended = states_.suspended())
+    return "the program is held in line " + std::to_string(suspended->progress.executed.line);
+  return states_.published() == RunState::HELD ? external_hold_ : "";
 }
 
 // Of the block that is executed, not of those read ahead. At rest the frames of the last MDI line act, on the
-// tables as they are now; those of a held program when nothing was typed into it.
+// tables as they are now; those of a held program when no MDI line was entered in it.
 language::ProgramFrame ChannelCore::executed_frame(const language::ModalState& modal) const {
   const language::ProgramFrame* known = nullptr;
-  if (interpreting())
-    known = flow().frames().at(retracing_ ? shown_.sequence : std::max(shown_.sequence, reached_));
-  else if (suspended_ && !frames_kept_)
-    known = program_flow_.frames().at(suspended_->shown.sequence);
+  const auto sequence = progress_.executed.sequence;
+  const auto* suspended = states_.suspended();
+  if (states_.interpreting())
+    known = flow().frames().at(states_.retracing() ? sequence : std::max(sequence, progress_.reached));
+  else if (suspended != nullptr && !mdi_.frames_kept)
+    known = program_flow_.frames().at(suspended->progress.executed.sequence);
   if (known != nullptr) return *known;
   language::ProgramFrame frame;
-  const auto* typed = frames_kept_ ? mdi_flow_.frames().newest() : nullptr;
+  const auto* typed = mdi_.frames_kept ? mdi_flow_.frames().newest() : nullptr;
   if (typed != nullptr) frame = *typed;
   frame.set_work_offset(machine_.work_offset(modal.work_offset));
   frame.set_tilt(modal.tilt);
@@ -44,9 +47,10 @@ language::ProgramFrame ChannelCore::executed_frame(const language::ModalState& m
 void ChannelCore::show_positions() {
   auto& s = state_;
   const auto& index = machine_.channel_axes().index;
-  const auto& modal = interpreting() ? flow().executing() : modal_;
-  const bool moving = link_.state() == LinkState::active || link_.state() == LinkState::ending;
-  const AxisValues position = lock_.show(drive_position(), moving ? shown_.machine : machine_start_);
+  const auto& modal = states_.interpreting() ? flow().executing() : mdi_.modal;
+  const bool moving = stream_.moving();
+  const AxisValues position =
+      lock_.show(drive_position(), moving ? progress_.executed.machine : machine_start_);
   AxisValues tip = position;
   if (s.rtcp)
     tip = machine_.tip_from_machine(position, modal.tool_length);
@@ -56,7 +60,7 @@ void ChannelCore::show_positions() {
   for (std::size_t i = 0; i < index.size(); ++i) {
     s.machine[i] = position[index[i]];
     s.workpiece[i] = words[index[i]];
-    s.distance_to_go[i] = moving ? shown_.distance_to_go[index[i]] : 0;
+    s.distance_to_go[i] = moving ? progress_.executed.distance_to_go[index[i]] : 0;
   }
 }
 
@@ -65,28 +69,29 @@ const idl::channel::ChannelState& ChannelCore::state() {
   s.channel = number_;
   s.name = parameters_ ? parameters_->text(parameter::channel_name, number_) : "";
   if (s.name.empty()) s.name = "CH" + std::to_string(number_);
-  s.cycle = link_.executed();
+  s.cycle = link().executed();
   s.mode = mode_;
-  s.state = run_;
+  s.state = states_.published();
   s.program = selected_.name;
   s.program_revision = selected_.revision;
-  s.line = shown_.line;
+  s.line = progress_.executed.line;
   s.lines_total = selected_.lines;
-  s.progress = selected_.lines > 0 ? std::min(1.0, static_cast<double>(shown_.line) / selected_.lines) : 0;
-  const auto& modal = interpreting() ? flow().executing() : modal_;
+  s.progress = selected_.lines > 0 ? std::min(1.0, static_cast<double>(s.line) / selected_.lines) : 0;
+  const auto& modal = states_.interpreting() ? flow().executing() : mdi_.modal;
   s.modal = modal_codes(modal);
-  const bool moving = link_.state() == LinkState::active || link_.state() == LinkState::ending;
-  s.feed = moving ? shown_.feed * 60 : 0;
+  s.feed = stream_.moving() ? progress_.executed.feed * 60 : 0;
   s.programmed_feed = modal.feed;
   s.spindle_programmed = spindle_programmed_;
-  s.feed_override = feed_override_, s.rapid_override = rapid_override_,
-  s.spindle_override = spindle_override_;
+  s.feed_override = switches_.feed_override;
+  s.rapid_override = switches_.rapid_override;
+  s.spindle_override = switches_.spindle_override;
   s.tool = tool_;
   s.length_offset = modal.length_offset;
   s.tool_length = modal.tool_length;
   s.work_offset = modal.work_offset;
   s.rtcp = modal.transformation == language::Transformation::rtcp;
-  s.single_block = single_block_, s.optional_stop = optional_stop_;
+  s.single_block = switches_.single_block;
+  s.optional_stop = switches_.optional_stop;
   s.axes = machine_.channel_axes().number;
   s.letters = machine_.channel_axes().letters;
   const auto& index = machine_.channel_axes().index;
@@ -97,18 +102,19 @@ const idl::channel::ChannelState& ChannelCore::state() {
   s.reset_count = reset_count_;
   s.revision = machine_.revision();
   s.frames_ahead =
-      static_cast<std::uint32_t>(link_.next() > link_.executed() ? link_.next() - link_.executed() : 0);
+      static_cast<std::uint32_t>(link().next() > link().executed() ? link().next() - link().executed() : 0);
   s.homed = true;  // absolute encoders
-  s.dry_run = dry_run_, s.auxiliary_lock = auxiliary_lock_;
-  s.block_skip = block_skip_;
-  s.retracing = retracing_;
-  s.suspended = suspended_.has_value();
-  s.handwheel_offset_on = offset_on_;
+  s.dry_run = switches_.dry_run;
+  s.auxiliary_lock = switches_.auxiliary_lock;
+  s.block_skip = switches_.block_skip;
+  s.retracing = states_.retracing();
+  s.suspended = states_.suspended() != nullptr;
+  s.handwheel_offset_on = manual_.offset_on();
   s.locked.resize(index.size());
   s.handwheel_offset.resize(index.size());
   for (std::size_t i = 0; i < index.size(); ++i) {
     s.locked[i] = lock_.locked(index[i]) ? 1 : 0;
-    s.handwheel_offset[i] = offset_.position()[index[i]];
+    s.handwheel_offset[i] = manual_.offset()[index[i]];
   }
   s.restart_line = interrupted_.line;
   s.detail = detail().substr(0, 128);

@@ -1,7 +1,4 @@
-// What an operator switches: dry run, locks, block skip; and the handwheel.
-#include <algorithm>
-#include <cmath>
-
+// What an operator switches: dry run, locks, block skip; the handwheel and retrace.
 #include "channel_core.hpp"
 #include "machine/alarm_constants.hpp"
 
@@ -13,15 +10,15 @@ using idl::channel::CommandKind;
 // They change what a program does from its first block on, so they are chosen before it: the blocks that are
 // planned already would not follow.
 Answer ChannelCore::set_switch(const ChannelRequest& request) {
-  if (activity_ != Activity::none || suspended_)
+  if (!states_.in<Idle>())
     return refuse(alarm::request_invalid,
                   "Stop or reset the program first: this holds from its first block on");
   switch (request.command) {
     case CommandKind::DRY_RUN:
-      dry_run_ = request.on;
+      switches_.dry_run = request.on;
       return {};
     case CommandKind::AUXILIARY_LOCK:
-      auxiliary_lock_ = request.on;
+      switches_.auxiliary_lock = request.on;
       return {};
     case CommandKind::AXIS_LOCK:
       return lock_axes(request.axes);
@@ -35,119 +32,108 @@ Answer ChannelCore::set_switch(const ChannelRequest& request) {
 }
 
 // With the lock off the program's position is that of the axes again.
-Answer ChannelCore::lock_axes(double mask) {
-  if (!configured() || !link_.has_feedback())
+Answer ChannelCore::lock_axes(std::uint16_t mask) {
+  if (!configured() || !link().has_feedback())
     return refuse(alarm::not_ready, "The drive has not answered yet");
   const auto& axes = machine_.channel_axes().index;
-  if (!(mask >= 0 && mask < std::exp2(axes.size()) && mask == std::floor(mask)))
+  if (mask >> axes.size() != 0)
     return refuse(alarm::request_invalid, "The channel has " + std::to_string(axes.size()) + " axes to lock");
-  if (offset_on_ && mask != 0)
+  if (manual_.offset_on() && mask != 0)
     return refuse(alarm::request_invalid, "Switch the handwheel offset off before axes are locked");
   adopt_position();
-  std::uint16_t wanted = 0;
+  std::uint16_t locked = 0;
   for (std::size_t i = 0; i < axes.size(); ++i)
-    if ((mask >> i & 1u) != 0) wanted = static_cast<std::uint16_t>(wanted | 1u << axes[i]);
+    if ((mask >> i & 1u) != 0) locked = static_cast<std::uint16_t>(locked | 1u << axes[i]);
   machine_start_ = lock_.hold(machine_start_);
-  lock_.set(wanted, machine_start_);
+  lock_.set(locked, machine_start_);
   return {};
 }
 
-Answer ChannelCore::set_block_skip(double mask) {
-  constexpr double all = 0x1ff;  // levels 1 to 9
-  if (!(mask >= 0 && mask <= all && mask == std::floor(mask)))
-    return refuse(alarm::request_invalid, "Block skip has levels 1 to 9: bits 0 to 8");
-  block_skip_ = static_cast<language::SkipLevels>(mask);
+Answer ChannelCore::set_block_skip(std::uint16_t mask) {
+  constexpr std::uint16_t all = 0x1ff;  // levels 1 to 9
+  if (mask > all) return refuse(alarm::request_invalid, "Block skip has levels 1 to 9: bits 0 to 8");
+  switches_.block_skip = static_cast<language::SkipLevels>(mask);
   return {};
 }
 
 Answer ChannelCore::set_handwheel_offset(bool on) {
-  if (!configured() || link_.state() != LinkState::idle)
-    return refuse(alarm::request_invalid, "The channel is busy");
+  if (!configured() || !stream_.idle()) return refuse(alarm::request_invalid, "The channel is busy");
   if (on && lock_.any()) return refuse(alarm::request_invalid, "Unlock the axes before a handwheel offset");
-  if (on == offset_on_) return {};
+  if (on == manual_.offset_on()) return {};
   if (!on) {
     drop_offset();
     return {};
   }
-  offset_on_ = true;
-  build_trajectories();
+  manual_.switch_offset(true);
+  build_paths();
   return {};
 }
 
-// The axes stay where they are: what was offset is their position now.
+// The axes stay where they are: the path's position includes what was offset from now on.
 void ChannelCore::drop_offset() {
-  if (!offset_on_) return;
-  for (std::size_t i = 0; i < machine_start_.size(); ++i) machine_start_[i] += offset_.position()[i];
-  offset_on_ = false;
-  offset_.start({});
-  build_trajectories();
+  if (!manual_.offset_on()) return;
+  for (std::size_t i = 0; i < machine_start_.size(); ++i) machine_start_[i] += manual_.offset()[i];
+  manual_.switch_offset(false);
+  manual_.place_offset({});
+  build_paths();
 }
 
 Answer ChannelCore::turn_handwheel(const ChannelRequest& request) {
-  const auto& axes = machine_.channel_axes().index;
-  if (request.axis >= axes.size())
-    return refuse(alarm::request_invalid, "The channel has no axis number " + std::to_string(request.axis));
-  if (std::find(std::begin(increments), std::end(increments), request.increment) == std::end(increments))
-    return refuse(alarm::request_invalid, "A count of the handwheel is 0.001, 0.01, 0.1 or 1");
-  if (std::abs(request.value) > most_counts || request.value != std::floor(request.value))
-    return refuse(alarm::request_invalid, "Counts of the handwheel are whole numbers up to 10000");
+  if (auto error = manual_.axis_error(request.axis)) return refuse(std::move(*error));
   const bool by_hand = mode_ == Mode::JOG;
-  if (!by_hand && !offset_on_)
+  if (!by_hand && !manual_.offset_on())
     return refuse(alarm::request_invalid, "The handwheel needs mode JOG, or its offset switched on");
-  const bool turning = activity_ == Activity::handwheel;
-  const bool in_motion = !by_hand && interpreting() && run_ == RunState::RUNNING && !aborting_ &&
-                         !tapping_.active() && !skip_.active();
-  if (activity_ != Activity::none && !turning && !in_motion)
+  const bool turning = states_.is(Activity::handwheel);
+  const bool in_motion =
+      !by_hand && states_.interpreting() && states_.advances() && !tapping_.active() && !skip_.active();
+  if (states_.busy() && !turning && !in_motion)
     return refuse(alarm::request_invalid,
-                  "The channel is busy: the handwheel waits for its motion to end or go on");
-  if (!by_hand && suspended_ && !turning)
+                  "The channel is busy: the handwheel waits for its motion to end or continue");
+  if (!by_hand && states_.suspended() != nullptr && !turning)
     return refuse(alarm::request_invalid, "A program is held: the handwheel moves axes in mode JOG");
   if (auto answer = startable(); !answer.accepted) return answer;
   if (!turning && !in_motion) {
     apply_parameters();
     adopt_position();
   }
-  const auto axis = axes[request.axis];
-  const auto& travel = machine_.travel(axis);
+  const auto axis = machine_.channel_axes().index[request.axis];
   const double distance = request.counts * request.increment;
   double added = 0;
   if (by_hand) {
-    const double at = machine_start_[axis] + offset_.target()[axis];
-    added = wheel_.turn(axis, distance, travel.negative - at, travel.positive - at);
+    added = manual_.turn(axis, distance, machine_start_);
   } else {
     // The path that is planned already must keep its travel with the new offset.
-    const auto box = in_motion ? flow().extent() : channel_setup::AxisBox::of(machine_start_);
-    added = offset_.turn(axis, distance, travel.negative - box.low[axis], travel.positive - box.high[axis]);
-    if (in_motion) flow().set_offset(offset_.target());
+    added = manual_.turn_offset(axis, distance,
+                                in_motion ? flow().extent() : channel_setup::AxisBox::of(machine_start_));
+    if (in_motion) flow().set_offset(manual_.offset_target());
   }
   if (distance != 0 && added == 0)
-    return refuse(alarm::travel_limit, std::string("Axis ") + language::axis_letters[axis] +
+    return refuse(alarm::travel_limit, "Axis " + std::string(1, language::axis_letters[axis]) +
                                            " has no travel left for the handwheel");
   if (!turning && !in_motion) begin_manual(Activity::handwheel);
   return {};
 }
 
-// Off only stops: the way forwards is the program's, and begins with cycle start.
+// Off only stops: the direction forwards is the program's, and begins with cycle start.
 Answer ChannelCore::retrace(bool on) {
-  if (on == retracing_) return {};
+  if (on == states_.retracing()) return {};
   if (!on) {
-    retracing_ = false;
-    if (run_ == RunState::RUNNING) hold();
+    states_.retrace(false);
+    if (states_.advances()) hold();
     return {};
   }
-  const bool program = activity_ == Activity::program && !preparation_ && !restart_ && !aborting_ &&
+  const bool program = states_.is(Activity::program) && states_.running() != nullptr && !restart_ &&
                        !program_flow_.searching() && !tapping_.active() && !skip_.active();
-  if (!program || (run_ != RunState::RUNNING && run_ != RunState::HELD))
+  if (!program || (!states_.in<Running>() && !states_.in<Held>()))
     return refuse(alarm::request_invalid, "Only a program that runs or is held can be retraced");
   if (auto answer = startable(); !answer.accepted) return answer;
-  trajectory_->retrace(true);
-  if (trajectory_->at_rest()) {
-    trajectory_->retrace(false);
+  auto& trajectory = path().trajectory();
+  trajectory.retrace(true);
+  if (trajectory.at_rest()) {
+    trajectory.retrace(false);
     return refuse(alarm::request_invalid, "No path is behind the program that it could go back over");
   }
-  retracing_ = true;
-  hold_ = false;
-  run_ = RunState::RUNNING;
+  states_.retrace(true);
   return {};
 }
 

@@ -24,7 +24,7 @@ struct HandOver {
 /// `name value` for each field, numbers exact to the bit.
 std::string write_hand_over(const HandOver& hand_over, const std::string& boot);
 
-/// What such a text says; fields it does not have keep their value. Throws std::runtime_error with file:line
+/// Reads such a text; fields it does not have keep their value. Throws std::runtime_error with file:line
 /// for what is no such line. False, and nothing is changed, when it was written in another `boot`.
 bool read_hand_over(const std::string& text, const std::string& file, const std::string& boot,
                     HandOver& hand_over);

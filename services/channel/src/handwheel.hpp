@@ -11,16 +11,16 @@ namespace trunnion::channel {
 
 using canonical::AxisValues;
 
-/// One axis on its way to a target that may change in every cycle. Its position is a ramp of limited
+/// One axis that moves to a target that may change in every cycle. Its position is a ramp of limited
 /// velocity, averaged over two windows: the first bounds the acceleration, the second the jerk, so every
 /// limit is kept whatever the targets do, and the position never leaves the range of the targets given since
-/// it stood still.
+/// it was at rest.
 class AxisFollower {
  public:
-  /// Stands at 0. Limits in mm or degrees and seconds, above 0; where an axis would need more than
+  /// At rest at 0. Limits in mm or degrees and seconds, above 0; where an axis would need more than
   /// `longest_window` cycles to its velocity, it goes slower.
   void configure(double velocity, double acceleration, double jerk, double cycle_seconds);
-  /// Stands at `position`.
+  /// At rest at `position`.
   void start(double position);
   void set_target(double target) { target_ = target; }
   /// The target becomes what is reached soonest: the follower comes to rest.
@@ -57,8 +57,8 @@ class AxisFollower {
 /// The followers of a channel's axes.
 class Handwheel {
  public:
-  /// Stands at 0 everywhere. `velocity` is the fastest of each axis in units/s; `share` (0..1] of every limit
-  /// is taken.
+  /// At rest at 0 everywhere. `velocity` is the fastest of each axis in units/s; `share` (0..1] of every
+  /// limit is taken.
   void configure(const motion::Limits& limits, const AxisValues& velocity, double share,
                  double cycle_seconds);
   void start(const AxisValues& position);

@@ -44,11 +44,11 @@ std::string words_of(const Preparation& preparation, const AxisValues& from) {
   std::string words;
   char text[40];
   for (const auto& function : preparation.functions) {
-    if (function.kind == program_execution::AuxiliaryKind::s)
+    if (function.kind == program_execution::AuxiliaryKind::S)
       std::snprintf(text, sizeof text, "S%g", function.value);
     else
-      std::snprintf(text, sizeof text, "%c%u", function.kind == program_execution::AuxiliaryKind::t ? 'T' : 'M',
-                    function.code);
+      std::snprintf(text, sizeof text, "%c%u",
+                    function.kind == program_execution::AuxiliaryKind::T ? 'T' : 'M', function.code);
     words += (words.empty() ? "" : " ") + std::string(text);
   }
   AxisValues at = from;

@@ -19,14 +19,14 @@ struct Touch {
   AxisValues deviation{};  ///< latched position minus what was commanded for `cycle`
 };
 
-/// Watches one input while a skip move is on its way. Only an edge within the motion counts: one that the
-/// feedback reports for the first cycle or before came while the axes stood.
+/// Watches one input during a skip move. Only an edge within the motion counts: one that the
+/// feedback reports for the first cycle or before came while the axes were at rest.
 class SkipMove {
  public:
   void begin(std::uint32_t input);
   void end() { input_.reset(); }
   bool active() const { return input_.has_value(); }
-  /// The motion goes on, or begins, in `cycle`.
+  /// The motion starts or continues in `cycle`.
   void moves_from(std::uint64_t cycle);
   /// `axes` and `columns`: the channel's axes and their columns in the feedback.
   void on_feedback(const idl::stream::FeedbackFrame& feedback, const machine::ChannelAxes& axes,

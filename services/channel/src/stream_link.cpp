@@ -11,8 +11,8 @@ void StreamLink::on_feedback(const idl::stream::FeedbackFrame& feedback) {
   mode_ = feedback.mode;
   executed_ = std::max(executed_, feedback.first + feedback.count);
   positions_ = feedback.position;
-  // The first word of a drive that has just begun names its parameters, and nobody who could have switched it
-  // off.
+  // The first feedback of a drive that has just started applies its parameters, and no input that could have
+  // switched it off.
   drive_restarted_ =
       feedback.applied.size() == 1 && feedback.applied[0].input == idl::stream::Input::PARAMETER_SET;
   for (const auto& echo : feedback.channels) {
@@ -24,7 +24,7 @@ void StreamLink::on_feedback(const idl::stream::FeedbackFrame& feedback) {
     if (forgotten && state_ == LinkState::idle) new_epoch_ = true;  // it knows no epoch of ours
     if (echo.snapshot.valid) snapshot_ = echo.snapshot;
     if (!echo.states.empty()) states_ = echo.states;
-    if (!asked_) {  // a process before this one may have: numbers and epochs go on from its newest
+    if (!asked_) {  // a process before this one may have: numbers and epochs continue from its newest
       request_ = echo.request;
       epoch_ = echo.epoch;
     }
@@ -55,7 +55,7 @@ void StreamLink::on_feedback(const idl::stream::FeedbackFrame& feedback) {
 
 void StreamLink::request(StreamRequestKind kind) {
   asked_ = true;
-  outgoing_ = {channel_, ++request_, kind, epoch_};
+  outgoing_ = {channel_, ++request_, kind, epoch_, 0};
 }
 
 void StreamLink::request_start() {
@@ -66,7 +66,7 @@ void StreamLink::request_start() {
 
 void StreamLink::request_homing(std::uint16_t axis) {
   asked_ = new_epoch_ = true;
-  outgoing_ = {channel_, ++request_, 5, axis};
+  outgoing_ = {channel_, ++request_, StreamRequestKind::HOME, epoch_, axis};
 }
 
 void StreamLink::request_resume() {

@@ -1,4 +1,4 @@
-// The channel's end of the stream: its place in it, its credits, and what the drive says of it.
+// The channel's end of the stream: its place in it, its credits, and what the drive reports of it.
 #pragma once
 
 #include <optional>
@@ -48,7 +48,7 @@ class StreamLink {
     new_epoch_ = true;
   }
 
-  /// A resume was asked for and the drive has not answered: its hold is old news.
+  /// A resume was requested and the drive has not answered: the hold it reports is over.
   bool resuming() const { return resuming_; }
   LinkState state() const { return state_; }
   /// Nothing before the first feedback.
@@ -66,7 +66,7 @@ class StreamLink {
   const std::vector<double>& positions() const { return positions_; }
   /// The drive still executes (or holds) a stream of ours that this process did not write.
   bool echo_active() const { return echo_active_; }
-  /// The newest feedback is the first of another process of the drive: it does not know what was answered.
+  /// The newest feedback is the first of another process of the drive, which has answered nothing yet.
   bool drive_restarted() const { return drive_restarted_; }
   std::optional<idl::stream::StreamRequest> take_request();
 

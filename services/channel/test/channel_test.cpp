@@ -41,7 +41,7 @@ TEST_F(Channel, TheTrajectoryDoesNotDependOnWhenFramesAreExecuted) {
   EXPECT_EQ(drive.rows, whole);
 }
 
-TEST_F(Channel, HoldStopsOnThePathAndCycleStartGoesOn) {
+TEST_F(Channel, HoldStopsOnThePathAndCycleStartContinues) {
   load("G90\nG1 X100 Y50 F6000\nM30\n");
   cycles_per_round = 8;
   ask(CommandKind::CYCLE_START);
@@ -141,7 +141,7 @@ TEST_F(Channel, AHoldOfTheDriveInterruptsAndCycleStartResumesTheSameStream) {
   EXPECT_EQ(drive.starts, 1) << "it is the same stream";
 }
 
-TEST_F(Channel, AFreshProcessGoesOnWhereTheKilledOneWas) {
+TEST_F(Channel, AFreshProcessContinuesWhereTheKilledOneWas) {
   load("G90\nG1 X30 Y10 F6000\nG2 X30 Y10 I20 J0\nG1 X60 Y0\nM30\n");
   ask(CommandKind::CYCLE_START);
   run();
@@ -182,7 +182,7 @@ TEST_F(Channel, AFreshProcessGoesOnWhereTheKilledOneWas) {
   }
 }
 
-TEST_F(Channel, ARestartedDriveIsNoticedAndTheProgramGoesOnFromTheCut) {
+TEST_F(Channel, ARestartedDriveIsNoticedAndTheProgramContinuesFromTheCut) {
   load("G90\nG1 X100 F6000\nM30\n");
   start_and_go_on_after_a_restart_of_the_drive();
   EXPECT_EQ(core->run_state(), RunState::IDLE);
@@ -226,7 +226,7 @@ TEST_F(Channel, DrivesThatWereOffWhileTheProgramWasHeldMakeItBeginAgain) {
   drive.mode = DriveMode::FOLLOWING;
   core->on_feedback(drive.run(0));
   EXPECT_EQ(core->run_state(), RunState::INTERRUPTED);
-  EXPECT_FALSE(ask(CommandKind::CYCLE_START).accepted) << "the spindle may stand";
+  EXPECT_FALSE(ask(CommandKind::CYCLE_START).accepted) << "the spindle may have stopped";
   ask(CommandKind::RESET);
   EXPECT_TRUE(ask(CommandKind::CYCLE_START).accepted);
 }
@@ -259,7 +259,7 @@ struct MdiLines : Channel {
   }
 };
 
-TEST_F(MdiLines, GoOnInTheFramesOfTheLinesBefore) {
+TEST_F(MdiLines, ContinueInTheFramesOfTheLinesBefore) {
   const auto places = after({"G90 G52 X10", "G0 X5", "G52 X0", "X5", "G92 X0", "X1", "G92.1", "X1"});
   // 10 + 5; without G52 5; G92 calls that 0, so 1 is 6; without G92 1.
   EXPECT_EQ(places[1].first, 15);
@@ -268,7 +268,7 @@ TEST_F(MdiLines, GoOnInTheFramesOfTheLinesBefore) {
   EXPECT_EQ(places[7].first, 1);
 }
 
-TEST_F(MdiLines, GoOnInRotationScalingMirrorAndPolarCoordinates) {
+TEST_F(MdiLines, ContinueInRotationScalingMirrorAndPolarCoordinates) {
   const auto places = after({"G90 G68 X0 Y0 R90", "G0 X2 Y0", "G69", "G51 X0 Y0 P3", "X2 Y1", "G50",
                              "G51.1 X0", "X2 Y1", "G50.1", "G16", "X4 Y90", "G15"});
   EXPECT_NEAR(places[1].first, 0, 1e-12);
@@ -378,10 +378,10 @@ TEST_F(Channel, AProgramThatChangesATableWaitsUntilItsOwnerHasDoneSo) {
   ask(CommandKind::CYCLE_START);
   for (int i = 0; i < 20; ++i) round();
   EXPECT_EQ(core->run_state(), RunState::WAITING);
-  const auto order = core->take_table_order();
-  ASSERT_TRUE(order);
-  ASSERT_EQ(order->offsets.size(), 1u);
-  EXPECT_EQ(order->offsets[0].values[0], 5);
+  const auto request = core->take_table_request();
+  ASSERT_TRUE(request);
+  ASSERT_EQ(request->offsets.size(), 1u);
+  EXPECT_EQ(request->offsets[0].values[0], 5);
   core->on_table_changed("");
   run();
   EXPECT_EQ(core->run_state(), RunState::IDLE);
@@ -392,13 +392,14 @@ TEST_F(Channel, ARefusedTableStopsTheProgramWithTheReason) {
   load("G10 L2 P1 X5\nG1 X10 F6000\nM30\n");
   ask(CommandKind::CYCLE_START);
   for (int i = 0; i < 20; ++i) round();
-  ASSERT_TRUE(core->take_table_order());
+  ASSERT_TRUE(core->take_table_request());
   core->on_table_changed("the disk is full");
   EXPECT_EQ(core->run_state(), RunState::IDLE);
-  const auto told = core->take_events();
-  ASSERT_FALSE(told.empty());
-  EXPECT_EQ(told.back().alarm, &alarm::table_refused);
-  EXPECT_NE(told.back().text.find("part.nc:1: the disk is full"), std::string::npos) << told.back().text;
+  const auto reported = core->take_events();
+  ASSERT_FALSE(reported.empty());
+  EXPECT_EQ(reported.back().alarm, &alarm::table_refused);
+  EXPECT_NE(reported.back().text.find("part.nc:1: the disk is full"), std::string::npos)
+      << reported.back().text;
 }
 
 TEST_F(Channel, AMessageStopsTheProgramUntilCycleStart) {
@@ -420,7 +421,7 @@ TEST_F(Channel, KeptVariablesGoFromOneProgramToTheNext) {
   const auto* variables = core->take_variables();
   ASSERT_NE(variables, nullptr);
   EXPECT_EQ(variables->kept[0].number, 12.5);
-  EXPECT_EQ(core->take_variables(), nullptr) << "told once";
+  EXPECT_EQ(core->take_variables(), nullptr) << "reported once";
   load("G90 G1 X#500 F6000\nM30\n");
   ask(CommandKind::CYCLE_START);
   run();
@@ -429,12 +430,12 @@ TEST_F(Channel, KeptVariablesGoFromOneProgramToTheNext) {
 
 TEST_F(Channel, AMotionStartsOnlyWhenTheCopiesOfEveryStageAreInStep) {
   load("G90\nG1 X100 Y50 F6000\nM30\n");
-  core->set_copies(false, ~0ull);
+  core->set_replicas(false, ~0ull);
   ASSERT_TRUE(ask(CommandKind::CYCLE_START).accepted);
   for (int i = 0; i < 20; ++i) round();
   EXPECT_EQ(drive.starts, 0);
   EXPECT_EQ(core->run_state(), RunState::RUNNING) << "it waits";
-  core->set_copies(true, ~0ull);
+  core->set_replicas(true, ~0ull);
   run();
   EXPECT_EQ(drive.starts, 1);
   EXPECT_EQ(drive.rows.back()[0], 100);
@@ -446,18 +447,18 @@ TEST_F(Channel, NothingIsWrittenFartherThanTwoLeadsBeyondTheSlowestCopy) {
   run();
   load("G90\nG1 X0 Y0 F6000\nM30\n");
   const auto begin = drive.next;
-  core->set_copies(true, 0);  // as of a copy that has not heard of this motion
+  core->set_replicas(true, 0);  // as of a replica that has received nothing of this motion
   ASSERT_TRUE(ask(CommandKind::CYCLE_START).accepted);
   for (int i = 0; i < 50; ++i) round();
   // Parameter 000900: the lead is 32 cycles. Two of them are allowed, frame by frame of 16.
   EXPECT_EQ(drive.next - begin, 64u);
-  core->set_copies(true, begin + 10);
+  core->set_replicas(true, begin + 10);
   for (int i = 0; i < 50; ++i) round();
   EXPECT_EQ(drive.next - begin, 64u) << "74 cycles do not hold another whole frame of 16";
-  core->set_copies(true, begin + 16);
+  core->set_replicas(true, begin + 16);
   for (int i = 0; i < 50; ++i) round();
   EXPECT_EQ(drive.next - begin, 80u);
-  core->set_copies(true, ~0ull);
+  core->set_replicas(true, ~0ull);
   run();
   EXPECT_EQ(core->run_state(), RunState::IDLE);
   EXPECT_EQ(drive.rows.back()[0], 0);

@@ -1,4 +1,4 @@
-// The positions an operator reads: what words of the block under way would say of the tool tip.
+// The positions an operator reads: the tool tip in the words of the block being executed.
 #include <gtest/gtest.h>
 
 #include "channel_fixture.hpp"

@@ -80,5 +80,54 @@ TEST_F(ExactStop, EndsInAnAlarmWhenItIsNotReachedInTimeAndCanBeContinued) {
   EXPECT_EQ(drive.rows.back()[0], 20);
 }
 
+TEST_F(ExactStop, AResetAtTheStopEndsTheProgramWithoutTheAlarm) {
+  begin_with(100);
+  drive.lag = [](std::uint64_t, const std::vector<double>& row) { return row[0] == 10 ? 0.02 : 0.0; };
+  load(two_moves);
+  cycles_per_round = 8;
+  ASSERT_TRUE(ask(CommandKind::CYCLE_START).accepted);
+  for (int i = 0; i < 2000 && cycles_at(10) < lead; ++i) round();
+  ASSERT_EQ(core->states().name(), "Running program");
+  ask(CommandKind::RESET);
+  run();
+  EXPECT_EQ(core->run_state(), idl::channel::RunState::IDLE);
+  EXPECT_TRUE(events.empty());
+  EXPECT_EQ(drive.rows.back()[0], 10);
+}
+
+// The drive stops at every time of the check; setpoints that follow the interruption are written in it.
+TEST_F(ExactStop, IsNotPassedWhileTheDriveHasInterruptedTheProgram) {
+  std::size_t failed = 0;
+  for (std::size_t stopped_after = 1; stopped_after < 160; stopped_after += 16) {
+    drive = testing::FakeDrive{3};
+    events.clear();
+    begin_with(100);
+    bool behind = true;
+    drive.lag = [&](std::uint64_t, const std::vector<double>& row) {
+      return row[0] == 10 && behind ? 0.02 : 0.0;
+    };
+    load(two_moves);
+    cycles_per_round = 8;
+    ASSERT_TRUE(ask(CommandKind::CYCLE_START).accepted);
+    for (int i = 0; i < 2000 && cycles_at(10) < stopped_after; ++i) round();
+    if (!core->states().in<Running>()) break;  // the alarm of the check has held it
+    drive.mode = DriveMode::HELD;
+    core->on_feedback(drive.run(0));
+    for (int i = 0; i < 5; ++i) round();
+    ASSERT_EQ(core->states().name(), "Interrupted program") << stopped_after;
+    for (const auto& event : events) failed += event.alarm == &alarm::position_not_reached ? 1 : 0;
+    ASSERT_TRUE(ask(CommandKind::CYCLE_START).accepted);
+    run(3);
+    EXPECT_EQ(drive.rows.back()[0], 10) << stopped_after;
+    behind = false;
+    if (core->states().in<Held>()) ask(CommandKind::CYCLE_START);
+    run();
+    if (core->states().in<Held>()) ask(CommandKind::CYCLE_START), run();
+    EXPECT_EQ(core->run_state(), idl::channel::RunState::IDLE) << stopped_after;
+    EXPECT_EQ(drive.rows.back()[0], 20) << stopped_after;
+  }
+  EXPECT_EQ(failed, 1u) << "once the time ended in the interruption";
+}
+
 }  // namespace
 }  // namespace trunnion::channel

@@ -1,4 +1,4 @@
-// A drive and PLC that do what they are told at once: the channel's counterpart in its unit tests.
+// A drive that executes everything at once: the channel's counterpart in its unit tests.
 #pragma once
 
 #include <algorithm>

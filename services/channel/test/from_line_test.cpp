@@ -49,7 +49,7 @@ struct FromLine : Channel {
   }
 };
 
-TEST_F(FromLine, RestoresModesVariablesAndFunctionsThenApproachesAndGoesOn) {
+TEST_F(FromLine, RestoresModesVariablesAndFunctionsThenApproachesAndContinues) {
   put_tool_in();
   load(part);
   ASSERT_TRUE(ask(Request::START_FROM_LINE, "", 10).accepted);
@@ -150,7 +150,7 @@ TEST_F(FromLine, ALineOfASubprogramOrALoopIsTheFirstTimeItIsReached) {
   EXPECT_EQ(drive.rows.back()[0], 3) << "the approach to X1, and two more rounds";
 }
 
-TEST_F(FromLine, AHoldInTheApproachGoesOnWithCycleStart) {
+TEST_F(FromLine, AHoldInTheApproachContinuesWithCycleStart) {
   load("G90\nG0 X200\nG1 X210 F1000\nM30\n");
   ask(Request::START_FROM_LINE, "", 3);
   run();

@@ -84,7 +84,7 @@ TEST_F(WheelTest, RefusesIncrementsCountsAndModesItDoesNotHave) {
   EXPECT_FALSE(turn(1, 0.1).accepted) << "its offset is off";
 }
 
-TEST_F(WheelTest, JogStopEndsTheWayThatCountsHaveLeft) {
+TEST_F(WheelTest, JogStopEndsTheDistanceThatCountsHaveLeft) {
   ask(CommandKind::SET_MODE, "", 0, 0, Mode::JOG);
   cycles_per_round = 8;
   turn(300, 1);
@@ -156,7 +156,7 @@ TEST_F(WheelTest, ResetEndsTheOffsetWithoutAMove) {
   EXPECT_EQ(core->state().machine[0], 1);
 }
 
-TEST_F(WheelTest, AKilledChannelGoesOnWithItsOffset) {
+TEST_F(WheelTest, AKilledChannelContinuesWithItsOffset) {
   load("G90\nG1 X100 F6000\nM30\n");
   ask(CommandKind::HANDWHEEL_OFFSET, "", 1);
   cycles_per_round = 8;

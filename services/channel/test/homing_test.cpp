@@ -5,7 +5,8 @@ namespace {
 using testing::Channel;
 using testing::CommandKind;
 
-constexpr std::uint8_t start_epoch = 3, home = 5;  // StreamRequest::kind
+using idl::stream::DriveMode;
+using idl::stream::StreamRequestKind;
 
 struct HomedAxis : Channel {
   void SetUp() override {
@@ -20,22 +21,22 @@ TEST_F(HomedAxis, AReferenceReturnOfAnAxisWithAHomeSwitchIsADemandOfTheDrive) {
   ASSERT_TRUE(reference(1).accepted);
   const auto request = core->take_stream_request();
   ASSERT_TRUE(request);
-  EXPECT_EQ(request->kind, home);
-  EXPECT_EQ(request->epoch, 1u) << "the logical number of the axis";
+  EXPECT_EQ(request->kind, StreamRequestKind::HOME);
+  EXPECT_EQ(request->axis, 1u) << "the logical number of the axis";
   drive.request(*request);
-  drive.mode = 5;
+  drive.mode = DriveMode::HOMING;
   core->on_feedback(drive.run(0));
   const auto answer = reference(0);
   EXPECT_FALSE(answer.accepted);
   EXPECT_NE(answer.reason.find("searches its reference"), std::string::npos) << answer.reason;
-  drive.mode = 0;
+  drive.mode = DriveMode::FOLLOWING;
   core->on_feedback(drive.run(0));
   ask(CommandKind::SET_MODE, "", 0, 0, Mode::JOG);
   ASSERT_TRUE(ask(CommandKind::JOG_AXIS, "", 600, 1, Mode::JOG, 0).accepted);
   core->advance();
   const auto start = core->take_stream_request();
   ASSERT_TRUE(start);
-  EXPECT_EQ(start->kind, start_epoch) << "the stream begins where the drive has found the axes";
+  EXPECT_EQ(start->kind, StreamRequestKind::NEW_EPOCH) << "the stream begins where the drive has found the axes";
 }
 
 TEST_F(HomedAxis, AnAxisWithoutASwitchIsMovedToItsReferencePosition) {

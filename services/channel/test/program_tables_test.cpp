@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "modal_codes.hpp"
-#include "table_order.hpp"
+#include "table_request.hpp"
 #include "variable_text.hpp"
 
 namespace trunnion::channel {
@@ -52,7 +52,7 @@ TEST(VariableText, AWrongLineIsNamed) {
   }
 }
 
-TEST(TableOrder, ChangesOneFieldOfAToolAndKeepsTheOthers) {
+TEST(TableRequest, ChangesOneFieldOfAToolAndKeepsTheOthers) {
   idl::parameters::ToolTable tools;
   tools.tools = {{3, 100, 0.1, 5, 0.2, "End mill"}};
   language::Command command;
@@ -60,25 +60,25 @@ TEST(TableOrder, ChangesOneFieldOfAToolAndKeepsTheOthers) {
   command.table = language::Table::tool_radius_wear;
   command.number = 3;
   command.value = -0.05;
-  const auto order = table_order(command, 0, tools);
-  EXPECT_EQ(order.operation, idl::parameters::Operation::SET_TOOL);
-  ASSERT_EQ(order.tools.size(), 1u);
-  EXPECT_EQ(order.tools[0].radius_wear, -0.05);
-  EXPECT_EQ(order.tools[0].length, 100);
-  EXPECT_EQ(order.tools[0].name, "End mill");
+  const auto request = table_request(command, 0, tools);
+  EXPECT_EQ(request.operation, idl::parameters::Operation::SET_TOOL);
+  ASSERT_EQ(request.tools.size(), 1u);
+  EXPECT_EQ(request.tools[0].radius_wear, -0.05);
+  EXPECT_EQ(request.tools[0].length, 100);
+  EXPECT_EQ(request.tools[0].name, "End mill");
 }
 
-TEST(TableOrder, NamesTheWorkOffsetAndItsChannel) {
+TEST(TableRequest, NamesTheWorkOffsetAndItsChannel) {
   language::Command command;
   command.kind = language::CommandKind::table;
   command.table = language::Table::work_offset;
   command.number = 7;
   command.target = {1, 2, 3};
-  const auto order = table_order(command, 1, {});
-  ASSERT_EQ(order.offsets.size(), 1u);
-  EXPECT_EQ(order.offsets[0].channel, 1);
-  EXPECT_EQ(order.offsets[0].index, 7);
-  EXPECT_EQ(order.offsets[0].values, (std::vector<double>{1, 2, 3, 0, 0, 0, 0, 0, 0}));
+  const auto request = table_request(command, 1, {});
+  ASSERT_EQ(request.offsets.size(), 1u);
+  EXPECT_EQ(request.offsets[0].channel, 1);
+  EXPECT_EQ(request.offsets[0].index, 7);
+  EXPECT_EQ(request.offsets[0].values, (std::vector<double>{1, 2, 3, 0, 0, 0, 0, 0, 0}));
 }
 
 TEST(ModalCodes, ShowOneCodeOfEachGroupAndWhatIsSwitchedOn) {

@@ -71,7 +71,7 @@ TEST_F(Retrace, WhatThePlcHasDoneIsNotGoneBackOver) {
   EXPECT_EQ(auxiliaries.size(), 2u) << "M8 once, and M30";
 }
 
-TEST_F(Retrace, AHeldProgramGoesBackFromWhereItStands) {
+TEST_F(Retrace, AHeldProgramGoesBackFromItsPosition) {
   load("G90\nG1 X20 F6000\nM0\nG1 X60\nM30\n");
   ask(CommandKind::CYCLE_START);
   run();
@@ -98,7 +98,7 @@ TEST_F(Retrace, WithoutAProgramOrAPathItIsRefused) {
   EXPECT_EQ(x(), 60);
 }
 
-TEST_F(Retrace, AResetOnTheWayBackGivesTheProgramUp) {
+TEST_F(Retrace, AResetWhileGoingBackGivesTheProgramUp) {
   run_past("G90\nG1 X100 F6000\nM30\n", 60);
   ask(CommandKind::RETRACE, "", 1);
   for (int i = 0; i < 15; ++i) round();

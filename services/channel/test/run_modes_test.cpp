@@ -9,7 +9,7 @@ namespace {
 using testing::Channel;
 using testing::CommandKind;
 
-TEST_F(Channel, ADryRunMovesAtTheFeedOfItsParameterWhateverTheProgramSays) {
+TEST_F(Channel, ADryRunMovesAtTheFeedOfItsParameterWhateverTheProgramProgrammed) {
   load("G90\nG1 X100 F100\nG93 X0 F0.01\nM30\n");
   ASSERT_TRUE(ask(CommandKind::DRY_RUN, "", 1).accepted);
   EXPECT_TRUE(core->state().dry_run);
@@ -23,7 +23,7 @@ TEST_F(Channel, ADryRunMovesAtTheFeedOfItsParameterWhateverTheProgramSays) {
   EXPECT_LT(drive.rows.size(), 7000u);
 }
 
-TEST_F(Channel, LockedAxesStandWhileTheProgramRunsAndItsPositionsAreShown) {
+TEST_F(Channel, LockedAxesAreAtRestWhileTheProgramRunsAndItsPositionsAreShown) {
   load("G90\nG1 X50 Y20 F6000\nM30\n");
   ASSERT_TRUE(ask(CommandKind::AXIS_LOCK, "", 1).accepted);
   EXPECT_EQ(core->state().locked, (std::vector<std::uint8_t>{1, 0, 0}));
@@ -70,9 +70,9 @@ TEST_F(Channel, TheAuxiliaryLockPassesOverFunctionsButNotStopsAndTheEnd) {
   ask(CommandKind::CYCLE_START);
   run();
   EXPECT_EQ(core->run_state(), RunState::IDLE);
-  std::vector<std::uint32_t> told;
-  for (const auto& a : auxiliaries) told.push_back(a.code);
-  EXPECT_EQ(told, (std::vector<std::uint32_t>{0, 30}));
+  std::vector<std::uint32_t> sent;
+  for (const auto& a : auxiliaries) sent.push_back(a.code);
+  EXPECT_EQ(sent, (std::vector<std::uint32_t>{0, 30}));
   EXPECT_EQ(core->state().tool, 0u) << "no tool was changed";
 }
 
@@ -90,7 +90,7 @@ TEST_F(Channel, BlocksOfTheChosenSkipLevelsAreLeftOut) {
   EXPECT_FALSE(ask(CommandKind::BLOCK_SKIP, "", 512).accepted);
 }
 
-TEST_F(Channel, AFeedOverrideOfZeroIsSaidInTheState) {
+TEST_F(Channel, AFeedOverrideOfZeroIsReportedInTheState) {
   load("G90\nG1 X50 F6000\nM30\n");
   cycles_per_round = 8;
   ask(CommandKind::CYCLE_START);
@@ -104,12 +104,12 @@ TEST_F(Channel, AFeedOverrideOfZeroIsSaidInTheState) {
   EXPECT_EQ(core->state().detail, "");
 }
 
-TEST_F(Channel, AChannelThatWaitsForItsTextSaysSo) {
+TEST_F(Channel, AChannelThatWaitsForItsTextReportsIt) {
   text = "G90\nG1 X10 F6000\n";
   while (text.size() < 3 * ProgramText::chunk_size) text += "G1 X10.5\nG1 X10\n";
   load(text + "M30\n");
   ask(CommandKind::CYCLE_START);
-  for (int i = 0; i < 3; ++i) core->advance();  // nobody delivers
+  for (int i = 0; i < 3; ++i) core->advance();  // the text is not delivered
   EXPECT_TRUE(core->waits_for_text());
   EXPECT_EQ(core->state().detail, "waiting for the text of the program");
   run();

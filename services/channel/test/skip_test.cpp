@@ -1,4 +1,4 @@
-// G31: a skip input ends the move, the program goes on from where the axes are and knows where they were.
+// G31: a skip input ends the move, the program continues from there and knows the position of the edge.
 #include "bus/cdr.hpp"
 #include "channel_fixture.hpp"
 
@@ -131,7 +131,7 @@ TEST_F(Skip, AMoveBeyondTheTravelIsAnAlarmBeforeItMoves) {
   EXPECT_TRUE(drive.rows.empty());
 }
 
-TEST_F(Skip, AFreshProcessGoesOnBehindATouchThatTheOneBeforeItMade) {
+TEST_F(Skip, AFreshProcessContinuesBehindATouchThatTheOneBeforeItMade) {
   drive.switch_ = {1, 0, 20};
   const std::string program = "G90 G54\nG31 X30 F1200\nG1 X[#5061+40] F6000\nM30\n";
   load(program);

@@ -1,4 +1,4 @@
-// A held program that is left for MDI and jog, and the way back to it.
+// A held program that is left for MDI and jog, and the return to it.
 #include <cmath>
 
 #include "channel_fixture.hpp"
@@ -30,7 +30,7 @@ struct Suspension : Channel {
 };
 const std::string straight = "G90\nS800 M3\nM8\nG1 X100 Y50 F6000\nX0\nM30\n";
 
-TEST_F(Suspension, JogAwayAndCycleStartComesBackToThePointAndGoesOn) {
+TEST_F(Suspension, JogAwayAndCycleStartReturnsToThePointAndContinues) {
   run_into_a_hold(straight);
   const auto left = drive.rows.back();
   ASSERT_TRUE(ask(CommandKind::SET_MODE, "", 0, 0, Mode::JOG).accepted);
@@ -46,7 +46,7 @@ TEST_F(Suspension, JogAwayAndCycleStartComesBackToThePointAndGoesOn) {
   EXPECT_EQ(core->run_state(), RunState::IDLE);
   EXPECT_EQ(drive.rows.back()[0], 0);
   EXPECT_EQ(drive.rows.back()[1], 50);
-  // It stands at the point where it was left before the path goes on.
+  // It is at rest at the point where it was left before the path continues.
   std::size_t at_point = 0;
   for (std::size_t i = back_from; i < drive.rows.size() && at_point == 0; ++i)
     if (drive.rows[i][0] == left[0] && drive.rows[i][1] == left[1] && drive.rows[i][2] == left[2])

@@ -74,11 +74,12 @@ TEST_F(Tap, ThePlcStopsTheSpindleBeforeAndStartsItAgainWhenTheCycleEnds) {
   EXPECT_EQ(m_codes(), (std::vector<int>{3, 5, 3, 30}));
 }
 
-TEST_F(Tap, ALeftHandThreadTurnsTheOtherWay) {
+TEST_F(Tap, ALeftHandThreadTurnsInTheOtherDirection) {
   start("G90 G95 G0 Z5\nS400\nG99 G74 X0 Y0 Z-10 R2 F1.25\nG80\nM30\n");
   run();
   for (const auto& [z, turns] : coupled()) ASSERT_NEAR(2 - z, -1.25 * turns, 1e-9);
-  EXPECT_EQ(m_codes(), (std::vector<int>{30})) << "the spindle stood, so nobody stops or starts it";
+  EXPECT_EQ(m_codes(), (std::vector<int>{30}))
+      << "the spindle was at rest, so it is neither stopped nor started";
 }
 
 TEST_F(Tap, TheFeedOverrideDoesNotActInTheThreadButElsewhere) {
@@ -146,12 +147,12 @@ TEST_F(Tap, PecksAndDwellsStayCoupled) {
   start("G90 G94 S400 G0 Z5\nG99 G84 X0 Y0 Z-10 R2 Q5 P100 F500\nG80\nM30\n");
   run();
   const auto rows = coupled();
-  int standing = 0;
+  int dwelling = 0;
   for (std::size_t i = 1; i < rows.size(); ++i) {
     ASSERT_NEAR(2 - rows[i].first, 1.25 * rows[i].second, 1e-9);
-    standing += rows[i].first == -10 && rows[i - 1].first == -10 ? 1 : 0;
+    dwelling += rows[i].first == -10 && rows[i - 1].first == -10 ? 1 : 0;
   }
-  EXPECT_GE(standing, 100) << "P100 at the bottom";
+  EXPECT_GE(dwelling, 100) << "P100 at the bottom";
 }
 
 TEST_F(Tap, AMachineWithoutASpindleRefusesItBeforeTheToolIsInTheHole) {

@@ -1,11 +1,11 @@
-#include "table_order.hpp"
+#include "table_request.hpp"
 
 #include <algorithm>
 
 namespace trunnion::channel {
 
-idl::parameters::ParameterRequest table_order(const language::Command& command, std::uint16_t channel,
-                                              const idl::parameters::ToolTable& tools) {
+idl::parameters::ParameterRequest table_request(const language::Command& command, std::uint16_t channel,
+                                                const idl::parameters::ToolTable& tools) {
   using idl::parameters::Operation;
   using language::Table;
   idl::parameters::ParameterRequest request;

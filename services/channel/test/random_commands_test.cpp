@@ -1,4 +1,4 @@
-// Any orders in any sequence: the setpoints never jump and the channel never gets stuck.
+// Any commands in any sequence: the setpoints never jump and the channel never gets stuck.
 #include <cmath>
 #include <random>
 
@@ -10,13 +10,13 @@ namespace {
 using testing::Channel;
 using testing::CommandKind;
 
-struct RandomOrders : Channel, ::testing::WithParamInterface<int> {};
+struct RandomCommands : Channel, ::testing::WithParamInterface<int> {};
 
 const char* const program =
     "G90 G64 F9000\nS800 M3\nG1 X40 Y10\nG2 X80 Y10 I20 J0\nG1 X60 Z-20\nM8\nG1 X0 Y0 Z0\nM0\n"
     "G1 X30 Y-30\nG4 P0.02\nX-30\nM9\nY30 Z10\nX0 Y0 Z0\nM30\n";
 
-TEST_P(RandomOrders, NeverMakeASetpointJumpOrLeaveTravelAndAResetAlwaysHelps) {
+TEST_P(RandomCommands, NeverMakeASetpointJumpOrLeaveTravelAndAResetAlwaysHelps) {
   std::mt19937 random(static_cast<unsigned>(GetParam()));
   const auto below = [&](unsigned n) { return static_cast<int>(random() % n); };
   load(program);
@@ -79,7 +79,7 @@ TEST_P(RandomOrders, NeverMakeASetpointJumpOrLeaveTravelAndAResetAlwaysHelps) {
     }
     for (int k = below(12); k >= 0; --k) round();
   }
-  // Axes start from 0, and a jump would be above the fastest axis' way in a cycle.
+  // Axes start from 0, and a jump would be above the fastest axis' distance in a cycle.
   std::vector<double> before(9, 0.0);
   for (const auto& row : drive.rows)
     for (std::size_t i = 0; i < 3; ++i) {
@@ -103,7 +103,7 @@ TEST_P(RandomOrders, NeverMakeASetpointJumpOrLeaveTravelAndAResetAlwaysHelps) {
   EXPECT_EQ(drive.rows.back()[2], 9);
 }
 
-INSTANTIATE_TEST_SUITE_P(Seeds, RandomOrders, ::testing::Range(1, 16));
+INSTANTIATE_TEST_SUITE_P(Seeds, RandomCommands, ::testing::Range(1, 16));
 
 }  // namespace
 }  // namespace trunnion::channel

@@ -1,14 +1,14 @@
-#include "program_shelf.hpp"
+#include "program_cache.hpp"
 
 namespace trunnion::channel {
 
-language::TextSource& ProgramShelf::open(const idl::program::ProgramEntry& program) {
+language::TextSource& ProgramCache::open(const idl::program::ProgramEntry& program) {
   subprograms_.clear();
   main_ = std::make_unique<ProgramText>(program.name, program.revision, program.size);
   return *main_;
 }
 
-language::TextSource* ProgramShelf::call(const idl::program::ProgramList& stored, std::string_view name) {
+language::TextSource* ProgramCache::call(const idl::program::ProgramList& stored, std::string_view name) {
   for (const auto& entry : stored.programs) {
     const bool matches = entry.name.rfind(name, 0) == 0 &&
                          (entry.name.size() == name.size() || entry.name[name.size()] == '.');
@@ -19,7 +19,7 @@ language::TextSource* ProgramShelf::call(const idl::program::ProgramList& stored
   return nullptr;
 }
 
-std::optional<ChunkWanted> ProgramShelf::wanted() const {
+std::optional<ChunkWanted> ProgramCache::wanted() const {
   if (main_)
     if (auto chunk = main_->wanted()) return chunk;
   for (const auto& text : subprograms_)
@@ -28,7 +28,7 @@ std::optional<ChunkWanted> ProgramShelf::wanted() const {
 }
 
 // Several texts may have one name: a program that is called from two others.
-void ProgramShelf::deliver(const std::string& name, std::uint64_t offset,
+void ProgramCache::deliver(const std::string& name, std::uint64_t offset,
                            const std::vector<std::uint8_t>& data) {
   const auto give = [&](ProgramText& text) {
     const auto chunk = text.wanted();
@@ -38,7 +38,7 @@ void ProgramShelf::deliver(const std::string& name, std::uint64_t offset,
   for (const auto& text : subprograms_) give(*text);
 }
 
-void ProgramShelf::fail(const std::string& name) {
+void ProgramCache::fail(const std::string& name) {
   if (main_ && main_->name() == name) main_->fail();
   for (const auto& text : subprograms_)
     if (text->name() == name) text->fail();

@@ -1,4 +1,4 @@
-// The texts one interpretation reads: a program and the subprograms it calls.
+// The texts that one interpreter run reads: a program and the subprograms it calls.
 #pragma once
 
 #include <memory>
@@ -9,9 +9,9 @@
 
 namespace trunnion::channel {
 
-class ProgramShelf {
+class ProgramCache {
  public:
-  /// Forgets every text.
+  /// Drops every text.
   void clear() {
     main_.reset();
     subprograms_.clear();

@@ -7,7 +7,7 @@
 namespace trunnion::channel {
 
 /// `command` is of kind table; `tools` is the table it changes. Lengths in mm.
-idl::parameters::ParameterRequest table_order(const language::Command& command, std::uint16_t channel,
-                                              const idl::parameters::ToolTable& tools);
+idl::parameters::ParameterRequest table_request(const language::Command& command, std::uint16_t channel,
+                                                const idl::parameters::ToolTable& tools);
 
 }  // namespace trunnion::channel

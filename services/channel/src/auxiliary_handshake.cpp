@@ -1,0 +1,45 @@
+#include "auxiliary_handshake.hpp"
+
+#include <utility>
+
+namespace trunnion::channel {
+
+void AuxiliaryHandshake::begin(const program_execution::AuxiliaryFunction& function, std::uint64_t cycle) {
+  request_ = {channel_, ++number_, function.kind, function.code, function.value, cycle};
+  outgoing_ = request_;
+  open_ = true;
+}
+
+AuxiliaryHandshake::Outcome AuxiliaryHandshake::finish(const idl::plc::AuxiliaryDone& done) {
+  if (!open_ || done.number != request_.number) return Outcome::not_open;
+  lower_strobe();
+  return done.failed ? Outcome::failed : Outcome::done;
+}
+
+void AuxiliaryHandshake::lower_strobe() {
+  open_ = false;
+  request_.kind = program_execution::AuxiliaryKind::NO_AUXILIARY;
+  outgoing_ = request_;
+}
+
+void AuxiliaryHandshake::begin_table(idl::parameters::ParameterRequest request) {
+  outgoing_table_ = std::move(request);
+  table_open_ = true;
+}
+
+bool AuxiliaryHandshake::finish_table() { return std::exchange(table_open_, false); }
+
+void AuxiliaryHandshake::cancel() {
+  table_open_ = false;
+  if (open_) lower_strobe();
+}
+
+std::optional<idl::channel::AuxiliaryRequest> AuxiliaryHandshake::take_request() {
+  return std::exchange(outgoing_, std::nullopt);
+}
+
+std::optional<idl::parameters::ParameterRequest> AuxiliaryHandshake::take_table_request() {
+  return std::exchange(outgoing_table_, std::nullopt);
+}
+
+}  // namespace trunnion::channel

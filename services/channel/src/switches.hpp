@@ -1,0 +1,19 @@
+// What an operator sets of a channel beside its state.
+#pragma once
+
+#include "language/codes.hpp"
+
+namespace trunnion::channel {
+
+struct Switches {
+  double feed_override = 1;     ///< 0..1.5
+  double rapid_override = 1;    ///< 0..1
+  double spindle_override = 1;  ///< 0.5..1.5
+  bool single_block = false, optional_stop = false;
+  // From the first block of a program on.
+  bool dry_run = false;         ///< feeds of the program are replaced by parameter 04c914
+  bool auxiliary_lock = false;  ///< M S T are passed over, except those of the program's flow
+  language::SkipLevels block_skip = 0;
+};
+
+}  // namespace trunnion::channel

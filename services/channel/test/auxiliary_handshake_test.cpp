@@ -1,0 +1,79 @@
+// The handshakes with the PLC and the owner of the tables by themselves.
+#include "auxiliary_handshake.hpp"
+
+#include <gtest/gtest.h>
+
+namespace trunnion::channel {
+namespace {
+
+using program_execution::AuxiliaryKind;
+using Outcome = AuxiliaryHandshake::Outcome;
+
+idl::plc::AuxiliaryDone done(std::uint32_t number, bool failed = false) { return {2, number, failed}; }
+
+TEST(AuxiliaryHandshake, RaisesTheStrobeAndLowersItWhenThePlcHasDoneExactlyThisFunction) {
+  AuxiliaryHandshake handshake(2);
+  EXPECT_FALSE(handshake.take_request());
+  handshake.begin({AuxiliaryKind::S, 0, 800}, 1234);
+  const auto raised = handshake.take_request();
+  ASSERT_TRUE(raised);
+  EXPECT_EQ(raised->channel, 2);
+  EXPECT_EQ(raised->kind, AuxiliaryKind::S);
+  EXPECT_EQ(raised->value, 800);
+  EXPECT_EQ(raised->cycle, 1234u);
+  EXPECT_FALSE(handshake.take_request()) << "once";
+  EXPECT_EQ(handshake.finish(done(raised->number + 1)), Outcome::not_open);
+  EXPECT_FALSE(handshake.take_request());
+  EXPECT_EQ(handshake.finish(done(raised->number)), Outcome::done);
+  const auto lowered = handshake.take_request();
+  ASSERT_TRUE(lowered);
+  EXPECT_EQ(lowered->kind, AuxiliaryKind::NO_AUXILIARY);
+  EXPECT_EQ(lowered->number, raised->number);
+  EXPECT_EQ(handshake.finish(done(raised->number)), Outcome::not_open) << "a second answer is stale";
+}
+
+TEST(AuxiliaryHandshake, CountsFunctionsAndContinuesBehindThoseOfTheProcessBefore) {
+  AuxiliaryHandshake handshake(0);
+  handshake.continue_numbers(3);
+  handshake.begin({AuxiliaryKind::M, 8, 0}, 0);
+  EXPECT_EQ(handshake.take_request()->number, 4u * 4096 + 1);
+  handshake.begin({AuxiliaryKind::M, 9, 0}, 0);
+  EXPECT_EQ(handshake.take_request()->number, 4u * 4096 + 2);
+}
+
+TEST(AuxiliaryHandshake, AFunctionThatFailedLowersTheStrobeToo) {
+  AuxiliaryHandshake handshake(0);
+  handshake.begin({AuxiliaryKind::T, 5, 0}, 0);
+  const auto raised = handshake.take_request();
+  EXPECT_EQ(handshake.finish(done(raised->number, true)), Outcome::failed);
+  EXPECT_EQ(handshake.take_request()->kind, AuxiliaryKind::NO_AUXILIARY);
+}
+
+TEST(AuxiliaryHandshake, ACancelLowersAnOpenStrobeOnly) {
+  AuxiliaryHandshake handshake(0);
+  handshake.cancel();
+  EXPECT_FALSE(handshake.take_request());
+  handshake.begin({AuxiliaryKind::M, 3, 0}, 0);
+  const auto raised = handshake.take_request();
+  handshake.cancel();
+  EXPECT_EQ(handshake.take_request()->kind, AuxiliaryKind::NO_AUXILIARY);
+  EXPECT_EQ(handshake.finish(done(raised->number)), Outcome::not_open);
+}
+
+TEST(AuxiliaryHandshake, ATableChangeIsAnsweredOnceAndForgottenWhenCancelled) {
+  AuxiliaryHandshake handshake(0);
+  EXPECT_FALSE(handshake.finish_table());
+  idl::parameters::ParameterRequest request;
+  request.who = "a test";
+  handshake.begin_table(request);
+  ASSERT_TRUE(handshake.take_table_request());
+  EXPECT_FALSE(handshake.take_table_request()) << "sent once";
+  EXPECT_TRUE(handshake.finish_table());
+  EXPECT_FALSE(handshake.finish_table());
+  handshake.begin_table(request);
+  handshake.cancel();
+  EXPECT_FALSE(handshake.finish_table());
+}
+
+}  // namespace
+}  // namespace trunnion::channel

@@ -1,0 +1,169 @@
+// What is left of a program, its variables and its path when the drive or the process stops in bad moments.
+#include <cmath>
+
+#include "channel_fixture.hpp"
+
+namespace trunnion::channel {
+namespace {
+
+using testing::Channel;
+using testing::CommandKind;
+
+struct Recovery : Channel {
+  void rounds(int count) {
+    for (int i = 0; i < count; ++i) round();
+  }
+  void hold_a_program() {
+    load("G90\nG1 X100 Y50 F6000\nX0\nM30\n");
+    cycles_per_round = 8;
+    ask(CommandKind::CYCLE_START);
+    rounds(40);
+    ask(CommandKind::FEED_HOLD);
+    run();
+    ASSERT_EQ(core->states().name(), "Held program");
+  }
+  void leave_it_and_jog_z() {
+    hold_a_program();
+    ask(CommandKind::SET_MODE, "", 0, 0, Mode::JOG);
+    ASSERT_TRUE(ask(CommandKind::JOG_AXIS, "", 3000, 40, Mode::AUTO, 2).accepted);
+  }
+  void expect_no_jump() const {
+    for (std::size_t i = 1; i < drive.rows.size(); ++i)
+      for (std::size_t a = 0; a < 3; ++a)
+        ASSERT_LT(std::abs(drive.rows[i][a] - drive.rows[i - 1][a]), 0.5) << "axis " << a << ", cycle " << i;
+  }
+};
+
+TEST_F(Recovery, AResetBehindARestartOfTheProcessKeepsTheVariables) {
+  ask(CommandKind::SET_MODE, "", 0, 0, Mode::MDI);
+  ask(CommandKind::MDI_LINE, "#500=12.5");
+  run();
+  const language::VariableStore kept = *core->take_variables();
+  load("G1 X100 F6000\nM30\n");
+  cycles_per_round = 8;
+  ask(CommandKind::CYCLE_START);
+  rounds(30);
+  drive.lose_queue();
+  drive.mode = DriveMode::HELD;
+  begin();
+  core->set_variables(kept);
+  ASSERT_EQ(core->run_state(), RunState::INTERRUPTED);
+  ask(CommandKind::RESET);
+  if (const auto* variables = core->take_variables()) {
+    EXPECT_EQ(variables->kept[0].number, 12.5);
+  }
+  drive.mode = DriveMode::FOLLOWING;
+  load("G90 G1 X#500 F6000\nM30\n");
+  const auto answer = ask(CommandKind::CYCLE_START);
+  ASSERT_TRUE(answer.accepted) << answer.reason;
+  run();
+  EXPECT_EQ(core->run_state(), RunState::IDLE);
+  EXPECT_EQ(drive.rows.back()[0], 12.5);
+}
+
+TEST_F(Recovery, AStopOfTheDriveInTheApproachOfARestartIsResumedWithoutAJump) {
+  leave_it_and_jog_z();
+  run();
+  begin();  // the process was killed
+  ASSERT_EQ(core->run_state(), RunState::INTERRUPTED);
+  ASSERT_TRUE(ask(CommandKind::CYCLE_START).accepted);
+  rounds(12);
+  ASSERT_EQ(core->states().name(), "Preparing");
+  drive.mode = DriveMode::HELD;
+  round();
+  ASSERT_EQ(core->states().name(), "Interrupted preparing");
+  ASSERT_TRUE(ask(CommandKind::CYCLE_START).accepted);
+  EXPECT_EQ(core->states().name(), "Preparing");
+  run();
+  EXPECT_EQ(core->run_state(), RunState::IDLE);
+  EXPECT_EQ(drive.rows.back()[0], 0);
+  EXPECT_EQ(drive.resumes, 1);
+  expect_no_jump();
+}
+
+TEST_F(Recovery, AProgramIsNotLeftBeforeItsRestartPointIsReached) {
+  hold_a_program();
+  begin();
+  ASSERT_EQ(core->run_state(), RunState::INTERRUPTED);
+  ASSERT_TRUE(ask(CommandKind::CYCLE_START).accepted);
+  ask(CommandKind::FEED_HOLD);
+  core->advance();
+  ASSERT_EQ(core->states().name(), "Held program");
+  EXPECT_FALSE(ask(CommandKind::SET_MODE, "", 0, 0, Mode::JOG).accepted) << "a jog would shift its start";
+  ASSERT_TRUE(ask(CommandKind::CYCLE_START).accepted);
+  run();
+  EXPECT_EQ(core->run_state(), RunState::IDLE);
+  EXPECT_EQ(drive.rows.back()[0], 0);
+  expect_no_jump();
+}
+
+TEST_F(Recovery, AProgramThatWasLeftIsKnownToTheNextProcessAlsoWhenTheJogWasStopped) {
+  leave_it_and_jog_z();
+  rounds(20);
+  ask(CommandKind::JOG_STOP);
+  run();
+  ASSERT_EQ(core->states().name(), "Suspended");
+  begin();
+  EXPECT_EQ(core->run_state(), RunState::INTERRUPTED);
+  ASSERT_TRUE(ask(CommandKind::CYCLE_START).accepted);
+  run();
+  EXPECT_EQ(core->run_state(), RunState::IDLE);
+  expect_no_jump();
+}
+
+TEST_F(Recovery, MdiFunctionsStillEndInAProgramUnderWhichTheDrivesWereSwitchedOff) {
+  hold_a_program();
+  ask(CommandKind::SET_MODE, "", 0, 0, Mode::MDI);
+  drive.mode = DriveMode::OFF;
+  core->on_feedback(drive.run(0));
+  drive.mode = DriveMode::FOLLOWING;
+  core->on_feedback(drive.run(0));
+  ASSERT_TRUE(ask(CommandKind::MDI_LINE, "M8").accepted);
+  run();
+  EXPECT_EQ(core->states().name(), "Suspended");
+  ask(CommandKind::SET_MODE);
+  EXPECT_EQ(ask(CommandKind::CYCLE_START).reason,
+            "The drives were switched off in the program: reset the channel");
+  ask(CommandKind::RESET);
+  EXPECT_TRUE(ask(CommandKind::CYCLE_START).accepted);
+}
+
+TEST_F(Recovery, AJogInAHeldProgramDoesNotWaitForTheProgramsText) {
+  std::string program = "G90\nG1 X10 F6000\n";
+  while (program.size() < 3 * ProgramText::chunk_size) program += "G1 X10.5\nG1 X10\n";
+  load(program + "M30\n");
+  ask(CommandKind::CYCLE_START);
+  core->advance();
+  ASSERT_TRUE(core->waits_for_text());
+  ask(CommandKind::FEED_HOLD);
+  core->advance();
+  ask(CommandKind::SET_MODE, "", 0, 0, Mode::JOG);
+  ASSERT_TRUE(ask(CommandKind::JOG_AXIS, "", 3000, 5, Mode::AUTO, 2).accepted);
+  EXPECT_FALSE(core->waits_for_text());
+}
+
+TEST_F(Recovery, AResetIsCompleteWhenTheDriveRestartsWhileItBrakes) {
+  load("G90\nG1 X100 F6000\nM30\n");
+  cycles_per_round = 8;
+  ask(CommandKind::CYCLE_START);
+  rounds(20);
+  ask(CommandKind::RESET);
+  ASSERT_EQ(core->states().name(), "Holding program, reset");
+  drive.forget();
+  round();
+  EXPECT_EQ(core->run_state(), RunState::IDLE);
+}
+
+TEST_F(Recovery, NothingStartsBeforeTheProcessKnowsWhatTheOneBeforeItLeft) {
+  core = std::make_unique<ChannelCore>(0, true);
+  core->set_parameters(parameters);
+  core->set_ready(true);
+  store();
+  core->on_feedback(drive.run(0));
+  EXPECT_EQ(ask(CommandKind::JOG_AXIS, "", 3000, 5).reason, "The drive has not answered yet");
+  core->recover();
+  EXPECT_TRUE(ask(CommandKind::JOG_AXIS, "", 3000, 5).accepted);
+}
+
+}  // namespace
+}  // namespace trunnion::channel
