@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # make run    builds everything and mills the NAS 979 cone on the AC trunnion machine; the report is in out/
 # make test   everything that must hold
 PRESET ?= release

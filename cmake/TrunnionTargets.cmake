@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # The functions of every directory's CMakeLists.txt, which then says only what is in it.
 
 # What every target of ours is compiled with. Fused multiply-add would make the stream depend on the

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # Turns a text file into a C++ string constant: cmake -DINPUT= -DOUTPUT= -DNAMESPACE= -DNAME= -P embed.cmake
 file(READ ${INPUT} text)
 string(LENGTH "${text}" length)

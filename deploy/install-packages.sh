@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # install-packages.sh [run|test]: installs what building and running Trunnion needs on Debian 12 (run), or what its tests,
 # benchmarks and checks need besides (test, the default). Does nothing when all of it is there.
 set -euo pipefail

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a gateway knows of the cluster: the newest of every topic it shows.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the two threads exchange: requests from the HTTP side to the bus, the newest snapshot the other way.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Many requests at a time over one pair of topics. A server answers a client's requests in the order of their
 // numbers, so each request that is under way has a client id of its own: none waits for another's silence.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The gateway: the bus on one side, HTTP on the other.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "standby_service.hpp"
 
 #include "http/first_message.hpp"

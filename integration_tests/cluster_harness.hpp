@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A real cluster for a test: its own domain, its own state, nothing left behind.
 #pragma once
 

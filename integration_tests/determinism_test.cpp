@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The same machine and program give the same drive commands, bit for bit, whatever the vendors, and those
 // that were planned without a cluster.
 #include <map>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What must happen when a service is lost: the expectations of the fault matrix as data.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // One machine whose services are lost, and what is seen of it.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Every cell of the fault matrix on a cluster of its own, in virtual time. A whole run is `make faults`; a
 // sample of the cells runs with every other test.
 #include <cstdlib>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Programs that are disturbed by a random fault every few seconds, in virtual time. TRUNNION_SOAK_SEED
 // chooses the faults, TRUNNION_SOAK_SECONDS how long; `make soak` sets both.
 #include <cstdlib>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // kill -9 of every service in the middle of a motion: what the machine does and that nothing is lost. In
 // virtual time, so that a busy machine changes nothing.
 #include "cluster_harness.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A machine behind LinuxCNC's HAL: a real, headless HAL with its own simulated axes and switches. What HAL
 // does is also looked at from outside, with LinuxCNC's program halcmd.
 #include <sched.h>

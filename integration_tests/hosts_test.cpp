@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The cone over three hosts: network namespaces with cables between them that are long, lossy, and cut.
 #include <nlohmann/json.hpp>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Five-axis machines as whole clusters: the commanded tip on the part, and that the service computes the bits
 // of the library.
 #include <fstream>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What an operator does to a program beside starting it, in a whole cluster: start from a line, dry run, axis
 // lock, retrace, handwheel, and the line that is offered after the control was switched off.
 #include <fstream>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Every machine starts, runs its short program in virtual time and stops; wrong input stops it with one line.
 #include "cluster_harness.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Network namespaces as hosts, through deploy/network/namespaces.sh, for tests that run as root.
 #pragma once
 

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # The page in a real browser on a real cluster in virtual time: page_on_cluster.sh TRUNNION BROWSER_TEST_DIRECTORY SCREENSHOTS
 set -euo pipefail
 trunnion=$1 page=$2 screenshots=$3

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Whether a machine that was disturbed went the way of one that was not.
 #pragma once
 

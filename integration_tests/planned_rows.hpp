@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What `trunnion plan` writes against what a cluster has sent: every cycle, bit for bit.
 #pragma once
 

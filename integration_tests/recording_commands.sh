@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # recording_commands.sh BIN MACHINES DOMAIN: the commands for recordings on the golden ones, as a user calls them.
 set -euo pipefail
 trunnion=$1/trunnion

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // `trunnion run` as a user calls it.
 #pragma once
 

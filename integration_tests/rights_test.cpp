@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // idl/topics.yaml says who writes and who reads a topic, and in a secured cluster these are rights. Here the
 // table is compared with what the processes of a whole cluster open, as DDS discovery tells it.
 #include <dds/dds.h>

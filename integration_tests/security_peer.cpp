@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A participant with a certificate, with a wrong one or with none, that tries to write or read a topic of the
 // stream, and says what came of it in one line: how many others it found and what it got from which mark, a
 // number that every writer puts into its samples: `matched M MARK:SAMPLES...`, or `refused REASON`.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // DDS Security: who has the right certificate takes part, who has not neither writes nor reads. Every
 // participant is a process of its own, as in a cluster.
 #include <array>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A stage without a twin dies in full motion: how far the machine still goes, and that the workpiece does not
 // show it.
 #include <algorithm>

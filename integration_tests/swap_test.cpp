@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Services of a running cluster are replaced by others; a program on the machine notices nothing.
 #include <nlohmann/json.hpp>
 

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # systemd_instance.sh DIRECTORY SCRIPT [ARGUMENT...]: runs a script beside a systemd of its own (a user instance), which has
 # processes, /run and control groups for itself; the units are those of DIRECTORY/config/systemd/user. Ends with 77 and one
 # line where this computer does not let it.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a service manager sees of the launcher and of a service. Some tests play systemd: the socket of
 // Type=notify and the watchdog. One has a systemd of its own.
 #include <fcntl.h>

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # systemd_unit.sh TRUNNION DOMAIN: takes trunnion@ac-table through start, hang and stop, and says what systemd made of it.
 trunnion=$1
 domain=$2

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // An Ethernet switch whose cables are long: it puts a TAP device `cable` into each of the given network
 // namespaces and carries frames between them, every one a fixed time later and in order. Says "ready" when
 // the devices exist, ends when its standard input does. Needs root.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A probe that ends a move, and a spindle that follows the tool into a thread, on a whole machine.
 #include <algorithm>
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Stages that run twice: a copy may be killed, hang, come back and be killed again, and the bits are the
 // same.
 #include <random>

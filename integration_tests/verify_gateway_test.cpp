@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The gateway alone against a golden recording with an operator added to it: as recorded, on either vendor;
 // and not when it orders, answers or shows something else.
 #include <gtest/gtest.h>

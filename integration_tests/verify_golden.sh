@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # verify_golden.sh TRUNNION RECORDING CHANNELS: every service of the machine alone against the recording, all at once, each in a
 # domain of its own.
 set -uo pipefail

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Services alone against the golden recordings: as recorded, on either vendor; and not when one bit is wrong.
 #include <gtest/gtest.h>
 

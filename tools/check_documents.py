@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Checks the prose of the documents and of the texts that operators read.
 
 Markdown: no line over 120 columns outside tables and code blocks. Markdown, alarm texts and parameter help: none of the

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Runs cells of the fault matrix, two clusters at a time, and writes docs/fault-matrix.md when every cell holds.
 
 A cell that has passed is not run again until --fresh: an interrupted run continues with the remaining cells. With --sample N it

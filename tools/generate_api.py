@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Keeps the gateway's interface current: in gateway/openapi.json the operator commands (idl/operator_commands.yaml) and
 the schemas with "x-idl" (idl/*.idl), and of that document the page's types in gateway/web/src/contract.ts.
 
@@ -141,7 +142,7 @@ def ts_members(schema, indent):
 
 
 def typescript(document):
-    out = ["// Generated from gateway/openapi.json by tools/generate_api.py."]
+    out = ["// SPDX-License-Identifier: Apache-2.0\n// Generated from gateway/openapi.json by tools/generate_api.py."]
     for name, schema in document["components"]["schemas"].items():
         if schema.get("description"): out.append(f"/** {schema['description']}. */")
         if schema.get("type") == "object" and "properties" in schema:

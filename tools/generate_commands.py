@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Turns idl/operator_commands.yaml into the table in C++ and docs/operator-commands.md.
 
 gateway/openapi.json gets its entries from generate_api.py, which reads the same table.

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Writes the C++ constants of parameters, alarms and services from catalogue.yaml, alarms.yaml and services.yaml, so that a
 misspelt name does not compile: trunnion::parameter::NAME, trunnion::alarm::NAME, trunnion::machine::service::NAME.
 """

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Turns idl/*.idl and idl/topics.yaml into C++ types, topic handles, recording schemas and the documentation table.
 
 The IDL subset is what the contracts use: modules, @final structs, enums, primitive types, bounded strings and

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Writes the reference tables of docs/ from the files that define their content: parameters, alarms, G and M codes, PLC registers.
 
 With --check nothing is written: differences are printed and the exit status is 1.

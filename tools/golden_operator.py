@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """tools/golden_operator.py PORT PROGRAM...: the operator's requests during a golden recording, all of them over HTTP.
 
 Each channel receives its program and runs it; before, between and after it follow requests of every kind: accepted and

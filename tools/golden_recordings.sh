@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # tools/golden_recordings.sh BUILD [MACHINE...]: makes configs/machines/<machine>/recordings/golden.mcap for every machine
 # (or those named) from the programs beside it, one for each channel in the order of their names, and verifies every
 # service with the result. tools/golden_operator.py stores, selects and starts the programs over HTTP, as an operator

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # clang-format over every C++ file, and the chosen clang-tidy checks over every source that is built into a program; any
 # finding is an error. clang-tidy excludes tests, benchmarks and fuzzers: they include the test framework and would
 # nearly double the time. `tools/lint.sh BUILD FILE...` checks the named files only.

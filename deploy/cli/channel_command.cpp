@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // channel: an operator's command to a channel. The words are the table's (idl/operator_commands.yaml).
 #include <CLI/CLI.hpp>
 #include <cstdio>

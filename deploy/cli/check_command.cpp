@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // check: what a program would do, without a cluster
 #include <CLI/CLI.hpp>
 #include <filesystem>

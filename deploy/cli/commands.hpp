@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The sub-commands of `trunnion`; each file adds its own.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // completion: the names of commands and options, for the shell
 #include <CLI/CLI.hpp>
 #include <filesystem>

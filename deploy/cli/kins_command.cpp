@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // kins: positions through the kinematics of a machine, without a cluster
 #include <CLI/CLI.hpp>
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // bench motion: the reference motions with their bounds, and the speed of planning
 #include <chrono>
 #include <cstdio>

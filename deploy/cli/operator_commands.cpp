@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // mdi, alarms, estop
 #include <CLI/CLI.hpp>
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // param get|set|list|export|import
 #include <unistd.h>
 

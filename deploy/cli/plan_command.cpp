@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // plan: a program's motion without a cluster: one row per cycle, and what it asks of the machine
 #include <CLI/CLI.hpp>
 #include <chrono>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // info, diff, export: what is in a recording
 #include <CLI/CLI.hpp>
 #include <fstream>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // replay: writes a recording into a live domain
 #include <signal.h>
 

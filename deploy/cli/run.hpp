@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A whole run: a cluster of its own, a program for each channel, a recording, a report.
 #pragma once
 

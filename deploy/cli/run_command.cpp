@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // run: a machine, a program, a report; bench: the same as a measurement
 #include <CLI/CLI.hpp>
 #include <algorithm>

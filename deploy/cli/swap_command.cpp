@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // swap: another process in the place of a running one
 #include <CLI/CLI.hpp>
 #include <cstdio>

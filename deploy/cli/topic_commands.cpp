@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // topic list|echo|hz, record
 #include <sys/wait.h>
 #include <unistd.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // verify: one service against a recording
 #include <CLI/CLI.hpp>
 #include <cstdio>

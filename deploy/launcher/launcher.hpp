@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Starts the processes of a machine, watches them, starts them again, reports what is lost.
 #pragma once
 

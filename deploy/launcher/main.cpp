@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The process that starts and watches a machine's services; `trunnion up` starts it.
 #include <fcntl.h>
 #include <unistd.h>

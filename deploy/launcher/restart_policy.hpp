@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // When a process that ended is started again, and what its silence means. No clock: the caller gives the
 // time.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // One process of a cluster: how it is started, what it publishes of itself.
 #pragma once
 

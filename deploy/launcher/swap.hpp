@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Replaces one running service by another executable or vendor, step by step, inside the launcher's loop.
 #pragma once
 

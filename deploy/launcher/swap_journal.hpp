@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What was swapped for what, one JSON object per line, in the state directory.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The order of events in a swap, without process, bus or clock: what is known goes in, what is to be done
 // comes out.
 #pragma once

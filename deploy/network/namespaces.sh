@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # Network namespaces as the hosts of one machine, on one computer, for tests; needs root.
 #   namespaces.sh up PREFIX HOST=ADDRESS...     one namespace PREFIX-HOST each, joined by the bridge PREFIX-br (24-bit network)
 #   namespaces.sh bare PREFIX HOST=ADDRESS...   the same without the bridge: a program attaches a TAP device `cable` to each

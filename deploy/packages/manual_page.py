@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """manual_page.py TRUNNION VERSION OUTPUT: the manual page trunnion(1), made of what the command says with --help."""
 import re, subprocess, sys
 

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # test_packages.sh BUILD SOURCE DOMAIN: makes the Debian packages and installs them in a clean root, where neither the source
 # nor the build directory exists: an overlay over this system in a mount namespace of its own. There an ordinary user starts a
 # machine, runs a program and stops the machine; a service of somebody else's is built against trunnion-dev; then the packages

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Writes the DDS Security documents of a cluster from idl/topics.yaml: the governance and, for every identity, its name and
 its permissions. deploy/security/make_certificates.sh signs them.
 

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
 # make_certificates.sh DIRECTORY [DAYS]: a certificate authority, and for every service on every vendor a key, a certificate
 # and signed permissions, for `security: DIRECTORY` in machine.yaml. What each may write and read comes from idl/topics.yaml.
 # Of an existing authority (DIRECTORY/ca.pem with ca.key) everything else is made anew, so run it again when topics.yaml

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /* The DDS side: one participant, the topics of a compensation service, with the QoS that idl/topics.yaml asks for. */
 #ifndef CLUSTER_H
 #define CLUSTER_H

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /* Backlash and pitch error compensation of one channel: parameters 30a000..002 and 30a020..026, tables 70xxxx.
    A pure function of the setpoints and a small state; what it adds is positive in the positive direction. */
 #ifndef COMPENSATION_H

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /* One channel of the stream: its frames in order, where to begin, and the compensation of it. */
 #ifndef LANE_H
 #define LANE_H

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /* The stage `compensation` of the stream in plain C: kinematics' frames in, compensated frames out. */
 #include <signal.h>
 #include <stdio.h>

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Writes contract.h: the names of the topics and of their types on the wire, for a service in C.
 
 The name of a type on the wire ends with its hash, so it is taken from what the build has generated for C++.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "http/first_message.hpp"
 
 #include <boost/beast/core/buffers_to_string.hpp>

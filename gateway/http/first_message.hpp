@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What another gateway on this computer shows its clients.
 #pragma once
 

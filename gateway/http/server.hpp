@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // HTTP and WebSocket on one thread of its own.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // One HTTP connection: reads a request, has it answered, and so on until either side closes.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // WebSocket clients: each gets the newest state whenever it has taken the message before, so nothing ever
 // queues.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A continuous jog must be renewed: a browser that dies, or a network that breaks, stops the axis.
 #pragma once
 

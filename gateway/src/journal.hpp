@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The operator journal: what was asked over HTTP, line by line. docs/topics.md, operator_request.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Two gateways read the same cluster, never at the same moment: a difference counts when it lasts.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // JSON Merge Patch (RFC 7396): the smallest message that turns one state into the next.
 #pragma once
 

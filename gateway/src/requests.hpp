@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // JSON of an HTTP body -> the request of the IDL, checked: what cannot be meant never reaches the bus.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Which operation a method and a path mean. gateway/openapi.json documents exactly these.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the HTTP side knows of the cluster: made by the thread of the bus, never changed afterwards.
 #pragma once
 

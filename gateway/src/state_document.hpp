@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the page is sent: one JSON document made of the newest samples of the bus.
 #pragma once
 

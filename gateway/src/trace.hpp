@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Actual positions between two messages, thinned so that their number stays small however fast virtual time
 // runs.
 #pragma once

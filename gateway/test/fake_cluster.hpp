@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The rest of a cluster as the gateway sees it: one five-axis channel that runs on a circle, and services
 // that answer.
 #pragma once

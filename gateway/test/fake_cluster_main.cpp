@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The fake cluster as a program, for the browser test and for work on the page: gateway_fake_cluster
 // [domain].
 #include <csignal>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The real executable with real DDS on one side and real sockets on the other; the rest of the cluster is a
 // fake.
 #include <fcntl.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Any request line and body: they are refused with the field, or become a request that is within its limits.
 #include <cmath>
 #include <cstdlib>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the gateway sends is what openapi.json says, since the page's types are made of that.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "compensation_core.hpp"
 #include "one_bit.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A gateway that asks for a little more than it was asked to: what verification must find. This unit takes
 // the place of gateway/src/requests.cpp.
 #define channel_request right_channel_request

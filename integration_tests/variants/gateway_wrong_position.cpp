@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A gateway that shows an axis two micrometres beside its position: what verification must find. Linked with
 // --wrap for StateDocument::apply(FeedbackFrame), whose name on the linker's level is below.
 #include "src/state_document.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A stage whose arithmetic is wrong in one bit: what verification must find.
 #pragma once
 

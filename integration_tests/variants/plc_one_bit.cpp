@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A PLC whose arithmetic is wrong in one bit: what a swap must find. Its programs are executed by the true
 // code, which is compiled in here under another name and so stands in the place of the library's.
 #define execute execute_right

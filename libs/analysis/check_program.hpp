@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Interprets a program without a machine and says what it would do.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How far setpoints lie from the programmed path, by searching the nearest point of it.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The machine of `trunnion check` when none is named: three linear axes, every table zero.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A program file as the interpreter reads it: in pieces, so that memory does not grow with its length.
 #pragma once
 

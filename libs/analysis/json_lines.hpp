@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Motions, the end and an alarm as JSON lines.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a row of setpoints asks of the axes, by finite differences and nothing else.
 #pragma once
 

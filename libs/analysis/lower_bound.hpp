@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The least time any motion along a path can take when axes are limited in velocity and acceleration only.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The reference motions with their bounds: what `trunnion bench motion` prints and the tests ask for.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // From canonical commands to the motions somebody checks: in machine and workpiece coordinates, with feed and
 // length.
 #pragma once

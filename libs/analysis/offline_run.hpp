@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A program of canonical commands through the planner without a cluster, with everything that is judged.
 #pragma once
 

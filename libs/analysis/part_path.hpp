@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The path of a commanded tool tip on the part, and how far two such paths are apart as curves.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A program text through interpreter and planner without a cluster, as the channel would run it.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The paths the planner is measured with, the same in tests, in `trunnion bench motion` and as programs.
 #pragma once
 

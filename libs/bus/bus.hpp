@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Typed writers and readers over either vendor.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // XCDR1 (PLAIN_CDR, little endian) of the generated types: what goes over the wire and into recordings.
 // Source: OMG DDS-XTypes 1.3, 7.4.1 to 7.4.3; primitives are aligned to their size, at most 8, from the end
 // of the header.

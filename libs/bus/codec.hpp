@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // To CDR bytes and back. The build instantiates these for every type of idl/ once (contracts/codec_*.cpp), so that no
 // other source compiles a visitor of fields; for types with Fields of their own, include bus/cdr.hpp.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The small interface behind which a DDS vendor hides. It moves CDR bytes and knows no types.
 #pragma once
 

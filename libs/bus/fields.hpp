@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the generated types offer to everything that walks over them: CDR, JSON, hashing.
 #pragma once
 

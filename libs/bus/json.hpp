@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // JSON of the generated types, for tools and the gateway: field names as in the IDL, enums by name.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // JSON of a struct by its fields, for the generated instantiations.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The JSON type of the tools and the gateway, without the library behind it.
 #pragma once
 

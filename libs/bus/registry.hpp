@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Every topic as data: for `trunnion topic`, the recorder and the gateway.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Where a participant's certificate, key and permissions are: what deploy/security/make_certificates.sh lays
 // out.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The newest messages of a writer in memory, where a recorder on the same host reads them. To send every
 // frame once more by DDS cost the stream 7 % of its speed on Fast DDS; this costs the writer a copy.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Topic handles: name, type on the wire and quality of service of each topic of idl/topics.yaml.
 #pragma once
 

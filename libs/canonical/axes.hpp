@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The programmable axes of a channel, their values and the planes they span.
 #pragma once
 

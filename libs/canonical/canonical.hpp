@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Canonical commands: what a program means once every word, offset, cycle and variable has been resolved.
 // The interpreter writes them, motion reads them, and nothing between the two knows G code.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Where the axes of a machine go on the way of one command.
 #pragma once
 

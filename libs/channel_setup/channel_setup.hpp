@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What one channel knows of its machine: axes, limits, transformation, tools and offsets, of one parameter
 // revision. The channel, the report and the commands that work without a cluster read programs with it.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Where on a move an axis goes farthest beyond its travel.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A program that this process starts: the one class for services, the recorder, the launcher and what is
 // verified.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Where machines, executables and the files of a running cluster are.
 #pragma once
 

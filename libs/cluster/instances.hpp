@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Instances: the numbers by which the processes of a cluster are known.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // An operator's command, as JSON or as words, into the request of the IDL, checked by the table of commands:
 // what cannot be meant never reaches the bus.
 #pragma once

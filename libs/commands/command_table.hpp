@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The commands of an operator as data. They are written in idl/operator_commands.yaml; its head explains the
 // columns.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Fields of a JSON object, checked: an error names the field and what is expected.
 #pragma once
 

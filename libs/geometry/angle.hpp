@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Sine, cosine and the angle of a vector: fast, exact at quarter turns, the same bits on every processor.
 #pragma once
 

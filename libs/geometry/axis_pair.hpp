@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What two rotary axes can do to the tool direction.
 #pragma once
 

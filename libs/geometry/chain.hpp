@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Kinematic chains of machines: rotary axes in the head and under the workpiece, linear axes between them.
 #pragma once
 

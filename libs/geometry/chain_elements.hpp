@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A kinematic chain as data: named elements in their order from the workpiece to the tool.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The great circle between two tool directions.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Rotary angles along a great circle of tool directions (vector interpolation, G43.5).
 #pragma once
 

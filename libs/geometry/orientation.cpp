@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "geometry/orientation.hpp"
 
 #include <Eigen/Geometry>

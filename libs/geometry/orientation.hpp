@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tool direction to rotary angles: in closed form for any two rotary axes, with the choice among the
 // solutions.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The types that every kinematic function uses.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A small HTTP and WebSocket client over plain sockets, so that the gateway is tested and verified with other
 // code than its own. For a server on this computer.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Alarms of the language room: numbers 1000..1999, each with one text, all of them here.
 #pragma once
 

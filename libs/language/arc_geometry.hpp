@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Centre and sweep of a programmed circle or helix.
 #pragma once
 

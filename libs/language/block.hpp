@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A block as a reader hands it to the interpreter: letters and numbers, every expression resolved.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "language/block_context.hpp"
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the handlers of a block share: its words, the state of the program and the output of commands.
 #pragma once
 

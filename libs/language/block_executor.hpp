@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What one block means: modal state, position and the commands it makes. Knows neither lines nor subprograms.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The handlers, one for each concern of a block.
 #pragma once
 

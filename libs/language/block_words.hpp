@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The words of the block being executed: its codes, its letters, and which of them had a meaning.
 #pragma once
 

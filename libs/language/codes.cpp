@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "language/codes.hpp"
 
 #include "language/block_handlers.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The G and M codes of the ISO dialect: one table each, which the interpreter follows and the manual is made
 // from.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // From the state of a program to commands in the queue, through cutter radius compensation when it is active.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The commands of one block, waiting to be taken.
 #pragma once
 

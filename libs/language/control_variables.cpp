@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "language/control_variables.hpp"
 
 #include <cmath>

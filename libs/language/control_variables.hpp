@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // System variables: the state of the control as a program sees it.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // NURBS curves (G6.2), read block by block and given out as chords.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Cutter radius compensation: the path of the tool's centre beside a programmed contour.
 #pragma once
 

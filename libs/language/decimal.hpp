@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Decimal numbers of programs: no exponent, an optional sign, digits with or without a point.
 #pragma once
 

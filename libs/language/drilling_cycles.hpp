@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Canned cycles (G73 .. G89) and hole patterns (G70, G71, G78, G79).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the interpreter has to know of the machine and its tables.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Expressions of macros: [#1+2*SIN[30]] and the like.
 #pragma once
 

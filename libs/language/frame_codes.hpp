@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Frames that a program switches on: work offsets, scaling, mirror, rotation, G52 and G92.
 #pragma once
 

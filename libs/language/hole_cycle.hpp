@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What one hole of a canned cycle is made of.
 #pragma once
 

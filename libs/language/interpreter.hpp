@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Program text to canonical commands, one at a time.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The part of Interpreter that calls subprograms, macros and cycles and comes back from them.
 #include "language/interpreter.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Blocks as HNC-8 and Fanuc controls write them.
 #pragma once
 

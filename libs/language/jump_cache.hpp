@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Where jumps of a program lead, so that a loop is searched once and not at every turn.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Cuts a text source into lines with a window of fixed size.
 #pragma once
 

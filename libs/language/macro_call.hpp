@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Calls of macros and cycles: what is called, and the variables its letters become.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Modal codes and words: units, feed, spindle, tool selection, plane, path control, polar coordinates,
 // motion.
 #pragma once

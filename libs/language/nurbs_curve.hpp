@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A NURBS curve, read knot by knot and given out as chords.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The interpreter's own copy of the tables a program can change.
 #pragma once
 

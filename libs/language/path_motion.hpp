@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Moves by axis words: rapid, straight lines, arcs and helices.
 #pragma once
 

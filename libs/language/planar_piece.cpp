@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "language/planar_piece.hpp"
 
 #include <algorithm>

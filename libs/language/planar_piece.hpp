@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Lines and circles in a plane: the geometry of cutter radius compensation.
 #pragma once
 

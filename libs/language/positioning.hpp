@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Dwell and positioning without the modal motion code: G4, G28 .. G31, G53, G60.
 #pragma once
 

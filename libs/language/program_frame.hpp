@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // From the words of a program to the frame of its commands.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a program has set so far: modal state, position and frames. A block with a fault leaves it as it was.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // One line of program text from left to right.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Which IF, WHILE and DO are open at a place of a program.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Changes of tables by the program: work offsets, tools and parameters (G10, G11, system variables).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Where program text comes from: a file's revision over the bus in chunks, or a line typed by the operator.
 #pragma once
 

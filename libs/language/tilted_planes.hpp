@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tilted planes: G68.1 .. G68.3, the swing of the tool to them, and moves along the tool.
 #pragma once
 

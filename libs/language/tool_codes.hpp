@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tool length, tool tip control and cutter radius compensation: G43 .. G49, G40 .. G42, H and D.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Moves whose words I J K give the direction of the tool (G43.5).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Macro variables: the values behind #n, in the levels of calls.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Which axes a machine and its channels have.
 #pragma once
 

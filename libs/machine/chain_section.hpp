@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The section `chains` of machine.yaml: kinematic chains as lists of named elements.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The slave axes of a machine's gantries and the masters they follow (parameters 010050.., 10a100..10a131).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The sections `hosts` and `network` of machine.yaml: on which computers the services run and how they find
 // each other.
 #pragma once

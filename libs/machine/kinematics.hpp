@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The kinematic chain of a channel: from its parameters, and from a chain of elements into parameters.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // machine.yaml: which services make up a machine, where they run and how they talk.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the constants of parameters (machine/parameter_constants.hpp) are made of.
 #pragma once
 

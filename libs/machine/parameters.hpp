@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The parameter catalogue and a set of values: numbers, names, limits and activation (design: "Parameters").
 #pragma once
 

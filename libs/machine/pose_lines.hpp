@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Lines of numbers through the kinematics of a machine: what `trunnion kins` does with its standard input.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // YAML with errors that begin with file:line:column (yaml-cpp counts marks from 0).
 #pragma once
 

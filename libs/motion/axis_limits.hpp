@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The limits at one place of a cell, for every axis by itself. LimitCell's ramps hold on the whole cell and
 // up to a speed, so they give away what the axes permit at one place and not at another.
 #pragma once

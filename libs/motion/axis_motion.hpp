@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The machine axes along the path, after the transformation.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How a corner or a jump of curvature is rounded: a function of the path length that is added to the path.
 //
 // A path whose direction jumps by D at 0 becomes twice continuously differentiable when

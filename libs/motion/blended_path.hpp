@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The geometry stage: programmed segments joined into a curve that axes can follow.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Cuts the curve of the geometry stage into cells and derives their limits from those of the machine axes.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The interpolation stage: from a place on the path to the setpoints of the axes in that cycle.
 #pragma once
 

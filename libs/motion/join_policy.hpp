@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Whether motion runs through a join of two segments on a rounding or stops there.
 #pragma once
 

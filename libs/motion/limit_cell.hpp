@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A section of the path with its limits of path speed, acceleration and jerk.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The limits of the axes and the tolerances of the path.
 #pragma once
 

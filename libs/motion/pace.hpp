@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Changes of speed where the path is curved: step by step, with what the axes permit at each place.
 #pragma once
 

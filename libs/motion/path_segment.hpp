@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The geometry stage: one command as a curve by its length.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A motion along the path as phases of constant jerk, and the proof that it keeps the limits of the cells.
 #pragma once
 

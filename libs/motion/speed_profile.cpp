@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The speed stage where the path is curved and the speed is near the limits of the axes. Closed forms over
 // whole cells would give too much away there. Instead the speed profile is integrated step by step along the
 // limits of each axis (pace.hpp): each cycle takes as much of the demanded change of speed as leaves a proved

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The speed stage: the proof of a cycle before it is accepted, and the gentle start from a standstill.
 #include <cmath>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The speed stage: path speed, acceleration and jerk of every cycle, as fast as the cells ahead allow.
 //
 // Each cycle first follows the demanded transition: towards the programmed speed under the overrides, or to a

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Canonical commands in, one setpoint per cycle out.
 #pragma once
 

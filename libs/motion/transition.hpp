@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The fastest change from one speed to another under limits of acceleration and jerk, in closed form.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "program_execution/auxiliary_memory.hpp"
 
 #include "language/codes.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The spindle and coolant functions a program has commanded so far.
 #pragma once
 

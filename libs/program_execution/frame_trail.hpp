@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The coordinate frame in which each command of a program was programmed. The display needs the frame of the
 // command being executed, and the interpreter is ahead of it.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Takes commands from the interpreter and gives them to motion; stops where something else has to happen
 // first. The channel and the planner without a cluster both run programs through it, so their motions agree
 // bit for bit.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Where a skip move (G31) ended.
 #pragma once
 

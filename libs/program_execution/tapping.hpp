@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Rigid tapping: the spindle follows the tool's path into the hole and out of it through the same stream of
 // setpoints, so that both keep the lead through every acceleration, reversal and stop on the path.
 #pragma once

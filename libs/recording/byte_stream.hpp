@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Where a recording's bytes come from and go to: a file, or memory in tests.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Which cycles of a stream are in a recording, and which are missing.
 #pragma once
 

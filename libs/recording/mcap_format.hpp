@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The records of the MCAP container format, version 0 (mcap.dev/spec), and their primitives: little endian,
 // strings and maps behind a 32-bit length in bytes.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Reads a recording from its beginning, whole or cut off.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Writes a recording: chunks of messages, compressed and indexed, then a summary.
 #pragma once
 

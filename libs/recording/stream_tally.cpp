@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "recording/stream_tally.hpp"
 
 #include "bus/codec.hpp"

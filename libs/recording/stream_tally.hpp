@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Counts what was recorded, and which cycles of the stream are missing from it.
 #pragma once
 

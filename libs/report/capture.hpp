@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // One channel's motion in a recording, cycle by cycle.
 #pragma once
 

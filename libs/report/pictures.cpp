@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The report's pictures: the path with its error magnified, and feed and error over time.
 #include <algorithm>
 #include <cmath>

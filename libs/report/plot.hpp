@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // One diagram as SVG: frame, ticks, labels and curves.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The programmed path as points, and the distance of any other point from it.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The programmed path: the path of the tool tip over the workpiece, as the interpreter understands the
 // text.
 #pragma once

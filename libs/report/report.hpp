@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a run was like: a pure function of its recording and its program.
 #pragma once
 

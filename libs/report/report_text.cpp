@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The report in words and as JSON.
 #include <cmath>
 #include <cstdarg>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The alarms one service has raised: latched, published when they change, cleared on request once their cause
 // is gone.
 #pragma once

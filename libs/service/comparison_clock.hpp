@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // When what a process has read from files is compared with what another one publishes that writes them: the
 // two never come at the same moment, so a difference counts once it has lasted.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How a process of a cluster learns where the others are: from machine.yaml to the command line and back.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The shell every service runs in: one thread that waits, takes, computes and writes; lifecycle, heartbeat,
 // alarms.
 #pragma once

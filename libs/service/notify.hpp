@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a process started by systemd (Type=notify, WatchdogSec) reports to it: datagrams to a socket named by
 // the environment, as sd_notify(3) describes them. Without that environment nothing is sent.
 #pragma once

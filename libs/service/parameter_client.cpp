@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "service/parameter_client.hpp"
 
 namespace trunnion::service {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Follows the published parameters and keeps the revisions that may still be in the stream.
 #pragma once
 

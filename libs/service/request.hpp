@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Requests over a pair of topics: correlation by (client, number), resent until answered, applied once.
 #pragma once
 

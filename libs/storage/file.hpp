@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Files that are whole after a crash: an owned descriptor and the two steps that make a change last.
 #pragma once
 

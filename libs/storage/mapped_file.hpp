@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A file as memory: what is written survives kill -9 of the process at any instant.
 #pragma once
 

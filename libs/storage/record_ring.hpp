@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Records in memory that several processes have mapped: one writes, others read.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Feedback rows by cycle: what a stage computes for cycle n may use the row of cycle n - lead - 1, never "the
 // latest".
 #pragma once

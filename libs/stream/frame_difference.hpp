@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Where two frames that should be the same are not, in words.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Setpoint batches of one channel between two stages: keyed by their first cycle; the first arrival counts;
 // in order.
 #pragma once

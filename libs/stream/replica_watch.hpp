@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The status of the replicas of each stage, from their progress: joining, in step or dropped.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Compares the output of a stage's shadow with that of the stage, in any order of arrival.
 #pragma once
 

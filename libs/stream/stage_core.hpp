@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a stage of the stream is, without DDS: a deterministic function of its frames, its parameters and its
 // state.
 #pragma once

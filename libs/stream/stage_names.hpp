@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The stages of the stream: enum Stage of the contracts, and their names in the registry of services.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The shell of kinematics, compensation and gantry: setpoint batches in and out, joining, restarts,
 // revisions.
 #pragma once

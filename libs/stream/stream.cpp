@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "stream/frame_window.hpp"
 #include "stream/stage_service.hpp"
 

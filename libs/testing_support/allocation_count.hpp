@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Counts what a test program allocates. To be included in one source of a program only: it replaces operator
 // new.
 #pragma once

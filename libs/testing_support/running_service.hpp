@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A service's executable as a child process on a machine of its own in a temporary directory.
 #pragma once
 

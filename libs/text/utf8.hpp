@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Checking that text is UTF-8.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Parameters, tools and work offsets of a machine as its folder gives them, without a cluster.
 #pragma once
 

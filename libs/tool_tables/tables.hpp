@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tool table and work offsets: limits and their YAML.
 #pragma once
 

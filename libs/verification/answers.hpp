@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Stands in for the program service: answers a new process's requests with the replies of a recording.
 #pragma once
 

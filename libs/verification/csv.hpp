@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // One topic of a recording as a table.
 #pragma once
 

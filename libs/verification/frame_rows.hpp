@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Messages taken apart into named values: frames of the stream cycle by cycle, everything else whole.
 #pragma once
 

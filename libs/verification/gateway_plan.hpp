@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the gateway is given from a recording: the topics it shows, and over HTTP what the operator asked.
 #pragma once
 

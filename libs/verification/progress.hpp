@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How far a service has come, as its outputs tell: what verification waits for before it feeds more.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // When each message of a recording is to be written again. No DDS, no clock.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the gateway's state document must say, worked out from the messages it was given by other code than
 // its own.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The inputs of a stage that computes from another's output, in the order of their cycles.
 #pragma once
 

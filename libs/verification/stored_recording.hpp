@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A recording in memory, its topics matched with the contract this program was built with.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a recording holds: topics, rates, cycles, gaps, contracts, versions.
 #pragma once
 

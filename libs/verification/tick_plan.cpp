@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "verification/tick_plan.hpp"
 
 #include <algorithm>

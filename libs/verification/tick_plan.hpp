@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The inputs of drive and PLC at the ticks at which they took effect, as the two have said themselves.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Runs one service alone against what a recording says it was given, and compares what it answers.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The gateway against a recording: its topics over the bus, the operator's requests over HTTP.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Where a service that is verified runs, and how it is started.
 #pragma once
 

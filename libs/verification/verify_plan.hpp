@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a service is fed from a recording, in which order and when, and what it must answer. No DDS, no clock.
 #pragma once
 

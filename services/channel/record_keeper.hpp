@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Keeps the newest record on disk, beside the thread that moves the axes: a disk may take a tenth of a
 // second.
 #pragma once

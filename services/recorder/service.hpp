@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The recorder: writes every topic of the cluster to one file, without a part in the stream.
 #pragma once
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """What the program generators know of five-axis machines: rotary angles of a tool direction, and the words of a program.
 
 The tool direction points from the tip to the spindle, seen from the workpiece (docs/kinematics.md). A stays positive and B

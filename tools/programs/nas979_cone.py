@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Writes the NAS 979 cone frustum, side milling, as a five-axis program with tool tip control (RTCP).
 
 The test piece is a cone frustum on a base whose top is tilted. The side is milled with the flank of an end mill:

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Writes one side of an S-shaped test piece, flank milling, as a five-axis program with tool tip control (RTCP).
 
 The test piece of ISO 10791-7 is an S-shaped strip with ruled sides on a base. The HNC-8 five-axis manual ("S-shaped test

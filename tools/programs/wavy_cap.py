@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Writes the paths the planner is measured with: a winding line over a wavy cap in blocks of 0.1 mm.
 
 The cap is z = -r^2 / 160 with waves of 0.4 mm every 24 mm; the line winds over it by r = 20 + 8 sin 3f. With five axes, on an

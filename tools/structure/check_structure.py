@@ -1,12 +1,14 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Checks what the documents and the sources say of the structure:
 
 - the table of README.md names every directory, and no directory that is not there
 - the top CMakeLists.txt names every directory of libs/ and services/
 - every path that CONTRIBUTING.md names is there
 - no source includes a file of another directory by a way around its include root
+- every source names its licence in its first two lines
 """
-import os, re, sys
+import os, re, subprocess, sys
 
 ROOT = os.path.abspath(os.path.join(os.path.dirname(__file__), "..", ".."))
 GROUPS = ("libs", "services", "deploy", "configs", "examples", "tools", "docs")  # their directories have rows of their own
@@ -61,7 +63,16 @@ def check_includes():
     return errors
 
 
+def check_licence():
+    """Of every file that git lists, or of none in an unpacked archive."""
+    listed = subprocess.run(["git", "ls-files", "*.cpp", "*.hpp", "*.c", "*.h", "*.ts", "*.tsx", "*.idl", "*.py", "*.sh", "*.cmake", "*CMakeLists.txt"],
+                            cwd=ROOT, capture_output=True, text=True)
+    paths = [path for path in listed.stdout.split() if os.path.exists(os.path.join(ROOT, path))]
+    return [f"{path}: no line 'SPDX-License-Identifier: Apache-2.0'" for path in paths
+            if "SPDX-License-Identifier: Apache-2.0" not in "".join(read(path).splitlines(True)[:2])]
+
+
 if __name__ == "__main__":
-    errors = check_readme() + check_build() + check_contributing() + check_includes()
+    errors = check_readme() + check_build() + check_contributing() + check_includes() + check_licence()
     print("\n".join(errors), file=sys.stderr, end="\n" if errors else "")
     sys.exit(1 if errors else 0)

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Adds a topic, a parameter, a G code and a stage to a scratch copy of the sources, in the places that "How to add" of
 CONTRIBUTING.md names and in no other, and builds what shows that they are there.
 

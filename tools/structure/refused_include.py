@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Shows that a source that links one library finds the headers of what it links, and of nothing else.
 
 refused_include.py COMPILER DIRECTORIES ALLOWED REFUSED: DIRECTORIES are the include directories of the library, with ; between

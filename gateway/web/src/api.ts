@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The gateway's HTTP side. An answer is never thrown: a refusal is something the operator must read.
 export type { Parameter, PlcImage, ProgramEntry, Tool, WorkOffset } from "./contract";
 

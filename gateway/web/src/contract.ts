@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Generated from gateway/openapi.json by tools/generate_api.py.
 export interface Accepted {
   accepted: true;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /** Three decimals with an explicit minus; never "-0.000". */
 export function millimetres(value: number, decimals = 3): string {
   const text = value.toFixed(decimals);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 import { expect, test } from "vitest";
 import { allLocks, levelsWith, locksWith, offsets, reminders } from "../src/state/functions";
 import { canStart, type Channel, emptyState } from "../src/state/model";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 import { expect, test } from "vitest";
 import { History, Ring } from "../src/state/history";
 import { type Channel, emptyState } from "../src/state/model";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 import { expect, test } from "vitest";
 import {
   type Alarm, axisRows, canStart, type Channel, channelNumbers, emptyState, emptyStream, receive, sortedAlarms,

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The summary, the tool rows, and programs in files.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A NURBS curve is smooth motion, not many short lines with corners.
 #include <gtest/gtest.h>
 

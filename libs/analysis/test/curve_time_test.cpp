@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Curves run as fast as the axes go, in points 0.1 mm apart and as arcs: time against the least there can be.
 #include <gtest/gtest.h>
 

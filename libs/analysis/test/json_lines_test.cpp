@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What --jsonl writes, read back with a JSON parser.
 #include "analysis/json_lines.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The checker is what everything else is judged by, so it is tried on motions whose answers are known.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The path parameters of the catalogue by their numbers: each acts on a program text.
 #include <gtest/gtest.h>
 

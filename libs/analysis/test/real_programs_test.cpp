@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Programs from CAM systems and post processors, run where they are; they are not part of this repository.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The reference motions with their numbers, and the limits under overrides and holds at random cycles.
 #include <gtest/gtest.h>
 

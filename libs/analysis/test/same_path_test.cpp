@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The test pieces on machines of three kinds: the path of the commanded tip on the part, compared as curves.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tool tip control on every machine at full feed: where the commanded axes put the tip, against the lines and
 // arcs of the program by formulae of this file.
 #include <gtest/gtest.h>

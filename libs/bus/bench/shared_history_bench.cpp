@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a frame costs its writer so that it can be recorded, beside what it costs anyway: its encoding.
 #include <benchmark/benchmark.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Cyclone DDS 0.10 back end. A custom sertype carries CDR bytes made by bus/cdr.hpp, so that both vendors and
 // every tool share one set of types. No TypeObjects are registered: mixed clusters match by (hashed) type
 // name alone.

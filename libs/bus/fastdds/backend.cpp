@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Fast DDS 2.9 back end: one TopicDataType that carries CDR bytes. UDP only (shared memory leaves stale
 // segments after kill -9), no TypeObjects, short heartbeats so that a late joiner gets the history at once.
 #include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>

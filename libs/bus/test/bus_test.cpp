@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Every pair of vendors in one process, each test in a domain of its own.
 #include <gtest/gtest.h>
 

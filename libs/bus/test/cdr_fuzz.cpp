@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Any bytes as the message of any topic: they are refused, or become the JSON of a value of that type.
 #include <cstdlib>
 

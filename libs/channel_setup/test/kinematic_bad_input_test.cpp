@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a machine builder or a programmer may get wrong about five axes, by name: each has an alarm of its own
 // before anything moves.
 #include <gtest/gtest.h>

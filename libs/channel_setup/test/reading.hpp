@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Programs read with the setup of a real machine, as a channel reads them.
 #pragma once
 

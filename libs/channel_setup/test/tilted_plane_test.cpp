@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The planes of G68.1 Q are parameters: 04c500 .. 679, nine numbers each.
 #include <gtest/gtest.h>
 

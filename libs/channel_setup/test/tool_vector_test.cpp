@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Lines with tool vectors (G43.5) on real machines: interpreter, channel setup and geometry together.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Travel is checked over the whole of a move before any of it: where the extreme lies inside, too.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Every command over HTTP and on the command line, as it was before both came from one table.
 #include "commands/channel_request.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A million poses for every machine: there and back, and from the direction to the angles.
 #include <gtest/gtest.h>
 

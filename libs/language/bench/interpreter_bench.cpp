@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Blocks per second of whole programs in memory.
 #include <benchmark/benchmark.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Every alarm, with the place it points at.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The interpreter allocates when it is made and never again.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The limits of programmed circles. Streams of ordinary arcs are in interpreter_test.cpp.
 #include "language/arc_geometry.hpp"
 

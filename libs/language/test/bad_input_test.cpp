@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Input nobody should write, by name. alarm_test.cpp has every alarm, golden/alarms.nc the stream before it.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The compensated tool lies at its radius from the contour, never closer.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Cutter radius compensation: what waits at a corner, and where an MDI line ends.
 #include <gtest/gtest.h>
 

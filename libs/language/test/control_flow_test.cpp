@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Branches, loops and jumps.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Canned cycles and hole patterns.
 #include <gtest/gtest.h>
 

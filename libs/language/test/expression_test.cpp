@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What expressions give, by precedence, function, and vacancy.
 #include <gtest/gtest.h>
 

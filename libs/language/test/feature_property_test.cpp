@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // G91 equals G90 and G20 equals scaled G21 with every feature: cycles, compensation, frames, curves.
 #include <gtest/gtest.h>
 

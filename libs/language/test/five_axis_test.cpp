@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tool tip control on the AC table of the test machine.
 #include <gtest/gtest.h>
 

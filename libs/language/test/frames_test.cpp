@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Frames can be undone, and their properties.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Programs and their canonical streams, feature by feature, from the folder golden/.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Every feature of the language: small programs, and the streams worked out by hand from the meaning of their
 // words. A program of golden/<feature>.nc begins with the line "(=== what it shows)", its stream in
 // golden/<feature>.stream with "=== what it shows".

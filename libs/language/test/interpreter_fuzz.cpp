@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Any bytes, in chunks of any size: no crash, finite commands, and the same stream for every chunk size.
 #include <cmath>
 #include <cstdint>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Counting, modal state, restarts and every code of the table.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

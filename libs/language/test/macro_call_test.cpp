@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Calls with arguments, modal calls, cycles, and whose variables are whose.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Properties of macros over random programs: precedence against a tree, loops and calls against what they
 // stand for.
 #include <gmock/gmock.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Programs that are wrong in their motion, and the alarm each of them gives.
 #pragma once
 

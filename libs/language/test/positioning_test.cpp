@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Positioning codes, modal values that are passed on, spindle modes, helices and skip moves.
 #include <gtest/gtest.h>
 

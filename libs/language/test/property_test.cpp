@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Rules that hold for any program, on seeded random ones.
 #include <gtest/gtest.h>
 

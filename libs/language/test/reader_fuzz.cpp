@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Any line: no crash, words within their range, and a look at a line agrees with reading it.
 #include <algorithm>
 #include <cmath>

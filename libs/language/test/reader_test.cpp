@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Numbers, blocks and UTF-8.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A small machine for the language tests: tables, an AC rotary table, and texts in memory.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Variables over programs, and the system variables.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The machines that come with Trunnion, as their files are.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Any text as machine.yaml or parameters.yaml: it is taken, or refused with the place in the file.
 #include <cstdlib>
 #include <string_view>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The planner allocates when it is constructed and never afterwards.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The cutting of a path into cells alone: blocks made by hand, and limits that a sheet of paper gives.
 #include "motion/cell_builder.hpp"
 

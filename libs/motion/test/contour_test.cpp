@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Brute force: every setpoint against the whole programmed path and against the limits of every machine axis.
 #include <gtest/gtest.h>
 

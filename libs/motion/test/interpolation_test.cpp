@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The interpolation alone: a path of blocks made by hand, and places and tails in the stead of a speed stage.
 #include "motion/interpolation.hpp"
 

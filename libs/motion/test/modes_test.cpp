@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Machining modes (G5.1) and the tolerance of G64 P: each acts on the blocks that are programmed with it.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the tests of motion share: machines, programs, and a run that keeps every setpoint.
 #pragma once
 

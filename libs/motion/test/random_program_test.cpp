@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Programs of every kind of path, random limits, with and without rtcp, under an override that jumps: each
 // must end on its target, keep every axis within its limits and the tip within the tolerance.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Motion backwards along the executed path: the same path, the same limits, as far back as is promised.
 #include <gtest/gtest.h>
 

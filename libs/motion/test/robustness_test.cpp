@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Paths no post-processor should write. They must end, stay finite and keep the limits.
 #include <gtest/gtest.h>
 

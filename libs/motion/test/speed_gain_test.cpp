@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How the speed stage gains speed on cells written by hand that leave less to acceleration the faster they
 // are run over.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The speed stage alone, over cells written by hand in the place of a path.
 #include "motion/speed_stage.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The state that a program's auxiliary functions add up to.
 #include "program_execution/auxiliary_memory.hpp"
 

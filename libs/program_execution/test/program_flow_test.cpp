@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The flow between the interpreter and the trajectory: what it passes on, where it stops, and how it fails.
 #include "program_execution/program_flow.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Any bytes at all: the reader ends, keeps its memory bounded and says how it ended.
 #include <cstdlib>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The report on runs whose errors, times and gaps are known because the test made them.
 #include "report/report.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A run without a cluster: the real interpreter, motion and kinematics, and a drive that follows as it is
 // told.
 #pragma once

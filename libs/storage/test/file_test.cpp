@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Files on a real disk: refused and torn writes, names that last, memory that outlives its process.
 #include "storage/file.hpp"
 

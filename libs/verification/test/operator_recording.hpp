@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A recording made up for tests: a cluster with a gateway, one channel and an operator.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A recording made up for tests: one channel, kinematics and the drive, with the credits of a real stream.
 #pragma once
 

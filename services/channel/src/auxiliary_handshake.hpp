@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a program asks of others while the axes are at rest: M S T of the PLC, changes of tables of their
 // owner.
 #pragma once

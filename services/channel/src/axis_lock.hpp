@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Axis lock: the program runs and the displayed positions move, the locked axes stay at rest.
 #pragma once
 

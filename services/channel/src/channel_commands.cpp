@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What an operator may ask of a channel, and when.
 #include "channel_core.hpp"
 #include "commands/channel_request.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "channel_core.hpp"
 
 #include "machine/alarm_constants.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // One channel: modes, program flow, holds and restarts. No DDS, no clock: the service brings the messages.
 // What it is doing is in ChannelStates; the parts that do it are ManualMotion, AuxiliaryHandshake and
 // StreamWriter.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Moves that are more than a path: those a skip input ends, and those a spindle follows.
 #include "channel_core.hpp"
 

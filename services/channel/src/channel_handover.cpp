@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The state that a channel at rest hands over to the process that takes its place.
 #include "channel_core.hpp"
 

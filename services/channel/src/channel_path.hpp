@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A trajectory together with the frame its positions are in.
 #pragma once
 

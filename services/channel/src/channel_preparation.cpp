@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What happens before a program moves, and the return to one that was left.
 #include <algorithm>
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the drive stopped, lost or kept: interruptions, and what a new process finds.
 #include "channel_core.hpp"
 #include "machine/alarm_constants.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a program asks of the rest of the control while the axes are at rest: the PLC, the tables, the
 // operator.
 #include "channel_core.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The channel's snapshot in the stream: what a fresh process needs to continue for the one before it.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How programs, lines and moves start.
 #include "channel_core.hpp"
 #include "machine/alarm_constants.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the HMI shows of a channel.
 #include <algorithm>
 

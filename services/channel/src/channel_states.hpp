@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The states of a channel and how one follows another (docs/channel-states.md). Pure: nothing here moves an
 // axis or writes a message, ChannelCore does that beside each transition.
 #pragma once

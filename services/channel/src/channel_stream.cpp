@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The channel's setpoints: when it moves, and what it writes in every cycle.
 #include "channel_core.hpp"
 #include "machine/alarm_constants.hpp"

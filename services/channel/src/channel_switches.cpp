@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What an operator switches: dry run, locks, block skip; the handwheel and retrace.
 #include "channel_core.hpp"
 #include "machine/alarm_constants.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The check at an exact stop (G9, G61): the program continues when every axis of the channel is in position.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a channel at rest leaves to the process that takes its place: text, so that another build can read it.
 #pragma once
 

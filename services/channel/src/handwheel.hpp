@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Axes that follow the counts of a handwheel, or of several turned at once.
 #pragma once
 

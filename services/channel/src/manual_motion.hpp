@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Motion without a program: jog, reference return, the handwheel in place of a path and its offset on a path.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The active G codes as an operator reads them.
 #pragma once
 

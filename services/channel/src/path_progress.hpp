@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How far a channel's path was planned, written and executed.
 #pragma once
 

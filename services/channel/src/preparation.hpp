@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What brings the machine to a point of a program away from its position: functions first, then moves.
 #pragma once
 

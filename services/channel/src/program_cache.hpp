@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The texts that one interpreter run reads: a program and the subprograms it calls.
 #pragma once
 

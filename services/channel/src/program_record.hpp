@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The program under way, as the text that outlives the control.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A stored program as a text source: fetched in chunks, a few of them kept.
 #pragma once
 

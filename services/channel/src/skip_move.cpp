@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "skip_move.hpp"
 
 namespace trunnion::channel {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A move that a skip input ends (G31): which edge counts, and in which cycle the channel reacts to it.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The channel's end of the stream: its place in it, its credits, and what the drive reports of it.
 #pragma once
 

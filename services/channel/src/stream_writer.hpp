@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Writes the channel's setpoints into the stream: its place there, batches of cycles, and what of them the
 // drive has executed.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What an operator sets of a channel beside its state.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A table that the program changes (G10, system variables) as the request to its owner.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Macro variables as text: what a new process of the channel needs of the one before.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The handshakes with the PLC and the owner of the tables by themselves.
 #include "auxiliary_handshake.hpp"
 

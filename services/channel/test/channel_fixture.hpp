@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // One channel core, its program, a drive and a PLC, for its unit tests.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The state machine by itself: every transition from every state, allowed or not.
 #include "channel_states.hpp"
 

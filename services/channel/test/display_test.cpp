@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The positions an operator reads: the tool tip in the words of the block being executed.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Parameter 010166: an exact stop lasts until the axes are in position, at most that long.
 #include "channel_fixture.hpp"
 #include "machine/alarm_constants.hpp"

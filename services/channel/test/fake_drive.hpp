@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A drive that executes everything at once: the channel's counterpart in its unit tests.
 #pragma once
 

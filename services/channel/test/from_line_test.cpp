@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The start of a program from a line of it.
 #include <gmock/gmock.h>
 

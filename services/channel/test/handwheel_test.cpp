@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The handwheel: its followers' limits, axes moved by it, and its offset on a program.
 #include "handwheel.hpp"
 

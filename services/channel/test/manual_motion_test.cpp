@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Jog, reference and handwheel by themselves: targets, limits and refusals.
 #include "manual_motion.hpp"
 

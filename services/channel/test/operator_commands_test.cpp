@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The table of operator commands says in which modes a command is accepted and whether while the channel is
 // busy: the channel does as it says.
 #include "channel_fixture.hpp"

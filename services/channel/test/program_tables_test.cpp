@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a program leaves behind: kept variables, changed tables, and the codes an operator reads.
 #include <gmock/gmock.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Any commands in any sequence: the setpoints never jump and the channel never gets stuck.
 #include <cmath>
 #include <random>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What is left of a program, its variables and its path when the drive or the process stops in bad moments.
 #include <cmath>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Going back over the executed path at the operator's request.
 #include <cmath>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Dry run, locks and block skip.
 #include <cmath>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // G31: a skip input ends the move, the program continues from there and knows the position of the edge.
 #include "bus/cdr.hpp"
 #include "channel_fixture.hpp"

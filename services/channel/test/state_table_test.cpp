@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Walks every pair of a state and an event through the real core and compares what follows with the table in
 // docs/channel-states.md.
 #include <malloc.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Writing setpoints into the stream by itself: credit, batches, the end of a motion, what was executed.
 #include "stream_writer.hpp"
 

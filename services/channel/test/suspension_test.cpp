@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A held program that is left for MDI and jog, and the return to it.
 #include <cmath>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Rigid tapping: the spindle's angle and the depth are one, whatever the speed does; what the operator may
 // do.
 #include <cmath>

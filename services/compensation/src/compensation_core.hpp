@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Backlash and pitch error compensation, added to the machine setpoints: positive moves positive.
 // Source: HNC-8 parameters 30a000..003 and 30a020..026 with tables 70xxxx (docs/spec in
 // docs/compensation.md).

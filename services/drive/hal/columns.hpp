@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Which column of HAL's streamer and samplers means what. docs/hal.md has the same as a table.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A machine behind LinuxCNC's HAL: setpoint rows go through HAL's streamer, encoders and switches come back
 // through its samplers, HAL's servo thread is the clock. docs/hal.md describes the columns and what the .hal
 // file must do.

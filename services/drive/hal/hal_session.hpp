@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The drive's end of a HAL session: a process of its own (session_main.cpp) that loads the .hal file,
 // outlives a drive that is killed, so that HAL can brake and switch off, and ends HAL when the cluster ends.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The FIFOs of LinuxCNC's HAL: setpoint rows into the streamer, samples out of the samplers. The only code
 // that calls liblinuxcnchal.
 #pragma once

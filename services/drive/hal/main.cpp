@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // trunnion-drive-hal: the drive service on LinuxCNC's HAL. The only program of Trunnion that is linked with
 // LinuxCNC.
 #include <unistd.h>

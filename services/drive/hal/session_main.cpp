@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // trunnion-hal-session DIRECTORY FILE.hal PID: loads a .hal file, starts HAL's threads, and ends HAL when it
 // is told to (SIGTERM) or when process PID has ended. It uses LinuxCNC's program halcmd and is linked with
 // nothing of LinuxCNC.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // One servo axis: position P, speed PI, current lag, motor and load inertia, friction, limits, encoder.
 // Everything is in units of the load: mm or deg, and torque as the acceleration it gives the nominal inertia.
 #pragma once

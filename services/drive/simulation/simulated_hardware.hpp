@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A simulated machine: servo loops with their mechanics, spindles, skip inputs, and home switches at the
 // reference coordinates. Its encoders are absolute, its axes always homed, and a row is executed while it is
 // handed over.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A simulated spindle: turns at a speed, or follows an angle, within its acceleration.
 #pragma once
 

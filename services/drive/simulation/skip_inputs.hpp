@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Simulated skip inputs: switches at a fixed place of an axis, with the latch that a drive has for a probe.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Leaving the path and returning to it: braking, holding, resuming.
 //
 // Acceleration. With A' = acceleration * dt^2 the largest second difference the path uses itself, and a rate

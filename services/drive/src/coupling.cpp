@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Spindles that follow the stream: their setpoints come with those of the axes and are passed, interpolated
 // and braked along with them, so a spindle keeps its place to the axes whatever the drive does.
 #include "drive_core.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The end of the stream: executes setpoints cycle by cycle, brakes along the path when one is missing,
 // continues where it stopped. No clock: the caller says when a period has passed. What moves is behind
 // DriveHardware.

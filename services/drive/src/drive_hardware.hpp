@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the executor of setpoints needs of the machine: axes, spindles, switches and probes. The
 // implementations are simulation/ (servo loops and mechanics in this process) and hal/ (LinuxCNC's HAL). A
 // more exact model of a machine (masses, encoders, measuring instruments) is one more implementation.

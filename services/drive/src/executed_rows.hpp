@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The rows of the feedback: setpoints with the encoder positions of the same cycle. A setpoint is executed
 // once the hardware has reported its row, which hardware with a queue does some periods after it was handed
 // over.

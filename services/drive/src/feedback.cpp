@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the drive reports: executed rows, the axes, and the consistent cut of every channel.
 #include "drive_core.hpp"
 

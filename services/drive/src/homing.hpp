@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The search for the home switch of one axis: fast to the switch, back off it, slowly to its edge.
 #pragma once
 

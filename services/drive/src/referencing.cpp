@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The reference of axes whose encoders do not know it: homing, and no motion of a channel without it.
 #include <algorithm>
 #include <cmath>

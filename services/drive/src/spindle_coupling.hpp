@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The setpoint of one spindle: the speed the PLC demands, or an angle of the stream (tapping).
 #pragma once
 

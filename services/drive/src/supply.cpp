@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How far the setpoints at hand reach, and how many of them a stop takes.
 #include <algorithm>
 #include <cmath>

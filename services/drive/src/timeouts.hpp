@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How long the drive waits. docs/architecture.md and docs/faults.md name these figures; a test compares them.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The figures that documents name are those of the code.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The executor on hardware that is not a simulation: with a queue, with drives that take time or fail.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Hardware with a queue of rows, as a real one has: what is handed over comes into force some periods later.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Slave axes of a gantry follow their master; the synchronization error is corrected slowly.
 // Source: HNC-8 parameters 010050.., 10a100..10a131.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tool tip in the workpiece to machine axes (RTCP), by the chain of parameters 04c400..04c437.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "active_set.hpp"
 
 #include <sstream>

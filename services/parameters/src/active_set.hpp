@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The active parameters as kept on disk, with the start of the cluster they belong to.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Storage in a directory: temporary file, fsync, rename, fsync of the directory.
 #pragma once
 

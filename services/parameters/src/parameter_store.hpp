@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The one owner of parameters, tools and work offsets: checks, journals, keeps and activates them.
 #pragma once
 

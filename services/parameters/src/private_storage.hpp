@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What another process's storage would become: everything is read from it, nothing is written to it.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the keeper of parameters needs of a directory. An interface, so that every way to fail can be tested.
 #pragma once
 

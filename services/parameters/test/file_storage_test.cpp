@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Files on a real disk: refused and killed writers.
 #include <gtest/gtest.h>
 #include <signal.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The executable over DDS: values, activation, kill -9 and the start of another cluster.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The keeper of parameters on a storage in memory that can fail in every way a disk does.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

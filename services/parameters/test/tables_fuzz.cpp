@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Any text as tools.yaml, work_offsets.yaml or the kept active set: it is taken, and written back the same,
 // or refused with the place in the file.
 #include <cstdlib>

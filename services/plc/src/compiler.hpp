@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Compiles instruction lists (IEC 61131-3:2003, 3.2, a subset; services/plc/README.md).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Words of an instruction list with their places.
 #pragma once
 

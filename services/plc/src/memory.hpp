@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The retained state of the PLC: plain data, so that it can be in a mapped file and survive the process.
 #pragma once
 

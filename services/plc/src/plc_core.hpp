@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The PLC: inputs into the image, tasks by the drive's ticks, outputs and finished auxiliary functions from
 // it.
 #pragma once

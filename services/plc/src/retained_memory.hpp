@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The PLC's memory in a mapped file: it survives kill -9 at any instant.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // One round of a running PLC for the standby comparison (idl/plc.idl): what of it is computed here.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Passes rounds from the running PLC to the one that is to replace it: a ring in a file that both map. The
 // running one never waits, allocates only when a comparison starts, and does nothing without a request.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Records the rounds of a running PLC while a reader requests them.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A PLC that repeats the rounds of the running one without outputs, and reports where it differs.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Names of registers: the interface of registers.yaml and what a program declares.
 #pragma once
 

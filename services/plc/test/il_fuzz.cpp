@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Whatever the text: it compiles or is refused with a place, and what compiles runs to its end.
 #include <cstddef>
 #include <cstdint>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The instruction list: truth tables, blocks by time, errors with their places.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The machine's own programs on the core: handshakes, emergency stop, restart, all by the drive's ticks.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The executable over DDS, with the test as drive, channel and keeper of parameters in virtual time.
 #include <gtest/gtest.h>
 

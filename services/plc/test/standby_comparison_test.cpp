@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A standby PLC beside the running one: two cores, the rounds of the one played on the other.
 #include "standby_comparison.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A view of another process's directory: reads come from it, writes stay in memory.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What is known of each program without reading it: size, checksum, lines, program number, revision.
 #pragma once
 

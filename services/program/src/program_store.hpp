@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The store of programs: chunks out, uploads in, names, revisions. Never a whole program in memory.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Programs on a real disk: large ones in little memory, killed writers.
 #include <gtest/gtest.h>
 #include <signal.h>

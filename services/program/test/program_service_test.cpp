@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The executable over DDS: upload, download, kill -9.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The output of the recorder. Everything runs in the thread that writes files.
 #pragma once
 

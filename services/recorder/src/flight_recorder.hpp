@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Keeps the last seconds in memory and writes them to a file when an alarm is raised.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Between the thread that empties the readers and the one that writes the file: bounded; push() never waits.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A recording in one file, or in parts that are each a whole recording.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // One recording on the disk, written message by message; and the names of several in a row.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The newest message of every key of the state topics: what a late joiner would be given, and so what a
 // recording that begins in the middle has to begin with.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The messages of one topic: from the memory of writers on this host, by DDS from all others.
 #pragma once
 

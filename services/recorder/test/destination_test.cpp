@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Parts and flight recordings: what is in which file.
 #include <gtest/gtest.h>
 #include <unistd.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The recorder as a process: what was on the bus is in the file, on both vendors.
 #include <gtest/gtest.h>
 #include <signal.h>

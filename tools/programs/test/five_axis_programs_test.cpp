@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The committed five-axis programs, read by the real interpreter for the machines they are meant for, whose
 // parameters and offsets are those of configs/machines.
 #include <gtest/gtest.h>

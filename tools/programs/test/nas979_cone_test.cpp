@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The committed cone program, read by the real interpreter for the machine it is meant for.
 #include <gtest/gtest.h>
 

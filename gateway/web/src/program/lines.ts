@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A program as bytes with the start of every line: a million lines stay one buffer, and only what is seen is decoded.
 
 export class ProgramText {

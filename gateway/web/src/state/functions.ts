@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the switches of a program show and send.
 import type { Channel } from "./model";
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the plots and the tool path remember: rings of a fixed size, filled from the messages of the stream.
 import type { Channel, MachineState } from "./model";
 

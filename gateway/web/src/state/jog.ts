@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Press and hold: a continuous jog lives only as long as it is renewed, and its stop is sent at once and, when the
 // start was still under way, once more after it, because two requests may overtake each other.
 

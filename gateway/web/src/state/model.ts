@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The state of the cluster as the gateway streams it, and the pure functions that read it.
 import type { Alarm, ChannelState, MachineState, Service, Severity } from "../contract";
 import { type Json, mergePatch } from "./patch";

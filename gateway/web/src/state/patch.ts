@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // JSON Merge Patch (RFC 7396) that shares what did not change, so that a component whose part is the same object
 // need not be drawn again.
 

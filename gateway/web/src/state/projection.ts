@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // From machine coordinates to the canvas: parallel projections and the scale that shows everything.
 export type View = "XY" | "XZ" | "YZ" | "3D";
 export interface Rotation {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The one place with live state: the stream, the chosen channel and view, and the last thing that was refused.
 import { computed, signal } from "@preact/signals";
 import { post } from "../api";

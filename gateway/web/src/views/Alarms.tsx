@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 import { timeOfDay } from "../format";
 import { sortedAlarms } from "../state/model";
 import { machine, request } from "../state/store";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 import { type Mode, canStart } from "../state/model";
 import { channel, command, machine } from "../state/store";
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 import { signal } from "@preact/signals";
 import { useEffect } from "preact/hooks";
 import { allLocks, levelsWith, locksWith, offsets, skipLevels, skips } from "../state/functions";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 import { channel, channelList, channelNumber, channels, chooseChannel, machine, request, view, type ViewName } from "../state/store";
 
 const views: [ViewName, string][] = [

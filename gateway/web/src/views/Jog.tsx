@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 import { signal } from "@preact/signals";
 import { useEffect, useMemo } from "preact/hooks";
 import { JogHold } from "../state/jog";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 import { signal, useSignal, useSignalEffect } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
 import { get, programBytes, type ProgramEntry, remove, upload } from "../api";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 import { millimetres, whole } from "../format";
 import { channel, machine } from "../state/store";
 

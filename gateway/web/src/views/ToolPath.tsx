@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 import { signal } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
 import { fit, gridStep, type Point2, project, type Rotation, type View } from "../state/projection";

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # Installs the readers into the build directory when the lock has changed, writes a recording and reads it back.
 file(MAKE_DIRECTORY ${WORK}/node)
 foreach(name IN ITEMS package.json package-lock.json .npmrc readback.mjs)

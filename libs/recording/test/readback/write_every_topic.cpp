@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Writes a recording with one message of every topic, and a JSON file with what is in it.
 // Usage: write_every_topic RECORDING EXPECTED
 #include <fstream>
