@@ -30,8 +30,8 @@ bus::Topic<idl::stream::AxisFrame> output_of(const std::string& service) {
 
 Comparison comparison_of(const std::string& service) {
   return stream::stage_of(service) ? Comparison::frames
-         : service == "plc"             ? Comparison::ticks
-                                        : Comparison::once;
+         : service == "plc"        ? Comparison::ticks
+                                   : Comparison::once;
 }
 
 ServiceProcess make_fresh(const ServiceProcess& old, const idl::service::SwapRequest& request,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// To CDR bytes and back. The build instantiates these for every type of idl/ once (contracts/codec_*.cpp), so that no
-// other source compiles a visitor of fields; for types with Fields of their own, include bus/cdr.hpp.
+// To CDR bytes and back. The build instantiates these for every type of idl/ once (contracts/codec_*.cpp), so
+// that no other source compiles a visitor of fields; for types with Fields of their own, include bus/cdr.hpp.
 #pragma once
 
 #include <array>
@@ -31,7 +31,8 @@ void encode(const T& value, Bytes& out);
 template <Struct T>
 bool decode(std::span<const std::uint8_t> cdr, T& value);
 
-/// The RTPS key hash (RTPS 2.3, 9.6.3.8) of a sample: its key in big-endian CDR. False when the bytes are not a T.
+/// The RTPS key hash (RTPS 2.3, 9.6.3.8) of a sample: its key in big-endian CDR. False when the bytes are not
+/// a T.
 template <Struct T>
 bool key_of(std::span<const std::uint8_t> cdr, KeyHash& key);
 

@@ -4,8 +4,8 @@
 
 #include <array>
 
-#include "geometry/chain.hpp"
 #include "canonical/canonical.hpp"
+#include "geometry/chain.hpp"
 
 namespace trunnion::motion {
 

@@ -190,7 +190,7 @@ double remaining_sweep(const AxisValues& position, const AxisValues& target, con
   const auto dot = [](const auto& a, const auto& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; };
   const auto a = arm(position), b = arm(target);
   const canonical::Vector3 cross{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2],
-                                a[0] * b[1] - a[1] * b[0]};
+                                 a[0] * b[1] - a[1] * b[0]};
   // What lies along the axis of a helix is no part of the angle.
   const double between = std::atan2(dot(cross, n), dot(a, b) - dot(a, n) * dot(b, n)) *
                          (arc.clockwise ? -180 : 180) / std::numbers::pi;

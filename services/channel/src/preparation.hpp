@@ -10,8 +10,8 @@
 
 namespace trunnion::channel {
 
-using program_execution::AuxiliaryFunction;
 using language::AxisValues;
+using program_execution::AuxiliaryFunction;
 
 /// What is done, in this sequence, before a program continues.
 struct Preparation {

@@ -37,7 +37,8 @@ TEST_F(HomedAxis, AReferenceReturnOfAnAxisWithAHomeSwitchIsADemandOfTheDrive) {
   core->advance();
   const auto start = core->take_stream_request();
   ASSERT_TRUE(start);
-  EXPECT_EQ(start->kind, StreamRequestKind::NEW_EPOCH) << "the stream begins where the drive has found the axes";
+  EXPECT_EQ(start->kind, StreamRequestKind::NEW_EPOCH)
+      << "the stream begins where the drive has found the axes";
 }
 
 TEST_F(HomedAxis, AnAxisWithoutASwitchIsMovedToItsReferencePosition) {

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstdio>
 
-
 #include "machine/alarm_constants.hpp"
 #include "machine/parameter_constants.hpp"
 

@@ -14,7 +14,8 @@ bool DriveCore::all_homed() {
   for (std::size_t i = 0; i < axes_.size(); ++i)
     if (!status_.axes[i].homed) names += (names.empty() ? "" : ", ") + axes_[i].name;
   if (names.empty()) return true;
-  raise(alarm::not_homed, 0, "Axes without a reference: " + names + ". Mode REF, then reference return of each");
+  raise(alarm::not_homed, 0,
+        "Axes without a reference: " + names + ". Mode REF, then reference return of each");
   return false;
 }
 

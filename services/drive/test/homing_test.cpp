@@ -111,9 +111,7 @@ struct HomedAxis : ::testing::Test {
     core.restore(elsewhere);
     core.set_enables({1}, false);
   }
-  void request(StreamRequestKind kind, std::uint32_t epoch) {
-    core.request({0, ++number, kind, epoch, 0});
-  }
+  void request(StreamRequestKind kind, std::uint32_t epoch) { core.request({0, ++number, kind, epoch, 0}); }
   void run() {
     while (core.can_step(false)) core.step();
   }
