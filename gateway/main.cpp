@@ -9,7 +9,7 @@ namespace {
 
 /// False when the process is told to end before it is needed.
 bool stand_by(trunnion::service::Node& node, std::uint16_t port) {
-  if (!node.shadow()) return node.stand_by();
+  if (!node.on_standby()) return node.stand_by();
   trunnion::gateway::StandbyService standby(node, port);
   return node.stand_by(&standby);
 }

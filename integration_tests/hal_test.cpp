@@ -76,7 +76,7 @@ struct Hal : ::testing::Test {
   }
   void home(std::uint8_t axis) {
     cluster->client().channel(0, CommandKind::SET_MODE, "", 0, Mode::REF);
-    deploy::ChannelRequest request;
+    cluster::ChannelRequest request;
     request.command = CommandKind::REFERENCE_AXIS;
     request.axis = axis;
     cluster->client().channel(request);

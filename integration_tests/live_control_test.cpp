@@ -28,7 +28,7 @@ const char* const part =
     "G49\n"                    // 10
     "M30\n";                   // 11
 
-void ask(Cluster& cluster, const deploy::ChannelRequest& request) { cluster.client().channel(request); }
+void ask(Cluster& cluster, const cluster::ChannelRequest& request) { cluster.client().channel(request); }
 
 // The state is one that was published after what was asked last.
 void refresh(Cluster& cluster) {
