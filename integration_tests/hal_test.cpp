@@ -15,8 +15,8 @@ namespace trunnion::integration {
 namespace {
 namespace fs = std::filesystem;
 
-constexpr int hal_memory = 0x48414c32;                      // key of HAL's shared memory
-constexpr std::uint8_t following = 0, off = 4, homing = 5;  // FeedbackFrame::mode
+constexpr int hal_memory = 0x48414c32;  // key of HAL's shared memory
+using idl::stream::DriveMode;
 
 std::string text_of(const fs::path& path) {
   std::ifstream in(path);
@@ -72,16 +72,19 @@ struct Hal : ::testing::Test {
 
   void up() {
     cluster.emplace(directory.string(), Time::real);
-    EXPECT_TRUE(cluster->until([&] { return cluster->feedback.mode == following; })) << cluster->told();
+    EXPECT_TRUE(cluster->until([&] { return cluster->feedback.mode == DriveMode::FOLLOWING; }))
+        << cluster->told();
   }
   void home(std::uint8_t axis) {
-    cluster->client().channel(0, CommandKind::SET_MODE, "", 0, Mode::REF);
+    cluster->client().set_mode(0, Mode::REF);
     cluster::ChannelRequest request;
     request.command = CommandKind::REFERENCE_AXIS;
     request.axis = axis;
     cluster->client().channel(request);
-    EXPECT_TRUE(cluster->until([&] { return cluster->feedback.mode == homing; })) << cluster->told();
-    EXPECT_TRUE(cluster->until([&] { return cluster->feedback.mode == following; }, 60)) << cluster->told();
+    EXPECT_TRUE(cluster->until([&] { return cluster->feedback.mode == DriveMode::HOMING; }))
+        << cluster->told();
+    EXPECT_TRUE(cluster->until([&] { return cluster->feedback.mode == DriveMode::FOLLOWING; }, 60))
+        << cluster->told();
   }
   void home_all() {
     for (std::uint8_t axis = 0; axis < 3; ++axis) home(axis);
@@ -115,8 +118,8 @@ struct Hal : ::testing::Test {
 
 TEST_F(Hal, AxesWithoutAReferenceRefuseToMoveAndFindItAtTheirSwitches) {
   up();
-  cluster->client().channel(0, CommandKind::SET_MODE, "", 0, Mode::MDI);
-  cluster->client().channel(0, CommandKind::MDI_LINE, "G53 G0 X5");
+  cluster->client().set_mode(0, Mode::MDI);
+  cluster->client().mdi(0, "G53 G0 X5");
   EXPECT_TRUE(cluster->until([&] { return cluster->has_alarm(115, "X, Y, Z"); })) << cluster->told();
   cluster->client().channel(0, CommandKind::RESET);
   cluster->reset_alarms();
@@ -203,10 +206,11 @@ TEST_F(Hal, AKilledDriveLeavesTheAxesBrakedAndSwitchedOffByHal) {
   std::this_thread::sleep_for(std::chrono::milliseconds(300));
   EXPECT_EQ(signal("x-position"), rest) << "it stays at rest";
   cluster->drain();
-  cluster->feedback.mode = 255;  // what the killed process has told is old
+  cluster->feedback.mode = DriveMode::OFF;  // what the killed process has told is old
   kill(launcher, SIGCONT);
   // The next process finds the axes where they are, still homed, and the program can be gone on with.
-  EXPECT_TRUE(cluster->until([&] { return cluster->feedback.mode == following && cluster->ready(); }, 30))
+  EXPECT_TRUE(
+      cluster->until([&] { return cluster->feedback.mode == DriveMode::FOLLOWING && cluster->ready(); }, 30))
       << cluster->told();
   EXPECT_NEAR(signal("x-position"), rest, 1e-6) << "switching on moves nothing";
   EXPECT_NEAR(cluster->feedback.position[0] - rest, -2, 0.005) << "the reference is the old one";
@@ -241,15 +245,16 @@ TEST_F(Hal, AFaultOfADriveSwitchesAllOffAndIsNamed) {
   start_long_move();
   output_of("halcmd sets x-fault 1");
   EXPECT_TRUE(cluster->until([&] { return cluster->has_alarm(114, "axis X"); })) << cluster->told();
-  EXPECT_TRUE(cluster->until([&] { return cluster->feedback.mode == off; })) << cluster->told();
+  EXPECT_TRUE(cluster->until([&] { return cluster->feedback.mode == DriveMode::OFF; })) << cluster->told();
   rest_of_x();
   EXPECT_TRUE(cluster->until([] { return signal("enable") == 0; })) << "behind the rows in the queue";
   output_of("halcmd sets x-fault 0");
   cluster->until([] { return false; }, 0.3);
-  EXPECT_EQ(cluster->feedback.mode, off) << "until the alarms are reset";
+  EXPECT_EQ(cluster->feedback.mode, DriveMode::OFF) << "until the alarms are reset";
   cluster->client().channel(0, CommandKind::RESET);
   cluster->reset_alarms();
-  EXPECT_TRUE(cluster->until([&] { return cluster->feedback.mode == following; })) << cluster->told();
+  EXPECT_TRUE(cluster->until([&] { return cluster->feedback.mode == DriveMode::FOLLOWING; }))
+      << cluster->told();
 }
 
 TEST_F(Hal, NothingIsLeftWhenTheClusterIsDown) {
