@@ -25,7 +25,7 @@ struct Options {
 };
 
 // Of the axes, in the order of their indices.
-std::string letters_of(Client& client, std::uint16_t channel) {
+std::string letters_of(cluster::Client& client, std::uint16_t channel) {
   auto reader = client.bus().reader(topics::channel_state);
   const double until = service::monotonic_seconds() + 2;
   idl::channel::ChannelState newest;
@@ -37,7 +37,7 @@ std::string letters_of(Client& client, std::uint16_t channel) {
   throw std::runtime_error("channel " + std::to_string(channel) + " is not there");
 }
 
-ChannelRequest request_of(Client& client, const Options& options) {
+idl::channel::ChannelRequest request_of(cluster::Client& client, const Options& options) {
   if (options.word == "start" && options.from_line != 0)
     return {.channel = options.channel, .command = CommandKind::START_FROM_LINE, .line = options.from_line};
   const auto* command = commands::find_word(options.word);
@@ -74,8 +74,8 @@ std::string await_line(cluster::Client& client, std::uint16_t channel) {
 }
 
 int run(const Common& common, const Options& options) {
-  const auto cluster = find_cluster(common.domain);
-  Client client(cluster.run.domain);
+  const auto cluster = cluster::find_cluster(common.domain);
+  cluster::Client client(cluster.run.domain);
   client.channel(request_of(client, options));
   std::string detail;
   if (options.word == "start" && options.from_line != 0) detail = await_line(client, options.channel);

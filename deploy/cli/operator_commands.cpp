@@ -53,8 +53,8 @@ void wait_until_idle(cluster::Client& client, std::uint16_t channel, double time
 }
 
 int mdi(const Common& common, const std::string& line, std::uint16_t channel, double timeout) {
-  const auto cluster = find_cluster(common.domain);
-  Client client(cluster.run.domain);
+  const auto cluster = cluster::find_cluster(common.domain);
+  cluster::Client client(cluster.run.domain);
   client.set_mode(channel, Mode::MDI);
   client.mdi(channel, line);
   wait_until_idle(client, channel, timeout);
@@ -102,8 +102,8 @@ int alarms(const Common& common, bool reset) {
 }
 
 int panel(const Common& common, idl::plc::PanelRequestKind kind) {
-  const auto cluster = find_cluster(common.domain);
-  Client(cluster.run.domain).panel(kind);
+  const auto cluster = cluster::find_cluster(common.domain);
+  cluster::Client(cluster.run.domain).panel(kind);
   if (common.json) std::cout << bus::Json{{"accepted", true}}.dump() << "\n";
   return 0;
 }

@@ -4,6 +4,7 @@
 #include <random>
 
 #include "bus/bus.hpp"
+#include "bus/json.hpp"
 #include "bus/registry.hpp"
 #include "contracts/types.hpp"
 
