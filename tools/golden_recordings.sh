@@ -11,6 +11,7 @@ root=$(cd "$(dirname "$0")/.." && pwd)
 trunnion=$build/bin/trunnion
 domain=${GOLDEN_DOMAIN:-76}
 port=${GOLDEN_PORT:-18476}
+services=$(sed -n '/^services:/,/^observers:/{/per_channel/d;s/.*{name: \([a-z]*\).*/\1/p}' "$root/libs/machine/services.yaml")
 machines=("$@")
 [ ${#machines[@]} -gt 0 ] || machines=($(grep -L '^hardware: hal' "$root"/configs/machines/*/machine.yaml | xargs -n1 dirname | xargs -n1 basename))
 work=$(mktemp -d)
