@@ -14,7 +14,7 @@ export type Severity = "HINT" | "WARNING" | "ERROR" | "EMERGENCY";
 
 export type Reaction = "SHOW" | "FEED_HOLD" | "AXIS_STOP" | "EMERGENCY_STOP";
 
-export type DriveMode = "FOLLOWING" | "BRAKING" | "HELD" | "RETURNING" | "OFF";
+export type DriveMode = "FOLLOWING" | "BRAKING" | "HELD" | "RETURNING" | "OFF" | "HOMING";
 
 /** Lengths in mm, angles in degrees, feeds in mm/min, spindle speeds in 1/min, as in idl/channel.idl. */
 export interface ChannelState {

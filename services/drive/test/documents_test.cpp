@@ -31,7 +31,7 @@ TEST(Documents, TheWaitForAMissingSetpointInVirtualTimeIsTheOneOfTheCode) {
 }
 
 TEST(Documents, TheTimeWithoutASignOfThePlcIsTheOneOfTheCode) {
-  EXPECT_NE(document("faults.md").find(seconds("silence of the PLC for %g s", plc_timeout)),
+  EXPECT_NE(document("faults.md").find(seconds("%g s without a message of the PLC", plc_timeout)),
             std::string::npos);
 }
 
