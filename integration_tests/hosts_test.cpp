@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The cone over three hosts: network namespaces with cables between them that are long, lossy, and cut.
+#include <arpa/inet.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
 #include <nlohmann/json.hpp>
 
 #include "cluster_harness.hpp"
