@@ -181,7 +181,7 @@ TEST(Security, PermissionsAreThoseOfTheTopics) {
 
   // They follow the table of topics and nothing else.
   const auto table_of = [&](const std::string& topics) {
-    std::ofstream(directory / "topics.yaml") << "topics:\n" << topics;
+    std::ofstream(directory / "topics.yaml") << "standby_suffix: /standby\ntopics:\n" << topics;
     return (directory / "topics.yaml").string();
   };
   EXPECT_EQ(generate(table_of("  - {name: swarf, qos: state, writers: [plc], readers: [gateway]}\n")), "");

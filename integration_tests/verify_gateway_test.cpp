@@ -168,7 +168,7 @@ TEST_F(VerifyGateway, AnOrderThatIsNotTheOneAskedForIsFoundAtItsField) {
   EXPECT_EQ(result.problem, "") << "it answers everything";
   ASSERT_TRUE(result.difference.first.has_value());
   EXPECT_EQ(result.difference.first->topic, "channel_request");
-  EXPECT_EQ(result.difference.first->field, "value");
+  EXPECT_EQ(result.difference.first->field, "fraction");
   EXPECT_FALSE(result.equal());
 }
 
