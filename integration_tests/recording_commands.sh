@@ -33,4 +33,4 @@ head -c $(($(stat -c %s "$golden") - 30000)) "$golden" > "$work/cut.mcap"
 echo nonsense > "$work/nonsense.mcap"
 status=0
 said=$("$trunnion" info "$work/nonsense.mcap" 2>&1) || status=$?
-[ $status = 1 ] && [ "$said" = "trunnion: $work/nonsense.mcap: not an MCAP file: it begins otherwise" ] || fail "$said"
+[ $status = 1 ] && [ "$said" = "trunnion: $work/nonsense.mcap: not an MCAP file: the magic bytes are missing" ] || fail "$said"
