@@ -3,6 +3,7 @@
 #include <cstdlib>
 
 #include "bus/cdr.hpp"
+#include "bus/json.hpp"
 #include "bus/registry.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
