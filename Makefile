@@ -57,7 +57,7 @@ fuzz: packages
 
 # Needs the generated headers, not the programs.
 lint: configure
-	@cmake --build --preset $(PRESET) --target contracts_generated
+	@cmake --build --preset $(PRESET) --target contracts_generated constants_generated
 	tools/lint.sh $(BUILD)
 
 format:
