@@ -27,7 +27,7 @@ configure: packages
 build: configure
 	@cmake --build --preset $(PRESET)
 
-# The programs and the page only: what `make run` needs, without the packages of the tests.
+# The programs and the page only: what `make run` needs, without the large packages of the tests.
 product:
 	@deploy/install-packages.sh run
 	@$(call cmake_configure,$(PRESET))

@@ -7,16 +7,16 @@ set -euo pipefail
 packages=(
   build-essential cmake ninja-build ccache mold git python3 python3-yaml pkg-config
   libfastrtps-dev libfastcdr-dev libasio-dev libtinyxml2-dev libssl-dev cyclonedds-dev
+  cyclonedds-tools libgtest-dev libgmock-dev libbenchmark-dev librapidcheck-dev  # small, and CMake asks for them
   libeigen3-dev libyaml-cpp-dev nlohmann-json3-dev libcli11-dev libboost-dev libzstd-dev procps
 )
 case "${1:-test}" in
   run) ;;
   test)
     packages+=(
-      cyclonedds-tools libgtest-dev libgmock-dev libbenchmark-dev librapidcheck-dev
       clang-14 clang-tidy-14 clang-format-14 clang-tools-14 libclang-rt-14-dev
       linuxcnc-uspace linuxcnc-uspace-dev  # for machines behind its HAL: docs/hal.md
-      chromium iproute2 iptables util-linux openssl hostname systemd
+      chromium curl file iproute2 iptables util-linux openssl hostname systemd
     )
     ;;
   *) echo "usage: $0 [run|test]" >&2; exit 2 ;;
