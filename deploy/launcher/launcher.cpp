@@ -21,7 +21,6 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr double start_timeout = 15;  // s until a cluster that is not ready has failed
-constexpr double own_pause = 0.5;     // s the launcher itself may not run and still judge others
 volatile std::sig_atomic_t stop_requested = 0;
 void request_stop(int) { stop_requested = 1; }
 
@@ -88,7 +87,7 @@ bool Launcher::collect_ended(std::string& failure) {
     const auto status = process.local ? process.ended() : std::nullopt;
     if (!status) continue;
     process.lifecycle = idl::service::Lifecycle::UNCONFIGURED;
-    process.policy.ended(service::monotonic_seconds());
+    process.policy.ended(time_.now());
     if (process.retiring) continue;
     const auto& e = process.entry;
     const std::string how = WIFSIGNALED(*status)
@@ -156,8 +155,7 @@ void Launcher::hear(ServiceProcess& process, const idl::service::ServiceState& s
   process.hear(state, now);
 }
 
-void Launcher::watch_local(ServiceProcess& process, double now, bool judge) {
-  if (!judge) process.policy.wait(now);
+void Launcher::watch_local(ServiceProcess& process, double now) {
   const auto pulse = process.policy.pulse(now);
   if (pulse != Pulse::beating && !process.lost && was_ready_) lose(process, "gives no sign of life");
   if (pulse == Pulse::hung) {
@@ -168,9 +166,8 @@ void Launcher::watch_local(ServiceProcess& process, double now, bool judge) {
 
 // Silence is all that can be seen of another host. Its own launcher reports a process that died; the first
 // host's reports the others' silence, and they report the first host's.
-void Launcher::watch_remote(ServiceProcess& process, double now, bool judge) {
+void Launcher::watch_remote(ServiceProcess& process, double now) {
   if (process.pid == 0) return;
-  if (!judge) process.policy.wait(now);
   if (process.policy.pulse(now) == Pulse::beating) return;
   process.pid = 0;
   process.lifecycle = idl::service::Lifecycle::UNCONFIGURED;
@@ -181,7 +178,7 @@ void Launcher::watch_remote(ServiceProcess& process, double now, bool judge) {
 }
 
 void Launcher::listen() {
-  const double now = service::monotonic_seconds();
+  const double now = time_.now();
   idl::service::ServiceState state;
   while (states_.take(state)) {
     for (auto& process : processes_) hear(process, state, now);
@@ -208,19 +205,16 @@ void Launcher::listen() {
 }
 
 void Launcher::watch() {
-  const double now = service::monotonic_seconds();
-  // Who was suspended itself has received no heartbeat.
-  const bool judge = now - last_watch_ < own_pause;
-  last_watch_ = now;
+  const double now = time_.now();
   for (auto& process : processes_) {
     if (process.retiring) continue;
     if (!process.local) {
-      watch_remote(process, now, judge);
+      watch_remote(process, now);
     } else if (process.pid == 0) {
-      if (process.policy.due(now)) process.start(options_, false);
+      if (process.policy.due(now)) process.start(options_, false, now);
       continue;
     } else {
-      watch_local(process, now, judge);
+      watch_local(process, now);
     }
     if (process.lost && process.lifecycle == idl::service::Lifecycle::ACTIVE) {
       process.lost = false;
@@ -303,11 +297,11 @@ void Launcher::serve_swaps() {
       swap_request_ = request;
       const auto instance =
           cluster::place_of(process->entry.instance) + ++generation_ * cluster::generation_step;
-      swap_ = std::make_unique<Swap>(bus_, options_, *process, request, instance, announced_);
+      swap_ = std::make_unique<Swap>(bus_, options_, *process, request, instance, announced_, time_.now());
     }
   }
   if (!swap_) return;
-  if (auto reply = swap_->step(service::monotonic_seconds())) {
+  if (auto reply = swap_->step(time_.now())) {
     swaps_.reply(swap_request_, std::move(*reply));
     swap_.reset();
   }
@@ -315,12 +309,13 @@ void Launcher::serve_swaps() {
 
 int Launcher::run(void (*report)(const std::string&)) {
   std::ofstream(options_.run.pid_file()) << getpid() << "\n";
-  const double began = service::monotonic_seconds();
+  const double began = time_.advance(service::monotonic_seconds());
   for (auto& process : processes_)
-    if (process.local) process.start(options_, false);
+    if (process.local) process.start(options_, false, began);
   std::string failure;
   while (stop_requested == 0) {
     bus_.signal().wait(0.02);
+    time_.advance(service::monotonic_seconds());
     if (!collect_ended(failure)) break;
     listen();
     watch();
@@ -332,7 +327,7 @@ int Launcher::run(void (*report)(const std::string&)) {
       report("");
       notifier_.ready();
     }
-    if (!was_ready_ && service::monotonic_seconds() - began > start_timeout) {
+    if (!was_ready_ && time_.now() - began > start_timeout) {
       for (const auto& p : processes_)
         if (p.local && p.lifecycle != idl::service::Lifecycle::ACTIVE)
           failure += (failure.empty() ? "not ready: " : "; ") + p.entry.service +

@@ -13,6 +13,7 @@
 #include "service/alarm_board.hpp"
 #include "service/notify.hpp"
 #include "service/request.hpp"
+#include "service/running_time.hpp"
 #include "service_process.hpp"
 #include "swap.hpp"
 
@@ -35,8 +36,8 @@ class Launcher {
   void hear(ServiceProcess& process, const idl::service::ServiceState& state, double now);
   void follow(ServiceProcess& process, const idl::service::ServiceState& state, double now);
   bool is_candidate(std::uint32_t instance) const;
-  void watch_local(ServiceProcess& process, double now, bool judge);
-  void watch_remote(ServiceProcess& process, double now, bool judge);
+  void watch_local(ServiceProcess& process, double now);
+  void watch_remote(ServiceProcess& process, double now);
   bool all_ready() const;
   bool is_first_host() const;
   bool started() const;
@@ -60,7 +61,8 @@ class Launcher {
   idl::service::SwapRequest swap_request_;
   std::uint32_t generation_ = 0;  // swaps that were started on this host
   bool ready_ = false, was_ready_ = false;
-  double last_published_ = 0, last_watch_ = 0;
+  double last_published_ = 0;
+  service::RunningTime time_;  ///< by which silence is measured, and everything of restarts and swaps
 };
 
 }  // namespace trunnion::launcher

@@ -9,7 +9,7 @@
 
 namespace trunnion::launcher {
 
-void ServiceProcess::start(const LaunchOptions& options, bool on_standby) {
+void ServiceProcess::start(const LaunchOptions& options, bool on_standby, double now) {
   const auto& e = entry;
   std::vector<std::string> args{executable,
                                 "--machine",
@@ -39,7 +39,7 @@ void ServiceProcess::start(const LaunchOptions& options, bool on_standby) {
   child_options.log = log;
   child = cluster::ChildProcess(child_options);
   pid = child.pid();
-  policy.started(service::monotonic_seconds());
+  policy.started(now);
   lifecycle = idl::service::Lifecycle::UNCONFIGURED;
   in_step = false;
   alive = false;

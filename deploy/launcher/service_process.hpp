@@ -33,7 +33,7 @@ struct ServiceProcess {
   bool retiring = false;       ///< another one has taken over: its end is no loss
 
   /// On standby it takes no part until it is promoted.
-  void start(const LaunchOptions& options, bool on_standby);
+  void start(const LaunchOptions& options, bool on_standby, double now);
   /// Of a local process, once: the status of waitpid() when it has ended.
   std::optional<int> ended();
   /// Takes what the process publishes of itself; false when it is not this process's.

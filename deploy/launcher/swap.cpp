@@ -63,7 +63,8 @@ SwapOutcome outcome_of(SwapFailure failure) {
 }  // namespace
 
 Swap::Swap(bus::Bus& bus, const LaunchOptions& options, ServiceProcess& old,
-           const idl::service::SwapRequest& request, std::uint32_t instance, const Announcements& announced)
+           const idl::service::SwapRequest& request, std::uint32_t instance, const Announcements& announced,
+           double now)
     : options_(options),
       old_(old),
       fresh_(make_fresh(old, request, instance)),
@@ -75,7 +76,7 @@ Swap::Swap(bus::Bus& bus, const LaunchOptions& options, ServiceProcess& old,
       alarms_(bus.reader(topics::alarm)),
       alarm_writer_(bus.writer(topics::alarm)),
       promotions_(bus.writer(topics::promotion)),
-      began_(service::monotonic_seconds()),
+      began_(now),
       moved_(began_),
       sequence_(comparison_, request.cycles, began_) {
   if (comparison_ == Comparison::frames) {
@@ -85,7 +86,7 @@ Swap::Swap(bus::Bus& bus, const LaunchOptions& options, ServiceProcess& old,
     topic.name = standby_topic_.c_str();
     shadows_.emplace(bus.reader(topic));
   }
-  if (access(fresh_.executable.c_str(), X_OK) == 0) fresh_.start(options_, true);
+  if (access(fresh_.executable.c_str(), X_OK) == 0) fresh_.start(options_, true, now);
 }
 
 Swap::~Swap() {
@@ -156,14 +157,14 @@ SwapView Swap::view(double now) {
   return view;
 }
 
-void Swap::start_new() {
+void Swap::start_new(double now) {
   std::fprintf(stderr, "swap: the new %s %s: it is started again\n", old_.entry.service.c_str(),
                fresh_.pid == 0 ? "ended" : ("does not take part (" + fresh_.detail + ")").c_str());
   fresh_.child.kill();
   clear_alarms(fresh_.entry.instance);
   fresh_.detail.clear();
   frames_ = {};
-  fresh_.start(options_, true);
+  fresh_.start(options_, true, now);
 }
 
 void Swap::promote_new() {
@@ -259,7 +260,7 @@ std::optional<SwapReply> Swap::step(double now) {
     case SwapAction::wait:
       break;
     case SwapAction::start_new:
-      start_new();
+      start_new(now);
       break;
     case SwapAction::promote_new:
       promote_new();
@@ -275,7 +276,7 @@ std::optional<SwapReply> Swap::step(double now) {
       break;
     case SwapAction::start_old:
       old_.retiring = false;
-      old_.start(options_, false);
+      old_.start(options_, false, now);
       break;
     case SwapAction::succeed:
       return succeeded(now);

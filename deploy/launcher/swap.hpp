@@ -21,9 +21,11 @@ class Swap {
  public:
   using Announcements = std::map<std::uint32_t, idl::service::Announcement>;
 
-  /// `old` and `announced` are the launcher's and outlive the swap.
+  /// `old` and `announced` are the launcher's and outlive the swap. `now` in seconds, also below, is its
+  /// RunningTime.
   Swap(bus::Bus& bus, const LaunchOptions& options, ServiceProcess& old,
-       const idl::service::SwapRequest& request, std::uint32_t instance, const Announcements& announced);
+       const idl::service::SwapRequest& request, std::uint32_t instance, const Announcements& announced,
+       double now);
   /// Ends the new process when it has not taken over.
   ~Swap();
   Swap(const Swap&) = delete;
@@ -38,7 +40,7 @@ class Swap {
  private:
   void read(double now);
   SwapView view(double now);
-  void start_new();
+  void start_new(double now);
   void promote_new();
   void end_old();
   std::string why_not_at_rest() const;

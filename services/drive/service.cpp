@@ -11,7 +11,6 @@
 
 namespace trunnion::drive {
 namespace {
-constexpr double own_pause = 0.5;          // s the drive itself may not run and still judge the PLC
 constexpr double idle_feedback = 0.1;      // s between two feedback messages while nothing moves
 constexpr std::size_t most_applied = 256;  // inputs that one feedback message can name
 
@@ -61,7 +60,7 @@ void DriveService::applied(idl::stream::Input input, std::uint64_t identity) {
 void DriveService::drain() {
   using idl::stream::Input;
   if (parameters_.poll() && core_.configured() && !core_.any_active()) configure(*parameters_.newest());
-  const double now = service::monotonic_seconds();
+  const double now = running_time_.now();
   while (frames_->take(frame_)) {
     ++frames_in_;
     // The revision of the frames that move it is the one the drive runs with.
@@ -106,9 +105,6 @@ void DriveService::drain() {
       applied(Input::ALARM, identity(*alarms_));
       core_.stop();
     }
-  // A process that was suspended has not received what was published meanwhile.
-  if (now - last_drain_ > own_pause) plc_seen_ = now;
-  last_drain_ = now;
   // An emergency stop is also the drive's own reaction to the silence of the PLC that could demand it.
   if (have_plc_ && now - plc_seen_ > plc_timeout) {
     char text[120];
@@ -137,7 +133,7 @@ void DriveService::send() {
 void DriveService::run_virtual() {
   bool give_up = false;
   if (core_.waiting()) {
-    const double now = service::monotonic_seconds();
+    const double now = running_time_.now();
     if (waiting_since_ == 0) waiting_since_ = now;
     give_up = now - waiting_since_ > missing_setpoint_timeout;
   } else {
@@ -174,6 +170,7 @@ void DriveService::run_real() {
 }
 
 void DriveService::pump() {
+  running_time_.advance(service::monotonic_seconds());
   if (!core_.configured()) {
     if (parameters_.poll() || parameters_.newest()) start();
     return;

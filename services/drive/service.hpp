@@ -7,6 +7,7 @@
 #include "machine/gantry_pairs.hpp"
 #include "service/node.hpp"
 #include "service/parameter_client.hpp"
+#include "service/running_time.hpp"
 #include "src/drive_core.hpp"
 #include "storage/mapped_file.hpp"
 
@@ -52,7 +53,8 @@ class DriveService : public service::Service {
   double plc_seen_ = 0;
   std::uint64_t frames_in_ = 0, frames_out_ = 0, revision_ = 0;
   std::uint32_t frame_cycles_ = 4;
-  double next_tick_ = 0, waiting_since_ = 0, last_sent_ = 0, last_drain_ = 0;
+  double next_tick_ = 0, waiting_since_ = 0, last_sent_ = 0;
+  service::RunningTime running_time_;  ///< by which the silence of others is measured
   bool changed_ = false;
 };
 
