@@ -65,7 +65,7 @@ int run_check(const Check& options) {
   const auto name = [&](std::uint32_t program) {
     return program == 0 ? options.program : programs.path(language::ProgramName(program).view());
   };
-  const analysis::CheckOptions check_options{options.json_lines, options.skip_blocks};
+  analysis::CheckOptions check_options{options.json_lines, options.skip_blocks};
   bool good = false;
   if (options.machine.empty()) {
     analysis::DefaultMachine machine(rows);
@@ -75,6 +75,9 @@ int run_check(const Check& options) {
     channel_setup::ChannelSetup machine(tool_tables::load_machine_tables(directory));
     machine.resolve = resolve;
     if (rows) machine.set_tools(tool_table(*rows));
+    check_options.travel_error = [&machine](const auto& from, const auto& motion) {
+      return machine.travel_error(from, motion);
+    };
     good =
         analysis::check_program(text, machine, machine.reference_position(), check_options, name, std::cout);
   }
@@ -104,8 +107,8 @@ void add_check_command(CLI::App& app, Common& common) {
   command->add_option("program", options->program, "The program's file")->required();
   command->add_option(
       "--machine", options->machine,
-      "Folder or name of a machine: its axes, offsets and tools, from its reference position; else three "
-      "linear axes from 0, offsets 0");
+      "Folder or name of a machine: its axes, travel, offsets and tools, from its reference position; else "
+      "three linear axes from 0 without end, offsets 0");
   command->add_option(
       "--tools", options->tools,
       "CSV file number,length,radius in place of the tools; without it and a machine every tool is 0 long");

@@ -23,6 +23,7 @@ root=$work/root
 mount -t proc proc "$root/proc"
 mount --rbind /dev "$root/dev"
 mount -t tmpfs none "$root/tmp"
+mkdir -p "$root$source"  # where it is below /tmp, which is new here
 mount -t tmpfs none "$root$source"
 trap 'chroot "$root" pkill -f /usr/lib/trunnion/bin || true; umount -lR "$root"; umount -l "$work"; rmdir "$work"' EXIT
 mkdir "$root/tmp/packages"

@@ -80,13 +80,15 @@ idl::parameters::ParameterRequest parameter_request(std::uint32_t number_, bool 
 }
 
 idl::parameters::ParameterRequest work_offset_request(const Json& body) {
-  only(body, {"channel", "index", "values", "who"});
+  only(body, {"channel", "index", "values", "revision", "who"});
   idl::parameters::ParameterRequest request{};
   request.operation = idl::parameters::Operation::SET_WORK_OFFSET;
   request.who = body.contains("who") ? text(body["who"], "who", name_bytes) : "hmi";
   idl::parameters::WorkOffset offset{};
   offset.channel = static_cast<std::uint16_t>(whole(required(body, "channel"), "channel", 0, 31));
   offset.index = static_cast<std::uint8_t>(whole(required(body, "index"), "index", 0, 53));
+  if (body.contains("revision"))
+    request.revision = static_cast<std::uint64_t>(whole(body["revision"], "revision", 0, 1LL << 53));
   const auto& values = required(body, "values");
   if (!values.is_array() || values.size() != 9)
     throw BadRequest("values", "values must be 9 numbers: X Y Z A B C U V W");

@@ -165,6 +165,9 @@ idl::channel::ChannelReply FakeCluster::apply(const idl::channel::ChannelRequest
     case CommandKind::SPINDLE_OVERRIDE:
       channel.spindle_override = request.fraction;
       break;
+    case CommandKind::FEED_OVERRIDE_STEP:
+      channel.feed_override += request.fraction;
+      break;
     case CommandKind::SINGLE_BLOCK:
       channel.single_block = request.on;
       break;

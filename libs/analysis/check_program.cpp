@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "analysis/check_program.hpp"
 
+#include <algorithm>
 #include <memory>
 #include <ostream>
 
 #include "analysis/json_lines.hpp"
 #include "analysis/summary.hpp"
+#include "machine/alarm_constants.hpp"
 
 namespace trunnion::analysis {
 namespace {
@@ -18,6 +20,20 @@ void print_alarm(const language::Alarm& alarm, const TextName& name, std::ostrea
   for (std::size_t i = alarm.calls; i-- > 0;) {
     out << "  called from " << name(alarm.chain[i].program) << ":" << alarm.chain[i].line << "\n";
   }
+}
+
+/// Behind the line's number.
+std::string text_of(const std::string& error) { return error.substr(error.find(' ')); }
+
+/// As the channel raises it (alarm 140).
+language::Alarm travel_alarm(const std::string& error, const language::Command& motion) {
+  language::Alarm alarm;
+  alarm.number = static_cast<language::AlarmNumber>(alarm::travel_limit.number);
+  alarm.program = motion.program;
+  alarm.line = motion.line;
+  const auto text = text_of(error).substr(1);
+  std::copy_n(text.begin(), std::min(text.size(), alarm.text.size() - 1), alarm.text.begin());
+  return alarm;
 }
 
 }  // namespace
@@ -37,14 +53,21 @@ bool check_program(language::TextSource& text, language::Environment& environmen
   Summary summary(environment.axes());
   language::Command command;
   Step step = Step::working;
+  std::string error;
+  std::uint32_t where = 0;
   while (step != Step::end && step != Step::alarm) {
     step = interpreter->next(command);
     // No probe: the move to a skip signal ends where it was to end at the latest.
     if (step == Step::position) interpreter->set_position(command.target);
     if (step != Step::command) continue;
     if (!options.json_lines) summary.add(command);
+    const auto from = tracker.target();
     const auto motion = tracker.follow(command);
     if (!motion) continue;
+    if (options.travel_error && (error = options.travel_error(from, command)) != "") {
+      where = command.program;
+      break;
+    }
     if (options.json_lines) {
       lines->motion(*motion);
     } else {
@@ -54,7 +77,13 @@ bool check_program(language::TextSource& text, language::Environment& environmen
   const bool good = step == Step::end;
   if (!options.json_lines) {
     summary.print(out, interpreter->blocks());
-    if (!good) print_alarm(interpreter->alarm(), name, out);
+    if (!error.empty())
+      out << name(where) << ":" << command.line << ": " << alarm::travel_limit.number << ":" << text_of(error)
+          << "\n";
+    else if (!good)
+      print_alarm(interpreter->alarm(), name, out);
+  } else if (!error.empty()) {
+    lines->error(travel_alarm(error, command));
   } else if (good) {
     lines->end(tracker.machine());
   } else {

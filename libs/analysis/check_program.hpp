@@ -13,13 +13,18 @@ namespace trunnion::analysis {
 struct CheckOptions {
   bool json_lines = false;   ///< one JSON object per motion instead of a summary
   bool skip_blocks = false;  ///< leave out blocks that begin with / or /n
+  /// Empty, or one line "LINE: ..." when the machine cannot make this motion from `from` (frame of the
+  /// command).
+  std::function<std::string(const language::AxisValues& from, const language::Command& motion)> travel_error =
+      {};
 };
 
 /// Names the text of Command::program for a reader: a path.
 using TextName = std::function<std::string(std::uint32_t program)>;
 
 /// Runs `text` from machine position `start` to its end, where M99 in the main program is one, and writes to
-/// `out`. True when there was no alarm. A move to a skip signal ends at its target.
+/// `out`. True when there was no alarm and every motion stays within the travel; the first one that does not
+/// ends it. A move to a skip signal ends at its target.
 bool check_program(language::TextSource& text, language::Environment& environment,
                    const language::AxisValues& start, const CheckOptions& options, const TextName& name,
                    std::ostream& out);

@@ -53,6 +53,7 @@ void ChannelSetup::configure(const machine::Parameters& p) {
   avoid_poles_ = p.integer(parameter::pole_handling, channel_) != 0;
   pole_range_ = p.get(parameter::pole_range, channel_);
   diameter_programming_ = p.integer(parameter::diameter_programming, channel_) != 0;
+  scaling_unit_ = p.get(parameter::scaling_unit, channel_);
   default_feed_ = p.get(parameter::default_feed, channel_);
   dry_run_feed_ = p.get(parameter::dry_run_feed, channel_);
   handwheel_share_ = p.get(parameter::handwheel_share, channel_);

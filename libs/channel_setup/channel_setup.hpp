@@ -42,11 +42,13 @@ class ChannelSetup : public language::Environment {
     return index < offsets_.size() ? offsets_[index] : AxisValues{};
   }
   std::optional<double> tool_length(std::uint16_t h) const override;
+  bool has_tool(std::uint32_t number) const override { return tools_.empty() || tools_.contains(number); }
   std::optional<language::ToolOffset> tool_offset(std::uint16_t number) const override;
   AxisValues reference_position() const override { return reference_; }
   std::optional<AxisValues> numbered_reference(std::uint8_t number) const override;
   AxisValues approach() const override { return approach_; }
   bool diameter_programming() const override { return diameter_programming_; }
+  double scaling_unit() const override { return scaling_unit_; }
   double default_feed() const override { return default_feed_; }
   /// Half of parameter 000010; the other half is left to the smoothing of the joints.
   double curve_tolerance() const override { return limits_.arc_tolerance / 2; }
@@ -127,6 +129,7 @@ class ChannelSetup : public language::Environment {
   AxisValues reference_{}, approach_{};
   std::array<AxisValues, 3> numbered_references_{};
   bool diameter_programming_ = false;
+  double scaling_unit_ = 1;
   double default_feed_ = 1000, dry_run_feed_ = 2000, handwheel_share_ = 0.2;
   language::CycleSettings cycles_;
   language::CutterSettings cutter_;

@@ -226,6 +226,15 @@ void BlockExecutor::set_position(const AxisValues& position) {
   context_.state.locate(position);
 }
 
+std::string_view BlockExecutor::fault_detail(AlarmNumber number) {
+  FaultDetail& detail = context_.detail;
+  if (number == AlarmNumber::compensation_interference) {
+    detail.number = number;
+    std::snprintf(detail.text.data(), detail.text.size(), "that of line %u", interference().contour_line);
+  }
+  return number == detail.number ? std::string_view(detail.text.data()) : std::string_view{};
+}
+
 Fault BlockExecutor::end_program(std::uint32_t number, std::uint32_t program, std::uint32_t line,
                                  CommandQueue& out) {
   context_.output.begin(program, line, out);

@@ -68,9 +68,10 @@ class BlockExecutor {
   Fault end_program(std::uint32_t number, std::uint32_t program, std::uint32_t line, CommandQueue& out);
 
   /// The text of the last fault of a block beyond its number; empty when that is not `number`.
-  std::string_view fault_detail(AlarmNumber number) const {
-    const FaultDetail& detail = context_.detail;
-    return number == detail.number ? std::string_view(detail.text.data()) : std::string_view{};
+  std::string_view fault_detail(AlarmNumber number);
+  /// The moves of the last alarm of interference.
+  const CutterCompensation::Interference& interference() {
+    return context_.output.compensation().interference();
   }
 
   /// Change a table as G10 does, `value` in mm or degrees in place of the old.

@@ -16,10 +16,26 @@ constexpr double touching = 0.002;
 /// Corners below this (rad) whose offsets do not meet are closed straight: the ends of an arc may be off its
 /// circle by rounding of the words.
 constexpr double rounding_corner = 0.005;
+/// Within this of a reversal (rad) the curvature of the moves decides which side of each other they are on:
+/// it outweighs the angle, which may come from the rounding of words.
+constexpr double reversal = 0.05;
 constexpr double radians = std::numbers::pi / 180;
 
 /// Angle of the corner in (-pi, pi], positive to the left.
 double turn(Vector2 from, Vector2 to) { return std::atan2(cross(from, to), dot(from, to)); }
+
+/// Where the walk turns back on itself: true when the tool on the `left` (negative: right) is between the two
+/// moves. Seen from the corner they separate by the angle between them and by their curvatures, which is
+/// judged as far away as both moves reach, at most a radius of an arc.
+bool turns_back_inside(const PlanarPiece& before, const PlanarPiece& after, double corner, double left) {
+  const double angle = corner - std::copysign(std::numbers::pi, corner);
+  double reach = std::min(before.length(), after.length());
+  for (const PlanarPiece* piece : {&before, &after}) {
+    if (piece->arc) reach = std::min(reach, 1 / std::abs(piece->curvature()));
+  }
+  const double to_the_left = angle + 0.5 * reach * (before.curvature() + after.curvature());
+  return (left > 0 ? to_the_left : -to_the_left) < -tangent;
+}
 
 }  // namespace
 
@@ -59,6 +75,7 @@ bool CutterCompensation::push() {
   ++count_;
   Item& added = item(count_ - 1);
   added.moves_in_plane = added.leads = added.end_known = added.around = false;
+  added.behind_lead = added.before_lead = added.smooth_start = added.smooth_end = false;
   added.left = 0;
   return true;
 }
@@ -109,7 +126,10 @@ AlarmNumber CutterCompensation::add(const Command& move, const AxisValues& start
   const std::size_t slot = (first_ + count_ - 1) % capacity;
   AlarmNumber alarm = AlarmNumber::none;
   if (has_last_move_) {
-    alarm = settle_corner(items_[last_move_], added);
+    Item& before = items_[last_move_];
+    added.behind_lead = before.leads;
+    before.before_lead = added.leads;
+    alarm = settle_corner(before, added);
   } else {
     // It leads in, or is a plain move behind a way out: both begin where the program is.
     added.tool_start = in_plane(start);
@@ -146,15 +166,17 @@ AlarmNumber CutterCompensation::settle_corner(Item& before, Item& after) {
   const double corner = turn(before.contour.tangent_at_end(), after.contour.tangent_at_start());
   const bool same_side = (before.left > 0) == (after.left > 0) && before.left != 0 && after.left != 0;
   const bool straight_on = std::abs(std::sin(corner)) < tangent && std::cos(corner) > 0;
+  before.smooth_end = after.smooth_start = std::abs(corner) < rounding_corner;
   if (straight_on && before.left == after.left) {
     after.tool_start = before.tool_end;
     return check_direction(before);
   }
-  const bool reversal = std::numbers::pi - std::abs(corner) < tangent;
-  const bool inside = (corner > 0) == (after.left > 0) && !reversal && !straight_on;
+  const bool turns_back = std::numbers::pi - std::abs(corner) < reversal;
+  const bool inside = turns_back ? turns_back_inside(before.contour, after.contour, corner, after.left)
+                                 : (corner > 0) == (after.left > 0) && !straight_on;
   if (same_side && inside) {
     const Meeting meeting = meet(before.contour, before.left, after.contour, after.left);
-    if (meeting.found) {
+    if (meeting.found && (meeting.shortens || !turns_back)) {
       const Vector2 square = before.tool_end;
       before.tool_end = after.tool_start = meeting.point;
       if (check_direction(before) == AlarmNumber::none) return AlarmNumber::none;
@@ -217,19 +239,27 @@ bool CutterCompensation::clear_of(const Item& item, const PlanarPiece& contour, 
   return !item.around || distance(around_piece(item), contour) >= least;
 }
 
-AlarmNumber CutterCompensation::check_interference(std::size_t i) const {
+double CutterCompensation::guarded(const Item& item) {
+  const bool approach = item.behind_lead && item.smooth_end;
+  const bool departure = item.before_lead && item.smooth_start;
+  return item.leads || (item.contour.arc && (approach || departure)) ? 0 : item.left;
+}
+
+AlarmNumber CutterCompensation::check_interference(std::size_t i) {
   const Item& tool = item(i);
   const std::size_t behind = std::min<std::size_t>(settings_.check_blocks, past_count_);
   for (std::size_t k = 0; k < behind; ++k) {
     const Past& past = past_[past_count_ - 1 - k];
-    if (!clear_of(tool, past.contour, past.left)) return AlarmNumber::compensation_interference;
+    if (clear_of(tool, past.contour, past.left)) continue;
+    interference_ = {tool.command.line, past.line};
+    return AlarmNumber::compensation_interference;
   }
   unsigned ahead = 0;
   for (std::size_t k = move_after(i); k < count_ && ahead < settings_.check_blocks; k = move_after(k)) {
     ++ahead;
-    if (!item(k).leads && !clear_of(tool, item(k).contour, item(k).left)) {
-      return AlarmNumber::compensation_interference;
-    }
+    if (clear_of(tool, item(k).contour, guarded(item(k)))) continue;
+    interference_ = {tool.command.line, item(k).command.line};
+    return AlarmNumber::compensation_interference;
   }
   return AlarmNumber::none;
 }
@@ -240,7 +270,7 @@ void CutterCompensation::remember(const Item& item) {
     --past_count_;
   }
   // Leading moves are remembered as no contour, so that what is before them counts less and less.
-  past_[past_count_++] = {item.contour, item.leads ? 0 : item.left};
+  past_[past_count_++] = {item.contour, guarded(item), item.command.line};
 }
 
 AlarmNumber CutterCompensation::finish() {
@@ -277,7 +307,8 @@ AlarmNumber CutterCompensation::pop(Command& command, bool& popped) {
     unsigned ahead = 0;
     for (std::size_t k = move_after(0); k < count_; k = move_after(k)) ++ahead;
     const bool ends = !offset_ || finished_;  // nothing comes that could still be near
-    if (ahead < settings_.check_blocks && !ends) return AlarmNumber::none;
+    // One more than is checked: it tells whether the last of them leads off the contour.
+    if (ahead <= settings_.check_blocks && !ends) return AlarmNumber::none;
     if (const AlarmNumber alarm = check_interference(0); alarm != AlarmNumber::none) return alarm;
   }
   popped = true;

@@ -25,7 +25,8 @@ namespace trunnion::language {
 ///  - Commands without motion in the plane wait in line and act where the move before them ends. They do not
 ///    disturb the corner, however many there are up to `capacity`.
 ///  - Interference: a move whose direction would be reversed is an alarm; with interference_check also one
-///    that comes nearer than the radius to one of the check_blocks moves before or behind it.
+///    that comes nearer than the radius to one of the check_blocks moves before or behind it. An arc that
+///    leads tangentially onto the contour or off it is no contour that could be cut into.
 ///
 /// Memory is fixed. After an alarm only reset() makes sense.
 class CutterCompensation {
@@ -63,6 +64,13 @@ class CutterCompensation {
   /// No more moves come: the last one ends square to itself, everything held is settled.
   AlarmNumber finish();
 
+  /// Lines of the text: of the move that would cut into the contour, and of the contour's move. They hold
+  /// after an alarm of interference.
+  struct Interference {
+    std::uint32_t line = 0, contour_line = 0;
+  };
+  const Interference& interference() const { return interference_; }
+
   /// Where the tool is when everything given out has been moved.
   const AxisValues& tool() const { return tool_; }
 
@@ -70,8 +78,10 @@ class CutterCompensation {
   struct Item {
     Command command;
     bool moves_in_plane = false;
-    bool leads = false;  // in or out: not on the contour
-    double left = 0;     // offset to the left of the walk, mm
+    bool leads = false;                             // in or out: not on the contour
+    bool behind_lead = false, before_lead = false;  // next to a move that does
+    bool smooth_start = false, smooth_end = false;  // no corner with the move before or behind
+    double left = 0;                                // offset to the left of the walk, mm
     PlanarPiece contour;
     Vector2 tool_start, tool_end;
     bool end_known = false;
@@ -86,8 +96,10 @@ class CutterCompensation {
   std::size_t move_after(std::size_t i) const;
   AlarmNumber settle_corner(Item& before, Item& after);
   AlarmNumber check_direction(const Item& item) const;
-  AlarmNumber check_interference(std::size_t i) const;
+  AlarmNumber check_interference(std::size_t i);
   bool clear_of(const Item& item, const PlanarPiece& contour, double left) const;
+  /// What other moves must be clear of, the offset of which: 0 = of nothing.
+  static double guarded(const Item& item);
   PlanarPiece tool_piece(const Item& item) const;
   PlanarPiece around_piece(const Item& item) const;
   bool give_join(const Item& item, Command& command);
@@ -115,7 +127,9 @@ class CutterCompensation {
   struct Past {
     PlanarPiece contour;
     double left = 0;
+    std::uint32_t line = 0;
   };
+  Interference interference_;
   std::array<Past, 6> past_{};  // contours already given out, for the interference check
   std::size_t past_count_ = 0;
 };

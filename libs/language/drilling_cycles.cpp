@@ -157,6 +157,7 @@ Fault DrillingCycles::check_cycle(std::uint16_t at) const {
   if (is_shifting(modal.cycle) && words.shift[0] == 0 && words.shift[1] == 0) {
     return {AlarmNumber::cycle_shift_missing, at};
   }
+  if (const Fault fault = check_levels(at)) return fault;
   if (modal.cycle == 87 && !modal.return_to_initial) return {AlarmNumber::cycle_return_level, at};
   const bool tapping = is_tapping(modal.cycle);
   if (!(modal.feed > 0)) {
@@ -165,6 +166,24 @@ Fault DrillingCycles::check_cycle(std::uint16_t at) const {
   const bool speed = modal.spindle_mode == SpindleMode::speed && modal.spindle_speed > 0;
   if (tapping && !speed) return {AlarmNumber::cycle_lead_missing, at};
   return {};
+}
+
+// In the plane that the spindle is square to, the tool drills from R down to the depth, in back boring (G87)
+// up. In the other planes an angle head may point either way. A mirror of Z exchanges the two in the
+// program's numbers.
+Fault DrillingCycles::check_levels(std::uint16_t at) const {
+  if (state_.modal.plane != Plane::xy) return {};
+  const HoleParameters& hole = state_.settings().cycle.hole;
+  AxisValues r = state_.program_position, depth = r;
+  r[Z] = hole.r;
+  depth[Z] = hole.z;
+  const double upwards =
+      state_.frame().contour_from_program(depth)[Z] - state_.frame().contour_from_program(r)[Z];
+  if (state_.modal.cycle == 87 ? upwards >= 0 : upwards <= 0) return {};
+  FaultDetail& detail = context_.detail;
+  detail.number = AlarmNumber::cycle_level_side;
+  std::snprintf(detail.text.data(), detail.text.size(), "R %.3f mm, depth %.3f mm", hole.r, hole.z);
+  return {detail.number, words_.has('R') ? words_.offset('R') : at};
 }
 
 Fault DrillingCycles::read_pattern(std::uint16_t at, bool may_turn, Pattern& pattern) {

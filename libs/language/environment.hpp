@@ -77,6 +77,11 @@ class Environment {
     const auto length = tool_length(number);
     return length ? std::optional(ToolOffset{*length, 0, std::nullopt, 0}) : std::nullopt;
   }
+  /// A T word may name tool `number`, from 1: it is in the table, or there is no table.
+  virtual bool has_tool(std::uint32_t number) const {
+    static_cast<void>(number);
+    return true;
+  }
   /// Machine coordinates of the reference position of each axis (G28); mm and degrees.
   virtual AxisValues reference_position() const = 0;
   /// The same of reference position `number` 2..4 (G30 P), or nothing when it is not defined.
@@ -89,6 +94,8 @@ class Environment {
   virtual AxisValues approach() const { return {}; }
   /// X words are diameters (parameter 040032).
   virtual bool diameter_programming() const { return false; }
+  /// What a factor 1 of G51 means (parameter 040916).
+  virtual double scaling_unit() const { return 1; }
   /// Feed of a swing to a tilted plane before any F (parameter 040030), mm/min or degrees/min.
   virtual double default_feed() const { return 1000; }
   /// Largest distance of a chord from its curve in mm (parameter 000010).

@@ -6,8 +6,8 @@
 namespace trunnion::language {
 namespace {
 
-constexpr double smallest_factor = 1e-6;
-constexpr double largest_factor = 1e6;
+constexpr double smallest_factor = 1e-3;
+constexpr double largest_factor = 1e3;
 
 }  // namespace
 
@@ -49,7 +49,7 @@ Fault FrameCodes::set_scaling(std::uint16_t at) {
     const char factor = each ? static_cast<char>('I' + axis) : 'P';
     if (!words_.has(factor)) continue;
     words_.use(factor);
-    factors[axis] = words_.value(factor);
+    factors[axis] = words_.value(factor) * environment_.scaling_unit();
     const double size = std::abs(factors[axis]);
     if (size < smallest_factor || size > largest_factor) {
       return {AlarmNumber::factor_range, words_.offset(factor)};

@@ -78,7 +78,12 @@ Interpreter::State Interpreter::report_line_status(LineReader::Status status, St
   return state_;
 }
 
-Alarm Interpreter::located(const Fault& fault, std::string_view line) const {
+Alarm Interpreter::located(const Fault& fault, std::string_view line) {
+  // Seen when the moves behind it are read, but its own.
+  if (fault.number == AlarmNumber::compensation_interference) {
+    return make_alarm({fault.number, 0}, {}, levels_[depth_].program, executor_.interference().line,
+                      executor_.fault_detail(fault.number));
+  }
   Alarm alarm = make_alarm(fault, line, levels_[depth_].program, line_, executor_.fault_detail(fault.number));
   alarm.calls = static_cast<std::uint8_t>(depth_);
   for (std::size_t i = 0; i < depth_; ++i) alarm.chain[i] = {levels_[i].program, levels_[i + 1].call_line};

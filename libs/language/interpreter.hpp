@@ -151,7 +151,7 @@ class Interpreter {
   State fail(const Fault& fault, std::string_view line);
   State fail(const Alarm& alarm);
   State report_line_status(LineReader::Status status, Step& step);
-  Alarm located(const Fault& fault, std::string_view line) const;
+  Alarm located(const Fault& fault, std::string_view line);
 
   State run_statement(std::string_view line);
   State branch(bool condition, std::string_view line);

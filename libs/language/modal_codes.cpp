@@ -76,6 +76,7 @@ Fault ModalCodes::tool_word() {
   if (!words_.has('T') || (words_.g().is(Group::one_block, 100) && !words_.has('L'))) return {};
   std::uint32_t tool = 0;
   if (const Fault fault = words_.whole_number('T', 0, highest_tool, tool)) return fault;
+  if (tool != 0 && !environment_.has_tool(tool)) return {AlarmNumber::tool_unknown, words_.offset('T')};
   state_.modal.selected_tool = static_cast<std::uint16_t>(tool);
   output_.push(CommandKind::tool).number = tool;
   return {};

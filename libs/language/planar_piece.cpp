@@ -96,6 +96,15 @@ bool lines_cross(const PlanarPiece& a, const PlanarPiece& b) {
   return along_a >= 0 && along_a <= 1 && along_b >= 0 && along_b <= 1;
 }
 
+/// How far `p` lies along the walk behind `at`, an end of the piece: mm on a line, radians on an arc.
+double along(const PlanarPiece& piece, Vector2 at, Vector2 direction, Vector2 p) {
+  if (!piece.arc) return dot(p - at, direction);
+  const Vector2 from = at - piece.centre;
+  const Vector2 to = p - piece.centre;
+  const double angle = std::atan2(cross(from, to), dot(from, to));
+  return piece.sweep > 0 ? angle : -angle;
+}
+
 }  // namespace
 
 double dot(Vector2 a, Vector2 b) { return a.u * b.u + a.v * b.v; }
@@ -118,6 +127,10 @@ Vector2 PlanarPiece::left_of_start(double distance) const {
 }
 
 Vector2 PlanarPiece::left_of_end(double distance) const { return end + distance * left_of(tangent_at_end()); }
+
+double PlanarPiece::curvature() const {
+  return arc ? (sweep > 0 ? 1.0 : -1.0) / language::length(end - centre) : 0.0;
+}
 
 double PlanarPiece::length() const {
   if (!arc) return language::length(end - start);
@@ -148,15 +161,18 @@ Meeting meet(const PlanarPiece& first, double first_left, const PlanarPiece& sec
     if (turn == 0) return {};
     points = {{a + (cross(b - a, db) / turn) * da, {}}, 1};
   }
-  Meeting nearest;
+  Meeting best;
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < points.count; ++i) {
-    const double away = length(points.at[i] - first.end);
-    if (!(away < least)) continue;
+    const Vector2 p = points.at[i];
+    const bool shortens = along(first, first.end, first.tangent_at_end(), p) <= 0 &&
+                          along(second, second.start, second.tangent_at_start(), p) >= 0;
+    const double away = length(p - first.end);
+    if (best.found && (best.shortens != shortens ? best.shortens : away >= least)) continue;
     least = away;
-    nearest = {true, points.at[i]};
+    best = {true, shortens, p};
   }
-  return nearest;
+  return best;
 }
 
 double distance(const PlanarPiece& a, const PlanarPiece& b) {

@@ -37,17 +37,21 @@ struct PlanarPiece {
   Vector2 left_of_start(double distance) const;
   Vector2 left_of_end(double distance) const;
   double length() const;
+  /// 1/mm, > 0 to the left of the walk; 0 of a line.
+  double curvature() const;
 };
 
 /// What is known about a meeting of two pieces that are moved to their left.
 struct Meeting {
   bool found = false;
+  bool shortens = false;  ///< it lies before the end of the first piece and behind the start of the second
   Vector2 point;
 };
 
 /// Where the line or circle of `first`, moved `first_left` to its left, meets that of `second`, moved
-/// `second_left`: the meeting nearest to the end of `first`. Both continue beyond their ends. At an arc the
-/// radius is that of the end in question, for it may differ from the other one a little.
+/// `second_left`. Both continue beyond their ends. Of two meetings it is the nearest to the end of `first` of
+/// those that shorten both pieces, or the nearest when none does. At an arc the radius is that of the end in
+/// question, for it may differ from the other one a little.
 Meeting meet(const PlanarPiece& first, double first_left, const PlanarPiece& second, double second_left);
 
 /// The smallest distance between two pieces, mm; 0 where they cross.

@@ -41,6 +41,9 @@ void ProgramFrame::update() {
     if (((mirrored_ >> i) & 1u) != 0) centre = 2 * mirror_[i] - centre;
     turned_centre_[i] = scaling_centre_[i] + factors_[i] * (centre - scaling_centre_[i]);
   }
+  const Turn turn = turn_by(flips(plane_) ? -degrees_ : degrees_);
+  cosine_ = turn.cosine;
+  sine_ = turn.sine;
   ++revision_;
   plain_ = mirrored_ == 0 && !scaled_ && !rotated_ && !tilt_.active;
 }
@@ -173,9 +176,6 @@ void ProgramFrame::set_rotation(Plane plane, const Vector3& centre, double degre
   plane_ = plane;
   rotation_centre_ = centre;
   degrees_ = degrees;
-  const Turn turn = turn_by(degrees);
-  cosine_ = turn.cosine;
-  sine_ = turn.sine;
   update();
 }
 

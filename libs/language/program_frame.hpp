@@ -16,7 +16,8 @@ namespace trunnion::language {
 ///   program   words as written, after units, diameters, polar coordinates and G91
 ///     1. mirror (G51.1, G24): about a coordinate, per axis
 ///     2. scaling (G51): about a point, per linear axis
-///     3. rotation (G68): in one plane, about a point that the mirror and the scaling move along
+///     3. rotation (G68): in one plane, about a point that the mirror and the scaling move along; where they
+///        mirror the plane, in the other sense, so that a mirrored part is the mirror image of the part
 ///   contour   where cutter radius compensation works
 ///     4. tilted plane (G68.1, G68.2, G68.3): rotation matrix and origin
 ///   workpiece what a drawing dimensions

@@ -33,7 +33,7 @@ class ComparisonClock {
     }
   }
 
-  /// Of the rehearsal that compares: in step when there was no difference, until there is one that lasts.
+  /// Of the standby that compares: in step when there was no difference, until there is one that lasts.
   Health health() const {
     Health health;
     health.lifecycle = idl::service::Lifecycle::INACTIVE;

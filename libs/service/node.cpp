@@ -105,13 +105,13 @@ void Node::take_promotion() {
   alarms_.unmute();
 }
 
-bool Node::stand_by(Service* rehearsal) {
+bool Node::stand_by(Service* standby) {
   Health health;
   health.lifecycle = idl::service::Lifecycle::INACTIVE;
   while (stop_requested == 0 && options_.shadow) {
-    if (rehearsal != nullptr) rehearsal->pump();
+    if (standby != nullptr) standby->pump();
     if (monotonic_seconds() - last_beat_ >= beat_period)
-      beat(rehearsal != nullptr ? rehearsal->health() : health);
+      beat(standby != nullptr ? standby->health() : health);
     bus_.signal().wait(0.005);
     take_promotion();
   }

@@ -37,7 +37,7 @@ class Node;
 class Service {
  public:
   /// It can work on standby: beside the service it is to replace, compared with it. One that cannot, because
-  /// it owns files or a port, is made only when the other has ended. Until then a member type `Rehearsal`, if
+  /// it owns files or a port, is made only when the other has ended. Until then a member type `Standby`, if
   /// it has one, is what works on standby: a Service that writes nothing and reports in its health how it
   /// compares.
   static constexpr bool works_on_standby = false;
@@ -68,8 +68,8 @@ class Node {
   /// Started beside the service that it is to replace, and not promoted yet.
   bool on_standby() const { return options_.shadow; }
   /// Waits, inactive, until this process is promoted. False when it is told to end instead.
-  /// Meanwhile `rehearsal`, if there is one, is pumped and reports the health.
-  bool stand_by(Service* rehearsal = nullptr);
+  /// Meanwhile `standby`, if there is one, is pumped and reports the health.
+  bool stand_by(Service* standby = nullptr);
   /// Runs until SIGTERM or SIGINT; returns the exit status.
   int run(Service& service);
   /// Clears the alarms of `service` whose cause is gone: all of them, or those that concern `channel`.
@@ -107,7 +107,7 @@ std::string time_of_day();
 struct ServiceType {
   using Make = std::unique_ptr<Service> (*)(Node& node);
   Make service = nullptr;
-  Make rehearsal = nullptr;  ///< null when there is none
+  Make standby = nullptr;  ///< null when there is none
   bool works_on_standby = false;
 };
 
@@ -115,9 +115,9 @@ template <class S>
 constexpr ServiceType service_type() {
   ServiceType type;
   type.service = [](Node& node) -> std::unique_ptr<Service> { return std::make_unique<S>(node); };
-  if constexpr (requires { typename S::Rehearsal; })
-    type.rehearsal = [](Node& node) -> std::unique_ptr<Service> {
-      return std::make_unique<typename S::Rehearsal>(node);
+  if constexpr (requires { typename S::Standby; })
+    type.standby = [](Node& node) -> std::unique_ptr<Service> {
+      return std::make_unique<typename S::Standby>(node);
     };
   type.works_on_standby = S::works_on_standby;
   return type;

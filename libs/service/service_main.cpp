@@ -10,9 +10,9 @@ namespace {
 
 /// Waits until the process is promoted, if it is on standby. False when it is told to end instead.
 bool wait_for_promotion(Node& node, const ServiceType& type) {
-  if (type.rehearsal == nullptr || !node.on_standby()) return node.stand_by();
-  const auto rehearsal = type.rehearsal(node);
-  return node.stand_by(rehearsal.get());
+  if (type.standby == nullptr || !node.on_standby()) return node.stand_by();
+  const auto standby = type.standby(node);
+  return node.stand_by(standby.get());
 }
 
 }  // namespace

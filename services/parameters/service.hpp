@@ -3,9 +3,9 @@
 
 #include "file_storage.hpp"
 #include "parameter_store.hpp"
-#include "rehearsal_service.hpp"
 #include "service/node.hpp"
 #include "service/request.hpp"
+#include "standby_service.hpp"
 
 namespace trunnion::parameters {
 
@@ -16,7 +16,7 @@ MachineDefaults defaults_of(const machine::MachineConfig& machine);
 class ParameterService : public service::Service {
  public:
   /// What it does while it is a shadow.
-  using Rehearsal = RehearsalService;
+  using Standby = StandbyService;
 
   explicit ParameterService(service::Node& node);
   void pump() override;

@@ -18,7 +18,7 @@ namespace trunnion::plc {
 class PlcService : public service::Service {
  public:
   /// The service while it is a shadow.
-  using Rehearsal = StandbyService;
+  using Standby = StandbyService;
 
   explicit PlcService(service::Node& node);
   void pump() override;

@@ -14,7 +14,7 @@ namespace trunnion::program {
 class ProgramService : public service::Service {
  public:
   /// The service while it is a shadow.
-  using Rehearsal = StandbyService;
+  using Standby = StandbyService;
 
   explicit ProgramService(service::Node& node);
   void pump() override;

@@ -169,6 +169,31 @@ async function run(page, url) {
   await page.waitForTimeout(400);
   await shot("parameters");
   await at("view-offsets").click();
+  if (TRUNNION_URL) {
+    const table = () => fetch(`${url}api/work-offsets`).then((answer) => answer.json());
+    const g55 = (body) => body.offsets.find((offset) => offset.channel === 0 && offset.index === 1)?.values[1] ?? 0;
+    const cell = page.getByLabel("G55 Y");
+    const shown = async () => (await cell.inputValue()).replace("\u2212", "-");
+    await cell.click();
+    await page.keyboard.type("-123.45678", { delay: 120 });
+    const typed = await cell.inputValue();
+    check(`a work offset can be typed at the speed of a hand: ${typed}`, typed === "-123.45678");
+    await page.keyboard.press("Enter");
+    await eventually("the offset is stored with every digit", async () => g55(await table()) === -123.45678);
+    await eventually("and shown rounded", async () => (await shown()) === "-123.457");
+    const { revision } = await table();
+    await cell.click();
+    await page.keyboard.press("Tab");
+    await page.waitForTimeout(500);
+    check("a cell that is passed is not stored", (await table()).revision === revision);
+    await cell.click();
+    await page.keyboard.type("77");
+    await page.keyboard.press("Escape");
+    check("Escape leaves a cell as it was", (await shown()) === "-123.457" && g55(await table()) === -123.45678);
+    const late = { channel: 0, index: 1, values: [1, 2, 3, 0, 0, 0, 0, 0, 0], revision: revision - 1 };
+    const refused = await fetch(`${url}api/work-offsets`, { method: "PUT", body: JSON.stringify(late) });
+    check("a change made on old values is refused", refused.status === 409);
+  }
   await page.waitForTimeout(300);
   await shot("offsets");
   await at("view-diagnosis").click();

@@ -350,6 +350,7 @@ export interface ChannelCommands {
   "mode": { mode: Mode; };
   "mdi": { line: string; };
   "override": { kind: "feed"; value: number; } | { kind: "rapid"; value: number; } | { kind: "spindle"; value: number; };
+  "override-step": { kind: "feed"; step: number; } | { kind: "rapid"; step: number; } | { kind: "spindle"; step: number; };
   "single-block": { on: boolean; };
   "optional-stop": { on: boolean; };
   "start-from-line": { line: number; };

@@ -47,6 +47,16 @@ TEST(Summary, AlarmNamesFileLineColumnAndNumber) {
                                                                  "  called from part.nc:1\n"));
 }
 
+TEST(Summary, AMotionBeyondTheTravelEndsTheCheckWithItsLineAndAxis) {
+  CheckOptions options;
+  options.travel_error = [](const language::AxisValues&, const language::Command& motion) {
+    return motion.target[0] > 50 ? std::to_string(motion.line) + ": X would go to 60.0000" : std::string();
+  };
+  const auto summary = summary_of("G0 X3\nX60\nX70\nM30\n", options);
+  EXPECT_THAT(summary, HasSubstr("part.nc:2: 140: X would go to 60.0000\n"));
+  EXPECT_THAT(summary, HasSubstr("1 rapid"));
+}
+
 TEST(Summary, SkippedBlocks) {
   const std::string program = "/G0 X1\n/2 X2\n/9 X3\nX4\n";
   EXPECT_THAT(summary_of(program), HasSubstr("4 rapid"));

@@ -131,6 +131,18 @@ const std::vector<Case>& cases() {
        R"({"kind":"spindle","value":0.5})",
        "spindle-override 0.5",
        {.command = CommandKind::SPINDLE_OVERRIDE, .fraction = 0.5}},
+      {"override-step",
+       R"({"kind":"feed","step":-0.05})",
+       "feed-override-step -0.05",
+       {.command = CommandKind::FEED_OVERRIDE_STEP, .fraction = -0.05}},
+      {"override-step",
+       R"({"kind":"rapid","step":0.1})",
+       "rapid-override-step 0.1",
+       {.command = CommandKind::RAPID_OVERRIDE_STEP, .fraction = 0.1}},
+      {"override-step",
+       R"({"kind":"spindle","step":0.1})",
+       "spindle-override-step 0.1",
+       {.command = CommandKind::SPINDLE_OVERRIDE_STEP, .fraction = 0.1}},
   };
   return all;
 }

@@ -197,6 +197,7 @@ std::vector<Wrong> wrong_programs() {
       {variable_unknown, "#5231=1", 1, 1, ": #5231"},
       {text_behind_statement, "#3006=1 #1=2", 1, 9, ": #1"},
       {tool_undefined, "#2007=1", 1, 1, ": #2007"},
+      {tool_unknown, "T4 M6\nT99 M6", 2, 1, ": T99"},
   };
   for (const Wrong& motion : wrong_motion()) wrong.push_back(motion);
   return wrong;

@@ -217,5 +217,53 @@ TEST(FrameProperty, PolarWordsEqualCartesianOnes) {
   }
 }
 
+// The mirror image of a part that is turned by 90 degrees: (10,0) turns to (0,10), which the mirror of X
+// keeps. The order in which both are switched on does not matter.
+TEST(Frames, AMirrorTurnsTheSenseOfARotationRound) {
+  for (const char* const text :
+       {"G51.1 X0\nG68 X0 Y0 R90\nG0 X10 Y0\n", "G68 X0 Y0 R90\nG51.1 X0\nG0 X10 Y0\n",
+        "G51 X0 Y0 I-1 J1\nG68 X0 Y0 R90\nG0 X10 Y0\n"}) {
+    TestMachine machine;
+    const Interpretation result = run(machine, text);
+    ASSERT_EQ(result.last, Step::end) << result.alarm.text.data();
+    ASSERT_FALSE(result.commands.empty());
+    EXPECT_NEAR(result.commands.back().target[X], 0, 1e-12) << text;
+    EXPECT_NEAR(result.commands.back().target[Y], 10, 1e-12) << text;
+  }
+}
+
+// A random part behind a mirror is the mirror image of the part, its rotations included.
+TEST(Frames, AMirroredPartWithRotationsIsItsMirrorImage) {
+  std::mt19937_64 random(41);
+  for (int i = 0; i < 100; ++i) {
+    std::string part;
+    for (int k = 0; k < 6; ++k) {
+      char line[120];
+      std::snprintf(line, sizeof line, "G68 X%d Y%d R%d\nG1 X%d Y%d F100\nG69\n",
+                    static_cast<int>(random() % 40), static_cast<int>(random() % 40),
+                    static_cast<int>(random() % 360), static_cast<int>(random() % 90),
+                    static_cast<int>(random() % 90));
+      part += line;
+    }
+    TestMachine machine;
+    const Interpretation plain = run(machine, part), mirrored = run(machine, "G51.1 X7\n" + part);
+    ASSERT_EQ(plain.commands.size(), mirrored.commands.size()) << part;
+    for (std::size_t k = 0; k < plain.commands.size(); ++k) {
+      EXPECT_NEAR(mirrored.commands[k].target[X], 14 - plain.commands[k].target[X], 1e-9) << part;
+      EXPECT_NEAR(mirrored.commands[k].target[Y], plain.commands[k].target[Y], 1e-9) << part;
+    }
+  }
+}
+
+TEST(Frames, TheFactorsOfAScalingHaveTheUnitOfTheParameter) {
+  TestMachine machine;
+  machine.factor_unit = 0.001;
+  const Interpretation result = run(machine, "G51 X0 Y0 P2000\nG0 X10\n");
+  ASSERT_EQ(result.last, Step::end) << result.alarm.text.data();
+  EXPECT_NEAR(result.commands.back().target[X], 20, 1e-12);
+  machine.factor_unit = 1;
+  EXPECT_EQ(run(machine, "G51 X0 Y0 P2000\nG0 X10\n").alarm.number, AlarmNumber::factor_range);
+}
+
 }  // namespace
 }  // namespace trunnion::language::test

@@ -73,6 +73,7 @@ inline std::vector<WrongMotion> wrong_motion() {
       {cycle_repeats, "G16 G81 Z-1 R1 L0 F1\nG91 X1 Y10 L2", 2, 5, ": X1"},
       {cycle_return_level, "G99 G87 X1 Z-1 R-5 Q1 F1", 1, 5, ": G87"},
       {cycle_shift_missing, "G76 X1 Z-1 R1 F1", 1, 1, ": G76"},
+      {cycle_level_side, "G0 Z5\nG81 X1 Z-1 R-2 F1", 2, 12, ": R-2, R -2.000 mm, depth -1.000 mm"},
       {pattern_without_cycle, "G70 X0 Y0 I1 J0 K4", 1, 1, ": G70"},
       {value_range, "G81 Z-1 R1 L0 F1\nG78 X0 Y0 I1 J0 K-4", 2, 17, ": K-4"},
       {value_range, "G81 Z-1 R1 L0 F1\nG70 X0 Y0 I1 J0 K0", 2, 17, ": K0"},
@@ -82,7 +83,8 @@ inline std::vector<WrongMotion> wrong_motion() {
       {compensation_radius, "G41 D1 G1 X10 F1\nG3 X14 I2", 2, 1, ": G3"},
       // The step of 3 between two left turns is shorter than the tool of radius 5 is wide.
       {compensation_unresolved, "G41 D1 G1 X10 F1\nX30\nY3\nX0", 4, 1, ": X0"},
-      {compensation_interference, "G41 D1 G1 X1 F1\nX30\nY20\nX1 Y1\nG40 X-20", 4, 1, ": X1"},
+      // The first wall is cut by the third.
+      {compensation_interference, "G41 D1 G1 X1 F1\nX30\nY20\nX1 Y1\nG40 X-20", 2, 1, ", that of line 4"},
       {compensation_look_ahead, standing, 66, 1, ": M8"},
       {compensation_active, "G41 D1\nG28 X1", 2, 1, ": G28"},
       {compensation_active, "G41 D1\nG18", 2, 1, ": G18"},

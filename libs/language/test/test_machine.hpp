@@ -28,6 +28,7 @@ struct TestMachine : Environment {
   std::map<int, AxisValues> more_offsets;        // G54.1 P
   AxisValues last_way{};
   bool diameter = false;
+  double factor_unit = 1;
   CutterSettings cutter;
   CycleSettings cycles;
   std::uint16_t axis_mask = 0b111111111;
@@ -43,6 +44,7 @@ struct TestMachine : Environment {
     const auto found = more_offsets.find(index - 5);
     return found == more_offsets.end() ? AxisValues{} : found->second;
   }
+  bool has_tool(std::uint32_t number) const override { return number < 90; }
   std::optional<ToolOffset> tool_offset(std::uint16_t number) const override {
     const auto found = tools.find(number);
     return found == tools.end() ? Environment::tool_offset(number) : std::optional(found->second);
@@ -60,6 +62,7 @@ struct TestMachine : Environment {
   }
   AxisValues approach() const override { return last_way; }
   bool diameter_programming() const override { return diameter; }
+  double scaling_unit() const override { return factor_unit; }
   CutterSettings cutter_settings() const override { return cutter; }
   CycleSettings cycle_settings() const override { return cycles; }
   /// The table turns a direction d of the part to R1 R2 d, which must be +Z: A -(tilt), C so that d points to

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // What an operator may ask of a channel, and when.
+#include <algorithm>
+#include <cmath>
+
 #include "channel_core.hpp"
 #include "commands/channel_request.hpp"
 #include "machine/alarm_constants.hpp"
@@ -9,6 +12,15 @@ namespace trunnion::channel {
 
 using idl::channel::ChannelRequest;
 using idl::channel::CommandKind;
+
+namespace {
+
+/// Of an override, to whole percents within its limits.
+void step(double& override_, double by, double minimum, double maximum) {
+  override_ = std::clamp(std::round(100 * (override_ + by)) / 100, minimum, maximum);
+}
+
+}  // namespace
 
 Answer ChannelCore::refuse(const machine::AlarmDefinition& alarm, std::string reason) const {
   return {false, alarm.number, std::move(reason)};
@@ -62,6 +74,15 @@ Answer ChannelCore::handle(const ChannelRequest& request) {
       return {};
     case CommandKind::SPINDLE_OVERRIDE:
       switches_.spindle_override = request.fraction;
+      return {};
+    case CommandKind::FEED_OVERRIDE_STEP:
+      step(switches_.feed_override, request.fraction, 0, 1.5);
+      return {};
+    case CommandKind::RAPID_OVERRIDE_STEP:
+      step(switches_.rapid_override, request.fraction, 0, 1);
+      return {};
+    case CommandKind::SPINDLE_OVERRIDE_STEP:
+      step(switches_.spindle_override, request.fraction, 0.5, 1.5);
       return {};
     case CommandKind::SINGLE_BLOCK:
       switches_.single_block = request.on;

@@ -72,6 +72,9 @@ struct Channel : ::testing::Test {
       case CommandKind::FEED_OVERRIDE:
       case CommandKind::RAPID_OVERRIDE:
       case CommandKind::SPINDLE_OVERRIDE:
+      case CommandKind::FEED_OVERRIDE_STEP:
+      case CommandKind::RAPID_OVERRIDE_STEP:
+      case CommandKind::SPINDLE_OVERRIDE_STEP:
         request.fraction = value;
         break;
       case CommandKind::JOG_AXIS:

@@ -87,6 +87,13 @@ ParameterStore::ParameterStore(Storage& storage, MachineDefaults defaults, const
   if (news) commit(state_, next, {});
 }
 
+namespace {
+std::string changed_meanwhile(const std::string& table, std::uint64_t now, std::uint64_t then) {
+  return "the " + table + " changed meanwhile (revision " + std::to_string(now) + ", not " +
+         std::to_string(then) + "): read the values again";
+}
+}  // namespace
+
 ParameterValue ParameterStore::machine_default(std::uint32_t number) const {
   const auto found = defaults_.values.find(number);
   return found != defaults_.values.end() ? found->second : catalogue_default(number);
@@ -143,6 +150,10 @@ std::string ParameterStore::change(State& next, const ParameterRequest& request,
   const bool tools = op == Operation::SET_TOOL || op == Operation::REMOVE_TOOL || op == Operation::IMPORT;
   const bool offsets = op == Operation::SET_WORK_OFFSET || op == Operation::IMPORT;
   const auto& who = request.who;
+  if (tools && request.revision != 0 && request.revision != next.tools_revision)
+    return changed_meanwhile("tool table", next.tools_revision, request.revision);
+  if (offsets && request.revision != 0 && request.revision != next.offsets_revision)
+    return changed_meanwhile("work offsets", next.offsets_revision, request.revision);
   if (values) {
     for (const auto& parameter : request.values) {
       ParameterValue value{parameter.value, parameter.text};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import { type Mode, canStart } from "../state/model";
 import { channel, command, machine } from "../state/store";
+import { onPress } from "./press";
 
 const modes: [Mode, string][] = [
   ["AUTO", "Auto"],
@@ -23,11 +24,13 @@ function Override({ kind, title, minimum, maximum, value }: OverrideProps) {
     const limited = Math.min(maximum, Math.max(minimum, fraction));
     void command(`${title} override`, "override", { kind, value: limited });
   };
+  // An order, not a value: what is shown may be older than the last step.
+  const step = (by: number) => void command(`${title} override`, "override-step", { kind, step: by });
   const percent = Math.round(value * 100);
   return (
     <div class="override">
       <label for={`override-${kind}`}>{title}</label>
-      <button class="step" aria-label={`${title} override down`} onClick={() => send((percent - 10) / 100)}>
+      <button class="step" aria-label={`${title} override down`} onClick={() => step(-0.1)}>
         −
       </button>
       <input
@@ -39,7 +42,7 @@ function Override({ kind, title, minimum, maximum, value }: OverrideProps) {
         value={percent}
         onInput={(event) => send(Number(event.currentTarget.value) / 100)}
       />
-      <button class="step" aria-label={`${title} override up`} onClick={() => send((percent + 10) / 100)}>
+      <button class="step" aria-label={`${title} override up`} onClick={() => step(0.1)}>
         +
       </button>
       <button
@@ -80,7 +83,7 @@ export function Controls() {
         >
           Cycle start
         </button>
-        <button class="hold" data-test="feed-hold" title="Esc" onClick={() => void command("Feed hold", "feed-hold", {})}>
+        <button class="hold" data-test="feed-hold" title="Esc" {...onPress(() => void command("Feed hold", "feed-hold", {}))}>
           Feed hold
         </button>
         <button data-test="reset" onClick={() => void command("Reset", "reset", {})}>Reset</button>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import { channel, channelList, channelNumber, channels, chooseChannel, machine, request, view, type ViewName } from "../state/store";
+import { onPress } from "./press";
 
 const views: [ViewName, string][] = [
   ["operate", "Operate"],
@@ -7,6 +8,8 @@ const views: [ViewName, string][] = [
   ["offsets", "Tools & offsets"],
   ["diagnosis", "Diagnosis"],
 ];
+
+const pressEmergencyStop = () => void request("Emergency stop", "/api/panel/emergency-stop");
 
 function EmergencyStop() {
   const plc = machine.value.plc;
@@ -16,7 +19,7 @@ function EmergencyStop() {
         class="estop"
         data-test="estop"
         title="Ask the PLC for an emergency stop. Not a replacement for the hard-wired one."
-        onClick={() => void request("Emergency stop", "/api/panel/emergency-stop")}
+        {...onPress(pressEmergencyStop)}
       >
         E-STOP
       </button>
@@ -24,7 +27,7 @@ function EmergencyStop() {
   }
   return (
     <div class="estop-engaged">
-      <button class="estop engaged" onClick={() => void request("Emergency stop", "/api/panel/emergency-stop")}>
+      <button class="estop engaged" {...onPress(pressEmergencyStop)}>
         STOPPED
       </button>
       <button data-test="release" onClick={() => void request("Release", "/api/panel/release")}>

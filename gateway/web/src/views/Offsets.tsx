@@ -7,37 +7,63 @@ import { channel, machine, tell } from "../state/store";
 
 const letters = "XYZABCUVW";
 
-/** A number that is sent when it is entered, and comes back to what is stored when it is refused. */
+/** Every digit that is stored: what is shown is rounded, what is edited is not. */
+const exactly = (value: number) => String(value);
+
+/**
+ * A number that is sent when it is entered, and comes back to what is stored when it is refused. While it is being
+ * edited nothing else changes it, and nothing is sent when it is left as it was.
+ */
 function Cell({ value, label, store }: { value: number; label: string; store: (value: number) => Promise<Answer> }) {
-  const commit = async (input: HTMLInputElement) => {
-    const entered = Number(input.value.replace(",", ".").replace("\u2212", "-"));
-    if (input.value.trim() === "" || !Number.isFinite(entered)) tell(`${label}: this is not a number`, true);
+  const draft = useSignal<string | null>(null);
+  const commit = async () => {
+    const text = draft.value;
+    if (text === null || text === exactly(value)) {
+      draft.value = null;
+      return;
+    }
+    const entered = Number(text.replace(",", ".").replace("\u2212", "-"));
+    if (text.trim() === "" || !Number.isFinite(entered)) tell(`${label}: this is not a number`, true);
     else if (entered !== value) {
       const answer = await store(entered);
-      if (answer.ok) return;
-      tell(`${label}: ${answer.reason}`, true);
+      if (!answer.ok) tell(`${label}: ${answer.reason}`, true);
     }
-    input.value = millimetres(value);
+    draft.value = null;
   };
   return (
     <input
       class="cell digits"
       aria-label={label}
-      value={millimetres(value)}
+      value={draft.value ?? millimetres(value)}
       inputMode="decimal"
-      onFocus={(event) => event.currentTarget.select()}
-      onKeyDown={(event) => event.key === "Enter" && event.currentTarget.blur()}
-      onBlur={(event) => void commit(event.currentTarget)}
+      onFocus={(event) => {
+        const input = event.currentTarget;
+        input.value = exactly(value);
+        input.select();  // at once: what is typed from here on must not be selected again
+        draft.value = input.value;
+      }}
+      onInput={(event) => {
+        draft.value = event.currentTarget.value;
+      }}
+      onKeyDown={(event) => {
+        if (event.key === "Enter") event.currentTarget.blur();
+        if (event.key === "Escape") {
+          event.stopPropagation();
+          draft.value = null;
+          event.currentTarget.blur();
+        }
+      }}
+      onBlur={() => void commit()}
     />
   );
 }
 
 function WorkOffsets() {
-  const offsets = useSignal<WorkOffset[]>([]);
+  const table = useSignal<{ revision: number; offsets: WorkOffset[] }>({ revision: 0, offsets: [] });
   const revision = machine.value.revisions.work_offsets;
   useEffect(() => {
-    void get<{ offsets: WorkOffset[] }>("/api/work-offsets").then((answer) => {
-      if (answer.body?.offsets) offsets.value = answer.body.offsets;
+    void get<{ revision: number; offsets: WorkOffset[] }>("/api/work-offsets").then((answer) => {
+      if (answer.body?.offsets) table.value = answer.body;
     });
   }, [revision]);
   const one = channel.value;
@@ -45,7 +71,7 @@ function WorkOffsets() {
   const columns = [...letters].map((letter, index) => ({ letter, index })).filter(({ letter }) => one.letters.includes(letter));
   const rows = [0, 1, 2, 3, 4, 5].map(
     (index) =>
-      offsets.value.find((offset) => offset.channel === one.channel && offset.index === index) ?? {
+      table.value.offsets.find((offset) => offset.channel === one.channel && offset.index === index) ?? {
         channel: one.channel,
         index,
         values: [...letters].map(() => 0),
@@ -53,7 +79,7 @@ function WorkOffsets() {
   );
   const store = (row: WorkOffset, column: number, value: number) => {
     const values = [...letters].map((_, index) => (index === column ? value : (row.values[index] ?? 0)));
-    return put("/api/work-offsets", { channel: row.channel, index: row.index, values });
+    return put("/api/work-offsets", { channel: row.channel, index: row.index, values, revision: table.value.revision });
   };
   return (
     <section class="list" aria-label="work offsets">

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import { useEffect } from "preact/hooks";
-import { channel, command, connection, machine, notice, view, type ViewName } from "../state/store";
+import { channel, channelList, command, commandTo, connection, machine, notice, view, type ViewName } from "../state/store";
 import { Alarms } from "./Alarms";
 import { Controls } from "./Controls";
 import { Diagnosis } from "./Diagnosis";
@@ -74,14 +74,18 @@ function ConnectionLost() {
   );
 }
 
+/** There Escape empties the field. */
+const isSearch = (target: EventTarget | null) => target instanceof HTMLInputElement && target.type === "search";
+
 export function Page() {
   useEffect(() => {
     const onKey = (event: KeyboardEvent) => {
       if (event.altKey && viewOfKey[event.key]) {
         view.value = viewOfKey[event.key]!;
         event.preventDefault();
-      } else if (event.key === "Escape") {
-        void command("Feed hold", "feed-hold", {});
+      } else if (event.key === "Escape" && !isSearch(event.target)) {
+        // Whoever presses it in haste means the machine, not the channel that is shown.
+        for (const number of channelList.value) void commandTo(number, "Feed hold", "feed-hold", {});
       } else if (event.key === "Enter" && event.ctrlKey && view.value === "operate") {
         void command("Cycle start", "cycle-start", {});
         event.preventDefault();

@@ -50,7 +50,7 @@ G99 G81 Z1 X2 Y-5 R2 F100
 (=== drilling along X in YZ, upwards)
 G19 G99 G83 Y1 X7 R2 Q3 F100
 (=== cycles go through the frames)
-(Mirrored to X-10, turned to Y-10.)
+(Turned to Y10, which the mirror keeps.)
 G68 X0 Y0 R90
 G51.1 X0
 G52 Z100

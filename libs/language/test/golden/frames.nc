@@ -58,7 +58,7 @@ G0 X10
 G69
 G0 X1
 (=== mirror, then scaling, then rotation, then offsets, whatever the order they were called in)
-(mirror: X 1 -> -1; scaling by 2: -2, Y 0; rotation by 90 about 0: [0, -2]; G52 X100: [100, -2].)
+(mirror: X 1 -> -1; scaling by 2: -2, Y 0; rotation by 90, mirrored: -90 about 0: [0, 2]; G52 X100: [100, 2].)
 G68 X0 Y0 R90
 G51 X0 Y0 Z0 P2
 G51.1 X0

@@ -12,9 +12,9 @@ namespace trunnion::parameters {
 
 /// The keeper of parameters as long as another one is the cluster's: it reads the same files and compares
 /// what it would publish with what the other has published. It writes nothing.
-class RehearsalService : public service::Service {
+class StandbyService : public service::Service {
  public:
-  explicit RehearsalService(service::Node& node);
+  explicit StandbyService(service::Node& node);
   void pump() override;
   service::Health health() const override { return clock_.health(); }
 

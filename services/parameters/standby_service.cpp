@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "rehearsal_service.hpp"
+#include "standby_service.hpp"
 
 #include <algorithm>
 #include <cstdio>
@@ -43,21 +43,21 @@ bool take_newest(bus::Reader<T>& reader, std::optional<T>& value) {
 
 }  // namespace
 
-RehearsalService::RehearsalService(service::Node& node)
+StandbyService::StandbyService(service::Node& node)
     : node_(node),
       storage_(node.options().state_directory),
       set_reader_(node.bus().reader(topics::parameter_set)),
       tools_reader_(node.bus().reader(topics::tool_table)),
       offsets_reader_(node.bus().reader(topics::work_offsets)) {}
 
-void RehearsalService::pump() {
+void StandbyService::pump() {
   const bool set = take_newest(set_reader_, set_), tools = take_newest(tools_reader_, tools_),
              offsets = take_newest(offsets_reader_, offsets_);
   if (!set_ || !tools_ || !offsets_) return;
   clock_.poll(set || tools || offsets, service::monotonic_seconds(), [this] { return difference(); });
 }
 
-std::string RehearsalService::difference() {
+std::string StandbyService::difference() {
   PrivateStorage files(storage_);
   const ParameterStore own(files, defaults_of(node_.options().machine),
                            storage_.read("cluster.boot").value_or(""));
