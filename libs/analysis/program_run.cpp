@@ -50,6 +50,9 @@ class Runner {
     flow_.start(trajectory_, text, frame_.start, {}, variables_);
     do {
       flow_.set_cycle(result_.cycles);
+      // Axes that follow without delay are in position in the first cycle whose feedback can be known.
+      trajectory_.set_position_check(
+          machine_.checks_exact_stops() && !tapping_.active() ? static_cast<int>(machine_.lead()) + 2 : 0);
       state_ = skip_on_its_way_ ? FlowState::full : flow_.fill(false);
     } while (state_ == FlowState::waiting ? go_on_reading()
              : trajectory_.at_rest()      ? go_on_at_rest()

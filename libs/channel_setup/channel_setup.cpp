@@ -82,6 +82,7 @@ void ChannelSetup::configure(const machine::Parameters& p) {
   radius_deviation_ = p.get(parameter::radius_deviation);
   cycle_seconds_ = p.get(parameter::interpolation_cycle) * 1e-6;
   lead_ = static_cast<std::uint64_t>(p.integer(parameter::stream_lead));
+  checks_exact_stops_ = p.get(parameter::exact_stop_check_time) > 0;
   // Two frames must fit into the lead, or the credits would never let the second be written.
   const auto most = static_cast<std::uint32_t>(std::max<std::uint64_t>(1, lead_ / 2));
   frame_real_ = std::min(most, static_cast<std::uint32_t>(p.integer(parameter::frame_cycles_real_time)));

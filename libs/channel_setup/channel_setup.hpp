@@ -101,6 +101,8 @@ class ChannelSetup : public language::Environment {
   double reference_feed(std::uint8_t axis) const { return reference_feed_[axis]; }
   double cycle_seconds() const { return cycle_seconds_; }
   std::uint64_t lead() const { return lead_; }
+  /// Axes are checked at an exact stop (parameter 010166), which then takes at least lead() + 2 cycles.
+  bool checks_exact_stops() const { return checks_exact_stops_; }
   std::uint32_t frame_cycles(bool virtual_time) const { return virtual_time ? frame_virtual_ : frame_real_; }
   std::uint64_t revision() const { return revision_; }
 
@@ -142,6 +144,7 @@ class ChannelSetup : public language::Environment {
   std::uint16_t mask_ = 0;
   double radius_deviation_ = 0.1, cycle_seconds_ = 0.001;
   std::uint64_t lead_ = 32, revision_ = 0;
+  bool checks_exact_stops_ = false;
   std::uint32_t frame_real_ = 4, frame_virtual_ = 8;
 };
 
