@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "auxiliary_handshake.hpp"
 
+#include <cmath>
 #include <utility>
 
 namespace trunnion::channel {
@@ -9,6 +10,15 @@ void AuxiliaryHandshake::begin(const program_execution::AuxiliaryFunction& funct
   request_ = {channel_, ++number_, function.kind, function.code, function.value, cycle};
   outgoing_ = request_;
   open_ = true;
+}
+
+std::string AuxiliaryHandshake::function() const {
+  if (!open_) return {};
+  using program_execution::AuxiliaryKind;
+  const auto number = request_.kind == AuxiliaryKind::S
+                          ? static_cast<std::uint32_t>(std::lround(request_.value))
+                          : request_.code;
+  return bus::to_string(request_.kind) + std::to_string(number);
 }
 
 AuxiliaryHandshake::Outcome AuxiliaryHandshake::finish(const idl::plc::AuxiliaryDone& done) {

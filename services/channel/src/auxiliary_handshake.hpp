@@ -4,6 +4,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "contracts/types.hpp"
 #include "program_execution/auxiliary_memory.hpp"
@@ -23,6 +24,8 @@ class AuxiliaryHandshake {
 
   /// Raises the strobe. The axes have been at rest since `cycle`.
   void begin(const program_execution::AuxiliaryFunction& function, std::uint64_t cycle);
+  /// The open function as a program writes it ("M6"), empty when none is.
+  std::string function() const;
   /// The PLC's answer. Only the open function's number counts.
   Outcome finish(const idl::plc::AuxiliaryDone& done);
 

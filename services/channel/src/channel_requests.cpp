@@ -99,11 +99,13 @@ void ChannelCore::begin_auxiliary(const program_execution::AuxiliaryFunction& fu
 }
 
 void ChannelCore::on_auxiliary_done(const idl::plc::AuxiliaryDone& done) {
+  const auto function = handshake_.function();
   const auto outcome = handshake_.finish(done);
   if (outcome == AuxiliaryHandshake::Outcome::not_open) return;
   if (outcome == AuxiliaryHandshake::Outcome::failed) {
-    event(alarm::auxiliary_refused,
-          program_name() + ":" + std::to_string(flow().pending().line) + ": the PLC could not carry it out");
+    event(alarm::auxiliary_refused, program_name() + ":" + std::to_string(flow().pending().line) +
+                                        ": the PLC did not carry out " + function +
+                                        ". Check the machine, then reset");
     stop_activity();
     return;
   }

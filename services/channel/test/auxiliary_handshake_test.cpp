@@ -12,6 +12,19 @@ using Outcome = AuxiliaryHandshake::Outcome;
 
 idl::plc::AuxiliaryDone done(std::uint32_t number, bool failed = false) { return {2, number, failed}; }
 
+TEST(AuxiliaryHandshake, NamesTheOpenFunctionAsAProgramWritesIt) {
+  AuxiliaryHandshake handshake(2);
+  EXPECT_EQ(handshake.function(), "");
+  handshake.begin({AuxiliaryKind::M, 6, 0}, 1);
+  EXPECT_EQ(handshake.function(), "M6");
+  handshake.cancel();
+  handshake.begin({AuxiliaryKind::T, 12, 0}, 1);
+  EXPECT_EQ(handshake.function(), "T12");
+  handshake.cancel();
+  handshake.begin({AuxiliaryKind::S, 0, 2500}, 1);
+  EXPECT_EQ(handshake.function(), "S2500");
+}
+
 TEST(AuxiliaryHandshake, RaisesTheStrobeAndLowersItWhenThePlcHasDoneExactlyThisFunction) {
   AuxiliaryHandshake handshake(2);
   EXPECT_FALSE(handshake.take_request());
@@ -46,7 +59,9 @@ TEST(AuxiliaryHandshake, AFunctionThatFailedLowersTheStrobeToo) {
   AuxiliaryHandshake handshake(0);
   handshake.begin({AuxiliaryKind::T, 5, 0}, 0);
   const auto raised = handshake.take_request();
+  EXPECT_FALSE(handshake.function().empty());
   EXPECT_EQ(handshake.finish(done(raised->number, true)), Outcome::failed);
+  EXPECT_EQ(handshake.function(), "") << "no longer open";
   EXPECT_EQ(handshake.take_request()->kind, AuxiliaryKind::NO_AUXILIARY);
 }
 
