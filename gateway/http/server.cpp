@@ -5,6 +5,7 @@
 #include <boost/asio/ip/tcp.hpp>
 #include <stdexcept>
 #include <thread>
+#include <vector>
 
 #include "http/session.hpp"
 
@@ -14,8 +15,6 @@ namespace net = boost::asio;
 using tcp = net::ip::tcp;
 
 struct HttpServer::Inside {
-  static constexpr long most_connections = 128;
-
   Inside(const std::string& address, std::uint16_t port, Api& served)
       : acceptor(context), pause(context), api(served), hub(context, served.mailbox()) {
     const std::string where = address + ":" + std::to_string(port);
@@ -44,13 +43,27 @@ struct HttpServer::Inside {
         });
         return;
       }
-      if (connections.use_count() <= most_connections) {
+      if (make_room()) {
         boost::system::error_code ignored;
         socket.set_option(tcp::no_delay(true), ignored);
-        std::make_shared<HttpSession>(std::move(socket), api, hub, connections)->start();
+        const auto session = std::make_shared<HttpSession>(std::move(socket), api, hub);
+        sessions.push_back(session);
+        session->start();
       }
       accept();
     });
+  }
+
+  bool make_room() {
+    std::erase_if(sessions, [](const auto& session) { return session.expired(); });
+    if (sessions.size() < most_connections) return true;
+    std::vector<Connection> connections;
+    for (const auto& session : sessions) connections.push_back(session.lock()->connection());
+    const auto chosen = one_to_close(connections);
+    if (!chosen) return false;
+    sessions[*chosen].lock()->close();
+    sessions.erase(sessions.begin() + static_cast<std::ptrdiff_t>(*chosen));
+    return true;
   }
 
   void stop() {
@@ -58,8 +71,7 @@ struct HttpServer::Inside {
     if (thread.joinable()) thread.join();
   }
 
-  // Sessions die with the context and look at what is declared before it.
-  std::shared_ptr<int> connections = std::make_shared<int>(0);
+  std::vector<std::weak_ptr<HttpSession>> sessions;  // from the oldest on; streams are the hub's
   net::io_context context{1};
   tcp::acceptor acceptor;
   net::steady_timer pause;

@@ -19,20 +19,39 @@ using std::chrono::seconds;
 namespace {
 
 constexpr seconds timeout{30};
+constexpr seconds first_request{5};  // who connects has something to say
 constexpr unsigned http_version = 11;
 
 std::string_view view(beast::string_view text) { return {text.data(), text.size()}; }
 
+/// Of a request of any body.
+template <class Request>
+idl::gateway::Sender sender(const Request& request) {
+  const auto origin = view(request[http::field::origin]);
+  using idl::gateway::Sender;
+  if (origin.empty()) return Sender::TOOL;
+  return foreign_origin(origin, view(request[http::field::host])) ? Sender::FOREIGN_PAGE : Sender::PAGE;
+}
+
 }  // namespace
 
-HttpSession::HttpSession(net::ip::tcp::socket&& socket, Api& api, StreamHub& hub, std::shared_ptr<void> place)
-    : stream_(std::move(socket)), api_(api), hub_(hub), place_(std::move(place)) {}
+HttpSession::HttpSession(net::ip::tcp::socket&& socket, Api& api, StreamHub& hub)
+    : stream_(std::move(socket)), api_(api), hub_(hub) {
+  beast::error_code error;
+  const auto peer = stream_.socket().remote_endpoint(error);
+  if (!error) connection_.peer = peer.address().to_string();
+}
 
-void HttpSession::read_header() {
+void HttpSession::start() { read_header(first_request); }
+
+void HttpSession::close() { stream_.close(); }
+
+void HttpSession::read_header(seconds within) {
+  connection_.activity = Activity::waiting;
   header_.emplace();
   header_->header_limit(16 << 10);
   header_->body_limit(largest_program);
-  stream_.expires_after(timeout);
+  stream_.expires_after(within);
   http::async_read_header(
       stream_, buffer_, *header_, [self = shared_from_this()](beast::error_code error, std::size_t) {
         if (error == http::error::body_limit)
@@ -48,6 +67,7 @@ void HttpSession::read_header() {
 }
 
 void HttpSession::on_header() {
+  connection_.activity = Activity::transferring;
   const auto& request = header_->get();
   keep_alive_ = request.keep_alive();
   const std::string target(request.target());
@@ -58,12 +78,10 @@ void HttpSession::on_header() {
   const bool is_api = path.starts_with("/api/");
   match_ = is_api ? match(view(request.method_string()), path) : Match{};
   if (match_.result == RouteResult::found && is_journaled(match_.operation)) {
-    beast::error_code error;
-    const auto peer = stream_.socket().remote_endpoint(error);
     line_ = std::make_unique<JournalLine>(
-        begin_line(sender(), error ? "" : peer.address().to_string(), view(request.method_string()), target));
+        begin_line(sender(request), connection_.peer, view(request.method_string()), target));
   }
-  if (sender() == idl::gateway::Sender::FOREIGN_PAGE)
+  if (sender(request) == idl::gateway::Sender::FOREIGN_PAGE)
     return answer_and_close(error_answer(403, "a page of another site must not operate this machine"));
   if (!is_api) {
     if (request.method() != http::verb::get) return answer_and_close(unrouted(RouteResult::no_method));
@@ -101,23 +119,17 @@ void HttpSession::dispatch() {
     if (!beast::websocket::is_upgrade(body_->get()))
       return answer(error_answer(426, "this path speaks WebSocket only"));
     if (hub_.full()) return answer(error_answer(503, "too many clients of the stream"));
-    std::make_shared<StreamSession>(std::move(stream_), hub_)->accept(body_->get());
+    std::make_shared<StreamSession>(std::move(stream_), hub_, api_, sender(body_->get()), connection_.peer)
+        ->accept(body_->get());
     return;
   }
   if (line_) add_body(*line_, body_->get().body());
   if (match_.operation == Operation::read_program) return begin_download();
+  connection_.activity = Activity::answering;
   api_.handle(match_, query_, body_->get().body(), [self = shared_from_this()](Answer made) {
     net::post(self->stream_.get_executor(),
               [self, made = std::move(made)]() mutable { self->answer(std::move(made)); });
   });
-}
-
-idl::gateway::Sender HttpSession::sender() const {
-  const auto& request = header_->get();
-  const auto origin = view(request[http::field::origin]);
-  using idl::gateway::Sender;
-  if (origin.empty()) return Sender::TOOL;
-  return foreign_origin(origin, view(request[http::field::host])) ? Sender::FOREIGN_PAGE : Sender::PAGE;
 }
 
 void HttpSession::journal(unsigned status, const Asked& asked, std::function<void()> then) {
@@ -141,6 +153,7 @@ void HttpSession::answer(Answer made) {
 }
 
 void HttpSession::send(Answer made) {
+  connection_.activity = Activity::transferring;
   response_ = {static_cast<http::status>(made.status), http_version};
   response_.set(http::field::content_type, made.type);
   response_.set(http::field::cache_control, made.cache);
@@ -152,7 +165,7 @@ void HttpSession::send(Answer made) {
   stream_.expires_after(timeout);
   http::async_write(stream_, response_, [self = shared_from_this()](beast::error_code error, std::size_t) {
     if (error) return;
-    if (self->keep_alive_) return self->read_header();
+    if (self->keep_alive_) return self->read_header(timeout);
     beast::error_code ignored;
     self->stream_.socket().shutdown(net::ip::tcp::socket::shutdown_send, ignored);
   });
@@ -321,7 +334,7 @@ void HttpSession::send_part() {
                                                     self->here(&HttpSession::download_part));
                       self->download_.reset();
                       self->journal(200, asked, [self] {
-                        if (self->keep_alive_) self->read_header();
+                        if (self->keep_alive_) self->read_header(timeout);
                       });
                     });
 }

@@ -10,31 +10,35 @@
 #include <boost/beast/http/serializer.hpp>
 #include <boost/beast/http/string_body.hpp>
 #include <boost/optional.hpp>
+#include <chrono>
 #include <memory>
 
 #include "api.hpp"
 #include "http/stream.hpp"
+#include "src/connections.hpp"
 
 namespace trunnion::gateway {
 
 class HttpSession : public std::enable_shared_from_this<HttpSession> {
  public:
-  HttpSession(boost::asio::ip::tcp::socket&& socket, Api& api, StreamHub& hub, std::shared_ptr<void> place);
-  void start() { read_header(); }
+  HttpSession(boost::asio::ip::tcp::socket&& socket, Api& api, StreamHub& hub);
+  void start();
+  const Connection& connection() const { return connection_; }
+  /// Makes room for another one.
+  void close();
 
  private:
   template <class Body>
   using Parser = boost::beast::http::request_parser<Body>;
   using Completion = void (HttpSession::*)(const ProgramReply&);
 
-  idl::gateway::Sender sender() const;
   /// Completes the line and hands it to the bus; `then` is called here afterwards.
   void journal(unsigned status, const Asked& asked, std::function<void()> then);
   /// The other side is gone, or what was sent to it is not whole.
   void journal_unanswered(const Asked& asked) {
     journal(0, asked, [] {});
   }
-  void read_header();
+  void read_header(std::chrono::seconds within);
   void on_header();
   void continue_then(void (HttpSession::*next)());
   void read_body();
@@ -68,7 +72,7 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
   boost::beast::flat_buffer buffer_;
   Api& api_;
   StreamHub& hub_;
-  std::shared_ptr<void> place_;  ///< counts this connection while it lives
+  Connection connection_;
 
   boost::optional<Parser<boost::beast::http::empty_body>> header_;
   boost::optional<Parser<boost::beast::http::string_body>> body_;

@@ -2,9 +2,13 @@
 #include "http/stream.hpp"
 
 #include <boost/asio/buffer.hpp>
+#include <boost/asio/post.hpp>
+#include <boost/beast/core/buffers_to_string.hpp>
 
 #include "bus/json.hpp"
+#include "src/journal.hpp"
 #include "src/merge_patch.hpp"
+#include "src/router.hpp"
 
 namespace trunnion::gateway {
 namespace {
@@ -14,6 +18,7 @@ namespace websocket = beast::websocket;
 using std::chrono::milliseconds;
 
 constexpr milliseconds period{50}, heartbeat_period{500};
+constexpr std::size_t most_answers = 16;
 
 std::shared_ptr<const std::string> text(const bus::Json& json) {
   return std::make_shared<const std::string>(bus::text_of(json));
@@ -90,23 +95,72 @@ void StreamSession::accept(const beast::http::request<beast::http::string_body>&
 }
 
 void StreamSession::read() {
-  // Clients have nothing to say; reading answers their pings and notices that they go.
+  // Reading also answers a client's pings and notices that it goes.
   socket_.async_read(incoming_, [self = shared_from_this()](const beast::error_code& error, std::size_t) {
     if (error) return self->close();
+    self->take_order(beast::buffers_to_string(self->incoming_.data()));
     self->incoming_.clear();
     self->read();
   });
 }
 
+void StreamSession::take_order(const std::string& text) {
+  const auto order = bus::Json::parse(text, nullptr, false);
+  if (!order.is_object() || !order.contains("order")) return;
+  const auto member = [&](const char* name, const bus::Json& otherwise) {
+    return order.contains(name) ? order[name] : otherwise;
+  };
+  const auto path = member("path", "");
+  const auto target = path.is_string() ? path.get<std::string>() : "";
+  const auto found = match("POST", target);
+  const bool stops =
+      found.result == RouteResult::found &&
+      (found.command == "emergency-stop" || found.command == "feed-hold" || found.command == "jog-stop");
+  if (!stops)
+    return answer_order(order,
+                        error_answer(404, "only emergency-stop, feed-hold and jog-stop come by the stream"));
+  const auto body = member("body", bus::Json::object()).dump();
+  auto line = std::make_shared<JournalLine>(begin_line(sender_, peer_, "POST", target));
+  add_body(*line, body);
+  api_.handle(found, "", body, [self = shared_from_this(), order, line](Answer made) {
+    boost::asio::post(self->socket_.get_executor(), [self, order, line, made = std::move(made)] {
+      add_answer(*line, made.body);
+      line->status = static_cast<std::uint16_t>(made.status);
+      set_asked(*line, made.asked);
+      self->api_.mailbox().post([line](Links& links, double) { links.journal.write(*line); });
+      self->answer_order(order, made);
+    });
+  });
+}
+
+void StreamSession::answer_order(const bus::Json& order, const Answer& made) {
+  // Who sends orders and reads no answers gets no more of them.
+  if (answers_.size() >= most_answers) return close();
+  answers_.push_back(text({{"answer", order["order"]},
+                           {"status", made.status},
+                           {"body", bus::Json::parse(made.body, nullptr, false)}}));
+  offer();
+}
+
 void StreamSession::offer() {
+  if (writing_) return;
+  if (!answers_.empty()) {
+    auto answer = std::move(answers_.front());
+    answers_.pop_front();
+    return send(std::move(answer));
+  }
   const auto& newest = hub_.newest();
-  if (writing_ || !newest || newest == sent_) return;
+  if (!newest || newest == sent_) return;
   const auto now = std::chrono::steady_clock::now();
   auto message = hub_.message(sent_, now - last_message_ >= heartbeat_period);
   if (message->empty()) return;
-  writing_ = std::move(message);
   sent_ = newest;
   last_message_ = now;
+  send(std::move(message));
+}
+
+void StreamSession::send(std::shared_ptr<const std::string> message) {
+  writing_ = std::move(message);
   socket_.text(true);
   socket_.async_write(boost::asio::buffer(*writing_),
                       [self = shared_from_this()](const beast::error_code& error, std::size_t) {

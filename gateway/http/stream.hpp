@@ -10,11 +10,12 @@
 #include <boost/beast/http/message.hpp>
 #include <boost/beast/http/string_body.hpp>
 #include <boost/beast/websocket/stream.hpp>
+#include <deque>
 #include <map>
 #include <memory>
 #include <set>
 
-#include "mailbox.hpp"
+#include "api.hpp"
 
 namespace trunnion::gateway {
 
@@ -46,17 +47,27 @@ class StreamHub {
 
 class StreamSession : public std::enable_shared_from_this<StreamSession> {
  public:
-  StreamSession(boost::beast::tcp_stream&& stream, StreamHub& hub) : socket_(std::move(stream)), hub_(hub) {}
+  StreamSession(boost::beast::tcp_stream&& stream, StreamHub& hub, Api& api, idl::gateway::Sender sender,
+                std::string peer)
+      : socket_(std::move(stream)), hub_(hub), api_(api), sender_(sender), peer_(std::move(peer)) {}
   void accept(const boost::beast::http::request<boost::beast::http::string_body>& request);
   /// Sends what is new, unless the message before is still under way.
   void offer();
 
  private:
   void read();
+  /// An order to stop, which needs no new connection: {"order": number, "path": a stop's, "body": {...}}.
+  void take_order(const std::string& text);
+  void answer_order(const bus::Json& order, const Answer& made);
+  void send(std::shared_ptr<const std::string> message);
   void close();
   boost::beast::websocket::stream<boost::beast::tcp_stream> socket_;
   StreamHub& hub_;
+  Api& api_;
+  idl::gateway::Sender sender_;
+  std::string peer_;
   boost::beast::flat_buffer incoming_;
+  std::deque<std::shared_ptr<const std::string>> answers_;  ///< to orders, before the next state
   std::shared_ptr<const Snapshot> sent_;
   std::shared_ptr<const std::string> writing_;
   std::chrono::steady_clock::time_point last_message_{};

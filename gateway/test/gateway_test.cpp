@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // The real executable with real DDS on one side and real sockets on the other; the rest of the cluster is a
 // fake.
+#include <arpa/inet.h>
 #include <fcntl.h>
 #include <gmock/gmock.h>
 #include <signal.h>
+#include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -441,6 +443,57 @@ TEST_F(Gateway, AClientThatDoesNotReadGetsNewerStatesAndNotAQueue) {
   const auto now = cluster([](auto& c) { return c.channel.cycle; });
   EXPECT_NEAR(state["channels"]["0"]["cycle"].get<double>(), static_cast<double>(now), 2000)
       << "and it is new";
+}
+
+/// A connection on which nothing, or the beginning of a request, is sent.
+int half_open(std::uint16_t port, const std::string& begin) {
+  const int fd = ::socket(AF_INET, SOCK_STREAM, 0);
+  sockaddr_in to{};
+  to.sin_family = AF_INET;
+  to.sin_port = htons(port);
+  to.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  EXPECT_EQ(::connect(fd, reinterpret_cast<const sockaddr*>(&to), sizeof to), 0);
+  EXPECT_EQ(::send(fd, begin.data(), begin.size(), MSG_NOSIGNAL), static_cast<ssize_t>(begin.size()));
+  return fd;
+}
+
+TEST_F(Gateway, WhoeverHoldsConnectionsKeepsNoStopOut) {
+  std::vector<int> held;
+  // More than the gateway keeps: silent ones, halves of headers, and uploads that never go on.
+  for (int i = 0; i < 150; ++i) held.push_back(half_open(port_, ""));
+  for (int i = 0; i < 150; ++i)
+    held.push_back(half_open(port_, "POST /api/panel/emergency-stop HTTP/1.1\r\nHo"));
+  for (int i = 0; i < 150; ++i)
+    held.push_back(half_open(port_, "PUT /api/programs/A" + std::to_string(i) +
+                                        ".NC HTTP/1.1\r\nHost: a\r\nContent-Length: 100000\r\n\r\nG0"));
+  EXPECT_EQ(post("/api/panel/emergency-stop").status, 200);
+  EXPECT_EQ(post("/api/channels/0/feed-hold").status, 200);
+  for (const int fd : held) ::close(fd);
+}
+
+TEST_F(Gateway, AStopComesByTheStreamWithoutANewConnection) {
+  WebSocketClient client(port_, "/api/stream");
+  ASSERT_TRUE(client.open());
+  const auto answer_to = [&](const json& order) {
+    client.send(order.dump());
+    for (int i = 0; i < 100; ++i) {
+      const auto message = json::parse(client.next().value());
+      if (message.contains("answer")) return message;
+    }
+    return json();
+  };
+  auto answer = answer_to({{"order", 7}, {"path", "/api/panel/emergency-stop"}});
+  EXPECT_EQ(answer["answer"], 7);
+  EXPECT_EQ(answer["status"], 200);
+  EXPECT_EQ(answer["body"]["accepted"], true);
+  answer = answer_to({{"order", 8}, {"path", "/api/channels/0/feed-hold"}, {"body", json::object()}});
+  EXPECT_EQ(answer["status"], 200);
+  EXPECT_EQ(answer_to({{"order", 9}, {"path", "/api/channels/0/feed-hold"}, {"body", 3}})["status"], 400);
+  EXPECT_EQ(answer_to({{"order", 10}, {"path", "/api/channels/0/cycle-start"}})["status"], 404);
+  EXPECT_EQ(answer_to({{"order", 11}, {"path", 5}})["status"], 404);
+  // What is no order is passed over.
+  for (const char* text : {"", "{", "[]", "null", "{\"path\":1}"}) client.send(text);
+  EXPECT_EQ(answer_to({{"order", 12}, {"path", "/api/panel/emergency-stop"}})["answer"], 12);
 }
 
 TEST_F(Gateway, ServesThePageAndNothingElse) {

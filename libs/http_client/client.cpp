@@ -123,6 +123,18 @@ bool WebSocketClient::fill(std::size_t bytes) {
   return true;
 }
 
+void WebSocketClient::send(const std::string& text) {
+  std::string frame{'\x81'};
+  if (text.size() < 126) {
+    frame += static_cast<char>(0x80 | text.size());
+  } else {
+    frame += static_cast<char>(0x80 | 126);
+    frame += static_cast<char>(text.size() >> 8);
+    frame += static_cast<char>(text.size() & 0xff);
+  }
+  send_all(socket_, frame + std::string(4, '\0') + text);
+}
+
 void WebSocketClient::pong(const std::string& payload) {
   // A client masks what it sends (RFC 6455, 5.3); a mask of zeros leaves it as it is.
   send_all(socket_, std::string{'\x8A', static_cast<char>(0x80 | payload.size()), 0, 0, 0, 0} + payload);

@@ -35,6 +35,8 @@ class WebSocketClient {
   WebSocketClient(const WebSocketClient&) = delete;
   WebSocketClient& operator=(const WebSocketClient&) = delete;
   bool open() const { return open_; }
+  /// A text message of less than 64 KiB.
+  void send(const std::string& text);
   /// The next text message, or nothing after `timeout` (s) or when the connection ended; what has come of a
   /// message is kept for the next call.
   std::optional<std::string> next(double timeout = 5);

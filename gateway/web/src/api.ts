@@ -23,12 +23,23 @@ function reasonOf(status: number, body: unknown): string {
   return refusal.alarm ? `${text} (alarm ${refusal.alarm})` : text;
 }
 
+/** To an order that came by the stream. */
+export interface OrderAnswer {
+  answer: number;
+  status: number;
+  body: unknown;
+}
+
+export function answerOf<T>(status: number, body: unknown): Answer<T> {
+  const ok = status >= 200 && status < 300;
+  return { ok, status, body: body as T, reason: ok ? "" : reasonOf(status, body) };
+}
+
 async function call<T>(method: string, path: string, body?: BodyInit, type?: string): Promise<Answer<T>> {
   try {
     const response = await fetch(path, { method, body, headers: type ? { "Content-Type": type } : {} });
     const parsed: unknown = await response.json().catch(() => undefined);
-    const ok = response.ok;
-    return { ok, status: response.status, body: parsed as T, reason: ok ? "" : reasonOf(response.status, parsed) };
+    return answerOf<T>(response.status, parsed);
   } catch {
     return { ok: false, status: 0, body: undefined, reason: "no connection to the gateway" };
   }

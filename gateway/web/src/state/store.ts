@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The one place with live state: the stream, the chosen channel and view, and the last thing that was refused.
 import { computed, signal } from "@preact/signals";
-import { post } from "../api";
+import { type Answer, answerOf, type OrderAnswer, post } from "../api";
 import type { ChannelCommands } from "../contract";
 import { History } from "./history";
 import { channelNumbers, emptyStream, type Message, receive, type Stream } from "./model";
@@ -64,6 +64,35 @@ export async function request(what: string, path: string, body: object = {}): Pr
   return answer.ok;
 }
 
+let socket: WebSocket | undefined;
+let orders = 0;
+const orderMilliseconds = 400;
+const answers = new Map<number, (answer: Answer) => void>();
+
+/** By the stream, which needs no new connection; nothing when it is not open or does not answer in time. */
+function byStream(path: string, body: object): Promise<Answer | undefined> {
+  if (socket?.readyState !== WebSocket.OPEN) return Promise.resolve(undefined);
+  const order = ++orders;
+  socket.send(JSON.stringify({ order, path, body }));
+  return new Promise((resolve) => {
+    const late = setTimeout(() => {
+      answers.delete(order);
+      resolve(undefined);
+    }, orderMilliseconds);
+    answers.set(order, (answer) => {
+      clearTimeout(late);
+      resolve(answer);
+    });
+  });
+}
+
+/** A request that stops something: by the stream, and over HTTP when that does not answer. */
+export async function stop(what: string, path: string, body: object = {}): Promise<boolean> {
+  const answer = (await byStream(path, body)) ?? (await post(path, body));
+  if (!answer.ok) tell(`${what}: ${answer.reason}`, true);
+  return answer.ok;
+}
+
 /** A command to a channel; `what` names it for the operator when it is refused. */
 export function commandTo<Route extends keyof ChannelCommands>(
   channel: number, what: string, route: Route, body: ChannelCommands[Route],
@@ -86,13 +115,14 @@ const reconnectMilliseconds = 700;
 /** Connects and keeps connecting for as long as the page lives. */
 export function connect(): void {
   let silence: ReturnType<typeof setTimeout> | undefined;
-  const socket = new WebSocket(`${location.protocol === "https:" ? "wss" : "ws"}://${location.host}/api/stream`);
+  const opened = new WebSocket(`${location.protocol === "https:" ? "wss" : "ws"}://${location.host}/api/stream`);
+  socket = opened;
   let ended = false;
   const end = () => {
     if (ended) return;
     ended = true;
     clearTimeout(silence);
-    socket.close();
+    opened.close();
     if (connection.value === "live") connection.value = "lost";
     setTimeout(connect, reconnectMilliseconds);
   };
@@ -101,8 +131,14 @@ export function connect(): void {
     silence = setTimeout(end, silenceMilliseconds);
   };
   heard();
-  socket.onmessage = (event: MessageEvent<string>) => {
-    const next = receive(stream.value, JSON.parse(event.data) as Message);
+  opened.onmessage = (event: MessageEvent<string>) => {
+    const message = JSON.parse(event.data) as Message | OrderAnswer;
+    if ("answer" in message) {
+      answers.get(message.answer)?.(answerOf(message.status, message.body));
+      answers.delete(message.answer);
+      return heard();
+    }
+    const next = receive(stream.value, message);
     if (!next) return end();
     heard();
     stream.value = next;
@@ -110,6 +146,6 @@ export function connect(): void {
     const now = performance.now() / 1000;
     for (const one of Object.values(next.state.channels)) history(one.channel).record(now, next.state, one);
   };
-  socket.onclose = end;
-  socket.onerror = end;
+  opened.onclose = end;
+  opened.onerror = end;
 }

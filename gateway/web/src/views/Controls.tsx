@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import { type Mode, canStart } from "../state/model";
-import { channel, command, machine } from "../state/store";
+import { channel, command, machine, stop } from "../state/store";
 import { onPress } from "./press";
 
 const modes: [Mode, string][] = [
@@ -83,7 +83,7 @@ export function Controls() {
         >
           Cycle start
         </button>
-        <button class="hold" data-test="feed-hold" title="Esc" {...onPress(() => void command("Feed hold", "feed-hold", {}))}>
+        <button class="hold" data-test="feed-hold" title="Esc" {...onPress(() => void stop("Feed hold", `/api/channels/${one.channel}/feed-hold`))}>
           Feed hold
         </button>
         <button data-test="reset" onClick={() => void command("Reset", "reset", {})}>Reset</button>

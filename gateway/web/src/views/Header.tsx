@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-import { channel, channelList, channelNumber, channels, chooseChannel, machine, request, view, type ViewName } from "../state/store";
+import { channel, channelList, channelNumber, channels, chooseChannel, machine, request, stop, view, type ViewName } from "../state/store";
 import { onPress } from "./press";
 
 const views: [ViewName, string][] = [
@@ -9,7 +9,7 @@ const views: [ViewName, string][] = [
   ["diagnosis", "Diagnosis"],
 ];
 
-const pressEmergencyStop = () => void request("Emergency stop", "/api/panel/emergency-stop");
+const pressEmergencyStop = () => void stop("Emergency stop", "/api/panel/emergency-stop");
 
 function EmergencyStop() {
   const plc = machine.value.plc;

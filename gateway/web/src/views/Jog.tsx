@@ -3,7 +3,7 @@ import { signal } from "@preact/signals";
 import { useEffect, useMemo } from "preact/hooks";
 import { JogHold } from "../state/jog";
 import { axisRows } from "../state/model";
-import { channel, channelNumber, commandTo, machine } from "../state/store";
+import { channel, channelNumber, commandTo, machine, stop } from "../state/store";
 
 const increments = [0, 0.001, 0.01, 0.1, 1, 10];
 const speeds = [60, 200, 600, 2000, 6000];
@@ -17,7 +17,7 @@ export function Jog() {
     const none = Promise.resolve(false);
     return new JogHold({
       start: (jog) => (number === null ? none : commandTo(number, "Jog", "jog", jog)),
-      stop: (axis) => (number === null ? none : commandTo(number, "Jog stop", "jog-stop", { axis })),
+      stop: (axis) => (number === null ? none : stop("Jog stop", `/api/channels/${number}/jog-stop`, { axis })),
     });
   }, [number]);
   useEffect(() => {

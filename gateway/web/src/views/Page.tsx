@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import { useEffect } from "preact/hooks";
-import { channel, channelList, command, commandTo, connection, machine, notice, view, type ViewName } from "../state/store";
+import { channel, channelList, command, connection, machine, notice, stop, view, type ViewName } from "../state/store";
 import { Alarms } from "./Alarms";
 import { Controls } from "./Controls";
 import { Diagnosis } from "./Diagnosis";
@@ -85,7 +85,7 @@ export function Page() {
         event.preventDefault();
       } else if (event.key === "Escape" && !isSearch(event.target)) {
         // Whoever presses it in haste means the machine, not the channel that is shown.
-        for (const number of channelList.value) void commandTo(number, "Feed hold", "feed-hold", {});
+        for (const number of channelList.value) void stop("Feed hold", `/api/channels/${number}/feed-hold`);
       } else if (event.key === "Enter" && event.ctrlKey && view.value === "operate") {
         void command("Cycle start", "cycle-start", {});
         event.preventDefault();
