@@ -64,7 +64,8 @@ bool check_program(language::TextSource& text, language::Environment& environmen
     const auto from = tracker.target();
     const auto motion = tracker.follow(command);
     if (!motion) continue;
-    if (options.travel_error && (error = options.travel_error(from, command)) != "") {
+    if (options.travel_error) error = options.travel_error(from, command);
+    if (!error.empty()) {
       where = command.program;
       break;
     }

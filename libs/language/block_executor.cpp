@@ -2,6 +2,7 @@
 #include "language/block_executor.hpp"
 
 #include <bit>
+#include <cstdio>
 
 namespace trunnion::language {
 namespace {
