@@ -86,14 +86,15 @@ SpeedStage::Obstacle SpeedStage::obstacle_ahead(const PathState& state, std::uin
   double highest = std::max(from.v, settled_speed(from.v, from.a, cells_[cell].ramp(from.v).jerk));
   RampLimits ramp = cells_[cell].ramp(highest);
   double stop = braking_distance(from.v, from.a, 0, ramp);
-  Obstacle first;  // the slower cell the first leg ended at
+  Obstacle first;     // the slower cell the first leg ended at
+  RampLimits behind;  // the least from there on
   const auto report = [&](double speed, std::uint64_t k, bool end) -> Obstacle {
     if (!first.found) return {true, speed, ramp, k, end};
-    const double distance = (end ? cells_[k - 1].end : cells_[k].at) - from.s;
+    const double distance = (end ? cells_[k - 1].end : cells_[k].at) - cells_[first.cell].at;
     double low = std::min(speed, first.speed), high = first.speed;
     for (int n = 0; n < 12; ++n) {
       const double middle = 0.5 * (low + high);
-      (middle > speed && braking_distance(middle, 0, speed, ramp) > distance ? high : low) = middle;
+      (middle > speed && braking_distance(middle, 0, speed, behind) > distance ? high : low) = middle;
     }
     Obstacle obstacle = first;
     obstacle.speed = low;
@@ -108,6 +109,10 @@ SpeedStage::Obstacle SpeedStage::obstacle_ahead(const PathState& state, std::uin
     if (distance >= (demand.programmed ? look_ahead_stops : 1) * stop) return {};
     if (end || cells_[k].stop) return distance >= stop ? Obstacle{} : report(0, k, end);
     const LimitCell& next = cells_[k];
+    if (first.found) {
+      const RampLimits& own = next.ramp(first.speed);
+      behind = {std::min(behind.acceleration, own.acceleration), std::min(behind.jerk, own.jerk)};
+    }
     const double speed = speed_of(next, demand);
     const bool slower = highest > speed * (1 + rounding);
     // A cycle is left between the end of the braking and the slower cell, since cycles do not end at cells.
@@ -130,7 +135,10 @@ SpeedStage::Obstacle SpeedStage::obstacle_ahead(const PathState& state, std::uin
       }
     }
     if (slower) {
-      if (!first.found) first = {true, speed, ramp, k, false};
+      if (!first.found) {
+        first = {true, speed, ramp, k, false};
+        behind = next.ramp(speed);
+      }
       from = {next.at, speed, 0};
       highest = speed;
       ramp = next.ramp(speed);
