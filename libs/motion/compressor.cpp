@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <numeric>
 
 namespace trunnion::motion {
 namespace {
@@ -47,26 +46,9 @@ constexpr double length_grains = 60;
 constexpr std::uint64_t length_lines = 24;
 constexpr double shortest_curve = 0.3;  // of its lines
 constexpr std::uint64_t none = std::numeric_limits<std::uint64_t>::max();
-// Coordinates are multiples of their last decimal, which is not finer than this, mm or degrees.
-constexpr double finest_grain = 1e-6;
-constexpr double coarsest_grain = 4;  // tolerances
-
 double chord_of(double degrees) { return 2 * std::sin(degrees * (std::numbers::pi / 360)); }
 
 double size3(const AxisValues& v) { return std::hypot(v[0], v[1], v[2]); }
-
-// The changes of a line as multiples of the smallest decimal that counts, by their common divisor; 1 when
-// they are none.
-std::uint64_t divisor_of(const AxisValues& change, bool rotary) {
-  std::uint64_t divisor = 0;
-  for (std::size_t i = 0; i < axis_count; ++i) {
-    if (canonical::is_rotary(i) != rotary || change[i] == 0) continue;
-    const double steps = std::abs(change[i]) / finest_grain, whole = std::round(steps);
-    if (!(whole < 1e15) || std::abs(steps - whole) > 0.01) return 1;
-    divisor = std::gcd(divisor, static_cast<std::uint64_t>(whole));
-  }
-  return divisor;
-}
 
 bool is_short_line(const PathBlock& block) {
   const PathSegment& path = block.path;
@@ -93,6 +75,7 @@ double fraction_at(const PathBlock& block, double done) {
 Compressor::Compressor() : entries_(capacity) { window_.reserve(capacity + 1); }
 
 void Compressor::clear() {
+  decimals_.clear();
   front_ = next_ = decided_ = scanned_ = closed_ = plain_until_ = 0;
   open_ = left_line_ = false;
   span_ = spans_ = 0;
@@ -152,7 +135,7 @@ bool Compressor::turns_widely(std::uint64_t number, bool& known) const {
 bool Compressor::measure_length(std::uint64_t number) {
   Entry& here = at(number);
   here.length = here.block.path.length();
-  const double reach = 0.5 * length_grains * grain_about(number).linear;
+  const double reach = 0.5 * length_grains * decimals_.about(number, here.block.rules).linear;
   std::uint64_t from = number, to = number;
   double before = 0, behind = 0;
   while (before < reach && number - from < length_lines && at(from).begins == Break::no) {
@@ -207,13 +190,11 @@ void Compressor::push(const PathBlock& block, double corner_angle) {
   Entry& entry = at(next_);
   entry.block = block;
   entry.short_line = is_short_line(block);
-  Divisors& group = divisors_[next_ / group_size % groups];
-  if (next_ % group_size == 0) group = {};
+  decimals_.begin(next_);
   if (entry.short_line) {
     AxisValues change{};
     for (std::size_t i = 0; i < axis_count; ++i) change[i] = block.path.target()[i] - block.path.start()[i];
-    group.linear = std::gcd(group.linear, divisor_of(change, false));
-    group.rotary = std::gcd(group.rotary, divisor_of(change, true));
+    decimals_.add(change);
     if (corner_angle < 180 && next_ > front_ && at(next_ - 1).short_line) {
       const AxisValues a = at(next_ - 1).block.path.derivative(0), b = block.path.derivative(0);
       if (size3({b[0] - a[0], b[1] - a[1], b[2] - a[2]}) > chord_of(corner_angle)) entry.block.stop = true;
@@ -245,23 +226,6 @@ std::uint64_t Compressor::full_at() const {
   return lines >= most_lines || (lines >= least_window && way >= window_way) ? last : none;
 }
 
-// Steps of the coordinates about a line, of its group and the groups beside it. Steps far above the tolerance
-// are no rounding.
-Compressor::Grain Compressor::grain_about(std::uint64_t number) const {
-  const std::uint64_t group = number / group_size, newest = (next_ - 1) / group_size;
-  std::uint64_t linear = 0, rotary = 0;
-  for (std::uint64_t k = group > 0 ? group - 1 : 0; k <= std::min(group + 1, newest); ++k) {
-    linear = std::gcd(linear, divisors_[k % groups].linear);
-    rotary = std::gcd(rotary, divisors_[k % groups].rotary);
-  }
-  const BlendRules& rules = at(std::min(number, next_ - 1)).block.rules;
-  const auto grain = [](std::uint64_t divisor, double tolerance) {
-    const double step = finest_grain * static_cast<double>(divisor);
-    return step > coarsest_grain * tolerance ? 0 : step;
-  };
-  return {grain(linear, rules.contour_tolerance), grain(rotary, rules.orientation_tolerance)};
-}
-
 Vertex Compressor::vertex(std::uint64_t number) const {
   Vertex vertex;
   if (number > front_) {
@@ -272,17 +236,17 @@ Vertex Compressor::vertex(std::uint64_t number) const {
     vertex.at = at(number).block.path.start();
     vertex.u = at(number).u;
   }
+  const BlendRules& rules = at(front_).block.rules;
   const std::uint64_t lowest = number > tube_neighbours ? number - tube_neighbours : 0;
   for (std::uint64_t k = lowest; k < std::min(next_, number + tube_neighbours + 1); ++k) {
     vertex.linear = std::max(vertex.linear, at(k).linear);
     vertex.rotary = std::max(vertex.rotary, at(k).rotary);
   }
-  const Grain grain = grain_about(number);
+  const Grain grain = decimals_.about(number, rules);
   vertex.linear = std::max(vertex.linear, grain_share * grain.linear);
   vertex.rotary = std::max(vertex.rotary, grain_share * grain.rotary);
   const bool end = number < first_of_curve_ + 2 || (ends_ && number + 2 > last_);
   const double share = end ? end_tube : most_tube;
-  const BlendRules& rules = at(front_).block.rules;
   vertex.linear = std::min(share * rules.contour_tolerance, vertex.linear + linear_floor);
   vertex.rotary =
       std::max(std::min(share * rules.orientation_tolerance, vertex.rotary + rotary_floor), least_tube);

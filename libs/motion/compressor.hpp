@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "motion/blended_path.hpp"
+#include "motion/decimals.hpp"
 #include "motion/smoothing_spline.hpp"
 
 namespace trunnion::motion {
@@ -48,15 +49,6 @@ class Compressor {
     Break begins = Break::yes;  // a curve ends at the start
   };
 
-  // Greatest common divisor of what the coordinates of a group of lines change by.
-  struct Divisors {
-    std::uint64_t linear = 0, rotary = 0;
-  };
-  struct Grain {
-    double linear = 0, rotary = 0;  // mm, degrees
-  };
-  static constexpr std::uint64_t group_size = 16, groups = capacity / group_size;
-
   Entry& at(std::uint64_t number) { return entries_[number % capacity]; }
   const Entry& at(std::uint64_t number) const { return entries_[number % capacity]; }
   Break join_of(std::uint64_t number) const;
@@ -66,7 +58,6 @@ class Compressor {
   void measure(std::uint64_t number);
   std::uint64_t find_end();
   std::uint64_t full_at() const;
-  Grain grain_about(std::uint64_t number) const;
   Vertex vertex(std::uint64_t number) const;
   bool fit();
   double feed_factor(const PathSegment& path) const;
@@ -75,7 +66,7 @@ class Compressor {
   const PathBlock* plain();
 
   std::vector<Entry> entries_;  // ring
-  std::array<Divisors, groups> divisors_{};
+  Decimals decimals_;
   std::uint64_t front_ = 0, next_ = 0, decided_ = 0;
   std::uint64_t scanned_ = 0;      // no curve ends at the start of an entry from front_ + 1 to before this
   std::uint64_t closed_ = 0;       // the path ended here once

@@ -5,19 +5,15 @@
 #include <array>
 
 #include "canonical/canonical.hpp"
+#include "motion/cubic.hpp"
 
 namespace trunnion::motion {
-
-using canonical::AxisValues;
 
 /// What a path length of a segment counts.
 enum class LengthUnit : std::uint8_t {
   millimetre,  ///< travel of X Y Z, or of U V W when X Y Z are at rest
   degree,      ///< of the rotary axes together, when no linear axis moves
 };
-
-/// Position and its first three derivatives divided by 1, 2 and 6: c0 + s (c1 + s (c2 + s c3)).
-using Cubic = std::array<AxisValues, 4>;
 
 /// Line, arc or helix from a start to a target in the frame of the command. X Y Z follow the curve; every
 /// other axis moves in proportion to the length. position(length()) is the target bit for bit. Or a piece of

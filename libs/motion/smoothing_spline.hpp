@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "motion/path_segment.hpp"
+#include "motion/cubic.hpp"
 
 namespace trunnion::motion {
 
@@ -22,17 +22,6 @@ struct CurveSpan {
   double u = 0, length = 0;
   Cubic curve{};
 };
-
-/// Bound of the distance between a curve and a line over the same `length`, linear and rotary axes apart: the
-/// difference is a cubic, and a cubic lies within the hull of its Bezier points.
-struct CurveDeviation {
-  double linear = 0, rotary = 0;
-};
-CurveDeviation deviation_bound(const Cubic& curve, const AxisValues& start, const AxisValues& slope,
-                               double length);
-
-/// `curve` with its origin moved on by `t`.
-Cubic shifted(const Cubic& curve, double t);
 
 /// Locally weighted smoothing spline: cubic B-spline x(u), twice continuously differentiable and of constant
 /// third derivative on each span, that minimises the integral of |x - p|^2 / l^6 + |x'''|^2 over the polyline
