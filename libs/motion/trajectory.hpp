@@ -21,7 +21,7 @@ namespace trunnion::motion {
 /// construction nothing allocates.
 class Trajectory {
  public:
-  /// Executed moves kept for retrace().
+  /// Executed blocks kept for retrace(): moves, or pieces of a short line, which seldom has more than one.
   static constexpr std::uint64_t history = 5000;
 
   /// `chain` is what Transformation::rtcp goes through; it must outlive the trajectory. nullptr: no
@@ -67,7 +67,7 @@ class Trajectory {
   void abort();
 
   /// Backwards along the executed path from the next standstill on, which step() brakes for; off: forwards
-  /// again in the same way. Goes back over stops without their waits to the oldest move kept, at least
+  /// again in the same way. Goes back over stops without their waits to the oldest block kept, at least
   /// `history` of them when the path since start() is that long, and stops there. Within all limits, at the
   /// programmed feeds under the overrides; setpoints name the moves they are on. While it is on the
   /// trajectory is never at rest; abort() ends it.
