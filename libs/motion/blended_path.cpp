@@ -57,13 +57,6 @@ void BlendedPath::push(PathBlock block) {
   (*this)[pushed_++] = block;
 }
 
-// End of the stretch between two stops that block `index` belongs to, as far as it is known.
-double BlendedPath::stretch_end(std::uint64_t index) const {
-  std::uint64_t k = index + 1;
-  while (k < pushed_ && !(*this)[k].stop && (*this)[k].at - (*this)[index].at < longest_reach) ++k;
-  return k < pushed_ ? (*this)[k].at : end();
-}
-
 // Share of the tolerance that all joins around `index` take there when they all reach `reach`. Between two
 // joins the sum is convex, so it is largest at a join.
 double BlendedPath::usage(std::uint64_t index, double reach) const {

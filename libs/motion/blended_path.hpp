@@ -103,7 +103,6 @@ class BlendedPath {
  private:
   template <typename Visit>
   void for_joins(std::uint64_t index, double s, Visit visit) const;
-  double stretch_end(std::uint64_t index) const;
   double usage(std::uint64_t index, double reach) const;
   double strayed_at(std::uint64_t index) const;
   bool needs_reach(std::uint64_t index) const;
