@@ -14,7 +14,8 @@ using canonical::axis_count;
 // Part of the tolerance that is used; the rest covers rounding.
 constexpr double tolerance_share = 0.98;
 
-// Size of a change, linear and rotary apart, by the tolerances.
+}  // namespace
+
 double weigh(const AxisValues& change, const BlendRules& rules) {
   double linear = 0, rotary = 0;
   for (std::size_t i = 0; i < axis_count; ++i) {
@@ -27,8 +28,6 @@ double weigh(const AxisValues& change, const BlendRules& rules) {
   return std::max(part(linear, rules.contour_tolerance), part(rotary, rules.orientation_tolerance));
 }
 
-}  // namespace
-
 void BlendedPath::clear() {
   pushed_ = rated_ = reached_ = settled_blocks_ = 0;
   settled_ = 0;
@@ -38,7 +37,7 @@ void BlendedPath::clear() {
 void BlendedPath::rate_join(PathBlock& block) const {
   block.turn = block.bend = {};
   block.weight = block.bend_weight = 0;
-  if (pushed_ == 0) return;
+  if (pushed_ == 0 || block.smooth) return;
   const PathBlock& before = (*this)[pushed_ - 1];
   const auto ends = before.path.derivatives(before.path.length());
   const auto begins = block.path.derivatives(0);
@@ -47,7 +46,8 @@ void BlendedPath::rate_join(PathBlock& block) const {
     block.bend[i] = begins[1][i] - ends[1][i];
   }
   block.weight = weigh(block.turn, block.rules);
-  block.bend_weight = before.path.is_arc() || block.path.is_arc() ? weigh(block.bend, block.rules) : 0;
+  const auto is_curved = [](const PathSegment& path) { return path.is_arc() || path.is_curve(); };
+  block.bend_weight = is_curved(before.path) || is_curved(block.path) ? weigh(block.bend, block.rules) : 0;
 }
 
 void BlendedPath::push(PathBlock block) {
@@ -55,13 +55,6 @@ void BlendedPath::push(PathBlock block) {
   if (pushed_ == 0) block.stop = true;
   block.reach = block.widest = 0;
   (*this)[pushed_++] = block;
-}
-
-// End of the stretch between two stops that block `index` belongs to, as far as it is known.
-double BlendedPath::stretch_end(std::uint64_t index) const {
-  std::uint64_t k = index + 1;
-  while (k < pushed_ && !(*this)[k].stop && (*this)[k].at - (*this)[index].at < longest_reach) ++k;
-  return k < pushed_ ? (*this)[k].at : end();
 }
 
 // Share of the tolerance that all joins around `index` take there when they all reach `reach`. Between two
@@ -83,6 +76,35 @@ double BlendedPath::usage(std::uint64_t index, double reach) const {
   return sum / (6 * reach * reach);
 }
 
+// Share of the tolerance that the curves at a join take already.
+double BlendedPath::strayed_at(std::uint64_t index) const {
+  const double here = (*this)[index].strayed;
+  return index > oldest() ? std::max(here, (*this)[index - 1].strayed) : here;
+}
+
+// A join has a rounding, or roundings reach a place where a curve has left less of the tolerance: between two
+// places the sum of all roundings is convex.
+bool BlendedPath::needs_reach(std::uint64_t index) const {
+  const PathBlock& block = (*this)[index];
+  if (block.stop) return false;
+  if (block.is_join()) return true;
+  if (!(strayed_at(index) > 0)) return false;
+  const double at = block.at;
+  int joins = 0;
+  for (std::uint64_t k = index + 1; k < pushed_ && joins++ < most_joins; ++k) {
+    const PathBlock& other = (*this)[k];
+    if (other.stop || other.at - at >= longest_reach) break;
+    if (other.is_join()) return true;
+  }
+  joins = 0;
+  for (std::uint64_t k = index; k-- > oldest() && joins++ < most_joins;) {
+    const PathBlock& other = (*this)[k];
+    if (other.stop || at - other.at >= longest_reach) break;
+    if (other.is_join()) return true;
+  }
+  return false;
+}
+
 double BlendedPath::widest_reach(std::uint64_t index) const {
   const double at = (*this)[index].at;
   double most = longest_reach;
@@ -100,17 +122,18 @@ double BlendedPath::widest_reach(std::uint64_t index) const {
   }
   if (!(most > 0)) return 0;
   // The usage grows faster than the reach, so scaling the reach down by the usage is always enough.
+  const double share = tolerance_share - strayed_at(index);
+  if (!(share > 0)) return 0;
   double reach = std::min(most, last_widest_);
   double used = usage(index, reach);
-  for (int step = 0; step < 6 && (used > tolerance_share || (used < 0.8 * tolerance_share && reach < most));
-       ++step) {
-    const double factor = used > 0 ? std::sqrt(0.92 * tolerance_share / used) : 4;
+  for (int step = 0; step < 6 && (used > share || (used < 0.8 * share && reach < most)); ++step) {
+    const double factor = used > 0 ? std::sqrt(0.92 * share / used) : 4;
     const double next = std::min(most, reach * std::clamp(factor, 0.2, 4.0));
     const double next_used = usage(index, next);
     reach = next;
     used = next_used;
   }
-  if (used > tolerance_share) reach *= tolerance_share / used;
+  if (used > share) reach *= share / used;
   return reach;
 }
 
@@ -131,10 +154,9 @@ double BlendedPath::final_reach(std::uint64_t index) const {
   return reach;
 }
 
-void BlendedPath::update(bool ends) {
-  const double known = end();
-  // `horizon` is how far ahead of a join the path must be known: its longest reach, a stop, or enough joins.
-  const auto is_known = [&](std::uint64_t index, std::uint64_t upto) {
+void BlendedPath::update(bool ends, double smooth_ahead) {
+  // How far ahead of a join the path must be known: its longest reach, a stop, or enough joins.
+  const auto is_known = [&](std::uint64_t index, std::uint64_t upto, double known) {
     if (ends && upto == pushed_) return true;
     if (upto > index + most_joins) return true;
     const double limit = upto < pushed_ ? (*this)[upto].at : known;
@@ -144,26 +166,28 @@ void BlendedPath::update(bool ends) {
     }
     return false;
   };
-  while (rated_ < pushed_ && is_known(rated_, pushed_)) {
+  const double smooth_end = end() + smooth_ahead;
+  for (; rated_ < pushed_; ++rated_) {
+    const bool needed = needs_reach(rated_);
+    if (!is_known(rated_, pushed_, needed ? end() : smooth_end)) break;
     PathBlock& block = (*this)[rated_];
-    if (!block.stop && (block.weight > 0 || block.bend_weight > 0)) {
-      block.widest = widest_reach(rated_);
-      last_widest_ = std::max(block.widest, 1e-9);
-    } else {
-      block.widest = longest_reach;
-    }
-    ++rated_;
+    block.widest = longest_reach;
+    if (!needed) continue;
+    block.widest = widest_reach(rated_);
+    last_widest_ = std::max(block.widest, 1e-9);
   }
-  while (reached_ < rated_ && is_known(reached_, rated_)) {
+  for (; reached_ < rated_; ++reached_) {
     PathBlock& block = (*this)[reached_];
-    block.reach = !block.stop && (block.weight > 0 || block.bend_weight > 0) ? final_reach(reached_) : 0;
-    ++reached_;
+    block.reach = 0;
+    if (block.stop || !block.is_join()) continue;
+    if (!is_known(reached_, rated_, end())) break;
+    block.reach = final_reach(reached_);
   }
   // A block is settled when no join at its end or behind it can reach into it any more.
   const auto is_settled = [&](std::uint64_t index) {
     if (ends && reached_ == pushed_) return true;
     if (index + 1 < pushed_ && (*this)[index + 1].stop) return true;
-    return index + 1 < reached_ && is_known(index + 1, reached_);
+    return index + 1 < reached_ && is_known(index + 1, reached_, smooth_end);
   };
   while (settled_blocks_ < reached_ && is_settled(settled_blocks_)) ++settled_blocks_;
   if (settled_blocks_ > 0) settled_ = (*this)[settled_blocks_ - 1].end();
@@ -188,7 +212,8 @@ void BlendedPath::for_joins(std::uint64_t index, double s, Visit visit) const {
 
 AxisValues BlendedPath::position(std::uint64_t index, double s) const {
   const PathBlock& block = (*this)[index];
-  AxisValues p = s >= block.end() ? block.path.target() : block.path.position(s - block.at);
+  // The end is met bit for bit, whatever the difference of the coordinates has become.
+  AxisValues p = block.path.position(s >= block.end() ? block.path.length() : s - block.at);
   for_joins(index, s, [&](const PathBlock& join) {
     const double x = s - join.at;
     const double turn = direction_blend(x, 0, join.reach)[0];

@@ -16,7 +16,11 @@ struct BlendRules {
   double orientation_tolerance = 0.05;  ///< degrees of the rotary axes together
 };
 
-/// One programmed segment and the join at its start. Lengths are in the unit of its PathSegment.
+/// Size of a change by the tolerances, linear and rotary axes apart: the larger share.
+double weigh(const AxisValues& change, const BlendRules& rules);
+
+/// One programmed segment, or a piece of one, and the join at its start. Lengths are in the unit of its
+/// PathSegment.
 struct PathBlock {
   PathSegment path;
   BlendRules rules;        ///< of the join at the start; others follow only behind a stop
@@ -28,16 +32,24 @@ struct PathBlock {
   double bend_weight = 0;  ///< size of bend by the tolerances
   double widest = 0;       ///< reach the tolerance would allow here alone
   double reach = 0;        ///< half length of the rounding
+  double strayed = 0;      ///< share of the tolerance by which a curve may leave the programmed lines
+  bool smooth = false;     ///< continues the curve of the block before: there is no join
   bool stop = true;        ///< motion stops at the start: no rounding across it
   bool overlap = false;    ///< the stop may be rounded in time instead
   int wait_cycles = 0;     ///< standstill before the segment starts
   bool position_check = false;  ///< the standstill ends as soon as the axes are in position
   std::uint32_t line = 0, sequence = 0;
   double fraction_offset = 0;  ///< part of the command that lay before this segment, 0..1
+  double fraction_end = 1;     ///< and that is done at its end
+  double line_length = 0;      ///< of the line a curve's piece is of; 0: the segment is whole
   bool rapid = false;
   double feed = 0;  ///< programmed speed at override 1, unit/s
 
   double end() const { return at + path.length(); }
+  /// Direction or curvature jump at the start.
+  bool is_join() const { return weight > 0 || bend_weight > 0; }
+  /// Length of the programmed move.
+  double move_length() const { return line_length > 0 ? line_length : path.length(); }
 };
 
 /// A ring of blocks with their joins. Blocks are pushed, get their reach as soon as enough of the path behind
@@ -53,14 +65,15 @@ class BlendedPath {
 
   void clear();
 
-  /// Appends a block that begins where the last one ended. The caller has decided on `stop`.
+  /// Appends a block that begins where the last one ended, within rounding. The caller has decided on `stop`.
   void push(PathBlock block);
 
   /// Size of a join by the tolerances, to decide whether it is a stop.
   void rate_join(PathBlock& block) const;
 
-  /// Works out the reach of joins that are known well enough, all of them when the path `ends`.
-  void update(bool ends);
+  /// Works out the reach of joins that are known well enough, all of them when the path `ends`. Over
+  /// `smooth_ahead` mm behind the last block there will be no join.
+  void update(bool ends, double smooth_ahead = 0);
 
   std::uint64_t size() const { return pushed_; }
   std::uint64_t oldest() const { return pushed_ > capacity ? pushed_ - capacity : 0; }
@@ -90,8 +103,9 @@ class BlendedPath {
  private:
   template <typename Visit>
   void for_joins(std::uint64_t index, double s, Visit visit) const;
-  double stretch_end(std::uint64_t index) const;
   double usage(std::uint64_t index, double reach) const;
+  double strayed_at(std::uint64_t index) const;
+  bool needs_reach(std::uint64_t index) const;
   double widest_reach(std::uint64_t index) const;
   double final_reach(std::uint64_t index) const;
 

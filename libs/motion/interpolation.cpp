@@ -35,7 +35,7 @@ Setpoint Interpolation::follow(const BlendedPath& path, const PathPlace& place) 
       place.s >= block.end() ? (place.waiting ? 0 : 1) : (place.s - block.at) / block.path.length();
   line_ = block.line;
   sequence_ = block.sequence;
-  fraction_ = block.fraction_offset + (1 - block.fraction_offset) * done;
+  fraction_ = block.fraction_offset + (block.fraction_end - block.fraction_offset) * done;
   Setpoint setpoint;
   setpoint.position = position_;
   for (std::size_t i = 0; i < axis_count; ++i)

@@ -64,7 +64,7 @@ bool stops_at_join(const PathBlock& before, const PathBlock& block, const Limits
   if (limits.smooth_corner_angle < 180 &&
       turn > 2 * std::sin(limits.smooth_corner_angle * (std::numbers::pi / 360)))
     return true;
-  const double length = std::min(before.path.length(), block.path.length());
+  const double length = std::min(before.move_length(), block.move_length());
   if (length < shortest_rounded) return true;
   const Pace a = pace_of(before, before.path.derivatives(before.path.length())[0], limits);
   const Pace b = pace_of(block, block.path.derivatives(0)[0], limits);

@@ -37,6 +37,19 @@ PathSegment PathSegment::line(const AxisValues& start, const AxisValues& target)
   return segment;
 }
 
+PathSegment PathSegment::curve(const Cubic& curve, double length, const AxisValues& target, bool meets) {
+  PathSegment segment;
+  segment.start_ = curve[0];
+  segment.slope_ = curve[1];
+  segment.square_ = curve[2];
+  segment.cube_ = curve[3];
+  segment.target_ = target;
+  segment.length_ = length;
+  segment.is_curve_ = true;
+  segment.meets_target_ = meets;
+  return segment;
+}
+
 PathSegment PathSegment::arc(const AxisValues& start, const AxisValues& target, const canonical::Arc& arc) {
   if (arc.normal != canonical::Vector3{}) return tilted_arc(start, target, arc);
   const auto [p, q, along] = canonical::plane_axes(arc.plane);
@@ -114,9 +127,15 @@ PathSegment PathSegment::tilted_arc(const AxisValues& start, const AxisValues& t
 }
 
 AxisValues PathSegment::position(double s) const {
-  if (s >= length_) return target_;
+  if (s >= length_ && meets_target_) return target_;
   if (s <= 0) return start_;
   AxisValues position{};
+  if (is_curve_) {
+    s = std::min(s, length_);
+    for (std::size_t i = 0; i < axis_count; ++i)
+      position[i] = start_[i] + s * (slope_[i] + s * (square_[i] + s * cube_[i]));
+    return position;
+  }
   for (std::size_t i = 0; i < axis_count; ++i) position[i] = start_[i] + slope_[i] * s;
   if (is_arc_) {
     const double radius = radius_ + radius_slope_ * s;
@@ -135,6 +154,7 @@ AxisValues PathSegment::position(double s) const {
 }
 
 AxisValues PathSegment::derivative(double s) const {
+  if (is_curve_) return derivatives(s)[0];
   AxisValues derivative = slope_;
   if (is_arc_) {
     const double radius = radius_ + radius_slope_ * s;
@@ -158,6 +178,14 @@ AxisValues PathSegment::derivative(double s) const {
 // P' = r' e + r w n, P'' = 2 r' w n - r w^2 e, P''' = -3 r' w^2 e - r w^3 n.
 std::array<AxisValues, 3> PathSegment::derivatives(double s) const {
   std::array<AxisValues, 3> d{slope_, AxisValues{}, AxisValues{}};
+  if (is_curve_) {
+    for (std::size_t i = 0; i < axis_count; ++i) {
+      d[0][i] += s * (2 * square_[i] + 3 * s * cube_[i]);
+      d[1][i] = 2 * square_[i] + 6 * s * cube_[i];
+      d[2][i] = 6 * cube_[i];
+    }
+    return d;
+  }
   if (!is_arc_) return d;
   const double r = radius_ + radius_slope_ * s, w = angle_slope_, dr = radius_slope_;
   const double angle = angle_ + angle_slope_ * s;

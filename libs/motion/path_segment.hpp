@@ -5,10 +5,9 @@
 #include <array>
 
 #include "canonical/canonical.hpp"
+#include "motion/cubic.hpp"
 
 namespace trunnion::motion {
-
-using canonical::AxisValues;
 
 /// What a path length of a segment counts.
 enum class LengthUnit : std::uint8_t {
@@ -17,7 +16,8 @@ enum class LengthUnit : std::uint8_t {
 };
 
 /// Line, arc or helix from a start to a target in the frame of the command. X Y Z follow the curve; every
-/// other axis moves in proportion to the length. position(length()) is the target bit for bit.
+/// other axis moves in proportion to the length. position(length()) is the target bit for bit. Or a piece of
+/// the smooth curve that replaces short lines.
 class PathSegment {
  public:
   PathSegment() = default;
@@ -31,10 +31,15 @@ class PathSegment {
   /// proportion.
   static PathSegment arc(const AxisValues& start, const AxisValues& target, const canonical::Arc& arc);
 
+  /// Piece of a smooth curve, `length` long by the length of the line it replaces, whose command ends at
+  /// `target`. When it `meets` the target, position(length) is the target bit for bit.
+  static PathSegment curve(const Cubic& curve, double length, const AxisValues& target, bool meets);
+
   double length() const { return length_; }
   /// Path length per unit of travel that a feed counts, 1 or more.
   double feed_scale() const { return feed_scale_; }
   LengthUnit unit() const { return unit_; }
+  /// End of the command the segment is of, or is a piece of.
   const AxisValues& target() const { return target_; }
 
   /// Position at `s` in 0..length(); values outside are clamped.
@@ -47,6 +52,7 @@ class PathSegment {
   std::array<AxisValues, 3> derivatives(double s) const;
 
   bool is_arc() const { return is_arc_; }
+  bool is_curve() const { return is_curve_; }
   const AxisValues& start() const { return start_; }
 
   /// Largest curvature of the X Y Z curve, 1/mm; 0 for lines.
@@ -56,10 +62,12 @@ class PathSegment {
   static PathSegment tilted_arc(const AxisValues& start, const AxisValues& target, const canonical::Arc& arc);
 
   AxisValues start_{}, target_{}, slope_{};  // slope: change of the proportional part per unit of length
+  AxisValues square_{}, cube_{};             // of a curve
   double length_ = 0, feed_scale_ = 1;
   double curvature_ = 0;
   LengthUnit unit_ = LengthUnit::millimetre;
   bool is_arc_ = false;
+  bool is_curve_ = false, meets_target_ = true;
   bool is_tilted_ = false;  // the circle lies in the plane of first_ and second_, about hub_
   canonical::Vector3 first_{}, second_{}, hub_{};
   std::array<std::size_t, 2> plane_{0, 1};

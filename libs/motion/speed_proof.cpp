@@ -9,12 +9,19 @@ namespace {
 
 constexpr double rounding = 1e-7;
 constexpr int most_halvings = 40;
+// Slower motion brakes at once, mm/s or degrees/s.
+constexpr double least_staged = 0.5;
 
 }  // namespace
 
-// A stop from `state`: braking with what all cells on the path permit; where a slower cell would be entered
-// too fast, first to its speed and from there to a standstill.
 bool SpeedStage::find_stop(const PathState& state, std::uint64_t cell, PhaseList& stop) const {
+  return find_stop(state, cell, 1, stop) || find_stop(state, cell, 0.5, stop);
+}
+
+// A stop from `state`: braking with what all cells on the path permit; where a slower cell would be entered
+// too fast, first to its speed, and where the path is too short, first to a share `stage` of the next power
+// of two, where cells permit more; from there to a standstill.
+bool SpeedStage::find_stop(const PathState& state, std::uint64_t cell, double stage, PhaseList& stop) const {
   stop.clear();
   PathState at = state;
   std::uint64_t here = cell;
@@ -45,7 +52,11 @@ bool SpeedStage::find_stop(const PathState& state, std::uint64_t cell, PhaseList
       }
       return true;
     }
-    if (!slower.found) return false;
+    if (!slower.found) {
+      if (!(at.v > least_staged)) return false;
+      slower = {true, stage * stage_below(at.v), ramp};
+      stage = 1;
+    }
     PhaseList part;
     part.add(Transition(at.v, at.a, slower.speed, slower.ramp));
     end = here;

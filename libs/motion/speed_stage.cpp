@@ -77,6 +77,27 @@ Transition SpeedStage::demanded_transition(const SpeedDemand& demand, bool hold)
   return Transition(state_.v, state_.a, target, ramp);
 }
 
+// Where a curve is as fast as the axes, its cells permit more braking at lower speeds: first to one of two
+// lower speeds, the powers of two that do not change during the braking, and from there to a standstill.
+SpeedStage::StagedStop SpeedStage::staged_stop(const PathState& state, double highest, const RampLimits& ramp,
+                                               std::uint64_t cell, std::uint64_t last) const {
+  StagedStop best{braking_distance(state.v, state.a, 0, ramp), 0};
+  double speed = stage_below(highest);
+  for (int n = 0; n < 2; ++n, speed /= 2) {
+    RampLimits slow = cells_[cell].ramp(speed);
+    for (std::uint64_t k = cell + 1; k < last; ++k) {
+      const RampLimits& own = cells_[k].ramp(speed);
+      slow = {std::min(slow.acceleration, own.acceleration), std::min(slow.jerk, own.jerk)};
+    }
+    if (!(slow.acceleration > ramp.acceleration)) continue;
+    // A cycle is left at the lower speed, since cycles do not end with the braking.
+    const double distance = braking_distance(state.v, state.a, speed, ramp) + speed * cycle_ +
+                            braking_distance(speed, 0, 0, slow);
+    if (distance < best.distance) best = {distance, speed};
+  }
+  return best;
+}
+
 // Searches the cells ahead in legs: a leg leads from the state, or from a slower cell at its speed, to the
 // next slower cell. Beyond a slower cell only what is reachable from its speed counts; when something is not,
 // the cell has to be entered at a lower speed.
@@ -86,14 +107,15 @@ SpeedStage::Obstacle SpeedStage::obstacle_ahead(const PathState& state, std::uin
   double highest = std::max(from.v, settled_speed(from.v, from.a, cells_[cell].ramp(from.v).jerk));
   RampLimits ramp = cells_[cell].ramp(highest);
   double stop = braking_distance(from.v, from.a, 0, ramp);
-  Obstacle first;  // the slower cell the first leg ended at
+  Obstacle first;     // the slower cell the first leg ended at
+  RampLimits behind;  // the least from there on
   const auto report = [&](double speed, std::uint64_t k, bool end) -> Obstacle {
     if (!first.found) return {true, speed, ramp, k, end};
-    const double distance = (end ? cells_[k - 1].end : cells_[k].at) - from.s;
+    const double distance = (end ? cells_[k - 1].end : cells_[k].at) - cells_[first.cell].at;
     double low = std::min(speed, first.speed), high = first.speed;
     for (int n = 0; n < 12; ++n) {
       const double middle = 0.5 * (low + high);
-      (middle > speed && braking_distance(middle, 0, speed, ramp) > distance ? high : low) = middle;
+      (middle > speed && braking_distance(middle, 0, speed, behind) > distance ? high : low) = middle;
     }
     Obstacle obstacle = first;
     obstacle.speed = low;
@@ -106,8 +128,18 @@ SpeedStage::Obstacle SpeedStage::obstacle_ahead(const PathState& state, std::uin
     const bool end = k >= cells_.size();
     const double distance = (end ? cells_[k - 1].end : cells_[k].at) - from.s + demand.rounding;
     if (distance >= (demand.programmed ? look_ahead_stops : 1) * stop) return {};
-    if (end || cells_[k].stop) return distance >= stop ? Obstacle{} : report(0, k, end);
+    if (end || cells_[k].stop) {
+      if (distance >= stop) return {};
+      if (first.found) return report(0, k, end);
+      const StagedStop staged = staged_stop(state, highest, ramp, cell, k);
+      return distance >= std::min(stop, staged.distance) ? Obstacle{}
+                                                         : Obstacle{true, staged.speed, ramp, k, end};
+    }
     const LimitCell& next = cells_[k];
+    if (first.found) {
+      const RampLimits& own = next.ramp(first.speed);
+      behind = {std::min(behind.acceleration, own.acceleration), std::min(behind.jerk, own.jerk)};
+    }
     const double speed = speed_of(next, demand);
     const bool slower = highest > speed * (1 + rounding);
     // A cycle is left between the end of the braking and the slower cell, since cycles do not end at cells.
@@ -130,7 +162,10 @@ SpeedStage::Obstacle SpeedStage::obstacle_ahead(const PathState& state, std::uin
       }
     }
     if (slower) {
-      if (!first.found) first = {true, speed, ramp, k, false};
+      if (!first.found) {
+        first = {true, speed, ramp, k, false};
+        behind = next.ramp(speed);
+      }
       from = {next.at, speed, 0};
       highest = speed;
       ramp = next.ramp(speed);

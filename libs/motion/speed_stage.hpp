@@ -9,6 +9,7 @@
 // executed. So the limits hold for every sequence of overrides and do not depend on the demanded transition.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <optional>
 
@@ -96,6 +97,14 @@ class SpeedStage {
     Obstacle obstacle;
   };
 
+  /// A stop by way of a lower speed; 0: at once.
+  struct StagedStop {
+    double distance = 0, speed = 0;
+  };
+
+  static double stage_below(double speed) { return std::ldexp(1.0, std::ilogb(0.999 * speed)); }
+  StagedStop staged_stop(const PathState& state, double highest, const RampLimits& ramp, std::uint64_t cell,
+                         std::uint64_t last) const;
   double speed_of(const LimitCell& cell, const SpeedDemand& demand) const;
   RampLimits local_ramp(double speed, double reach) const;
   Transition demanded_transition(const SpeedDemand& demand, bool hold) const;
@@ -107,6 +116,7 @@ class SpeedStage {
   void move(const Transition& demanded, const SpeedDemand& demand);
   bool accept(const PhaseList& action);
   bool find_stop(const PathState& state, std::uint64_t cell, PhaseList& stop) const;
+  bool find_stop(const PathState& state, std::uint64_t cell, double stage, PhaseList& stop) const;
   double top_of(const LimitCell& cell, const SpeedDemand& demand) const;
   double stop_step(const PathState& state) const;
   bool needs_speed_profile(const SpeedDemand& demand) const;

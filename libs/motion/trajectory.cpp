@@ -72,6 +72,7 @@ void Trajectory::start(const AxisValues& position, canonical::Transformation tra
 void Trajectory::set_limits(const Limits& limits) { limits_ = effective(limits, cycle_); }
 
 void Trajectory::restart_path() {
+  compressor_.clear();
   path_.clear();
   builder_.start(limits_, active_chain_, tool_length_);
   speed_.clear();
@@ -91,9 +92,9 @@ double Trajectory::current_s() const { return retracing_ ? -back_.state().s : sp
 
 bool Trajectory::can_accept() const {
   if (aborting_) return false;
+  const std::uint64_t ahead = path_.size() - current_block() + compressor_.size();
   return path_.size() == 0 ||
-         path_.size() - current_block() + (position_check_ > 0 ? 3 : 2) + history + blocks_behind <
-             BlendedPath::capacity;
+         ahead + Compressor::most_pieces + 3 + history + blocks_behind < BlendedPath::capacity;
 }
 
 bool Trajectory::push(const Command& command) { return push_move(command, 0); }
@@ -115,7 +116,7 @@ bool Trajectory::movable(const AxisValues& from, const AxisValues& to) const {
 
 // A move far below the tolerance is merged with the next one: so short a segment has no usable direction.
 bool Trajectory::joins_to_last(const PathSegment& segment) const {
-  if (segment.is_arc() || path_.size() == 0) return false;
+  if (segment.is_arc() || (path_.size() == 0 && compressor_.empty())) return false;
   double linear = 0, rotary = 0;
   for (std::size_t i = 0; i < axis_count; ++i) {
     const double travel = std::abs(segment.target()[i] - segment.start()[i]);
@@ -237,19 +238,29 @@ void Trajectory::flush() {
 }
 
 void Trajectory::append(PathBlock block) {
-  path_.rate_join(block);
-  block.stop =
-      stop_next_ || path_.size() == 0 || stops_at_join(path_[path_.size() - 1], block, limits_[block.mode]);
-  block.overlap = block.stop && !exact_next_ && block.rules.contour_tolerance > 0;
+  block.stop = stop_next_;
+  block.overlap = !exact_next_;
   joined_ = block.path.target();
-  path_.push(block);
+  compressor_.push(block, limits_[block.mode].smooth_corner_angle);
   stop_next_ = exact_next_ = false;
   speed_.set_finished(false);
+  take_blocks();
+}
+
+void Trajectory::take_blocks() {
+  while (const PathBlock* ready = compressor_.take()) {
+    PathBlock block = *ready;
+    path_.rate_join(block);
+    block.stop =
+        block.stop || path_.size() == 0 || stops_at_join(path_[path_.size() - 1], block, limits_[block.mode]);
+    block.overlap = block.overlap && block.stop && block.rules.contour_tolerance > 0;
+    path_.push(block);
+  }
   plan();
 }
 
 void Trajectory::plan() {
-  path_.update(speed_.finished());
+  path_.update(speed_.finished(), compressor_.smooth_ahead());
   builder_.extend(path_, speed_.cells(), speed_.oldest_needed());
   speed_.extended();
 }
@@ -282,18 +293,21 @@ void Trajectory::reverse() {
 }
 
 void Trajectory::finish() {
-  if (path_.size() == 0) return;
+  if (path_.size() == 0 && compressor_.empty()) return;
   flush();
+  compressor_.end_section();
   speed_.set_finished(true);
   stop_next_ = exact_next_ = true;
-  plan();
+  take_blocks();
 }
 
 void Trajectory::abort() {
   if (!at_rest()) aborting_ = true;
 }
 
-bool Trajectory::at_rest() const { return path_.size() == 0 || (!retracing_ && !retrace_wanted_ && done()); }
+bool Trajectory::at_rest() const {
+  return compressor_.empty() && (path_.size() == 0 || (!retracing_ && !retrace_wanted_ && done()));
+}
 
 bool Trajectory::done() const {
   return path_.size() == 0 || (speed_.finished() && !pending_ && builder_.next_block() == path_.size() &&

@@ -8,6 +8,7 @@
 #include "geometry/chain.hpp"
 #include "motion/blended_path.hpp"
 #include "motion/cell_builder.hpp"
+#include "motion/compressor.hpp"
 #include "motion/interpolation.hpp"
 #include "motion/limits.hpp"
 #include "motion/speed_stage.hpp"
@@ -20,7 +21,7 @@ namespace trunnion::motion {
 /// construction nothing allocates.
 class Trajectory {
  public:
-  /// Executed moves kept for retrace().
+  /// Executed blocks kept for retrace(): moves, or pieces of a short line, which seldom has more than one.
   static constexpr std::uint64_t history = 5000;
 
   /// `chain` is what Transformation::rtcp goes through; it must outlive the trajectory. nullptr: no
@@ -35,7 +36,8 @@ class Trajectory {
   /// Other limits, from the next start() on.
   void set_limits(const Limits& limits);
 
-  /// Room for at least one more command.
+  /// Room for at least one more command. Of a run of short lines some hundred are not yet on the path: the
+  /// curve that replaces them depends on those behind them.
   bool can_accept() const;
 
   /// Appends a rapid, line, arc or dwell in the frame given to start(). Motion begins as soon as enough is
@@ -65,7 +67,7 @@ class Trajectory {
   void abort();
 
   /// Backwards along the executed path from the next standstill on, which step() brakes for; off: forwards
-  /// again in the same way. Goes back over stops without their waits to the oldest move kept, at least
+  /// again in the same way. Goes back over stops without their waits to the oldest block kept, at least
   /// `history` of them when the path since start() is that long, and stops there. Within all limits, at the
   /// programmed feeds under the overrides; setpoints name the moves they are on. While it is on the
   /// trajectory is never at rest; abort() ends it.
@@ -91,6 +93,7 @@ class Trajectory {
   bool movable(const AxisValues& from, const AxisValues& to) const;
   bool joins_to_last(const PathSegment& segment) const;
   void append(PathBlock block);
+  void take_blocks();
   void flush();
   void plan();
   void restart_path();
@@ -109,6 +112,7 @@ class Trajectory {
   const geometry::Chain* chain_;
   const geometry::Chain* active_chain_ = nullptr;
   double tool_length_ = 0;
+  Compressor compressor_;  ///< blocks on their way to the path
   BlendedPath path_;
   CellBuilder builder_, back_builder_;
   SpeedStage speed_, back_;  ///< forwards, and backwards over the same path

@@ -66,6 +66,45 @@ TEST(SpeedStage, one_cell_is_travelled_in_the_time_of_its_s_curve) {
   expect_within_ramps(result);
 }
 
+// 100 mm at 100 mm/s take 1 s, and the ramps 0.0816 s more; a tenth of a per cent less over 10 mm adds 0.1
+// ms. The second slower cell is nearer to the stop than braking takes: the first one is not entered any
+// slower for that.
+TEST(SpeedStage, slightly_slower_cells_before_a_stop_take_no_more_than_their_time) {
+  SpeedStage stage(cycle);
+  stage.cells().push(straight(0, 90, 100));
+  stage.cells().push(straight(90, 99.9, 99.9));
+  stage.cells().push(straight(99.9, 100, 99.8));
+  stage.set_finished(true);
+  stage.extended();
+  const Motion result = run_stage(stage, 3000);
+  ASSERT_TRUE(result.ended);
+  EXPECT_LE(static_cast<double>(result.states.size()) * cycle, 1.11);
+  expect_within_ramps(result);
+}
+
+// A curve that permits 100 mm/s2 above 40 mm/s and 3000 below. Up: 0.0514 s over 1 mm to 39.6 mm/s, 0.604 s
+// over 42.2 mm to 100. Down: 0.68 s over 44.9 mm to 32, 0.046 s over 0.7 mm. The 11.2 mm between take 0.112
+// s: 1.493 s. With 100 mm/s2 down to the standstill it would be 1.724 s.
+TEST(SpeedStage, a_stop_uses_the_braking_that_lower_speeds_permit) {
+  SpeedStage stage(cycle);
+  LimitCell curve = straight(0, 100, 100);
+  curve.uniform = false;
+  curve.ramps = {RampLimits{100, jerk}, {100, jerk}, {100, jerk}, {acceleration, jerk}};
+  stage.cells().push(curve);
+  stage.set_finished(true);
+  stage.extended();
+  const Motion result = run_stage(stage, 3000);
+  ASSERT_TRUE(result.ended);
+  EXPECT_LE(static_cast<double>(result.states.size()) * cycle, 1.51);
+  EXPECT_EQ(stage.stopping_cycles(), 0U);
+  for (const PathState& s : result.states) {
+    if (s.v > 40.001) {
+      ASSERT_LE(std::abs(s.a), 100 * (1 + 1e-6));
+    }
+  }
+  expect_within_ramps(result);
+}
+
 // 20 mm/s from 60 to 61 mm: entered and left at no more, and the rest not slower for it: 100 mm at 100 mm/s
 // take 1 s, the slow millimetre 0.04 s more, and each of four ramps, of 80 or 100 mm/s, less than 0.09 s.
 TEST(SpeedStage, a_slow_cell_is_entered_at_its_speed_and_the_others_are_not_slowed) {
