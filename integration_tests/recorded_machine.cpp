@@ -107,6 +107,10 @@ void RecordedMachine::change_values() {
   request.operation = idl::parameters::Operation::SET_WORK_OFFSET;
   request.offsets = {{0, 0, {1.25, -0.5, 2, 0, 0, 0, 0, 0, 0}}};
   ASSERT_TRUE(cluster_->client().parameter(request).accepted);
+  reset();
+}
+
+void RecordedMachine::reset() {
   for (std::uint16_t channel = 0; channel < channels_; ++channel)
     cluster_->client().channel(channel, CommandKind::RESET);
 }
@@ -150,12 +154,15 @@ std::map<std::string, std::string> RecordedMachine::expect_verified(const std::s
       const auto result = verification::verify(options);
       cycles_[service] = result.cycles;
       EXPECT_TRUE(result.equal()) << name << ", " << service << " " << channel << ": " << result.problem
-                                  << "\n" << text_of(result.difference, "recorded", "written now");
+                                  << "\n"
+                                  << text_of(result.difference, "recorded", "written now");
     } catch (const std::runtime_error& error) {
       said[service] = error.what();
       // A service that had nothing to do has nothing that can be compared.
       const bool idle = said[service].find("the recording has no output of service") != std::string::npos;
-      EXPECT_TRUE(idle || excused.contains(service)) << name << ", " << service << ": " << error.what();
+      const bool clocked = time_ == Time::real && (service == "drive" || service == "plc");
+      EXPECT_TRUE(idle || clocked || excused.contains(service))
+          << name << ", " << service << ": " << error.what();
     }
   };
   for (const auto& service : machine::service::all)

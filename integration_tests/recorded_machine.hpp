@@ -34,6 +34,7 @@ class RecordedMachine {
   bool await_end();
   /// As an operator: a parameter that the stream uses, a work offset, and a reset that activates them.
   void change_values();
+  void reset();
   void swap(const std::string& service);
   /// kill -9, until the launcher has replaced it and the machine is ready.
   void kill_service(const std::string& service);

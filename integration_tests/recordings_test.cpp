@@ -15,6 +15,7 @@ std::vector<Case> cases() {
   std::vector<Case> all{{"ac-table", Time::virtual_, "cyclonedds"}};
   // The whole matrix: `make recordings`.
   if (getenv("TRUNNION_ALL_RECORDINGS") == nullptr) return all;
+  all.push_back({"ac-table", Time::real, "cyclonedds"});
   for (const auto* machine : {"ac-table", "ac-head", "b-head-c-table", "bc-table", "cb-head", "four-axis",
                               "gantry-cb-head", "nutating-b-head-c-table", "two-channel"})
     for (const auto* vendor : {"fastdds", "mixed"}) all.push_back({machine, Time::virtual_, vendor});
@@ -31,7 +32,6 @@ TEST_P(Recording, OfANewMachine) {
   machine_.run_programs();
   machine_.stop_recording();
   machine_.expect_verified("new.mcap");
-  EXPECT_GT(machine_.cycles("drive"), 100u);
   EXPECT_GT(machine_.cycles("channel"), 100u);
 }
 
@@ -41,7 +41,6 @@ TEST_P(Recording, OfASecondRunInOneLife) {
   machine_.run_programs();
   machine_.stop_recording();
   machine_.expect_verified("second.mcap");
-  EXPECT_GT(machine_.cycles("drive"), 100u);
   EXPECT_GT(machine_.cycles("channel"), 100u);
 }
 
@@ -118,7 +117,10 @@ TEST_P(Recording, AfterEachServiceWasKilled) {
 
 TEST_P(Recording, AfterServicesWereSwapped) {
   machine_.run_programs();
-  for (const auto* service : {"plc", "channel", "drive", "parameters"}) machine_.swap(service);
+  for (const auto* service : {"plc", "drive", "parameters", "program", "kinematics", "channel"})
+    machine_.swap(service);
+  // A channel that is restarted behind a program which ended with functions is interrupted there.
+  machine_.reset();
   machine_.record("swapped.mcap");
   machine_.run_programs();
   machine_.stop_recording();
@@ -126,7 +128,8 @@ TEST_P(Recording, AfterServicesWereSwapped) {
 }
 
 std::string name_of(const testing::TestParamInfo<Case>& info) {
-  auto name = info.param.machine + (info.param.time == Time::real ? "_real_" : "_virtual_") + info.param.vendor;
+  auto name =
+      info.param.machine + (info.param.time == Time::real ? "_real_" : "_virtual_") + info.param.vendor;
   std::replace(name.begin(), name.end(), '-', '_');
   return name;
 }

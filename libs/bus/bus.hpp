@@ -125,8 +125,8 @@ class Bus {
   Signal& signal() { return signal_; }
   Vendor vendor() const { return vendor_; }
   void set_depth(StreamDepth depth) { depth_ = depth; }
-  /// Of each topic that is read the newest source time stamp among the samples taken, by the topic's name; 0 =
-  /// none.
+  /// Of each topic that is read the newest source time stamp among the samples taken, by the topic's name; 0
+  /// = none.
   const std::map<std::string, std::int64_t>& taken() const { return taken_; }
 
  private:

@@ -11,9 +11,9 @@
 #include "bus/json_type.hpp"
 #include "contracts/topics.hpp"
 #include "service/alarm_board.hpp"
-#include "service/snapshot_desk.hpp"
 #include "service/notify.hpp"
 #include "service/options.hpp"
+#include "service/snapshot_desk.hpp"
 
 namespace trunnion::service {
 

@@ -29,8 +29,8 @@ concept Listed = requires(T& value) {
 template <class T>
 Json written(const T& value);
 /// Throws nlohmann::json::exception for JSON of another shape. Fields that `json` does not have keep their
-/// value, also in elements that `value` has already; those that `value` does not have are passed over: another
-/// build may read it.
+/// value, also in elements that `value` has already; those that `value` does not have are passed over:
+/// another build may read it.
 template <class T>
 void read(const Json& json, T& value);
 

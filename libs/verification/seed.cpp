@@ -16,8 +16,7 @@ using idl::service::SnapshotKind;
 constexpr auto forever = std::numeric_limits<std::uint64_t>::max();
 
 bool is_needed_to_start(const bus::TopicEntry& topic) {
-  for (const auto* handle :
-       {"parameter_set", "tool_table", "work_offsets", "program_list", "stage_progress"})
+  for (const auto* handle : {"parameter_set", "tool_table", "work_offsets", "program_list", "stage_progress"})
     if (topic.handle == handle) return true;
   return false;
 }
@@ -110,8 +109,9 @@ std::optional<Seed> find_seed(const StoredRecording& recording, std::uint32_t in
     if (!best || length(seed) > length(*best)) best = std::move(seed);
   }
   if (!best)
-    throw std::runtime_error("it cannot be verified: the recording has no state of it to start from" +
-                             (why.empty() ? "" : "; " + why));
+    throw std::runtime_error(
+        "it cannot be verified: the recording has no state of the service to start from" +
+        (why.empty() ? "" : "; " + why));
   return best;
 }
 

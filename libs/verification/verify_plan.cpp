@@ -86,7 +86,8 @@ class OrderedPlan {
       if (!plan_.seed || is_to_come(message)) order.push_back(&message);
     if (plan_.seed)
       for (const auto* message : plan_.seed->needed_to_start(recording_, false))
-        if (is_input(*message) && !plan_.topics.contains(message->topic->handle)) plan_.steps.push_back({message, {}, true});
+        if (is_input(*message) && !plan_.topics.contains(message->topic->handle))
+          plan_.steps.push_back({message, {}, true});
     std::stable_sort(order.begin(), order.end(),
                      [](const auto* a, const auto* b) { return a->time < b->time; });
     Progress progress;
@@ -183,6 +184,9 @@ VerifyPlan plan_verification(const StoredRecording& recording, const std::string
   if (const auto* stage = find_stage(service)) {
     plan_stage(recording, *stage, plan);
   } else {
+    if (says_when(service) && !plan.virtual_time)
+      throw std::runtime_error("service " + service +
+                               " cannot be verified: in real time its periods follow the clock");
     plan.seed = find_seed(recording, plan.instance);
     if (says_when(service))
       plan_by_tick(recording, service, plan);

@@ -64,9 +64,8 @@ service::SnapshotAnswer ProgramService::snapshot() {
             "the stored programs have " + std::to_string(bytes >> 20) + " MiB, and a recording takes " +
                 std::to_string(most_snapshot_bytes >> 20),
             ""};
-  const bus::Json state = {
-      {"index", snapshot::kept_files(node_.options().state_directory, {index_file})},
-      {"programs", snapshot::kept_files(programs_directory(node_), names)}};
+  const bus::Json state = {{"index", snapshot::kept_files(node_.options().state_directory, {index_file})},
+                           {"programs", snapshot::kept_files(programs_directory(node_), names)}};
   return {SnapshotKind::GIVEN, "", bus::text_of(state)};
 }
 

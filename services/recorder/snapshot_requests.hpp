@@ -18,8 +18,8 @@ class SnapshotRequests {
   void ask();
   /// Asks at `when`, seconds of the caller's clock, unless it is going to earlier.
   void ask_at(double when);
-  /// Call several times a second: asks when it is time, and a while after another process has come, whose state
-  /// the recording does not have.
+  /// Call several times a second: asks when it is time, and a while after another process has come, whose
+  /// state the recording does not have.
   void run(double now);
   /// All of `instances` have answered the newest request.
   bool answered_by(const std::set<std::uint32_t>& instances);

@@ -53,8 +53,10 @@ T passed_on(const T& value) {
 }
 
 TEST(SnapshotFields, WhatIsWrittenIsRead) {
-  const Whole whole{Colour::green, {{1.5, {true, false}, {1, 2, 3}}}, Part{-2, {}, {}}, std::nullopt,
-                    {{7, 0.1}, {9, -0.2}}, ~std::uint64_t{0}, "a \"name\"\n"};
+  const Whole whole{Colour::green,         {{1.5, {true, false}, {1, 2, 3}}},
+                    Part{-2, {}, {}},      std::nullopt,
+                    {{7, 0.1}, {9, -0.2}}, ~std::uint64_t{0},
+                    "a \"name\"\n"};
   EXPECT_EQ(passed_on(whole), whole);
 }
 

@@ -13,7 +13,8 @@ using idl::service::SnapshotKind;
 
 constexpr std::uint32_t instance = 5;
 
-ServiceSnapshot snapshot(std::uint64_t time, std::int32_t pid = 100, SnapshotKind kind = SnapshotKind::GIVEN) {
+ServiceSnapshot snapshot(std::uint64_t time, std::int32_t pid = 100,
+                         SnapshotKind kind = SnapshotKind::GIVEN) {
   ServiceSnapshot head;
   head.instance = instance;
   head.pid = pid;
@@ -46,9 +47,7 @@ class SeedTest : public testing::Test {
   StoredRecording recording_;
 };
 
-TEST_F(SeedTest, ARecordingWithoutRequestsHasNone) {
-  EXPECT_FALSE(find_seed(recording_, instance));
-}
+TEST_F(SeedTest, ARecordingWithoutRequestsHasNone) { EXPECT_FALSE(find_seed(recording_, instance)); }
 
 TEST_F(SeedTest, AStateFromBeforeTheFirstRequestDoesNotCount) {
   give(snapshot(500));
@@ -68,7 +67,7 @@ TEST_F(SeedTest, AServiceThatCouldNotGiveItsStateIsNamedWithItsReason) {
     FAIL();
   } catch (const std::runtime_error& error) {
     EXPECT_STREQ(error.what(),
-                 "it cannot be verified: the recording has no state of it to start from; in motion");
+                 "it cannot be verified: the recording has no state of the service to start from; in motion");
   }
   give(snapshot(2000));
   EXPECT_EQ(find_seed(recording_, instance)->time, 2000u) << "as soon as it could";

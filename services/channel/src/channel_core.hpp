@@ -60,7 +60,8 @@ class ChannelCore {
   /// From the process before. Call it before recover(), once the programs are known.
   void take_over(const HandOver& hand_over);
   /// Everything that determines what follows besides the tables and programs; `why_not` is set, and nothing
-  /// given, unless the channel is at rest with nothing under way. Call it when everything has been taken away.
+  /// given, unless the channel is at rest with nothing under way. Call it when everything has been taken
+  /// away.
   bus::Json explicit_state(std::string& why_not) const;
   /// In place of recover(), once tables and programs are known. Throws nlohmann::json::exception when `state`
   /// is of another shape.
