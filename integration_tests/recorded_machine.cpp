@@ -67,6 +67,8 @@ void RecordedMachine::record(const std::string& name, const std::vector<std::str
            !recorder_.ended().empty();
   }));
   ASSERT_EQ(recorder_.ended(), "");
+  // The recorder knows the services of the cluster, and has not waited for this client.
+  cluster_->until([] { return false; }, 0.5);
 }
 
 void RecordedMachine::stop_recording() {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Recordings of a machine in use verify every service: whatever the machine has done before they start.
 #include "recorded_machine.hpp"
+#include "verification/alignment.hpp"
 
 namespace trunnion::integration {
 namespace {
@@ -44,12 +45,36 @@ TEST_P(Recording, OfASecondRunInOneLife) {
   EXPECT_GT(machine_.cycles("channel"), 100u);
 }
 
-TEST_P(Recording, OfTwoRunsInOneRecording) {
-  machine_.record("both.mcap");
-  machine_.run_programs();
-  machine_.run_programs();
+TEST_P(Recording, OfThreeRunsOfWhichTheLastTwoAreTheSameFromTheirStarts) {
+  machine_.record("runs.mcap");
+  for (int i = 0; i < 3; ++i) machine_.run_programs();
   machine_.stop_recording();
-  machine_.expect_verified("both.mcap");
+  machine_.expect_verified("runs.mcap");
+  // Two channels start at different moments; the first run starts at another position.
+  if (GetParam().time == Time::real || GetParam().machine == "two-channel") return;
+  const auto recording = verification::load_recording(machine_.file("runs.mcap"));
+  verification::DiffOptions options;
+  options.topics = {"path_frame",   "kinematics_frame",  "compensation_frame",
+                    "gantry_frame", "auxiliary_request", "auxiliary_done"};
+  const auto d = verification::difference(verification::aligned(recording, 0, 2),
+                                          verification::aligned(recording, 0, 3), options);
+  EXPECT_TRUE(d.equal()) << text_of(d, "second", "third");
+  EXPECT_GT(d.cycles, 400u);
+}
+
+// Saved when the emergency stop is pressed; in the seconds before are a whole run and several requests for
+// states.
+TEST_P(Recording, OfAFlightRecorder) {
+  machine_.run_programs();
+  machine_.record("flight.mcap", {"--last", "4", "--after", "0.3"});
+  for (int i = 0; i < 3; ++i) {
+    machine_.cluster().until([] { return false; }, 2.5);
+    machine_.run_programs();
+  }
+  machine_.cluster().client().panel(idl::plc::PanelRequestKind::PRESS_EMERGENCY_STOP);
+  machine_.cluster().until([] { return false; }, 1);
+  machine_.stop_recording();
+  machine_.expect_verified("flight-0001.mcap");
 }
 
 TEST_P(Recording, AfterAndDuringChangesOfParametersAndOffsets) {

@@ -7,7 +7,7 @@
 
 namespace trunnion::recorder {
 namespace {
-constexpr double start_seconds = 1;  // until a new process reads requests
+constexpr double start_seconds = 1;  // until a process that was just started reads requests
 }
 
 SnapshotRequests::SnapshotRequests(bus::Bus& bus)
@@ -29,9 +29,9 @@ void SnapshotRequests::ask_at(double when) { next_ = next_ == 0 ? when : std::mi
 
 void SnapshotRequests::run(double now) {
   while (announcements_.take(announcement_)) {
-    const auto [known, news] = processes_.try_emplace(announcement_.instance, announcement_.pid);
-    if (known->second != announcement_.pid || (news && request_.number > 0)) ask_at(now + start_seconds);
-    known->second = announcement_.pid;
+    // Whoever was there before has been asked.
+    if (static_cast<std::uint64_t>(announcements_.info().source_timestamp) > asked_)
+      ask_at(now + start_seconds);
   }
   if (next_ != 0 && now >= next_) ask();
 }

@@ -2,7 +2,6 @@
 // Asks the services for the states from which a recording can be verified.
 #pragma once
 
-#include <map>
 #include <set>
 
 #include "bus/bus.hpp"
@@ -33,7 +32,6 @@ class SnapshotRequests {
   idl::service::Announcement announcement_;
   std::uint64_t asked_ = 0;  // source time of the newest request
   double next_ = 0;          // 0: none is planned
-  std::map<std::uint32_t, std::int32_t> processes_;
   std::set<std::uint32_t> answered_;
 };
 
