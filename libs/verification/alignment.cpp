@@ -17,9 +17,10 @@ using idl::channel::RunState;
 
 constexpr auto none = std::numeric_limits<std::uint64_t>::max();
 
-// Cycles of a run.
+// Cycles of a run, and the times of its start and its end.
 struct Window {
   std::uint64_t begin = none, end = none;
+  std::uint64_t started = 0, ended = none;
   bool has(std::uint64_t first, std::uint32_t count) const { return first >= begin && first + count <= end; }
 };
 
@@ -39,12 +40,15 @@ class Runs {
       throw std::runtime_error("the recording has no start " + std::to_string(run) +
                                " of a program in channel " + std::to_string(channel_) + ", it has " +
                                std::to_string(found));
-    Window window{first_motion(time), none};
+    Window window{first_motion(time), none, time, none};
     // Its end is the first state at rest behind it.
     const auto end = std::find_if(states_.upper_bound(time), states_.end(), [&](const auto& state) {
       return state.second.first == RunState::IDLE && state.second.second > window.begin;
     });
-    if (end != states_.end()) window.end = first_motion(end->first);
+    if (end != states_.end()) {
+      window.end = first_motion(end->first);
+      window.ended = end->first;
+    }
     return window;
   }
 
@@ -142,12 +146,13 @@ class Shift {
   }
   bool request(StoredMessage& message) {
     auto& r = request_;
-    if (!bus::decode(message.cdr, r) || r.cycle < window_.begin || r.cycle > window_.end) return false;
-    // Functions before the first setpoint of the run are at the same cycle as its start.
+    // At the cycle of the start there are functions of the run before, too.
+    if (message.time < window_.started || message.time > window_.ended || !bus::decode(message.cdr, r))
+      return false;
     const auto first = first_function_.try_emplace(r.channel, r.number).first->second;
     functions_.insert({r.channel, r.number});
     r.number -= first - 1;
-    r.cycle -= window_.begin;
+    r.cycle -= std::min(r.cycle, window_.begin);
     bus::encode(r, message.cdr);
     return true;
   }
