@@ -17,6 +17,7 @@ class FeedbackWindow {
 
   void put(const idl::stream::FeedbackFrame& frame) {
     if (frame.axis_count == 0) return;
+    if (begin_ == none) begin_ = frame.first;
     if (frame.axis_count != axes_) {
       axes_ = frame.axis_count;
       actual_.assign(rows * axes_, 0.0);
@@ -33,10 +34,14 @@ class FeedbackWindow {
   const double* actual(std::uint64_t cycle) const {
     return axes_ != 0 && cycle_[cycle % rows] == cycle ? &actual_[cycle % rows * axes_] : nullptr;
   }
+  /// The row will never come: the drive executed `cycle` before the oldest feedback that it has. A drive that
+  /// was started on kept state has none of the cycles before.
+  bool is_before_history(std::uint64_t cycle) const { return begin_ != none && cycle < begin_; }
   std::size_t axes() const { return axes_; }
 
  private:
   static constexpr std::uint64_t none = ~0ull;
+  std::uint64_t begin_ = none;  // the first row that came, or would have come next
   std::size_t axes_ = 0;
   std::vector<std::uint64_t> cycle_;
   std::vector<double> actual_;
