@@ -62,6 +62,22 @@ TEST(Gantry, AfterAStartOnKeptStateNothingWaitsForFeedbackFromBefore) {
   EXPECT_FALSE(core.process(frame(109, 0, 0), feedback, out)) << "cycle 109 needs the feedback of cycle 100";
 }
 
+TEST(Gantry, RowsOfADriveThatWasRestartedDoNotCountAnyMore) {
+  stream::FeedbackWindow feedback;
+  idl::stream::FeedbackFrame f;
+  f.first = 90, f.count = 1, f.axis_count = 3;
+  f.actual = {0, 0, 0.6};
+  feedback.put(f);
+  EXPECT_NE(feedback.actual(90), nullptr);
+  f = {};
+  f.first = 91, f.axis_count = 3;
+  f.applied = {{idl::stream::Input::PARAMETER_SET, 0, 1}};
+  feedback.put(f);
+  EXPECT_EQ(feedback.actual(90), nullptr) << "a stage that starts now has never seen it";
+  EXPECT_TRUE(feedback.is_before_history(90));
+  EXPECT_FALSE(feedback.is_before_history(91));
+}
+
 TEST(Gantry, TheErrorOfCycleNIsCorrectedAtNPlusLeadPlusOneAndWaitsForIt) {
   GantryCore core;
   core.configure(gantry(), 0);
