@@ -106,6 +106,7 @@ std::optional<Seed> find_seed(const StoredRecording& recording, std::uint32_t in
     auto whole = assemblies[part.pid].add(part);
     if (!whole) continue;
     auto seed = seed_of(std::move(*whole), lives);
+    seed.refused = why;
     if (!best || length(seed) > length(*best)) best = std::move(seed);
   }
   if (!best)

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "snapshot/assembly.hpp"
@@ -14,6 +15,7 @@ namespace trunnion::verification {
 
 struct Seed {
   snapshot::Snapshot snapshot;
+  std::string refused;      ///< why the service had not given its state when it was asked; empty = it had
   std::uint64_t time = 0;   ///< ns: what the service wrote later is compared
   std::uint64_t until = 0;  ///< ns: from then on another process was the service
   std::map<const bus::TopicEntry*, std::uint64_t> taken;

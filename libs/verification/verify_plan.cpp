@@ -198,6 +198,9 @@ VerifyPlan plan_verification(const StoredRecording& recording, const std::string
     throw std::runtime_error(
         "the recording has no output of service " + service +
         (service == "channel" ? " " + std::to_string(channel) : "") + " that follows from its inputs" +
+        (plan.seed && !plan.seed->refused.empty()
+             ? " and came behind its state, which it could not give before: " + plan.seed->refused
+             : "") +
         (recording.foreign.empty()
              ? ""
              : "; it was made with another contract, for " + *recording.foreign.begin() + " at least"));

@@ -71,6 +71,7 @@ TEST_F(SeedTest, AServiceThatCouldNotGiveItsStateIsNamedWithItsReason) {
   }
   give(snapshot(2000));
   EXPECT_EQ(find_seed(recording_, instance)->time, 2000u) << "as soon as it could";
+  EXPECT_EQ(find_seed(recording_, instance)->refused, "in motion");
 }
 
 TEST_F(SeedTest, AServiceThatNeedsNoneStartsWithoutOne) {
