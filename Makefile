@@ -9,7 +9,7 @@ JOBS := $(shell nproc)
 # Ninja shows how many of how many steps are done, and for how long it has been at it.
 export NINJA_STATUS := [%f/%t, %es]$(subst ,, )
 
-.PHONY: run test build product configure packages unit sanitize threads fuzz lint format bench faults soak package clean
+.PHONY: run test build product configure packages unit sanitize threads fuzz lint format bench faults soak recordings package clean
 
 run: product
 	$(TRUNNION) run ac-table nas979_cone --report out
@@ -76,6 +76,10 @@ SEED ?= 1
 MINUTES ?= 10
 soak: build
 	TRUNNION_SOAK_SEED=$(SEED) TRUNNION_SOAK_SECONDS=$$(( $(MINUTES) * 60 )) $(BUILD)/bin/fault_soak_test
+
+# Recordings of every machine in every state of use, on other vendors and in real time, verified. Half an hour.
+recordings: build
+	TRUNNION_ALL_RECORDINGS=1 $(BUILD)/bin/recordings_test
 
 # Debian packages, in build/release/packages.
 package: build

@@ -50,11 +50,12 @@ inline std::string first_difference(const Rows& rows, const Rows& expected) {
 class Cluster {
  public:
   explicit Cluster(const std::string& machine, Time time = Time::virtual_, const std::string& vendor = "",
-                   bool gateway = false, std::optional<std::uint32_t> domain = std::nullopt) {
+                   bool gateway = false, std::optional<std::uint32_t> domain = std::nullopt,
+                   const std::string& state_directory = "temporary") {
     cluster::UpOptions up;
     up.machine = machine;
     up.vendor = vendor;
-    up.state_directory = "temporary";
+    up.state_directory = state_directory;
     up.own_domain = !domain;
     up.domain = domain;
     up.virtual_time = time == Time::virtual_;

@@ -7,6 +7,7 @@
 
 #include "commands.hpp"
 #include "recording/file_stream.hpp"
+#include "verification/alignment.hpp"
 #include "verification/csv.hpp"
 #include "verification/difference.hpp"
 #include "verification/summary.hpp"
@@ -35,23 +36,39 @@ std::string handle_of(const std::string& name) {
 struct DiffArguments {
   std::string a, b;
   std::vector<std::string> topics, tolerances;
-  bool common = false;
+  bool common = false, align = false;
+  std::uint16_t channel = 0;
+  std::vector<unsigned> runs{1, 1};
 };
+
+// Whole, or one run of a program.
+std::vector<verification::StoredMessage> compared(const verification::StoredRecording& recording,
+                                                  const DiffArguments& arguments, bool second) {
+  if (!arguments.align) return recording.messages;
+  try {
+    return verification::aligned(recording, arguments.channel, arguments.runs.at(second ? 1 : 0));
+  } catch (const std::runtime_error& error) {
+    throw std::runtime_error((second ? arguments.b : arguments.a) + ": " + error.what());
+  }
+}
 
 int diff(const Common& common, const DiffArguments& arguments) {
   verification::DiffOptions options;
   for (const auto& text : arguments.tolerances) verification::add_tolerance(options, text);
   for (const auto& topic : arguments.topics) options.topics.insert(handle_of(topic));
   options.common = arguments.common;
-  const auto a = verification::load_recording(arguments.a, options.topics);
-  const auto b = verification::load_recording(arguments.b, options.topics);
+  const auto needed = arguments.align ? std::set<std::string>{} : options.topics;
+  if (arguments.align && options.topics.empty()) options.topics = verification::aligned_topics();
+  const auto a = verification::load_recording(arguments.a, needed);
+  const auto b = verification::load_recording(arguments.b, needed);
   for (const auto* recording : {&a, &b}) {
     const auto& file = recording == &a ? arguments.a : arguments.b;
     if (!recording->complete) std::cerr << file << ": warning: " << recording->problem << "\n";
     for (const auto& topic : recording->foreign)
       std::cerr << file << ": warning: " << topic << " is of another contract and was left out\n";
   }
-  const auto result = verification::difference(a.messages, b.messages, options);
+  const auto result =
+      verification::difference(compared(a, arguments, false), compared(b, arguments, true), options);
   if (result.topics.empty())
     throw std::runtime_error("neither recording has any of the topics that are compared");
   std::cout << (common.json ? bus::text_of(verification::json_of(result), 2) + "\n"
@@ -101,6 +118,16 @@ void add_recording_commands(CLI::App& app, Common& common) {
           "Largest difference of numbers, or FIELD=NUMBER for fields that begin so (default: the same bits)")
       ->delimiter(',');
   command->add_flag("--common", arguments->common, "Leave out what only one of them has");
+  auto* align = command->add_flag("--align", arguments->align,
+                                  "Compare one run of a program of each, counted from its start");
+  command->add_option("--runs", arguments->runs, "Which start of a program in a and in b (default: 1,1)")
+      ->delimiter(',')
+      ->expected(2)
+      ->check(CLI::PositiveNumber)
+      ->needs(align);
+  command->add_option("--channel", arguments->channel, "Channel whose program is aligned")
+      ->check(CLI::Range(0, 31))
+      ->needs(align);
 
   auto topic = std::make_shared<std::string>(), output = std::make_shared<std::string>();
   command = add_command(app, common, "export", "Write one topic of a recording as CSV",

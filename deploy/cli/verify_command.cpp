@@ -12,11 +12,13 @@
 namespace trunnion::cli {
 namespace {
 
-int run(const Common& common, verification::VerifyOptions options,
-        const std::vector<std::string>& tolerances) {
+int run(const Common& common, verification::VerifyOptions options, const std::vector<std::string>& tolerances,
+        const std::vector<std::string>& required) {
   options.domain = common.domain;
   for (const auto& text : tolerances) verification::add_tolerance(options.comparison, text);
   const auto result = verification::verify(options);
+  const auto missing = verification::missing(result.features, required);
+  const int status = result.equal() && missing.empty() ? 0 : 1;
   if (common.json) {
     auto json = verification::json_of(result.difference);
     json["equal"] = result.equal();
@@ -30,8 +32,10 @@ int run(const Common& common, verification::VerifyOptions options,
     json["cycles"] = result.cycles;
     json["seconds"] = result.seconds;
     json["times_real_time"] = result.times_real_time;
+    for (const auto& feature : result.features) json["features"][feature.name] = feature.seen;
+    json["missing"] = missing;
     std::cout << bus::text_of(json, 2) << "\n";
-    return result.equal() ? 0 : 1;
+    return status;
   }
   std::cout << verification::text_of(result.difference, "recorded", "written now");
   if (!result.problem.empty()) std::cout << "problem: " << result.problem << "\n";
@@ -44,7 +48,10 @@ int run(const Common& common, verification::VerifyOptions options,
     std::printf(", %llu cycles in %.3f s, %.0f times real time",
                 static_cast<unsigned long long>(result.cycles), result.seconds, result.times_real_time);
   std::printf("\n");
-  return result.equal() ? 0 : 1;
+  if (!result.features.empty())
+    std::printf("%s: %s\n", options.service.c_str(), text_of(result.features).c_str());
+  for (const auto& name : missing) std::printf("required, and not in the recording: %s\n", name.c_str());
+  return status;
 }
 
 }  // namespace
@@ -52,11 +59,12 @@ int run(const Common& common, verification::VerifyOptions options,
 void add_verify_command(CLI::App& app, Common& common) {
   auto options = std::make_shared<verification::VerifyOptions>();
   auto tolerances = std::make_shared<std::vector<std::string>>();
-  auto* command =
-      add_command(app, common, "verify",
-                  "Start one service alone, feed it what a recording says was sent to it, compare "
-                  "what it writes; status 0: equal",
-                  [&common, options, tolerances] { return run(common, *options, *tolerances); });
+  auto required = std::make_shared<std::vector<std::string>>();
+  auto* command = add_command(
+      app, common, "verify",
+      "Start one service alone, feed it what a recording says was sent to it, compare "
+      "what it writes; status 0: equal",
+      [&common, options, tolerances, required] { return run(common, *options, *tolerances, *required); });
   command->add_option("--service", options->service, "Service, as in machine.yaml")->required();
   command->add_option("--recording", options->recording, "Recording")->required()->check(CLI::ExistingFile);
   command->add_option("--exec", options->executable, "Executable to verify (default: the one of this build)");
@@ -70,6 +78,10 @@ void add_verify_command(CLI::App& app, Common& common) {
       ->add_option(
           "--tolerance", *tolerances,
           "Largest difference of numbers, or FIELD=NUMBER for fields that begin so (default: the same bits)")
+      ->delimiter(',');
+  command
+      ->add_option("--require", *required,
+                   "Features that the recording must exercise, separated by commas, or all: else status 1")
       ->delimiter(',');
   command
       ->add_option("--timeout,--patience", options->timeout,

@@ -2,6 +2,8 @@
 // Typed writers and readers over either vendor.
 #pragma once
 
+#include <algorithm>
+#include <map>
 #include <memory>
 #include <string>
 
@@ -74,10 +76,13 @@ class Writer {
 template <class T>
 class Reader {
  public:
-  explicit Reader(std::unique_ptr<RawReader> raw) : raw_(std::move(raw)) {}
+  /// `newest`, if there is one, becomes the newest source time stamp of the samples taken.
+  explicit Reader(std::unique_ptr<RawReader> raw, std::int64_t* newest = nullptr)
+      : raw_(std::move(raw)), newest_(newest) {}
   /// The next sample that decodes; samples that do not are counted and skipped.
   bool take(T& value) {
     while (raw_->take(buffer_, info_)) {
+      if (newest_ != nullptr) *newest_ = std::max(*newest_, info_.source_timestamp);
       if (decode(buffer_, value)) return true;
       ++undecodable_;
     }
@@ -95,6 +100,7 @@ class Reader {
 
  private:
   std::unique_ptr<RawReader> raw_;
+  std::int64_t* newest_;
   Bytes buffer_;
   SampleInfo info_;
   std::uint64_t undecodable_ = 0;
@@ -113,12 +119,15 @@ class Bus {
   }
   template <class T>
   Reader<T> reader(const Topic<T>& topic) {
-    return Reader<T>(backend_->reader(describe(topic), reader_qos(topic.qos), &signal_));
+    return Reader<T>(backend_->reader(describe(topic), reader_qos(topic.qos), &signal_), &taken_[topic.name]);
   }
   Backend& backend() { return *backend_; }
   Signal& signal() { return signal_; }
   Vendor vendor() const { return vendor_; }
   void set_depth(StreamDepth depth) { depth_ = depth; }
+  /// Of each topic that is read the newest source time stamp among the samples taken, by the topic's name; 0
+  /// = none.
+  const std::map<std::string, std::int64_t>& taken() const { return taken_; }
 
  private:
   // Frames can be recorded from memory, unless the cluster is secured: then certificates decide who reads.
@@ -126,6 +135,7 @@ class Bus {
 
   Vendor vendor_;
   bool secured_;
+  std::map<std::string, std::int64_t> taken_;
   Signal signal_;
   std::unique_ptr<Backend> backend_;
   StreamDepth depth_;

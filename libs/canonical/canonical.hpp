@@ -29,6 +29,11 @@ struct Tilt {
   bool active = false;
   Vector3 origin{};                                         ///< mm, in the workpiece frame
   std::array<double, 9> matrix{1, 0, 0, 0, 1, 0, 0, 0, 1};  ///< rows; its columns are the plane's X, Y, Z
+
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    visit("active", self.active), visit("origin", self.origin), visit("matrix", self.matrix);
+  }
 };
 
 /// The modal state a command was made in: what the HMI shows, and what a restart at this command restores.
@@ -64,6 +69,25 @@ struct ModalState {
   double path_tolerance = 0;  ///< P of G64, mm; 0 = the channel's own
   Tilt tilt{};                ///< words are in this plane; targets of commands never are
   std::uint32_t frame = 0;    ///< names the frame of the words: Interpreter::frame_of()
+
+  /// Every field that a channel keeps from one line or process to the next.
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    visit("motion", self.motion), visit("plane", self.plane), visit("absolute", self.absolute);
+    visit("metric", self.metric), visit("feed_mode", self.feed_mode);
+    visit("path_control", self.path_control), visit("work_offset", self.work_offset);
+    visit("transformation", self.transformation), visit("tool", self.tool);
+    visit("selected_tool", self.selected_tool), visit("length_offset", self.length_offset);
+    visit("tool_length", self.tool_length), visit("radius_offset", self.radius_offset);
+    visit("cutter_side", self.cutter_side), visit("cycle", self.cycle);
+    visit("return_to_initial", self.return_to_initial), visit("smoothing", self.smoothing);
+    visit("tool_vector", self.tool_vector), visit("polar", self.polar), visit("scaled", self.scaled);
+    visit("mirrored", self.mirrored), visit("rotated", self.rotated);
+    visit("spindle_mode", self.spindle_mode), visit("spindle_direction", self.spindle_direction);
+    visit("feed", self.feed), visit("spindle_speed", self.spindle_speed);
+    visit("surface_speed", self.surface_speed), visit("spindle_limit", self.spindle_limit);
+    visit("path_tolerance", self.path_tolerance), visit("tilt", self.tilt);
+  }
 };
 
 enum class CommandKind : std::uint8_t {

@@ -12,6 +12,11 @@ using language::AxisValues;
 /// are its end.
 struct SkipResult {
   AxisValues stopped{}, touched{};
+
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    visit("stopped", self.stopped), visit("touched", self.touched);
+  }
 };
 
 }  // namespace trunnion::program_execution

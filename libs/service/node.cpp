@@ -63,6 +63,8 @@ Node::Node(Options options)
     : options_(std::move(options)),
       bus_(options_.vendor, options_.network),
       alarms_(bus_, options_.instance, options_.service),
+      snapshot_desk_(bus_, options_),
+      snapshot_(read_snapshot(options_.snapshot)),
       announcement_(bus_.writer(topics::announcement)),
       state_writer_(bus_.writer(topics::service_state)),
       alarm_reset_(bus_.reader(topics::alarm_reset)) {
@@ -170,6 +172,7 @@ int Node::run(Service& service) {
     while (alarm_reset_.take(reset)) reset_alarms(service, reset.channel);
     take_promotion();
     service.pump();
+    if (!options_.shadow) snapshot_desk_.serve(service);
     notifier_.alive(monotonic_seconds());
     if (const double now = monotonic_seconds(); now - last_beat_ >= beat_period) {
       beat(service.health());

@@ -8,10 +8,12 @@
 #include <string>
 
 #include "bus/bus.hpp"
+#include "bus/json_type.hpp"
 #include "contracts/topics.hpp"
 #include "service/alarm_board.hpp"
 #include "service/notify.hpp"
 #include "service/options.hpp"
+#include "service/snapshot_desk.hpp"
 
 namespace trunnion::service {
 
@@ -53,6 +55,9 @@ class Service {
   virtual void alarms_reset(std::uint16_t) {}
   /// Whether an alarm about `axis` (its logical number) concerns `channel`.
   virtual bool axis_concerns(std::uint16_t /*axis*/, std::uint16_t /*channel*/) const { return false; }
+  /// Its explicit state now, between two calls of pump(), on request of a recorder. A process that is started
+  /// with it (Node::snapshot()) continues like this one.
+  virtual SnapshotAnswer snapshot() { return {}; }
   /// The process is told to end: the last chance to leave something for the next.
   virtual void end() {}
 };
@@ -64,6 +69,8 @@ class Node {
   const Options& options() const { return options_; }
   bus::Bus& bus() { return bus_; }
   AlarmBoard& alarms() { return alarms_; }
+  /// The recorded state that the service continues from; null when it starts as usual.
+  const bus::Json* snapshot() const { return snapshot_.get(); }
 
   /// Started beside the service that it is to replace, and not promoted yet.
   bool on_standby() const { return options_.shadow; }
@@ -82,6 +89,8 @@ class Node {
   Options options_;
   bus::Bus bus_;
   AlarmBoard alarms_;
+  SnapshotDesk snapshot_desk_;
+  std::shared_ptr<const bus::Json> snapshot_;
   bus::Writer<idl::service::Announcement> announcement_;
   bus::Writer<idl::service::ServiceState> state_writer_;
   bus::Reader<idl::service::AlarmReset> alarm_reset_;

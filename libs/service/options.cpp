@@ -24,6 +24,9 @@ void add_options(CLI::App& app, Options& options) {
                "Time advances with the setpoints, not with the clock");
   app.add_flag("--shadow", options.shadow,
                "Begin on standby beside the service that this one replaces, until the launcher promotes it");
+  app.add_option("--snapshot", options.snapshot,
+                 "File with the recorded state that this process continues from, for a verification")
+      ->check(CLI::ExistingFile);
   app.add_flag("--parent-bound", options.parent_bound, "Stop when the parent process is gone");
 }
 

@@ -17,6 +17,7 @@ class FeedbackWindow {
 
   void put(const idl::stream::FeedbackFrame& frame) {
     if (frame.axis_count == 0) return;
+    if (begin_ == none || is_first(frame)) begin_ = frame.first;
     if (frame.axis_count != axes_) {
       axes_ = frame.axis_count;
       actual_.assign(rows * axes_, 0.0);
@@ -31,12 +32,24 @@ class FeedbackWindow {
   }
   /// Encoder positions of every axis at `cycle`, or null when that row is not here.
   const double* actual(std::uint64_t cycle) const {
-    return axes_ != 0 && cycle_[cycle % rows] == cycle ? &actual_[cycle % rows * axes_] : nullptr;
+    if (axes_ == 0 || is_before_history(cycle) || cycle_[cycle % rows] != cycle) return nullptr;
+    return &actual_[cycle % rows * axes_];
   }
+  /// The row does not count: it was executed before the oldest feedback of this drive. One that was started
+  /// on kept state has none of the cycles before, and whoever still has them must not use them: a process
+  /// that starts later would compute something else.
+  bool is_before_history(std::uint64_t cycle) const { return begin_ != none && cycle < begin_; }
   std::size_t axes() const { return axes_; }
 
  private:
+  // What a drive that has just started reports: its parameters and nothing else have been applied.
+  static bool is_first(const idl::stream::FeedbackFrame& frame) {
+    return frame.count == 0 && frame.applied.size() == 1 &&
+           frame.applied[0].input == idl::stream::Input::PARAMETER_SET;
+  }
+
   static constexpr std::uint64_t none = ~0ull;
+  std::uint64_t begin_ = none;  // the first row that came, or would have come next
   std::size_t axes_ = 0;
   std::vector<std::uint64_t> cycle_;
   std::vector<double> actual_;

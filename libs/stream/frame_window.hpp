@@ -91,6 +91,26 @@ class FrameWindow {
   std::uint64_t next() const { return next_; }
   std::uint32_t epoch() const { return epoch_; }
   bool has_next() const { return peek() != nullptr; }
+  /// Batches of which next() has not come to the end.
+  std::vector<Frame> pending() const {
+    std::vector<Frame> frames;
+    for (const auto& slot : slots_)
+      if (slot.used && (slot.frame.epoch > epoch_ ||
+                        (slot.frame.epoch == epoch_ && slot.frame.first + slot.frame.count > next_)))
+        frames.push_back(slot.frame);
+    return frames;
+  }
+  /// For libs/snapshot: batches that were taken are left out.
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    visit("epoch", self.epoch_), visit("newest_epoch", self.newest_epoch_);
+    visit("start_epoch", self.start_epoch_), visit("next", self.next_), visit("newest", self.newest_);
+    visit("start_first", self.start_first_);
+    auto frames = self.pending();
+    visit("frames", frames);
+    if constexpr (!std::is_const_v<Self>)
+      for (auto& frame : frames) self.slots_[frame.first % slots] = {frame, true};
+  }
   /// A later batch is present while the next is missing.
   bool gap() const { return std::pair(newest_epoch_, newest_) > std::pair(epoch_, next_) && !has_next(); }
 

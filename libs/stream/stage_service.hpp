@@ -279,8 +279,12 @@ class StageService : public service::Service {
     if (!lane.in_step) return;
     while (const In* in = lane.window.peek()) {
       if (!use_revision(channel, lane, in->revision)) return;
-      if (in->starts)
-        if (const auto* state = find_state(in->states, stage_)) lane.core->load(state->values);
+      // A start without a state: the drive and the channel that kept it were both restarted. Every replica
+      // and every later process then starts as on a new machine.
+      if (in->starts) {
+        const auto* state = find_state(in->states, stage_);
+        lane.core->load(state != nullptr ? state->values : StateValues{});
+      }
       if (!lane.core->process(*in, feedback_, out_)) break;
       out_.channel = in->channel, out_.stage = stage_,
       out_.copy = static_cast<std::uint8_t>(node_.options().copy);

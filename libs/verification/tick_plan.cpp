@@ -67,19 +67,28 @@ class TickPlan {
     own_ = {bus::find_topic(drive_ ? "feedback_frame" : "plc_input_log"), 0};
     for (const auto& message : recording_.messages) {
       const auto& handle = message.topic->handle;
-      if (plan_.topics.contains(handle)) plan_.expected.push_back(message);
+      const bool counts = !plan_.seed || plan_.seed->covers(message);
+      if (counts && plan_.topics.contains(handle)) plan_.expected.push_back(message);
       if (handle == "feedback_frame" && bus::decode(message.cdr, feedback)) {
+        if (!drive_ && !is_to_come(message)) continue;
         told_.emplace_back(&message, Place{feedback.first + feedback.count, feedback.tick});
+        if (!counts) continue;
         if (drive_) stamps_.insert(stamps_.end(), feedback.applied.begin(), feedback.applied.end());
         plan_.cycles += feedback.count;
-      } else if (handle == "plc_input_log" && !drive_ && bus::decode(message.cdr, log)) {
+      } else if (handle == "plc_input_log" && !drive_ && counts && bus::decode(message.cdr, log)) {
         stamps_.insert(stamps_.end(), log.applied.begin(), log.applied.end());
       } else if (handle == "parameter_set" && bus::decode(message.cdr, set)) {
         revisions_[set.revision] = &message;
       }
       if (is_input(message)) inputs_[{message.topic, message.time}] = &message;
     }
-    if (stamps_.empty()) throw std::runtime_error("the recording does not say when inputs took effect");
+    if (stamps_.empty() && !plan_.seed)
+      throw std::runtime_error("the recording does not say when inputs took effect");
+  }
+
+  // Not in the state that the service continues from, and before its end.
+  bool is_to_come(const StoredMessage& message) const {
+    return !plan_.seed || (!plan_.seed->had_taken(message) && message.time < plan_.seed->until);
   }
 
   bool is_input(const StoredMessage& message) {
@@ -87,7 +96,7 @@ class TickPlan {
     const auto reads = [&](const std::string& who) {
       return std::find(topic.readers.begin(), topic.readers.end(), who) != topic.readers.end();
     };
-    if (!reads(service_) && !reads("all")) return false;
+    if ((!reads(service_) && !reads("all")) || topic.handle == "snapshot_request") return false;
     if (topic.handle == "alarm") return bus::decode(message.cdr, alarm_) && alarm_.source != service_;
     if (topic.handle == "service_state")
       return bus::decode(message.cdr, state_) && state_.service != service_;
@@ -131,9 +140,13 @@ class TickPlan {
     std::vector<Due> woven;
     std::vector<const StoredMessage*> rest;
     for (const auto& [key, message] : inputs_)
-      if (!placed_.contains(message) && !is_cyclic(*message->topic)) rest.push_back(message);
+      if (!placed_.contains(message) && !is_cyclic(*message->topic) && is_to_come(*message))
+        rest.push_back(message);
     std::stable_sort(rest.begin(), rest.end(),
                      [](const auto* a, const auto* b) { return a->time < b->time; });
+    if (plan_.seed)
+      for (const auto* message : plan_.seed->needed_to_start(recording_, drive_))
+        woven.push_back({0, order, message, 0});
     auto next = rest.begin();
     for (const auto& due : due_) {
       for (; next != rest.end() && (*next)->time < due.time; ++next)

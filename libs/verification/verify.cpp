@@ -206,6 +206,7 @@ VerifyResult verify(const VerifyOptions& options) {
   result.inputs = plan.steps.size();
   result.outputs = produced.size();
   result.cycles = plan.cycles;
+  result.features = coverage_of(options.service, plan.expected, recording);
   if (result.seconds > 0)
     result.times_real_time = static_cast<double>(plan.cycles) * plan.cycle_seconds / result.seconds;
   if (result.problem.empty())

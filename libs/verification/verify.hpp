@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "verification/coverage.hpp"
 #include "verification/difference.hpp"
 
 namespace trunnion::verification {
@@ -30,8 +31,9 @@ struct VerifyResult {
   /// what it shows was compared.
   std::size_t requests = 0, left_out = 0, samples = 0;
   std::uint64_t cycles = 0;
-  double seconds = 0;          ///< from the first input to the last output
-  double times_real_time = 0;  ///< cycles of the stream against the cycle time
+  std::vector<Feature> features;  ///< of the service, and which of them the outputs show
+  double seconds = 0;             ///< from the first input to the last output
+  double times_real_time = 0;     ///< cycles of the stream against the cycle time
   bool equal() const { return problem.empty() && difference.equal(); }
 };
 

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <filesystem>
+#include <fstream>
 #include <stdexcept>
 
 namespace trunnion::verification {
@@ -50,6 +51,12 @@ std::vector<std::string> command_line(const VerifyOptions& options, const Stored
                                      options.vendor.empty() ? "cyclonedds" : options.vendor,
                                      "--parent-bound"};
   if (plan.virtual_time) arguments.emplace_back("--virtual-time");
+  if (plan.seed) {
+    std::ofstream out(place.snapshot(), std::ios::binary);
+    out << plan.seed->snapshot.state;
+    if (!out.flush()) throw std::runtime_error(place.snapshot() + ": cannot be written");
+    arguments.insert(arguments.end(), {"--snapshot", place.snapshot()});
+  }
   return arguments;
 }
 

@@ -22,6 +22,8 @@ class VerifyPlace {
   VerifyPlace& operator=(const VerifyPlace&) = delete;
   std::uint32_t domain() const { return run_.domain; }
   std::string state() const { return directory_ + "/state"; }
+  /// Where the state is put that the service continues from.
+  std::string snapshot() const { return directory_ + "/snapshot.json"; }
   std::string log() const { return directory_ + "/service.log"; }
 
  private:

@@ -82,13 +82,19 @@ class OrderedPlan {
 
   void make() {
     std::vector<const StoredMessage*> order;
-    for (const auto& message : recording_.messages) order.push_back(&message);
+    for (const auto& message : recording_.messages)
+      if (!plan_.seed || is_to_come(message)) order.push_back(&message);
+    if (plan_.seed)
+      for (const auto* message : plan_.seed->needed_to_start(recording_, false))
+        if (is_input(*message) && !plan_.topics.contains(message->topic->handle))
+          plan_.steps.push_back({message, {}, true});
     std::stable_sort(order.begin(), order.end(),
                      [](const auto* a, const auto* b) { return a->time < b->time; });
     Progress progress;
     std::map<Track, Place> raised;  // by outputs since the last step
     for (const auto* message : order) {
       if (plan_.topics.contains(message->topic->handle) && ownership_.owns(*message)) {
+        if (plan_.seed && !plan_.seed->covers(*message)) continue;
         plan_.expected.push_back(*message);
         const auto [mark, further] = progress.observe(*message);
         if (further) raised[mark.track] = mark.place;
@@ -105,12 +111,17 @@ class OrderedPlan {
   }
 
  private:
+  bool is_to_come(const StoredMessage& message) const {
+    return plan_.seed->covers(message) ||
+           (!plan_.seed->had_taken(message) && message.time < plan_.seed->until);
+  }
   void count_cycles(const StoredMessage& message) {
     if (rows_.load(*message.topic, message.cdr)) plan_.cycles += rows_.rows();
   }
   bool is_input(const StoredMessage& message) {
     const auto& topic = *message.topic;
     if (!names(topic.readers, service_) && !names(topic.readers, "all")) return false;
+    if (topic.handle == "snapshot_request") return false;
     // Replies to the recorded process are for nobody: a new one is answered when it asks.
     if (topic.handle == "program_reply") return false;
     if (topic.handle == "alarm") return bus::decode(message.cdr, alarm_) && alarm_.source != service_;
@@ -170,17 +181,26 @@ VerifyPlan plan_verification(const StoredRecording& recording, const std::string
   if (!exists) throw std::runtime_error("no service is called '" + service + "'");
   if (plan.topics.empty())
     throw std::runtime_error("service " + service + " writes nothing that can be compared");
-  if (const auto* stage = find_stage(service))
+  if (const auto* stage = find_stage(service)) {
     plan_stage(recording, *stage, plan);
-  else if (says_when(service))
-    plan_by_tick(recording, service, plan);
-  else
-    OrderedPlan(recording, service, channel, plan).make();
+  } else {
+    if (says_when(service) && !plan.virtual_time)
+      throw std::runtime_error("service " + service +
+                               " cannot be verified: in real time its periods follow the clock");
+    plan.seed = find_seed(recording, plan.instance);
+    if (says_when(service))
+      plan_by_tick(recording, service, plan);
+    else
+      OrderedPlan(recording, service, channel, plan).make();
+  }
   if (service == "channel" && has_several_channels(recording)) plan.ignored.insert("auxiliary_request.cycle");
   if (plan.expected.empty())
     throw std::runtime_error(
         "the recording has no output of service " + service +
         (service == "channel" ? " " + std::to_string(channel) : "") + " that follows from its inputs" +
+        (plan.seed && !plan.seed->refused.empty()
+             ? " and came behind its state, which it could not give before: " + plan.seed->refused
+             : "") +
         (recording.foreign.empty()
              ? ""
              : "; it was made with another contract, for " + *recording.foreign.begin() + " at least"));

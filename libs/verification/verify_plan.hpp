@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "verification/progress.hpp"
+#include "verification/seed.hpp"
 #include "verification/stored_recording.hpp"
 
 namespace trunnion::verification {
@@ -31,6 +32,7 @@ struct VerifyPlan {
   double cycle_seconds = 0.001;
   bool virtual_time = true;
   std::uint32_t instance = 0;  ///< of the service in the recording
+  std::optional<Seed> seed;    ///< the state the service continues from; none: it starts as on a new machine
 
   /// What a service writes beyond the end of the recording, or in an epoch that was given up, has no
   /// counterpart: it is taken away. Returns how many messages that were.

@@ -7,6 +7,7 @@
 
 #include "machine/alarm_constants.hpp"
 #include "machine/parameter_constants.hpp"
+#include "snapshot/fields.hpp"
 #include "storage/file.hpp"
 #include "stream/stage_service.hpp"
 #include "variable_text.hpp"
@@ -282,10 +283,31 @@ void ChannelService::recover() {
   if (core_.recovered()) present_reader_.reset();
 }
 
+service::SnapshotAnswer ChannelService::snapshot() {
+  using idl::service::SnapshotKind;
+  service::SnapshotAnswer answer{SnapshotKind::LATER, "", ""};
+  bus::Json state = {{"core", core_.explicit_state(answer.detail)}};
+  if (!answer.detail.empty()) return answer;
+  state["holding_alarms"] = snapshot::written(holding_alarms_);
+  state["plc_hold"] = plc_hold_;
+  return {SnapshotKind::GIVEN, "", bus::text_of(state)};
+}
+
+void ChannelService::continue_from_snapshot() {
+  const auto& state = *node_.snapshot();
+  core_.continue_from(state.at("core"));
+  snapshot::read(state.at("holding_alarms"), holding_alarms_);
+  plc_hold_ = state.at("plc_hold").get<bool>();
+  present_reader_.reset();
+}
+
 void ChannelService::pump() {
   drain();
   if (!core_.configured() || !have_tools_ || !have_offsets_ || !have_programs_) return publish();
-  if (!frame_writer_) start_stream();
+  if (!frame_writer_) {
+    start_stream();
+    if (node_.snapshot() != nullptr) continue_from_snapshot();
+  }
   while (feedback_reader_->take(feedback_)) {
     ++frames_in_;
     last_feedback_ = service::monotonic_seconds();

@@ -19,11 +19,13 @@ class ChannelService : public service::Service {
   void pump() override;
   double period() const override { return 0.02; }
   service::Health health() const override;
+  service::SnapshotAnswer snapshot() override;
   void end() override;
 
  private:
   void start_stream();
   void recover();
+  void continue_from_snapshot();
   void drain();
   void answer_requests();
   void fetch_text();

@@ -3,6 +3,7 @@
 
 #include <cstdio>
 
+#include "snapshot/fields.hpp"
 #include "src/timeouts.hpp"
 #include "stream/stage_service.hpp"
 
@@ -28,9 +29,13 @@ DriveService::DriveService(service::Node& node, std::unique_ptr<DriveHardware> h
       core_(std::move(hardware)) {}
 
 void DriveService::start() {
-  const auto& p = *parameters_.newest();
-  configure(p);
-  core_.restore(*memory_);
+  if (node_.snapshot() != nullptr) {
+    continue_from_snapshot();
+  } else {
+    configure(*parameters_.newest());
+    core_.restore(*memory_);
+  }
+  const auto& p = *parameters_.find(revision_);
   frame_cycles_ =
       static_cast<std::uint32_t>(p.integer(node_.options().virtual_time ? parameter::frame_cycles_virtual_time
                                                                         : parameter::frame_cycles_real_time));
@@ -44,6 +49,38 @@ void DriveService::start() {
   frames_.emplace(node_.bus().reader(topics::gantry_frame));
   next_tick_ = service::monotonic_seconds();
   send();
+}
+
+service::SnapshotAnswer DriveService::snapshot() {
+  using idl::service::SnapshotKind;
+  if (!core_.configured()) return {SnapshotKind::LATER, "the drive waits for parameters", ""};
+  if (!applied_.empty() || core_.rows() > 0) send();
+  bus::Json state = {{"core", core_.explicit_state()}};
+  if (state["core"].is_null())
+    return {SnapshotKind::LATER, "the hardware of the drive does not give its state", ""};
+  state["revision"] = revision_;
+  state["have_plc"] = have_plc_;
+  state["plc"] = snapshot::written(plc_);
+  return {SnapshotKind::GIVEN, "", bus::text_of(state)};
+}
+
+void DriveService::continue_from_snapshot() {
+  const auto& state = *node_.snapshot();
+  configure(*parameters_.find(state.at("revision").get<std::uint64_t>()));
+  applied_.clear();  // it had been reported before the snapshot
+  core_.continue_from(state.at("core"));
+  have_plc_ = state.at("have_plc").get<bool>();
+  snapshot::read(state.at("plc"), plc_);
+  running_time_.advance(service::monotonic_seconds());
+  plc_seen_ = running_time_.now();
+}
+
+// To start with: any set, or the one that a snapshot was made with.
+bool DriveService::parameters_are_here() {
+  parameters_.poll();
+  if (node_.snapshot() != nullptr)
+    return parameters_.find(node_.snapshot()->at("revision").get<std::uint64_t>()) != nullptr;
+  return parameters_.newest() != nullptr;
 }
 
 void DriveService::configure(const machine::Parameters& parameters) {
@@ -172,7 +209,7 @@ void DriveService::run_real() {
 void DriveService::pump() {
   running_time_.advance(service::monotonic_seconds());
   if (!core_.configured()) {
-    if (parameters_.poll() || parameters_.newest()) start();
+    if (parameters_are_here()) start();
     return;
   }
   drain();

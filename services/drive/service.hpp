@@ -23,10 +23,13 @@ class DriveService : public service::Service {
   bool axis_concerns(std::uint16_t axis, std::uint16_t channel) const override {
     return parameters_.newest() && machine::axis_moves_with(*parameters_.newest(), axis, channel);
   }
+  service::SnapshotAnswer snapshot() override;
   void end() override { core_.hardware().end(); }
 
  private:
   void start();
+  void continue_from_snapshot();
+  bool parameters_are_here();
   void drain();
   void run_virtual();
   void run_real();

@@ -3,7 +3,9 @@
 
 #include <filesystem>
 
+#include "bus/json.hpp"
 #include "machine/alarm_constants.hpp"
+#include "snapshot/kept_files.hpp"
 
 namespace trunnion::parameters {
 MachineDefaults defaults_of(const machine::MachineConfig& machine) {
@@ -22,8 +24,13 @@ MachineDefaults defaults_of(const machine::MachineConfig& machine) {
 
 namespace {
 
-std::string make_directory(const std::string& path) {
+constexpr const char* boot_file = "cluster.boot";
+
+// The state directory; with the files of a snapshot, if there is one to continue from.
+std::string prepare_directory(const service::Node& node) {
+  const auto& path = node.options().state_directory;
   std::filesystem::create_directories(path);
+  if (node.snapshot() != nullptr) snapshot::put_files(path, node.snapshot()->at("files"));
   return path;
 }
 
@@ -31,14 +38,25 @@ std::string make_directory(const std::string& path) {
 
 ParameterService::ParameterService(service::Node& node)
     : node_(node),
-      storage_(make_directory(node.options().state_directory)),
-      store_(storage_, defaults_of(node.options().machine), storage_.read("cluster.boot").value_or("")),
+      storage_(prepare_directory(node)),
+      store_(storage_, defaults_of(node.options().machine), storage_.read(boot_file).value_or("")),
       set_(node.bus().writer(topics::parameter_set)),
       tools_(node.bus().writer(topics::tool_table)),
       offsets_(node.bus().writer(topics::work_offsets)),
       channels_(node.bus().reader(topics::channel_state)),
       requests_(node.bus(), topics::parameter_request, topics::parameter_reply) {
-  publish();
+  if (node.snapshot() == nullptr)
+    publish();
+  else
+    store_.take_changes();  // they were published before the snapshot
+}
+
+service::SnapshotAnswer ParameterService::snapshot() {
+  const bus::Json state = {
+      {"files", snapshot::kept_files(node_.options().state_directory,
+                                     {boot_file, parameters_file, active_file, tool_tables::tools_file,
+                                      tool_tables::offsets_file})}};
+  return {idl::service::SnapshotKind::GIVEN, "", bus::text_of(state)};
 }
 
 void ParameterService::publish() {

@@ -21,6 +21,7 @@ class ParameterService : public service::Service {
   explicit ParameterService(service::Node& node);
   void pump() override;
   service::Health health() const override;
+  service::SnapshotAnswer snapshot() override;
 
  private:
   void publish();

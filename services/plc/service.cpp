@@ -10,6 +10,7 @@
 #include "machine/alarm_constants.hpp"
 #include "machine/parameter_constants.hpp"
 #include "program_files.hpp"
+#include "snapshot/fields.hpp"
 
 namespace trunnion::plc {
 namespace {
@@ -66,6 +67,37 @@ PlcService::PlcService(service::Node& node)
     std::cerr << fault_ << "\n";
     node_.alarms().raise(alarm::plc_program, 0, fault_);
   }
+}
+
+service::SnapshotAnswer PlcService::snapshot() {
+  using idl::service::SnapshotKind;
+  if (!core_.configured()) return {SnapshotKind::LATER, "the PLC waits for parameters", ""};
+  bus::Json state = {{"core", snapshot::written(core_.snapshot())}};
+  auto& alarms = state["active_alarms"] = bus::Json::array();
+  for (const auto& [key, alarm] : active_alarms_) alarms.push_back(snapshot::written(alarm));
+  return {SnapshotKind::GIVEN, "", bus::text_of(state)};
+}
+
+// After the first parameters, which would count as a changed input.
+void PlcService::continue_from_snapshot() {
+  const auto& state = *node_.snapshot();
+  auto core = core_.snapshot();
+  snapshot::read(state.at("core"), core);
+  core_.adopt(core);
+  tick_ = core_.memory().tick;
+  std::vector<idl::service::Alarm> alarms;
+  snapshot::read(state.at("active_alarms"), alarms);
+  for (const auto& alarm : alarms) active_alarms_[{alarm.instance, alarm.number, alarm.part}] = alarm;
+  first_ = false;  // what is finished was published before
+}
+
+void PlcService::configure() {
+  core_.configure(*parameters_.newest(), node_.options().virtual_time);
+  rounds_.record(StepKind::PARAMETERS, parameters_.newest()->revision);
+  period_ = parameters_.newest()->integer(parameter::interpolation_cycle) * 1e-6;
+  if (node_.snapshot() == nullptr || continued_) return;
+  continue_from_snapshot();
+  continued_ = true;
 }
 
 void PlcService::begin_round() {
@@ -162,11 +194,9 @@ std::uint64_t PlcService::tick_now(double now) const {
 
 void PlcService::pump() {
   begin_round();
-  if (parameters_.poll()) {
-    core_.configure(*parameters_.newest(), node_.options().virtual_time);
-    rounds_.record(StepKind::PARAMETERS, parameters_.newest()->revision);
-    period_ = parameters_.newest()->integer(parameter::interpolation_cycle) * 1e-6;
-  }
+  if (parameters_.poll()) configure();
+  // A state that is continued must be there before the first input.
+  if (node_.snapshot() != nullptr && !continued_) return;
   take_inputs();
   if (!core_.configured()) return;
   const double now = service::monotonic_seconds();

@@ -26,6 +26,7 @@ class PlcService : public service::Service {
     return node_.options().virtual_time && inputs_.tick == core_.memory().tick ? 0.05 : 0.01;
   }
   service::Health health() const override;
+  service::SnapshotAnswer snapshot() override;
   void alarms_reset(std::uint16_t channel) override {
     if (channel != service::all_channels) return;  // the reset button is the machine's
     core_.press_reset();
@@ -33,6 +34,8 @@ class PlcService : public service::Service {
   }
 
  private:
+  void configure();
+  void continue_from_snapshot();
   void begin_round();
   void end_round(const std::vector<idl::plc::AuxiliaryDone>& done);
   void advance(std::uint64_t tick);
@@ -68,7 +71,7 @@ class PlcService : public service::Service {
   std::uint64_t tick_ = 0, frames_in_ = 0, frames_out_ = 0;
   double tick_seen_ = 0, period_ = 0.001, outputs_written_ = 0, image_written_ = 0, log_written_ = 0,
          waiting_since_ = 0;
-  bool first_ = true;
+  bool first_ = true, continued_ = false;
 };
 
 }  // namespace trunnion::plc

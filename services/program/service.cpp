@@ -4,13 +4,26 @@
 #include <filesystem>
 #include <iostream>
 
+#include "bus/json.hpp"
 #include "machine/alarm_constants.hpp"
+#include "snapshot/kept_files.hpp"
 
 namespace trunnion::program {
 namespace {
 
-std::string make_directory(const std::string& path) {
+constexpr std::uint64_t most_snapshot_bytes = 8 << 20;  // of programs in a recording
+
+std::string programs_directory(const service::Node& node) {
+  return node.options().state_directory + "/programs";
+}
+
+// With the files of a snapshot, if there is one to continue from.
+std::string prepare_programs(const service::Node& node) {
+  const auto path = programs_directory(node);
   std::filesystem::create_directories(path);
+  if (node.snapshot() == nullptr) return path;
+  snapshot::put_files(path, node.snapshot()->at("programs"));
+  snapshot::put_files(node.options().state_directory, node.snapshot()->at("index"));
   return path;
 }
 
@@ -18,7 +31,7 @@ std::string make_directory(const std::string& path) {
 
 ProgramService::ProgramService(service::Node& node)
     : node_(node),
-      programs_(make_directory(node.options().state_directory + "/programs")),
+      programs_(prepare_programs(node)),
       state_(node.options().state_directory),
       store_(programs_, state_),
       list_(node.bus().writer(topics::program_list)),
@@ -33,7 +46,27 @@ ProgramService::ProgramService(service::Node& node)
     cycles_.emplace(cycles);
     store_.set_cycles(*cycles_);
   }
+  if (node.snapshot() != nullptr) store_.take_change();  // it was published before the snapshot
   pump();
+}
+
+service::SnapshotAnswer ProgramService::snapshot() {
+  using idl::service::SnapshotKind;
+  if (store_.uploads() > 0) return {SnapshotKind::LATER, "a program is being uploaded", ""};
+  std::vector<std::string> names;
+  std::uint64_t bytes = 0;
+  for (const auto& entry : store_.list().programs) {
+    names.push_back(entry.name);
+    bytes += entry.size;
+  }
+  if (bytes > most_snapshot_bytes)
+    return {SnapshotKind::LATER,
+            "the stored programs have " + std::to_string(bytes >> 20) + " MiB, and a recording takes " +
+                std::to_string(most_snapshot_bytes >> 20),
+            ""};
+  const bus::Json state = {{"index", snapshot::kept_files(node_.options().state_directory, {index_file})},
+                           {"programs", snapshot::kept_files(programs_directory(node_), names)}};
+  return {SnapshotKind::GIVEN, "", bus::text_of(state)};
 }
 
 void ProgramService::pump() {

@@ -20,6 +20,7 @@ class ProgramService : public service::Service {
   void pump() override;
   double period() const override { return 0.25; }
   service::Health health() const override;
+  service::SnapshotAnswer snapshot() override;
 
  private:
   service::Node& node_;

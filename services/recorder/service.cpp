@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <iostream>
 #include <optional>
@@ -23,6 +24,7 @@
 #include "part_files.hpp"
 #include "recording/stream_tally.hpp"
 #include "service/node.hpp"
+#include "snapshot_requests.hpp"
 #include "topic_source.hpp"
 
 namespace trunnion::recorder {
@@ -33,6 +35,9 @@ constexpr double cluster_seconds = 5.0;  // the same when a launcher publishes t
 // A wake-up for every message would cost as much processor time as a stage of the stream. Writers keep a
 // thousand batches.
 constexpr auto pause = std::chrono::milliseconds(20);
+constexpr double snapshot_seconds = 1.0;  // waiting time for the states of the services
+// After the start of a part: what was written into the part before has been taken by then.
+constexpr double part_pause = 0.05;
 constexpr int priority = 10;  // the recorder can wait, the stream cannot
 
 volatile sig_atomic_t stop_requested = 0;
@@ -150,6 +155,8 @@ class FileThread {
   /// After join().
   const recording::StreamTally& tally() const { return tally_; }
   const Destination& destination() const { return *destination_; }
+  /// Of the destination, so far.
+  std::uint32_t started() const { return started_; }
 
  private:
   void run() {
@@ -160,6 +167,7 @@ class FileThread {
         tally_.add(topics_[message.topic]->handle, message.cdr);
         destination_->take(message, now);
       }
+      started_ = destination_->started();
       destination_->idle(now);
       report_files();
     }
@@ -189,6 +197,7 @@ class FileThread {
   recording::StreamTally tally_;
   std::size_t reported_files_ = 0;
   bool reported_ = false;
+  std::atomic<std::uint32_t> started_{1};
   std::thread thread_;
 };
 
@@ -197,28 +206,41 @@ class FileThread {
 // whose state reaches the reader created last has discovered all others. The machine's position is in the
 // feedback, so one message of it must have arrived. Without a launcher the list of services is unknown, and a
 // matched writer is sufficient.
-void wait_for_writers(bus::Bus& bus, Sources& sources, MessageQueue& queue) {
+// Returns the services of the list.
+std::set<std::uint32_t> wait_for_writers(bus::Bus& bus, Sources& sources, MessageQueue& queue) {
   auto clusters = bus.reader(topics::cluster);
   auto states = bus.reader(topics::service_state);
   idl::service::Cluster cluster;
   idl::service::ServiceState state;
-  std::set<std::uint32_t> received;
+  std::set<std::uint32_t> received, listed;
   const double began = service::monotonic_seconds();
   while (stop_requested == 0) {
     sources.drain(queue);
     while (clusters.take(cluster)) {
+      listed.clear();
+      for (const auto& service : cluster.services) listed.insert(service.instance);
     }
     while (states.take(state)) received.insert(state.instance);
-    const bool known = !cluster.services.empty();
-    const bool all_received =
-        std::all_of(cluster.services.begin(), cluster.services.end(),
-                    [&](const auto& service) { return received.count(service.instance) != 0; });
+    const bool known = !listed.empty();
+    const bool all_received = std::includes(received.begin(), received.end(), listed.begin(), listed.end());
     const bool matched = sources.all_have_writers();
-    if (known && all_received && matched && sources.feedback_has_come()) return;
+    if (known && all_received && matched && sources.feedback_has_come()) break;
     const double waited = service::monotonic_seconds() - began;
     if (waited > (known ? cluster_seconds : match_seconds) ||
         (!known && matched && waited > match_seconds / 2))
-      return;
+      break;
+    bus.signal().wait(0.002);
+  }
+  return listed;
+}
+
+// The recording can be verified from these states on.
+void take_snapshots(bus::Bus& bus, Sources& sources, MessageQueue& queue, SnapshotRequests& snapshots,
+                    const std::set<std::uint32_t>& services) {
+  snapshots.ask();
+  const double until = service::monotonic_seconds() + snapshot_seconds;
+  while (stop_requested == 0 && !snapshots.answered_by(services) && service::monotonic_seconds() < until) {
+    sources.drain(queue);
     bus.signal().wait(0.002);
   }
 }
@@ -297,12 +319,18 @@ int record(const Options& options) {
   bus::Gathering gathering;
   bus::Bus bus(options.vendor, options.network);
   std::optional<Sources> sources(std::in_place, bus.backend(), entries, &gathering);
-  wait_for_writers(bus, *sources, queue);
+  SnapshotRequests snapshots(bus);
+  const bool verifiable = std::any_of(entries.begin(), entries.end(), [](const auto* entry) {
+    return entry->description.name == topics::service_snapshot.name;
+  });
+  const auto services = wait_for_writers(bus, *sources, queue);
   sources->begin(bus::source_time());
+  if (verifiable) take_snapshots(bus, *sources, queue, snapshots, services);
   std::cout << "recording " << options.output << std::endl;
 
   const double started = service::monotonic_seconds();
   std::uint64_t reported = 0;
+  std::uint32_t parts = 1;
   while (stop_requested == 0 &&
          (options.duration <= 0 || service::monotonic_seconds() - started < options.duration)) {
     if (sources->drain(queue)) {
@@ -311,6 +339,11 @@ int record(const Options& options) {
         std::cerr << "trunnion-recorder: warning: messages are dropped: the disk is slower than the stream\n";
       }
     }
+    const double now = service::monotonic_seconds();
+    if (file.started() != parts && verifiable) snapshots.ask_at(now + part_pause);
+    if (options.last > 0 && verifiable) snapshots.ask_at(now + std::max(1.0, options.last / 2));
+    parts = file.started();
+    if (verifiable) snapshots.run(now);
     std::this_thread::sleep_for(pause);
   }
   // Messages that have arrived by now belong to the recording; a running stream must not extend it without

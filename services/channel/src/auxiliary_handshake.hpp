@@ -36,6 +36,13 @@ class AuxiliaryHandshake {
   /// Gives up what is open.
   void cancel();
 
+  /// Nothing is open and everything has been taken: the state that fields() lists is whole.
+  bool at_rest() const { return !open_ && !table_open_ && !outgoing_ && !outgoing_table_; }
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    visit("number", self.number_);
+  }
+
   std::optional<idl::channel::AuxiliaryRequest> take_request();
   std::optional<idl::parameters::ParameterRequest> take_table_request();
 

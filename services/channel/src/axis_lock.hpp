@@ -28,6 +28,11 @@ class AxisLock {
   /// The locked axes are at `real` now.
   void adopt(const AxisValues& real) { held_ = real; }
 
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    visit("mask", self.mask_), visit("held", self.held_);
+  }
+
  private:
   AxisValues replace(AxisValues values, const AxisValues& by) const {
     for (std::size_t i = 0; i < values.size(); ++i)

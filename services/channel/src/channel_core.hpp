@@ -13,6 +13,7 @@
 #include "answer.hpp"
 #include "auxiliary_handshake.hpp"
 #include "axis_lock.hpp"
+#include "bus/json_type.hpp"
 #include "channel_path.hpp"
 #include "channel_setup/channel_setup.hpp"
 #include "channel_snapshot.hpp"
@@ -58,6 +59,13 @@ class ChannelCore {
   std::optional<HandOver> hand_over() const;
   /// From the process before. Call it before recover(), once the programs are known.
   void take_over(const HandOver& hand_over);
+  /// Everything that determines what follows besides the tables and programs; `why_not` is set, and nothing
+  /// given, unless the channel is at rest with nothing under way. Call it when everything has been taken
+  /// away.
+  bus::Json explicit_state(std::string& why_not) const;
+  /// In place of recover(), once tables and programs are known. Throws nlohmann::json::exception when `state`
+  /// is of another shape.
+  void continue_from(const bus::Json& state);
   /// The kept variables of the last time.
   void set_variables(const language::VariableStore& variables) { *variables_ = variables; }
   /// The program under way when the control was switched off: a start from its line is offered.
@@ -109,6 +117,7 @@ class ChannelCore {
   bool configured() const { return parameters_ != nullptr; }
 
  private:
+  friend struct ChannelFields;  // channel_explicit_state.cpp
   /// MDI, from line to line.
   struct Mdi {
     std::string line;

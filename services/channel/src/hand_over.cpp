@@ -10,26 +10,20 @@
 namespace trunnion::channel {
 namespace {
 
-// Every field by name: the one list that writing and reading share.
+// Every field by name, for writing and reading.
 template <class Modal, class Visit>
-void visit_modal(Modal& m, Visit&& v) {
-  v("modal.motion", m.motion), v("modal.plane", m.plane), v("modal.absolute", m.absolute);
-  v("modal.metric", m.metric), v("modal.feed_mode", m.feed_mode), v("modal.path_control", m.path_control);
-  v("modal.work_offset", m.work_offset), v("modal.transformation", m.transformation);
-  v("modal.tool", m.tool), v("modal.selected_tool", m.selected_tool);
-  v("modal.length_offset", m.length_offset), v("modal.tool_length", m.tool_length);
-  v("modal.radius_offset", m.radius_offset), v("modal.cutter_side", m.cutter_side);
-  v("modal.cycle", m.cycle), v("modal.return_to_initial", m.return_to_initial);
-  v("modal.smoothing", m.smoothing), v("modal.tool_vector", m.tool_vector), v("modal.polar", m.polar);
-  v("modal.scaled", m.scaled), v("modal.mirrored", m.mirrored), v("modal.rotated", m.rotated);
-  v("modal.spindle_mode", m.spindle_mode), v("modal.spindle_direction", m.spindle_direction);
-  v("modal.feed", m.feed), v("modal.spindle_speed", m.spindle_speed);
-  v("modal.surface_speed", m.surface_speed), v("modal.spindle_limit", m.spindle_limit);
-  v("modal.path_tolerance", m.path_tolerance), v("modal.tilt.active", m.tilt.active);
-  for (std::size_t i = 0; i < m.tilt.origin.size(); ++i)
-    v("modal.tilt.origin." + std::to_string(i), m.tilt.origin[i]);
-  for (std::size_t i = 0; i < m.tilt.matrix.size(); ++i)
-    v("modal.tilt.matrix." + std::to_string(i), m.tilt.matrix[i]);
+void visit_modal(Modal& modal, Visit&& v) {
+  Modal::fields(modal, [&](const std::string& name, auto& field) {
+    if constexpr (std::is_same_v<std::remove_cvref_t<decltype(field)>, canonical::Tilt>) {
+      v("modal.tilt.active", field.active);
+      for (std::size_t i = 0; i < field.origin.size(); ++i)
+        v("modal.tilt.origin." + std::to_string(i), field.origin[i]);
+      for (std::size_t i = 0; i < field.matrix.size(); ++i)
+        v("modal.tilt.matrix." + std::to_string(i), field.matrix[i]);
+    } else {
+      v("modal." + name, field);
+    }
+  });
 }
 
 template <class Fields, class Visit>

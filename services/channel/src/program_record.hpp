@@ -14,6 +14,12 @@ struct RunningProgram {
   std::uint32_t crc = 0;
   std::uint32_t line = 0;  ///< newest that was executed; 0 = no program is under way
   bool operator==(const RunningProgram&) const = default;
+
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    visit("name", self.name), visit("revision", self.revision), visit("crc", self.crc);
+    visit("line", self.line);
+  }
 };
 
 std::string write_record(const RunningProgram& program);

@@ -70,6 +70,18 @@ class StreamLink {
   /// The newest feedback is the first of another process of the drive, which has answered nothing yet.
   bool drive_restarted() const { return drive_restarted_; }
   std::optional<idl::stream::StreamRequest> take_request();
+  /// Everything has been taken, and the channel owes nothing: the state that fields() lists is whole.
+  bool at_rest() const { return state_ == LinkState::idle && !outgoing_; }
+
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    visit("mode", self.mode_), visit("next", self.next_), visit("executed", self.executed_);
+    visit("epoch", self.epoch_), visit("request", self.request_), visit("answered", self.answered_);
+    visit("new_epoch", self.new_epoch_), visit("starts", self.starts_);
+    visit("echo_active", self.echo_active_), visit("resuming", self.resuming_);
+    visit("drive_restarted", self.drive_restarted_), visit("asked", self.asked_);
+    visit("snapshot", self.snapshot_), visit("states", self.states_), visit("positions", self.positions_);
+  }
 
  private:
   void request(idl::stream::StreamRequestKind kind);

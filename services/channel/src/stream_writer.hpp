@@ -59,6 +59,8 @@ class StreamWriter {
   const WrittenSetpoint& at(std::uint64_t cycle) const { return written_[cycle % history]; }
   /// The newest cycle that the drive has executed, when this process wrote it; else null.
   const WrittenSetpoint* executed() const;
+  /// Of the newest executed cycle: what a process needs that continues this one.
+  void set_executed(const WrittenSetpoint& written) { written_[written.cycle % history] = written; }
   /// Commands are counted anew; what was written before does not belong to them.
   void forget_sequences();
 

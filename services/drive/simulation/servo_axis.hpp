@@ -40,6 +40,18 @@ class ServoAxis {
   double torque() const { return torque_ / p_.rated_torque; }  ///< share of the rated torque
   double command() const { return command_; }
 
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    visit("command", self.command_);
+    visit("command_velocity", self.command_velocity_);
+    visit("position", self.position_);
+    visit("velocity", self.velocity_);
+    visit("torque", self.torque_);
+    visit("integral", self.integral_);
+    visit("encoder", self.encoder_);
+    visit("load", self.load_);
+  }
+
  private:
   static constexpr int substeps = 8;
   ServoParameters p_;

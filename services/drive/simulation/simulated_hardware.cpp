@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "simulated_hardware.hpp"
+
 #include "machine/parameter_constants.hpp"
+#include "snapshot/fields.hpp"
 
 namespace trunnion::drive {
 
@@ -28,6 +30,10 @@ void SimulatedHardware::configure(const machine::Parameters& p, const std::vecto
 void SimulatedHardware::restore(std::span<const double> positions) {
   for (std::size_t i = 0; i < servos_.size(); ++i) servos_[i].place(positions[i]);
 }
+
+bus::Json SimulatedHardware::explicit_state() const { return snapshot::written(*this); }
+
+void SimulatedHardware::continue_from(const bus::Json& state) { snapshot::read(state, *this); }
 
 void SimulatedHardware::status(DriveStatus& out) const {
   out.axes.resize(servos_.size());

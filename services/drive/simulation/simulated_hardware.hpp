@@ -16,17 +16,30 @@ class SimulatedHardware : public DriveHardware {
   void configure(const machine::Parameters& parameters, const std::vector<machine::AxisInfo>& axes,
                  const std::vector<machine::AxisInfo>& spindles, double period) override;
   void restore(std::span<const double> positions) override;
+  bus::Json explicit_state() const override;
+  void continue_from(const bus::Json& state) override;
   void status(DriveStatus& out) const override;
   bool enabled() const override { return true; }
   void reset_faults() override {}
   void set_reference(std::size_t axis, double shift) override;
   void exchange(const SetpointRow& row, DriveStatus& status, EncoderRowSink& rows) override;
 
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    visit("servos", self.servos_), visit("spindles", self.spindles_);
+    visit("home_switches", self.home_switches_), visit("skip_inputs", self.skip_inputs_);
+  }
+
  private:
   struct HomeSwitch {
     double position = 0, direction = 0;
     bool on = false;
     double latch = 0;
+
+    template <class Self, class Visit>
+    static void fields(Self& self, Visit&& visit) {
+      visit("on", self.on), visit("latch", self.latch);
+    }
   };
   double period_ = 0.001;
   std::vector<HomeSwitch> home_switches_;

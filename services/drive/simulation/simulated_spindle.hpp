@@ -17,6 +17,12 @@ class SimulatedSpindle {
   double speed() const { return speed_; }
   double angle() const { return angle_; }
 
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    visit("speed", self.speed_);
+    visit("angle", self.angle_);
+  }
+
  private:
   double period_ = 0.001, speed_step_ = 0;
   double speed_ = 0, angle_ = 0;

@@ -18,6 +18,12 @@ class SkipInputs {
   /// latched more finely than by the period. The first call only learns where the axes are.
   void step(const std::vector<ServoAxis>& servos, std::uint64_t number, EncoderRowSink& rows);
 
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    visit("load", self.load_);
+    visit("encoder", self.encoder_);
+  }
+
  private:
   struct Input {
     int column = -1;

@@ -57,6 +57,11 @@ class DriveCore {
   /// Continues from what an earlier process left. Call after the first configure().
   void restore(const Memory& memory);
   Memory memory() const;
+  /// Everything that determines what follows besides the parameters; null when the hardware cannot give it.
+  /// Call it when fill() and take_events() have taken everything.
+  bus::Json explicit_state() const;
+  /// Call after the first configure(). Throws nlohmann::json::exception when `state` is of another shape.
+  void continue_from(const bus::Json& state);
 
   /// A frame of the gantry stage; swapped away. False when a copy differs from what is here.
   bool put(idl::stream::AxisFrame& frame);
@@ -119,12 +124,23 @@ class DriveCore {
     std::vector<std::uint16_t> axes;  // of the frames, and the column of each
     std::vector<int> columns;
     int spindle = -1;  // that follows the channel's frames
+
+    template <class Self, class Visit>
+    static void fields(Self& self, Visit&& visit) {
+      visit("window", self.window), visit("active", self.active), visit("ending", self.ending);
+      visit("prefilled", self.prefilled), visit("begun", self.begun), visit("epoch", self.epoch);
+      visit("request", self.request), visit("start", self.start), visit("snapshot", self.snapshot);
+      visit("states", self.states), visit("axes", self.axes), visit("columns", self.columns);
+      visit("spindle", self.spindle);
+    }
   };
   // How far the setpoints at hand reach.
   struct Supply {
     std::uint64_t cycles = 0;  // from next_ on, for every channel that owes one
     bool ends = false;         // nothing is owed after them
   };
+
+  friend struct DriveState;  // drive_state.cpp
 
   Supply supply() const;
   const double* row(const Channel& channel, std::uint64_t cycle) const;

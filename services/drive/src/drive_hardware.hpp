@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "bus/json_type.hpp"
 #include "contracts/types.hpp"
 #include "machine/axes.hpp"
 #include "machine/parameters.hpp"
@@ -22,12 +23,23 @@ namespace trunnion::drive {
 /// What an axis is to do in one period: reach `position` at its end. The other two are feed-forward.
 struct AxisSetpoint {
   double position = 0, velocity = 0, acceleration = 0;
+
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    visit("position", self.position), visit("velocity", self.velocity);
+    visit("acceleration", self.acceleration);
+  }
 };
 
 struct SpindleSetpoint {
   double speed = 0;      ///< demanded by the PLC; not in force while coupled
   bool coupled = false;  ///< the spindle follows `angle` (tapping)
   double angle = 0;
+
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    visit("speed", self.speed), visit("coupled", self.coupled), visit("angle", self.angle);
+  }
 };
 
 /// One period of every axis and spindle.
@@ -38,6 +50,12 @@ struct SetpointRow {
   bool controlled = false;
   std::vector<AxisSetpoint> axes;
   std::vector<SpindleSetpoint> spindles;
+
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    visit("number", self.number), visit("enable", self.enable), visit("controlled", self.controlled);
+    visit("axes", self.axes), visit("spindles", self.spindles);
+  }
 };
 
 struct AxisStatus {
@@ -94,6 +112,12 @@ class DriveHardware {
   /// Not cyclic, after the first configure(): positions an earlier process has left, as absolute encoders
   /// would. Hardware that knows its positions itself ignores them.
   virtual void restore(std::span<const double> positions) = 0;
+  /// Everything that determines the next period besides the parameters, for a recording; null when the
+  /// hardware cannot give it. Not cyclic.
+  virtual bus::Json explicit_state() const;
+  /// After the first configure(): continues as the hardware that gave `state`. Not cyclic. Throws
+  /// nlohmann::json::exception when it is of another shape.
+  virtual void continue_from(const bus::Json& /*state*/) {}
   /// The machine now, without a period; not cyclic.
   virtual void status(DriveStatus& out) const = 0;
 

@@ -25,12 +25,30 @@ class ExecutedRows final : public EncoderRowSink {
   /// Moves the rows into `out` and forgets them; `next` is the cycle that is handed over next.
   void fill(idl::stream::FeedbackFrame& out, std::uint64_t next);
 
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    visit("pending", self.pending_);
+    visit("pending_setpoints", self.pending_setpoints_);
+    visit("first", self.first_);
+    visit("count", self.count_);
+    visit("commanded", self.commanded_);
+    visit("actual", self.actual_);
+    visit("spindle_angle", self.spindle_angle_);
+    visit("waiting_edges", self.waiting_edges_);
+    visit("skips", self.skips_);
+  }
+
   /// What one FeedbackFrame can carry; further edges are a bouncing contact and dropped.
   static constexpr std::size_t most_skip_edges = 16;
 
  private:
   struct Pending {
     std::uint64_t cycle, number;
+
+    template <class Self, class Visit>
+    static void fields(Self& self, Visit&& visit) {
+      visit("cycle", self.cycle), visit("number", self.number);
+    }
   };
   void report_skip_edges(const Pending& executed);
 

@@ -16,6 +16,13 @@ class Homing {
     double acceleration = 1000;     ///< mm/s2 or deg/s2
     double travel = 1000;           ///< mm or deg; the search gives up beyond it
     double reference = 0;           ///< machine position of the edge
+
+    template <class Self, class Visit>
+    static void fields(Self& self, Visit&& visit) {
+      visit("direction", self.direction), visit("search", self.search), visit("creep", self.creep);
+      visit("acceleration", self.acceleration), visit("travel", self.travel);
+      visit("reference", self.reference);
+    }
   };
   enum class State { idle, moving, done, failed };
 
@@ -29,6 +36,19 @@ class Homing {
   State state() const { return state_; }
   /// Machine position less the one of the encoder, when done.
   double shift() const { return settings_.reference - latch_; }
+
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    visit("settings", self.settings_);
+    visit("state", self.state_);
+    visit("phase", self.phase_);
+    visit("aborted", self.aborted_);
+    visit("position", self.position_);
+    visit("start", self.start_);
+    visit("velocity", self.velocity_);
+    visit("latch", self.latch_);
+    visit("at_rest", self.at_rest_);
+  }
 
  private:
   enum class Phase { leave_fast, search, leave, creep, settle };

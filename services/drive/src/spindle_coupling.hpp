@@ -22,6 +22,14 @@ class SpindleCoupling {
 
   const SpindleSetpoint& setpoint() const { return setpoint_; }
 
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    visit("setpoint", self.setpoint_);
+    visit("origin", self.origin_);
+    visit("target", self.target_);
+    visit("change", self.change_);
+  }
+
  private:
   SpindleSetpoint setpoint_;
   double origin_ = 0, target_ = 0, change_ = 0;

@@ -41,9 +41,11 @@ bool GantryCore::process(const idl::stream::AxisFrame& in, const stream::Feedbac
     return true;
   }
   // The error of cycle n is corrected at n + lead + 1: credits guarantee that its feedback exists by then.
+  // The first cycles after a start of the drive on kept state have none: the axes were at rest.
   const std::uint64_t last = in.first + in.count - 1;
   for (std::uint64_t n = in.first; n <= last; ++n)
-    if (n > lead_ && feedback.actual(n - lead_ - 1) == nullptr) return false;
+    if (n > lead_ && feedback.actual(n - lead_ - 1) == nullptr && !feedback.is_before_history(n - lead_ - 1))
+      return false;
   out.axes = in.axes;
   std::array<std::size_t, 32> columns{};
   own_columns_ = false;

@@ -45,6 +45,39 @@ TEST(Gantry, AMirroredSlaveMovesOpposite) {
   EXPECT_EQ(out.setpoints[2], -1.5);
 }
 
+// A machine that was switched off at cycle 100: lead 8, so cycles up to 108 would need rows from before.
+TEST(Gantry, AfterAStartOnKeptStateNothingWaitsForFeedbackFromBefore) {
+  GantryCore core;
+  core.configure(gantry(), 0);
+  stream::FeedbackWindow feedback;
+  idl::stream::AxisFrame out;
+  EXPECT_FALSE(core.process(frame(100, 0, 0), feedback, out)) << "nothing of the drive has arrived";
+  idl::stream::FeedbackFrame f;
+  f.first = 100, f.count = 0, f.axis_count = 3;
+  feedback.put(f);
+  for (std::uint64_t n = 100; n <= 108; ++n) {
+    ASSERT_TRUE(core.process(frame(n, 0, 0), feedback, out)) << n;
+    EXPECT_EQ(out.setpoints[2], 0.5) << "not corrected";
+  }
+  EXPECT_FALSE(core.process(frame(109, 0, 0), feedback, out)) << "cycle 109 needs the feedback of cycle 100";
+}
+
+TEST(Gantry, RowsOfADriveThatWasRestartedDoNotCountAnyMore) {
+  stream::FeedbackWindow feedback;
+  idl::stream::FeedbackFrame f;
+  f.first = 90, f.count = 1, f.axis_count = 3;
+  f.actual = {0, 0, 0.6};
+  feedback.put(f);
+  EXPECT_NE(feedback.actual(90), nullptr);
+  f = {};
+  f.first = 91, f.axis_count = 3;
+  f.applied = {{idl::stream::Input::PARAMETER_SET, 0, 1}};
+  feedback.put(f);
+  EXPECT_EQ(feedback.actual(90), nullptr) << "a stage that starts now has never seen it";
+  EXPECT_TRUE(feedback.is_before_history(90));
+  EXPECT_FALSE(feedback.is_before_history(91));
+}
+
 TEST(Gantry, TheErrorOfCycleNIsCorrectedAtNPlusLeadPlusOneAndWaitsForIt) {
   GantryCore core;
   core.configure(gantry(), 0);

@@ -22,6 +22,12 @@ struct Registers {
   std::array<std::uint16_t, register_count> f{}, g{};
   std::array<std::int32_t, register_count> b{};
   bool operator==(const Registers&) const = default;
+
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    visit("x", self.x), visit("y", self.y), visit("r", self.r), visit("f", self.f), visit("g", self.g);
+    visit("b", self.b);
+  }
 };
 
 struct Timer {
@@ -29,11 +35,22 @@ struct Timer {
   std::uint8_t running = 0;  ///< counts towards `end`
   std::uint8_t input = 0;    ///< of the last scan
   std::uint8_t output = 0;
+
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    visit("end", self.end), visit("running", self.running), visit("input", self.input);
+    visit("output", self.output);
+  }
 };
 
 struct Counter {
   std::int32_t value = 0;
   std::uint8_t input = 0;
+
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    visit("value", self.value), visit("input", self.input);
+  }
 };
 
 /// State of the function blocks of every task.
@@ -41,6 +58,11 @@ struct Blocks {
   std::array<Timer, timer_count> timers{};
   std::array<Counter, counter_count> counters{};
   std::array<std::uint8_t, edge_count> edges{};
+
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    visit("timers", self.timers), visit("counters", self.counters), visit("edges", self.edges);
+  }
 };
 
 enum class HandshakeState : std::uint32_t { none, waiting, strobe, done };
@@ -54,6 +76,13 @@ struct Handshake {
   double value = 0;
   std::uint64_t cycle = 0;
   std::uint32_t failed = 0;
+
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    visit("state", self.state), visit("number", self.number), visit("kind", self.kind);
+    visit("code", self.code), visit("value", self.value), visit("cycle", self.cycle);
+    visit("failed", self.failed);
+  }
 };
 
 struct Memory {
@@ -66,6 +95,13 @@ struct Memory {
   std::array<double, spindle_count> spindle_command{};  ///< 1/min, signed
   std::array<std::uint64_t, spindle_count>
       spindle_since{};  ///< PLC time in ms of the last change of the command
+
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    visit("registers", self.registers), visit("blocks", self.blocks), visit("handshakes", self.handshakes);
+    visit("now_us", self.now_us), visit("scans", self.scans), visit("tick", self.tick);
+    visit("spindle_command", self.spindle_command), visit("spindle_since", self.spindle_since);
+  }
 };
 static_assert(std::is_trivially_copyable_v<Memory>);
 
@@ -74,6 +110,11 @@ struct View {
   struct Channel {
     bool seen = false, active = false;
     std::uint32_t resets = 0;
+
+    template <class Self, class Visit>
+    static void fields(Self& self, Visit&& visit) {
+      visit("seen", self.seen), visit("active", self.active), visit("resets", self.resets);
+    }
   };
   std::array<Channel, channel_count> channels{};
   std::array<double, spindle_count> spindle_actual{};  ///< 1/min
@@ -82,12 +123,26 @@ struct View {
   bool drive_seen = false;
   bool stopped_waiting = false;  ///< waiting for the drive's confirmation of a standstill
   bool changed = true;           ///< an input, since the image was stable
+
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    visit("channels", self.channels), visit("spindle_actual", self.spindle_actual);
+    visit("spindles_received", self.spindles_received), visit("executed", self.executed);
+    visit("drive_seen", self.drive_seen), visit("stopped_waiting", self.stopped_waiting);
+    visit("changed", self.changed);
+  }
 };
 
 /// Everything that determines the next step of the PLC, besides its programs and parameters.
 struct Snapshot {
   Memory memory;
   View view;
+
+  /// For libs/snapshot, as in the structs above.
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    visit("memory", self.memory), visit("view", self.view);
+  }
 };
 static_assert(std::is_trivially_copyable_v<Snapshot>);
 

@@ -12,7 +12,6 @@ namespace {
 
 using idl::program::Operation;
 
-constexpr const char* index_file = "programs.yaml";
 constexpr const char* index_temporary = "programs.yaml.new";
 constexpr const char* copy_temporary = ".copy";
 constexpr const char* upload_prefix = ".upload-";

@@ -12,7 +12,8 @@ namespace trunnion::program {
 inline constexpr std::size_t longest_chunk = 60000;  ///< bytes of one READ or WRITE
 inline constexpr std::size_t most_programs = 4096;   ///< in the store
 inline constexpr std::size_t most_uploads = 64;      ///< at the same time
-inline constexpr double upload_patience = 60;        ///< s without a WRITE after which an upload is dropped
+inline constexpr const char* index_file = "programs.yaml";
+inline constexpr double upload_patience = 60;  ///< s without a WRITE after which an upload is dropped
 
 class ProgramStore {
  public:

@@ -26,6 +26,8 @@ class Destination {
   virtual void idle(double now) = 0;
   virtual void finish(double now) = 0;
 
+  /// Counts the recordings that have started with the states that were valid then.
+  virtual std::uint32_t started() const = 0;
   /// Files so far, the oldest first; without those that were removed for new parts.
   virtual const std::vector<FileReport>& files() const = 0;
   /// Messages that could not be written, and why: one line, empty without a problem.

@@ -32,6 +32,8 @@ class FlightRecorder final : public Destination {
   void idle(double now) override;
   /// A pending alarm is saved with the messages so far.
   void finish(double now) override;
+  /// It starts once: what is kept is asked for now and then.
+  std::uint32_t started() const override { return 1; }
   const std::vector<FileReport>& files() const override { return files_; }
   std::uint64_t unwritten() const override { return unwritten_; }
   const std::string& problem() const override { return problem_; }

@@ -26,6 +26,7 @@ void PartFiles::begin_part(double now) {
   file_ = std::make_unique<RecordingFile>(limits_.any() ? numbered(path_, number_) : path_, header_, part);
   files_.push_back({file_->path(), 0, 0, ""});
   began_ = flushed_ = now;
+  ++started_;
   for (const auto* message : states_.states()) write(*message);
 }
 

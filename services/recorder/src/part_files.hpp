@@ -28,6 +28,7 @@ class PartFiles final : public Destination {
   void take(Message& message, double now) override;
   void idle(double now) override;
   void finish(double now) override;
+  std::uint32_t started() const override { return started_; }
   const std::vector<FileReport>& files() const override { return files_; }
   std::uint64_t unwritten() const override { return unwritten_; }
   const std::string& problem() const override { return problem_; }
@@ -43,7 +44,7 @@ class PartFiles final : public Destination {
   const PartLimits limits_;
   StateKeeper states_;
   std::unique_ptr<RecordingFile> file_;
-  std::uint32_t number_ = 0;
+  std::uint32_t number_ = 0, started_ = 0;
   double began_ = 0, flushed_ = 0;
   std::vector<FileReport> files_;
   std::uint64_t unwritten_ = 0;

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+// The explicit state of a channel at rest, from which a verification continues.
+#include "channel_core.hpp"
+#include "snapshot/fields.hpp"
+#include "variable_text.hpp"
+
+namespace trunnion::channel {
+namespace {
+constexpr const char* this_boot = "snapshot";  // common variables are kept, too
+}
+
+/// The list of fields of a channel that is idle; all others are empty then or made when something starts.
+struct ChannelFields {
+  template <class Core>
+  struct Of {
+    Core& core;
+    template <class Self, class Visit>
+    static void fields(Self& self, Visit&& visit) {
+      auto& c = self.core;
+      visit("link", c.stream_.link()), visit("handshake", c.handshake_), visit("lock", c.lock_);
+      visit("mode", c.mode_), visit("switches", c.switches_), visit("ready", c.ready_);
+      visit("hold", c.external_hold_), visit("reset_count", c.reset_count_), visit("selected", c.selected_);
+      visit("program_start", c.program_start_), visit("interrupted", c.interrupted_);
+      visit("modal", c.mdi_.modal), visit("position", c.machine_start_), visit("progress", c.progress_);
+      visit("tool", c.tool_), visit("spindle_programmed", c.spindle_programmed_);
+    }
+  };
+};
+
+bus::Json ChannelCore::explicit_state(std::string& why_not) const {
+  if (!recovered_)
+    why_not = "the channel waits for the drive";
+  else if (!states_.in<Idle>())
+    why_not = "the channel is " + states_.name();
+  else if (!link().at_rest() || !handshake_.at_rest() || !manual_.offset_at_rest() || next_parameters_)
+    why_not = "the channel comes to rest";
+  else if (mdi_.frames_kept)
+    why_not = "the coordinate frames of the MDI lines since the last program or reset are in no snapshot";
+  if (!why_not.empty()) return nullptr;
+  auto state = snapshot::written(ChannelFields::Of<const ChannelCore>{*this});
+  state["offset_on"] = manual_.offset_on();
+  state["offset"] = manual_.offset();
+  state["skips"] = snapshot::written(program_flow_.skips());
+  state["variables"] = write_variables(*variables_, this_boot);
+  if (const auto* executed = stream_.executed()) state["executed"] = snapshot::written(*executed);
+  return state;
+}
+
+void ChannelCore::continue_from(const bus::Json& state) {
+  ChannelFields::Of<ChannelCore> fields{*this};
+  snapshot::read(state, fields);
+  AxisValues offset{};
+  snapshot::read(state.at("offset"), offset);
+  std::vector<program_execution::SkipResult> skips;
+  snapshot::read(state.at("skips"), skips);
+  program_flow_.set_skips(std::move(skips));
+  *variables_ = {};
+  read_variables(state.at("variables").get<std::string>(), "snapshot", this_boot, *variables_);
+  if (const auto executed = state.find("executed"); executed != state.end()) {
+    WrittenSetpoint written;
+    snapshot::read(*executed, written);
+    stream_.set_executed(written);
+  }
+  manual_.switch_offset(state.at("offset_on").get<bool>());
+  build_paths();
+  manual_.place_offset(offset);
+  recovered_ = true;
+}
+
+}  // namespace trunnion::channel

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+// The explicit state of the executor, from which a verification continues.
+#include "drive_core.hpp"
+#include "snapshot/fields.hpp"
+
+namespace trunnion::drive {
+
+/// The list of fields; limits, axes and other values that configure() takes from the parameters are none.
+struct DriveState {
+  template <class Core>
+  struct Of {
+    Core& core;
+    template <class Self, class Visit>
+    static void fields(Self& self, Visit&& visit) {
+      auto& c = self.core;
+      visit("channels", c.channels_), visit("row", c.row_), visit("rows", c.rows_);
+      visit("mode", c.mode_), visit("enabled", c.enabled_), visit("control_lost", c.control_lost_);
+      visit("next", c.next_), visit("tick", c.tick_), visit("starved", c.starved_);
+      visit("command", c.command_), visit("target", c.target_), visit("velocity", c.velocity_);
+      visit("rate", c.rate_), visit("rate_step", c.rate_step_), visit("phase", c.phase_);
+      visit("dip_step", c.dip_step_), visit("dip_depth", c.dip_depth_), visit("dip_periods", c.dip_periods_);
+      visit("off_path", c.off_path_), visit("resume", c.resume_), visit("reserve", c.reserve_);
+      visit("settle", c.settle_), visit("homing", c.homing_), visit("homing_axis", c.homing_axis_);
+      visit("return_from", c.return_from_), visit("return_to", c.return_to_);
+      visit("return_periods", c.return_periods_), visit("return_done", c.return_done_);
+      visit("spindles", c.spindles_), visit("reported", c.reported_);
+    }
+  };
+};
+
+bus::Json DriveHardware::explicit_state() const { return nullptr; }
+
+bus::Json DriveCore::explicit_state() const {
+  auto hardware = hardware_->explicit_state();
+  if (hardware.is_null()) return nullptr;
+  auto state = snapshot::written(DriveState::Of<const DriveCore>{*this});
+  state["hardware"] = std::move(hardware);
+  return state;
+}
+
+void DriveCore::continue_from(const bus::Json& state) {
+  DriveState::Of<DriveCore> fields{*this};
+  snapshot::read(state, fields);
+  hardware_->continue_from(state.at("hardware"));
+  hardware_->status(status_);
+}
+
+}  // namespace trunnion::drive
