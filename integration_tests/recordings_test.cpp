@@ -127,7 +127,10 @@ TEST_P(Recording, InParts) {
   }
   machine_.stop_recording();
   machine_.expect_verified("parts-0001.mcap");
-  machine_.expect_verified("parts-0002.mcap");
+  // In real time the program takes longer than a part, and a channel gives its state at rest.
+  const bool real = GetParam().time == Time::real;
+  machine_.expect_verified("parts-0002.mcap",
+                           real ? std::set<std::string>{"channel"} : std::set<std::string>{});
 }
 
 TEST_P(Recording, AfterEachServiceWasKilled) {
