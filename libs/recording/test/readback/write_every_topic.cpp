@@ -133,6 +133,8 @@ int main(int argc, char** argv) {
   all.add(topics::service_state);
   all.add(topics::alarm);
   all.add(topics::alarm_reset);
+  all.add(topics::snapshot_request);
+  all.add(topics::service_snapshot);
   all.add(topics::cluster);
   all.add(topics::swap_request);
   all.add(topics::swap_reply);
