@@ -42,7 +42,7 @@ std::string from_hexadecimal(const std::string& text) {
 bus::Json kept_files(const std::string& directory, const std::vector<std::string>& names) {
   auto files = bus::Json::array();
   for (const auto& name : names) {
-    std::ifstream in(directory + "/" + name, std::ios::binary);
+    std::ifstream in(std::filesystem::path(directory) / name, std::ios::binary);
     if (!in) continue;
     std::ostringstream bytes;
     bytes << in.rdbuf();
@@ -57,9 +57,10 @@ void put_files(const std::string& directory, const bus::Json& files) {
     // Names come with a recording: none leads out of the directory.
     if (name != std::filesystem::path(name).filename())
       throw std::runtime_error("the snapshot has a file with a path: " + name);
-    std::ofstream out(directory + "/" + name, std::ios::binary);
+    const auto path = std::filesystem::path(directory) / name;
+    std::ofstream out(path, std::ios::binary);
     out << from_hexadecimal(file.at("bytes").get<std::string>());
-    if (!out.flush()) throw std::runtime_error(directory + "/" + name + ": cannot be written");
+    if (!out.flush()) throw std::runtime_error(path.string() + ": cannot be written");
   }
 }
 
