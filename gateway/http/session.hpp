@@ -24,7 +24,7 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
   HttpSession(boost::asio::ip::tcp::socket&& socket, Api& api, StreamHub& hub);
   void start();
   const Connection& connection() const { return connection_; }
-  /// Makes room for another one.
+  /// Another connection takes its place.
   void close();
 
  private:

@@ -1,132 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// The real executable with real DDS on one side and real sockets on the other; the rest of the cluster is a
-// fake.
-#include <arpa/inet.h>
-#include <fcntl.h>
+// What the gateway does with requests.
 #include <gmock/gmock.h>
-#include <signal.h>
-#include <sys/socket.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
-#include <fstream>
-#include <nlohmann/json.hpp>
-#include <thread>
-
-#include "http_client/client.hpp"
+#include "gateway_fixture.hpp"
 #include "storage/crc32.hpp"
-#include "test/fake_cluster.hpp"
-#include "testing_support/eventually.hpp"
 
 namespace trunnion::gateway {
 namespace {
 
-using http_client::free_port;
 using http_client::raw_exchange;
-using http_client::Response;
 using http_client::send_and_go;
 using http_client::WebSocketClient;
-using nlohmann::json;
 using testing::HasSubstr;
-using testing_support::eventually;
-
-constexpr std::uint32_t domain = 51;
-
-/// A child process; its standard error goes to a file.
-class Process {
- public:
-  Process(const std::vector<std::string>& arguments, const std::string& error_file) {
-    pid_ = fork();
-    if (pid_ != 0) return;
-    const int fd = ::open(error_file.c_str(), O_CREAT | O_TRUNC | O_WRONLY, 0644);
-    dup2(fd, 2);
-    std::vector<char*> argv;
-    for (const auto& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
-    argv.push_back(nullptr);
-    execv(argv[0], argv.data());
-    _exit(127);
-  }
-  ~Process() {
-    if (pid_ > 0) {
-      kill(pid_, SIGTERM);
-      wait();
-    }
-  }
-  int wait() {
-    int status = 0;
-    if (pid_ > 0) waitpid(pid_, &status, 0);
-    pid_ = -1;
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  }
-
- private:
-  pid_t pid_ = -1;
-};
-
-std::vector<std::string> command_line(std::uint16_t port, const std::string& web) {
-  return {GATEWAY,
-          "--machine",
-          MACHINE,
-          "--state",
-          testing::TempDir(),
-          "--domain",
-          std::to_string(domain),
-          "--port",
-          std::to_string(port),
-          "--web",
-          web,
-          "--instance",
-          "20"};
-}
-
-class Gateway : public testing::Test {
- protected:
-  void SetUp() override {
-    web_ = testing::TempDir() + "/gateway_web_" + std::to_string(getpid());
-    std::filesystem::create_directories(web_);
-    std::ofstream(web_ + "/index.html") << "<p>the page</p>";
-    process_ = std::make_unique<Process>(command_line(port_, web_), web_ + "/stderr.txt");
-    stepper_ = std::thread([this] {
-      while (!stop_) {
-        {
-          const std::lock_guard lock(mutex_);
-          cluster_.step();
-        }
-        std::this_thread::sleep_for(std::chrono::milliseconds(2));
-      }
-    });
-    ASSERT_TRUE(eventually([&] {
-      return get("/api/channels/0").status == 200 && get("/api/programs").status == 200 &&
-             get("/api/parameters/100034").status == 200 && get("/api/work-offsets").status == 200 &&
-             get("/api/tools").status == 200 && get("/api/plc/image").status == 200;
-    }));
-  }
-  void TearDown() override {
-    stop_ = true;
-    stepper_.join();
-    process_.reset();
-    std::filesystem::remove_all(web_);
-  }
-
-  Response get(const std::string& target) const { return http_client::request(port_, "GET", target); }
-  Response post(const std::string& target, const json& body = json::object()) const {
-    return http_client::request(port_, "POST", target, body.dump());
-  }
-  /// `look(cluster)` while the cluster stands still.
-  template <class Look>
-  auto cluster(Look look) {
-    const std::lock_guard lock(mutex_);
-    return look(cluster_);
-  }
-
-  const std::uint16_t port_ = free_port();
-  std::string web_;
-  std::mutex mutex_;
-  FakeCluster cluster_{{domain}};
-  std::atomic<bool> stop_ = false;
-  std::thread stepper_;
-  std::unique_ptr<Process> process_;
-};
 
 TEST_F(Gateway, ShowsTheCluster) {
   const auto status = json::parse(get("/api/status").body);
@@ -397,103 +282,6 @@ TEST_F(Gateway, AnAlarmResetIsPublished) {
   EXPECT_EQ(post("/api/alarms/reset").status, 200);
   EXPECT_TRUE(eventually([&] { return json::parse(get("/api/alarms").body)["alarms"].empty(); }));
   cluster([](auto& c) { EXPECT_EQ(c.alarm_resets.at(0).channel, 65535); });
-}
-
-TEST_F(Gateway, TheStreamIsTheStateAndThenItsChanges) {
-  WebSocketClient client(port_, "/api/stream");
-  ASSERT_TRUE(client.open());
-  auto first = json::parse(client.next().value());
-  ASSERT_TRUE(first.contains("state"));
-  auto state = first["state"];
-  EXPECT_EQ(state["channels"]["0"]["program"], "CIRCLE.NC");
-  std::uint64_t sequence = first["sequence"];
-  EXPECT_EQ(post("/api/channels/0/cycle-start").status, 200);
-  bool running = false;
-  for (int i = 0; i < 60 && !running; ++i) {
-    const auto message = json::parse(client.next().value());
-    ASSERT_EQ(message["since"], sequence);
-    sequence = message["sequence"];
-    EXPECT_FALSE(message["changes"].contains("cluster")) << "only what changed is sent";
-    state.merge_patch(message["changes"]);
-    running = state["channels"]["0"]["state"] == "RUNNING";
-  }
-  EXPECT_TRUE(running);
-}
-
-TEST_F(Gateway, AClientThatDoesNotReadGetsNewerStatesAndNotAQueue) {
-  EXPECT_EQ(post("/api/channels/0/cycle-start").status, 200);
-  WebSocketClient client(port_, "/api/stream", 4096);
-  ASSERT_TRUE(client.open());
-  auto first = json::parse(client.next().value());
-  auto state = first["state"];
-  std::uint64_t sequence = first["sequence"], widest = 0;
-  // While it does not read, the gateway goes on answering others.
-  for (int i = 0; i < 80; ++i) {
-    EXPECT_EQ(get("/api/status").status, 200);
-    std::this_thread::sleep_for(std::chrono::milliseconds(100));
-  }
-  for (int i = 0; i < 400 && widest < 20; ++i) {
-    const auto message = json::parse(client.next().value());
-    ASSERT_EQ(message["since"], sequence) << "the chain of changes stays whole";
-    widest = std::max(widest, message["sequence"].get<std::uint64_t>() - sequence);
-    sequence = message["sequence"];
-    state.merge_patch(message["changes"]);
-  }
-  EXPECT_GE(widest, 20u) << "one message brings the client over all it missed";
-  const auto now = cluster([](auto& c) { return c.channel.cycle; });
-  EXPECT_NEAR(state["channels"]["0"]["cycle"].get<double>(), static_cast<double>(now), 2000)
-      << "and it is new";
-}
-
-/// A connection on which nothing, or the beginning of a request, is sent.
-int half_open(std::uint16_t port, const std::string& begin) {
-  const int fd = ::socket(AF_INET, SOCK_STREAM, 0);
-  sockaddr_in to{};
-  to.sin_family = AF_INET;
-  to.sin_port = htons(port);
-  to.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-  EXPECT_EQ(::connect(fd, reinterpret_cast<const sockaddr*>(&to), sizeof to), 0);
-  EXPECT_EQ(::send(fd, begin.data(), begin.size(), MSG_NOSIGNAL), static_cast<ssize_t>(begin.size()));
-  return fd;
-}
-
-TEST_F(Gateway, WhoeverHoldsConnectionsKeepsNoStopOut) {
-  std::vector<int> held;
-  // More than the gateway keeps: silent ones, halves of headers, and uploads that never go on.
-  for (int i = 0; i < 150; ++i) held.push_back(half_open(port_, ""));
-  for (int i = 0; i < 150; ++i)
-    held.push_back(half_open(port_, "POST /api/panel/emergency-stop HTTP/1.1\r\nHo"));
-  for (int i = 0; i < 150; ++i)
-    held.push_back(half_open(port_, "PUT /api/programs/A" + std::to_string(i) +
-                                        ".NC HTTP/1.1\r\nHost: a\r\nContent-Length: 100000\r\n\r\nG0"));
-  EXPECT_EQ(post("/api/panel/emergency-stop").status, 200);
-  EXPECT_EQ(post("/api/channels/0/feed-hold").status, 200);
-  for (const int fd : held) ::close(fd);
-}
-
-TEST_F(Gateway, AStopComesByTheStreamWithoutANewConnection) {
-  WebSocketClient client(port_, "/api/stream");
-  ASSERT_TRUE(client.open());
-  const auto answer_to = [&](const json& order) {
-    client.send(order.dump());
-    for (int i = 0; i < 100; ++i) {
-      const auto message = json::parse(client.next().value());
-      if (message.contains("answer")) return message;
-    }
-    return json();
-  };
-  auto answer = answer_to({{"order", 7}, {"path", "/api/panel/emergency-stop"}});
-  EXPECT_EQ(answer["answer"], 7);
-  EXPECT_EQ(answer["status"], 200);
-  EXPECT_EQ(answer["body"]["accepted"], true);
-  answer = answer_to({{"order", 8}, {"path", "/api/channels/0/feed-hold"}, {"body", json::object()}});
-  EXPECT_EQ(answer["status"], 200);
-  EXPECT_EQ(answer_to({{"order", 9}, {"path", "/api/channels/0/feed-hold"}, {"body", 3}})["status"], 400);
-  EXPECT_EQ(answer_to({{"order", 10}, {"path", "/api/channels/0/cycle-start"}})["status"], 404);
-  EXPECT_EQ(answer_to({{"order", 11}, {"path", 5}})["status"], 404);
-  // What is no order is passed over.
-  for (const char* text : {"", "{", "[]", "null", "{\"path\":1}"}) client.send(text);
-  EXPECT_EQ(answer_to({{"order", 12}, {"path", "/api/panel/emergency-stop"}})["answer"], 12);
 }
 
 TEST_F(Gateway, ServesThePageAndNothingElse) {

@@ -5,8 +5,8 @@
 
 namespace trunnion::service {
 
-/// The time during which this process ran. A process that was suspended, or whose computer stood still, has
-/// received nothing meanwhile; who judges others by their silence measures it by this time.
+/// The time during which this process ran. A process that was suspended, or whose computer paused, has
+/// received nothing meanwhile; silence of others is measured by this time.
 class RunningTime {
  public:
   static constexpr double longest_pause = 0.1;  ///< s; what lies between two calls counts as no more

@@ -7,6 +7,8 @@
 #include <numbers>
 #include <random>
 
+#include "circle_points.hpp"
+
 namespace trunnion::motion {
 namespace {
 
@@ -14,18 +16,6 @@ constexpr BlendRules rules{0.01, 0.05};
 
 double distance(const AxisValues& a, const AxisValues& b) {
   return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
-}
-
-std::vector<AxisValues> circle(double radius, double chord, int decimals) {
-  const double grain = std::pow(10, -decimals);
-  const int count = static_cast<int>(std::round(2 * std::numbers::pi * radius / chord));
-  std::vector<AxisValues> points;
-  for (int k = 0; k <= count; ++k) {
-    const double angle = 2 * std::numbers::pi * k / count;
-    points.push_back({std::round(radius * std::cos(angle) / grain) * grain,
-                      std::round(radius * std::sin(angle) / grain) * grain});
-  }
-  return points;
 }
 
 PathBlock line(const AxisValues& from, const AxisValues& to, std::uint32_t number, const BlendRules& r) {
@@ -114,7 +104,8 @@ TEST(Compressor, dense_circles_are_true_to_size_at_any_tolerance) {
     for (const double chord : {0.05, 0.1, 0.2, 0.5})
       for (const int decimals : {2, 3, 4})
         for (const double tolerance : {0.01, 0.05}) {
-          const auto blocks = compress(circle(radius, chord, decimals), {tolerance, 0.05});
+          const auto blocks =
+              compress(circle_points(radius, chord, std::pow(10, -decimals)), {tolerance, 0.05});
           const double sagitta = chord * chord / (8 * radius);
           EXPECT_LE(std::abs(mean_radial_error(blocks, radius)), 2 * sagitta + 0.0002)
               << "R" << radius << " chord " << chord << " decimals " << decimals << " tolerance "
@@ -228,7 +219,8 @@ TEST(Compressor, a_join_that_turns_by_more_than_the_permitted_angle_is_a_stop) {
 }
 
 TEST(Compressor, a_tolerance_of_zero_leaves_the_lines_as_they_are) {
-  for (const PathBlock& block : compress(circle(10, 0.1, 3), {0, 0.05})) EXPECT_FALSE(block.path.is_curve());
+  for (const PathBlock& block : compress(circle_points(10, 0.1, 1e-3), {0, 0.05}))
+    EXPECT_FALSE(block.path.is_curve());
 }
 
 TEST(Compressor, other_blocks_come_back_at_once) {

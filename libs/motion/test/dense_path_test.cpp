@@ -5,6 +5,7 @@
 #include <numbers>
 #include <random>
 
+#include "circle_points.hpp"
 #include "motion_fixture.hpp"
 
 namespace trunnion::motion::test {
@@ -29,14 +30,7 @@ Dense through(const std::vector<AxisValues>& points, double feed) {
 }
 
 Dense circle(double radius, double chord, double grain, double feed) {
-  const int count = static_cast<int>(std::round(2 * std::numbers::pi * radius / chord));
-  std::vector<AxisValues> points;
-  for (int k = 0; k <= count; ++k) {
-    const double angle = 2 * std::numbers::pi * k / count;
-    points.push_back({std::round(radius * std::cos(angle) / grain) * grain,
-                      std::round(radius * std::sin(angle) / grain) * grain});
-  }
-  return through(points, feed);
+  return through(circle_points(radius, chord, grain), feed);
 }
 
 Limits strong() {

@@ -41,7 +41,8 @@ struct Channel : ::testing::Test {
   std::shared_ptr<machine::Parameters> parameters = three_axes();
 
   void SetUp() override { begin(); }
-  void begin() {
+  /// A new process, which has received parameters, tool 1 of 50 mm and no offsets.
+  void start_process() {
     core = std::make_unique<ChannelCore>(0, true);
     core->set_parameters(parameters);
     idl::parameters::ToolTable tools;
@@ -49,6 +50,9 @@ struct Channel : ::testing::Test {
     tools.tools[0].number = 1, tools.tools[0].length = 50;
     core->set_tools(tools);
     core->set_offsets({});
+  }
+  void begin() {
+    start_process();
     core->set_ready(true);
     store();
     core->on_feedback(drive.run(0));

@@ -374,47 +374,6 @@ TEST_F(Channel, AnAlarmThatHoldsStopsTheMotionAndCycleStartIsRefusedUntilItIsGon
   EXPECT_EQ(drive.rows.back()[0], 100);
 }
 
-TEST_F(Channel, AProgramThatChangesATableWaitsUntilItsOwnerHasDoneSo) {
-  load("G90 G54\nG10 L2 P1 X5\nG1 X10 F6000\nM30\n");
-  ask(CommandKind::CYCLE_START);
-  for (int i = 0; i < 20; ++i) round();
-  EXPECT_EQ(core->run_state(), RunState::WAITING);
-  const auto request = core->take_table_request();
-  ASSERT_TRUE(request);
-  ASSERT_EQ(request->offsets.size(), 1u);
-  EXPECT_EQ(request->offsets[0].values[0], 5);
-  core->on_table_changed("");
-  run();
-  EXPECT_EQ(core->run_state(), RunState::IDLE);
-  EXPECT_EQ(drive.rows.back()[0], 15) << "G54 X5 and X10";
-}
-
-TEST_F(Channel, ARefusedTableStopsTheProgramWithTheReason) {
-  load("G10 L2 P1 X5\nG1 X10 F6000\nM30\n");
-  ask(CommandKind::CYCLE_START);
-  for (int i = 0; i < 20; ++i) round();
-  ASSERT_TRUE(core->take_table_request());
-  core->on_table_changed("the disk is full");
-  EXPECT_EQ(core->run_state(), RunState::IDLE);
-  const auto reported = core->take_events();
-  ASSERT_FALSE(reported.empty());
-  EXPECT_EQ(reported.back().alarm, &alarm::table_refused);
-  EXPECT_NE(reported.back().text.find("part.nc:1: the disk is full"), std::string::npos)
-      << reported.back().text;
-}
-
-TEST_F(Channel, AMessageStopsTheProgramUntilCycleStart) {
-  load("G90\n#3006=1 (turn the part)\nG1 X10 F6000\nM30\n");
-  ask(CommandKind::CYCLE_START);
-  for (int i = 0; i < 20; ++i) round();
-  EXPECT_EQ(core->run_state(), RunState::HELD);
-  ASSERT_FALSE(events.empty());
-  EXPECT_EQ(events.back().alarm, &alarm::program_message);
-  ASSERT_TRUE(ask(CommandKind::CYCLE_START).accepted);
-  run();
-  EXPECT_EQ(drive.rows.back()[0], 10);
-}
-
 TEST_F(Channel, KeptVariablesGoFromOneProgramToTheNext) {
   load("#500=12.5\n#1=3\nM30\n");
   ask(CommandKind::CYCLE_START);

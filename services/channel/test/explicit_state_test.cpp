@@ -18,13 +18,7 @@ struct ExplicitState : Channel {
   }
   // A new process in the place of the channel, which has received the same tables.
   void continue_from(const std::string& state) {
-    core = std::make_unique<ChannelCore>(0, true);
-    core->set_parameters(parameters);
-    idl::parameters::ToolTable tools;
-    tools.tools.resize(1);
-    tools.tools[0].number = 1, tools.tools[0].length = 50;
-    core->set_tools(tools);
-    core->set_offsets({});
+    start_process();
     store();
     core->continue_from(bus::Json::parse(state));
   }

@@ -4,6 +4,8 @@
 
 #include <limits>
 
+#include "channel_fixture.hpp"
+#include "machine/alarm_constants.hpp"
 #include "modal_codes.hpp"
 #include "table_request.hpp"
 #include "variable_text.hpp"
@@ -11,7 +13,9 @@
 namespace trunnion::channel {
 namespace {
 
+using idl::channel::CommandKind;
 using language::Value;
+using testing::Channel;
 
 TEST(VariableText, BringsVariablesBackBitForBitAndVacantOnesStayVacant) {
   auto before = std::make_unique<language::VariableStore>();
@@ -49,7 +53,7 @@ TEST(VariableText, AWrongLineIsNamed) {
     } catch (const std::runtime_error& e) {
       message = e.what();
     }
-    EXPECT_THAT(message, testing::StartsWith("channel-0.variables:2: ")) << bad;
+    EXPECT_THAT(message, ::testing::StartsWith("channel-0.variables:2: ")) << bad;
   }
 }
 
@@ -84,16 +88,57 @@ TEST(TableRequest, NamesTheWorkOffsetAndItsChannel) {
 
 TEST(ModalCodes, ShowOneCodeOfEachGroupAndWhatIsSwitchedOn) {
   language::ModalState modal;
-  EXPECT_THAT(modal_codes(modal), testing::ElementsAre("G0", "G17", "G21", "G90", "G94", "G64", "G54", "G40",
-                                                       "G49", "G97", "G98"));
+  EXPECT_THAT(modal_codes(modal), ::testing::ElementsAre("G0", "G17", "G21", "G90", "G94", "G64", "G54",
+                                                         "G40", "G49", "G97", "G98"));
   modal.cycle = 83;
   modal.work_offset = 6;
   modal.cutter_side = language::CutterSide::left;
   modal.transformation = language::Transformation::rtcp;
   modal.tool_vector = true;
   modal.tilt.active = modal.rotated = true;
-  EXPECT_THAT(modal_codes(modal), testing::ElementsAre("G83", "G17", "G21", "G90", "G94", "G64", "G54.1 P1",
-                                                       "G41", "G43.5", "G97", "G98", "G68.2"));
+  EXPECT_THAT(modal_codes(modal), ::testing::ElementsAre("G83", "G17", "G21", "G90", "G94", "G64", "G54.1 P1",
+                                                         "G41", "G43.5", "G97", "G98", "G68.2"));
+}
+
+TEST_F(Channel, AProgramThatChangesATableWaitsUntilItsOwnerHasDoneSo) {
+  load("G90 G54\nG10 L2 P1 X5\nG1 X10 F6000\nM30\n");
+  ask(CommandKind::CYCLE_START);
+  for (int i = 0; i < 20; ++i) round();
+  EXPECT_EQ(core->run_state(), RunState::WAITING);
+  const auto request = core->take_table_request();
+  ASSERT_TRUE(request);
+  ASSERT_EQ(request->offsets.size(), 1u);
+  EXPECT_EQ(request->offsets[0].values[0], 5);
+  core->on_table_changed("");
+  run();
+  EXPECT_EQ(core->run_state(), RunState::IDLE);
+  EXPECT_EQ(drive.rows.back()[0], 15) << "G54 X5 and X10";
+}
+
+TEST_F(Channel, ARefusedTableStopsTheProgramWithTheReason) {
+  load("G10 L2 P1 X5\nG1 X10 F6000\nM30\n");
+  ask(CommandKind::CYCLE_START);
+  for (int i = 0; i < 20; ++i) round();
+  ASSERT_TRUE(core->take_table_request());
+  core->on_table_changed("the disk is full");
+  EXPECT_EQ(core->run_state(), RunState::IDLE);
+  const auto reported = core->take_events();
+  ASSERT_FALSE(reported.empty());
+  EXPECT_EQ(reported.back().alarm, &alarm::table_refused);
+  EXPECT_NE(reported.back().text.find("part.nc:1: the disk is full"), std::string::npos)
+      << reported.back().text;
+}
+
+TEST_F(Channel, AMessageStopsTheProgramUntilCycleStart) {
+  load("G90\n#3006=1 (turn the part)\nG1 X10 F6000\nM30\n");
+  ask(CommandKind::CYCLE_START);
+  for (int i = 0; i < 20; ++i) round();
+  EXPECT_EQ(core->run_state(), RunState::HELD);
+  ASSERT_FALSE(events.empty());
+  EXPECT_EQ(events.back().alarm, &alarm::program_message);
+  ASSERT_TRUE(ask(CommandKind::CYCLE_START).accepted);
+  run();
+  EXPECT_EQ(drive.rows.back()[0], 10);
 }
 
 }  // namespace

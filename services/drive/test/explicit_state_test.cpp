@@ -7,25 +7,13 @@
 #include "bus/json.hpp"
 #include "drive_core.hpp"
 #include "simulated_hardware.hpp"
+#include "two_axes.hpp"
 
 namespace trunnion::drive {
 namespace {
 
 using idl::stream::FeedbackFrame;
 using idl::stream::StreamRequestKind;
-
-// Two axes and a spindle; a skip input and a home switch on X.
-machine::Parameters parameters() {
-  machine::Parameters p;
-  p.revision = 1;
-  p.values[40001] = {0, ""}, p.values[40002] = {1, ""};
-  for (std::uint32_t a = 0; a < 2; ++a) {
-    p.values[100000 + a * 1000] = {0, a == 0 ? "X" : "Y"};
-    p.values[100034 + a * 1000] = {60000, ""};
-    p.values[100036 + a * 1000] = {4000, ""};
-  }
-  return p;
-}
 
 idl::stream::AxisFrame frame(std::uint32_t epoch, std::uint64_t first, std::uint64_t start, bool ends) {
   idl::stream::AxisFrame f;
@@ -43,7 +31,7 @@ idl::stream::AxisFrame frame(std::uint32_t epoch, std::uint64_t first, std::uint
 // One drive, to which the same happens as to another by the same random numbers.
 struct Machine {
   Machine() {
-    core.configure(parameters(), true);
+    core.configure(two_axes(), true);
     core.set_enables({1, 1}, false);
   }
   void act(unsigned choice) {
@@ -116,7 +104,7 @@ TEST(ExplicitState, HardwareWithoutOneGivesNone) {
     bus::Json explicit_state() const override { return DriveHardware::explicit_state(); }
   };
   DriveCore core(std::make_unique<Other>());
-  core.configure(parameters(), true);
+  core.configure(two_axes(), true);
   EXPECT_TRUE(core.explicit_state().is_null());
 }
 

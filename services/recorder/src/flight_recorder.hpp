@@ -32,7 +32,7 @@ class FlightRecorder final : public Destination {
   void idle(double now) override;
   /// A pending alarm is saved with the messages so far.
   void finish(double now) override;
-  /// It starts once: what is kept is asked for now and then.
+  /// It starts once. The states that it keeps are requested again every half of the kept time.
   std::uint32_t started() const override { return 1; }
   const std::vector<FileReport>& files() const override { return files_; }
   std::uint64_t unwritten() const override { return unwritten_; }
