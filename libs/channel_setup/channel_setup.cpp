@@ -57,6 +57,7 @@ void ChannelSetup::configure(const machine::Parameters& p) {
   default_feed_ = p.get(parameter::default_feed, channel_);
   dry_run_feed_ = p.get(parameter::dry_run_feed, channel_);
   handwheel_share_ = p.get(parameter::handwheel_share, channel_);
+  jog_renewal_seconds_ = p.get(parameter::jog_renewal_time, channel_);
   cycles_ = {p.get(parameter::cycle_retract, channel_), p.get(parameter::cycle_clearance, channel_),
              p.integer(parameter::cycle_shift_axis, channel_)};
   cutter_ = {p.integer(parameter::cutter_feed_at_contour) != 0,
@@ -158,6 +159,8 @@ geometry::OrientationAnswer ChannelSetup::orientation(const language::Vector3& d
   request.present = geometry::angles_of(current.data());
   request.travel = rotary_travel_;
   request.tolerance = limits_.orientation_tolerance;
+  for (std::size_t i = 0; i < geometry::angle_count; ++i)
+    if (const double rate = limits_.axes[3 + i].rapid_velocity; rate > 0) request.rate[i] = rate;
   switch (choice) {
     case language::RotaryChoice::shortest:
       request.choice = geometry::SolutionChoice::shortest;

@@ -59,12 +59,16 @@ Rank rank_of(const Orientation& o, const OrientationRequest& request, std::size_
   const auto steps = [](double degrees) {
     return static_cast<long long>(degrees * 1e7 + (degrees < 0 ? -0.5 : 0.5));
   };
-  const double leading = o.angles[second], other = first < angle_count ? o.angles[first] : 0;
-  const long long rotation = steps(std::abs(leading - request.present[second]));
-  const long long other_rotation = first < angle_count ? steps(std::abs(other - request.present[first])) : 0;
+  const bool two = first < angle_count;
+  const double leading = o.angles[second], other = two ? o.angles[first] : 0;
+  const double rotation = std::abs(leading - request.present[second]);
+  const double other_rotation = two ? std::abs(other - request.present[first]) : 0;
   if (request.choice == SolutionChoice::continuous)
-    return {rotation + other_rotation, rotation, -steps(leading), -steps(other)};
-  return {rotation, other_rotation, -steps(leading), -steps(other)};
+    return {steps(rotation + other_rotation), steps(rotation), -steps(leading), -steps(other)};
+  // In degrees of the leading axis.
+  const double other_time = two ? other_rotation * (request.rate[second] / request.rate[first]) : 0;
+  return {steps(std::max(rotation, other_time)), steps(rotation + other_time), -steps(leading),
+          -steps(other)};
 }
 
 }  // namespace

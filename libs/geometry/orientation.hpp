@@ -17,10 +17,11 @@ struct AngleTravel {
 };
 using AngleTravels = std::array<AngleTravel, angle_count>;
 
-/// Which of the solutions within travel is best. The leading axis is the rotary axis nearest the tool.
+/// Which of the solutions within travel is best. The leading axis is the rotary axis nearest the tool. The
+/// time of a solution is that of the axis which takes longest at its `rate`.
 enum class SolutionChoice : std::uint8_t {
-  shortest,    ///< P0: the leading axis takes the shortest travel, then the others the shortest in sum
-  positive,    ///< P1: the leading axis turns in the positive direction or not at all, as little as possible
+  shortest,    ///< P0: the least time, of equal times the least sum of the times
+  positive,    ///< P1: likewise, but the leading axis turns in the positive direction or not at all
   negative,    ///< P2: likewise in the negative direction
   continuous,  ///< the sum of the travels of all rotary axes is least: follows a path of directions
 };
@@ -33,6 +34,7 @@ struct OrientationRequest {
   SolutionChoice choice = SolutionChoice::shortest;
   /// A direction the machine misses by less than this (degrees) is replaced by the nearest it reaches.
   double tolerance = 1e-7;
+  Angles rate{1, 1, 1, 1, 1, 1};  ///< greatest speeds, deg/s, above 0; only their ratios count
 };
 
 enum class OrientationStatus : std::uint8_t {
@@ -67,7 +69,7 @@ struct MovingPair {
 /// Two axes solve it; a machine with more of them uses the pair nearest the tool that has a solution within
 /// travel and does not move the other axes. Each of at most two solutions is repeated by full turns
 /// over the travel; of an endless axis only the position nearest to the present one counts, or the nearest in
-/// the requested sense. Equal travels: the solution with the greater position of the leading axis, then of
+/// the requested sense. Equal ranks: the solution with the greater position of the leading axis, then of
 /// the others. Directions come out within 1e-12. Pure, allocation-free and safe to use from any thread; a
 /// copy is cheap.
 class OrientationSolver {

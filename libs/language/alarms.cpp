@@ -2,6 +2,7 @@
 #include "language/alarms.hpp"
 
 #include <algorithm>
+#include <array>
 
 #include "text/utf8.hpp"
 
@@ -45,7 +46,16 @@ std::string_view word_at(std::string_view text) {
   return text.substr(0, std::min<std::size_t>(size, 32));
 }
 
+constexpr auto needed_words = [] {
+  std::array<std::array<char, 8>, 26> texts{};
+  for (std::size_t i = 0; i < texts.size(); ++i)
+    texts[i] = {'n', 'e', 'e', 'd', 's', ' ', static_cast<char>('A' + i), '\0'};
+  return texts;
+}();
+
 }  // namespace
+
+const char* needs(char letter) { return needed_words[static_cast<std::size_t>(letter - 'A')].data(); }
 
 Alarm make_alarm(const Fault& fault, std::string_view line_text, std::uint32_t program, std::uint32_t line,
                  std::string_view detail) {
@@ -71,6 +81,7 @@ Alarm make_alarm(const Fault& fault, std::string_view line_text, std::uint32_t p
     append(": ");
     for (const char c : word) *out++ = static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? '?' : c;
   }
+  if (fault.detail != nullptr) detail = fault.detail;
   if (!detail.empty()) {
     append(", ");
     append(detail.substr(0, 48));

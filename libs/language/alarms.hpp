@@ -242,9 +242,13 @@ constexpr std::string_view alarm_text(AlarmNumber number) {
 /// A fault inside one line, before the line's text is looked up.
 struct Fault {
   AlarmNumber number = AlarmNumber::none;
-  std::uint16_t offset = 0;  ///< byte of the line, from 0
+  std::uint16_t offset = 0;      ///< byte of the line, from 0
+  const char* detail = nullptr;  ///< static text that ends the message, at most 48 characters
   explicit operator bool() const { return number != AlarmNumber::none; }
 };
+
+/// The detail of a missing word: "needs P". `letter` is A to Z.
+const char* needs(char letter);
 
 /// Subprograms, macros and cycles inside each other.
 inline constexpr std::size_t max_nesting = 8;
@@ -266,8 +270,8 @@ struct Alarm {
   std::array<CallSite, max_nesting> chain{};  ///< their places, the main program's first
 };
 
-/// Composes the alarm for a fault in `line_text`, which may be empty when the line is not at hand. `detail`
-/// (at most 48 printable characters) ends the text.
+/// Composes the alarm for a fault in `line_text`, which may be empty when the line is not at hand. The
+/// fault's detail, or else `detail` (at most 48 printable characters) ends the text.
 Alarm make_alarm(const Fault& fault, std::string_view line_text, std::uint32_t program, std::uint32_t line,
                  std::string_view detail = {});
 

@@ -210,7 +210,7 @@ Fault BlockExecutor::set_flow(Flow& flow) {
 Fault BlockExecutor::set_call(Flow& flow) {
   BlockWords& words = context_.words;
   flow.kind = Flow::Kind::call;
-  if (!words.has('P')) return {AlarmNumber::missing_word, flow.offset};
+  if (!words.has('P')) return {AlarmNumber::missing_word, flow.offset, needs('P')};
   // P and L have one meaning each: a dwell or turns in the same block leave none for the call.
   for (const char letter : {'P', 'L'}) {
     if (words.has(letter) && words.used(letter)) return {AlarmNumber::unused_word, words.offset(letter)};

@@ -122,7 +122,7 @@ Fault BlockWords::find_axes(std::uint32_t& axes) const {
 
 Fault BlockWords::take_axes(std::uint16_t at, std::uint32_t& axes) {
   if (const Fault fault = find_axes(axes)) return fault;
-  if (axes == 0) return {AlarmNumber::missing_word, at};
+  if (axes == 0) return {AlarmNumber::missing_word, at, "needs an axis"};
   use_axes();
   return {};
 }

@@ -229,8 +229,8 @@ constexpr std::array rows = {
           "shift of all work offsets that gives the position these coordinates; S limit of the spindle with "
           "G96",
           Origin::fanuc, "0.2", "G92 X0"},
-    GCode{921, Group::one_block, AxisWords::move, run<&BlockHandlers::frames, &FrameCodes::clear_shift>,
-          "G52 and G92 off", Origin::fanuc, "0.2", "G92.1"},
+    GCode{921, Group::one_block, AxisWords::shared, run<&BlockHandlers::frames, &FrameCodes::clear_shift>,
+          "G52 and G92 off, of all axes or of those that are named with 0", Origin::fanuc, "0.2", "G92.1 X0"},
     GCode{930, Group::feed_mode, AxisWords::move,
           run<&BlockHandlers::modal, &ModalCodes::set_feed_mode, FeedMode::inverse_time>,
           "inverse time: F in 1/min, in every block that moves at feed", Origin::iso, "0.1", "G93"},

@@ -191,7 +191,7 @@ Fault DrillingCycles::read_pattern(std::uint16_t at, bool may_turn, Pattern& pat
   if (const Fault fault = output_.refuse_in_compensation(at)) return fault;
   if (const Fault fault = check_cycle(at)) return fault;
   for (const char letter : {'I', 'J', 'K'}) {
-    if (!words_.has(letter)) return {AlarmNumber::missing_word, at};
+    if (!words_.has(letter)) return {AlarmNumber::missing_word, at, needs(letter)};
     words_.use(letter);
   }
   const PlaneAxes plane = plane_axes(state_.modal.plane);
@@ -224,7 +224,7 @@ Fault DrillingCycles::drill_circle(std::uint16_t at) {
 Fault DrillingCycles::drill_arc(std::uint16_t at) {
   Pattern p;
   if (const Fault fault = read_pattern(at, true, p)) return fault;
-  if (!words_.has('P')) return {AlarmNumber::missing_word, at};
+  if (!words_.has('P')) return {AlarmNumber::missing_word, at, needs('P')};
   words_.use('P');
   pattern_.circle(p.point, p.i, p.j, p.clockwise ? -words_.value('P') : words_.value('P'), p.count);
   return begin_holes();
@@ -241,7 +241,7 @@ Fault DrillingCycles::drill_line(std::uint16_t at) {
 Fault DrillingCycles::drill_grid(std::uint16_t at) {
   Pattern p;
   if (const Fault fault = read_pattern(at, false, p)) return fault;
-  if (!words_.has('P')) return {AlarmNumber::missing_word, at};
+  if (!words_.has('P')) return {AlarmNumber::missing_word, at, needs('P')};
   std::uint32_t columns = 0;
   if (const Fault fault = words_.whole_number('P', 1, most_holes, columns)) return fault;
   pattern_.grid(p.point, p.i, columns, p.j * words_.length_scale(), p.count);

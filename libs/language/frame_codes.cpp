@@ -21,7 +21,7 @@ Fault FrameCodes::set_work_offset(std::uint16_t at, std::uint8_t index) {
 }
 
 Fault FrameCodes::set_additional_work_offset(std::uint16_t at) {
-  if (!words_.has('P')) return {AlarmNumber::missing_word, at};
+  if (!words_.has('P')) return {AlarmNumber::missing_word, at, needs('P')};
   std::uint32_t number = 0;
   if (const Fault fault = words_.whole_number('P', 1, work_offset_count - 6, number)) return fault;
   return set_work_offset(at, static_cast<std::uint8_t>(5 + number));
@@ -39,7 +39,7 @@ Fault FrameCodes::set_scaling(std::uint16_t at) {
   Vector3 centre{state_.program_position[X], state_.program_position[Y], state_.program_position[Z]};
   Vector3 factors{1, 1, 1};
   const bool each = (words_.letters() & letter_bits("IJK")) != 0;
-  if (!each && !words_.has('P')) return {AlarmNumber::missing_word, at};
+  if (!each && !words_.has('P')) return {AlarmNumber::missing_word, at, needs('P')};
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const char letter = axis_letters[axis];
     if (words_.has(letter)) {
@@ -77,7 +77,7 @@ Fault FrameCodes::set_mirror(std::uint16_t at, bool on) {
 
 Fault FrameCodes::set_rotation(std::uint16_t at) {
   const char angle = words_.has('R') ? 'R' : 'P';
-  if (!words_.has(angle)) return {AlarmNumber::missing_word, at};
+  if (!words_.has(angle)) return {AlarmNumber::missing_word, at, "needs R"};
   words_.use(angle);
   const PlaneAxes plane = plane_axes(state_.modal.plane);
   Vector3 centre{state_.program_position[X], state_.program_position[Y], state_.program_position[Z]};
@@ -111,7 +111,7 @@ Fault FrameCodes::set_local_offset(std::uint16_t at) {
 
 Fault FrameCodes::shift_coordinates(std::uint16_t at) {
   if ((words_.letters() & axis_bits) == 0) {
-    return words_.has('S') ? Fault{} : Fault{AlarmNumber::missing_word, at};
+    return words_.has('S') ? Fault{} : Fault{AlarmNumber::missing_word, at, "needs an axis or S"};
   }
   if (const Fault fault = output_.refuse_in_compensation(at)) return fault;
   if (!state_.frame().plain() || state_.modal.polar) return {AlarmNumber::frame_shift, at};
@@ -128,7 +128,19 @@ Fault FrameCodes::shift_coordinates(std::uint16_t at) {
 
 Fault FrameCodes::clear_shift(std::uint16_t at) {
   if (const Fault fault = output_.refuse_in_compensation(at)) return fault;
-  state_.change_frame().clear_shift();
+  std::uint32_t axes = 0;
+  if (const Fault fault = words_.find_axes(axes)) return fault;
+  for (std::uint8_t axis = 0; axis < axis_count; ++axis) {
+    if (((axes >> axis) & 1u) != 0 && words_.axis(axis) != 0)
+      return {AlarmNumber::value_range, words_.offset(axis_letters[axis])};
+  }
+  ProgramFrame& frame = state_.change_frame();
+  for (std::uint8_t axis = 0; axis < axis_count; ++axis) {
+    if (axes != 0 && ((axes >> axis) & 1u) == 0) continue;
+    frame.set_local(axis, 0);
+    frame.set_shift(axis, 0);
+  }
+  if (axes != 0) words_.use_axes();
   state_.locate(state_.position);
   return {};
 }

@@ -29,7 +29,7 @@ void Interpreter::start(TextSource& text, const AxisValues& position, const Moda
   executor_.start(position, initial, beginning);
   if (beginning == Beginning::program) {
     control_.start();
-    modal_call_active_ = false;
+    modal_calls_.clear();
   }
   variables_.start(variables);
   for (std::size_t i = 0; i < cycle_m_codes_.size(); ++i) cycle_m_codes_[i] = environment_.cycle_m_code(i);
@@ -41,7 +41,8 @@ void Interpreter::start(TextSource& text, const AxisValues& position, const Moda
   jumps_.clear();
   blocks_ = 0;
   stop_line_ = 0;
-  else_if_due_ = in_modal_call_ = false;
+  else_if_due_ = false;
+  modal_calls_.leave(0);
   levels_[0] = CallLevel{};
   levels_[0].source = &text;
   reader_.reset();
@@ -141,21 +142,17 @@ Interpreter::State Interpreter::execute(std::string_view line) {
 Interpreter::State Interpreter::execute_words(std::string_view line) {
   Call call;
   if (find_call(block_, cycle_m_codes_, call)) return call_macro(call, line);
-  if (modal_call_active_ && !in_modal_call_ && modal_call_.kind == CallKind::block_macro) {
+  const auto* const modal = modal_calls_.active();
+  if (modal != nullptr && modal->call.kind == CallKind::block_macro) {
     read_arguments(block_, CallKind::block_macro, executor_.modal().absolute, arguments_);
-    return this->call(modal_call_, line);
+    return this->call(modal->call, line);
   }
   Flow flow;
-  if (!modal_call_active_ || in_modal_call_) {
-    if (const Fault fault = executor_.execute(block_, levels_[depth_].program, line_, queue_, flow))
-      return fail(fault, line);
-    return go(flow, line);
-  }
   if (const Fault fault = executor_.execute(block_, levels_[depth_].program, line_, queue_, flow))
     return fail(fault, line);
-  if (flow.kind != Flow::Kind::next || !executor_.moves()) return go(flow, line);
-  arguments_ = modal_arguments_;
-  return this->call(modal_call_, line);
+  if (modal == nullptr || flow.kind != Flow::Kind::next || !executor_.moves()) return go(flow, line);
+  arguments_ = modal->arguments;
+  return this->call(modal->call, line);
 }
 
 Interpreter::State Interpreter::go(const Flow& flow, std::string_view line) {

@@ -11,6 +11,7 @@
 #include "language/jump_cache.hpp"
 #include "language/line_reader.hpp"
 #include "language/macro_call.hpp"
+#include "language/modal_calls.hpp"
 #include "language/structure.hpp"
 
 namespace trunnion::language {
@@ -113,7 +114,8 @@ class Interpreter {
     std::uint32_t remaining = 0;  // repetitions after this one
     bool started = false;         // a head or a word has been read
     bool own_variables = false;
-    bool modal = false;  // called by G66
+    bool modal = false;           // called by G66
+    std::size_t modal_above = 0;  // of ModalCalls::enter()
     OpenStructures open;
   };
   /// Where a call from one text leads, so that a long text is searched once and not at every call.
@@ -203,10 +205,7 @@ class Interpreter {
   Arguments arguments_;
   TextPosition after_call_;
   std::uint32_t call_line_ = 0;
-  bool modal_call_active_ = false;
-  bool in_modal_call_ = false;
-  Call modal_call_;
-  Arguments modal_arguments_;
+  ModalCalls modal_calls_;
   std::array<Found, 16> found_{};
   std::size_t next_found_ = 0;  // the entry the next search replaces
 };

@@ -8,12 +8,17 @@ Interpreter::State Interpreter::call_macro(Call& call, std::string_view line) {
   if (const Fault fault = read_call(block_, call)) return fail(fault, line);
   if (call.kind == CallKind::modal_cancel || call.kind == CallKind::modal_macro ||
       call.kind == CallKind::block_macro) {
-    modal_call_active_ = call.kind != CallKind::modal_cancel;
-    control_.set_modal_macro(modal_call_active_);
-    modal_call_ = call;
-    modal_call_.offset = modal_call_.program_offset = 0;  // it will be called from other lines
-    if (call.kind == CallKind::modal_macro)
-      read_arguments(block_, call.kind, executor_.modal().absolute, modal_arguments_);
+    if (call.kind == CallKind::modal_cancel) {
+      modal_calls_.remove();
+    } else {
+      if (call.kind == CallKind::modal_macro)
+        read_arguments(block_, call.kind, executor_.modal().absolute, arguments_);
+      Call later = call;
+      later.offset = later.program_offset = 0;  // it will be called from other lines
+      if (!modal_calls_.add(later, arguments_))
+        return fail({AlarmNumber::nesting_too_deep, call.offset}, line);
+    }
+    control_.set_modal_macro(modal_calls_.active() != nullptr);
     return State::running;
   }
   read_arguments(block_, call.kind, executor_.modal().absolute, arguments_);
@@ -64,7 +69,7 @@ Interpreter::State Interpreter::enter(const Found& target) {
   level.modal = call_.kind == CallKind::modal_macro || call_.kind == CallKind::block_macro;
   level.open.clear();
   if (level.own_variables) variables_.enter(arguments_);
-  if (level.modal) in_modal_call_ = true;
+  if (level.modal) level.modal_above = modal_calls_.enter();
   reader_.seek(*level.source, level.top);
   return State::running;
 }
@@ -88,7 +93,7 @@ Interpreter::State Interpreter::return_from_subprogram(const Flow& flow, std::st
     return State::running;
   }
   if (level.own_variables) variables_.leave();
-  if (level.modal) in_modal_call_ = false;
+  if (level.modal) modal_calls_.leave(level.modal_above);
   // The alarm of a label that is not there belongs to the M99 that names it.
   if (flow.to_label) {
     not_found_ = located({AlarmNumber::label_missing, block_.offset('P')}, line);

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The part of Interpreter that branches, loops and jumps.
+#include <cstdio>
+
 #include "language/interpreter.hpp"
 
 namespace trunnion::language {
@@ -62,7 +64,13 @@ Interpreter::State Interpreter::jump(Purpose purpose, std::uint32_t wanted, Text
   const JumpCache::Target* const known =
       jumps_.find(levels_[depth_].source, from.offset, key(purpose, wanted));
   if (known != nullptr) return arrive(*known);
-  not_found_ = located(in_vain, line);
+  char label[16] = "";
+  Fault fault = in_vain;
+  if (purpose == Purpose::label) {
+    std::snprintf(label, sizeof label, "N%u", wanted);
+    fault.detail = label;
+  }
+  not_found_ = located(fault, line);
   not_allowed_ = located({AlarmNumber::jump_into_structure, in_vain.offset}, line);
   return search(purpose, wanted, from);
 }

@@ -107,7 +107,7 @@ Fault read_call(const Block& block, Call& call) {
     return (block.letters & ~Block::bit('N')) == 0 ? Fault{}
                                                    : Fault{AlarmNumber::call_not_alone, call.offset};
   }
-  if (!block.has('P')) return {AlarmNumber::missing_word, call.offset};
+  if (!block.has('P')) return {AlarmNumber::missing_word, call.offset, needs('P')};
   call.program_offset = block.offset('P');
   if (const Fault fault = whole_word(block, 'P', 1, highest_program, call.number)) return fault;
   if (!block.has('L')) return {};

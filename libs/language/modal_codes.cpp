@@ -131,7 +131,7 @@ Fault ModalCodes::set_polar(std::uint16_t, bool on) {
 }
 
 Fault ModalCodes::set_smoothing(std::uint16_t at) {
-  if (!words_.has('Q')) return {AlarmNumber::missing_word, at};
+  if (!words_.has('Q')) return {AlarmNumber::missing_word, at, needs('Q')};
   std::uint32_t q = 0;
   if (const Fault fault = words_.whole_number('Q', 0, 2, q)) return fault;
   state_.modal.smoothing = static_cast<std::uint8_t>(q);

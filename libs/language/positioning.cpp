@@ -19,7 +19,7 @@ Fault Positioning::dwell(std::uint16_t at) {
     words_.use(letter);
     seconds = letter == 'P' ? words_.value(letter) / 1000 : words_.value(letter);
   }
-  if (found == '\0') return {AlarmNumber::missing_word, at};
+  if (found == '\0') return {AlarmNumber::missing_word, at, "needs P, X or U"};
   if (seconds < 0 || seconds > longest_dwell) return {AlarmNumber::value_range, words_.offset(found)};
   output_.push(CommandKind::dwell).dwell_seconds = seconds;
   return {};

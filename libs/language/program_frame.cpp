@@ -140,11 +140,6 @@ void ProgramFrame::set_shift(std::uint8_t axis, double value) {
   update();
 }
 
-void ProgramFrame::clear_shift() {
-  local_ = shift_ = {};
-  update();
-}
-
 void ProgramFrame::set_mirror(std::uint8_t axis, bool on, double about) {
   const auto bit = static_cast<std::uint16_t>(1u << axis);
   mirrored_ = static_cast<std::uint16_t>(on ? mirrored_ | bit : mirrored_ & ~bit);

@@ -49,7 +49,6 @@ class ProgramFrame {
   void set_work_offset(const AxisValues& offset);
   void set_local(std::uint8_t axis, double value);  ///< G52
   void set_shift(std::uint8_t axis, double value);  ///< G92: added to the work offset
-  void clear_shift();                               ///< G92.1: G52 and G92
   const AxisValues& work_offset() const { return work_offset_; }
   const AxisValues& local() const { return local_; }
   const AxisValues& shift() const { return shift_; }

@@ -45,7 +45,7 @@ Fault TableCodes::change_table(std::uint16_t at) {
 }
 
 Fault TableCodes::change_work_offset(std::uint16_t at, std::uint32_t l) {
-  if (!words_.has('P')) return {AlarmNumber::missing_word, at};
+  if (!words_.has('P')) return {AlarmNumber::missing_word, at, needs('P')};
   std::uint32_t number = 0;
   if (const Fault fault = words_.whole_number('P', 1, l == 2 ? 6 : work_offset_count - 6, number))
     return fault;
@@ -90,7 +90,7 @@ Fault TableCodes::write_work_offset(std::uint8_t index, std::size_t axis, double
 
 Fault TableCodes::change_tool(std::uint16_t at, std::uint32_t l) {
   for (const char letter : {'P', 'R'}) {
-    if (!words_.has(letter)) return {AlarmNumber::missing_word, at};
+    if (!words_.has(letter)) return {AlarmNumber::missing_word, at, needs(letter)};
   }
   std::uint32_t number = 0;
   if (const Fault fault = words_.whole_number('P', 1, highest_tool, number)) return fault;
@@ -130,7 +130,8 @@ Fault TableCodes::write_tool(Table table, std::uint16_t number, double value) {
 
 // The older form: P the entry, Z its length, R its radius; T only names the tool it is for.
 Fault TableCodes::define_tool(std::uint16_t at) {
-  if (!words_.has('P') || !(words_.has('Z') || words_.has('R'))) return {AlarmNumber::missing_word, at};
+  if (!words_.has('P')) return {AlarmNumber::missing_word, at, needs('P')};
+  if (!words_.has('Z') && !words_.has('R')) return {AlarmNumber::missing_word, at, "needs Z or R"};
   std::uint32_t number = 0;
   if (const Fault fault = words_.whole_number('P', 1, highest_tool, number)) return fault;
   words_.use('T');

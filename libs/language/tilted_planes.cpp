@@ -73,7 +73,7 @@ Fault TiltedPlanes::check_tilt(std::uint16_t at) const {
 
 Fault TiltedPlanes::tilt_to_stored_plane(std::uint16_t at) {
   if (const Fault fault = check_tilt(at)) return fault;
-  if (!words_.has('Q')) return {AlarmNumber::missing_word, at};
+  if (!words_.has('Q')) return {AlarmNumber::missing_word, at, needs('Q')};
   std::uint32_t index = 0;
   if (const Fault fault = words_.whole_number('Q', 1, 20, index)) return fault;
   const auto points = environment_.plane_points(static_cast<std::uint8_t>(index));
@@ -85,7 +85,7 @@ Fault TiltedPlanes::tilt_to_stored_plane(std::uint16_t at) {
 Fault TiltedPlanes::tilt_by_angles(std::uint16_t at, bool turned_axes) {
   if (const Fault fault = check_tilt(at)) return fault;
   for (const char letter : {'X', 'Y', 'Z', 'I', 'J', 'K'}) {
-    if (!words_.has(letter)) return {AlarmNumber::missing_word, at};
+    if (!words_.has(letter)) return {AlarmNumber::missing_word, at, needs(letter)};
     words_.use(letter);
   }
   Tilt tilt;
@@ -182,7 +182,7 @@ Vector3 TiltedPlanes::tool_direction() const {
 Fault TiltedPlanes::move_along_tool(std::uint16_t at) {
   if (state_.modal.transformation != Transformation::rtcp) return {AlarmNumber::tip_control_needed, at};
   if (const Fault fault = output_.refuse_in_compensation(at)) return fault;
-  if (!words_.has('L')) return {AlarmNumber::missing_word, at};
+  if (!words_.has('L')) return {AlarmNumber::missing_word, at, needs('L')};
   if (const Fault fault = check_feed(at)) return fault;
   const double distance = words_.length('L');
   const Vector3 direction = tool_direction();

@@ -30,7 +30,7 @@ Fault ToolCodes::choose_length(std::uint16_t at, const Length& use) {
   std::uint32_t h = 0;
   double length = 0;
   if (!use.off) {
-    if (!words_.has('H')) return {AlarmNumber::missing_word, at};
+    if (!words_.has('H')) return {AlarmNumber::missing_word, at, needs('H')};
     if (const Fault fault = words_.whole_number('H', 0, highest_tool, h)) return fault;
     if (h != 0) {
       const auto tool = context_.tables.tool(static_cast<std::uint16_t>(h));

@@ -265,5 +265,12 @@ TEST(Frames, TheFactorsOfAScalingHaveTheUnitOfTheParameter) {
   EXPECT_EQ(run(machine, "G51 X0 Y0 P2000\nG0 X10\n").alarm.number, AlarmNumber::factor_range);
 }
 
+TEST(Frames, G921EndsG52AndG92OfTheAxesThatItNames) {
+  TestMachine machine;
+  // G92 X0 at machine X10 shifts X by 10, G52 adds 1 and 2.
+  EXPECT_THAT(stream(run(machine, "G0 X10\nG92 X0\nG52 X1 Y2\nG92.1 X0\nG0 X3 Y0\nG92.1\nY0\n")),
+              testing::ElementsAre("rapid X10", "rapid X3 Y2", "rapid X3", "end 0"));
+}
+
 }  // namespace
 }  // namespace trunnion::language::test

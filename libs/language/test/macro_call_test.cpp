@@ -116,5 +116,33 @@ TEST(MacroCall, ModalCallOfAMissingProgramIsAnAlarmWhereItIsCalled) {
   EXPECT_THAT(stream(result), ElementsAre("rapid X1", "alarm 1401 2:1"));
 }
 
+// The newest call is made at the move of the main program, the one before it at each move of that macro; G67
+// ends the newest.
+TEST(MacroCall, ModalCallsNest) {
+  TestMachine machine;
+  const Interpretation result = run(machine,
+                                    "G66 P1 A7\nG66 P2 B5\nG0 X1\nG67\nX2\nG67\nX3\nM30\n"
+                                    "O1\nG91\nG0 Z#1\nG90\nM99\nO2\nG0 Y#2\nY[#2+1]\nM99\n");
+  EXPECT_THAT(stream(result),
+              ElementsAre("rapid X1", "rapid X1 Y5", "rapid X1 Y5 Z7", "rapid X1 Y6 Z7", "rapid X1 Y6 Z14",
+                          "rapid X2 Y6 Z14", "rapid X2 Y6 Z21", "rapid X3 Y6 Z21", "end 30"));
+}
+
+TEST(MacroCall, AModalCallInAMacroEndsWithoutThoseOfItsCallers) {
+  TestMachine machine;
+  const Interpretation result = run(machine,
+                                    "G66 P2\nG0 X1\nX2\nG67\nX3\nM30\n"
+                                    "O1\nG91\nG0 Z1\nG90\nM99\nO2\nG66 P1\nG91\nG0 Y1\nG90\nG67\nM99\n");
+  EXPECT_THAT(stream(result), ElementsAre("rapid X1", "rapid X1 Y1", "rapid X1 Y1 Z1", "rapid X2 Y1 Z1",
+                                          "rapid X2 Y2 Z1", "rapid X2 Y2 Z2", "rapid X3 Y2 Z2", "end 30"));
+}
+
+TEST(MacroCall, MoreModalCallsThanMayNestAreAnAlarm) {
+  TestMachine machine;
+  const Interpretation result = run(machine, "G66 P1\nG66 P1\nG66 P1\nG66 P1\nG66 P1\n");
+  EXPECT_EQ(result.alarm.number, AlarmNumber::nesting_too_deep);
+  EXPECT_EQ(result.alarm.line, 5u);
+}
+
 }  // namespace
 }  // namespace trunnion::language::test

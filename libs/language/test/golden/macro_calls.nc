@@ -103,7 +103,7 @@ M30
 O10
 G0 X#24 Y#10 Z#12 A#14 B#16 C#13
 M99
-(=== a second G66 takes the place of the first)
+(=== a second G66 is called first, the first at each of its moves)
 G66 P10
 G66 P11
 G0 X1
