@@ -31,25 +31,28 @@ ServoParameters ServoParameters::from(const machine::Parameters& p, std::uint32_
 
 void ServoAxis::place(double position) {
   command_ = position_ = encoder_ = load_ = position;
-  command_velocity_ = velocity_ = torque_ = integral_ = 0;
+  velocity_ = torque_ = integral_ = 0;
 }
 
 void ServoAxis::hold() {
   command_ = position_;
-  command_velocity_ = velocity_ = torque_ = integral_ = 0;
+  velocity_ = torque_ = integral_ = 0;
 }
 
 void ServoAxis::step(const AxisSetpoint& setpoint, double dt) {
   const double h = dt / substeps;
-  const double command_velocity = setpoint.velocity;
-  const double command_acceleration = setpoint.acceleration;
-  for (int i = 1; i <= substeps; ++i) {
-    const double set = command_ + command_velocity * (i - 0.5) * h;
-    const double speed_set = p_.position_gain * (set - position_) +
-                             p_.velocity_feedforward * (command_velocity_ + command_acceleration * i * h);
+  // The differences of the setpoints are the velocity in the middle of the period and the acceleration at its
+  // beginning: the parabola through both ends with these.
+  const double acceleration = setpoint.acceleration;
+  const double velocity = setpoint.velocity - acceleration * dt / 2;
+  for (int i = 0; i < substeps; ++i) {
+    const double t = i * h;
+    const double set = command_ + (velocity + acceleration * t / 2) * t;
+    const double speed_set =
+        p_.position_gain * (set - position_) + p_.velocity_feedforward * (velocity + acceleration * t);
     const double speed_error = speed_set - velocity_;
     const double demand =
-        p_.speed_gain * speed_error + integral_ + p_.acceleration_feedforward * command_acceleration;
+        p_.speed_gain * speed_error + integral_ + p_.acceleration_feedforward * acceleration;
     const double limited = std::clamp(demand, -p_.peak_torque, p_.peak_torque);
     // The integrator stops while the torque is at its limit, so that it does not wind up.
     if (p_.speed_integral_time > 0 && demand == limited)
@@ -59,11 +62,11 @@ void ServoAxis::step(const AxisSetpoint& setpoint, double dt) {
     constexpr double steep = 0.05;  // mm/s or deg/s
     const double friction = p_.rated_torque * (p_.coulomb * std::clamp(velocity_ / steep, -1.0, 1.0) +
                                                p_.viscous * velocity_ / p_.rapid);
-    velocity_ += (torque_ - friction) / p_.inertia * h;
-    position_ += velocity_ * h;
+    const double change = (torque_ - friction) / p_.inertia * h;
+    position_ += (velocity_ + change / 2) * h;
+    velocity_ += change;
   }
   command_ = setpoint.position;
-  command_velocity_ = command_velocity;
   load_ = std::clamp(load_, position_ - p_.backlash / 2, position_ + p_.backlash / 2);
   encoder_ = std::round(position_ / p_.resolution) * p_.resolution;
 }

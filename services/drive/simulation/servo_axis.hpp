@@ -29,7 +29,8 @@ class ServoAxis {
   void configure(const ServoParameters& parameters) { p_ = parameters; }
   /// Is at rest at `position`, as an absolute encoder finds it.
   void place(double position);
-  /// One period `dt` seconds: the command moves linearly from where it was to the position of `setpoint`.
+  /// One period of `dt` seconds: the command moves from where it was to the position of `setpoint`, with its
+  /// acceleration.
   void step(const AxisSetpoint& setpoint, double dt);
   /// Drives off: the brake holds the axis where it is.
   void hold();
@@ -43,7 +44,6 @@ class ServoAxis {
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
     visit("command", self.command_);
-    visit("command_velocity", self.command_velocity_);
     visit("position", self.position_);
     visit("velocity", self.velocity_);
     visit("torque", self.torque_);
@@ -55,8 +55,7 @@ class ServoAxis {
  private:
   static constexpr int substeps = 8;
   ServoParameters p_;
-  double command_ = 0, command_velocity_ = 0;
-  double position_ = 0, velocity_ = 0, torque_ = 0, integral_ = 0;
+  double command_ = 0, position_ = 0, velocity_ = 0, torque_ = 0, integral_ = 0;
   double encoder_ = 0, load_ = 0;
 };
 

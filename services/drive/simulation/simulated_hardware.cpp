@@ -58,9 +58,6 @@ void SimulatedHardware::set_reference(std::size_t i, double shift) {
 }
 
 void SimulatedHardware::exchange(const SetpointRow& row, DriveStatus& out, EncoderRowSink& rows) {
-  for (std::size_t i = 0; i < servos_.size(); ++i) encoder_[i] = servos_[i].encoder();
-  for (std::size_t i = 0; i < spindles_.size(); ++i) angle_[i] = spindles_[i].angle();
-  rows.encoder_row({row.number, encoder_, angle_});
   for (std::size_t i = 0; i < servos_.size(); ++i) {
     if (row.controlled)
       servos_[i].step(row.axes[i], period_);
@@ -74,6 +71,9 @@ void SimulatedHardware::exchange(const SetpointRow& row, DriveStatus& out, Encod
     home.on = on;
   }
   for (std::size_t i = 0; i < spindles_.size(); ++i) spindles_[i].step(row.spindles[i], row.controlled);
+  for (std::size_t i = 0; i < servos_.size(); ++i) encoder_[i] = servos_[i].encoder();
+  for (std::size_t i = 0; i < spindles_.size(); ++i) angle_[i] = spindles_[i].angle();
+  rows.encoder_row({row.number, encoder_, angle_});
   if (row.controlled) skip_inputs_.step(servos_, row.number, rows);
   status(out);
 }

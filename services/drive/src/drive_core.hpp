@@ -63,7 +63,7 @@ class DriveCore {
   /// Call after the first configure(). Throws nlohmann::json::exception when `state` is of another shape.
   void continue_from(const bus::Json& state);
 
-  /// A frame of the gantry stage; swapped away. False when a copy differs from what is here.
+  /// A frame of the gantry stage; swapped away. False when a replica differs from what is here.
   bool put(idl::stream::AxisFrame& frame);
   /// What is here of the same channel, epoch and first cycle; null when nothing is.
   const idl::stream::AxisFrame* first_arrival(const idl::stream::AxisFrame& frame) {

@@ -77,7 +77,8 @@ struct SpindleStatus {
   double speed = 0, angle = 0;
 };
 
-/// Encoder positions at the moment at which the row `number` came into force.
+/// Encoder positions at the end of the period of row `number`, when its setpoints should be reached; hardware
+/// that samples once a period: at its first sample with that row.
 struct EncoderRow {
   std::uint64_t number = 0;
   std::span<const double> axes;
