@@ -83,12 +83,6 @@ Answer unrouted(RouteResult result) {
                                           : error_answer(404, "no such path");
 }
 
-bool foreign_origin(std::string_view origin, std::string_view host) {
-  if (origin.empty()) return false;
-  const auto scheme = origin.find("://");
-  return scheme == std::string_view::npos || origin.substr(scheme + 3) != host;
-}
-
 void Api::handle(const Match& match, const std::string& query, const std::string& body,
                  const Respond& respond) {
   try {
@@ -172,15 +166,9 @@ void Api::send_channel(const Match& match, const Json& body, const Respond& resp
     return respond(error_answer(404, "no channel " + match.parts[0]));
   const auto request = channel_request(match.command, body, known->second);
   mailbox_.post([request, respond](Links& links, double now) {
-    using idl::channel::CommandKind;
-    const bool continuous = request.command == CommandKind::JOG_AXIS && request.increment == 0;
-    if (continuous && !links.jog.press(request.channel, request.axis, request.speed, now))
-      return respond(json_answer(200, {{"accepted", true}, {"renewed", true}}));
-    if (request.command == CommandKind::JOG_STOP) links.jog.forget(request.channel, request.axis);
     links.channel.submit(
         request,
-        [&links, continuous, respond](const auto& asked, const auto& reply) {
-          if (continuous && reply && !reply->accepted) links.jog.forget(asked.channel, asked.axis);
+        [respond](const auto& asked, const auto& reply) {
           respond(answer_to(asked, reply, "channel", [&] {
             return Json{{"accepted", true}, {"cycle", reply->cycle}};
           }));

@@ -34,10 +34,6 @@ Answer error_answer(unsigned status, const std::string& text, const std::string&
 /// As error_answer, for a path that does not match: 404, or 405 when another method would.
 Answer unrouted(RouteResult result);
 
-/// Whether a page of another site sent the request: `origin` as in the header of that name, `host` as in
-/// Host.
-bool foreign_origin(std::string_view origin, std::string_view host);
-
 class Api {
  public:
   Api(Mailbox& mailbox, std::string contract, std::filesystem::path web)

@@ -12,27 +12,13 @@ Links::Links(bus::Bus& bus)
       journal(bus) {}
 
 void Links::pump(double now) {
-  for (const auto& [number, axis] : jog.expired(now)) {
-    idl::channel::ChannelRequest stop{};
-    stop.channel = number;
-    stop.axis = axis;
-    stop.command = idl::channel::CommandKind::JOG_STOP;
-    channel.submit(
-        stop,
-        [this](const auto& asked, const auto&) {
-          journal.write(jog_stop_line(asked.channel, asked.axis, {asked.client, asked.number, 1}));
-        },
-        now);
-  }
   channel.pump(now);
   panel.pump(now);
   parameters.pump(now);
   program.pump(now);
 }
 
-bool Links::busy() const {
-  return channel.busy() || panel.busy() || parameters.busy() || program.busy() || jog.watching();
-}
+bool Links::busy() const { return channel.busy() || panel.busy() || parameters.busy() || program.busy(); }
 
 void Mailbox::post(Job job) {
   {

@@ -10,7 +10,6 @@
 #include "bus/bus.hpp"
 #include "contracts/topics.hpp"
 #include "request_lanes.hpp"
-#include "src/jog_guard.hpp"
 #include "src/journal.hpp"
 #include "src/snapshot.hpp"
 
@@ -51,7 +50,7 @@ class AlarmResets {
 struct Links {
   explicit Links(bus::Bus& bus);
   void pump(double now);
-  /// Requests are under way or a jog must be watched, so time matters.
+  /// Requests are under way, so time matters.
   bool busy() const;
 
   RequestLanes<idl::channel::ChannelRequest, idl::channel::ChannelReply> channel;
@@ -60,7 +59,6 @@ struct Links {
   RequestLanes<idl::program::ProgramRequest, idl::program::ProgramReply> program;
   AlarmResets alarm_resets;
   Journal journal;
-  JogGuard jog;
 };
 
 using Job = std::function<void(Links&, double now)>;

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
 #include <iostream>
 
@@ -31,6 +33,10 @@ int main(int argc, char** argv) {
   try {
     service::Node node(options);
     if (own.port == 0) own.port = options.machine.port;
+    own.host_names = options.machine.host_names;
+    char computer[256] = {};
+    gethostname(computer, sizeof computer - 1);
+    own.host_names.insert(own.host_names.end(), {computer, std::string(computer) + ".local"});
     if (!stand_by(node, own.port)) return 0;
     gateway::GatewayService service(node, own);
     return node.run(service);

@@ -6,7 +6,7 @@ namespace trunnion::gateway {
 GatewayService::GatewayService(service::Node& node, const GatewayOptions& options)
     : mailbox_([&node] { node.bus().signal().notify(); }), links_(node.bus()), view_(node.bus()) {
   api_ = std::make_unique<Api>(mailbox_, topics::contract_hash, options.web);
-  server_ = std::make_unique<HttpServer>(options.address, options.port, *api_);
+  server_ = std::make_unique<HttpServer>(options.address, options.port, *api_, Site(options.host_names));
   where_ = "http://" + options.address + ":" + std::to_string(options.port);
 }
 

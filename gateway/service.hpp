@@ -15,7 +15,8 @@ namespace trunnion::gateway {
 struct GatewayOptions {
   std::string address = "127.0.0.1";
   std::uint16_t port = 0;
-  std::filesystem::path web;  ///< the built page
+  std::filesystem::path web;            ///< the built page
+  std::vector<std::string> host_names;  ///< as of Site
 };
 
 class GatewayService : public service::Service {

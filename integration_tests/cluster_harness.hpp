@@ -120,9 +120,9 @@ class Cluster {
     }
     return false;
   }
-  const idl::service::ClusterService* service(const std::string& name, unsigned copy = 0) const {
+  const idl::service::ClusterService* service(const std::string& name, unsigned replica = 0) const {
     for (const auto& s : list_.services)
-      if (s.service == name && s.copy == copy) return &s;
+      if (s.service == name && s.replica == replica) return &s;
     return nullptr;
   }
   const idl::service::Cluster& list() const { return list_; }

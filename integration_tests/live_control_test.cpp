@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // What an operator does to a program beside starting it, in a whole cluster: start from a line, dry run, axis
 // lock, retrace, handwheel, and the line that is offered after the control was switched off.
+#include <csignal>
 #include <fstream>
 
 #include "cluster_harness.hpp"
+#include "http_client/client.hpp"
 
 namespace trunnion::integration {
 namespace {
@@ -213,6 +215,31 @@ TEST(LiveControl, TheLineOfThePowerFailureIsOfferedAndTheProgramStartsFromIt) {
   cluster::stop_cluster(cluster.run);
   std::filesystem::remove_all(state);
   std::filesystem::remove_all(machine);
+}
+
+// The timer of a jog is in the channel, so nothing between the key and the channel can leave an axis moving.
+TEST(LiveControl, AJogStopsWithinItsRenewalTimeWhenTheGatewayHangs) {
+  Cluster cluster("ac-table", Time::real, "", true);
+  cluster.client().set_mode(0, Mode::JOG);
+  const auto post = [&](const char* route, const char* body) {
+    return http_client::request(cluster.running().port, "POST", std::string("/api/channels/0/") + route, body)
+        .status;
+  };
+  const auto x = [&] { return cluster.feedback.position.at(0); };
+  ASSERT_TRUE(cluster.until([&] { return !cluster.feedback.position.empty(); }));
+  ASSERT_EQ(post("jog", R"({"axis":"X","speed":3000,"press":77})"), 200);
+  const double begin = x();
+  ASSERT_TRUE(cluster.until([&] {
+    EXPECT_EQ(post("jog-renew", R"({"press":77})"), 200);
+    return x() > begin + 30;  // 0.6 s at 50 mm/s: renewed twice its time
+  }));
+  const double hung_at = x();
+  kill(cluster.service("gateway")->pid, SIGSTOP);
+  ASSERT_TRUE(cluster.until([&] { return cluster.state() == RunState::IDLE; })) << cluster.told();
+  // 0.25 s at 50 mm/s, the lead of 32 ms, braking below 50 ms and what this test was late to notice.
+  EXPECT_LT(x() - hung_at, 50 * (0.25 + 0.032 + 0.05 + 0.1));
+  kill(cluster.service("gateway")->pid, SIGCONT);
+  EXPECT_EQ(post("jog-renew", R"({"press":77})"), 409) << "a renewal starts nothing";
 }
 
 }  // namespace

@@ -106,7 +106,7 @@ class Discovery {
   std::thread thread_;
 };
 
-/// The machine with a gantry, and a second copy of its kinematics.
+/// The machine with a gantry, and a second replica of its kinematics.
 class RedundantMachine {
  public:
   RedundantMachine()

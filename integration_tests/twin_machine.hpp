@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Machines whose stages have two copies.
+// Machines whose stages have two replicas.
 #pragma once
 
 #include <unistd.h>
@@ -13,7 +13,8 @@
 
 namespace trunnion::integration {
 
-/// A copy of the machine ac-table in which each stage of `stages` has two copies, the second one on `second`.
+/// A copy of the machine ac-table in which each stage of `stages` has two replicas, the second one on
+/// `second`.
 class TwinMachine {
  public:
   explicit TwinMachine(const std::vector<std::string>& stages, const std::string& second = "fastdds")

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Stages that run twice: a copy may be killed, hang, come back and be killed again, and the bits are the
+// Stages that run twice: a replica may be killed, hang, come back and be killed again, and the bits are the
 // same.
 #include <random>
 
@@ -31,12 +31,12 @@ void expect_same(const Rows& expected, Cluster& cluster) {
   EXPECT_EQ(first_difference(cluster.rows, expected), "");
 }
 
-// Both the launcher and the channel have all copies again.
+// Both the launcher and the channel have all replicas again.
 bool redundant(Cluster& cluster) {
   return cluster.until([&] { return cluster.ready() && !cluster.has_alarm(102); });
 }
 
-TEST(Twins, KillingEitherCopyOfKinematicsInMotionLosesNoCycleAndChangesNoBit) {
+TEST(Twins, KillingEitherReplicaOfKinematicsInMotionLosesNoCycleAndChangesNoBit) {
   const auto program = sweep(40);
   const auto expected = undisturbed(program);
   const TwinMachine machine({"kinematics"});
@@ -61,8 +61,8 @@ TEST(Twins, KillingEitherCopyOfKinematicsInMotionLosesNoCycleAndChangesNoBit) {
   }
 }
 
-// Kills one copy of each of the three stages at random cycles, waits until fresh ones have joined, kills the
-// others, and so on until the program ends.
+// Kills one replica of each of the three stages at random cycles, waits until fresh ones have joined, kills
+// the others, and so on until the program ends.
 void kill_in_turn(Cluster& cluster, unsigned seed, int turns) {
   std::mt19937 random(seed);
   for (int turn = 0; turn < turns; ++turn) {
@@ -119,7 +119,7 @@ void expect_no_bit_changed(Time time, const std::string& second, const std::vect
     EXPECT_EQ(first_difference(rows, {expected.begin(), expected.begin() + static_cast<long>(rows.size())}),
               "")
         << "seed " << seeds[i];
-    std::printf("seed %u: %d copies killed within %zu cycles, the same bits\n", seeds[i], 3 * turns,
+    std::printf("seed %u: %d replicas killed within %zu cycles, the same bits\n", seeds[i], 3 * turns,
                 rows.size());
   }
 }
@@ -145,7 +145,7 @@ TEST_P(CopiesThatDiffer, StopTheMotionWithAnAlarmThatNamesStageCycleAndBothValue
   Cluster cluster(machine.path());
   // At rest there is nothing to compare, so the wrong one gets in; it is wrong in the last bit of cycle 700.
   idl::service::SwapRequest request;
-  request.service = stage, request.copy = 1, request.cycles = 500, request.vendor = "cyclonedds";
+  request.service = stage, request.replica = 1, request.cycles = 500, request.vendor = "cyclonedds";
   request.executable = cluster::binary_directory() + "/" + stage + "_one_bit";
   service::RequestClient<idl::service::SwapRequest, idl::service::SwapReply> client(
       cluster.client().bus(), topics::swap_request, topics::swap_reply);

@@ -67,8 +67,7 @@ class Operator {
     reply.accepted = true;
     reply.cycle = 77;
     add(topics::channel_reply, reply);
-    const bool itself = sender == Sender::ITSELF;
-    line("POST", target, body, itself ? 0 : 200, itself ? "" : R"({"accepted":true,"cycle":77})", 1, sender);
+    line("POST", target, body, 200, R"({"accepted":true,"cycle":77})", 1, sender);
   }
 
   // An upload of one part.
@@ -130,12 +129,11 @@ class VerifyGateway : public testing::Test {
     with.upload("A.NC", std::string(3000, ';'));
     with.line("POST", "/api/channels/0/mdi", "{}", 400,
               R"({"error":"the field line is missing","field":"line"})", 0);
-    with.order("/api/channels/0/jog", R"({"axis":"X","speed":600})",
-               {.command = CommandKind::JOG_AXIS, .speed = 600});
-    with.line("POST", "/api/channels/0/jog", R"({"axis":"X","speed":600})", 200,
-              R"({"accepted":true,"renewed":true})", 0);
-    with.order("/api/channels/0/jog-stop", R"({"axis":0})", {.command = CommandKind::JOG_STOP},
-               Sender::ITSELF);
+    with.order("/api/channels/0/jog", R"({"axis":"X","speed":600,"press":9})",
+               {.command = CommandKind::JOG_AXIS, .speed = 600, .press = 9});
+    with.order("/api/channels/0/jog-renew", R"({"press":9})",
+               {.command = CommandKind::JOG_RENEW, .press = 9});
+    with.order("/api/channels/0/jog-stop", R"({"axis":0})", {.command = CommandKind::JOG_STOP});
     options_.recording =
         (fs::temp_directory_path() / ("trunnion-operator-" + std::to_string(getpid()) + ".mcap")).string();
     write(recording, options_.recording);

@@ -67,7 +67,7 @@ def field_schema(field, idl):
     elif into == "axes": schema = {"type": "array", "items": dict(AXIS)}
     elif into == "levels": schema = {"type": "array", "items": {"type": "integer", "minimum": field["minimum"], "maximum": field["maximum"]}}
     else:
-        schema = {"type": "integer" if into in ("line", "counts") else "number"}
+        schema = {"type": "integer" if into in ("line", "counts", "press") else "number"}
         schema.update({"enum": field["one_of"]} if "one_of" in field else {"minimum": field["minimum"], "maximum": field["maximum"]})
     return {"description": about, **schema}
 

@@ -10,9 +10,9 @@ from generate_contracts import Parser
 
 FIELD_KEYS = {"name", "into", "argument", "about", "unit", "minimum", "maximum", "nonzero", "one_of", "optional",
               "word_optional"}
-CHANNEL_KEYS = {"command", "route", "choice", "word", "about", "more", "modes", "busy", "refused", "fields"}
-PANEL_KEYS = {"command", "route", "word", "about", "more"}
-NUMBERS = {"line", "fraction", "speed", "increment", "counts"}
+CHANNEL_KEYS = {"command", "route", "choice", "word", "about", "more", "modes", "busy", "stream", "refused", "fields"}
+PANEL_KEYS = {"command", "stream", "route", "word", "about", "more"}
+NUMBERS = {"line", "fraction", "speed", "increment", "counts", "press"}
 FIELDS = NUMBERS | {"mode", "program", "block", "on", "axis", "axes", "levels"}
 GIVEN_BY_CLIENT = {"client", "number", "channel", "command"}
 
@@ -86,9 +86,9 @@ def cpp(table):
             out.append(f"constexpr Mode {modes}[] = {{{', '.join('Mode::' + m for m in row['modes'])}}};")
         choice = next(iter(row.get("choice", {"": ""}).items()))
         rows.append(f"    {{CommandKind::{row['command']}, {quoted(row['route'])}, {quoted(choice[0])}, {quoted(choice[1])}, "
-                    f"{quoted(row['word'])}, {quoted(row['about'])}, {modes}, {flag(row.get('busy'))}, {fields}}},")
+                    f"{quoted(row['word'])}, {quoted(row['about'])}, {modes}, {flag(row.get('busy'))}, {flag(row.get('stream'))}, {fields}}},")
     out += ["constexpr ChannelCommand channel_rows[] = {"] + rows + ["};", "constexpr PanelCommand panel_rows[] = {"]
-    out += [f"    {{PanelRequestKind::{r['command']}, {quoted(r['route'])}, {quoted(r['word'])}, {quoted(r['about'])}}}," for r in table["panel"]]
+    out += [f"    {{PanelRequestKind::{r['command']}, {flag(r.get('stream'))}, {quoted(r['route'])}, {quoted(r['word'])}, {quoted(r['about'])}}}," for r in table["panel"]]
     out += ["};", "}  // namespace", "", "std::span<const ChannelCommand> channel_commands() { return channel_rows; }",
             "std::span<const PanelCommand> panel_commands() { return panel_rows; }", "", "}  // namespace trunnion::commands"]
     return "\n".join(out) + "\n"

@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // channel: an operator's command to a channel. The words are the table's (idl/operator_commands.yaml).
 #include <CLI/CLI.hpp>
+#include <atomic>
+#include <chrono>
+#include <csignal>
 #include <cstdio>
 #include <iostream>
 #include <memory>
+#include <random>
+#include <thread>
 
 #include "bus/json.hpp"
 #include "cluster/client.hpp"
@@ -73,10 +78,33 @@ std::string await_line(cluster::Client& client, std::uint16_t channel) {
   throw std::runtime_error("the line was not found within 60 s");
 }
 
+std::atomic<bool> released{false};
+
+// A jog without an increment lasts as long as this command: until it is interrupted, or the channel ends it.
+void renew_until_released(cluster::Client& client, const idl::channel::ChannelRequest& jog) {
+  std::signal(SIGINT, [](int) { released = true; });
+  std::signal(SIGTERM, [](int) { released = true; });
+  std::fprintf(stderr, "Jogging until Ctrl-C, jog-stop or the end of travel\n");
+  bool moving = true;
+  while (moving && !released) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(60));
+    try {
+      client.channel({.channel = jog.channel, .command = CommandKind::JOG_RENEW, .press = jog.press});
+    } catch (const std::runtime_error&) {
+      moving = false;
+    }
+  }
+  if (moving) client.channel({.channel = jog.channel, .command = CommandKind::JOG_STOP, .axis = jog.axis});
+}
+
 int run(const Common& common, const Options& options) {
   const auto cluster = cluster::find_cluster(common.domain);
   cluster::Client client(cluster.run.domain);
-  client.channel(request_of(client, options));
+  auto request = request_of(client, options);
+  const bool jogs_until_released = request.command == CommandKind::JOG_AXIS && request.increment == 0;
+  if (jogs_until_released && request.press == 0) request.press = std::random_device{}() | 1u;
+  client.channel(request);
+  if (jogs_until_released) renew_until_released(client, request);
   std::string detail;
   if (options.word == "start" && options.from_line != 0) detail = await_line(client, options.channel);
   if (common.json)

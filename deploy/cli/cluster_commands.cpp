@@ -89,7 +89,7 @@ std::string replica_state(const idl::service::ClusterService& service, bool in_s
                           const std::map<std::array<std::uint32_t, 3>, idl::service::Alarm>& alarms) {
   const auto stage = stream::stage_of(service.service);
   if (!stage || service.pid == 0) return "";
-  const auto part = stream::replica_part(*stage, service.copy);
+  const auto part = stream::replica_part(*stage, service.replica);
   const auto number = alarm::redundancy_lost.number;
   for (const auto& [key, alarm] : alarms)
     if (alarm.active && alarm.number == number && alarm.part == part &&
@@ -135,7 +135,7 @@ int status(const Common& common) {
     row["frames_per_second"] = s != state.end() ? s->second.frames_per_second : 0;
     row["frames_lost"] = s != state.end() ? s->second.frames_lost : 0;
     row["in_step"] = s != state.end() && s->second.pid == service.pid && s->second.in_step;
-    row["replica"] = replica_state(service, row["in_step"].get<bool>(), alarm);
+    row["replica_state"] = replica_state(service, row["in_step"].get<bool>(), alarm);
     row["contract_matches"] = a != announced.end() && a->second.contract == topics::contract_hash;
     if (a != announced.end() && a->second.contract != topics::contract_hash)
       row["state"] = "CONTRACT " + a->second.contract + ", expected " + topics::contract_hash;
@@ -154,13 +154,13 @@ int status(const Common& common) {
   } else {
     std::printf("%s, domain %u, %s time, %s\n\n", list.machine.c_str(), cluster.run.domain,
                 list.virtual_time ? "virtual" : "real", list.ready ? "ready" : "NOT READY");
-    std::printf("%-14s %-4s %-11s %8s %-14s %-8s %10s %10s %8s  %s\n", "service", "copy", "vendor", "pid",
-                "state", "replica", "uptime s", "frames/s", "restarts", "");
+    std::printf("%-14s %-7s %-11s %8s %-14s %-8s %10s %10s %8s  %s\n", "service", "replica", "vendor", "pid",
+                "state", "in step", "uptime s", "frames/s", "restarts", "");
     for (const auto& row : services)
-      std::printf("%-14s %-4d %-11s %8d %-14s %-8s %10.1f %10.1f %8d  %s\n",
-                  row["service"].get<std::string>().c_str(), row["copy"].get<int>(),
+      std::printf("%-14s %-7d %-11s %8d %-14s %-8s %10.1f %10.1f %8d  %s\n",
+                  row["service"].get<std::string>().c_str(), row["replica"].get<int>(),
                   row["vendor"].get<std::string>().c_str(), row["pid"].get<int>(),
-                  row["state"].get<std::string>().c_str(), row["replica"].get<std::string>().c_str(),
+                  row["state"].get<std::string>().c_str(), row["replica_state"].get<std::string>().c_str(),
                   row["uptime_seconds"].get<double>(), row["frames_per_second"].get<double>(),
                   row["restarts"].get<int>(), remark(row).c_str());
     if (!active.empty()) std::printf("\nalarms\n");

@@ -26,9 +26,13 @@ std::uint32_t parse_number(const std::string& text) {
   return static_cast<std::uint32_t>(std::stoul(text));
 }
 
-machine::Parameters active(cluster::Client& client, std::vector<std::uint32_t>* pending = nullptr) {
+// Stored values that wait for reset or restart, by number.
+using Pending = std::map<std::uint32_t, machine::ParameterValue>;
+
+machine::Parameters active(cluster::Client& client, Pending* pending = nullptr) {
   const auto set = client.newest(topics::parameter_set);
-  if (pending != nullptr) *pending = set.pending;
+  if (pending != nullptr)
+    for (const auto& value : set.pending) (*pending)[value.number] = {value.value, value.text};
   return machine::parameters_of(set);
 }
 
@@ -112,7 +116,7 @@ int set(const Common& common, const std::string& number, const std::string& valu
 
 int list(const Common& common, const std::string& filter) {
   cluster::Client client(cluster::find_cluster(common.domain).run.domain);
-  std::vector<std::uint32_t> pending;
+  Pending pending;
   const auto parameters = active(client, &pending);
   bus::Json all = bus::Json::array();
   for (const auto& [number, value] : parameters.values) {
@@ -120,14 +124,21 @@ int list(const Common& common, const std::string& filter) {
     if (!filter.empty() && number_text(number).rfind(filter, 0) != 0 &&
         json["name"].get<std::string>().find(filter) == std::string::npos)
       continue;
-    const bool waits = std::find(pending.begin(), pending.end(), number) != pending.end();
+    const auto waiting = pending.find(number);
     all.push_back(json);
-    all.back()["pending"] = waits;
+    all.back()["pending"] = waiting != pending.end();
+    std::string waits;
+    if (waiting != pending.end()) {
+      const bool text = Catalogue::instance().find(number)->type == machine::ParameterType::text;
+      auto& value = all.back()["pending_value"];
+      text ? value = waiting->second.text : value = waiting->second.value;
+      waits = " (" + value.dump() + " waits)";
+    }
     if (!common.json)
       std::printf("%s %-32s %14s %-14s %s%s\n", number_text(number).c_str(),
                   json["name"].get<std::string>().c_str(), json["value"].dump().c_str(),
                   json["unit"].get<std::string>().c_str(), json["activation"].get<std::string>().c_str(),
-                  waits ? " (a new value waits)" : "");
+                  waits.c_str());
   }
   if (common.json)
     std::cout << bus::Json{{"revision", parameters.revision}, {"parameters", all}}.dump(2) << "\n";

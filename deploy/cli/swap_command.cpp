@@ -63,7 +63,7 @@ void add_swap_command(CLI::App& app, Common& common) {
                       "Executable of the new one, on the host of the service (default: the one that runs)");
   command->add_option("--vendor", request->vendor, "DDS vendor of the new one (default: the one that runs)")
       ->check(CLI::IsMember({"fastdds", "cyclonedds"}));
-  command->add_option("--copy", request->copy, "Which replica of a stage that has two (default 0)")
+  command->add_option("--replica", request->replica, "Which replica of a stage that has two (default 0)")
       ->check(CLI::Range(0, 1));
   command->add_option("--channel", request->channel, "Which channel, for service channel (default 0)")
       ->check(CLI::Range(0, 31));

@@ -58,7 +58,7 @@ Launcher::Launcher(LaunchOptions options)
     process.local = entry.host == options_.host;
     process.executable = cluster::binary_directory() + "/" + machine::program_of(options_.machine, entry);
     process.log = options_.run.log_file(
-        entry.service + "-" + std::to_string(entry.service == "channel" ? entry.channel : entry.copy));
+        entry.service + "-" + std::to_string(entry.service == "channel" ? entry.channel : entry.replica));
     processes_.push_back(std::move(process));
   }
 }
@@ -256,7 +256,7 @@ void Launcher::publish() {
   cluster.ready = ready;
   cluster.virtual_time = options_.virtual_time;
   for (const auto& p : processes_)
-    cluster.services.push_back({p.entry.instance, p.entry.service, static_cast<std::uint8_t>(p.entry.copy),
+    cluster.services.push_back({p.entry.instance, p.entry.service, static_cast<std::uint8_t>(p.entry.replica),
                                 p.entry.vendor, p.pid, p.restarts,
                                 p.pid != 0 && p.lifecycle == idl::service::Lifecycle::ACTIVE});
   if (is_first_host()) cluster_writer_.write(cluster);
@@ -264,7 +264,7 @@ void Launcher::publish() {
 
 ServiceProcess* Launcher::whom_to_swap(const idl::service::SwapRequest& request) {
   const auto found = std::find_if(processes_.begin(), processes_.end(), [&](const ServiceProcess& p) {
-    return p.entry.service == request.service && p.entry.copy == request.copy &&
+    return p.entry.service == request.service && p.entry.replica == request.replica &&
            (p.entry.service != "channel" || p.entry.channel == request.channel);
   });
   return found == processes_.end() ? nullptr : &*found;

@@ -18,8 +18,8 @@ void ServiceProcess::start(const LaunchOptions& options, bool on_standby, double
                                 options.state_directory,
                                 "--instance",
                                 std::to_string(e.instance),
-                                "--copy",
-                                std::to_string(e.copy),
+                                "--replica",
+                                std::to_string(e.replica),
                                 "--channel",
                                 std::to_string(e.channel),
                                 "--domain",
@@ -70,7 +70,7 @@ bool ServiceProcess::hear(const idl::service::ServiceState& state, double now) {
 
 std::string ServiceProcess::name() const {
   return entry.service + (entry.service == "channel" ? " " + std::to_string(entry.channel)
-                          : entry.copy > 0           ? " (copy " + std::to_string(entry.copy) + ")"
+                          : entry.replica > 0        ? " (replica " + std::to_string(entry.replica) + ")"
                                                      : "");
 }
 

@@ -38,7 +38,7 @@ struct ServiceProcess {
   std::optional<int> ended();
   /// Takes what the process publishes of itself; false when it is not this process's.
   bool hear(const idl::service::ServiceState& state, double now);
-  /// Service, channel or copy, as alarms name it.
+  /// Service, channel or replica, as alarms name it.
   std::string name() const;
 };
 

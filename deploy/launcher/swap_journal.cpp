@@ -38,7 +38,7 @@ std::string swap_line(const idl::service::SwapRequest& request, const idl::servi
                       const SwapSide& before, const SwapSide& after) {
   const bus::Json line{{"cycle", reply.cycle},
                        {"service", request.service},
-                       {"copy", request.copy},
+                       {"replica", request.replica},
                        {"channel", request.channel},
                        {"compared_cycles", reply.compared},
                        {"seconds", reply.seconds},

@@ -9,7 +9,7 @@
 #include "stream.h"
 
 struct options {
-  unsigned instance, copy, domain;
+  unsigned instance, replica, domain;
   const char *machine;
   const char *interface_address, *peers; /* IPv4 addresses, the second separated by commas */
   int multicast, virtual_time, parent_bound, shadow;

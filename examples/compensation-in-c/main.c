@@ -43,7 +43,7 @@ static double now_seconds(void) {
 }
 
 static int usage(const char *what) {
-  fprintf(stderr, "compensation-in-c: %s\nOptions as of every service: --machine --state --instance --copy --channel "
+  fprintf(stderr, "compensation-in-c: %s\nOptions as of every service: --machine --state --instance --replica --channel "
                   "--domain --vendor --interface --peers --multicast --virtual-time --parent-bound --shadow\n", what);
   return 1;
 }
@@ -66,8 +66,8 @@ static int parse(struct options *o, int argc, char **argv) {
       ++i;
       if (strcmp(name, "--instance") == 0)
         o->instance = (unsigned)strtoul(value, NULL, 10);
-      else if (strcmp(name, "--copy") == 0)
-        o->copy = (unsigned)strtoul(value, NULL, 10);
+      else if (strcmp(name, "--replica") == 0)
+        o->replica = (unsigned)strtoul(value, NULL, 10);
       else if (strcmp(name, "--domain") == 0)
         o->domain = (unsigned)strtoul(value, NULL, 10);
       else if (strcmp(name, "--interface") == 0)
@@ -166,7 +166,7 @@ static void run_lane(struct service *s, uint16_t channel) {
     compensation_process(&l->core, in->setpoints._buffer, s->setpoints, in->count, columns);
     *out = *in; /* shares the input's axes and lines, which live in the lane until they are overwritten */
     out->stage = STAGE;
-    out->copy = (uint8_t)s->options.copy;
+    out->replica = (uint8_t)s->options.replica;
     out->setpoints._buffer = s->setpoints;
     fill_states(s, in, l);
     dds_write(s->cluster.output, out);
@@ -192,7 +192,7 @@ static void report_progress(struct service *s, uint16_t channel) {
   if (l->in_step && !l->settled) l->settled = lane_peek(l) == NULL && cluster_matched(s->cluster.output) > 0;
   if (s->standby) return;
   memset(&p, 0, sizeof p);
-  p.stage = STAGE, p.copy = (uint8_t)s->options.copy, p.channel = channel;
+  p.stage = STAGE, p.replica = (uint8_t)s->options.replica, p.channel = channel;
   p.in_step = l->in_step && l->settled, p.epoch = l->epoch, p.next = l->next;
   if (p.in_step == l->told_in_step && p.next < l->told_next + s->lead && now - l->told_at <= 0.1) return;
   l->told_at = now, l->told_in_step = p.in_step, l->told_next = p.next;
@@ -208,7 +208,7 @@ static void beat(struct service *s) {
   state.instance = s->options.instance;
   strcpy(state.service, "compensation");
   strcpy(state.vendor, "cyclonedds");
-  state.pid = getpid(), state.copy = (uint8_t)s->options.copy;
+  state.pid = getpid(), state.replica = (uint8_t)s->options.replica;
   state.lifecycle = active                  ? trunnion_service_ACTIVE
                     : s->cluster.output > 0 ? trunnion_service_INACTIVE
                                             : trunnion_service_UNCONFIGURED;

@@ -15,8 +15,8 @@ namespace net = boost::asio;
 using tcp = net::ip::tcp;
 
 struct HttpServer::Inside {
-  Inside(const std::string& address, std::uint16_t port, Api& served)
-      : acceptor(context), pause(context), api(served), hub(context, served.mailbox()) {
+  Inside(const std::string& address, std::uint16_t port, Api& served, Site own)
+      : acceptor(context), pause(context), api(served), site(std::move(own)), hub(context, served.mailbox()) {
     const std::string where = address + ":" + std::to_string(port);
     boost::system::error_code error;
     const auto parsed = net::ip::make_address(address, error);
@@ -46,7 +46,7 @@ struct HttpServer::Inside {
       if (make_room()) {
         boost::system::error_code ignored;
         socket.set_option(tcp::no_delay(true), ignored);
-        const auto session = std::make_shared<HttpSession>(std::move(socket), api, hub);
+        const auto session = std::make_shared<HttpSession>(std::move(socket), api, hub, site);
         sessions.push_back(session);
         session->start();
       }
@@ -76,12 +76,13 @@ struct HttpServer::Inside {
   tcp::acceptor acceptor;
   net::steady_timer pause;
   Api& api;
+  const Site site;
   StreamHub hub;
   std::thread thread;
 };
 
-HttpServer::HttpServer(const std::string& address, std::uint16_t port, Api& api)
-    : inside_(std::make_unique<Inside>(address, port, api)) {}
+HttpServer::HttpServer(const std::string& address, std::uint16_t port, Api& api, Site site)
+    : inside_(std::make_unique<Inside>(address, port, api, std::move(site))) {}
 
 HttpServer::~HttpServer() { stop(); }
 

@@ -7,13 +7,14 @@
 #include <string>
 
 #include "api.hpp"
+#include "src/site.hpp"
 
 namespace trunnion::gateway {
 
 class HttpServer {
  public:
   /// Listens at once. Throws std::runtime_error saying address, port and reason.
-  HttpServer(const std::string& address, std::uint16_t port, Api& api);
+  HttpServer(const std::string& address, std::uint16_t port, Api& api, Site site = Site());
   ~HttpServer();
   /// Ends the thread; nothing is answered afterwards. Answers may still be handed to sessions until it is
   /// destroyed.

@@ -8,6 +8,7 @@
 #include <boost/beast/http/write.hpp>
 
 #include "src/requests.hpp"
+#include "src/site.hpp"
 
 namespace trunnion::gateway {
 
@@ -35,8 +36,8 @@ idl::gateway::Sender sender(const Request& request) {
 
 }  // namespace
 
-HttpSession::HttpSession(net::ip::tcp::socket&& socket, Api& api, StreamHub& hub)
-    : stream_(std::move(socket)), api_(api), hub_(hub) {
+HttpSession::HttpSession(net::ip::tcp::socket&& socket, Api& api, StreamHub& hub, const Site& site)
+    : stream_(std::move(socket)), api_(api), hub_(hub), site_(site) {
   beast::error_code error;
   const auto peer = stream_.socket().remote_endpoint(error);
   if (!error) connection_.peer = peer.address().to_string();
@@ -81,6 +82,10 @@ void HttpSession::on_header() {
     line_ = std::make_unique<JournalLine>(
         begin_line(sender(request), connection_.peer, view(request.method_string()), target));
   }
+  if (!site_.is_named(view(request[http::field::host])))
+    return answer_and_close(
+        error_answer(421, "this machine is not called '" + std::string(view(request[http::field::host])) +
+                              "': use its address, or enter the name in host_names of machine.yaml"));
   if (sender(request) == idl::gateway::Sender::FOREIGN_PAGE)
     return answer_and_close(error_answer(403, "a page of another site must not operate this machine"));
   if (!is_api) {

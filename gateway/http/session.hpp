@@ -16,12 +16,13 @@
 #include "api.hpp"
 #include "http/stream.hpp"
 #include "src/connections.hpp"
+#include "src/site.hpp"
 
 namespace trunnion::gateway {
 
 class HttpSession : public std::enable_shared_from_this<HttpSession> {
  public:
-  HttpSession(boost::asio::ip::tcp::socket&& socket, Api& api, StreamHub& hub);
+  HttpSession(boost::asio::ip::tcp::socket&& socket, Api& api, StreamHub& hub, const Site& site);
   void start();
   const Connection& connection() const { return connection_; }
   /// Another connection takes its place.
@@ -72,6 +73,7 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
   boost::beast::flat_buffer buffer_;
   Api& api_;
   StreamHub& hub_;
+  const Site& site_;
   Connection connection_;
 
   boost::optional<Parser<boost::beast::http::empty_body>> header_;

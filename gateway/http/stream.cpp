@@ -6,6 +6,7 @@
 #include <boost/beast/core/buffers_to_string.hpp>
 
 #include "bus/json.hpp"
+#include "commands/command_table.hpp"
 #include "src/journal.hpp"
 #include "src/merge_patch.hpp"
 #include "src/router.hpp"
@@ -113,12 +114,9 @@ void StreamSession::take_order(const std::string& text) {
   const auto path = member("path", "");
   const auto target = path.is_string() ? path.get<std::string>() : "";
   const auto found = match("POST", target);
-  const bool stops =
-      found.result == RouteResult::found &&
-      (found.command == "emergency-stop" || found.command == "feed-hold" || found.command == "jog-stop");
-  if (!stops)
+  if (found.result != RouteResult::found || !commands::is_by_stream(found.command))
     return answer_order(order,
-                        error_answer(404, "only emergency-stop, feed-hold and jog-stop come by the stream"));
+                        error_answer(404, "only " + commands::routes_by_stream() + " come by the stream"));
   const auto body = member("body", bus::Json::object()).dump();
   auto line = std::make_shared<JournalLine>(begin_line(sender_, peer_, "POST", target));
   add_body(*line, body);

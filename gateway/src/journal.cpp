@@ -51,12 +51,4 @@ void set_asked(JournalLine& line, const Asked& asked) {
   line.requests = asked.requests;
 }
 
-JournalLine jog_stop_line(std::uint16_t channel, std::uint8_t axis, const Asked& asked) {
-  auto line = begin_line(idl::gateway::Sender::ITSELF, "", "POST",
-                         "/api/channels/" + std::to_string(channel) + "/jog-stop");
-  add_body(line, "{\"axis\":" + std::to_string(axis) + "}");
-  set_asked(line, asked);
-  return line;
-}
-
 }  // namespace trunnion::gateway

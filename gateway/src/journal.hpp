@@ -31,7 +31,4 @@ void add_body(JournalLine& line, std::string_view part);
 void add_answer(JournalLine& line, std::string_view part);
 void set_asked(JournalLine& line, const Asked& asked);
 
-/// The line of a continuous jog that was stopped because it was not renewed.
-JournalLine jog_stop_line(std::uint16_t channel, std::uint8_t axis, const Asked& asked);
-
 }  // namespace trunnion::gateway

@@ -66,8 +66,11 @@ Json entry(const Snapshot& snapshot, const machine::Definition& definition, std:
   }
   json["activation"] = machine::to_string(definition.activation);
   json["access"] = definition.access;
-  json["pending"] =
-      std::binary_search(snapshot.parameters->pending.begin(), snapshot.parameters->pending.end(), number);
+  const auto& pending = snapshot.parameters->pending;
+  const auto waiting = std::ranges::lower_bound(pending, number, {}, &idl::parameters::Parameter::number);
+  json["pending"] = waiting != pending.end() && waiting->number == number;
+  if (json["pending"].get<bool>())
+    json["pending_value"] = is_text ? Json(waiting->text) : Json(number_json(waiting->value));
   json["help"] = definition.help;
   json["group"] = group_of(number);
   return json;

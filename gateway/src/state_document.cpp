@@ -105,7 +105,7 @@ Json StateDocument::services(double now) const {
       return known.beating ? beat : known.announced ? announced : planned;
     };
     entry["service"] = newest(state.service, announcement.service, plan.service);
-    entry["copy"] = known.beating ? state.copy : plan.copy;
+    entry["replica"] = known.beating ? state.replica : plan.replica;
     entry["vendor"] = newest(state.vendor, announcement.vendor, plan.vendor);
     entry["host"] = announcement.host;
     entry["pid"] = newest(state.pid, announcement.pid, plan.pid);

@@ -86,7 +86,7 @@ void FakeCluster::publish_once() {
   warning_.active = true;
   warning_.severity = idl::service::Severity::WARNING;
   warning_.source = "channel";
-  warning_.text = "Redundancy lost: compensation runs without its copy";
+  warning_.text = "Redundancy lost: compensation runs without its second replica";
   warning_.occurrences = 1;
   alarm_.write(warning_);
 

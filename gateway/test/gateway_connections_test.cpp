@@ -75,8 +75,9 @@ TEST_F(Gateway, OpenConnectionsDoNotBlockAStop) {
   for (int i = 0; i < 150; ++i)
     held.push_back(half_open(port_, "POST /api/panel/emergency-stop HTTP/1.1\r\nHo"));
   for (int i = 0; i < 150; ++i)
-    held.push_back(half_open(port_, "PUT /api/programs/A" + std::to_string(i) +
-                                        ".NC HTTP/1.1\r\nHost: a\r\nContent-Length: 100000\r\n\r\nG0"));
+    held.push_back(
+        half_open(port_, "PUT /api/programs/A" + std::to_string(i) +
+                             ".NC HTTP/1.1\r\nHost: 127.0.0.1\r\nContent-Length: 100000\r\n\r\nG0"));
   EXPECT_EQ(post("/api/panel/emergency-stop").status, 200);
   EXPECT_EQ(post("/api/channels/0/feed-hold").status, 200);
   for (const int fd : held) ::close(fd);

@@ -208,29 +208,38 @@ TEST_F(Gateway, AProgramIsInTheJournalBySizeAndSumAndByTheRequestsThatCarriedIt)
   EXPECT_EQ(line.answer_crc32, storage::crc32(text));
   EXPECT_EQ(line.requests, 3u);
   // A client that goes away in the middle of its program has no answer.
-  send_and_go(port_, "PUT /api/programs/Q HTTP/1.1\r\nHost: x\r\nContent-Length: 100\r\n\r\nhalf");
+  send_and_go(port_, "PUT /api/programs/Q HTTP/1.1\r\nHost: 127.0.0.1\r\nContent-Length: 100\r\n\r\nhalf");
   line = journal.next();
   EXPECT_EQ(line.target, "/api/programs/Q");
   EXPECT_EQ(line.status, 0);
 }
 
-TEST_F(Gateway, AContinuousJogEndsWithoutRenewal) {
-  JournalReader journal;
-  ASSERT_TRUE(journal.found(port_));
-  EXPECT_EQ(post("/api/channels/0/jog", {{"axis", "Y"}, {"speed", -300}}).status, 200);
-  EXPECT_EQ(json::parse(post("/api/channels/0/jog", {{"axis", "Y"}, {"speed", -300}}).body)["renewed"], true);
-  EXPECT_TRUE(eventually([&] { return cluster([](auto& c) { return c.channel_requests.size() == 2; }); }));
+// A page under a name of its own that leads to this address has the same Origin and Host, and must not
+// operate either.
+TEST_F(Gateway, ARequestUnderAnotherNameIsRefusedBeforeItIsRead) {
+  const auto answer = http_client::raw_exchange(
+      port_,
+      "POST /api/panel/emergency-stop HTTP/1.1\r\nHost: evil.example\r\nOrigin: http://evil.example\r\n"
+      "Content-Length: 2\r\nConnection: close\r\n\r\n{}");
+  EXPECT_NE(answer.find("HTTP/1.1 421"), std::string::npos) << answer;
+  EXPECT_NE(answer.find("host_names"), std::string::npos) << answer;
+}
+
+TEST_F(Gateway, AJogItsRenewalsAndItsStopReachTheChannelWithTheirPress) {
+  using idl::channel::CommandKind;
+  EXPECT_EQ(post("/api/channels/0/jog", {{"axis", "Y"}, {"speed", -300}, {"press", 4000000000u}}).status,
+            200);
+  EXPECT_EQ(post("/api/channels/0/jog-renew", {{"press", 4000000000u}}).status, 200);
+  EXPECT_EQ(post("/api/channels/0/jog-renew", {{"press", 0}}).status, 400);
+  EXPECT_EQ(post("/api/channels/0/jog-stop", {{"axis", "Y"}}).status, 200);
   cluster([](auto& c) {
-    EXPECT_EQ(c.channel_requests[0].command, idl::channel::CommandKind::JOG_AXIS);
-    EXPECT_EQ(c.channel_requests[0].speed, -300);
-    EXPECT_EQ(c.channel_requests[1].command, idl::channel::CommandKind::JOG_STOP);
-    EXPECT_EQ(c.channel_requests[1].axis, 1);
+    ASSERT_EQ(c.channel_requests.size(), 3u);
+    EXPECT_EQ(c.channel_requests[0].command, CommandKind::JOG_AXIS);
+    EXPECT_EQ(c.channel_requests[0].press, 4000000000u);
+    EXPECT_EQ(c.channel_requests[1].command, CommandKind::JOG_RENEW);
+    EXPECT_EQ(c.channel_requests[1].press, 4000000000u);
+    EXPECT_EQ(c.channel_requests[2].command, CommandKind::JOG_STOP);
   });
-  EXPECT_EQ(journal.next().requests, 1u);
-  EXPECT_EQ(journal.next().requests, 0u) << "renewed: the channel was not asked";
-  const auto stopped = journal.next();
-  EXPECT_EQ(stopped.sender, idl::gateway::Sender::ITSELF);
-  EXPECT_EQ(stopped.target, "/api/channels/0/jog-stop");
 }
 
 TEST_F(Gateway, ProgramsTravelInChunksAndComeBackAsTheyWere) {

@@ -50,16 +50,5 @@ TEST(Journal, NoRequestHoweverLongIsBeyondTheBoundsOfTheLine) {
   EXPECT_EQ(line.target.size(), 256u);
 }
 
-TEST(Journal, AJogThatNobodyRenewedIsALineOfItsOwn) {
-  const auto line = jog_stop_line(2, 4, {77, 5, 1});
-  EXPECT_EQ(line.sender, Sender::ITSELF);
-  EXPECT_EQ(line.target, "/api/channels/2/jog-stop");
-  EXPECT_EQ(line.body, "{\"axis\":4}");
-  EXPECT_EQ(line.status, 0) << "nobody was answered";
-  EXPECT_EQ(line.client, 77u);
-  EXPECT_EQ(line.number, 5u);
-  EXPECT_EQ(line.requests, 1u);
-}
-
 }  // namespace
 }  // namespace trunnion::gateway

@@ -7,6 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "src/site.hpp"
+
 namespace trunnion::gateway {
 namespace {
 
@@ -79,6 +81,25 @@ TEST(Router, EveryReferenceOfTheDocumentLeadsSomewhere) {
   };
   walk(document);
   EXPECT_GT(references, 50);
+}
+
+TEST(Site, IsNamedByAddressesLocalhostAndItsOwnNamesOnly) {
+  const Site site({"Mill-3", "mill-3.local"});
+  for (const char* host : {"", "127.0.0.1", "127.0.0.1:8080", "[::1]:8080", "[fe80::1]", "localhost:8080",
+                           "LOCALHOST", "localhost.", "mill-3", "MILL-3:8080", "mill-3.local"})
+    EXPECT_TRUE(site.is_named(host)) << host;
+  // Names that may lead here by the will of somebody else, also those that begin or end like ours.
+  for (const char* host :
+       {"evil.example", "evil.example:8080", "mill-3.evil.example", "localhost.evil.example",
+        "127.0.0.1.evil.example", "evilmill-3", ":8080", "10.0.0.1x"})
+    EXPECT_FALSE(site.is_named(host)) << host;
+}
+
+TEST(Site, TakesAPageOfAnotherHostOrPortForForeign) {
+  EXPECT_FALSE(foreign_origin("", "mill-3"));
+  EXPECT_FALSE(foreign_origin("http://mill-3:8080", "mill-3:8080"));
+  EXPECT_TRUE(foreign_origin("http://mill-3:8081", "mill-3:8080"));
+  EXPECT_TRUE(foreign_origin("null", "mill-3:8080"));
 }
 
 }  // namespace

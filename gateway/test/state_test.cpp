@@ -3,7 +3,6 @@
 
 #include <random>
 
-#include "src/jog_guard.hpp"
 #include "src/merge_patch.hpp"
 #include "src/snapshot.hpp"
 #include "src/state_document.hpp"
@@ -44,28 +43,6 @@ TEST(MergePatch, AppliedToTheOldStateItGivesTheNewOne) {
     ASSERT_EQ(patched, nlohmann::json(to)) << from << " -> " << to << " by " << patch;
     ASSERT_EQ(merge_patch(to, to), Json::object());
   }
-}
-
-TEST(JogGuard, OnlyTheFirstPressAndAChangeOfSpeedReachTheChannel) {
-  JogGuard guard;
-  EXPECT_TRUE(guard.press(0, 1, 500, 10.0));
-  EXPECT_FALSE(guard.press(0, 1, 500, 10.2));
-  EXPECT_TRUE(guard.press(0, 1, -500, 10.3));
-  EXPECT_TRUE(guard.press(0, 2, 500, 10.3));
-  EXPECT_TRUE(guard.press(1, 1, 500, 10.3));
-}
-
-TEST(JogGuard, WhatIsNotRenewedIsStoppedOnce) {
-  JogGuard guard;
-  guard.press(0, 1, 500, 10.0);
-  guard.press(3, 2, 500, 10.3);
-  EXPECT_TRUE(guard.expired(10.0 + jog_timeout).empty());
-  EXPECT_EQ(guard.expired(10.6), (std::vector<std::pair<std::uint16_t, std::uint8_t>>{{0, 1}}));
-  EXPECT_TRUE(guard.expired(10.6).empty());
-  EXPECT_TRUE(guard.watching());
-  guard.forget(3, 2);
-  EXPECT_FALSE(guard.watching());
-  EXPECT_TRUE(guard.expired(99).empty());
 }
 
 TEST(Trace, KeepsFewRowsEvenlySpreadHoweverManyCome) {
@@ -219,7 +196,7 @@ Snapshot with_two_axes() {
   rapid.number = 104034;
   rapid.value = 3600;
   set->values.push_back(rapid);
-  set->pending = {104034};
+  set->pending = {{104034, 250, ""}};
   Snapshot snapshot;
   snapshot.parameters = set;
   snapshot.channels[0] = {};
@@ -235,6 +212,8 @@ TEST(ParameterAnswer, ListsTheAxesTheMachineHasAndNoOthers) {
   EXPECT_EQ(answer["parameters"][1]["number"], 104034);
   EXPECT_EQ(answer["parameters"][1]["value"], 3600);
   EXPECT_EQ(answer["parameters"][1]["pending"], true);
+  EXPECT_EQ(answer["parameters"][1]["pending_value"], 250);
+  EXPECT_FALSE(answer["parameters"][0].contains("pending_value"));
   EXPECT_EQ(answer["total"], 2);
 }
 

@@ -98,6 +98,8 @@ class ChannelSetup : public language::Environment {
   double dry_run_feed() const { return dry_run_feed_; }
   /// Share of every limit of the axes that a handwheel offset may take.
   double handwheel_share() const { return handwheel_share_; }
+  /// Machine time that a jog movement without an increment lasts without a renewal.
+  double jog_renewal_seconds() const { return jog_renewal_seconds_; }
   double reference_feed(std::uint8_t axis) const { return reference_feed_[axis]; }
   double cycle_seconds() const { return cycle_seconds_; }
   std::uint64_t lead() const { return lead_; }
@@ -133,6 +135,7 @@ class ChannelSetup : public language::Environment {
   bool diameter_programming_ = false;
   double scaling_unit_ = 1;
   double default_feed_ = 1000, dry_run_feed_ = 2000, handwheel_share_ = 0.2;
+  double jog_renewal_seconds_ = 0.25;
   language::CycleSettings cycles_;
   language::CutterSettings cutter_;
   std::array<std::array<language::Vector3, 3>, 20> planes_{};

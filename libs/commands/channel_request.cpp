@@ -145,6 +145,9 @@ void fill(ChannelRequest& request, const Field& field, const Json& value, std::s
     case Into::levels:
       request.levels = levels_of(value, field);
       break;
+    case Into::press:
+      request.press = static_cast<std::uint32_t>(whole_of(value, field));
+      break;
   }
 }
 
@@ -236,6 +239,8 @@ std::optional<double> number_in(const ChannelRequest& request, Into field) {
       return request.increment;
     case Into::counts:
       return request.counts;
+    case Into::press:
+      return request.press;
     default:
       return std::nullopt;
   }

@@ -5,6 +5,22 @@
 
 namespace trunnion::commands {
 
+bool is_by_stream(std::string_view route) {
+  const auto found = [&](const auto& row) { return row.by_stream && row.route == route; };
+  return std::ranges::any_of(channel_commands(), found) || std::ranges::any_of(panel_commands(), found);
+}
+
+std::string routes_by_stream() {
+  std::string list;
+  const auto add = [&](const auto& rows) {
+    for (const auto& row : rows)
+      if (row.by_stream) list.append(list.empty() ? "" : ", ").append(row.route);
+  };
+  add(panel_commands());
+  add(channel_commands());
+  return list;
+}
+
 const ChannelCommand* find_word(std::string_view word) {
   const auto rows = channel_commands();
   const auto found =

@@ -12,7 +12,21 @@
 namespace trunnion::commands {
 
 /// The field of ChannelRequest that a field of a command fills; it decides how JSON and words are read.
-enum class Into { mode, program, block, line, on, fraction, axis, speed, increment, counts, axes, levels };
+enum class Into {
+  mode,
+  program,
+  block,
+  line,
+  on,
+  fraction,
+  axis,
+  speed,
+  increment,
+  counts,
+  axes,
+  levels,
+  press
+};
 
 struct Field {
   std::string_view name;  ///< in JSON
@@ -33,11 +47,13 @@ struct ChannelCommand {
   std::string_view about;                 ///< one line
   std::span<const idl::channel::Mode> modes;  ///< in which it is accepted; empty = in every one
   bool busy;                                  ///< it is accepted while the channel is busy
+  bool by_stream;                             ///< HTTP: also over the open WebSocket of /api/stream
   std::span<const Field> fields;
 };
 
 struct PanelCommand {
   idl::plc::PanelRequestKind kind;
+  bool by_stream;          ///< as in ChannelCommand
   std::string_view route;  ///< last part of POST /api/panel/...
   std::string_view word;   ///< of `trunnion estop`
   std::string_view about;
@@ -46,6 +62,10 @@ struct PanelCommand {
 std::span<const ChannelCommand> channel_commands();
 std::span<const PanelCommand> panel_commands();
 
+/// Whether a POST to the last part `route` of a path is accepted over the WebSocket of /api/stream, too.
+bool is_by_stream(std::string_view route);
+/// What comes that way, for a message: "a, b, c".
+std::string routes_by_stream();
 /// Null when there is none.
 const ChannelCommand* find_word(std::string_view word);
 const PanelCommand* find_panel_word(std::string_view word);

@@ -58,14 +58,14 @@ std::vector<Host> read_hosts(const YAML::Node& section, const std::string& file)
   return hosts;
 }
 
-std::string host_of(const YAML::Node& entry, std::size_t copy, const std::vector<Host>& hosts,
+std::string host_of(const YAML::Node& entry, std::size_t replica, const std::vector<Host>& hosts,
                     const std::string& file) {
   const auto node = entry["host"];
   if (!node) return hosts.empty() ? "" : hosts.front().name;
   if (hosts.empty()) throw std::runtime_error(at(file, node) + "there is no section 'hosts'");
-  if (node.IsSequence() && copy >= node.size())
-    throw std::runtime_error(at(file, node) + "copy " + std::to_string(copy) + " has no host");
-  const auto name = scalar(file, node.IsSequence() ? node[copy] : node);
+  if (node.IsSequence() && replica >= node.size())
+    throw std::runtime_error(at(file, node) + "replica " + std::to_string(replica) + " has no host");
+  const auto name = scalar(file, node.IsSequence() ? node[replica] : node);
   if (std::none_of(hosts.begin(), hosts.end(), [&](const Host& host) { return host.name == name; }))
     throw std::runtime_error(at(file, node) + "unknown host '" + name + "': there is " + names_of(hosts));
   return name;

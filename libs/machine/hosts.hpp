@@ -20,10 +20,10 @@ struct Host {
 /// std::runtime_error with file:line:column, also for a name or an address that is there twice.
 std::vector<Host> read_hosts(const YAML::Node& section, const std::string& file);
 
-/// The host of replica `copy` of a service: `entry` is its line, whose key `host` is a name or a list with
+/// The host of replica `replica` of a service: `entry` is its line, whose key `host` is a name or a list with
 /// one name for each replica. Without the key it is the first host; empty when there are no hosts. Throws
 /// std::runtime_error with file:line:column for a name that is not in `hosts`.
-std::string host_of(const YAML::Node& entry, std::size_t copy, const std::vector<Host>& hosts,
+std::string host_of(const YAML::Node& entry, std::size_t replica, const std::vector<Host>& hosts,
                     const std::string& file);
 
 /// `network: unicast` (the default) or `multicast`: true for the latter. Multicast is for finding each other

@@ -77,8 +77,8 @@ MachineConfig parse_machine(const std::string& text, const std::string& director
   const std::string file = directory + "/machine.yaml";
   const auto document = parse_yaml(text, file);
   check_keys(file, document,
-             {"name", "title", "domain", "port", "time", "vendor", "hardware", "hal", "hosts", "network",
-              "security", "services", "chains"});
+             {"name", "title", "domain", "port", "host_names", "time", "vendor", "hardware", "hal", "hosts",
+              "network", "security", "services", "chains"});
   MachineConfig config;
   config.directory = directory;
   config.name = value<std::string>(file, document, "name", "");
@@ -90,6 +90,7 @@ MachineConfig parse_machine(const std::string& text, const std::string& director
   if (port < 1 || port > 65535)
     throw std::runtime_error(at(file, document["port"]) + "port must be 1 .. 65535");
   config.port = static_cast<std::uint16_t>(port);
+  for (const auto& name : document["host_names"]) config.host_names.push_back(scalar(file, name));
   const auto time = value<std::string>(file, document, "time", "real");
   if (time != "real" && time != "virtual")
     throw std::runtime_error(at(file, document["time"]) + "time must be 'real' or 'virtual'");
@@ -120,12 +121,12 @@ MachineConfig parse_machine(const std::string& text, const std::string& director
     if (replicas < 1 || replicas > 2 || (replicas == 2 && !definition->transforms()))
       throw std::runtime_error(at(file, node["replicas"]) + "replicas must be 1, or 2 for " +
                                listed(transforming_stages()));
-    for (std::uint32_t copy = 0; copy < replicas; ++copy) {
-      entry.copy = copy;
-      entry.host = host_of(node, copy, config.hosts, file);
+    for (std::uint32_t replica = 0; replica < replicas; ++replica) {
+      entry.replica = replica;
+      entry.host = host_of(node, replica, config.hosts, file);
       const auto vendor = node["vendor"];
       entry.vendor = vendor && vendor.IsSequence()
-                         ? (copy < vendor.size() ? scalar(file, vendor[copy]) : default_vendor)
+                         ? (replica < vendor.size() ? scalar(file, vendor[replica]) : default_vendor)
                          : value<std::string>(file, node, "vendor", default_vendor);
       if (entry.vendor != "fastdds" && entry.vendor != "cyclonedds")
         throw std::runtime_error(at(file, vendor ? vendor : document["vendor"]) + "unknown vendor '" +

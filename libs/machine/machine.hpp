@@ -17,7 +17,7 @@ struct ServiceEntry {
   std::string service;         ///< a name of services.yaml
   std::string vendor;          ///< fastdds or cyclonedds
   std::uint32_t instance = 0;  ///< unique in the cluster, in the order of machine.yaml
-  std::uint32_t copy = 0;      ///< number of the replica, from 0
+  std::uint32_t replica = 0;   ///< number of the replica, from 0
   std::uint32_t channel = 0;   ///< of a channel service
   std::string host;            ///< where it runs; empty when the machine has no `hosts`
 };
@@ -39,7 +39,8 @@ struct MachineConfig {
   std::string name;
   std::string title;
   std::uint32_t domain = 1;
-  std::uint16_t port = 8080;  ///< of the gateway
+  std::uint16_t port = 8080;            ///< of the gateway
+  std::vector<std::string> host_names;  ///< under which browsers reach the gateway, besides addresses
   bool virtual_time = false;
   Hardware hardware = Hardware::simulation;
   HalSettings hal;

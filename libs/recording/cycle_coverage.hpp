@@ -13,7 +13,7 @@ struct CycleRange {
   bool operator==(const CycleRange&) const = default;
 };
 
-/// The cycles of one channel, epoch and stage, in whatever order and however often they come: copies of a
+/// The cycles of one channel, epoch and stage, in whatever order and however often they come: replicas of a
 /// stage write each frame twice.
 class CycleCoverage {
  public:

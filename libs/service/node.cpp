@@ -87,7 +87,7 @@ Node::Node(Options options)
   state_.service = options_.service;
   state_.vendor = bus::to_string(options_.vendor);
   state_.pid = getpid();
-  state_.copy = static_cast<std::uint8_t>(options_.copy);
+  state_.replica = static_cast<std::uint8_t>(options_.replica);
   announce();
 }
 

@@ -12,7 +12,7 @@ void add_options(CLI::App& app, Options& options) {
   app.add_option("--machine", options.machine_directory, "Directory with machine.yaml")->required();
   app.add_option("--state", options.state_directory, "Directory for what must survive a restart")->required();
   app.add_option("--instance", options.instance, "Number of this process in the cluster");
-  app.add_option("--copy", options.copy, "Number of this replica of a stage");
+  app.add_option("--replica", options.replica, "Number of this replica of a stage");
   app.add_option("--channel", options.channel, "Channel number");
   app.add_option("--domain", options.network.domain, "DDS domain, 0 .. 100")->check(CLI::Range(0, 100));
   add_network_options(app, options.network);

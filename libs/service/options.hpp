@@ -19,7 +19,7 @@ struct Options {
   std::string state_directory;  ///< where this machine keeps what must survive: parameters, programs, encoder
                                 ///< positions
   std::uint32_t instance = 0;
-  std::uint32_t copy = 0;
+  std::uint32_t replica = 0;
   std::uint32_t channel = 0;
   bus::Vendor vendor = bus::Vendor::cyclonedds;
   bus::NetworkSettings network;

@@ -99,7 +99,7 @@ bool same_values(const idl::stream::PathFrame& a, const idl::stream::PathFrame& 
 }
 
 std::optional<FrameDifference> difference(const idl::stream::AxisFrame& a, const idl::stream::AxisFrame& b) {
-  Comparison comparison(a.stage, a.copy, b.copy, a.first);
+  Comparison comparison(a.stage, a.replica, b.replica, a.first);
   compare_shape(comparison, a, b);
   comparison.list("axis", a.first, a.axes, b.axes);
   comparison.value("spindle axis", a.first, std::uint64_t{a.spindle_axis}, std::uint64_t{b.spindle_axis});
@@ -111,7 +111,7 @@ std::optional<FrameDifference> difference(const idl::stream::AxisFrame& a, const
 }
 
 std::optional<FrameDifference> difference(const idl::stream::PathFrame& a, const idl::stream::PathFrame& b) {
-  Comparison comparison(Stage::CHANNEL, a.copy, b.copy, a.first);
+  Comparison comparison(Stage::CHANNEL, a.replica, b.replica, a.first);
   compare_shape(comparison, a, b);
   comparison.value("transformation", a.first, static_cast<std::uint64_t>(a.transformation),
                    static_cast<std::uint64_t>(b.transformation));

@@ -18,7 +18,7 @@ ReplicaWatch::ReplicaWatch(const std::vector<machine::ServiceEntry>& services, d
     if (!stage || replicas < 2) continue;
     Replica replica;
     replica.stage = *stage;
-    replica.number = static_cast<std::uint8_t>(entry.copy);
+    replica.number = static_cast<std::uint8_t>(entry.replica);
     replica.lagging_since = now;
     replicas_.push_back(replica);
   }
@@ -26,7 +26,7 @@ ReplicaWatch::ReplicaWatch(const std::vector<machine::ServiceEntry>& services, d
 
 void ReplicaWatch::update(const idl::stream::StageProgress& progress, double now) {
   for (auto& replica : replicas_) {
-    if (replica.stage != progress.stage || replica.number != progress.copy) continue;
+    if (replica.stage != progress.stage || replica.number != progress.replica) continue;
     const bool further = std::pair(progress.epoch, progress.next) > place(replica);
     replica.last_report = now;
     replica.reports_in_step = progress.in_step;

@@ -31,11 +31,11 @@ inline std::string standby_name(const std::string& topic) { return topic + topic
 
 /// Raises the alarm of replicas that differ, once until it is reset: it stops the machine.
 inline void raise_difference(service::AlarmBoard& alarms, const auto& first, const auto& second) {
-  if (alarms.active(alarm::copies_differ, first.channel)) return;
+  if (alarms.active(alarm::replicas_differ, first.channel)) return;
   const auto what = difference(first, second);
   if (!what) return;
-  alarms.raise(alarm::copies_differ, first.channel, what->text, what->cycle);
-  alarms.release(alarm::copies_differ, first.channel);
+  alarms.raise(alarm::replicas_differ, first.channel, what->text, what->cycle);
+  alarms.release(alarm::replicas_differ, first.channel);
 }
 
 template <class In>
@@ -180,7 +180,7 @@ class StageService : public service::Service {
     if (lane.in_step && !lane.settled) lane.settled = !lane.window.has_next() && writer_->matched() > 0;
     if (standby_) return;
     const idl::stream::StageProgress progress{stage_,
-                                              static_cast<std::uint8_t>(node_.options().copy),
+                                              static_cast<std::uint8_t>(node_.options().replica),
                                               channel,
                                               lane.in_step && lane.settled,
                                               lane.window.epoch(),
@@ -287,7 +287,7 @@ class StageService : public service::Service {
       }
       if (!lane.core->process(*in, feedback_, out_)) break;
       out_.channel = in->channel, out_.stage = stage_,
-      out_.copy = static_cast<std::uint8_t>(node_.options().copy);
+      out_.replica = static_cast<std::uint8_t>(node_.options().replica);
       out_.epoch = in->epoch, out_.first = in->first, out_.count = in->count, out_.revision = in->revision;
       out_.starts = in->starts, out_.ends = in->ends;
       out_.lines = in->lines;

@@ -61,7 +61,7 @@ struct Difference {
 };
 
 /// Messages of one topic that repeat the one before them under the same key are one. Of a cycle written in
-/// several epochs the newest counts, of copies the first to arrive.
+/// several epochs the newest counts, of replicas the first to arrive.
 Difference difference(const std::vector<StoredMessage>& a, const std::vector<StoredMessage>& b,
                       const DiffOptions& options);
 

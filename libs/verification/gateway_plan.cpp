@@ -128,7 +128,6 @@ class Plan {
   // A request can be sent again when it was answered and all of it is in the recording.
   std::optional<OperatorRequest> again(const OperatorLine& line) const {
     OperatorRequest request{line, line.body, {}};
-    if (line.sender == Sender::ITSELF) return request;
     if (line.status == 0 || line.status == not_read_to_its_end || line.target.size() >= target_bytes)
       return std::nullopt;
     if (line.body.size() != line.body_size) {
@@ -161,13 +160,11 @@ class Plan {
       if (++fed_ % sample_every_ == 0 || apart) sample();
     }
     for (; next != lines_.end(); ++next) ask(std::move(next->request));
-    held_.clear();
     sample();
   }
 
   void sample() {
-    // A jog that is not renewed in time would be stopped, so nothing takes time while there is one.
-    if (seen_ || !held_.empty()) return;
+    if (seen_) return;
     plan_.steps.push_back({GatewayStep::Kind::sample, nullptr, nullptr});
     seen_ = true;
   }
@@ -191,20 +188,9 @@ class Plan {
       const Asker asker{line.client, line.number + i};
       const auto reply = replies_.find(asker);
       request.replies.push_back(reply == replies_.end() ? std::nullopt : std::optional(*reply->second));
-      if (const auto asked = requests_.find(asker); asked != requests_.end())
-        act_on<ChannelRequest>(*asked->second, "channel_request", [&](const auto& order) {
-          const std::pair axis{order.channel, order.axis};
-          if (order.command == CommandKind::JOG_AXIS && order.increment == 0 && line.status == 200)
-            held_.insert(axis);
-          else if (order.command == CommandKind::JOG_STOP)
-            held_.erase(axis);
-        });
     }
     plan_.requests.push_back(std::move(request));
-    const auto& kept = plan_.requests.back();
-    plan_.steps.push_back(
-        {kept.line.sender == Sender::ITSELF ? GatewayStep::Kind::await : GatewayStep::Kind::ask, nullptr,
-         &kept});
+    plan_.steps.push_back({GatewayStep::Kind::ask, nullptr, &plan_.requests.back()});
   }
 
   const StoredRecording& recording_;
@@ -213,7 +199,6 @@ class Plan {
   std::map<Asker, const StoredMessage*> requests_, replies_;
   std::vector<Line> lines_;
   std::vector<const StoredMessage*> feeds_;
-  std::set<std::pair<std::uint16_t, std::uint8_t>> held_;  // channel and axis that are jogged continuously
   std::map<std::uint32_t, std::int32_t> processes_;
   std::size_t fed_ = 0;
   bool seen_ = false;  // nothing has been fed since the last sample

@@ -23,7 +23,6 @@ struct GatewayStep {
   enum class Kind {
     feed,   ///< write `message`
     ask,    ///< send `request` over HTTP; what the gateway then asks on the bus is answered with its replies
-    await,  ///< the gateway does `request` of itself
     sample  ///< what it shows must be what follows from what it was fed
   };
   Kind kind = Kind::feed;

@@ -136,9 +136,10 @@ Json ShownState::services() const {
     return &entry;
   };
   // The later of the three knows better.
-  for (const auto& service : plan_.services) (*identity(service.instance, service))["copy"] = service.copy;
+  for (const auto& service : plan_.services)
+    (*identity(service.instance, service))["replica"] = service.replica;
   for (const auto& [instance, announcement] : announced_) identity(instance, announcement);
-  for (const auto& [instance, state] : beats_) (*identity(instance, state))["copy"] = state.copy;
+  for (const auto& [instance, state] : beats_) (*identity(instance, state))["replica"] = state.replica;
   auto json = Json::object();
   for (auto& [instance, entry] : entries) {
     const auto planned = std::find_if(plan_.services.begin(), plan_.services.end(),
@@ -147,7 +148,7 @@ Json ShownState::services() const {
     const auto state = beat != beats_.end() ? beat->second : idl::service::ServiceState{};
     const auto said = announced_.find(instance);
     const auto announcement = said != announced_.end() ? said->second : idl::service::Announcement{};
-    if (!entry.contains("copy")) entry["copy"] = 0;
+    if (!entry.contains("replica")) entry["replica"] = 0;
     entry["host"] = announcement.host;
     entry["frames_lost"] = state.frames_lost;
     entry["uptime"] = std::floor(state.uptime);

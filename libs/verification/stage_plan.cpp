@@ -90,7 +90,7 @@ class StagePlan {
       auto& inputs = lane.inputs;
       std::stable_sort(inputs.begin(), inputs.end(),
                        [](const Input& a, const Input& b) { return earlier(a.span, b.span); });
-      // Of the copies of a frame the first to arrive is what the stage took.
+      // Of the replicas of a frame the first to arrive is what the stage took.
       inputs.erase(std::unique(inputs.begin(), inputs.end(),
                                [](const Input& a, const Input& b) {
                                  return a.span.epoch == b.span.epoch && a.span.first == b.span.first;

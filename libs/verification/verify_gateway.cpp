@@ -138,10 +138,6 @@ class Verification {
         return "";
       case GatewayStep::Kind::ask:
         return ask(*step.request);
-      case GatewayStep::Kind::await:
-        current_ = step.request;
-        answered_ = 0;
-        return await_line(*step.request);
       case GatewayStep::Kind::sample:
         return sample();
     }

@@ -151,7 +151,7 @@ VerifyPlan surroundings(const StoredRecording& recording, const std::string& ser
       plan.cycle_seconds = machine::parameters_of(set).get(parameter::interpolation_cycle) * 1e-6;
     } else if (message.topic->handle == "cluster" && bus::decode(message.cdr, cluster)) {
       plan.virtual_time = cluster.virtual_time;
-      // Channels are listed in their order; of copies the first is meant.
+      // Channels are listed in their order; of replicas the first is meant.
       std::uint16_t others = service == "channel" ? channel : 0;
       for (const auto& entry : cluster.services)
         if (entry.service == service && others-- == 0) {

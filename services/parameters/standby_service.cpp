@@ -27,7 +27,8 @@ std::string difference_of(const idl::parameters::ParameterSet& running,
   };
   if (const auto found = differs(running.values, own.values, [](const auto& value) { return value.number; }))
     return text_of(*found, "");
-  if (const auto found = differs(running.pending, own.pending, [](std::uint32_t number) { return number; }))
+  if (const auto found =
+          differs(running.pending, own.pending, [](const auto& value) { return value.number; }))
     return text_of(*found, ", which waits");
   if (running.revision == own.revision) return "";
   return "the revision: " + std::to_string(running.revision) + " and " + std::to_string(own.revision);

@@ -28,7 +28,7 @@ TEST(SwapJournal, SaysWhatWasSwappedForWhatOneLineEach) {
   const auto executable = (directory / "service").string();
   std::ofstream(executable) << "123456789";
   idl::service::SwapRequest request;
-  request.service = "kinematics", request.copy = 1;
+  request.service = "kinematics", request.replica = 1;
   idl::service::SwapReply reply;
   reply.cycle = 4711, reply.compared = 500, reply.seconds = 0.5;
   const SwapSide before{executable, "cyclonedds", "0.1.0", "aaaa"};
@@ -40,7 +40,7 @@ TEST(SwapJournal, SaysWhatWasSwappedForWhatOneLineEach) {
   const auto lines = lines_of((directory / cluster::swap_journal_file).string());
   ASSERT_EQ(lines.size(), 2u);
   EXPECT_EQ(lines[0]["service"], "kinematics");
-  EXPECT_EQ(lines[0]["copy"], 1);
+  EXPECT_EQ(lines[0]["replica"], 1);
   EXPECT_EQ(lines[0]["cycle"], 4711);
   EXPECT_EQ(lines[0]["compared_cycles"], 500);
   EXPECT_EQ(lines[0]["old"]["vendor"], "cyclonedds");

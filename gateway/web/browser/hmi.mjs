@@ -150,10 +150,10 @@ async function run(page, url) {
     check("releasing the key stops it", true);
 
     await at("estop").click();
-    await page.waitForSelector('[data-test="release"]');
+    await page.waitForSelector('[data-test="recover"]');
     check("an emergency stop changes the header", (await text(".estop")) === "STOPPED");
     await shot("emergency-stop");
-    await at("release").click();
+    await at("recover").click();
     await page.waitForSelector('[data-test="estop"]');
   }
 

@@ -94,6 +94,8 @@ export interface ChannelState {
   handwheel_offset: number[];
   /** line in which the control was switched off in the program, 0 = none */
   restart_line: number;
+  /** the drives were switched off in the program: only a reset helps */
+  needs_reset: boolean;
   /** what the channel waits for or does besides the program, empty = nothing */
   detail: string;
 }
@@ -140,7 +142,7 @@ export interface Service {
   /** e.g. kinematics */
   service: string;
   /** Number of the replica */
-  copy: number;
+  replica: number;
   /** fastdds or cyclonedds */
   vendor: string;
   host: string;
@@ -267,6 +269,8 @@ export interface Parameter {
   access: string;
   /** A stored value waits for its activation */
   pending: boolean;
+  /** The stored value that waits */
+  pending_value?: number | string;
   /** What it does */
   help: string;
   /** Class */
@@ -359,7 +363,8 @@ export interface ChannelCommands {
   "auxiliary-lock": { on: boolean; };
   "block-skip": { levels: number[]; };
   "retrace": { on: boolean; };
-  "jog": { axis: string | number; speed: number; increment?: number; };
+  "jog": { axis: string | number; speed: number; increment?: number; press?: number; };
+  "jog-renew": { press: number; };
   "jog-stop": { axis: string | number; };
   "reference": { axis: string | number; };
   "handwheel": { axis: string | number; counts: number; increment: number; };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import { expect, test } from "vitest";
 import {
-  type Alarm, axisRows, canStart, type Channel, channelNumbers, emptyState, emptyStream, receive, sortedAlarms,
+  type Alarm, axisRows, canStart, type Channel, channelNumbers, emptyState, emptyStream, receive, recoverySteps, sortedAlarms,
 } from "../src/state/model";
 
 const channel = {
@@ -61,4 +61,24 @@ test("cycle start: not without a program, not while running, not under an emerge
   expect(canStart(emptyState, { ...channel, state: "RUNNING" })).toBe(false);
   expect(canStart(emptyState, { ...channel, mode: "JOG" })).toBe(false);
   expect(canStart(emptyState, { ...channel, mode: "JOG", state: "HELD" })).toBe(true);
+});
+
+test("the way out of a stop: the emergency stop, then alarms that hold, then channels that need a reset", () => {
+  const alarm = (reaction: string) => ({ number: 110, severity: "ERROR", reaction, since: "", instance: 1, part: 0 }) as Alarm;
+  const stopped = {
+    ...emptyState, plc: { emergency_stop: true, feed_hold: false, coolant: [], spindle_speed: [] },
+    alarms: { a: alarm("AXIS_STOP") }, channels: { "0": { ...channel, needs_reset: true }, "1": { ...channel, name: "Loader" } },
+  };
+  expect(recoverySteps(stopped).map((step) => step.title)).toEqual(
+    ["release the emergency stop", "reset alarms", "reset channel 0"]);
+  expect(recoverySteps({ ...emptyState, alarms: { a: alarm("SHOW") }, channels: { "0": channel } })).toEqual([]);
+});
+
+test("cycle start is dark while anything refuses it: an alarm that holds, axes without power, a reset that is due", () => {
+  expect(canStart(emptyState, { ...channel, needs_reset: true })).toBe(false);
+  const alarm = { number: 110, severity: "ERROR", reaction: "FEED_HOLD", since: "", instance: 1, part: 0 } as Alarm;
+  expect(canStart({ ...emptyState, alarms: { a: alarm } }, channel)).toBe(false);
+  expect(canStart({ ...emptyState, alarms: { a: { ...alarm, reaction: "SHOW" } } }, channel)).toBe(true);
+  const axis = { commanded: 0, actual: 0, following_error: 0, following_peak: 0, position: 0, velocity: 0, torque: 0, enabled: false };
+  expect(canStart({ ...emptyState, axes: { "5": axis } }, channel)).toBe(false);
 });

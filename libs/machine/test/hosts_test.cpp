@@ -74,7 +74,7 @@ TEST(Hosts, EachMistakeIsOneLineWithItsPlace) {
   EXPECT_EQ(error_of("name: m\n" + services()), "m/machine.yaml:6:28: error: there is no section 'hosts'");
   EXPECT_EQ(error_of(three_hosts +
                      services("{service: drive}", "{service: kinematics, replicas: 2, host: [motion]}")),
-            "m/machine.yaml:13:46: error: copy 1 has no host");
+            "m/machine.yaml:13:46: error: replica 1 has no host");
   EXPECT_EQ(error_of(three_hosts + "  - {name: motion, address: 10.77.0.4}\n" + services()),
             "m/machine.yaml:6:12: error: host 'motion' is there twice");
   EXPECT_EQ(error_of(three_hosts + "  - {name: fourth, address: 10.77.0.3}\n" + services()),

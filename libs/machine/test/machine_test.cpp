@@ -36,7 +36,7 @@ TEST(Machine, TwinsAreServicesOfTheirOwnWithTheirOwnVendor) {
   const auto config = load_machine(directory_with("name: m\n" + all_services));
   ASSERT_EQ(config.services.size(), 10u);
   EXPECT_EQ(config.services[7].service, "kinematics");
-  EXPECT_EQ(config.services[7].copy, 1u);
+  EXPECT_EQ(config.services[7].replica, 1u);
   EXPECT_EQ(config.services[7].vendor, "fastdds");
   EXPECT_EQ(config.channels, 1u);
 }

@@ -58,7 +58,7 @@ TEST(CycleCoverage, CopiesRepeatAndLateFramesFillTheirGap) {
   EXPECT_EQ(c.covered(), 24u);
 }
 
-// Whatever the order, and with frames of two copies cut differently, the union is what counts.
+// Whatever the order, and with frames of two replicas cut differently, the union is what counts.
 TEST(CycleCoverage, OrderAndOverlapDoNotMatter) {
   std::mt19937 random(7);
   for (int round = 0; round < 200; ++round) {

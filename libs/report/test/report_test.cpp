@@ -100,7 +100,7 @@ TEST_F(ReportOfARun, CopiesOfTwinsAreNeitherLostNorCountedTwice) {
 }
 
 TEST_F(ReportOfARun, LatenciesAndSpeedComeFromTheTimeStamps) {
-  run.replicas = true;  // the later copy must not count
+  run.replicas = true;  // the later replica must not count
   const auto r = report();
   ASSERT_EQ(r.latencies.size(), 4u);
   for (std::size_t i = 0; i < 4; ++i) {

@@ -189,9 +189,9 @@ std::uint64_t record_run(const RunOptions& options) {
       time += stage_latency[static_cast<int>(stage) - static_cast<int>(Stage::KINEMATICS)];
       if (stage == Stage::KINEMATICS) file.write(topics::kinematics_frame, joints, time);
       if (stage == Stage::KINEMATICS && options.replicas) {
-        joints.copy = 1;
+        joints.replica = 1;
         file.write(topics::kinematics_frame, joints, time + 500);
-        joints.copy = 0;
+        joints.replica = 0;
       }
       if (stage == Stage::COMPENSATION) file.write(topics::compensation_frame, joints, time);
       if (stage == Stage::GANTRY && frame_number != options.skipped_frame)

@@ -16,7 +16,7 @@ using testing::HasSubstr;
 
 AxisFrame frame() {
   AxisFrame f;
-  f.stage = Stage::COMPENSATION, f.copy = 0, f.epoch = 2, f.first = 400, f.count = 4, f.revision = 7;
+  f.stage = Stage::COMPENSATION, f.replica = 0, f.epoch = 2, f.first = 400, f.count = 4, f.revision = 7;
   f.axes = {0, 1, 5};
   for (int i = 0; i < 12; ++i) f.setpoints.push_back(0.1 * i);
   f.states = {{Stage::KINEMATICS, 403, {}}, {Stage::COMPENSATION, 403, {1, 2, 3}}};
@@ -25,14 +25,14 @@ AxisFrame frame() {
 
 TEST(FrameDifference, EqualFramesHaveNone) {
   auto other = frame();
-  other.copy = 1;
+  other.replica = 1;
   EXPECT_TRUE(same_values(frame(), other));
   EXPECT_FALSE(difference(frame(), other));
 }
 
 TEST(FrameDifference, NamesStageCopiesCycleColumnAndBothValuesToTheLastBit) {
   auto other = frame();
-  other.copy = 1;
+  other.replica = 1;
   other.setpoints[7] = std::nextafter(other.setpoints[7], 1.0);  // row 2, column 1
   ASSERT_FALSE(same_values(frame(), other));
   const auto found = difference(frame(), other);

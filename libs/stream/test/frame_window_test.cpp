@@ -41,16 +41,17 @@ TEST(FrameWindow, NothingIsTakenBeforeAStart) {
 }
 
 TEST(FrameWindow, TwoCopiesInAnyOrderGiveEachFrameOnce) {
-  // Property over 200 seeded shufflings of two copies of 30 frames in which each copy keeps its own order.
+  // Property over 200 seeded shufflings of two replicas of 30 frames in which each replica keeps its own
+  // order.
   for (unsigned seed = 0; seed < 200; ++seed) {
     std::mt19937 random(seed);
     FrameWindow<AxisFrame> window;
     std::vector<std::uint64_t> taken;
     int at[2] = {0, 0};
     while (at[0] < 30 || at[1] < 30) {
-      const int copy = at[0] == 30 ? 1 : at[1] == 30 ? 0 : static_cast<int>(random() % 2);
-      put(window, frame(100 + 8 * static_cast<std::uint64_t>(at[copy]), 8, 1, at[copy] == 0));
-      ++at[copy];
+      const int replica = at[0] == 30 ? 1 : at[1] == 30 ? 0 : static_cast<int>(random() % 2);
+      put(window, frame(100 + 8 * static_cast<std::uint64_t>(at[replica]), 8, 1, at[replica] == 0));
+      ++at[replica];
       for (const auto first : drain(window)) taken.push_back(first);
     }
     ASSERT_EQ(taken.size(), 30u);

@@ -18,7 +18,7 @@ std::vector<machine::ServiceEntry> replicated() {
   for (const char* name : {"channel", "kinematics", "kinematics", "compensation", "drive"}) {
     machine::ServiceEntry entry;
     entry.service = name;
-    entry.copy = services.size() == 2 ? 1 : 0;
+    entry.replica = services.size() == 2 ? 1 : 0;
     services.push_back(entry);
   }
   return services;

@@ -139,25 +139,6 @@ TEST(GatewayPlan, WhatNobodyWaitedForIsNotSentAgain) {
   EXPECT_EQ(plan.requests.size(), 1u);
 }
 
-TEST(GatewayPlan, NothingTakesTimeWhileAJogMustBeRenewedAndItsStopIsWaitedFor) {
-  auto recording = shown_recording();
-  recording.messages.push_back(
-      stored(topics::channel_request, channel_request(7, 1, CommandKind::JOG_AXIS), 20));
-  recording.messages.push_back(stored(topics::operator_request, operator_line("/jog", "", 7, 1, 1), 21));
-  recording.messages.push_back(stored(topics::channel_state, channel_state(2), 22));
-  recording.messages.push_back(stored(topics::operator_request, operator_line("/jog", "", 0, 0, 0), 23));
-  recording.messages.push_back(stored(topics::channel_state, channel_state(3), 24));
-  recording.messages.push_back(
-      stored(topics::channel_request, channel_request(7, 2, CommandKind::JOG_STOP), 25));
-  auto stop = operator_line("/jog-stop", "", 7, 2, 1, 0);
-  stop.sender = idl::gateway::Sender::ITSELF;
-  recording.messages.push_back(stored(topics::operator_request, stop, 26));
-  const auto plan = plan_gateway(recording);
-  const auto text = text_of(plan);
-  EXPECT_EQ(text.substr(text.find("sample")),
-            "sample ask /jog channel_state ask /jog channel_state await /jog-stop sample ");
-}
-
 TEST(GatewayPlan, ItLooksAroundAlarmsAndEverySoOften) {
   auto recording = shown_recording();
   idl::service::Alarm alarm{};

@@ -59,6 +59,8 @@ Answer ChannelCore::handle(const ChannelRequest& request) {
       return start_mdi(request.block);
     case CommandKind::JOG_AXIS:
       return jog(request);
+    case CommandKind::JOG_RENEW:
+      return renew_jog(request.press);
     case CommandKind::JOG_STOP:
       stop_jog();
       return {};
@@ -180,7 +182,27 @@ Answer ChannelCore::jog(const ChannelRequest& request) {
   adopt_position();
   auto move = manual_.jog(request.axis, request.speed, request.increment, machine_start_);
   if (auto* refusal = std::get_if<Refusal>(&move)) return refuse(std::move(*refusal));
-  return start_move(std::get<AxisMove>(move));
+  auto answer = start_move(std::get<AxisMove>(move));
+  if (auto* running = states_.running(); answer.accepted && running != nullptr && request.increment == 0)
+    running->press = JogPress{request.press, link().tick()};
+  return answer;
+}
+
+Answer ChannelCore::renew_jog(std::uint32_t press) {
+  auto* running = states_.running();
+  if (running == nullptr || !running->press || running->press->number != press || states_.abandoned())
+    return refuse(alarm::request_invalid,
+                  "Jog press " + std::to_string(press) + " has ended: release the key and press it again");
+  running->press->renewed = link().tick();
+  return {};
+}
+
+void ChannelCore::stop_jog_without_renewal() {
+  const auto* running = states_.running();
+  if (running == nullptr || !running->press) return;
+  const double seconds =
+      static_cast<double>(link().tick() - running->press->renewed) * machine_.cycle_seconds();
+  if (seconds > machine_.jog_renewal_seconds()) stop_jog();
 }
 
 void ChannelCore::stop_jog() {
@@ -192,7 +214,8 @@ void ChannelCore::stop_jog() {
 
 void ChannelCore::reset() {
   ++reset_count_;
-  interrupted_ = {};
+  // Behind an emergency stop the program may be continued from its line.
+  interrupted_ = states_.needs_reset() ? running_program() : RunningProgram{};
   const bool moving = states_.busy() && link().state() == LinkState::active && !states_.in<Interrupted>() &&
                       !states_.in<Held>();
   states_.forget_suspended();

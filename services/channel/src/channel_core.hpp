@@ -136,6 +136,8 @@ class ChannelCore {
   Answer continue_after_interruption();
   Answer reference(std::uint8_t index);
   Answer jog(const idl::channel::ChannelRequest& request);
+  Answer renew_jog(std::uint32_t press);
+  void stop_jog_without_renewal();
   void stop_jog();
   void reset();
 

@@ -24,6 +24,7 @@ void ChannelCore::on_feedback(const idl::stream::FeedbackFrame& feedback) {
     interrupt(mode == DriveMode::OFF ? "The drives were switched off" : "The drive stopped on the path");
   else if (mode == DriveMode::OFF && !first && !was_off && !link.drive_restarted() && !states_.needs_reset())
     interrupt("The drives were switched off");  // while the program was held or waited
+  stop_jog_without_renewal();
 }
 
 void ChannelCore::interrupt(const std::string& why) {

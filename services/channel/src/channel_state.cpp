@@ -80,7 +80,9 @@ const idl::channel::ChannelState& ChannelCore::state() {
   s.progress = selected_.lines > 0 ? std::min(1.0, static_cast<double>(s.line) / selected_.lines) : 0;
   const auto& modal = states_.interpreting() ? flow().executing() : mdi_.modal;
   s.modal = modal_codes(modal);
-  s.feed = stream_.moving() ? progress_.executed.feed * 60 : 0;
+  const auto drive = link().drive_mode();
+  const bool stopped = drive == DriveMode::HELD || drive == DriveMode::OFF;
+  s.feed = stream_.moving() && !stopped ? progress_.executed.feed * 60 : 0;
   s.programmed_feed = modal.feed;
   s.spindle_programmed = spindle_programmed_;
   s.feed_override = switches_.feed_override;
@@ -118,6 +120,7 @@ const idl::channel::ChannelState& ChannelCore::state() {
     s.handwheel_offset[i] = manual_.offset()[index[i]];
   }
   s.restart_line = interrupted_.line;
+  s.needs_reset = states_.needs_reset();
   s.detail = detail().substr(0, 128);
   return s;
 }

@@ -20,12 +20,19 @@ using program_execution::AuxiliaryMemory;
 /// What a channel carries out.
 enum class Activity : std::uint8_t { program, mdi, jog, handwheel };
 
+/// One press of a jog key: the movement lasts until its renewals stop.
+struct JogPress {
+  std::uint32_t number = 0;
+  std::uint64_t renewed = 0;  ///< tick of the drive at the start or the last renewal
+};
+
 /// The activity moves the axes or reads on.
 struct Running {
   Activity activity = Activity::program;
-  bool retracing = false;     ///< a program, backwards over its executed path
-  bool stopping = false;      ///< a jog whose button was released: its remaining path is dropped
-  bool text_missing = false;  ///< it cannot continue before a part of the program's text has arrived
+  bool retracing = false;           ///< a program, backwards over its executed path
+  bool stopping = false;            ///< a jog whose button was released: its remaining path is dropped
+  bool text_missing = false;        ///< it cannot continue before a part of the program's text has arrived
+  std::optional<JogPress> press{};  ///< of a jog without an increment
 };
 
 /// A program, before it may move: functions and the approach to the point at which it continues.

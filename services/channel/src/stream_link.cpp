@@ -10,6 +10,7 @@ using idl::stream::StreamRequestKind;
 
 void StreamLink::on_feedback(const idl::stream::FeedbackFrame& feedback) {
   mode_ = feedback.mode;
+  tick_ = feedback.tick;
   executed_ = std::max(executed_, feedback.first + feedback.count);
   positions_ = feedback.position;
   // The first feedback of a drive that has just started applies its parameters, and no input that could have

@@ -57,6 +57,8 @@ class StreamLink {
   bool has_feedback() const { return mode_.has_value(); }
   std::uint64_t next() const { return next_; }
   std::uint64_t executed() const { return executed_; }
+  /// Of the newest feedback: periods of the drive since its start.
+  std::uint64_t tick() const { return tick_; }
   std::uint32_t epoch() const { return epoch_; }
   bool starts() const { return starts_; }
   bool needs_epoch() const { return new_epoch_; }
@@ -75,7 +77,8 @@ class StreamLink {
 
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
-    visit("mode", self.mode_), visit("next", self.next_), visit("executed", self.executed_);
+    visit("mode", self.mode_), visit("next", self.next_), visit("executed", self.executed_),
+        visit("tick", self.tick_);
     visit("epoch", self.epoch_), visit("request", self.request_), visit("answered", self.answered_);
     visit("new_epoch", self.new_epoch_), visit("starts", self.starts_);
     visit("echo_active", self.echo_active_), visit("resuming", self.resuming_);
@@ -88,7 +91,7 @@ class StreamLink {
   std::uint16_t channel_;
   LinkState state_ = LinkState::idle;
   std::optional<DriveMode> mode_;
-  std::uint64_t next_ = 0, executed_ = 0;
+  std::uint64_t next_ = 0, executed_ = 0, tick_ = 0;
   std::uint32_t epoch_ = 0, request_ = 0, answered_ = 0;
   bool new_epoch_ = true, starts_ = false, echo_active_ = false, resuming_ = false, drive_restarted_ = false,
        asked_ = false;  // the drive, by this process

@@ -46,7 +46,7 @@ void StreamWriter::add(idl::stream::PathFrame& batch, const StreamCycle& cycle) 
 void StreamWriter::close(idl::stream::PathFrame& batch, const ChannelPath& path, bool machine_coordinates,
                          std::uint64_t revision, std::uint16_t spindle_axis) {
   batch.channel = channel_;
-  batch.copy = 0;
+  batch.replica = 0;
   batch.epoch = link_.epoch();
   batch.first = link_.next();
   batch.revision = revision;

@@ -318,25 +318,6 @@ TEST_F(Channel, ARestartInterpretsTheProgramWithTheVariablesItBeganWith) {
   EXPECT_EQ(drive.rows.back()[1], 1);
 }
 
-TEST_F(Channel, JogStopsWhenTheButtonIsLetGoAndAtTheTravelLimit) {
-  ask(CommandKind::SET_MODE, "", 0, 0, Mode::JOG);
-  cycles_per_round = 8;
-  ASSERT_TRUE(ask(CommandKind::JOG_AXIS, "", 3000).accepted);
-  for (int i = 0; i < 30; ++i) round();
-  ask(CommandKind::JOG_STOP);
-  run();
-  EXPECT_EQ(core->run_state(), RunState::IDLE);
-  EXPECT_GT(drive.rows.back()[0], 1);
-  EXPECT_LT(drive.rows.back()[0], 100);
-  ASSERT_TRUE(ask(CommandKind::JOG_AXIS, "", 3000).accepted);
-  run();
-  EXPECT_EQ(drive.rows.back()[0], 400);
-  EXPECT_FALSE(ask(CommandKind::JOG_AXIS, "", 3000).accepted) << "at the limit";
-  ASSERT_TRUE(ask(CommandKind::JOG_AXIS, "", -3000, 0.1).accepted);
-  run();
-  EXPECT_NEAR(drive.rows.back()[0], 399.9, 1e-12);
-}
-
 TEST_F(Channel, RequestsThatMakeNoSenseAreRefusedWithAReason) {
   EXPECT_NE(ask(CommandKind::SELECT_PROGRAM, "none.nc").reason.find("none.nc"), std::string::npos);
   EXPECT_FALSE(ask(CommandKind::CYCLE_START).accepted) << "mode JOG";

@@ -84,6 +84,7 @@ class FakeDrive {
               feedback.actual.begin());
     feedback.first = next - feedback.count;
     feedback.mode = mode;
+    feedback.tick = tick += done;
     feedback.axis_count = static_cast<std::uint16_t>(position_.size());
     feedback.position = position_;
     echo_.next = next;
@@ -101,6 +102,7 @@ class FakeDrive {
 
   DriveMode mode = DriveMode::FOLLOWING;
   int starts = 0, resumes = 0;
+  std::uint64_t tick = 0;  // one for each setpoint; more pass in a hold
   std::uint64_t next = 0;
   std::vector<std::vector<double>> rows;
   std::vector<std::uint32_t> lines;

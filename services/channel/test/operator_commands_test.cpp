@@ -22,6 +22,7 @@ ChannelRequest valid(CommandKind command) {
           .fraction = 1,
           .speed = 100,
           .increment = 0.1,
+          .press = 1,
           .counts = 1,
           .axes = 1,
           .levels = 1};

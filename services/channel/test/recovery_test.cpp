@@ -129,6 +129,40 @@ TEST_F(Recovery, MdiFunctionsStillEndInAProgramUnderWhichTheDrivesWereSwitchedOf
   EXPECT_TRUE(ask(CommandKind::CYCLE_START).accepted);
 }
 
+TEST_F(Recovery, TheLineInWhichAnEmergencyStopLeftTheProgramIsOfferedBehindTheReset) {
+  load("G90\nG1 X100 Y50 F6000\nX0\nM30\n");
+  cycles_per_round = 8;
+  ask(CommandKind::CYCLE_START);
+  rounds(40);
+  ASSERT_GT(core->state().feed, 0);
+  drive.lose_queue();
+  drive.mode = DriveMode::OFF;
+  core->on_feedback(drive.run(0));
+  EXPECT_EQ(core->run_state(), RunState::INTERRUPTED);
+  EXPECT_TRUE(core->state().needs_reset);
+  EXPECT_EQ(core->state().feed, 0) << "the axes are at rest";
+  drive.mode = DriveMode::FOLLOWING;
+  core->on_feedback(drive.run(0));
+  ask(CommandKind::RESET);
+  run();
+  EXPECT_FALSE(core->state().needs_reset);
+  EXPECT_EQ(core->state().restart_line, 2u);
+  ask(CommandKind::SET_MODE);
+  ASSERT_TRUE(ask(CommandKind::START_FROM_LINE, "", 2).accepted);
+  run();
+  ASSERT_TRUE(ask(CommandKind::CYCLE_START).accepted);
+  run();
+  EXPECT_EQ(core->run_state(), RunState::IDLE);
+  EXPECT_NEAR(drive.rows.back()[1], 50, 1e-9);
+  EXPECT_EQ(core->state().restart_line, 0u);
+  // A reset of its own accord offers nothing.
+  ask(CommandKind::CYCLE_START);
+  rounds(40);
+  ask(CommandKind::RESET);
+  run();
+  EXPECT_EQ(core->state().restart_line, 0u);
+}
+
 TEST_F(Recovery, AJogInAHeldProgramDoesNotWaitForTheProgramsText) {
   std::string program = "G90\nG1 X10 F6000\n";
   while (program.size() < 3 * ProgramText::chunk_size) program += "G1 X10.5\nG1 X10\n";

@@ -28,7 +28,7 @@ struct Bench : testing::Channel {
   void TestBody() override {}
 
   Answer mode(Mode to) { return ask(CommandKind::SET_MODE, "", 0, 0, to); }
-  Answer jog() { return ask(CommandKind::JOG_AXIS, "", 3000, 0, Mode::AUTO, 2); }
+  Answer jog() { return ask({.command = CommandKind::JOG_AXIS, .axis = 2, .speed = 3000, .press = 7}); }
   Answer wheel() { return ask(CommandKind::HANDWHEEL, "", 9, 1, Mode::AUTO, 1); }
   Answer mdi(const std::string& line) { return ask(CommandKind::MDI_LINE, line); }
   void rounds(int count) {
@@ -198,6 +198,7 @@ std::vector<Event> events() {
       command("RESET", CommandKind::RESET),
       command("MDI_LINE", CommandKind::MDI_LINE, 0, 0, Mode::AUTO, "G91 G1 X1 F1000"),
       command("JOG_AXIS", CommandKind::JOG_AXIS, 1000, 5),
+      {"JOG_RENEW", [](Bench& b) { return b.ask({.command = CommandKind::JOG_RENEW, .press = 7}); }},
       command("JOG_STOP", CommandKind::JOG_STOP),
       command("REFERENCE_AXIS", CommandKind::REFERENCE_AXIS),
       command("HANDWHEEL", CommandKind::HANDWHEEL, 1, 0.1),

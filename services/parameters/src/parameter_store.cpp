@@ -298,7 +298,10 @@ idl::parameters::ParameterSet ParameterStore::set() const {
   set.revision = active_.revision;
   set.previous = active_.previous;
   for (const auto& [number, value] : active_.values) set.values.push_back({number, value.value, value.text});
-  set.pending = waiting(active_, state_.overrides);
+  for (const auto number : waiting(active_, state_.overrides)) {
+    const auto value = stored(state_.overrides, number);
+    set.pending.push_back({number, value.value, value.text});
+  }
   return set;
 }
 

@@ -11,6 +11,8 @@
 namespace trunnion::parameters {
 namespace {
 
+using Pending = std::vector<idl::parameters::Parameter>;
+
 using idl::parameters::Operation;
 using testing::HasSubstr;
 
@@ -110,7 +112,7 @@ TEST(ParameterStore, SaveIsActiveAtOnceResetAtTheResetRestartAtTheNextStart) {
     EXPECT_EQ(reply.revision, 2u);  // the name
     EXPECT_EQ(reply.pending, 2u);
     EXPECT_EQ(store.set().values[0].text, "Y");
-    EXPECT_EQ(store.set().pending, (std::vector<std::uint32_t>{cycle, limit}));
+    EXPECT_EQ(store.set().pending, (Pending{{cycle, 2000, ""}, {limit, -250, ""}}));
     EXPECT_EQ(value_of(store, limit), -300);
 
     store.channel_reset_count(0, 3);
@@ -119,14 +121,14 @@ TEST(ParameterStore, SaveIsActiveAtOnceResetAtTheResetRestartAtTheNextStart) {
     EXPECT_EQ(store.revision(), 3u);
     EXPECT_EQ(store.set().previous, 2u);
     EXPECT_EQ(value_of(store, limit), -250);
-    EXPECT_EQ(store.set().pending, std::vector<std::uint32_t>{cycle});
+    EXPECT_EQ(store.set().pending, (Pending{{cycle, 2000, ""}}));
     EXPECT_EQ(value_of(store, cycle), 1000);
   }
   {
     ParameterStore same_cluster(storage, defaults(), "one");
     EXPECT_EQ(same_cluster.revision(), 3u);
     EXPECT_EQ(value_of(same_cluster, cycle), 1000) << "a restart value sneaked in";
-    EXPECT_EQ(same_cluster.set().pending, std::vector<std::uint32_t>{cycle});
+    EXPECT_EQ(same_cluster.set().pending, (Pending{{cycle, 2000, ""}}));
   }
   ParameterStore next_start(storage, defaults(), "two");
   EXPECT_EQ(next_start.revision(), 4u);
@@ -254,7 +256,7 @@ TEST(ParameterStore, ACrashBetweenTheFilesOfAChangeIsCompletedAtTheNextStart) {
   ParameterStore store(storage, defaults(), "one");
   EXPECT_EQ(store.set().values[0].text, "Y");
   EXPECT_EQ(store.revision(), 2u);
-  EXPECT_EQ(store.set().pending, std::vector<std::uint32_t>{limit});
+  EXPECT_EQ(store.set().pending, (Pending{{limit, -250, ""}}));
 }
 
 TEST(ParameterStore, ToolsAreCheckedKeptAndRemoved) {

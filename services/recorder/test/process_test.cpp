@@ -148,15 +148,15 @@ TEST_P(RecorderProcess, TakesEachFrameOnceWhetherItComesFromMemoryOrByDds) {
   for (int phase = 0; phase < 3; ++phase) {
     if (phase == 1) {
       by_dds = bus.backend().writer(bus::describe(topics::path_frame), {true, 64});
-      frame.copy = 1;
+      frame.replica = 1;
       bus::encode(frame, bytes);
       by_dds->write(bytes);  // before the recorder knows of it
       ASSERT_TRUE(testing_support::eventually([&] { return by_dds->matched() > 0; }));
     }
     for (int i = 0; i < 100; ++i) {
-      frame.copy = 0;
+      frame.replica = 0;
       in_memory.write(frame);
-      frame.copy = 1;
+      frame.replica = 1;
       bus::encode(frame, bytes);
       if (phase == 1) by_dds->write(bytes);
       frame.first += 8;
@@ -181,7 +181,7 @@ TEST_P(RecorderProcess, TakesEachFrameOnceWhetherItComesFromMemoryOrByDds) {
   while (reader.next(message)) {
     if (message.channel->topic != topics::path_frame.name) continue;
     ASSERT_TRUE(bus::decode(message.data, frame));
-    ++seen.at(frame.copy);
+    ++seen.at(frame.replica);
   }
   EXPECT_EQ(seen[0], 300);
   EXPECT_EQ(seen[1], 101);

@@ -84,9 +84,36 @@ export function axisRows(state: MachineState, channel: ChannelState): AxisRow[] 
   });
 }
 
+/** Alarms that hold the axes until they are reset. */
+export function holdingAlarms(state: MachineState): Alarm[] {
+  return sortedAlarms(state).filter((alarm) => alarm.reaction !== "SHOW");
+}
+
+/** What leads out of an emergency stop or a stop by an alarm, in this order; nothing moves by it. */
+export interface RecoveryStep {
+  title: string;
+  paths: string[];
+}
+
+export function recoverySteps(state: MachineState): RecoveryStep[] {
+  const steps: RecoveryStep[] = [];
+  if (state.plc?.emergency_stop)
+    steps.push({ title: "release the emergency stop", paths: ["/api/panel/release", "/api/panel/reset"] });
+  if (holdingAlarms(state).length > 0) steps.push({ title: "reset alarms", paths: ["/api/alarms/reset"] });
+  for (const number of channelNumbers(state)) {
+    const one = state.channels[String(number)]!;
+    if (one.needs_reset)
+      steps.push({ title: `reset ${one.name || `channel ${number}`}`, paths: [`/api/channels/${number}/reset`] });
+  }
+  return steps;
+}
+
 /** Whether cycle start can do anything now; the channel itself decides, this only greys the button. */
 export function canStart(state: MachineState, channel: ChannelState): boolean {
-  if (state.plc?.emergency_stop) return false;
+  if (state.plc?.emergency_stop || channel.needs_reset) return false;
+  if (state.cluster && !state.cluster.ready) return false;
+  if (holdingAlarms(state).length > 0) return false;
+  if (channel.axes.some((number) => state.axes[String(number)]?.enabled === false)) return false;
   if (channel.suspended && channel.mode !== "AUTO") return false;
   if (channel.state === "HELD" || channel.state === "WAITING" || channel.state === "INTERRUPTED") return true;
   return channel.state === "IDLE" && (channel.mode === "AUTO" ? channel.program !== "" : channel.mode === "MDI");

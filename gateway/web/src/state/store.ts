@@ -93,6 +93,12 @@ export async function stop(what: string, path: string, body: object = {}): Promi
   return answer.ok;
 }
 
+/** False when the press has ended; the operator sees the axis stop, so nothing is told. */
+export async function renewJog(channel: number, press: number): Promise<boolean> {
+  const path = `/api/channels/${channel}/jog-renew`;
+  return ((await byStream(path, { press })) ?? (await post(path, { press }))).ok;
+}
+
 /** A command to a channel; `what` names it for the operator when it is refused. */
 export function commandTo<Route extends keyof ChannelCommands>(
   channel: number, what: string, route: Route, body: ChannelCommands[Route],

@@ -29,7 +29,7 @@ function Services() {
             {rows.map((row) => (
               <tr key={row.instance} class={row.alive ? "" : "dead"}>
                 <td><b>{row.service}</b> <span class="dim">#{row.instance}</span></td>
-                <td class="digits">{row.copy}</td>
+                <td class="digits">{row.replica}</td>
                 <td>{row.vendor}</td>
                 <td class="digits">{row.pid || "–"}</td>
                 <td><span class={`tag ${row.lifecycle === "ACTIVE" ? "good" : row.lifecycle === "FAULT" || row.lifecycle === "ABSENT" ? "bad" : "warn"}`}>{row.lifecycle.toLowerCase()}</span></td>

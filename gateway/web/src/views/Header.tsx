@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-import { channel, channelList, channelNumber, channels, chooseChannel, machine, request, stop, view, type ViewName } from "../state/store";
+import { channel, channelList, channelNumber, channels, chooseChannel, machine, stop, view, type ViewName } from "../state/store";
 import { onPress } from "./press";
 
 const views: [ViewName, string][] = [
@@ -26,15 +26,9 @@ function EmergencyStop() {
     );
   }
   return (
-    <div class="estop-engaged">
-      <button class="estop engaged" {...onPress(pressEmergencyStop)}>
-        STOPPED
-      </button>
-      <button data-test="release" onClick={() => void request("Release", "/api/panel/release")}>
-        Release
-      </button>
-      <button onClick={() => void request("Reset", "/api/panel/reset")}>Reset</button>
-    </div>
+    <button class="estop engaged" {...onPress(pressEmergencyStop)}>
+      STOPPED
+    </button>
   );
 }
 

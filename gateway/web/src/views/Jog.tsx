@@ -1,22 +1,36 @@
 // SPDX-License-Identifier: Apache-2.0
 import { signal } from "@preact/signals";
 import { useEffect, useMemo } from "preact/hooks";
+import { get } from "../api";
+import type { Parameter } from "../contract";
 import { JogHold } from "../state/jog";
-import { axisRows } from "../state/model";
-import { channel, channelNumber, commandTo, machine, stop } from "../state/store";
+import { type AxisRow, axisRows } from "../state/model";
+import { channel, channelNumber, commandTo, machine, renewJog, stop } from "../state/store";
 
 const increments = [0, 0.001, 0.01, 0.1, 1, 10];
 const speeds = [60, 200, 600, 2000, 6000];
 
 const increment = signal(0);
 const speed = signal(600);
+/** Jog speed of each axis at 100 %, parameter 10x032, by logical axis number. */
+const limits = signal<Record<number, number>>({});
+
+async function loadLimits(axes: number[]): Promise<void> {
+  const found: Record<number, number> = {};
+  for (const axis of axes) {
+    const answer = await get<Parameter>(`/api/parameters/${100032 + 1000 * axis}`);
+    if (answer.ok && answer.body) found[axis] = Number(answer.body.value);
+  }
+  limits.value = found;
+}
 
 export function Jog() {
   const number = channelNumber.value;
   const hold = useMemo(() => {
     const none = Promise.resolve(false);
     return new JogHold({
-      start: (jog) => (number === null ? none : commandTo(number, "Jog", "jog", jog)),
+      start: (jog, press) => (number === null ? none : commandTo(number, "Jog", "jog", { ...jog, press })),
+      renew: (press) => (number === null ? none : renewJog(number, press)),
       stop: (axis) => (number === null ? none : stop("Jog stop", `/api/channels/${number}/jog-stop`, { axis })),
     });
   }, [number]);
@@ -35,16 +49,21 @@ export function Jog() {
     };
   }, [hold]);
   const one = channel.value;
+  const revision = machine.value.revisions.parameters;
+  const axes = one?.axes.join();
+  useEffect(() => void loadLimits(channel.peek()?.axes ?? []), [revision, axes]);
   if (!one) return null;
   const reference = one.mode === "REF";
   const usable = one.mode === "JOG" || reference;
 
-  const direction = (axis: number, letter: string, sign: 1 | -1) => {
-    const press = () => hold.press({ axis, speed: sign * speed.value, increment: increment.value });
+  const direction = ({ index: axis, number, letter, unit }: AxisRow, sign: 1 | -1) => {
+    const used = Math.min(speed.value, limits.value[number] ?? speed.value);
+    const press = () => hold.press({ axis, speed: sign * used, increment: increment.value });
     return (
       <button
         class="direction"
         disabled={!usable}
+        title={`${used} ${unit}/min`}
         aria-label={`jog ${letter} ${sign > 0 ? "plus" : "minus"}`}
         data-test={`jog-${letter}${sign > 0 ? "+" : "-"}`}
         onPointerDown={(event) => {
@@ -78,7 +97,7 @@ export function Jog() {
       <div class="pad">
         {axisRows(machine.value, one).map((row) => (
           <div class="jog-axis" key={row.index}>
-            {direction(row.index, row.letter, 1)}
+            {direction(row, 1)}
             {reference ? (
               <button
                 class="home"
@@ -91,7 +110,7 @@ export function Jog() {
             ) : (
               <b>{row.letter}</b>
             )}
-            {direction(row.index, row.letter, -1)}
+            {direction(row, -1)}
           </div>
         ))}
       </div>

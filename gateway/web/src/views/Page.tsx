@@ -2,6 +2,7 @@
 import { useEffect } from "preact/hooks";
 import { channel, channelList, command, connection, machine, notice, stop, view, type ViewName } from "../state/store";
 import { Alarms } from "./Alarms";
+import { Attention } from "./Attention";
 import { Controls } from "./Controls";
 import { Diagnosis } from "./Diagnosis";
 import { Header } from "./Header";
@@ -97,6 +98,7 @@ export function Page() {
   return (
     <div class={`page ${machine.value.plc?.emergency_stop ? "stopped" : ""}`}>
       <Header />
+      <Attention />
       {view.value === "operate" && <Operate />}
       {view.value === "parameters" && <Parameters />}
       {view.value === "offsets" && <Offsets />}

@@ -76,7 +76,7 @@ function Editor({ parameter, done }: { parameter: Parameter; done: () => void })
         <dt>Access</dt>
         <dd>{parameter.access}</dd>
       </dl>
-      {parameter.pending && <p class="tag warn">stored, waits for {parameter.activation.toLowerCase()}</p>}
+      {parameter.pending && <p class="tag warn">{parameter.pending_value} is stored and waits for {parameter.activation.toLowerCase()}</p>}
     </section>
   );
 }
@@ -150,7 +150,7 @@ export function Parameters() {
                   <td class={`right digits ${parameter.value === parameter.default ? "" : "changed"}`}>{parameter.value}</td>
                   <td class="dim">{unit(parameter.unit)}</td>
                   <td class="dim digits">{limits(parameter.minimum, parameter.maximum)}</td>
-                  <td>{parameter.activation}{parameter.pending && <span class="tag warn">pending</span>}</td>
+                  <td>{parameter.activation}{parameter.pending && <span class="tag warn">{parameter.pending_value} waits</span>}</td>
                 </tr>
               ))}
             </tbody>
