@@ -156,7 +156,7 @@ TEST_F(VerifyGateway, DoesShowsAndAnswersWhatIsRecordedOnEitherVendor) {
     EXPECT_GE(result.samples, 2u) << "before the first request and at the end at least";
     std::size_t compared = 0;
     for (const auto& topic : result.difference.topics) compared += topic.compared;
-    EXPECT_EQ(compared, 7u + 3u + 3u) << "lines, orders to the channel, requests to the program service";
+    EXPECT_EQ(compared, 7u + 4u + 3u) << "lines, orders to the channel, requests to the program service";
   }
 }
 
