@@ -31,6 +31,7 @@ void add_check_command(CLI::App& app, Common& common);       // check
 void add_plan_command(CLI::App& app, Common& common);        // plan
 void add_recording_commands(CLI::App& app, Common& common);  // info, diff, export
 void add_verify_command(CLI::App& app, Common& common);      // verify
+void add_test_command(CLI::App& app, Common& common);        // test
 void add_replay_command(CLI::App& app, Common& common);      // replay
 void add_swap_command(CLI::App& app, Common& common);        // swap
 void add_completion_command(CLI::App& app, Common& common);  // completion

@@ -84,6 +84,10 @@ void add_verify_command(CLI::App& app, Common& common) {
                    "Features that the recording must exercise, separated by commas, or all: else status 1")
       ->delimiter(',');
   command
+      ->add_option("--around", options->comparison.around,
+                   "Rows before and after the first difference in the JSON")
+      ->check(CLI::Range(0, 1000));
+  command
       ->add_option("--timeout,--patience", options->timeout,
                    "Seconds without an answer after which it has failed")
       ->check(CLI::PositiveNumber);

@@ -8,6 +8,10 @@
 namespace trunnion::report {
 namespace {
 
+double step_of(const Range& range, double pixels) { return round_down(2.2 * range.span() * 60 / pixels); }
+
+}  // namespace
+
 std::string escaped(const std::string& words) {
   std::string out;
   for (const char c : words) {
@@ -24,10 +28,6 @@ std::string escaped(const std::string& words) {
   }
   return out;
 }
-
-double step_of(const Range& range, double pixels) { return round_down(2.2 * range.span() * 60 / pixels); }
-
-}  // namespace
 
 double round_down(double value) {
   const double power = std::pow(10, std::floor(std::log10(value)));

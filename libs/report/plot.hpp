@@ -44,6 +44,8 @@ class Plot {
   std::string title_, curves_, x_label_, y_label_;
 };
 
+/// `words` for XML and HTML.
+std::string escaped(const std::string& words);
 std::string text(double x, double y, const std::string& words, const std::string& attributes = "");
 std::string line(double x1, double y1, double x2, double y2, const std::string& style);
 /// Number in pixels with a hundredth's resolution.

@@ -15,7 +15,7 @@ namespace {
 
 using Messages = std::vector<StoredMessage>;
 
-constexpr int neighbours = 3;  // rows shown before and after the first difference
+constexpr std::uint64_t shown_rows = 3;  // before and after the first difference, as text
 
 // In the order of the stream; then what is published when it changes and not by the clock.
 const std::vector<std::string>& default_topics() {
@@ -223,7 +223,7 @@ class Comparison {
     first.index = candidate.a.index;
     if (first.cyclic)
       first.series = topic.handle == "feedback_frame" ? "" : "channel " + std::to_string(candidate.a.series);
-    for (int i = -neighbours; i <= neighbours; ++i) {
+    for (int i = -options_.around; i <= options_.around; ++i) {
       if (i < 0 && first.index < static_cast<std::uint64_t>(-i)) continue;
       Neighbour n{first.index + static_cast<std::uint64_t>(static_cast<std::int64_t>(i)), "", ""};
       n.a = value_at(cache_a_, a, candidate.a.series, n.index, candidate.field);
@@ -288,6 +288,7 @@ std::string text_of(const Difference& d, const std::string& a, const std::string
                 b.c_str());
   text += line;
   for (const auto& n : f.around) {
+    if (n.index + shown_rows < f.index || n.index > f.index + shown_rows) continue;
     std::snprintf(line, sizeof line, "  %c %12llu  %-26s %-26s\n", n.index == f.index ? '>' : ' ',
                   static_cast<unsigned long long>(n.index), n.a.empty() ? "-" : n.a.c_str(),
                   n.b.empty() ? "-" : n.b.c_str());

@@ -23,6 +23,8 @@ struct DiffOptions {
   std::set<std::string> ignored;
   /// Compare only what both have: cycles, and as many messages as the shorter of two has.
   bool common = false;
+  /// Rows before and after the first difference that are kept.
+  int around = 3;
 };
 
 struct FieldDifference {

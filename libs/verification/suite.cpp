@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "verification/suite.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <stdexcept>
+
+#include "machine/services.hpp"
+#include "machine/yaml.hpp"
+
+namespace trunnion::verification {
+namespace {
+
+using machine::at;
+using machine::scalar;
+
+constexpr int plotted_rows = 60;  // before and after the first difference
+
+class Parser {
+ public:
+  explicit Parser(const std::string& file)
+      : file_(file), directory_(std::filesystem::path(file).parent_path()) {}
+
+  Suite parse(const std::string& text) {
+    const auto document = machine::parse_yaml(text, file_);
+    check_keys(document, {"title", "timeout", "tests"});
+    Suite suite;
+    if (const auto title = document["title"]) suite.title = scalar(file_, title);
+    if (const auto timeout = document["timeout"]) {
+      suite.timeout = number(timeout);
+      if (!(suite.timeout > 0 && suite.timeout <= 3600))
+        throw std::runtime_error(at(file_, timeout) + "timeout must be above 0 and at most 3600 s");
+    }
+    const auto tests = document["tests"];
+    if (!tests || !tests.IsSequence() || tests.size() == 0)
+      throw std::runtime_error(file_ +
+                               ":1:1: error: 'tests' is missing, a list of recordings with their services");
+    for (const auto& node : tests) suite.entries.push_back(entry(node));
+    return suite;
+  }
+
+ private:
+  void check_keys(const YAML::Node& node, const std::vector<std::string>& known) const {
+    if (!node.IsMap()) throw std::runtime_error(at(file_, node) + "expected keys with values");
+    for (const auto& pair : node) {
+      const auto key = scalar(file_, pair.first);
+      if (std::ranges::find(known, key) != known.end()) continue;
+      std::string list;
+      for (const auto& name : known) list += (list.empty() ? "" : ", ") + name;
+      throw std::runtime_error(at(file_, pair.first) + "unknown key '" + key + "', known are " + list);
+    }
+  }
+
+  double number(const YAML::Node& node) const {
+    const auto text = scalar(file_, node);
+    std::size_t used = 0;
+    double value = 0;
+    try {
+      value = std::stod(text, &used);
+    } catch (const std::exception&) {
+    }
+    if (used == 0 || used != text.size() || !std::isfinite(value))
+      throw std::runtime_error(at(file_, node) + "'" + text + "' is not a number");
+    return value;
+  }
+
+  std::vector<std::string> list(const YAML::Node& node) const {
+    if (!node.IsSequence()) return {scalar(file_, node)};
+    std::vector<std::string> names;
+    for (const auto& name : node) names.push_back(scalar(file_, name));
+    return names;
+  }
+
+  std::string service(const YAML::Node& node) const {
+    const auto name = scalar(file_, node);
+    if (machine::find_service(name) == nullptr)
+      throw std::runtime_error(at(file_, node) + "there is no service '" + name + "'");
+    return name;
+  }
+
+  std::string path(const std::string& text) const { return (directory_ / text).lexically_normal().string(); }
+
+  SuiteEntry entry(const YAML::Node& node) const {
+    check_keys(node, {"recording", "machine", "vendor", "services", "executables", "tolerances", "require"});
+    SuiteEntry entry;
+    entry.place = at(file_, node);
+    if (!node["recording"]) throw std::runtime_error(entry.place + "'recording' is missing");
+    entry.recording = path(scalar(file_, node["recording"]));
+    if (const auto machine = node["machine"]) {
+      entry.machine = scalar(file_, machine);
+      if (entry.machine.find('/') != std::string::npos) entry.machine = path(entry.machine);
+    }
+    if (const auto vendor = node["vendor"]) {
+      entry.vendor = scalar(file_, vendor);
+      if (entry.vendor != "fastdds" && entry.vendor != "cyclonedds")
+        throw std::runtime_error(at(file_, vendor) + "vendor must be fastdds or cyclonedds");
+    }
+    if (const auto services = node["services"];
+        services && !(services.IsScalar() && scalar(file_, services) == "all")) {
+      if (!services.IsSequence() || services.size() == 0)
+        throw std::runtime_error(at(file_, services) + "services must be all or a list of names");
+      for (const auto& name : services) entry.services.push_back(service(name));
+    }
+    for (const auto& pair : map(node["executables"]))
+      entry.executables[service(pair.first)] = path(scalar(file_, pair.second));
+    if (const auto tolerances = node["tolerances"]; tolerances && tolerances.IsScalar()) {
+      entry.tolerances[""] = tolerance(tolerances);
+    } else {
+      for (const auto& pair : map(tolerances))
+        entry.tolerances[scalar(file_, pair.first)] = tolerance(pair.second);
+    }
+    for (const auto& pair : map(node["require"])) entry.required[service(pair.first)] = list(pair.second);
+    return entry;
+  }
+
+  double tolerance(const YAML::Node& node) const {
+    const double value = number(node);
+    if (value < 0) throw std::runtime_error(at(file_, node) + "a tolerance must not be below 0");
+    return value;
+  }
+
+  YAML::Node map(const YAML::Node& node) const {
+    if (!node) return YAML::Node(YAML::NodeType::Map);
+    if (!node.IsMap()) throw std::runtime_error(at(file_, node) + "expected names with values");
+    return node;
+  }
+
+  std::string file_;
+  std::filesystem::path directory_;
+};
+
+}  // namespace
+
+Suite parse_suite(const std::string& text, const std::string& file) { return Parser(file).parse(text); }
+
+std::vector<SuiteTest> tests_of(
+    const Suite& suite, const std::function<std::vector<VerifiedProcess>(const SuiteEntry&)>& processes_of) {
+  std::vector<SuiteTest> tests;
+  for (std::size_t i = 0; i < suite.entries.size(); ++i) {
+    const auto& entry = suite.entries[i];
+    const auto processes = processes_of(entry);
+    const auto add = [&](const std::string& service) {
+      const auto before = tests.size();
+      for (const auto& process : processes) {
+        if (process.service != service) continue;
+        const auto* definition = machine::find_service(service);
+        const bool numbered = definition != nullptr && definition->per_channel;
+        tests.push_back({i, process, numbered ? service + " " + std::to_string(process.channel) : service});
+      }
+      if (tests.size() == before)
+        throw std::runtime_error(entry.place + "the machine of " + entry.recording + " has no service '" +
+                                 service + "'");
+    };
+    std::vector<std::string> services = entry.services;
+    if (services.empty())
+      for (const auto& process : processes)
+        if (std::ranges::find(services, process.service) == services.end())
+          services.push_back(process.service);
+    for (const auto& service : services) add(service);
+    for (const auto& [service, features] : entry.required)
+      if (std::ranges::find(services, service) == services.end())
+        throw std::runtime_error(entry.place + "features of '" + service +
+                                 "' are required, and it is not verified");
+  }
+  return tests;
+}
+
+std::vector<std::string> verify_arguments(const Suite& suite, const SuiteTest& test) {
+  const auto& entry = suite.entries.at(test.entry);
+  char timeout[32];
+  std::snprintf(timeout, sizeof timeout, "%g", suite.timeout);
+  std::vector<std::string> arguments = {
+      "verify",        "--json",    "--service", test.process.service, "--recording",
+      entry.recording, "--timeout", timeout,     "--around",           std::to_string(plotted_rows)};
+  const auto add = [&](const std::string& option, const std::string& value) {
+    if (!value.empty()) arguments.insert(arguments.end(), {option, value});
+  };
+  if (test.process.channel != 0) add("--channel", std::to_string(test.process.channel));
+  add("--machine", entry.machine);
+  add("--vendor", entry.vendor);
+  if (const auto own = entry.executables.find(test.process.service); own != entry.executables.end())
+    add("--exec", own->second);
+  for (const auto& [field, value] : entry.tolerances) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.17g", value);
+    add("--tolerance", field.empty() ? text : field + "=" + text);
+  }
+  if (const auto required = entry.required.find(test.process.service); required != entry.required.end())
+    for (const auto& feature : required->second) add("--require", feature);
+  return arguments;
+}
+
+}  // namespace trunnion::verification
