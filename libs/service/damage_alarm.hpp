@@ -10,8 +10,8 @@
 namespace trunnion::service {
 
 /// Alarm 153 when the previous generation of a file is used, 154 when nothing of it can be used; nothing
-/// otherwise. It stays until the operator resets it. `part` tells the files of one service apart; `loss` names
-/// their content.
+/// otherwise. It stays until the operator resets it. `part` tells the files of one service apart; `loss`
+/// names their content.
 void report_damage(AlarmBoard& alarms, std::uint32_t part, const std::string& path, const storage::Kept& kept,
                    const std::string& loss);
 

@@ -94,12 +94,15 @@ void repair_kept(const std::string& path, const Kept& kept) {
 
 std::string damage_text(const std::string& path, const Kept& kept, const std::string& loss) {
   const auto file = name_of(path);
-  if (kept.state == KeptState::previous)
-    return file + " is damaged (" + kept.problem + "): the " + loss + " of generation " +
-           std::to_string(kept.generation) + " are used, the newest changes are lost. Check the " + loss +
-           " or 'trunnion restore'";
-  return file + " is damaged (" + kept.problem + "): the " + loss +
-         " are lost. 'trunnion restore' a backup, or enter them again";
+  // Of two files the problem names the one that is damaged.
+  const auto what =
+      kept.problem.starts_with(file) ? kept.problem : file + " is damaged (" + kept.problem + ")";
+  if (kept.state == KeptState::unusable)
+    return what + ": the " + loss + " are lost. 'trunnion restore' a backup, or enter them again";
+  const auto generation =
+      kept.generation > 0 ? " of generation " + std::to_string(kept.generation) : std::string(" kept before");
+  return what + ": the " + loss + generation +
+         " are used, the newest changes are lost. Check them, or 'trunnion restore' a backup";
 }
 
 }  // namespace trunnion::storage

@@ -71,8 +71,8 @@ std::optional<Unsealed> unseal(std::string_view name, std::string_view text, std
     return refuse("its checksum is wrong");
   unsigned format = 0;
   if (!parse(field(line, " format="), format) || format > kept_format)
-    return refuse("its format is " + std::string(field(line, " format=")) + ", and this version reads up to " +
-                  std::to_string(kept_format));
+    return refuse("its format is " + std::string(field(line, " format=")) +
+                  ", and this version reads up to " + std::to_string(kept_format));
   if (const auto file = field(line, " file="); file != name)
     return refuse("it has the content of " + std::string(file));
   Unsealed result;

@@ -68,8 +68,8 @@ Half inspect(const std::string& path, const std::string& kind, std::size_t size)
   bytes.resize(file.read(0, bytes));
   Header header{};
   if (bytes.size() < sizeof header) {
-    half.problem = "has " + std::to_string(bytes.size()) + " bytes instead of " +
-                   std::to_string(sizeof header + size);
+    half.problem =
+        "has " + std::to_string(bytes.size()) + " bytes instead of " + std::to_string(sizeof header + size);
     return half;
   }
   std::memcpy(&header, bytes.data(), sizeof header);
@@ -81,8 +81,8 @@ Half inspect(const std::string& path, const std::string& kind, std::size_t size)
     return half;
   }
   if (header.size != size || bytes.size() != sizeof header + size) {
-    half.problem = "has " + std::to_string(bytes.size()) + " bytes instead of " +
-                   std::to_string(sizeof header + size);
+    half.problem =
+        "has " + std::to_string(bytes.size()) + " bytes instead of " + std::to_string(sizeof header + size);
     return half;
   }
   half.content.assign(bytes.begin() + sizeof header, bytes.end());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Bytes that a cyclic task keeps: two mapped files, written in turn, so that kill -9 at any instant leaves one
-// of them whole, and the loss or an old copy of either is found.
+// Bytes that a cyclic task keeps: two mapped files, written in turn, so that kill -9 at any instant leaves
+// one of them whole, and the loss or an old copy of either is found.
 #pragma once
 
 #include <cstdint>

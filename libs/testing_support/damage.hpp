@@ -10,11 +10,19 @@
 
 namespace trunnion::testing_support {
 
-enum class Damage { empty, half, one_byte_short, random_bytes, one_bit, missing, old_generation, other_content };
+enum class Damage {
+  empty,
+  half,
+  one_byte_short,
+  random_bytes,
+  one_bit,
+  missing,
+  old_generation,
+  other_content
+};
 
-inline constexpr Damage all_damages[] = {Damage::empty,        Damage::half,
-                                         Damage::one_byte_short, Damage::random_bytes,
-                                         Damage::one_bit,      Damage::missing,
+inline constexpr Damage all_damages[] = {Damage::empty,          Damage::half,         Damage::one_byte_short,
+                                         Damage::random_bytes,   Damage::one_bit,      Damage::missing,
                                          Damage::old_generation, Damage::other_content};
 
 inline const char* name_of(Damage damage) {

@@ -91,7 +91,8 @@ void DriveService::restore() {
   if (!kept.content.empty()) std::memcpy(&memory, kept.content.data(), sizeof memory);
   if (kept.state == KeptState::good) {
     core_.restore(memory);
-    if (!core_.unreferenced().empty()) kept.problem = "it has not been referenced since its position was lost, or is new";
+    if (!core_.unreferenced().empty())
+      kept.problem = "it has not been referenced since its position was lost, or is new";
   } else {
     core_.restore_without_positions(memory);
   }
@@ -287,10 +288,9 @@ void DriveService::pump() {
     run_real();
   for (const auto& event : core_.take_events()) {
     node_.alarms().raise(*event.alarm, event.part, event.text, core_.next());
-    const bool unreferenced =
-        event.alarm->number == alarm::not_homed.number &&
-        std::any_of(unreferenced_.begin(), unreferenced_.end(),
-                    [&](const auto& axis) { return axis.number == event.part; });
+    const bool unreferenced = event.alarm->number == alarm::not_homed.number &&
+                              std::any_of(unreferenced_.begin(), unreferenced_.end(),
+                                          [&](const auto& axis) { return axis.number == event.part; });
     if (!unreferenced) node_.alarms().release(*event.alarm, event.part);
   }
   watch_references();

@@ -79,9 +79,9 @@ void ProgramService::raise_damaged() {
   const auto& damaged = store_.damaged();
   if (damaged.empty()) return;
   const auto more = damaged.size() - 1;
-  node_.alarms().raise(alarm::program_damaged, 0,
-                       damaged.begin()->second +
-                           (more > 0 ? " (and " + std::to_string(more) + " more programs)" : ""));
+  node_.alarms().raise(
+      alarm::program_damaged, 0,
+      damaged.begin()->second + (more > 0 ? " (and " + std::to_string(more) + " more programs)" : ""));
   node_.alarms().release(alarm::program_damaged, 0);
 }
 

@@ -26,7 +26,8 @@ TEST(KeptText, IsTheContentAndOneReadableLine) {
 }
 
 TEST(KeptText, GivesBackEveryContentToTheByte) {
-  for (const std::string content : {"", "\n", "a", "a\n", "a\n\n", "a\n# b", std::string("\0\xff\n\n x", 6).c_str()}) {
+  for (const std::string content :
+       {"", "\n", "a", "a\n", "a\n\n", "a\n# b", std::string("\0\xff\n\n x", 6).c_str()}) {
     std::string problem;
     const auto back = unseal("f", seal("f", 1, content), problem);
     ASSERT_TRUE(back) << problem;
@@ -159,13 +160,15 @@ TEST_F(KeptFileTest, AlarmTextsNameFileGenerationAndRemedy) {
   write_kept(path(), "one\n");
   write_kept(path(), "two\n");
   write_bytes(path(), "");
-  EXPECT_EQ(damage_text(path(), read_kept(path()), "tools"),
-            "tools.yaml is damaged (it is empty): the tools of generation 1 are used, the newest changes are lost. "
-            "Check the tools or 'trunnion restore'");
+  EXPECT_EQ(
+      damage_text(path(), read_kept(path()), "tools"),
+      "tools.yaml is damaged (it is empty): the tools of generation 1 are used, the newest changes are lost. "
+      "Check them, or 'trunnion restore' a backup");
   write_bytes(path() + previous_suffix, "");
-  EXPECT_EQ(damage_text(path(), read_kept(path()), "tools"),
-            "tools.yaml is damaged (it is empty; of its previous generation: it is empty): the tools are lost. "
-            "'trunnion restore' a backup, or enter them again");
+  EXPECT_EQ(
+      damage_text(path(), read_kept(path()), "tools"),
+      "tools.yaml is damaged (it is empty; of its previous generation: it is empty): the tools are lost. "
+      "'trunnion restore' a backup, or enter them again");
 }
 
 }  // namespace

@@ -17,7 +17,9 @@ using testing_support::read_bytes;
 
 constexpr std::size_t size = 24;
 
-std::vector<std::uint8_t> filled(int value) { return std::vector<std::uint8_t>(size, static_cast<std::uint8_t>(value)); }
+std::vector<std::uint8_t> filled(int value) {
+  return std::vector<std::uint8_t>(size, static_cast<std::uint8_t>(value));
+}
 
 class RetainedPairTest : public testing::Test {
  protected:

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A simulated machine: servo loops with their mechanics, spindles, skip inputs, and home switches at the
-// reference coordinates. Its encoders are absolute, its axes homed while their positions are known, and a row is executed while it is
-// handed over.
+// reference coordinates. Its encoders are absolute, its axes homed while their positions are known, and a row
+// is executed while it is handed over.
 #pragma once
 
 #include "drive_hardware.hpp"

@@ -81,8 +81,7 @@ void DriveCore::restore(const Memory& memory) {
   std::vector<std::uint8_t> homed(axes_.size(), 0);
   for (std::size_t i = 0; i < axes_.size(); ++i)
     for (std::size_t k = 0; k < std::min<std::size_t>(memory.axes, memory.position.size()); ++k)
-      if (memory.number[k] == axes_[i].number)
-        positions[i] = memory.position[k], homed[i] = memory.homed[k];
+      if (memory.number[k] == axes_[i].number) positions[i] = memory.position[k], homed[i] = memory.homed[k];
   hardware_->restore(positions, homed);
   place_at_hardware();
 }

@@ -278,9 +278,9 @@ std::string ProgramStore::commit(const Request& request, Reply& reply) {
     return "size " + std::to_string(text.size()) + " arrived, " + std::to_string(request.size) + " was sent";
   if (request.crc32 != text.crc32()) return "the checksum of '" + request.name + "' is wrong";
   const auto old = index_.find(request.name);
-  const bool same =
-      old != index_.end() && identity_of(old->second.entry) == TextIdentity{text.size(), text.crc32()} &&
-      !damaged_.contains(request.name);
+  const bool same = old != index_.end() &&
+                    identity_of(old->second.entry) == TextIdentity{text.size(), text.crc32()} &&
+                    !damaged_.contains(request.name);
   if (same) {
     drop(found);  // the same text again is no change
   } else {

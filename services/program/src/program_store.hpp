@@ -20,8 +20,8 @@ inline constexpr double upload_patience = 60;  ///< s without a WRITE after whic
 class ProgramStore {
  public:
   /// `programs` holds the programs, `state` the file programs.yaml with revisions and checksums. Scans every
-  /// program. One that is not in the index is adopted; one that does not match its checksum is damaged, unless
-  /// the operator has accepted it. Throws StorageError, std::runtime_error with file:line:column.
+  /// program. One that is not in the index is adopted; one that does not match its checksum is damaged,
+  /// unless the operator has accepted it. Throws StorageError, std::runtime_error with file:line:column.
   ProgramStore(Files& programs, Files& state);
 
   /// Programs that come with the machine: copied unless they are there or were once removed on purpose, and
@@ -77,7 +77,7 @@ class ProgramStore {
   std::set<std::string> removing_;
   std::map<std::string, std::string> damaged_;
   storage::Kept index_found_;
-  std::uint64_t revision_ = 0;                      ///< of the list
+  std::uint64_t revision_ = 0;  ///< of the list
   std::map<UploadKey, Upload> uploads_;
   std::uint64_t upload_count_ = 0;
   bool changed_ = true;

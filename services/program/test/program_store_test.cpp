@@ -229,9 +229,10 @@ TEST(ProgramStore, AProgramThatDoesNotMatchItsChecksumIsRefusedUntilItIsUploaded
     const auto reply = store.apply(read, 0);
     EXPECT_FALSE(reply.accepted);
     // CRC-32 of "3" and "1".
-    EXPECT_EQ(reply.reason,
-              "Program 'a' was changed outside the control or is damaged (1 bytes with checksum 6dd28e9b, not "
-              "83dcefb7): upload it again, or 'trunnion state accept programs/a'");
+    EXPECT_EQ(
+        reply.reason,
+        "Program 'a' was changed outside the control or is damaged (1 bytes with checksum 6dd28e9b, not "
+        "83dcefb7): upload it again, or 'trunnion state accept programs/a'");
     read.name = "b";
     EXPECT_TRUE(store.apply(read, 0).accepted) << "the others are not concerned";
   }
