@@ -38,7 +38,7 @@ class Machines {
       text.replace(text.find(line), line.size(), "{service: " + service + ", host: " + host + "}");
     }
     std::ofstream(file) << text << extra
-                        << "hosts:\n  - {name: control, address: 10.77.0.1}\n"
+                        << "open: true\nhosts:\n  - {name: control, address: 10.77.0.1}\n"
                            "  - {name: motion, address: 10.77.0.2}\n  - {name: drives, address: 10.77.0.3}\n";
   }
   ~Machines() { fs::remove_all(directory_); }

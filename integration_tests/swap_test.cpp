@@ -2,6 +2,7 @@
 // Services of a running cluster are replaced by others; a program on the machine notices nothing.
 #include <nlohmann/json.hpp>
 
+#include "cluster/swap_ticket.hpp"
 #include "cluster_harness.hpp"
 #include "machine/services.hpp"
 
@@ -36,6 +37,7 @@ class Swapping : public testing::Test {
     request.cycles = cycles;
     service::RequestClient<idl::service::SwapRequest, idl::service::SwapReply> client(
         cluster.client().bus(), topics::swap_request, topics::swap_reply);
+    cluster::put_ticket(cluster.running().run.path(), request);
     client.send(request);
     std::optional<SwapReply> reply;
     EXPECT_TRUE(cluster.until([&] { return (reply = client.poll()).has_value(); }, 60)) << cluster.told();

@@ -14,11 +14,14 @@
 #include <algorithm>
 #include <cerrno>
 #include <chrono>
+#include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <thread>
+
+#include "cluster/cluster_files.hpp"
 
 namespace trunnion::cluster {
 namespace fs = std::filesystem;
@@ -73,6 +76,17 @@ std::string who_is_behind(int connection) {
   return holder_text(line, otherwise);
 }
 
+int parent_of(const fs::path& process) {
+  std::ifstream in(process / "stat");
+  std::string line;
+  std::getline(in, line);
+  const auto name_ends = line.rfind(") ");
+  int parent = 0;
+  char state = 0;
+  if (name_ends == std::string::npos) return 0;
+  return std::sscanf(line.c_str() + name_ends + 2, "%c %d", &state, &parent) == 2 ? parent : 0;
+}
+
 bool alive(int pid) { return kill(pid, 0) == 0 || errno == EPERM; }
 
 }  // namespace
@@ -122,7 +136,8 @@ DomainLock::DomainLock(std::uint32_t domain, const std::string& host, const Iden
 DomainLock::~DomainLock() { close(socket_); }
 
 void DomainLock::answer() {
-  for (int connection; (connection = accept4(socket_, nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC)) >= 0;) {
+  for (int connection;
+       (connection = accept4(socket_, nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC)) >= 0;) {
     static_cast<void>(send(connection, line_.data(), line_.size(), MSG_NOSIGNAL) > 0);
     close(connection);
   }
@@ -157,6 +172,7 @@ std::vector<int> leftover_services(const std::string& state_directory, std::uint
     if (value("--instance").empty() ||
         std::find(arguments.begin(), arguments.end(), "--parent-bound") == arguments.end())
       continue;
+    if (is_launcher(parent_of(entry.path()))) continue;
     if (value("--state") == state_directory || value("--domain") == std::to_string(domain))
       found.push_back(std::stoi(name));
   }

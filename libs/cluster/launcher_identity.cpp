@@ -50,16 +50,21 @@ Identity make_identity(const std::string& machine, std::uint32_t instance, bool 
 
 std::string describe(const Identity& identity, std::uint32_t domain) {
   return "launcher " + std::to_string(identity.pid) + " of user " + identity.user + " on host " +
-         identity.host + " (machine " + identity.machine + ", domain " + std::to_string(domain) +
-         ", since " + time_text(identity.since) + ")";
+         identity.host + " (machine " + identity.machine + ", domain " + std::to_string(domain) + ", since " +
+         time_text(identity.since) + ")";
 }
 
 std::string write_identity(const Identity& identity, std::uint32_t domain) {
-  return nlohmann::json{{"identity", identity.identity}, {"instance", identity.instance},
-                        {"machine", identity.machine},   {"host", identity.host},
-                        {"user", identity.user},         {"pid", identity.pid},
-                        {"since", identity.since},       {"contract", identity.contract},
-                        {"version", identity.version},   {"open", identity.open},
+  return nlohmann::json{{"identity", identity.identity},
+                        {"instance", identity.instance},
+                        {"machine", identity.machine},
+                        {"host", identity.host},
+                        {"user", identity.user},
+                        {"pid", identity.pid},
+                        {"since", identity.since},
+                        {"contract", identity.contract},
+                        {"version", identity.version},
+                        {"open", identity.open},
                         {"domain", domain}}
              .dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) +
          "\n";

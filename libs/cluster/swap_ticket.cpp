@@ -54,7 +54,8 @@ void put_ticket(const std::string& run_directory, SwapRequest& request) {
   const auto path = path_of(run_directory, request.token);
   const int file = open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
   const auto text = text_of(request);
-  const bool written = file >= 0 && write(file, text.data(), text.size()) == static_cast<ssize_t>(text.size());
+  const bool written =
+      file >= 0 && write(file, text.data(), text.size()) == static_cast<ssize_t>(text.size());
   const int reason = errno;
   if (file >= 0) close(file);
   if (!written) throw std::runtime_error(path + ": cannot be written: " + std::strerror(reason));

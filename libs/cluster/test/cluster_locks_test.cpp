@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Locks between real processes: who is refused, whom the refusal names, and that a killed holder holds nothing.
+// Locks between real processes: who is refused, whom the refusal names, and that a killed holder holds
+// nothing.
 #include "cluster/cluster_locks.hpp"
 
 #include <gmock/gmock.h>

@@ -10,6 +10,7 @@ namespace {
 
 const std::string three_hosts =
     "name: m\n"
+    "open: true\n"
     "hosts:\n"
     "  - {name: control, address: 10.77.0.1}\n"
     "  - {name: motion, address: 10.77.0.2}\n"
