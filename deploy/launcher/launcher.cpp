@@ -239,7 +239,8 @@ void Launcher::watch() {
 
 // Alarms about processes belong to what causes them and can be reset when it is gone.
 void Launcher::update_alarms(double now) {
-  if (bus_.backend().discover(writers_)) foreign_.discovered(writers_);
+  bus_.backend().discover(writers_);
+  foreign_.discovered(writers_);
   std::vector<AlarmCause> causes;
   for (const auto& process : processes_) process.fault.add_causes(process.entry.instance, causes);
   foreign_.add_causes(now, causes);
