@@ -271,6 +271,39 @@ TEST_F(Hosts, ACableCutForFiftyMillisecondsIsNotNoticedAndForASecondIsAStopOnThe
   hosts.leave();
 }
 
+// Network namespaces have run directories and loopbacks of their own here, so only the domain shows the
+// other.
+TEST_F(Hosts, AnotherMachineOrTheSameHostTwiceIsRefusedInADomainThatAnotherHostUses) {
+  const Machines machines(64);
+  const auto other = machines.three() + "-other";
+  fs::copy(machines.three(), other, fs::copy_options::recursive);
+  std::ifstream in(other + "/machine.yaml");
+  std::string text((std::istreambuf_iterator<char>(in)), {});
+  in.close();
+  const auto name = text.find("name: ");
+  text.replace(name, text.find('\n', name) - name, "name: another");
+  std::ofstream(other + "/machine.yaml") << text;
+  ThreeHosts hosts;
+  const auto up = [&](const std::string& on, const std::string& machine, const std::string& as) {
+    return hosts.exec(on, cluster::binary_directory() + "/trunnion up " + machine + " --domain " +
+                              std::to_string(domain) + " --host " + as + " --state " + machine + "/state-" +
+                              as + " --time virtual --port 18478");
+  };
+  ASSERT_EQ(up("control", machines.three(), "control").status, 0);
+  const auto refused = up("motion", other, "motion");
+  EXPECT_NE(refused.status, 0);
+  EXPECT_NE(refused.text.find("domain " + std::to_string(domain) + " is in use by launcher "),
+            std::string::npos)
+      << refused.text;
+  EXPECT_NE(refused.text.find(" (machine ac-table, domain "), std::string::npos) << refused.text;
+  EXPECT_EQ(up("motion", machines.three(), "motion").status, 0) << "another host of the same machine";
+  const auto shown = hosts.exec("control", cluster::binary_directory() + "/trunnion status");
+  EXPECT_NE(shown.text.find("open: no security"), std::string::npos) << shown.text;
+  hosts.enter("control");
+  hosts.leave();
+  fs::remove_all(other);
+}
+
 TEST_F(Hosts, ServicesOfEachHostAreSwappedInMotionFromAnyOfThemAndAreStillKnownToAll) {
   const Machines machines(64);
   std::string rounds = "G21 G17 G90 G54\nG0 X0 Y0 A0 C0\nG43.4 H1\nG1 X0 Y0 Z80 F6000\n";
