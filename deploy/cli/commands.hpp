@@ -32,6 +32,7 @@ void add_plan_command(CLI::App& app, Common& common);        // plan
 void add_recording_commands(CLI::App& app, Common& common);  // info, diff, export
 void add_verify_command(CLI::App& app, Common& common);      // verify
 void add_replay_command(CLI::App& app, Common& common);      // replay
+void add_state_commands(CLI::App& app, Common& common);      // state, backup, restore
 void add_swap_command(CLI::App& app, Common& common);        // swap
 void add_completion_command(CLI::App& app, Common& common);  // completion
 

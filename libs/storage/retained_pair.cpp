@@ -98,6 +98,13 @@ Half inspect(const std::string& path, const std::string& kind, std::size_t size)
 RetainedPair::RetainedPair(std::string path, std::string_view kind, std::size_t size)
     : path_(std::move(path)), kind_(kind), size_(size) {}
 
+RetainedPair RetainedPair::of_files(const std::string& path, std::string_view kind) {
+  std::size_t size = sizeof(Header);
+  for (const auto& name : {path, path + previous_suffix})
+    if (access(name.c_str(), F_OK) == 0) size = std::max(size, File(name, O_RDONLY).size());
+  return {path, kind, size - sizeof(Header)};
+}
+
 Retained RetainedPair::load() const {
   const auto name = path_.substr(path_.rfind('/') + 1);
   const std::string names[2] = {name, name + previous_suffix};

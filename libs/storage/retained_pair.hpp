@@ -29,6 +29,9 @@ class RetainedPair {
   /// `kind` (at most 15 bytes) and `size` of the content identify the format.
   RetainedPair(std::string path, std::string_view kind, std::size_t size);
 
+  /// For files whose size is not known: that of the files there are.
+  static RetainedPair of_files(const std::string& path, std::string_view kind);
+
   /// Reads the files; makes and changes nothing. A write that a kill has interrupted is no damage: its other
   /// file is the newest. Throws StorageError.
   Retained load() const;

@@ -32,7 +32,7 @@ ProgramStore::ProgramStore(Files& programs, Files& state) : programs_(programs),
   index_found_ = state_.read_kept(index_file);
   const bool found =
       index_found_.state == storage::KeptState::good || index_found_.state == storage::KeptState::previous;
-  const auto index = found ? read_index(index_found_.content) : IndexFile{};
+  const auto index = found ? machine_state::read_index(index_found_.content) : IndexFile{};
   revision_ = index.revision;
   for (const auto& [name, row] : index.rows) {
     revisions_[name] = row.revision;
@@ -160,7 +160,7 @@ void ProgramStore::save_index() {
     row.removing = removing_.count(name) != 0;
   }
   for (const auto& [name, text] : next_) index.rows[name].next = text;
-  state_.write_kept(index_file, write_index(index));
+  state_.write_kept(index_file, machine_state::write_index(index));
 }
 
 idl::program::ProgramReply ProgramStore::apply(const Request& request, double now) {

@@ -5,17 +5,21 @@
 #include <set>
 #include <utility>
 
-#include "index_file.hpp"
+#include "machine_state/index_file.hpp"
 #include "program_index.hpp"
 
 namespace trunnion::program {
 
+using machine_state::accepted_prefix;
+using machine_state::identity_of;
+using machine_state::index_file;
+using machine_state::IndexFile;
+using machine_state::TextIdentity;
+
 inline constexpr std::size_t longest_chunk = 60000;  ///< bytes of one READ or WRITE
 inline constexpr std::size_t most_programs = 4096;   ///< in the store
 inline constexpr std::size_t most_uploads = 64;      ///< at the same time
-/// Before the name of a program: an empty file by which the operator accepts the program as it is now.
-inline constexpr const char* accepted_prefix = ".accepted-";
-inline constexpr double upload_patience = 60;  ///< s without a WRITE after which an upload is dropped
+inline constexpr double upload_patience = 60;        ///< s without a WRITE after which an upload is dropped
 
 class ProgramStore {
  public:

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "index_file.hpp"
+#include "machine_state/index_file.hpp"
 
 #include <stdexcept>
 
 #include "machine/yaml.hpp"
 
-namespace trunnion::program {
+namespace trunnion::machine_state {
 
 IndexFile read_index(const std::string& text) {
   IndexFile index;
@@ -50,4 +50,4 @@ std::string write_index(const IndexFile& index) {
   return text;
 }
 
-}  // namespace trunnion::program
+}  // namespace trunnion::machine_state

@@ -8,9 +8,11 @@
 
 #include "contracts/types.hpp"
 
-namespace trunnion::program {
+namespace trunnion::machine_state {
 
 inline constexpr const char* index_file = "programs.yaml";
+/// Before the name of a program: an empty file by which the operator accepts the program as it is now.
+inline constexpr const char* accepted_prefix = ".accepted-";
 
 /// Identifies a text.
 struct TextIdentity {
@@ -37,4 +39,4 @@ struct IndexFile {
 IndexFile read_index(const std::string& text);
 std::string write_index(const IndexFile& index);
 
-}  // namespace trunnion::program
+}  // namespace trunnion::machine_state
