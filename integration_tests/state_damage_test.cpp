@@ -197,6 +197,36 @@ TEST_F(StateDamage, AnAxisWithoutReferenceDoesNotMoveUntilItsReferenceReturn) {
       << cluster.told();
 }
 
+TEST_F(StateDamage, ABackupOfTheRunningClusterRestoresItAndIsRefusedWhileItRuns) {
+  machine_->renew();
+  const auto state = machine_->state().string(), file = state + ".tar", log = state + ".log";
+  const auto trunnion = [&](const std::string& arguments) {
+    return std::system(
+        (cluster::binary_directory() + "/trunnion " + arguments + " --state " + state + " > " + log + " 2>&1")
+            .c_str());
+  };
+  {
+    auto cluster = start();
+    EXPECT_EQ(trunnion("backup " + file + " --machine ac-table"), 0) << testing_support::read_bytes(log);
+    EXPECT_EQ(trunnion("state check"), 0) << testing_support::read_bytes(log);
+    EXPECT_NE(trunnion("restore " + file), 0);
+    EXPECT_NE(testing_support::read_bytes(log).find("is in use by launcher "), std::string::npos)
+        << testing_support::read_bytes(log);
+    EXPECT_NE(trunnion("state accept tools.yaml"), 0) << "nor is a file accepted";
+  }
+  for (const auto& file_of : kept_files)
+    testing_support::write_bytes(machine_->state() / file_of.name, "damaged");
+  EXPECT_NE(trunnion("state check"), 0);
+  EXPECT_EQ(trunnion("restore " + file), 0) << testing_support::read_bytes(log);
+  EXPECT_EQ(trunnion("state check"), 0) << testing_support::read_bytes(log);
+  auto cluster = start();
+  cluster.until([] { return false; }, 0.3);
+  EXPECT_EQ(cluster.active_alarms(), "");
+  EXPECT_TRUE(cluster.channels[0].homed);
+  EXPECT_NEAR(cluster.channels[0].machine[0], 40, 0.01) << "G0 X20 with a work offset of 20 mm";
+  EXPECT_EQ(cluster.client().newest(topics::tool_table).tools.back().length, length_newest);
+}
+
 TEST_F(StateDamage, WithBothGenerationsLostTheDefaultsAreAnnouncedAndMotionIsHeld) {
   machine_->renew();
   for (const auto* name : {"tools.yaml", "tools.yaml.previous"})

@@ -55,12 +55,14 @@ std::pair<sockaddr_un, socklen_t> address_of(std::uint32_t domain, const std::st
   return {address, static_cast<socklen_t>(offsetof(sockaddr_un, sun_path) + 1 + name.size())};
 }
 
+// Empty when the holder ends just now: it has closed the connection without a word.
 std::string who_is_behind(int connection) {
   pollfd ready{connection, POLLIN, 0};
   std::string line;
   char text[512];
   while (poll(&ready, 1, 1000) > 0) {
     const auto size = read(connection, text, sizeof text);
+    if (size <= 0 && line.empty()) return "";
     if (size <= 0) break;
     line.append(text, static_cast<std::size_t>(size));
   }
@@ -144,13 +146,17 @@ void DomainLock::answer() {
 }
 
 std::optional<std::string> domain_holder(std::uint32_t domain, const std::string& host) {
-  const int connection = socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
-  const auto [address, size] = address_of(domain, host);
-  std::optional<std::string> holder;
-  if (connect(connection, reinterpret_cast<const sockaddr*>(&address), size) == 0)
-    holder = who_is_behind(connection);
-  close(connection);
-  return holder;
+  for (int i = 0; i < 20; ++i) {
+    const int connection = socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
+    const auto [address, size] = address_of(domain, host);
+    const bool held = connect(connection, reinterpret_cast<const sockaddr*>(&address), size) == 0;
+    const auto holder = held ? who_is_behind(connection) : "";
+    close(connection);
+    if (!held) return std::nullopt;
+    if (!holder.empty()) return holder;
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  }
+  return "a process that ends";
 }
 
 std::vector<int> leftover_services(const std::string& state_directory, std::uint32_t domain) {

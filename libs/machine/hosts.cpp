@@ -93,9 +93,10 @@ std::vector<std::string> read_swap_directories(const YAML::Node& section, const 
   if (!section.IsSequence())
     throw std::runtime_error(at(file, section) + "'swap_directories' must be a list of directories");
   for (const auto& node : section) {
-    const auto text = scalar(file, node);
+    auto text = scalar(file, node);
     if (text.empty()) throw std::runtime_error(at(file, node) + "a directory without a name");
-    directories.push_back(text.front() == '/' ? text : directory + "/" + text);
+    if (text.front() != '/') text.insert(0, directory + "/");
+    directories.push_back(std::move(text));
   }
   return directories;
 }
