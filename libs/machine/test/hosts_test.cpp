@@ -20,7 +20,7 @@ std::string services(
     const std::string& kinematics = "{service: kinematics, replicas: 2, host: [motion, control]}") {
   return "services:\n  - {service: parameters}\n  - {service: program}\n  - {service: plc}\n  - " + drive +
          "\n  - {service: gantry, host: motion}\n  - {service: compensation, host: motion}\n  - " +
-         kinematics + "\n  - {service: channel}\n";
+         kinematics + "\n  - {service: channel}\nopen: true\n";
 }
 
 std::string error_of(const std::string& yaml) {
