@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "recorded_machine.hpp"
 
+#include "cluster/swap_ticket.hpp"
+
 #include <sstream>
 
 #include "machine/parameter_constants.hpp"
@@ -122,6 +124,7 @@ void RecordedMachine::swap(const std::string& service) {
   request.service = service;
   service::RequestClient<idl::service::SwapRequest, idl::service::SwapReply> client(
       cluster_->client().bus(), topics::swap_request, topics::swap_reply);
+  cluster::put_ticket(cluster_->running().run.path(), request);
   client.send(request);
   std::optional<idl::service::SwapReply> reply;
   ASSERT_TRUE(cluster_->until([&] { return (reply = client.poll()).has_value(); }, 60)) << cluster_->told();

@@ -2,6 +2,7 @@
 // Services of a running cluster are replaced by others; a program on the machine notices nothing.
 #include <nlohmann/json.hpp>
 
+#include "cluster/swap_ticket.hpp"
 #include "cluster_harness.hpp"
 #include "machine/services.hpp"
 
@@ -36,6 +37,7 @@ class Swapping : public testing::Test {
     request.cycles = cycles;
     service::RequestClient<idl::service::SwapRequest, idl::service::SwapReply> client(
         cluster.client().bus(), topics::swap_request, topics::swap_reply);
+    cluster::put_ticket(cluster.running().run.path(), request);
     client.send(request);
     std::optional<SwapReply> reply;
     EXPECT_TRUE(cluster.until([&] { return (reply = client.poll()).has_value(); }, 60)) << cluster.told();
@@ -297,9 +299,9 @@ TEST_F(Swapping, APlcAndKeepersThatWouldDoOtherwiseAreNotTaken) {
 TEST_F(Swapping, WhatCannotBeStartedOrDoesNotExistIsRefused) {
   Cluster cluster("ac-table");
   const auto nowhere = swap(cluster, "kinematics", "/nowhere/at/all");
-  EXPECT_EQ(nowhere.outcome, SwapOutcome::ENDED);
-  EXPECT_NE(nowhere.reason.find("cannot be started"), std::string::npos) << nowhere.reason;
-  EXPECT_EQ(swap(cluster, "kinematics", "/bin/true").outcome, SwapOutcome::ENDED) << "it ends at once";
+  EXPECT_EQ(nowhere.outcome, SwapOutcome::REFUSED);
+  EXPECT_NE(nowhere.reason.find("No such file"), std::string::npos) << nowhere.reason;
+  EXPECT_EQ(swap(cluster, "kinematics", variant("trunnion")).outcome, SwapOutcome::ENDED) << "it ends at once";
   const auto unknown = swap(cluster, "lathe");
   EXPECT_EQ(unknown.outcome, SwapOutcome::REFUSED);
   EXPECT_NE(unknown.reason.find("has no lathe"), std::string::npos) << unknown.reason;

@@ -208,10 +208,12 @@ TEST(Systemd, ASystemdStartsTheUnitKillsAndRestartsItWhenItHangsAndStopsIt) {
   const auto domain = std::to_string(cluster::free_domain());
   std::filesystem::create_directories(units / "trunnion@.service.d");
   const auto results = directory.path / "results";
-  // A user's systemd cannot become another user, /etc/trunnion is not this test's, and the programs may lie
-  // in somebody's home.
+  // A user's systemd cannot become another user or shield devices and the kernel, /etc/trunnion is not this
+  // test's, and the programs may lie in somebody's home.
   std::ofstream(units / "trunnion@.service.d" / "test.conf")
-      << "[Service]\nUser=\nStateDirectory=\nProtectHome=no\nExecStopPost=/bin/sh -c 'echo $$SERVICE_RESULT "
+      << "[Service]\nUser=\nStateDirectory=\nProtectHome=no\nPrivateDevices=no\nProtectClock=no\n"
+         "ProtectControlGroups=no\nProtectHostname=no\nProtectKernelLogs=no\nProtectKernelModules=no\n"
+         "ProtectKernelTunables=no\nExecStopPost=/bin/sh -c 'echo $$SERVICE_RESULT "
          ">>"
       << results.string() << "'\nEnvironment=TRUNNION_CONFIGS="
       << std::filesystem::path(cluster::find_machine("ac-table")).parent_path().string()

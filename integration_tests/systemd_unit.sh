@@ -11,6 +11,7 @@ cluster() { "$trunnion" status --domain "$domain" >/dev/null 2>&1 && echo ready 
 systemctl --user start "$unit" # of Type=notify it returns when the unit has said READY=1
 echo "started $? $(show ActiveState) $(cluster) $(show NRestarts)"
 first=$(show MainPID)
+[ "$first" -gt 0 ] || { journalctl --user -n 20 2>/dev/null; exit 1; } # process 0 would be this script
 kill -STOP "$first"
 hung=$(clock)
 for _ in $(seq 300); do

@@ -3,6 +3,7 @@
 // same.
 #include <random>
 
+#include "cluster/swap_ticket.hpp"
 #include "cluster_harness.hpp"
 #include "machine/services.hpp"
 #include "twin_machine.hpp"
@@ -149,6 +150,7 @@ TEST_P(CopiesThatDiffer, StopTheMotionWithAnAlarmThatNamesStageCycleAndBothValue
   request.executable = cluster::binary_directory() + "/" + stage + "_one_bit";
   service::RequestClient<idl::service::SwapRequest, idl::service::SwapReply> client(
       cluster.client().bus(), topics::swap_request, topics::swap_reply);
+  cluster::put_ticket(cluster.running().run.path(), request);
   const auto reply = client.call(request, 30);
   ASSERT_TRUE(reply);
   ASSERT_TRUE(reply->accepted) << reply->reason;

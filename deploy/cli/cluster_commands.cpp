@@ -148,12 +148,15 @@ int status(const Common& common) {
   if (common.json) {
     std::cout << Json{{"machine", list.machine}, {"domain", cluster.run.domain},
                       {"ready", list.ready},     {"virtual_time", list.virtual_time},
-                      {"services", services},    {"alarms", active}}
+                      {"services", services},    {"alarms", active},
+                      {"open", cluster.open}}
                      .dump(2)
               << "\n";
   } else {
     std::printf("%s, domain %u, %s time, %s\n\n", list.machine.c_str(), cluster.run.domain,
                 list.virtual_time ? "virtual" : "real", list.ready ? "ready" : "NOT READY");
+    if (cluster.open)
+      std::printf("open: no security, every computer in the network of the hosts can move this machine\n\n");
     std::printf("%-14s %-7s %-11s %8s %-14s %-8s %10s %10s %8s  %s\n", "service", "replica", "vendor", "pid",
                 "state", "in step", "uptime s", "frames/s", "restarts", "");
     for (const auto& row : services)
@@ -196,6 +199,9 @@ void add_cluster_commands(CLI::App& app, Common& common) {
   command->add_option(
       "--host", options->host,
       "Which host of machine.yaml this is (default: the one with an address of this computer)");
+  command->add_flag("--take-over", options->take_over,
+                    "After a crash: end processes that a killed launcher has left in this state directory or "
+                    "domain");
   command->add_flag("--foreground", options->foreground, "Stay in the foreground until Ctrl-C");
   add_command(app, common, "down",
               "Stop a cluster (of several hosts: the part on this one); nothing of it is left but its state",

@@ -33,6 +33,7 @@ void add_recording_commands(CLI::App& app, Common& common);  // info, diff, expo
 void add_verify_command(CLI::App& app, Common& common);      // verify
 void add_test_command(CLI::App& app, Common& common);        // test
 void add_replay_command(CLI::App& app, Common& common);      // replay
+void add_state_commands(CLI::App& app, Common& common);      // state, backup, restore
 void add_swap_command(CLI::App& app, Common& common);        // swap
 void add_completion_command(CLI::App& app, Common& common);  // completion
 

@@ -26,6 +26,7 @@ int main(int argc, char** argv) {
   add_verify_command(app, common);
   add_test_command(app, common);
   add_replay_command(app, common);
+  add_state_commands(app, common);
   add_swap_command(app, common);
   add_completion_command(app, common);
   try {

@@ -9,6 +9,7 @@
 #include "bus/json.hpp"
 #include "cluster/client.hpp"
 #include "cluster/cluster.hpp"
+#include "cluster/swap_ticket.hpp"
 #include "commands.hpp"
 #include "text/quantity.hpp"
 
@@ -27,6 +28,7 @@ int swap(const Common& common, idl::service::SwapRequest request, double timeout
   bus::Bus bus(bus::Vendor::cyclonedds, cluster.network);
   service::RequestClient<idl::service::SwapRequest, idl::service::SwapReply> client(bus, topics::swap_request,
                                                                                     topics::swap_reply);
+  cluster::put_ticket(cluster.run.path(), request);
   const auto reply = client.call(request, timeout);
   if (!reply)
     throw std::runtime_error("the launcher gave no answer within " +
@@ -59,8 +61,10 @@ void add_swap_command(CLI::App& app, Common& common) {
                   "kept when the new one differs; exit status 0 when the new one has taken over",
                   [&common, request, timeout] { return swap(common, *request, *timeout); });
   command->add_option("service", request->service, "Service, as in machine.yaml")->required();
-  command->add_option("--exec", request->executable,
-                      "Executable of the new one, on the host of the service (default: the one that runs)");
+  command->add_option(
+      "--exec", request->executable,
+      "Executable of the new one, on the host of the service, below the launcher's own directory or "
+      "swap_directories of machine.yaml (default: the one that runs)");
   command->add_option("--vendor", request->vendor, "DDS vendor of the new one (default: the one that runs)")
       ->check(CLI::IsMember({"fastdds", "cyclonedds"}));
   command->add_option("--replica", request->replica, "Which replica of a stage that has two (default 0)")

@@ -18,6 +18,9 @@ struct LaunchOptions {
   cluster::RunDirectory run;
   std::string host;  ///< which of the machine's hosts this is; empty when it has none
   bus::NetworkSettings network;
+
+  /// Computers of a network can join without security.
+  bool open() const { return !machine.hosts.empty() && machine.security.empty(); }
 };
 
 }  // namespace trunnion::launcher

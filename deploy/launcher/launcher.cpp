@@ -12,6 +12,7 @@
 #include <thread>
 
 #include "cluster/child_process.hpp"
+#include "cluster/cluster.hpp"
 #include "cluster/instances.hpp"
 #include "machine/alarm_constants.hpp"
 #include "service/node.hpp"
@@ -32,12 +33,37 @@ std::uint32_t instance_on(const LaunchOptions& options) {
          static_cast<std::uint32_t>(here == hosts.end() ? 0 : here - hosts.begin());
 }
 
+// The directories of the locks.
+cluster::Identity prepare(const LaunchOptions& options) {
+  options.run.make();
+  fs::create_directories(options.state_directory);
+  return cluster::make_identity(options.machine.name, instance_on(options), options.open());
+}
+
+void write_info(const LaunchOptions& options) {
+  cluster::RunningCluster cluster;
+  cluster.run = options.run;
+  cluster.machine = options.machine.name;
+  cluster.machine_directory = options.machine.directory;
+  cluster.state_directory = options.state_directory;
+  cluster.virtual_time = options.virtual_time;
+  cluster.port = options.port;
+  cluster.host = options.host;
+  cluster.network = options.network;
+  cluster.open = options.open();
+  cluster::write_info(cluster);
+}
+
 }  // namespace
 
 Launcher::Launcher(LaunchOptions options)
     : options_(std::move(options)),
+      identity_(prepare(options_)),
+      domain_lock_(options_.machine.domain, options_.host, identity_),
+      state_lock_(options_.state_directory, identity_, options_.machine.domain),
       bus_(bus::Vendor::cyclonedds, options_.network),
       alarms_(bus_, instance_on(options_), "launcher"),
+      presence_(bus_, identity_),
       states_(bus_.reader(topics::service_state)),
       announcements_(bus_.reader(topics::announcement)),
       resets_(bus_.reader(topics::alarm_reset)),
@@ -48,8 +74,7 @@ Launcher::Launcher(LaunchOptions options)
   sigaction(SIGTERM, &action, nullptr);
   sigaction(SIGINT, &action, nullptr);
   signal(SIGPIPE, SIG_IGN);
-  fs::create_directories(options_.run.path());
-  fs::create_directories(options_.state_directory);
+  write_info(options_);
   std::random_device random;
   std::ofstream(options_.state_directory + "/cluster.boot") << random() << random() << "\n";
   for (const auto& entry : options_.machine.services) {
@@ -74,10 +99,8 @@ bool Launcher::has_live_twin(const ServiceProcess& process) const {
 }
 
 void Launcher::lose(ServiceProcess& process, const std::string& how) {
-  process.lost = true;
   process.lifecycle = idl::service::Lifecycle::UNCONFIGURED;
-  alarms_.raise(has_live_twin(process) ? alarm::redundancy_lost : alarm::service_lost, process.entry.instance,
-                "Service " + process.name() + " " + how);
+  process.fault.lose("Service " + process.name() + " " + how, has_live_twin(process));
 }
 
 // Before the first readiness a process that ended by itself is a failed start, reported in `failure`; one
@@ -104,10 +127,9 @@ bool Launcher::collect_ended(std::string& failure) {
     }
     lose(process, how);
     if (process.policy.gave_up())
-      alarms_.raise(alarm::service_not_staying, e.instance,
-                    "Service " + process.name() + " does not stay up: it ended " +
-                        std::to_string(process.policy.short_lives()) +
-                        " times in a row. A reset of the alarms starts it again");
+      process.fault.give_up("Service " + process.name() + " does not stay up: it ended " +
+                            std::to_string(process.policy.short_lives()) +
+                            " times in a row. A reset of the alarms starts it again");
     ++process.restarts;
   }
   return true;
@@ -120,9 +142,7 @@ void Launcher::follow(ServiceProcess& process, const idl::service::ServiceState&
       state.service != process.entry.service || state.lifecycle != idl::service::Lifecycle::ACTIVE ||
       !state.in_step || (process.pid != 0 && state.instance < process.entry.instance))
     return;
-  for (const auto* alarm : {&alarm::service_lost, &alarm::redundancy_lost, &alarm::contract_mismatch})
-    alarms_.clear(*alarm, process.entry.instance);
-  process.lost = false;
+  process.fault = {};
   process.entry.instance = state.instance;
   process.entry.vendor = state.vendor;
   process.pid = state.pid;
@@ -141,10 +161,11 @@ void Launcher::hear(ServiceProcess& process, const idl::service::ServiceState& s
   if (process.entry.instance != state.instance) follow(process, state, now);
   if (process.entry.instance != state.instance) return;
   if (state.service != process.entry.service) {
-    alarms_.raise(alarm::machine_differs, state.instance,
-                  "Instance " + std::to_string(state.instance) + " is " + process.entry.service +
-                      " in this host's machine.yaml, a service " + state.service +
-                      " has this number elsewhere");
+    foreign_.heard(state.instance,
+                   "Instance " + std::to_string(state.instance) + " is " + process.entry.service +
+                       " in this host's machine.yaml, a service " + state.service +
+                       " has this number elsewhere",
+                   now);
     return;
   }
   if (!process.local && process.pid != state.pid) {
@@ -157,7 +178,7 @@ void Launcher::hear(ServiceProcess& process, const idl::service::ServiceState& s
 
 void Launcher::watch_local(ServiceProcess& process, double now) {
   const auto pulse = process.policy.pulse(now);
-  if (pulse != Pulse::beating && !process.lost && was_ready_) lose(process, "gives no sign of life");
+  if (pulse != Pulse::beating && !process.fault.lost() && was_ready_) lose(process, "gives no sign of life");
   if (pulse == Pulse::hung) {
     process.child.signal(SIGKILL);  // replaced like one that died
     process.policy.wait(now);
@@ -188,13 +209,7 @@ void Launcher::listen() {
   while (announcements_.take(announcement)) {
     announced_[announcement.instance] = announcement;
     if (is_candidate(announcement.instance)) continue;  // it is refused, which is no alarm
-    if (announcement.contract != topics::contract_hash)
-      alarms_.raise(alarm::contract_mismatch, announcement.instance,
-                    "Service " + announcement.service + " (" + announcement.version +
-                        ") was built with contract " + announcement.contract + ", this cluster with " +
-                        topics::contract_hash);
-    else
-      alarms_.clear(alarm::contract_mismatch, announcement.instance);
+    foreign_.announced(announcement, announcements_.info().writer);
   }
   idl::service::AlarmReset reset;
   while (resets_.take(reset)) {
@@ -216,14 +231,33 @@ void Launcher::watch() {
     } else {
       watch_local(process, now);
     }
-    if (process.lost && process.lifecycle == idl::service::Lifecycle::ACTIVE) {
-      process.lost = false;
-      alarms_.release(alarm::service_lost, process.entry.instance);
-      alarms_.release(alarm::service_not_staying, process.entry.instance);
-    }
-    // That there are two again needs no acknowledgement.
-    if (!process.lost && process.in_step) alarms_.clear(alarm::redundancy_lost, process.entry.instance);
+    if (process.fault.lost() && process.lifecycle == idl::service::Lifecycle::ACTIVE) process.fault.active();
+    if (process.in_step) process.fault.in_step();
   }
+  update_alarms(now);
+}
+
+// Alarms about processes belong to what causes them and can be reset when it is gone.
+void Launcher::update_alarms(double now) {
+  bus_.backend().discover(writers_);
+  foreign_.discovered(writers_);
+  std::vector<AlarmCause> causes;
+  for (const auto& process : processes_) process.fault.add_causes(process.entry.instance, causes);
+  foreign_.add_causes(now, causes);
+  if (const auto other = presence_.other())
+    causes.push_back({&alarm::domain_shared, 0,
+                      "Domain " + std::to_string(options_.machine.domain) + " is also used by " +
+                          cluster::describe(*other, options_.machine.domain) +
+                          ": stop one of them, or give one another domain"});
+  for (const auto& [alarm, part] : causes_.update(causes)) {
+    // That there are two replicas again needs no acknowledgement, nor that a process was replaced by one of
+    // this contract.
+    if (alarm->number == alarm::redundancy_lost.number)
+      alarms_.clear(*alarm, part);
+    else
+      alarms_.release(*alarm, part);
+  }
+  for (const auto& cause : causes) alarms_.raise(*cause.alarm, cause.part, cause.text);
 }
 
 bool Launcher::all_ready() const {
@@ -262,52 +296,27 @@ void Launcher::publish() {
   if (is_first_host()) cluster_writer_.write(cluster);
 }
 
-ServiceProcess* Launcher::whom_to_swap(const idl::service::SwapRequest& request) {
-  const auto found = std::find_if(processes_.begin(), processes_.end(), [&](const ServiceProcess& p) {
-    return p.entry.service == request.service && p.entry.replica == request.replica &&
-           (p.entry.service != "channel" || p.entry.channel == request.channel);
-  });
-  return found == processes_.end() ? nullptr : &*found;
-}
-
-void Launcher::serve_swaps() {
-  idl::service::SwapRequest request;
-  while (swaps_.take(request)) {
-    const auto refuse = [&](const std::string& why) {
-      idl::service::SwapReply reply;
-      reply.outcome = idl::service::SwapOutcome::REFUSED;
-      reply.reason = why.substr(0, 256);
-      swaps_.reply(request, reply);
-    };
-    auto* process = whom_to_swap(request);
-    const bool ours = process != nullptr ? process->local : is_first_host();
-    if (!ours) {
-      // No other host answers.
-      if (process != nullptr && process->pid == 0 && is_first_host())
-        refuse("Host " + process->entry.host + ", where the " + request.service + " runs, is silent");
-      continue;
-    }
-    if (swap_)
-      refuse("Another service is being swapped");
-    else if (process == nullptr)
-      refuse("The cluster has no " + request.service + " of this number");
-    else if (process->pid == 0 || process->lifecycle != idl::service::Lifecycle::ACTIVE)
-      refuse("The " + request.service + " that runs now is not active");
-    else {
-      swap_request_ = request;
-      const auto instance =
-          cluster::place_of(process->entry.instance) + ++generation_ * cluster::generation_step;
-      swap_ = std::make_unique<Swap>(bus_, options_, *process, request, instance, announced_, time_.now());
-    }
+// On the loopback the lock of the domain excludes others. Elsewhere they are heard; empty when none is.
+std::string Launcher::listen_for_others() {
+  if (options_.network.interface_address.rfind("127.", 0) == 0) return "";
+  const double until = service::monotonic_seconds() + Presence::listening;
+  while (service::monotonic_seconds() < until && stop_requested == 0) {
+    presence_.update(service::monotonic_seconds());
+    if (const auto other = presence_.other())
+      return "domain " + std::to_string(options_.machine.domain) + " is in use by " +
+             cluster::describe(*other, options_.machine.domain) +
+             ": stop it there, or choose another --domain";
+    bus_.signal().wait(0.02);
   }
-  if (!swap_) return;
-  if (auto reply = swap_->step(time_.now())) {
-    swaps_.reply(swap_request_, std::move(*reply));
-    swap_.reset();
-  }
+  return "";
 }
 
 int Launcher::run(void (*report)(const std::string&)) {
+  if (const auto refusal = listen_for_others(); !refusal.empty()) {
+    report(refusal);
+    options_.run.remove();
+    return 1;
+  }
   std::ofstream(options_.run.pid_file()) << getpid() << "\n";
   const double began = time_.advance(service::monotonic_seconds());
   for (auto& process : processes_)
@@ -317,6 +326,8 @@ int Launcher::run(void (*report)(const std::string&)) {
     bus_.signal().wait(0.02);
     time_.advance(service::monotonic_seconds());
     if (!collect_ended(failure)) break;
+    domain_lock_.answer();
+    presence_.update(time_.now());
     listen();
     watch();
     serve_swaps();

@@ -8,8 +8,11 @@
 #include <vector>
 
 #include "bus/bus.hpp"
+#include "cluster/cluster_locks.hpp"
 #include "contracts/topics.hpp"
+#include "foreign_services.hpp"
 #include "launch_options.hpp"
+#include "presence.hpp"
 #include "service/alarm_board.hpp"
 #include "service/notify.hpp"
 #include "service/request.hpp"
@@ -23,12 +26,17 @@ namespace trunnion::launcher {
 /// when it could not be started. Returns the exit status.
 class Launcher {
  public:
+  /// Throws std::runtime_error with one line when another cluster uses the state directory or the domain.
   explicit Launcher(LaunchOptions options);
   ~Launcher();
   int run(void (*report)(const std::string&));
 
  private:
   void stop_all();
+  std::string listen_for_others();
+  void update_alarms(double now);
+  std::string refused(const idl::service::SwapRequest& request) const;
+  void report_refused(const idl::service::SwapRequest& request, const std::string& why);
   bool collect_ended(std::string& failure);
   void lose(ServiceProcess& process, const std::string& how);
   void listen();
@@ -47,8 +55,15 @@ class Launcher {
   ServiceProcess* whom_to_swap(const idl::service::SwapRequest& request);
 
   LaunchOptions options_;
+  cluster::Identity identity_;
+  cluster::DomainLock domain_lock_;
+  cluster::StateLock state_lock_;
   bus::Bus bus_;
   service::AlarmBoard alarms_;
+  Presence presence_;
+  ForeignServices foreign_;
+  AlarmCauses causes_;
+  std::vector<bus::DiscoveredWriter> writers_;
   bus::Reader<idl::service::ServiceState> states_;
   bus::Reader<idl::service::Announcement> announcements_;
   bus::Reader<idl::service::AlarmReset> resets_;
@@ -59,6 +74,8 @@ class Launcher {
   std::map<std::uint32_t, idl::service::Announcement> announced_;  // by instance
   std::unique_ptr<Swap> swap_;                                     // the one under way
   idl::service::SwapRequest swap_request_;
+  double refusal_written_ = -1;   // when a refused swap was written down last
+  std::uint64_t refusals_ = 0;    // since then
   std::uint32_t generation_ = 0;  // swaps that were started on this host
   bool ready_ = false, was_ready_ = false;
   double last_published_ = 0;

@@ -10,6 +10,7 @@
 #include "contracts/types.hpp"
 #include "launch_options.hpp"
 #include "restart_policy.hpp"
+#include "service_fault.hpp"
 
 namespace trunnion::launcher {
 
@@ -29,8 +30,8 @@ struct ServiceProcess {
   std::string difference;      ///< on standby: what differs
   bool alive = false;          ///< has beaten since its start
   bool local = true;           ///< on this host; of those on others only the heartbeats are known
-  bool lost = false;           ///< it died and is not back
-  bool retiring = false;       ///< another one has taken over: its end is no loss
+  ServiceFault fault;
+  bool retiring = false;  ///< another one has taken over: its end is no loss
 
   /// On standby it takes no part until it is promoted.
   void start(const LaunchOptions& options, bool on_standby, double now);

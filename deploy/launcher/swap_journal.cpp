@@ -48,6 +48,16 @@ std::string swap_line(const idl::service::SwapRequest& request, const idl::servi
   return bus::text_of(line) + "\n";
 }
 
+std::string refusal_line(const idl::service::SwapRequest& request, const std::string& why,
+                         const std::string& time, std::uint64_t count) {
+  const bus::Json line{{"refused", why},
+                       {"time", time},
+                       {"service", request.service},
+                       {"executable", request.executable},
+                       {"requests", count}};
+  return bus::text_of(line) + "\n";
+}
+
 void append_swap(const std::string& state_directory, const std::string& line) {
   storage::File file(state_directory + "/" + cluster::swap_journal_file, O_RDWR | O_CREAT);
   file.append(file.size(), {reinterpret_cast<const std::uint8_t*>(line.data()), line.size()});

@@ -19,6 +19,10 @@ struct SwapSide {
 /// version.
 std::string swap_line(const idl::service::SwapRequest& request, const idl::service::SwapReply& reply,
                       const SwapSide& before, const SwapSide& after);
+/// A line for requests that were refused before anything was started: the newest one and how many since the
+/// last line.
+std::string refusal_line(const idl::service::SwapRequest& request, const std::string& why,
+                         const std::string& time, std::uint64_t count);
 /// Appends the line and returns when it is on the disk. Throws storage::StorageError.
 void append_swap(const std::string& state_directory, const std::string& line);
 

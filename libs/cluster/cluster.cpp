@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "cluster/child_process.hpp"
+#include "cluster/cluster_locks.hpp"
 #include "machine/parameters.hpp"
 #include "service/network.hpp"
 #include "service/node.hpp"
@@ -48,7 +49,62 @@ void check_hardware(const machine::MachineConfig& config, bool virtual_time) {
         "linuxcnc-uspace-dev, then build again (docs/hal.md)");
 }
 
+// `down` and the next start remove what is there.
+void check_state_directory(const std::string& directory) {
+  const auto state = fs::weakly_canonical(directory), runs = fs::weakly_canonical(run_directory_base());
+  const auto relative = state.lexically_relative(runs);
+  if (!relative.empty() && *relative.begin() != "..")
+    throw std::runtime_error(
+        "the state directory " + directory + " is below " + runs.string() +
+        ", whose files are removed when a cluster stops: choose another one with --state");
+}
+
+std::string numbers_of(const std::vector<int>& pids) {
+  std::string text;
+  for (const int pid : pids) text += (text.empty() ? "" : ", ") + std::to_string(pid);
+  return text;
+}
+
+// Throws when another cluster uses the state directory or the domain, or when processes of one that was
+// killed still run and are not to be ended.
+void check_not_in_use(const RunningCluster& cluster, bool take_over) {
+  if (const auto holder = domain_holder(cluster.run.domain, cluster.host))
+    throw std::runtime_error("domain " + std::to_string(cluster.run.domain) + " is in use by " + *holder +
+                             ": stop it with 'trunnion down' or choose another --domain");
+  if (const auto holder = state_holder(cluster.state_directory))
+    throw std::runtime_error("the state directory " + cluster.state_directory + " is in use by " + *holder +
+                             ": stop it with 'trunnion down' or choose another --state");
+  // Services end with their launcher; those that are busy take a moment.
+  auto left = leftover_services(cluster.state_directory, cluster.run.domain);
+  for (int i = 0; i < 250 && !left.empty() && !take_over; ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    left = leftover_services(cluster.state_directory, cluster.run.domain);
+  }
+  if (left.empty()) return;
+  if (!take_over)
+    throw std::runtime_error("processes of a cluster whose launcher was killed still use " +
+                             cluster.state_directory + " or domain " + std::to_string(cluster.run.domain) +
+                             ": " + numbers_of(left) + ". 'trunnion up --take-over' ends them");
+  end_processes(left);
+}
+
 }  // namespace
+
+void write_info(const RunningCluster& cluster) {
+  std::ofstream(cluster.run.info_file()) << nlohmann::json{{"machine", cluster.machine},
+                                                           {"machine_directory", cluster.machine_directory},
+                                                           {"state_directory", cluster.state_directory},
+                                                           {"virtual_time", cluster.virtual_time},
+                                                           {"port", cluster.port},
+                                                           {"host", cluster.host},
+                                                           {"interface", cluster.network.interface_address},
+                                                           {"peers", cluster.network.peers},
+                                                           {"multicast", cluster.network.multicast},
+                                                           {"security", cluster.network.security},
+                                                           {"open", cluster.open},
+                                                           {"domain", cluster.run.domain}}
+                                         << "\n";
+}
 
 RunningCluster start_cluster(const UpOptions& up) {
   const double began = service::monotonic_seconds();
@@ -61,31 +117,18 @@ RunningCluster start_cluster(const UpOptions& up) {
   cluster.run.domain = up.own_domain ? free_domain() : up.domain.value_or(config.domain);
   cluster.network.domain = cluster.run.domain;
   cluster.network.identity = "deploy";
-  if (const auto pid = cluster.run.launcher())
-    throw std::runtime_error("a cluster is already running in domain " + std::to_string(cluster.run.domain) +
-                             " (launcher " + std::to_string(*pid) +
-                             "): stop it with 'trunnion down' or choose another --domain");
   cluster.machine = config.name;
   cluster.machine_directory = config.directory;
+  cluster.open = !config.hosts.empty() && config.security.empty();
   cluster.virtual_time = up.virtual_time.value_or(config.virtual_time);
   check_hardware(config, cluster.virtual_time);
   cluster.port = up.with_gateway ? up.port.value_or(config.port) : std::uint16_t{0};
   cluster.state_directory = up.state_directory.empty()          ? default_state_directory(config.name)
                             : up.state_directory == "temporary" ? cluster.run.path() + "/state"
                                                                 : fs::absolute(up.state_directory).string();
-  fs::create_directories(cluster.run.path());
-  std::ofstream(cluster.run.info_file()) << nlohmann::json{{"machine", cluster.machine},
-                                                           {"machine_directory", cluster.machine_directory},
-                                                           {"state_directory", cluster.state_directory},
-                                                           {"virtual_time", cluster.virtual_time},
-                                                           {"port", cluster.port},
-                                                           {"host", cluster.host},
-                                                           {"interface", cluster.network.interface_address},
-                                                           {"peers", cluster.network.peers},
-                                                           {"multicast", cluster.network.multicast},
-                                                           {"security", cluster.network.security},
-                                                           {"domain", cluster.run.domain}}
-                                         << "\n";
+  if (up.state_directory != "temporary") check_state_directory(cluster.state_directory);
+  check_not_in_use(cluster, up.take_over);
+  cluster.run.make();
   auto args = launcher_arguments(up, cluster);
   if (up.foreground) {
     replace_process(args);
@@ -103,9 +146,12 @@ RunningCluster start_cluster(const UpOptions& up) {
   auto answer = ChildProcess(options).read_all();
   while (!answer.empty() && answer.back() == '\n') answer.pop_back();
   if (answer != "ready") {
-    for (int i = 0; i < 300 && cluster.run.launcher(); ++i)
-      std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    cluster.run.remove();
+    // Another cluster may have taken the domain meanwhile, and the directory is its own then.
+    if (!domain_holder(cluster.run.domain, cluster.host)) {
+      for (int i = 0; i < 300 && cluster.run.launcher(); ++i)
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+      cluster.run.remove();
+    }
     throw std::runtime_error(answer.rfind("error ", 0) == 0 ? answer.substr(6)
                                                             : "the launcher ended without a word");
   }
@@ -165,6 +211,7 @@ RunningCluster find_cluster(std::optional<std::uint32_t> domain) {
   cluster.virtual_time = info.value("virtual_time", false);
   cluster.port = info.value("port", std::uint16_t{0});
   cluster.host = info.value("host", "");
+  cluster.open = info.value("open", false);
   cluster.network = network_in(*domain);
   return cluster;
 }

@@ -24,6 +24,7 @@ struct UpOptions {
   std::string host;  ///< which host of machine.yaml this is; empty: the one with an address of this computer
   bool one_host = false;  ///< run everything here, whatever machine.yaml says of hosts
   bool foreground = false;
+  bool take_over = false;  ///< end what a killed launcher has left
 };
 
 /// A cluster that is running, as its launcher wrote it down.
@@ -34,12 +35,15 @@ struct RunningCluster {
   std::uint16_t port = 0;  ///< 0 without a gateway
   std::string host;        ///< which host this is; empty when the machine has none
   bus::NetworkSettings network;
+  bool open = false;  ///< joined from other computers without security
   double start_seconds = 0;
 };
 
 /// Starts every process and waits until all are ready. Throws std::runtime_error with one line; then nothing
-/// is left.
+/// is left. Refused when another cluster uses the state directory or the domain.
 RunningCluster start_cluster(const UpOptions& options);
+/// Writes down what find_cluster() gives: for the launcher, once it holds its locks.
+void write_info(const RunningCluster& cluster);
 /// Stops every process and removes the cluster's files; false when some process had to be killed.
 void stop_cluster(const RunDirectory& run);
 /// How a process takes part in the cluster of this computer in `domain`; the loopback when none is known.

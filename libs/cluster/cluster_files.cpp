@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cluster/cluster_files.hpp"
 
-#include <fcntl.h>
-#include <sys/file.h>
+#include <pwd.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
@@ -16,11 +17,15 @@
 #include <thread>
 #include <vector>
 
+#include "cluster/cluster_locks.hpp"
+
 namespace trunnion::cluster {
 namespace fs = std::filesystem;
 
+std::string run_directory_base() { return "/tmp/trunnion-" + std::to_string(getuid()); }
+
 namespace {
-std::string base() { return "/tmp/trunnion-" + std::to_string(getuid()); }
+std::string base() { return run_directory_base(); }
 constexpr const char* verification_mark = "verify-";
 }  // namespace
 
@@ -50,14 +55,29 @@ std::string web_directory() {
 
 std::string default_state_directory(const std::string& machine) {
   const char* state = std::getenv("XDG_STATE_HOME");
+  if (state != nullptr && *state == '/') return (fs::path(state) / "trunnion" / machine).string();
   const char* home = std::getenv("HOME");
-  const fs::path root = state != nullptr && *state != 0
-                            ? fs::path(state)
-                            : fs::path(home != nullptr ? home : "/tmp") / ".local" / "state";
-  return (root / "trunnion" / machine).string();
+  const passwd* user = home != nullptr && *home == '/' ? nullptr : getpwuid(getuid());
+  if (user != nullptr) home = user->pw_dir;
+  if (home == nullptr || *home != '/')
+    throw std::runtime_error(
+        "there is no home directory for the state of the machine: name one with --state");
+  return (fs::path(home) / ".local" / "state" / "trunnion" / machine).string();
 }
 
 std::string RunDirectory::path() const { return base() + "/" + std::to_string(domain); }
+
+void RunDirectory::make() const {
+  for (const auto& directory : {base(), path()}) {
+    // What is in it, for example the tickets of swaps, is this user's alone.
+    if (mkdir(directory.c_str(), 0700) != 0 && errno != EEXIST)
+      throw std::runtime_error(directory + ": cannot be made: " + std::strerror(errno));
+    struct stat status {};
+    if (lstat(directory.c_str(), &status) != 0 || !S_ISDIR(status.st_mode) || status.st_uid != geteuid())
+      throw std::runtime_error(directory + " belongs to another user: remove it");
+    chmod(directory.c_str(), 0700);
+  }
+}
 
 bool is_launcher(int pid) {
   // The number may belong to another process by now, or to one that is dead and not yet waited for.
@@ -107,9 +127,10 @@ std::uint32_t free_domain(double timeout) {
           fs::last_write_time(run.path(), ignored) <
               fs::file_time_type::clock::now() - std::chrono::minutes(1))
         run.remove();
+      if (domain_holder(run.domain)) continue;  // of another user
       // A directory is made by one process only, so it reserves the domain.
-      fs::create_directories(base(), ignored);
-      if (fs::create_directory(run.path(), ignored)) return run.domain;
+      if (mkdir(base().c_str(), 0700) != 0 && errno != EEXIST) continue;
+      if (mkdir(run.path().c_str(), 0700) == 0) return run.domain;
     }
     if (std::chrono::steady_clock::now() >= until)
       throw std::runtime_error("domains 80 .. 99 are all taken: stop a cluster with 'trunnion down'");

@@ -15,11 +15,14 @@ std::string binary_directory();
 std::string find_machine(const std::string& name);
 /// The built page, or empty.
 std::string web_directory();
-/// <XDG_STATE_HOME or ~/.local/state>/trunnion/<machine>
+/// <XDG_STATE_HOME or ~/.local/state>/trunnion/<machine>. Throws std::runtime_error when there is no home.
 std::string default_state_directory(const std::string& machine);
 
 /// What was swapped for what, one JSON object per line, in the state directory.
 inline constexpr const char* swap_journal_file = "swaps.jsonl";
+
+/// Where the run directories of this user are. Nothing that is to survive may be below it.
+std::string run_directory_base();
 
 /// Whether the process of this number lives and is a launcher.
 bool is_launcher(int pid);
@@ -39,11 +42,14 @@ struct RunDirectory {
   std::string verification() const;
   /// Some process that is alive has such a place here.
   bool verifies() const;
+  /// Makes the directory, which only this user can enter. Throws std::runtime_error when it is another
+  /// user's.
+  void make() const;
   void remove() const;
 };
 
-/// A domain in 80 .. 99 that no cluster of this user runs in. Throws std::runtime_error when all are still
-/// taken after `timeout` seconds.
+/// A domain in 80 .. 99 that no cluster of this computer runs in. Throws std::runtime_error when all are
+/// still taken after `timeout` seconds.
 std::uint32_t free_domain(double timeout = 0);
 /// Of every cluster of this user, running or abandoned, by domain.
 std::vector<RunDirectory> run_directories();

@@ -86,4 +86,19 @@ std::string read_security(const YAML::Node& value, const std::string& directory,
   return text.front() == '/' ? text : directory + "/" + text;
 }
 
+std::vector<std::string> read_swap_directories(const YAML::Node& section, const std::string& directory,
+                                               const std::string& file) {
+  std::vector<std::string> directories;
+  if (!section) return directories;
+  if (!section.IsSequence())
+    throw std::runtime_error(at(file, section) + "'swap_directories' must be a list of directories");
+  for (const auto& node : section) {
+    auto text = scalar(file, node);
+    if (text.empty()) throw std::runtime_error(at(file, node) + "a directory without a name");
+    if (text.front() != '/') text.insert(0, directory + "/");
+    directories.push_back(std::move(text));
+  }
+  return directories;
+}
+
 }  // namespace trunnion::machine

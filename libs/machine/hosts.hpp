@@ -34,4 +34,9 @@ bool read_multicast(const YAML::Node& value, const std::string& file);
 /// directory. Returns the directory with the cluster's certificates, or empty.
 std::string read_security(const YAML::Node& value, const std::string& directory, const std::string& file);
 
+/// The list `swap_directories`, relative ones from the machine's directory. Throws std::runtime_error with
+/// file:line:column.
+std::vector<std::string> read_swap_directories(const YAML::Node& section, const std::string& directory,
+                                               const std::string& file);
+
 }  // namespace trunnion::machine

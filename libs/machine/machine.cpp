@@ -77,8 +77,8 @@ MachineConfig parse_machine(const std::string& text, const std::string& director
   const std::string file = directory + "/machine.yaml";
   const auto document = parse_yaml(text, file);
   check_keys(file, document,
-             {"name", "title", "domain", "port", "host_names", "time", "vendor", "hardware", "hal", "hosts",
-              "network", "security", "services", "chains"});
+             {"name", "title", "domain", "port", "host_names", "time", "vendor", "hardware", "hal", "hosts", "network",
+              "security", "open", "swap_directories", "services", "chains"});
   MachineConfig config;
   config.directory = directory;
   config.name = value<std::string>(file, document, "name", "");
@@ -101,6 +101,13 @@ MachineConfig parse_machine(const std::string& text, const std::string& director
   config.hosts = read_hosts(document["hosts"], file);
   config.multicast = read_multicast(document["network"], file);
   config.security = read_security(document["security"], directory, file);
+  config.open = value<bool>(file, document, "open", false);
+  if (!config.hosts.empty() && config.security.empty() && !config.open)
+    throw std::runtime_error(
+        at(file, document["hosts"]) +
+        "every computer in the network of these hosts could move the machine: add 'security: "
+        "on' (docs/security.md), or 'open: true' when the network is yours alone");
+  config.swap_directories = read_swap_directories(document["swap_directories"], directory, file);
   config.chain_parameters = read_chain_parameters(document["chains"], file);
 
   const auto services = document["services"];

@@ -49,6 +49,9 @@ struct MachineConfig {
   std::vector<Host> hosts;  ///< empty: everything on one computer, over its loopback
   bool multicast = false;   ///< hosts find each other by multicast instead of by the list of addresses
   std::string security;     ///< directory of the cluster's certificates; empty: DDS security is off
+  bool open = false;        ///< hosts without security are intended
+  /// Where executables for a swap may be, besides the directory of the launcher itself.
+  std::vector<std::string> swap_directories;
   std::map<std::uint32_t, ParameterValue> chain_parameters;  ///< what the section `chains` comes to
 
   std::string parameters_file() const { return directory + "/parameters.yaml"; }

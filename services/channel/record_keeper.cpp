@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "storage/file.hpp"
+#include "storage/kept_file.hpp"
 
 namespace trunnion::channel {
 
@@ -40,7 +41,7 @@ void RecordKeeper::write_on() {
     lock.unlock();
     std::string error;
     try {
-      storage::replace_file(file_, *record);
+      storage::write_kept(file_, *record);
     } catch (const storage::StorageError& e) {
       error = e.what();
     }

@@ -14,7 +14,7 @@ namespace trunnion::channel {
 
 class RecordKeeper {
  public:
-  /// `file` is replaced whole: a crash at any instant leaves the record before or the new one.
+  /// `file` is a kept text: a crash at any instant leaves the record before or the new one.
   explicit RecordKeeper(std::string file);
   /// Writes what was put last.
   ~RecordKeeper();

@@ -2,13 +2,16 @@
 #include "service.hpp"
 
 #include <cstdio>
+#include <filesystem>
 #include <fstream>
 #include <sstream>
 
 #include "machine/alarm_constants.hpp"
 #include "machine/parameter_constants.hpp"
+#include "service/damage_alarm.hpp"
 #include "snapshot/fields.hpp"
 #include "storage/file.hpp"
+#include "storage/kept_file.hpp"
 #include "stream/stage_service.hpp"
 #include "variable_text.hpp"
 
@@ -52,19 +55,34 @@ ChannelService::ChannelService(service::Node& node)
   read_hand_over();
 }
 
-// A record that cannot be read is renamed, and an alarm names it.
+// A kept text of this channel; damage is an alarm. `part` tells its files apart.
+std::optional<std::string> ChannelService::read_file(const std::string& file, std::uint32_t part,
+                                                     const std::string& loss) {
+  using storage::KeptState;
+  const auto kept = storage::read_kept(file);
+  service::report_damage(node_.alarms(), part, file, kept, loss);
+  if (kept.state == KeptState::previous) storage::repair_kept(file, kept);
+  if (kept.state == KeptState::absent || kept.state == KeptState::unusable) return std::nullopt;
+  return kept.content;
+}
+
+// A file that cannot be understood is put aside and named by an alarm.
+void ChannelService::put_aside(const std::string& file, const std::string& problem) {
+  const auto channel = static_cast<std::uint32_t>(node_.options().channel);
+  node_.alarms().raise(alarm::storage_failed, channel, problem);
+  node_.alarms().release(alarm::storage_failed, channel);
+  for (const auto& generation : {file, file + storage::previous_suffix})
+    std::rename(generation.c_str(), (generation + storage::damaged_suffix).c_str());
+}
+
 void ChannelService::read_record() {
-  std::ifstream in(record_file_, std::ios::binary);
-  if (!in) return;
-  std::ostringstream text;
-  text << in.rdbuf();
+  const auto text = read_file(record_file_, 0, "interrupted program and its line");
+  if (!text) return;
   try {
-    kept_ = channel::read_record(text.str(), record_file_);
+    kept_ = channel::read_record(*text, record_file_);
     core_.set_interrupted(kept_);
   } catch (const std::exception& e) {
-    node_.alarms().raise(alarm::storage_failed, static_cast<std::uint32_t>(node_.options().channel),
-                         e.what());
-    std::rename(record_file_.c_str(), (record_file_ + ".damaged").c_str());
+    put_aside(record_file_, e.what());
   }
 }
 
@@ -101,21 +119,27 @@ void ChannelService::watch_text() {
   }
 }
 
-// It serves one process only: one that is killed leaves none, and the drive's cut is valid then.
+// It serves one process only: one that is killed leaves none, and the drive's cut is valid then. It has a
+// checksum and no generations.
 void ChannelService::read_hand_over() {
   std::ifstream in(hand_over_file_, std::ios::binary);
   if (!in) return;
   std::ostringstream text;
   text << in.rdbuf();
   std::remove(hand_over_file_.c_str());
+  const auto name = std::filesystem::path(hand_over_file_).filename().string();
+  storage::Kept kept{storage::KeptState::unusable, "", 0, ""};
+  const auto whole = storage::unseal(name, text.str(), kept.problem);
   HandOver from;
   try {
-    if (channel::read_hand_over(text.str(), hand_over_file_, boot_, from)) hand_over_ = std::move(from);
+    if (whole && channel::read_hand_over(whole->content, hand_over_file_, boot_, from))
+      hand_over_ = std::move(from);
   } catch (const std::exception& e) {
-    node_.alarms().raise(alarm::storage_failed, static_cast<std::uint32_t>(node_.options().channel),
-                         e.what());
-    node_.alarms().release(alarm::storage_failed, static_cast<std::uint32_t>(node_.options().channel));
+    kept.problem = e.what();
   }
+  if (!kept.problem.empty())
+    service::report_damage(node_.alarms(), 2, hand_over_file_, kept,
+                           "mode, modal codes, selected program and overrides");
 }
 
 void ChannelService::end() {
@@ -123,26 +147,23 @@ void ChannelService::end() {
   const auto left = core_.hand_over();
   if (!left) return;
   try {
-    storage::replace_file(hand_over_file_, write_hand_over(*left, boot_));
+    const auto name = std::filesystem::path(hand_over_file_).filename().string();
+    storage::replace_file(hand_over_file_, storage::seal(name, 1, write_hand_over(*left, boot_)));
   } catch (const storage::StorageError& e) {
     std::fprintf(stderr, "%s\n", e.what());
   }
 }
 
-// A file that cannot be read is put aside and named by an alarm: vacant variables are safer than wrong ones.
+// Vacant variables are safer than wrong ones.
 void ChannelService::read_variables() {
-  std::ifstream in(variables_file_, std::ios::binary);
-  if (!in) return;
-  std::ostringstream text;
-  text << in.rdbuf();
+  const auto text = read_file(variables_file_, 1, "macro variables");
+  if (!text) return;
   auto variables = std::make_unique<language::VariableStore>();
   try {
-    channel::read_variables(text.str(), variables_file_, boot_, *variables);
+    channel::read_variables(*text, variables_file_, boot_, *variables);
     core_.set_variables(*variables);
   } catch (const std::exception& e) {
-    node_.alarms().raise(alarm::storage_failed, static_cast<std::uint32_t>(node_.options().channel),
-                         e.what());
-    std::rename(variables_file_.c_str(), (variables_file_ + ".damaged").c_str());
+    put_aside(variables_file_, e.what());
   }
 }
 
@@ -153,7 +174,7 @@ void ChannelService::save_variables() {
   try {
     const auto text = write_variables(*variables, boot_);
     if (text == saved_variables_) return;
-    storage::replace_file(variables_file_, text);
+    storage::write_kept(variables_file_, text);
     saved_variables_ = text;
     node_.alarms().release(alarm::storage_failed, channel);
   } catch (const storage::StorageError& e) {
@@ -182,6 +203,13 @@ void ChannelService::watch_alarms() {
   bool news = false;
   while (alarm_reader_.take(alarm)) {
     const AlarmKey key{alarm.instance, alarm.number, alarm.part};
+    if (alarm.number == alarm::not_homed.number) {
+      const auto axis = static_cast<std::uint16_t>(alarm.part);
+      if (alarm.active)
+        unreferenced_.insert(axis);
+      else
+        unreferenced_.erase(axis);
+    }
     const bool holds = alarm.active && alarm.reaction != idl::service::Reaction::SHOW;
     if (holds)
       holding_alarms_[key] = "Alarm " + std::to_string(alarm.number) + ": " + alarm.text;
@@ -195,6 +223,7 @@ void ChannelService::watch_alarms() {
     news = true;
   }
   if (!news) return;
+  core_.set_unreferenced(unreferenced_);
   core_.set_hold(!holding_alarms_.empty() ? holding_alarms_.begin()->second
                  : plc_hold_              ? "Feed hold of the PLC"
                                           : "");
@@ -289,6 +318,7 @@ service::SnapshotAnswer ChannelService::snapshot() {
   bus::Json state = {{"core", core_.explicit_state(answer.detail)}};
   if (!answer.detail.empty()) return answer;
   state["holding_alarms"] = snapshot::written(holding_alarms_);
+  state["unreferenced"] = std::vector<std::uint16_t>(unreferenced_.begin(), unreferenced_.end());
   state["plc_hold"] = plc_hold_;
   return {SnapshotKind::GIVEN, "", bus::text_of(state)};
 }
@@ -297,6 +327,8 @@ void ChannelService::continue_from_snapshot() {
   const auto& state = *node_.snapshot();
   core_.continue_from(state.at("core"));
   snapshot::read(state.at("holding_alarms"), holding_alarms_);
+  unreferenced_ = state.value("unreferenced", std::set<std::uint16_t>());
+  core_.set_unreferenced(unreferenced_);
   plc_hold_ = state.at("plc_hold").get<bool>();
   present_reader_.reset();
 }

@@ -32,6 +32,8 @@ class ChannelService : public service::Service {
   void change_tables();
   void read_variables();
   void save_variables();
+  std::optional<std::string> read_file(const std::string& file, std::uint32_t part, const std::string& loss);
+  void put_aside(const std::string& file, const std::string& problem);
   void read_record();
   void keep_record();
   void watch_text();
@@ -65,6 +67,7 @@ class ChannelService : public service::Service {
 
   using AlarmKey = std::array<std::uint32_t, 3>;
   std::map<AlarmKey, std::string> holding_alarms_;
+  std::set<std::uint16_t> unreferenced_;  ///< axes of alarm 115
   std::string hand_over_file_;
   std::optional<HandOver> hand_over_;  ///< from the process before
   std::string variables_file_, saved_variables_, boot_;

@@ -1,10 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "service.hpp"
 
-#include <cstdio>
+#include <fcntl.h>
 
+#include <algorithm>
+#include <cstddef>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+
+#include "service/damage_alarm.hpp"
 #include "snapshot/fields.hpp"
 #include "src/timeouts.hpp"
+#include "storage/file.hpp"
 #include "stream/stage_service.hpp"
 
 #include "machine/alarm_constants.hpp"
@@ -15,6 +23,24 @@ namespace {
 constexpr double idle_feedback = 0.1;      // s between two feedback messages while nothing moves
 constexpr std::size_t most_applied = 256;  // inputs that one feedback message can name
 
+std::span<const std::uint8_t> bytes_of(const Memory& memory) {
+  return {reinterpret_cast<const std::uint8_t*>(&memory), sizeof memory};
+}
+
+// The file of the version before, which ended with the channels: one file, without checksum.
+std::optional<Memory> memory_of_format_0(const std::string& path, const Memory& now) {
+  constexpr std::size_t size = offsetof(Memory, homed);
+  std::error_code none;
+  if (std::filesystem::exists(path + storage::previous_suffix, none) ||
+      std::filesystem::file_size(path, none) != size || none)
+    return std::nullopt;
+  Memory memory = now;
+  const storage::File file(path, O_RDONLY);
+  file.read(0, {reinterpret_cast<std::uint8_t*>(&memory), size});
+  if (memory.magic != Memory::magic_value || memory.axes != now.axes) return std::nullopt;
+  return memory;
+}
+
 template <class T>
 std::uint64_t identity(const bus::Reader<T>& reader) {
   return static_cast<std::uint64_t>(reader.info().source_timestamp);
@@ -24,8 +50,7 @@ std::uint64_t identity(const bus::Reader<T>& reader) {
 DriveService::DriveService(service::Node& node, std::unique_ptr<DriveHardware> hardware)
     : node_(node),
       parameters_(node.bus()),
-      encoders_(node.options().state_directory + "/encoders.bin", sizeof(Memory)),
-      memory_(static_cast<Memory*>(encoders_.data())),
+      encoders_(node.options().state_directory + "/encoders.bin", "encoders", sizeof(Memory)),
       core_(std::move(hardware)) {}
 
 void DriveService::start() {
@@ -33,8 +58,10 @@ void DriveService::start() {
     continue_from_snapshot();
   } else {
     configure(*parameters_.newest());
-    core_.restore(*memory_);
+    restore();
   }
+  const auto memory = core_.memory();
+  encoders_.open(bytes_of(memory));
   const auto& p = *parameters_.find(revision_);
   frame_cycles_ =
       static_cast<std::uint32_t>(p.integer(node_.options().virtual_time ? parameter::frame_cycles_virtual_time
@@ -49,6 +76,46 @@ void DriveService::start() {
   frames_.emplace(node_.bus().reader(topics::gantry_frame));
   next_tick_ = service::monotonic_seconds();
   send();
+}
+
+// Only positions that are certain are taken: an axis without one has no reference, which an alarm says.
+void DriveService::restore() {
+  using storage::KeptState;
+  auto kept = encoders_.load();
+  Memory memory;
+  if (const auto old = memory_of_format_0(encoders_.path(), core_.memory())) {
+    core_.restore(*old);
+    return;
+  }
+  if (kept.state == KeptState::absent) return;
+  if (!kept.content.empty()) std::memcpy(&memory, kept.content.data(), sizeof memory);
+  if (kept.state == KeptState::good) {
+    core_.restore(memory);
+    if (!core_.unreferenced().empty())
+      kept.problem = "it has not been referenced since its position was lost, or is new";
+  } else {
+    core_.restore_without_positions(memory);
+  }
+  unreferenced_ = core_.unreferenced();
+  for (const auto& axis : unreferenced_)
+    node_.alarms().raise(alarm::not_homed, axis.number,
+                         "The position of axis " + axis.name + " is not known (" + kept.problem +
+                             "): select mode REF, then reference return of the axis",
+                         core_.next());
+  if (unreferenced_.empty() && kept.state != KeptState::good)
+    service::report_damage(node_.alarms(), 0, encoders_.path(), {kept.state, "", 0, kept.problem},
+                           "cycle numbers");
+}
+
+void DriveService::watch_references() {
+  if (unreferenced_.empty()) return;
+  const auto still = core_.unreferenced();
+  std::erase_if(unreferenced_, [&](const machine::AxisInfo& axis) {
+    const bool referenced = std::none_of(still.begin(), still.end(),
+                                         [&](const auto& other) { return other.number == axis.number; });
+    if (referenced) node_.alarms().clear(alarm::not_homed, axis.number);
+    return referenced;
+  });
 }
 
 service::SnapshotAnswer DriveService::snapshot() {
@@ -162,7 +229,8 @@ void DriveService::send() {
   applied_.clear();
   writer_->write(feedback_);
   ++frames_out_;
-  *memory_ = core_.memory();
+  const auto memory = core_.memory();
+  encoders_.save(bytes_of(memory));
   last_sent_ = service::monotonic_seconds();
   changed_ = false;
 }
@@ -220,8 +288,12 @@ void DriveService::pump() {
     run_real();
   for (const auto& event : core_.take_events()) {
     node_.alarms().raise(*event.alarm, event.part, event.text, core_.next());
-    node_.alarms().release(*event.alarm, event.part);
+    const bool unreferenced = event.alarm->number == alarm::not_homed.number &&
+                              std::any_of(unreferenced_.begin(), unreferenced_.end(),
+                                          [&](const auto& axis) { return axis.number == event.part; });
+    if (!unreferenced) node_.alarms().release(*event.alarm, event.part);
   }
+  watch_references();
   if (changed_ || mode != core_.mode() || service::monotonic_seconds() - last_sent_ > idle_feedback) send();
 }
 

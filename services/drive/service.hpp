@@ -9,7 +9,7 @@
 #include "service/parameter_client.hpp"
 #include "service/running_time.hpp"
 #include "src/drive_core.hpp"
-#include "storage/mapped_file.hpp"
+#include "storage/retained_pair.hpp"
 
 namespace trunnion::drive {
 
@@ -28,6 +28,8 @@ class DriveService : public service::Service {
 
  private:
   void start();
+  void restore();
+  void watch_references();
   void continue_from_snapshot();
   bool parameters_are_here();
   void drain();
@@ -39,8 +41,8 @@ class DriveService : public service::Service {
 
   service::Node& node_;
   service::ParameterClient parameters_;
-  storage::MappedFile encoders_;  ///< as an absolute encoder would, it survives kill -9 of the process
-  Memory* memory_;
+  storage::RetainedPair encoders_;  ///< as an absolute encoder would, it survives kill -9 of the process
+  std::vector<machine::AxisInfo> unreferenced_;  ///< axes of alarm 115
   DriveCore core_;
   std::optional<bus::Reader<idl::stream::AxisFrame>> frames_;
   std::optional<bus::Reader<idl::stream::StreamRequest>> requests_;

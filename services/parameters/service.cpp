@@ -5,6 +5,7 @@
 
 #include "bus/json.hpp"
 #include "machine/alarm_constants.hpp"
+#include "service/damage_alarm.hpp"
 #include "snapshot/kept_files.hpp"
 
 namespace trunnion::parameters {
@@ -38,17 +39,28 @@ std::string prepare_directory(const service::Node& node) {
 
 ParameterService::ParameterService(service::Node& node)
     : node_(node),
-      storage_(prepare_directory(node)),
+      storage_(prepare_directory(node), true),
       store_(storage_, defaults_of(node.options().machine), storage_.read(boot_file).value_or("")),
       set_(node.bus().writer(topics::parameter_set)),
       tools_(node.bus().writer(topics::tool_table)),
       offsets_(node.bus().writer(topics::work_offsets)),
       channels_(node.bus().reader(topics::channel_state)),
       requests_(node.bus(), topics::parameter_request, topics::parameter_reply) {
+  report_damage();
   if (node.snapshot() == nullptr)
     publish();
   else
     store_.take_changes();  // they were published before the snapshot
+}
+
+void ParameterService::report_damage() {
+  const std::map<std::string, const char*> contents = {{parameters_file, "saved parameters"},
+                                                       {active_file, "revisions of the active parameters"},
+                                                       {tool_tables::tools_file, "tools"},
+                                                       {tool_tables::offsets_file, "work offsets"}};
+  std::uint32_t part = 0;
+  for (const auto& [name, kept] : storage_.damaged())
+    service::report_damage(node_.alarms(), part++, storage_.path(name), kept, contents.at(name));
 }
 
 service::SnapshotAnswer ParameterService::snapshot() {

@@ -25,6 +25,7 @@ class ParameterService : public service::Service {
 
  private:
   void publish();
+  void report_damage();
 
   service::Node& node_;
   FileStorage storage_;

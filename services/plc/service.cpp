@@ -10,6 +10,7 @@
 #include "machine/alarm_constants.hpp"
 #include "machine/parameter_constants.hpp"
 #include "program_files.hpp"
+#include "service/damage_alarm.hpp"
 #include "snapshot/fields.hpp"
 
 namespace trunnion::plc {
@@ -52,7 +53,10 @@ PlcService::PlcService(service::Node& node)
       image_(node.bus().writer(topics::plc_image)),
       log_(node.bus().writer(topics::plc_input_log)),
       panel_(node.bus(), topics::panel_request, topics::panel_reply) {
-  if (const auto kept = retained_.load()) {
+  const auto found = retained_.load();
+  service::report_damage(node.alarms(), 0, retained_.path(), {found.state, "", 0, found.problem},
+                         "retained registers of the PLC");
+  if (const auto& kept = found.kept) {
     // Only within one run of the cluster may a spindle keep turning without a new command of the program.
     if (!boot_.empty() && kept->boot == boot_)
       core_.restore(kept->memory);

@@ -6,6 +6,7 @@
 
 #include "bus/json.hpp"
 #include "machine/alarm_constants.hpp"
+#include "service/damage_alarm.hpp"
 #include "snapshot/kept_files.hpp"
 
 namespace trunnion::program {
@@ -42,6 +43,9 @@ ProgramService::ProgramService(service::Node& node)
     for (const auto& name : store_.install(delivered))
       std::cerr << machine.programs_directory() << "/" << name << ": warning: not a program name, left out\n";
   }
+  service::report_damage(node.alarms(), 0, index_file, store_.index_found(),
+                         "checksums and revisions of the programs");
+  raise_damaged();
   if (const auto cycles = machine.directory + "/cycles"; std::filesystem::is_directory(cycles)) {
     cycles_.emplace(cycles);
     store_.set_cycles(*cycles_);
@@ -67,6 +71,18 @@ service::SnapshotAnswer ProgramService::snapshot() {
   const bus::Json state = {{"index", snapshot::kept_files(node_.options().state_directory, {index_file})},
                            {"programs", snapshot::kept_files(programs_directory(node_), names)}};
   return {SnapshotKind::GIVEN, "", bus::text_of(state)};
+}
+
+// One alarm names the first damaged program and how many there are. It can be reset: reading such a program
+// is refused with the same text.
+void ProgramService::raise_damaged() {
+  const auto& damaged = store_.damaged();
+  if (damaged.empty()) return;
+  const auto more = damaged.size() - 1;
+  node_.alarms().raise(
+      alarm::program_damaged, 0,
+      damaged.begin()->second + (more > 0 ? " (and " + std::to_string(more) + " more programs)" : ""));
+  node_.alarms().release(alarm::program_damaged, 0);
 }
 
 void ProgramService::pump() {

@@ -23,6 +23,7 @@ class ProgramService : public service::Service {
   service::SnapshotAnswer snapshot() override;
 
  private:
+  void raise_damaged();
   service::Node& node_;
   DirectoryFiles programs_, state_;
   std::optional<DirectoryFiles> cycles_;

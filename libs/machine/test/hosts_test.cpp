@@ -20,7 +20,7 @@ std::string services(
     const std::string& kinematics = "{service: kinematics, replicas: 2, host: [motion, control]}") {
   return "services:\n  - {service: parameters}\n  - {service: program}\n  - {service: plc}\n  - " + drive +
          "\n  - {service: gantry, host: motion}\n  - {service: compensation, host: motion}\n  - " +
-         kinematics + "\n  - {service: channel}\n";
+         kinematics + "\n  - {service: channel}\nopen: true\n";
 }
 
 std::string error_of(const std::string& yaml) {
@@ -44,6 +44,25 @@ TEST(Hosts, AServiceRunsOnItsHostACopyOnItsOwnAndTheRestOnTheFirst) {
                                              "kinematics@motion", "kinematics@control", "channel@control"}));
   EXPECT_FALSE(config.multicast);
   EXPECT_TRUE(parse_machine(three_hosts + "network: multicast\n" + services(), "m").multicast);
+}
+
+TEST(Hosts, NeedSecurityOrTheStatementThatTheNetworkIsOpen) {
+  auto text = three_hosts + services();
+  EXPECT_TRUE(parse_machine(text, "m").open);
+  text.resize(text.find("open: true"));
+  EXPECT_EQ(
+      error_of(text),
+      "m/machine.yaml:3:3: error: every computer in the network of these hosts could move the machine: add "
+      "'security: on' (docs/security.md), or 'open: true' when the network is yours alone");
+  EXPECT_EQ(error_of(text + "security: on\n"), "");
+}
+
+TEST(Hosts, DirectoriesForSwapsAreAbsoluteOrBesideTheMachine) {
+  const auto config =
+      parse_machine(three_hosts + services() + "swap_directories: [/opt/stages, stages]\n", "m");
+  EXPECT_EQ(config.swap_directories, (std::vector<std::string>{"/opt/stages", "m/stages"}));
+  EXPECT_EQ(error_of(three_hosts + services() + "swap_directories: here\n"),
+            "m/machine.yaml:16:19: error: 'swap_directories' must be a list of directories");
 }
 
 TEST(Hosts, WithoutTheSectionEverythingIsOnOneComputer) {

@@ -166,7 +166,8 @@ Answer ChannelCore::reference(std::uint8_t index) {
   auto move = manual_.reference(index);
   if (auto* refusal = std::get_if<Refusal>(&move)) return refuse(std::move(*refusal));
   const auto number = machine_.channel_axes().number[index];
-  if (parameters_ && parameters_->integer(parameter::homing_direction, number) != 0) {
+  if (unreferenced_.contains(number) ||
+      (parameters_ && parameters_->integer(parameter::homing_direction, number) != 0)) {
     if (states_.busy()) return refuse(alarm::request_invalid, "The channel is busy");
     if (auto answer = startable(); !answer.accepted) return answer;
     stream_.link().request_homing(number);

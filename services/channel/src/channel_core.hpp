@@ -4,6 +4,8 @@
 // StreamWriter.
 #pragma once
 
+#include <set>
+
 #include <memory>
 #include <optional>
 #include <string>
@@ -81,6 +83,8 @@ class ChannelCore {
   void on_table_changed(const std::string& reason);
   /// Alarms that stop motion, or the PLC's feed hold: `why` is empty when there is none.
   void set_hold(const std::string& why);
+  /// Logical numbers of the axes whose position is not known: a reference return gives them their reference.
+  void set_unreferenced(std::set<std::uint16_t> axes) { unreferenced_ = std::move(axes); }
   void set_ready(bool ready) { ready_ = ready; }
   /// As StreamWriter::set_replicas().
   void set_replicas(bool may_start, std::uint64_t floor) { stream_.set_replicas(may_start, floor); }
@@ -244,6 +248,7 @@ class ChannelCore {
   Switches switches_;
   bool ready_ = false, recovered_ = false;
   std::string external_hold_;
+  std::set<std::uint16_t> unreferenced_;
   std::uint32_t reset_count_ = 0;
 
   idl::program::ProgramEntry selected_;

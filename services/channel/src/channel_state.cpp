@@ -106,7 +106,8 @@ const idl::channel::ChannelState& ChannelCore::state() {
   s.revision = machine_.revision();
   s.frames_ahead =
       static_cast<std::uint32_t>(link().next() > link().executed() ? link().next() - link().executed() : 0);
-  s.homed = true;  // absolute encoders
+  s.homed = std::none_of(s.axes.begin(), s.axes.end(),
+                         [&](std::uint16_t axis) { return unreferenced_.contains(axis); });
   s.dry_run = switches_.dry_run;
   s.auxiliary_lock = switches_.auxiliary_lock;
   s.block_skip = switches_.block_skip;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <cstring>
 #include <stdexcept>
 #include <thread>
 
@@ -22,8 +23,7 @@ HalHardware::HalHardware(const HalSession::Options& session, std::uint32_t queue
                          const std::string& state_directory)
     : session_(session),
       queue_(queue),
-      file_(state_directory + "/references.bin", sizeof(Memory)),
-      memory_(static_cast<Memory*>(file_.data())) {}
+      file_(state_directory + "/references.bin", "references", sizeof(Memory)) {}
 
 void HalHardware::end() {
   streams_.reset();
@@ -44,7 +44,7 @@ void HalHardware::configure(const machine::Parameters& p, const std::vector<mach
     axes_[i].needs_homing = p.integer(parameter::homing_direction, axes[i].number) != 0;
   if (first) attach();
   for (std::size_t i = 0; i < axes.size(); ++i)
-    axes_[i].status.homed = !axes_[i].needs_homing || memory_->homed[i] != 0;
+    axes_[i].status.homed = !axes_[i].needs_homing || memory_.homed[i] != 0;
 }
 
 void HalHardware::attach() {
@@ -91,14 +91,17 @@ void HalHardware::check_period() {
   }
 }
 
-// Those of another session are void: its encoders began to count elsewhere.
+// Those of another session are void: its encoders began to count elsewhere. Those of damaged files are not
+// used: the axes have no reference then.
 void HalHardware::take_references() {
+  const auto kept = file_.load();
+  if (kept.state == storage::KeptState::good) std::memcpy(&memory_, kept.content.data(), sizeof memory_);
   std::array<char, 32> session{};
   session_.identity().copy(session.data(), session.size() - 1);
-  if (memory_->session == session && memory_->axes == axes_.size()) return;
-  *memory_ = {};
-  memory_->session = session;
-  memory_->axes = static_cast<std::uint32_t>(axes_.size());
+  if (memory_.session != session || memory_.axes != axes_.size()) memory_ = {};
+  memory_.session = session;
+  memory_.axes = static_cast<std::uint32_t>(axes_.size());
+  file_.open({reinterpret_cast<const std::uint8_t*>(&memory_), sizeof memory_});
 }
 
 // Where the axes are, and behind which number the rows of this process come.
@@ -247,8 +250,9 @@ bool HalHardware::period_due() {
 }
 
 void HalHardware::set_reference(std::size_t i, double shift_by) {
-  shift(i) += shift_by;
-  memory_->homed[i] = 1;
+  memory_.shift[i] += shift_by;
+  memory_.homed[i] = 1;
+  file_.save({reinterpret_cast<const std::uint8_t*>(&memory_), sizeof memory_});
   auto& axis = axes_[i];
   for (auto& setpoint : axis.setpoint) setpoint += shift_by;
   axis.status.position += shift_by;

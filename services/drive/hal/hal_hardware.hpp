@@ -12,7 +12,7 @@
 #include "drive_hardware.hpp"
 #include "hal_session.hpp"
 #include "hal_streams.hpp"
-#include "storage/mapped_file.hpp"
+#include "storage/retained_pair.hpp"
 
 namespace trunnion::drive {
 
@@ -23,7 +23,7 @@ class HalHardware : public DriveHardware {
 
   void configure(const machine::Parameters& parameters, const std::vector<machine::AxisInfo>& axes,
                  const std::vector<machine::AxisInfo>& spindles, double period) override;
-  void restore(std::span<const double>) override {}
+  void restore(std::span<const double>, std::span<const std::uint8_t>) override {}
   void status(DriveStatus& out) const override;
   bool enabled() const override;
   void reset_faults() override { fault_reset_rows_ = 100; }
@@ -57,13 +57,12 @@ class HalHardware : public DriveHardware {
   void take(const HalSample& sample);
   void report_skip_edges(const HalSample& sample, EncoderRowSink& rows);
   std::uint64_t number_of(std::uint32_t in_hal) const;
-  double& shift(std::size_t axis) { return memory_->shift[axis]; }
-  double shift(std::size_t axis) const { return memory_->shift[axis]; }
+  double shift(std::size_t axis) const { return memory_.shift[axis]; }
 
   HalSession session_;
   std::uint32_t queue_;
-  storage::MappedFile file_;
-  Memory* memory_;
+  storage::RetainedPair file_;
+  Memory memory_;
   std::unique_ptr<HalStreams> streams_;
   SetpointColumns setpoint_columns_;
   SampleColumns sample_columns_;

@@ -12,6 +12,7 @@ void SimulatedHardware::configure(const machine::Parameters& p, const std::vecto
   const bool first = servos_.size() != axes.size();
   servos_.resize(axes.size());
   home_switches_.resize(axes.size());
+  homed_.resize(axes.size(), 1);
   for (std::size_t i = 0; i < axes.size(); ++i) {
     const auto number = axes[i].number;
     if (first) servos_[i].place(p.get(parameter::reference_coordinate, number));
@@ -27,8 +28,11 @@ void SimulatedHardware::configure(const machine::Parameters& p, const std::vecto
   angle_.resize(spindles.size());
 }
 
-void SimulatedHardware::restore(std::span<const double> positions) {
-  for (std::size_t i = 0; i < servos_.size(); ++i) servos_[i].place(positions[i]);
+void SimulatedHardware::restore(std::span<const double> positions, std::span<const std::uint8_t> homed) {
+  for (std::size_t i = 0; i < servos_.size(); ++i) {
+    servos_[i].place(positions[i]);
+    homed_[i] = homed[i];
+  }
 }
 
 bus::Json SimulatedHardware::explicit_state() const { return snapshot::written(*this); }
@@ -45,6 +49,7 @@ void SimulatedHardware::status(DriveStatus& out) const {
     axis.hold_position = servo.command();
     axis.velocity = servo.velocity();
     axis.torque = servo.torque();
+    axis.homed = homed_[i] != 0;
     axis.home_switch = home_switches_[i].on;
     axis.home_latch = home_switches_[i].latch;
   }
@@ -55,6 +60,7 @@ void SimulatedHardware::status(DriveStatus& out) const {
 
 void SimulatedHardware::set_reference(std::size_t i, double shift) {
   servos_[i].place(servos_[i].command() + shift);
+  homed_[i] = 1;
 }
 
 void SimulatedHardware::exchange(const SetpointRow& row, DriveStatus& out, EncoderRowSink& rows) {

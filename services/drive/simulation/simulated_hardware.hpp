@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A simulated machine: servo loops with their mechanics, spindles, skip inputs, and home switches at the
-// reference coordinates. Its encoders are absolute, its axes always homed, and a row is executed while it is
-// handed over.
+// reference coordinates. Its encoders are absolute, its axes homed while their positions are known, and a row
+// is executed while it is handed over.
 #pragma once
 
 #include "drive_hardware.hpp"
@@ -15,7 +15,7 @@ class SimulatedHardware : public DriveHardware {
  public:
   void configure(const machine::Parameters& parameters, const std::vector<machine::AxisInfo>& axes,
                  const std::vector<machine::AxisInfo>& spindles, double period) override;
-  void restore(std::span<const double> positions) override;
+  void restore(std::span<const double> positions, std::span<const std::uint8_t> homed) override;
   bus::Json explicit_state() const override;
   void continue_from(const bus::Json& state) override;
   void status(DriveStatus& out) const override;
@@ -28,6 +28,7 @@ class SimulatedHardware : public DriveHardware {
   static void fields(Self& self, Visit&& visit) {
     visit("servos", self.servos_), visit("spindles", self.spindles_);
     visit("home_switches", self.home_switches_), visit("skip_inputs", self.skip_inputs_);
+    visit("homed", self.homed_);
   }
 
  private:
@@ -44,6 +45,7 @@ class SimulatedHardware : public DriveHardware {
   double period_ = 0.001;
   std::vector<HomeSwitch> home_switches_;
   std::vector<ServoAxis> servos_;
+  std::vector<std::uint8_t> homed_;
   std::vector<SimulatedSpindle> spindles_;
   SkipInputs skip_inputs_;
   std::vector<double> encoder_, angle_;  // of the row that is handed over

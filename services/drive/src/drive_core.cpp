@@ -68,7 +68,7 @@ void DriveCore::place_at_hardware() {
 }
 
 void DriveCore::restore(const Memory& memory) {
-  if (memory.magic != Memory::magic_value || memory.axes != axes_.size()) return;
+  if (memory.magic != Memory::magic_value) return;
   next_ = memory.next;
   tick_ = memory.tick;
   for (auto& [number, channel] : channels_) {
@@ -77,8 +77,26 @@ void DriveCore::restore(const Memory& memory) {
     channel.epoch = channel.begun ? kept.epoch : memory.epoch;
     channel.request = kept.request;
   }
-  hardware_->restore({memory.position.data(), axes_.size()});
+  std::vector<double> positions = command_;  // of axes that are not in the memory: where they are
+  std::vector<std::uint8_t> homed(axes_.size(), 0);
+  for (std::size_t i = 0; i < axes_.size(); ++i)
+    for (std::size_t k = 0; k < std::min<std::size_t>(memory.axes, memory.position.size()); ++k)
+      if (memory.number[k] == axes_[i].number) positions[i] = memory.position[k], homed[i] = memory.homed[k];
+  hardware_->restore(positions, homed);
   place_at_hardware();
+}
+
+void DriveCore::restore_without_positions(Memory memory) {
+  memory.magic = Memory::magic_value;
+  memory.axes = 0;
+  restore(memory);
+}
+
+std::vector<machine::AxisInfo> DriveCore::unreferenced() const {
+  std::vector<machine::AxisInfo> axes;
+  for (std::size_t i = 0; i < axes_.size(); ++i)
+    if (!status_.axes[i].homed) axes.push_back(axes_[i]);
+  return axes;
 }
 
 Memory DriveCore::memory() const {
@@ -91,7 +109,11 @@ Memory DriveCore::memory() const {
     memory.epoch = std::max(memory.epoch, channel.epoch);
     memory.channels[number % memory.channels.size()] = {channel.epoch, channel.request, channel.begun};
   }
-  for (std::size_t i = 0; i < axes_.size(); ++i) memory.position[i] = status_.axes[i].position;
+  for (std::size_t i = 0; i < std::min(axes_.size(), memory.position.size()); ++i) {
+    memory.position[i] = status_.axes[i].position;
+    memory.homed[i] = status_.axes[i].homed ? 1 : 0;
+    memory.number[i] = axes_[i].number;
+  }
   return memory;
 }
 

@@ -38,7 +38,9 @@ struct Memory {
   std::uint32_t epoch = 0;  ///< newest of any channel
   std::uint64_t next = 0, tick = 0;
   std::array<double, 32> position{};
-  std::array<Channel, 32> channels{};  ///< behind what older files have, which end here
+  std::array<Channel, 32> channels{};
+  std::array<std::uint8_t, 32> homed{};    ///< the position has its reference
+  std::array<std::uint16_t, 32> number{};  ///< logical number of each axis
 };
 
 /// Something to report: the service turns it into an alarm.
@@ -54,8 +56,13 @@ class DriveCore {
 
   void configure(const machine::Parameters& parameters, bool virtual_time);
   bool configured() const { return !axes_.empty(); }
-  /// Continues from what an earlier process left. Call after the first configure().
+  /// Continues from what an earlier process left. An axis that `memory` does not have is not homed. Call
+  /// after the first configure().
   void restore(const Memory& memory);
+  /// Continues with its cycles, and no axis of hardware that does not know its positions itself is homed.
+  void restore_without_positions(Memory memory);
+  /// Axes without a reference. Not cyclic.
+  std::vector<machine::AxisInfo> unreferenced() const;
   Memory memory() const;
   /// Everything that determines what follows besides the parameters; null when the hardware cannot give it.
   /// Call it when fill() and take_events() have taken everything.
@@ -151,6 +158,7 @@ class DriveCore {
   void start(Channel& channel, const idl::stream::StreamRequest& request);
   bool all_homed();
   void home(std::uint16_t axis);
+  void reference(double shift);
   void step_homing();
   void abort_homing();
   void follow_supply();

@@ -111,8 +111,9 @@ class DriveHardware {
   virtual void configure(const machine::Parameters& parameters, const std::vector<machine::AxisInfo>& axes,
                          const std::vector<machine::AxisInfo>& spindles, double period) = 0;
   /// Not cyclic, after the first configure(): positions an earlier process has left, as absolute encoders
-  /// would. Hardware that knows its positions itself ignores them.
-  virtual void restore(std::span<const double> positions) = 0;
+  /// would. An axis with `homed` 0 has no reference until set_reference(). Hardware that knows its positions
+  /// itself ignores both.
+  virtual void restore(std::span<const double> positions, std::span<const std::uint8_t> homed) = 0;
   /// Everything that determines the next period besides the parameters, for a recording; null when the
   /// hardware cannot give it. Not cyclic.
   virtual bus::Json explicit_state() const;

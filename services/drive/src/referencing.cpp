@@ -11,10 +11,14 @@ namespace trunnion::drive {
 // False, with an alarm that names them, when axes have no reference.
 bool DriveCore::all_homed() {
   std::string names;
+  std::uint32_t first = 0;
   for (std::size_t i = 0; i < axes_.size(); ++i)
-    if (!status_.axes[i].homed) names += (names.empty() ? "" : ", ") + axes_[i].name;
+    if (!status_.axes[i].homed) {
+      if (names.empty()) first = axes_[i].number;
+      names += (names.empty() ? "" : ", ") + axes_[i].name;
+    }
   if (names.empty()) return true;
-  raise(alarm::not_homed, 0,
+  raise(alarm::not_homed, first,
         "Axes without a reference: " + names + ". Mode REF, then reference return of each");
   return false;
 }
@@ -24,7 +28,11 @@ void DriveCore::home(std::uint16_t number) {
   if (column < 0 || mode_ != Mode::FOLLOWING || any_active()) return;
   homing_axis_ = static_cast<std::size_t>(column);
   const auto& l = limits_[homing_axis_];
-  if (l.homing_direction == 0) return;
+  if (l.homing_direction == 0) {
+    // An absolute encoder whose position was lost gets its reference where it is.
+    if (!status_.axes[homing_axis_].homed) reference(l.reference - command_[homing_axis_]);
+    return;
+  }
   Homing::Settings settings;
   settings.direction = l.homing_direction;
   settings.search = std::min(l.homing_search, l.velocity);
@@ -36,15 +44,20 @@ void DriveCore::home(std::uint16_t number) {
   mode_ = Mode::HOMING;
 }
 
+// The positions of the axis that is homed are greater by `shift` from now on.
+void DriveCore::reference(double shift) {
+  hardware_->set_reference(homing_axis_, shift);
+  hardware_->status(status_);
+  command_[homing_axis_] += shift;
+  row_.axes[homing_axis_].position += shift;
+  target_ = command_;
+}
+
 void DriveCore::step_homing() {
   command_[homing_axis_] = homing_.step(status_.axes[homing_axis_], dt_);
   if (homing_.state() == Homing::State::moving) return;
   if (homing_.state() == Homing::State::done) {
-    const double shift = homing_.shift();
-    hardware_->set_reference(homing_axis_, shift);
-    hardware_->status(status_);
-    command_[homing_axis_] += shift;
-    row_.axes[homing_axis_].position += shift;
+    reference(homing_.shift());
   } else if (enabled_) {
     raise(alarm::homing_failed, axes_[homing_axis_].number,
           "Axis " + axes_[homing_axis_].name +

@@ -19,7 +19,7 @@ class QueuedHardware : public DriveHardware {
     spindles_ = spindles.size();
     fault.resize(axes.size());
   }
-  void restore(std::span<const double>) override {}
+  void restore(std::span<const double>, std::span<const std::uint8_t>) override {}
   void status(DriveStatus& out) const override {
     out.axes.resize(position.size());
     for (std::size_t i = 0; i < position.size(); ++i) {

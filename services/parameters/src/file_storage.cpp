@@ -2,12 +2,10 @@
 #include "file_storage.hpp"
 
 #include <fcntl.h>
-#include <unistd.h>
-
-#include <fstream>
-#include <sstream>
 
 namespace trunnion::parameters {
+using storage::KeptState;
+
 namespace {
 
 std::span<const std::uint8_t> bytes_of(const std::string& text) {
@@ -17,12 +15,12 @@ std::span<const std::uint8_t> bytes_of(const std::string& text) {
 }  // namespace
 
 std::optional<std::string> FileStorage::read(const std::string& name) {
-  if (access(path(name).c_str(), F_OK) != 0) return std::nullopt;
-  std::ifstream in(path(name), std::ios::binary);
-  if (!in) throw StorageError(path(name) + ": cannot be opened");
-  std::ostringstream text;
-  text << in.rdbuf();
-  return text.str();
+  const auto kept = storage::read_kept(path(name));
+  if (kept.state == KeptState::absent) return std::nullopt;
+  if (kept.state != KeptState::good) damaged_.emplace(name, kept);
+  if (kept.state == KeptState::unusable) return std::nullopt;
+  if (owner_ && kept.state == KeptState::previous) storage::repair_kept(path(name), kept);
+  return kept.content;
 }
 
 void FileStorage::replace(const std::vector<NamedText>& files) {
@@ -30,15 +28,13 @@ void FileStorage::replace(const std::vector<NamedText>& files) {
   try {
     for (const auto& file : files) {
       ++made;
-      storage::File out(path(file.name) + ".new", O_WRONLY | O_CREAT | O_TRUNC);
-      out.append(0, bytes_of(file.text));
-      out.sync();
+      storage::prepare_kept(path(file.name), file.text);
     }
   } catch (const StorageError&) {
-    for (std::size_t i = 0; i < made; ++i) unlink((path(files[i].name) + ".new").c_str());
+    for (std::size_t i = 0; i < made; ++i) storage::discard_kept(path(files[i].name));
     throw;
   }
-  for (const auto& file : files) storage::rename_over(path(file.name) + ".new", path(file.name));
+  for (const auto& file : files) storage::publish_kept(path(file.name));
   storage::sync_directory(directory_);
 }
 

@@ -64,10 +64,39 @@ TEST_F(FileStorageTest, AfterAKillAtAnyMomentAFileIsOldOrNew) {
     waitpid(writer, nullptr, 0);
     const auto text = storage.read("f");
     ASSERT_TRUE(text == texts[0] || text == texts[1]) << "round " << round;
+    ASSERT_TRUE(storage.damaged().empty()) << storage.damaged().begin()->second.problem;
     ++seen[text == texts[1] ? 1 : 0];
   }
   EXPECT_GT(seen[0], 0);
   EXPECT_GT(seen[1], 0);
+}
+
+TEST_F(FileStorageTest, DamageIsReportedAndOnlyTheOwnerRepairs) {
+  FileStorage(directory_).replace({{"a", "one\n"}});
+  FileStorage(directory_).replace({{"a", "two\n"}});
+  std::filesystem::resize_file(directory_ + "/a", 3);
+  FileStorage reader(directory_), owner(directory_, true), later(directory_);
+  EXPECT_EQ(reader.read("a"), "one\n");
+  EXPECT_EQ(reader.damaged().at("a").problem, "its last line is incomplete");
+  EXPECT_EQ(std::filesystem::file_size(directory_ + "/a"), 3u) << "only read";
+  EXPECT_EQ(owner.read("a"), "one\n");
+  EXPECT_EQ(owner.damaged().size(), 1u);
+  EXPECT_EQ(later.read("a"), "one\n");
+  EXPECT_TRUE(later.damaged().empty());
+}
+
+TEST_F(FileStorageTest, WhatIsLostIsReportedUntilItIsWrittenAgain) {
+  FileStorage(directory_).replace({{"a", "one\n"}});
+  for (const auto* name : {"/a", "/a.previous"}) std::filesystem::resize_file(directory_ + name, 3);
+  for (int start = 0; start < 2; ++start) {
+    FileStorage owner(directory_, true);
+    EXPECT_EQ(owner.read("a"), std::nullopt);
+    EXPECT_EQ(owner.damaged().at("a").state, storage::KeptState::unusable);
+  }
+  FileStorage owner(directory_, true);
+  owner.replace({{"a", "entered again\n"}});
+  EXPECT_EQ(owner.read("a"), "entered again\n");
+  EXPECT_TRUE(owner.damaged().empty());
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "private_storage.hpp"
+#include "testing_support/damage.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -21,9 +22,8 @@ class PrivateStorageTest : public testing::Test {
   ~PrivateStorageTest() override { std::filesystem::remove_all(directory_); }
   std::map<std::string, std::string> on_the_disk() {
     std::map<std::string, std::string> files;
-    FileStorage disk(directory_);
     for (const auto& entry : std::filesystem::directory_iterator(directory_))
-      files[entry.path().filename()] = *disk.read(entry.path().filename());
+      files[entry.path().filename()] = testing_support::read_bytes(entry.path());
     return files;
   }
   const std::string directory_;

@@ -1,35 +1,34 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "retained_memory.hpp"
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <algorithm>
-#include <atomic>
 #include <cstring>
+#include <vector>
+
+#include "storage/file.hpp"
 
 namespace trunnion::plc {
+namespace {
 
-struct RetainedMemory::Slot {
+// The file of the version before: two slots in one file, written in turn.
+struct Slot {
   std::uint64_t sequence;
   std::uint64_t checksum;
   std::uint64_t version;
   char boot[64];
   Memory memory;
 };
+constexpr std::uint64_t slot_version = (std::uint64_t{1} << 32) | sizeof(Memory);
 
-struct RetainedMemory::Layout {
-  Slot slots[2];
-};
-
-namespace {
-
-constexpr std::uint64_t version = (std::uint64_t{1} << 32) | sizeof(Memory);
-
-/// FNV-1a over 64-bit words: finds a slot that was half written when the power went.
-template <class T>
-std::uint64_t checksum(const T& value, std::uint64_t seed) {
-  static_assert(sizeof(T) % 8 == 0);
-  std::uint64_t hash = 14695981039346656037u ^ seed;
-  const auto* bytes = reinterpret_cast<const char*>(&value);
-  for (std::size_t i = 0; i < sizeof(T); i += 8) {
+// FNV-1a over 64-bit words.
+std::uint64_t checksum_of(const Slot& slot) {
+  static_assert(sizeof(Memory) % 8 == 0);
+  std::uint64_t hash = 14695981039346656037u ^ slot.sequence;
+  const auto* bytes = reinterpret_cast<const char*>(&slot.memory);
+  for (std::size_t i = 0; i < sizeof(Memory); i += 8) {
     std::uint64_t word;
     std::memcpy(&word, bytes + i, 8);
     hash = (hash ^ word) * 1099511628211u;
@@ -37,41 +36,48 @@ std::uint64_t checksum(const T& value, std::uint64_t seed) {
   return hash;
 }
 
+std::string text_of(const char (&boot)[64]) { return {boot, strnlen(boot, sizeof boot)}; }
+
 }  // namespace
 
-RetainedMemory::RetainedMemory(const std::string& path)
-    : file_(path, sizeof(Layout)), layout_(static_cast<Layout*>(file_.data())) {}
+RetainedMemory::RetainedMemory(const std::string& path) : files_(path, "plc", sizeof(Content)) {}
 
-std::optional<RetainedMemory::Kept> RetainedMemory::load() const {
+std::optional<RetainedMemory::Kept> RetainedMemory::of_format_0() const {
+  if (access((path() + storage::previous_suffix).c_str(), F_OK) == 0 || access(path().c_str(), F_OK) != 0)
+    return std::nullopt;
+  const storage::File file(path(), O_RDONLY);
+  if (file.size() != 2 * sizeof(Slot)) return std::nullopt;
+  std::vector<Slot> slots(2);
+  file.read(0, {reinterpret_cast<std::uint8_t*>(slots.data()), 2 * sizeof(Slot)});
   const Slot* newest = nullptr;
-  for (const auto& slot : layout_->slots) {
-    if (slot.version != version || slot.sequence == 0) continue;
-    if (slot.checksum != checksum(slot.memory, slot.sequence)) continue;
+  for (const auto& slot : slots) {
+    if (slot.version != slot_version || slot.sequence == 0 || slot.checksum != checksum_of(slot)) continue;
     if (newest == nullptr || slot.sequence > newest->sequence) newest = &slot;
   }
   if (newest == nullptr) return std::nullopt;
-  Kept kept;
-  kept.boot.assign(newest->boot, strnlen(newest->boot, sizeof newest->boot));
-  std::memcpy(&kept.memory, &newest->memory, sizeof(Memory));
-  return kept;
+  return Kept{text_of(newest->boot), newest->memory};
+}
+
+RetainedMemory::Found RetainedMemory::load() const {
+  if (auto old = of_format_0()) return {storage::KeptState::good, std::move(old), ""};
+  const auto found = files_.load();
+  Found result{found.state, std::nullopt, found.problem};
+  if (found.content.size() != sizeof(Content)) return result;
+  Content content;
+  std::memcpy(&content, found.content.data(), sizeof content);
+  result.kept = Kept{text_of(content.boot), content.memory};
+  return result;
 }
 
 void RetainedMemory::save(const std::string& boot, const Memory& memory) {
-  auto& a = layout_->slots[0];
-  auto& b = layout_->slots[1];
-  const auto sequence = std::max(a.sequence, b.sequence) + 1;
-  // A slot whose writer was killed is not whole, whatever its number: the other one must stay.
-  const auto whole = [](const Slot& s) { return s.version == version ? s.sequence : 0; };
-  auto& slot = whole(a) < whole(b) ? a : b;
-  slot.version = 0;
-  std::atomic_signal_fence(std::memory_order_seq_cst);
-  std::memcpy(&slot.memory, &memory, sizeof(Memory));
-  std::memset(slot.boot, 0, sizeof slot.boot);
-  std::memcpy(slot.boot, boot.data(), std::min(boot.size(), sizeof slot.boot - 1));
-  slot.sequence = sequence;
-  slot.checksum = checksum(slot.memory, sequence);
-  std::atomic_signal_fence(std::memory_order_seq_cst);
-  slot.version = version;
+  std::memset(content_.boot, 0, sizeof content_.boot);
+  std::memcpy(content_.boot, boot.data(), std::min(boot.size(), sizeof content_.boot - 1));
+  std::memcpy(&content_.memory, &memory, sizeof memory);
+  const std::span bytes(reinterpret_cast<const std::uint8_t*>(&content_), sizeof content_);
+  if (files_.is_open())
+    files_.save(bytes);
+  else
+    files_.open(bytes);
 }
 
 }  // namespace trunnion::plc

@@ -1,35 +1,43 @@
 // SPDX-License-Identifier: Apache-2.0
-// The PLC's memory in a mapped file: it survives kill -9 at any instant.
+// The PLC's memory in mapped files: it survives kill -9 at any instant.
 #pragma once
 
 #include <optional>
 #include <string>
 
 #include "memory.hpp"
-#include "storage/mapped_file.hpp"
+#include "storage/retained_pair.hpp"
 
 namespace trunnion::plc {
 
-/// Two slots, written in turn: when the process ends during a write, the other slot is valid.
 class RetainedMemory {
  public:
-  /// Throws storage::StorageError naming the file.
   explicit RetainedMemory(const std::string& path);
 
   struct Kept {
     std::string boot;
     Memory memory;
   };
-  /// The newest whole slot, or nothing when the file is new or of another version.
-  std::optional<Kept> load() const;
-  /// `boot` names the start of the cluster it belongs to; its first 63 bytes count.
+  struct Found {
+    storage::KeptState state = storage::KeptState::absent;
+    std::optional<Kept> kept;  ///< of `good` and `previous`
+    std::string problem;       ///< of `previous` and `unusable`
+  };
+  /// The newest whole content. Changes nothing. Throws storage::StorageError.
+  Found load() const;
+  /// `boot` names the start of the cluster it belongs to; its first 63 bytes count. Cyclic, except that the
+  /// first call makes the files. Throws storage::StorageError naming the file.
   void save(const std::string& boot, const Memory& memory);
+  const std::string& path() const { return files_.path(); }
 
  private:
-  struct Slot;
-  struct Layout;
-  storage::MappedFile file_;
-  Layout* layout_;
+  struct Content {
+    char boot[64];
+    Memory memory;
+  };
+  std::optional<Kept> of_format_0() const;
+  storage::RetainedPair files_;
+  Content content_{};
 };
 
 }  // namespace trunnion::plc

@@ -9,6 +9,8 @@
 #include <cstring>
 #include <filesystem>
 
+#include "storage/kept_file.hpp"
+
 namespace trunnion::program {
 
 std::vector<std::string> DirectoryFiles::list() {
@@ -45,6 +47,12 @@ void DirectoryFiles::remove(const std::string& name) {
   if (unlink(path(name).c_str()) != 0 && errno != ENOENT)
     throw StorageError(path(name) + ": cannot be removed: " + std::strerror(errno));
   storage::sync_directory(directory_);
+}
+
+storage::Kept DirectoryFiles::read_kept(const std::string& name) { return storage::read_kept(path(name)); }
+
+void DirectoryFiles::write_kept(const std::string& name, const std::string& text) {
+  storage::write_kept(path(name), text);
 }
 
 }  // namespace trunnion::program

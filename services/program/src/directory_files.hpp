@@ -16,6 +16,8 @@ class DirectoryFiles : public Files {
   void append(const std::string& name, std::uint64_t offset, std::span<const std::uint8_t> bytes) override;
   void publish(const std::string& from, const std::string& to) override;
   void remove(const std::string& name) override;
+  storage::Kept read_kept(const std::string& name) override;
+  void write_kept(const std::string& name, const std::string& text) override;
 
  private:
   std::string path(const std::string& name) const { return directory_ + "/" + name; }

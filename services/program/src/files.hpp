@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "storage/file.hpp"
+#include "storage/kept_text.hpp"
 
 namespace trunnion::program {
 
@@ -30,6 +31,10 @@ class Files {
   virtual void publish(const std::string& from, const std::string& to) = 0;
   /// Throws StorageError; a file that is not there is no error.
   virtual void remove(const std::string& name) = 0;
+  /// A kept text (storage/kept_text.hpp); as it is where texts have no checksum. Throws StorageError.
+  virtual storage::Kept read_kept(const std::string& name);
+  /// Makes `text` the newest generation; after a crash it is old or new. Throws StorageError.
+  virtual void write_kept(const std::string& name, const std::string& text);
 };
 
 }  // namespace trunnion::program

@@ -19,6 +19,9 @@ class PrivateFiles : public Files {
   void append(const std::string& name, std::uint64_t offset, std::span<const std::uint8_t> bytes) override;
   void publish(const std::string& from, const std::string& to) override;
   void remove(const std::string& name) override { own_[name].reset(); }
+  storage::Kept read_kept(const std::string& name) override {
+    return own_.contains(name) ? Files::read_kept(name) : files_.read_kept(name);
+  }
 
  private:
   using Text = std::vector<std::uint8_t>;

@@ -2,61 +2,109 @@
 #include "program_store.hpp"
 
 #include <algorithm>
+#include <cstdio>
 #include <utility>
 
 #include "machine/alarm_constants.hpp"
-#include "machine/yaml.hpp"
 
 namespace trunnion::program {
 namespace {
 
 using idl::program::Operation;
 
-constexpr const char* index_temporary = "programs.yaml.new";
 constexpr const char* copy_temporary = ".copy";
 constexpr const char* upload_prefix = ".upload-";
 
-std::string unknown(const std::string& name) { return "program '" + name + "' is not in the store"; }
-
-std::span<const std::uint8_t> bytes_of(const std::string& text) {
-  return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
+std::string damaged_text(const std::string& name, const idl::program::ProgramEntry& entry,
+                         const TextScan& text) {
+  char sums[32];
+  std::snprintf(sums, sizeof sums, "%08x, not %08x", text.crc32(), entry.crc32);
+  return "Program '" + name + "' was changed outside the control or is damaged (" +
+         std::to_string(text.size()) + " bytes with checksum " + sums +
+         "): upload it again, or 'trunnion state accept programs/" + name + "'";
 }
+
+std::string unknown(const std::string& name) { return "program '" + name + "' is not in the store"; }
 
 }  // namespace
 
 ProgramStore::ProgramStore(Files& programs, Files& state) : programs_(programs), state_(state) {
-  load_index();
-  const auto before = revision_;
-  Index known;
-  std::swap(known, index_);
+  index_found_ = state_.read_kept(index_file);
+  const bool found =
+      index_found_.state == storage::KeptState::good || index_found_.state == storage::KeptState::previous;
+  const auto index = found ? machine_state::read_index(index_found_.content) : IndexFile{};
+  revision_ = index.revision;
+  for (const auto& [name, row] : index.rows) {
+    revisions_[name] = row.revision;
+    if (row.removed) removed_.insert(name);
+  }
+  adopt_files(index);
+  if (revision_ != index.revision || revision_ == 0 || index_found_.state == storage::KeptState::previous) {
+    revision_ = std::max<std::uint64_t>(revision_, 1);
+    save_index();
+  }
+}
+
+void ProgramStore::adopt_files(const IndexFile& index) {
+  std::set<std::string> accepted;
+  std::set<std::pair<std::uint64_t, std::uint32_t>> adopted;  // that the index does not know
   for (const auto& name : programs_.list()) {
-    if (name.rfind(upload_prefix, 0) == 0 || name == copy_temporary) {
+    if (name.starts_with(accepted_prefix)) {
+      accepted.insert(name.substr(std::string(accepted_prefix).size()));
+      continue;
+    }
+    if (name.starts_with(upload_prefix) || name == copy_temporary) {
       programs_.remove(name);  // left behind by a process that was killed
       continue;
     }
     if (!valid_name(name) || index_.size() >= most_programs) continue;
     const auto text = scan(programs_, name);
-    const auto found = known.find(name);
-    if (found != known.end() && found->second.entry.size == text.size() &&
-        found->second.entry.crc32 == text.crc32()) {
-      index_[name] = {found->second.entry, text.number()};
-    } else {
+    const TextIdentity identity{text.size(), text.crc32()};
+    const auto known = index.rows.find(name);
+    const auto* row = known == index.rows.end() ? nullptr : &known->second;
+    if (row != nullptr && row->removing) {
+      programs_.remove(name);  // the process ended before it could
+      removed_.insert(name);
+      ++revision_;
+    } else if (row == nullptr || !row->stored || row->next == identity || accepted.contains(name)) {
       put(name, text);
+      adopted.insert({identity.size, identity.crc32});
+    } else {
+      index_[name] = {*row->stored, text.number()};
+      if (identity_of(*row->stored) != identity) damaged_[name] = damaged_text(name, *row->stored, text);
     }
   }
-  for (const auto& [name, program] : known)
-    if (index_.count(name) == 0 && removed_.count(name) == 0) ++revision_;
-  if (revision_ != before || revision_ == 0) {
-    revision_ = std::max<std::uint64_t>(revision_, 1);
-    save_index();
+  for (const auto& name : accepted) programs_.remove(accepted_prefix + name);
+  for (const auto& [name, row] : index.rows) {
+    if (!row.stored || index_.contains(name) || removed_.contains(name)) continue;
+    ++revision_;
+    if (row.removing)
+      removed_.insert(name);
+    else if (!adopted.contains({row.stored->size, row.stored->crc32}))  // otherwise it was renamed
+      damaged_[name] = "Program '" + name + "' is missing: upload it again, or 'trunnion restore' a backup";
   }
 }
 
 void ProgramStore::put(const std::string& name, const TextScan& text) {
   index_[name] = {{name, ++revisions_[name], text.size(), text.crc32(), text.lines()}, text.number()};
   removed_.erase(name);
+  damaged_.erase(name);
   ++revision_;
   changed_ = true;
+}
+
+// The index first names both texts: after a crash the file is one of them.
+void ProgramStore::replace(const std::string& file, const std::string& name, const TextScan& text) {
+  next_[name] = {text.size(), text.crc32()};
+  try {
+    save_index();
+    programs_.publish(file, name);
+  } catch (const StorageError&) {
+    next_.erase(name);
+    throw;
+  }
+  next_.erase(name);
+  put(name, text);
 }
 
 std::vector<std::string> ProgramStore::install(Files& delivered) {
@@ -67,7 +115,13 @@ std::vector<std::string> ProgramStore::install(Files& delivered) {
       refused.push_back(name);
       continue;
     }
-    if (index_.count(name) != 0 || removed_.count(name) != 0) continue;
+    const auto damaged = damaged_.find(name);
+    if (damaged == damaged_.end() && (index_.count(name) != 0 || removed_.count(name) != 0)) continue;
+    // A damaged program is replaced by what was delivered only when it was that.
+    if (index_.count(name) != 0) {
+      const auto text = scan(delivered, name);
+      if (identity_of(index_[name].entry) != TextIdentity{text.size(), text.crc32()}) continue;
+    }
     TextScan text;
     std::vector<std::uint8_t> buffer(65536);
     programs_.create(copy_temporary);
@@ -96,53 +150,17 @@ void ProgramStore::set_cycles(Files& cycles) {
   }
 }
 
-void ProgramStore::load_index() {
-  const auto names = state_.list();
-  if (std::find(names.begin(), names.end(), index_file) == names.end()) return;
-  std::string text;
-  std::vector<std::uint8_t> buffer(65536);
-  for (std::size_t n = buffer.size(); n == buffer.size();) {
-    n = state_.read(index_file, text.size(), buffer);
-    text.append(buffer.begin(), buffer.begin() + static_cast<std::ptrdiff_t>(n));
-  }
-  const auto document = machine::parse_yaml(text, index_file);
-  try {
-    revision_ = document["revision"].as<std::uint64_t>();
-    for (const auto& node : document["programs"]) {
-      idl::program::ProgramEntry entry;
-      entry.name = node["name"].as<std::string>();
-      entry.revision = node["revision"].as<std::uint64_t>();
-      revisions_[entry.name] = entry.revision;
-      if (node["removed"]) removed_.insert(entry.name);
-      if (!node["size"]) continue;
-      entry.size = node["size"].as<std::uint64_t>();
-      entry.crc32 = node["crc32"].as<std::uint32_t>();
-      entry.lines = node["lines"].as<std::uint32_t>();
-      index_[entry.name] = {entry, std::nullopt};
-    }
-  } catch (const YAML::Exception& e) {
-    throw std::runtime_error(std::string(index_file) + ":" + std::to_string(e.mark.line + 1) + ":" +
-                             std::to_string(e.mark.column + 1) + ": error: " + e.msg);
-  }
-}
-
 void ProgramStore::save_index() {
-  std::string text =
-      "# Kept by the program service.\nrevision: " + std::to_string(revision_) + "\nprograms:\n";
+  IndexFile index{revision_, {}};
   for (const auto& [name, revision] : revisions_) {
-    text += "  - {name: \"" + name + "\", revision: " + std::to_string(revision);
-    if (const auto found = index_.find(name); found != index_.end()) {
-      const auto& entry = found->second.entry;
-      text += ", size: " + std::to_string(entry.size) + ", crc32: " + std::to_string(entry.crc32) +
-              ", lines: " + std::to_string(entry.lines);
-    } else if (removed_.count(name) != 0) {
-      text += ", removed: true";
-    }
-    text += "}\n";
+    auto& row = index.rows[name];
+    row.revision = revision;
+    if (const auto found = index_.find(name); found != index_.end()) row.stored = found->second.entry;
+    row.removed = !row.stored && removed_.count(name) != 0;
+    row.removing = removing_.count(name) != 0;
   }
-  state_.create(index_temporary);
-  state_.append(index_temporary, 0, bytes_of(text));
-  state_.publish(index_temporary, index_file);
+  for (const auto& [name, text] : next_) index.rows[name].next = text;
+  state_.write_kept(index_file, machine_state::write_index(index));
 }
 
 idl::program::ProgramReply ProgramStore::apply(const Request& request, double now) {
@@ -204,6 +222,8 @@ std::string ProgramStore::read(const Request& request, Reply& reply) {
   const auto& entry = found->second.entry;
   reply.entry = entry;
   reply.offset = request.offset;
+  if (const auto damaged = damaged_.find(request.name); damaged != damaged_.end() && files == &programs_)
+    return damaged->second;
   if (request.revision != 0 && request.revision != entry.revision)
     return "program '" + request.name + "' has changed: revision " + std::to_string(entry.revision) +
            ", expected " + std::to_string(request.revision);
@@ -258,14 +278,14 @@ std::string ProgramStore::commit(const Request& request, Reply& reply) {
     return "size " + std::to_string(text.size()) + " arrived, " + std::to_string(request.size) + " was sent";
   if (request.crc32 != text.crc32()) return "the checksum of '" + request.name + "' is wrong";
   const auto old = index_.find(request.name);
-  const bool same =
-      old != index_.end() && old->second.entry.size == text.size() && old->second.entry.crc32 == text.crc32();
+  const bool same = old != index_.end() &&
+                    identity_of(old->second.entry) == TextIdentity{text.size(), text.crc32()} &&
+                    !damaged_.contains(request.name);
   if (same) {
     drop(found);  // the same text again is no change
   } else {
-    programs_.publish(found->second.file, request.name);
+    replace(found->second.file, request.name, text);
     uploads_.erase(found);
-    put(request.name, text);
     save_index();
   }
   reply.entry = index_[request.name].entry;
@@ -281,8 +301,17 @@ std::string ProgramStore::abort(const Request& request) {
 
 std::string ProgramStore::remove(const Request& request) {
   if (index_.count(request.name) == 0) return unknown(request.name);
-  programs_.remove(request.name);
+  removing_.insert(request.name);
+  try {
+    save_index();
+    programs_.remove(request.name);
+  } catch (const StorageError&) {
+    removing_.erase(request.name);
+    throw;
+  }
+  removing_.erase(request.name);
   index_.erase(request.name);
+  damaged_.erase(request.name);
   removed_.insert(request.name);
   ++revision_;
   changed_ = true;
@@ -295,6 +324,7 @@ std::string ProgramStore::rename(const Request& request, Reply& reply) {
   if (found == index_.end()) return unknown(request.name);
   if (!valid_name(request.new_name)) return "'" + request.new_name.substr(0, 64) + "' is not a program name";
   if (index_.count(request.new_name) != 0) return "program '" + request.new_name + "' exists already";
+  if (const auto damaged = damaged_.find(request.name); damaged != damaged_.end()) return damaged->second;
   programs_.publish(request.name, request.new_name);
   auto program = found->second;
   index_.erase(found);

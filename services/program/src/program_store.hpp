@@ -5,25 +5,31 @@
 #include <set>
 #include <utility>
 
+#include "machine_state/index_file.hpp"
 #include "program_index.hpp"
 
 namespace trunnion::program {
 
+using machine_state::accepted_prefix;
+using machine_state::identity_of;
+using machine_state::index_file;
+using machine_state::IndexFile;
+using machine_state::TextIdentity;
+
 inline constexpr std::size_t longest_chunk = 60000;  ///< bytes of one READ or WRITE
 inline constexpr std::size_t most_programs = 4096;   ///< in the store
 inline constexpr std::size_t most_uploads = 64;      ///< at the same time
-inline constexpr const char* index_file = "programs.yaml";
-inline constexpr double upload_patience = 60;  ///< s without a WRITE after which an upload is dropped
+inline constexpr double upload_patience = 60;        ///< s without a WRITE after which an upload is dropped
 
 class ProgramStore {
  public:
-  /// `programs` holds the programs, `state` the file programs.yaml with the revisions. Scans every program,
-  /// so a change made behind our back gets a new revision. Throws StorageError, std::runtime_error with
-  /// file:line:column.
+  /// `programs` holds the programs, `state` the file programs.yaml with revisions and checksums. Scans every
+  /// program. One that is not in the index is adopted; one that does not match its checksum is damaged,
+  /// unless the operator has accepted it. Throws StorageError, std::runtime_error with file:line:column.
   ProgramStore(Files& programs, Files& state);
 
-  /// Programs that come with the machine: copied unless they are there or were once removed on purpose.
-  /// Returns the names that cannot be stored.
+  /// Programs that come with the machine: copied unless they are there or were once removed on purpose, and
+  /// in the place of a damaged one whose checksum they have. Returns the names that cannot be stored.
   std::vector<std::string> install(Files& delivered);
   /// Programs that can be resolved and read but are not part of the store: canned cycles, searched last.
   void set_cycles(Files& cycles);
@@ -36,6 +42,10 @@ class ProgramStore {
   /// True once after each change of the list.
   bool take_change() { return std::exchange(changed_, false); }
   std::size_t uploads() const { return uploads_.size(); }
+  /// Programs that cannot be used, by name: what is wrong and what to do. They are listed and not read.
+  const std::map<std::string, std::string>& damaged() const { return damaged_; }
+  /// How the index was found.
+  const storage::Kept& index_found() const { return index_found_; }
 
  private:
   struct Upload {
@@ -56,8 +66,9 @@ class ProgramStore {
   std::string rename(const Request& request, Reply& reply);
   std::string find(const Request& request, Reply& reply);
   void put(const std::string& name, const TextScan& text);
-  void load_index();
+  void adopt_files(const IndexFile& index);
   void save_index();
+  void replace(const std::string& file, const std::string& name, const TextScan& text);
   void drop(std::map<UploadKey, Upload>::iterator upload);
 
   Files& programs_;
@@ -66,7 +77,11 @@ class ProgramStore {
   Index index_, cycles_;
   std::map<std::string, std::uint64_t> revisions_;  ///< of every name ever used, removed ones included
   std::set<std::string> removed_;                   ///< removed on request, so not installed again
-  std::uint64_t revision_ = 0;                      ///< of the list
+  std::map<std::string, TextIdentity> next_;        ///< texts that are being put in place
+  std::set<std::string> removing_;
+  std::map<std::string, std::string> damaged_;
+  storage::Kept index_found_;
+  std::uint64_t revision_ = 0;  ///< of the list
   std::map<UploadKey, Upload> uploads_;
   std::uint64_t upload_count_ = 0;
   bool changed_ = true;

@@ -83,6 +83,9 @@ TEST_F(DirectoryFilesTest, AfterAKillAtAnyMomentAProgramIsOldOrNew) {
     usleep(500 + random() % 5000);
     kill(writer, SIGKILL);
     waitpid(writer, nullptr, 0);
+    // A store that knows nothing yet, because the writer above is none.
+    for (const auto* index : {"/programs.yaml", "/programs.yaml.previous"})
+      std::filesystem::remove(directory_ + index);
     DirectoryFiles programs(directory_ + "/programs"), state(directory_);
     ProgramStore store(programs, state);  // removes the temporary file
     EXPECT_FALSE(std::filesystem::exists(directory_ + "/programs/.copy"));

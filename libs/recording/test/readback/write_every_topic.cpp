@@ -138,6 +138,7 @@ int main(int argc, char** argv) {
   all.add(topics::cluster);
   all.add(topics::swap_request);
   all.add(topics::swap_reply);
+  all.add(topics::launcher_identity);
   all.add(topics::promotion);
   all.add(topics::operator_request);
   return all.finish(argv[2]) ? 0 : 1;

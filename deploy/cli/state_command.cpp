@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: Apache-2.0
+// state check, state accept, backup, restore
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <iterator>
+#include <memory>
+
+#include "bus/json.hpp"
+#include "cluster/cluster.hpp"
+#include "cluster/cluster_locks.hpp"
+#include "commands.hpp"
+#include "machine/machine.hpp"
+#include "machine_state/backup.hpp"
+#include "machine_state/state_check.hpp"
+#include "service/node.hpp"
+#include "storage/file.hpp"
+#include "trunnion/version.hpp"
+
+namespace trunnion::cli {
+namespace fs = std::filesystem;
+using bus::Json;
+namespace {
+
+struct Place {
+  std::string machine, state;
+};
+
+void add_place(CLI::App& command, Place& place) {
+  command.add_option("--machine", place.machine, "Machine whose default state directory it is");
+  command.add_option("--state", place.state, "State directory (default: that of the running cluster)");
+}
+
+// Name of the machine and its state directory.
+Place place_of(const Common& common, Place place) {
+  if (!place.machine.empty())
+    place.machine = machine::load_machine(cluster::find_machine(place.machine)).name;
+  if (!place.state.empty()) {
+    place.state = fs::absolute(place.state).lexically_normal().string();
+    return place;
+  }
+  if (!place.machine.empty()) {
+    place.state = cluster::default_state_directory(place.machine);
+    return place;
+  }
+  const auto cluster = cluster::find_cluster(common.domain);
+  return {cluster.machine, cluster.state_directory};
+}
+
+const char* text_of(storage::KeptState state) {
+  constexpr const char* names[] = {"absent", "good", "previous", "unusable"};
+  return names[static_cast<int>(state)];
+}
+
+int check(const Common& common, const Place& where) {
+  const auto place = place_of(common, where);
+  const auto reports = machine_state::check_state(place.state);
+  bool good = true;
+  Json files = Json::array();
+  if (!common.json)
+    std::printf("%s\n%-28s %-8s %10s %-9s\n", place.state.c_str(), "file", "kind", "generation", "usable");
+  for (const auto& report : reports) {
+    good = good && report.problem.empty();
+    files.push_back({{"file", report.name},
+                     {"kind", machine_state::name_of(report.kind)},
+                     {"generation", report.generation},
+                     {"usable", text_of(report.state)},
+                     {"problem", report.problem}});
+    if (!common.json)
+      std::printf("%-28s %-8s %10llu %-9s %s\n", report.name.c_str(), machine_state::name_of(report.kind),
+                  static_cast<unsigned long long>(report.generation), text_of(report.state),
+                  report.problem.c_str());
+  }
+  if (common.json)
+    std::cout << bus::text_of(Json{{"state", place.state}, {"good", good}, {"files", files}}) << "\n";
+  return good ? 0 : 1;
+}
+
+int accept(const Common& common, const Place& where, const std::vector<std::string>& files) {
+  const auto place = place_of(common, where);
+  const cluster::StateLock lock(place.state, cluster::make_identity(place.machine, 0, false), 0);
+  for (const auto& file : files) machine_state::accept(place.state, file);
+  if (common.json)
+    std::cout << bus::text_of(Json{{"accepted", files}}) << "\n";
+  else
+    std::printf("%zu files of %s are used as they are now, from the next start on\n", files.size(),
+                place.state.c_str());
+  return 0;
+}
+
+int backup(const Common& common, const Place& where, const std::string& file) {
+  const auto place = place_of(common, where);
+  const auto state = machine_state::collect(place.state, place.machine, version, service::time_of_day());
+  storage::replace_file(fs::absolute(file).string(), machine_state::write_backup(state));
+  if (common.json)
+    std::cout << bus::text_of(Json{{"backup", file}, {"state", place.state}, {"files", state.files.size()}})
+              << "\n";
+  else
+    std::printf("%s: %zu files of %s\n", file.c_str(), state.files.size(), place.state.c_str());
+  return 0;
+}
+
+int restore(const Common& common, Place where, const std::string& file) {
+  std::ifstream in(file, std::ios::binary);
+  if (!in) throw std::runtime_error(file + ": cannot be opened");
+  const std::string bytes(std::istreambuf_iterator<char>(in), {});
+  const auto state = machine_state::read_backup(bytes);
+  if (where.state.empty() && where.machine.empty())
+    where.state = cluster::default_state_directory(state.machine);
+  const auto place = place_of(common, where);
+  std::optional<cluster::StateLock> lock;
+  if (fs::exists(place.state))
+    lock.emplace(place.state, cluster::make_identity(state.machine, 0, false), 0);
+  else
+    fs::create_directories(fs::path(place.state).parent_path());
+  const auto old = machine_state::restore(state, place.state);
+  if (common.json)
+    std::cout << bus::text_of(Json{{"state", place.state},
+                                   {"before", old},
+                                   {"files", state.files.size()},
+                                   {"machine", state.machine},
+                                   {"version", state.version},
+                                   {"time", state.time}})
+              << "\n";
+  else
+    std::printf("%s has the state of %s of %s (version %s)%s\n", place.state.c_str(), state.machine.c_str(),
+                state.time.c_str(), state.version.c_str(),
+                old.empty() ? "" : ("; what was there is in " + old).c_str());
+  return 0;
+}
+
+}  // namespace
+
+void add_state_commands(CLI::App& app, Common& common) {
+  auto place = std::make_shared<Place>();
+  auto file = std::make_shared<std::string>();
+  auto files = std::make_shared<std::vector<std::string>>();
+  auto* state = app.add_subcommand("state", "The files that survive a stop of the cluster");
+  state->require_subcommand(1);
+  auto* command =
+      add_command(*state, common, "check",
+                  "List every kept file, its generation and what of it can be used. Exit status 0 "
+                  "when nothing is damaged",
+                  [&common, place] { return check(common, *place); });
+  add_place(*command, *place);
+  command =
+      add_command(*state, common, "accept",
+                  "Use files that were edited by hand as they are, from the next start on; not while the "
+                  "cluster runs",
+                  [&common, place, files] { return accept(common, *place, *files); });
+  add_place(*command, *place);
+  command->add_option("file", *files, "Below the state directory, for example tools.yaml or programs/part.nc")
+      ->required();
+  command = add_command(app, common, "backup", "Write the whole state of a machine into one file (tar)",
+                        [&common, place, file] { return backup(common, *place, *file); });
+  add_place(*command, *place);
+  command->add_option("file", *file, "The file")->required();
+  command =
+      add_command(app, common, "restore",
+                  "Put a backup in the place of the state directory, after it was checked; not while the "
+                  "cluster runs. What was there is kept beside it",
+                  [&common, place, file] { return restore(common, *place, *file); });
+  add_place(*command, *place);
+  command->add_option("file", *file, "The backup")->required();
+}
+
+}  // namespace trunnion::cli
