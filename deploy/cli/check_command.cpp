@@ -99,6 +99,10 @@ int run_check_as_asked(const Check& options) {
 
 }  // namespace
 
+int check_file(const std::string& program, const std::string& machine) {
+  return run_check({.program = program, .machine = machine});
+}
+
 void add_check_command(CLI::App& app, Common& common) {
   auto options = std::make_shared<Check>();
   auto* command =

@@ -28,6 +28,7 @@ void add_parameter_commands(CLI::App& app, Common& common);  // param
 void add_topic_commands(CLI::App& app, Common& common);      // topic, record
 void add_kins_command(CLI::App& app, Common& common);        // kins
 void add_check_command(CLI::App& app, Common& common);       // check
+void add_program_commands(CLI::App& app, Common& common);    // program
 void add_plan_command(CLI::App& app, Common& common);        // plan
 void add_recording_commands(CLI::App& app, Common& common);  // info, diff, export
 void add_verify_command(CLI::App& app, Common& common);      // verify
@@ -36,6 +37,9 @@ void add_replay_command(CLI::App& app, Common& common);      // replay
 void add_state_commands(CLI::App& app, Common& common);      // state, backup, restore
 void add_swap_command(CLI::App& app, Common& common);        // swap
 void add_completion_command(CLI::App& app, Common& common);  // completion
+
+/// `trunnion check` of a file for a machine by name or directory; 1 when the program has an error.
+int check_file(const std::string& program, const std::string& machine);
 
 /// The subject "motion" of bench; 1 when a requirement is missed.
 int bench_motion(const Common& common, const std::string& machine);

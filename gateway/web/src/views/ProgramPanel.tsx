@@ -34,6 +34,10 @@ async function load(name: string, revision: number): Promise<void> {
 }
 
 async function uploadFile(file: File): Promise<void> {
+  await refreshList();
+  const same = programs.peek().find((entry) => entry.name === file.name);
+  if (same && !window.confirm(`${file.name} is stored already (revision ${same.revision}). Store this file in its place?`))
+    return;
   tell(`Uploading ${file.name} (${bytes(file.size)})…`, false);
   const answer = await upload(file.name, file);
   tell(answer.ok ? `${file.name} is stored` : `Upload of ${file.name}: ${answer.reason}`, !answer.ok);
@@ -149,6 +153,8 @@ export function ProgramPanel() {
     if (now) void load(now.program, now.program_revision);
   });
   if (!one) return null;
+  const newest = programs.value.find((entry) => entry.name === one.program);
+  const older = newest !== undefined && newest.revision !== one.program_revision;
   return (
     <section class="program-panel" aria-label="program">
       <div class="title">
@@ -179,6 +185,12 @@ export function ProgramPanel() {
             </span>
           ))}
           <span>{one.detail}</span>
+        </div>
+      )}
+      {older && (
+        <div class="program-detail" data-test="other-revision">
+          <span class="tag warn">revision {newest.revision} is shown</span>
+          <span>Revision {one.program_revision} is selected; select the program again to use the new text.</span>
         </div>
       )}
       {open.value ? (

@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: Apache-2.0
+// program: the stored programs of a running cluster
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <memory>
+#include <optional>
+
+#include "bus/json.hpp"
+#include "cluster/client.hpp"
+#include "cluster/cluster.hpp"
+#include "commands.hpp"
+#include "machine/yaml.hpp"
+
+namespace trunnion::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using idl::program::Operation;
+using idl::program::ProgramEntry;
+using idl::program::ProgramList;
+
+struct Options {
+  std::string name, new_name, file;
+  bool replace = false;
+};
+
+/// The stored program `name`; "part" and "part.nc" are alike where only one of them is stored.
+std::optional<ProgramEntry> find(const ProgramList& list, const std::string& name) {
+  constexpr std::string_view suffix = ".nc";
+  for (const auto& wanted : {name, name + std::string(suffix),
+                             name.ends_with(suffix) ? name.substr(0, name.size() - suffix.size()) : name}) {
+    const auto found = std::ranges::find(list.programs, wanted, &ProgramEntry::name);
+    if (found != list.programs.end()) return *found;
+  }
+  return std::nullopt;
+}
+
+ProgramEntry stored(const ProgramList& list, const std::string& name) {
+  if (const auto found = find(list, name)) return *found;
+  throw std::runtime_error("there is no stored program " + name + "; trunnion program list shows them");
+}
+
+// A channel reads the text as it executes it.
+void refuse_in_use(cluster::Client& client, const std::string& name) {
+  auto states = client.bus().reader(topics::channel_state);
+  const double until =
+      service::monotonic_seconds() + 0.7;  // a channel publishes its state twice a second at rest
+  idl::channel::ChannelState state;
+  while (service::monotonic_seconds() < until) {
+    while (states.take(state))
+      if (state.program == name && (state.suspended || state.state != idl::channel::RunState::IDLE))
+        throw std::runtime_error(name + " is being executed by channel " + std::to_string(state.channel) +
+                                 " (" + bus::to_string(state.state) + "): reset the channel first");
+    client.bus().signal().wait(0.02);
+  }
+}
+
+bus::Json json_of(const ProgramEntry& entry) {
+  return {{"name", entry.name},
+          {"revision", entry.revision},
+          {"bytes", entry.size},
+          {"lines", entry.lines},
+          {"crc32", entry.crc32}};
+}
+
+int answer(const Common& common, const std::string& done, const ProgramEntry& entry) {
+  if (common.json)
+    std::cout << bus::text_of({{"done", done}, {"program", json_of(entry)}}, 2) << "\n";
+  else
+    std::printf("%s %s: revision %llu, %llu bytes, %u lines\n", entry.name.c_str(), done.c_str(),
+                static_cast<unsigned long long>(entry.revision), static_cast<unsigned long long>(entry.size),
+                entry.lines);
+  return 0;
+}
+
+cluster::Client connect(const Common& common) {
+  return cluster::Client(cluster::find_cluster(common.domain).run.domain);
+}
+
+int list(const Common& common) {
+  auto client = connect(common);
+  const auto list = client.newest(topics::program_list);
+  if (common.json) {
+    bus::Json programs = bus::Json::array();
+    for (const auto& entry : list.programs) programs.push_back(json_of(entry));
+    std::cout << bus::text_of({{"revision", list.revision}, {"programs", programs}}, 2) << "\n";
+    return 0;
+  }
+  std::printf("%-40s %9s %12s %9s\n", "program", "revision", "bytes", "lines");
+  for (const auto& entry : list.programs)
+    std::printf("%-40s %9llu %12llu %9u\n", entry.name.c_str(),
+                static_cast<unsigned long long>(entry.revision), static_cast<unsigned long long>(entry.size),
+                entry.lines);
+  return 0;
+}
+
+int put(const Common& common, const Options& options) {
+  const auto text = machine::read_text(options.file);
+  auto client = connect(common);
+  const auto name = options.name.empty() ? fs::path(options.file).filename().string() : options.name;
+  const auto before = client.newest(topics::program_list);
+  const auto same = std::ranges::find(before.programs, name, &ProgramEntry::name);
+  if (same != before.programs.end()) {
+    if (!options.replace)
+      throw std::runtime_error(name + " is stored already (revision " + std::to_string(same->revision) +
+                               "): --replace stores this text in its place");
+    refuse_in_use(client, name);
+  }
+  client.upload(name, text);
+  idl::program::ProgramRequest request;
+  request.operation = Operation::RESOLVE;
+  request.name = name;
+  return answer(common, "stored", client.program(request).entry);
+}
+
+int get(const Common& common, const Options& options) {
+  auto client = connect(common);
+  const auto entry = stored(client.newest(topics::program_list), options.name);
+  const auto text = client.download(entry.name);
+  if (options.file.empty() || options.file == "-") {
+    std::cout << text;
+    return std::cout.flush() ? 0 : 1;
+  }
+  std::ofstream out(options.file, std::ios::binary);
+  out << text;
+  out.close();
+  if (!out) throw std::runtime_error("cannot write " + options.file);
+  return answer(common, "written to " + options.file, entry);
+}
+
+int remove(const Common& common, const Options& options) {
+  auto client = connect(common);
+  const auto entry = stored(client.newest(topics::program_list), options.name);
+  refuse_in_use(client, entry.name);
+  idl::program::ProgramRequest request;
+  request.operation = Operation::REMOVE;
+  request.name = entry.name;
+  client.program(request);
+  return answer(common, "deleted", entry);
+}
+
+int rename(const Common& common, const Options& options) {
+  auto client = connect(common);
+  const auto entry = stored(client.newest(topics::program_list), options.name);
+  refuse_in_use(client, entry.name);
+  idl::program::ProgramRequest request;
+  request.operation = Operation::RENAME;
+  request.name = entry.name;
+  request.new_name = options.new_name;
+  return answer(common, "was " + entry.name, client.program(request).entry);
+}
+
+int check(const Common& common, const Options& options) {
+  const auto cluster = cluster::find_cluster(common.domain);
+  cluster::Client client(cluster.run.domain);
+  const auto entry = stored(client.newest(topics::program_list), options.name);
+  const auto directory = fs::temp_directory_path() / ("trunnion-check-" + std::to_string(getpid()));
+  fs::create_directories(directory);
+  const auto file = directory / entry.name;
+  std::ofstream(file, std::ios::binary) << client.download(entry.name);
+  int status = 1;
+  try {
+    status = check_file(file.string(), cluster.machine_directory);
+  } catch (...) {
+    fs::remove_all(directory);
+    throw;
+  }
+  fs::remove_all(directory);
+  return status;
+}
+
+}  // namespace
+
+void add_program_commands(CLI::App& app, Common& common) {
+  auto* program = app.add_subcommand("program", "List, store, read and check programs of a running cluster");
+  program->require_subcommand(1);
+  const auto add = [&](const char* name, const char* about, int (*run)(const Common&, const Options&)) {
+    auto options = std::make_shared<Options>();
+    auto* command =
+        add_command(*program, common, name, about, [&common, options, run] { return run(common, *options); });
+    return std::pair(command, options);
+  };
+  const char* const stored_name = "Name of a stored program, with or without .nc";
+  add("list", "Stored programs with revision and size",
+      [](const Common& c, const Options&) { return list(c); });
+  {
+    const auto [command, options] = add("put", "Store a file as a program", put);
+    command->add_option("file", options->file, "File")->required()->check(CLI::ExistingFile);
+    command->add_option("name", options->name, "Name in the store (default: that of the file)");
+    command->add_flag("--replace", options->replace, "Also when a program of this name is stored");
+  }
+  {
+    const auto [command, options] = add("get", "Read a stored program", get);
+    command->add_option("name", options->name, stored_name)->required();
+    command->add_option("file", options->file, "File to write (default: standard output)");
+  }
+  {
+    const auto [command, options] = add("delete", "Delete a stored program that no channel executes", remove);
+    command->add_option("name", options->name, stored_name)->required();
+  }
+  {
+    const auto [command, options] = add("rename", "Give a stored program another name", rename);
+    command->add_option("name", options->name, stored_name)->required();
+    command->add_option("new-name", options->new_name, "New name")->required();
+  }
+  {
+    const auto [command, options] = add(
+        "check", "Interpret a stored program with the machine's axes, travel, offsets and tools as delivered",
+        check);
+    command->add_option("name", options->name, stored_name)->required();
+  }
+}
+
+}  // namespace trunnion::cli
