@@ -2,10 +2,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """tools/golden_operator.py PORT PROGRAM...: the operator's requests during a golden recording, all of them over HTTP.
 
-Each channel receives its program and runs it; before, between and after it follow requests of every kind: accepted and
+The parameters of parameters.yaml beside the programs, if there are any, are stored and activated by a reset first. Each
+channel receives its program and runs it; before, between and after it follow requests of every kind: accepted and
 refused, of a program and of the page. Every request is sent at rest, so that its place in the programs is defined.
 """
 import json, os, sys, time, urllib.error, urllib.parse, urllib.request
+
+import yaml
 
 
 class Gateway:
@@ -40,11 +43,39 @@ class Gateway:
         return state["state"] == "IDLE" and (after is None or state["cycle"] > after)
 
 
+def set_parameters(gateway, file, paths):
+    """What exercises a stage that does nothing on the machine as it is delivered."""
+    if not os.path.exists(file): return
+    with open(file) as text: values = yaml.safe_load(text)
+    for number, value in values.items():
+        gateway.ask("PUT", f"/api/parameters/{int(number)}", {"value": value, "who": "golden"})
+    for path in paths: gateway.post(path + "/reset")
+    waiting = lambda: [n for n in values if gateway.ask("GET", f"/api/parameters/{int(n)}")["pending"]]
+    gateway.wait(f"active parameters of {file}", lambda: not waiting())
+    time.sleep(0.1)
+
+
+def stop_and_recover(gateway, paths):
+    """The emergency stop at rest, and the way back."""
+    engaged = lambda: gateway.ask("GET", "/api/status")["plc"]["emergency_stop"]
+    gateway.post("/api/panel/emergency-stop")
+    gateway.wait("the emergency stop", engaged)
+    time.sleep(0.1)
+    gateway.post("/api/panel/release")
+    gateway.post("/api/panel/reset")
+    gateway.wait("drives that are on", lambda: not engaged())
+    time.sleep(0.1)
+    gateway.post("/api/alarms/reset")
+    for path in paths: gateway.post(path + "/reset")
+    time.sleep(0.1)
+
+
 def main():
     gateway, files = Gateway(sys.argv[1]), sys.argv[2:]
     names = [os.path.basename(file) for file in files]
     paths = [f"/api/channels/{c}" for c in range(len(files))]
     for path in paths: gateway.wait("a channel that is there", lambda: gateway.ask("GET", "/api/channels")["channels"] and gateway.at_rest(path[-1]))
+    set_parameters(gateway, os.path.join(os.path.dirname(files[0]), "parameters.yaml"), paths)
     for file, name in zip(files, names):
         with open(file, "rb") as text: gateway.ask("PUT", "/api/programs/" + urllib.parse.quote(name), text.read())
     stored = lambda: {p["name"] for p in gateway.ask("GET", "/api/programs")["programs"]}
@@ -74,7 +105,7 @@ def main():
     gateway.post("/api/alarms/reset")
     gateway.ask("PUT", "/api/work-offsets", {"channel": 0, "index": 5, "values": [1.5] + [0] * 8, "who": "golden"})
     gateway.ask("PUT", "/api/parameters/999999", {"value": 1}, status=404)
-    gateway.post("/api/panel/reset")
+    stop_and_recover(gateway, paths)
     gateway.ask("DELETE", "/api/programs/" + urllib.parse.quote("NOT THERE.NC"), status=409)
     alarms = [a for a in gateway.ask("GET", "/api/alarms")["alarms"] if a["severity"] in ("ERROR", "EMERGENCY")]
     if alarms: sys.exit(f"alarm {alarms[0]['number']}: {alarms[0]['text']}")

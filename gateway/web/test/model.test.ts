@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import { expect, test } from "vitest";
 import {
-  type Alarm, axisRows, canStart, type Channel, channelNumbers, emptyState, emptyStream, receive, recoverySteps, sortedAlarms,
+  type Alarm, axisRows, canStart, type Channel, channelNumbers, emptyState, emptyStream, failingLine, receive, recoverySteps, sortedAlarms,
 } from "../src/state/model";
 
 const channel = {
@@ -81,4 +81,14 @@ test("cycle start is dark while anything refuses it: an alarm that holds, axes w
   expect(canStart({ ...emptyState, alarms: { a: { ...alarm, reaction: "SHOW" } } }, channel)).toBe(true);
   const axis = { commanded: 0, actual: 0, following_error: 0, following_peak: 0, position: 0, velocity: 0, torque: 0, enabled: false };
   expect(canStart({ ...emptyState, axes: { "5": axis } }, channel)).toBe(false);
+});
+
+test("the failing line is the one that the channel's alarm names in its own program", () => {
+  const alarm = (text: string, part = 0) =>
+    ({ number: 1107, severity: "ERROR", reaction: "SHOW", source: "channel", text, part, since: "", instance: 1 }) as Alarm;
+  const line = (text: string, part = 0) => failingLine({ ...emptyState, alarms: { a: alarm(text, part) } }, channel);
+  expect(line("A.NC:12:5: word has no meaning in this block: X0")).toBe(12);
+  expect(line("O0012:3:1: word has no meaning")).toBe(0);
+  expect(line("A.NC:12:5: word", 1)).toBe(0);
+  expect(line("MDI:1:1: word")).toBe(0);
 });

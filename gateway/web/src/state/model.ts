@@ -89,6 +89,17 @@ export function holdingAlarms(state: MachineState): Alarm[] {
   return sortedAlarms(state).filter((alarm) => alarm.reaction !== "SHOW");
 }
 
+/** The line of the channel's program that an alarm of the NC language names ("PART.NC:12:5: ..."); 0 when there is none. */
+export function failingLine(state: MachineState, channel: ChannelState): number {
+  for (const alarm of sortedAlarms(state)) {
+    if (alarm.source !== "channel" || alarm.part !== channel.channel || !channel.program) continue;
+    if (!alarm.text.startsWith(`${channel.program}:`)) continue;
+    const line = Number.parseInt(alarm.text.slice(channel.program.length + 1), 10);
+    if (line > 0) return line;
+  }
+  return 0;
+}
+
 /** What leads out of an emergency stop or a stop by an alarm, in this order; nothing moves by it. */
 export interface RecoveryStep {
   title: string;

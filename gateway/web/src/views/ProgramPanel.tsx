@@ -5,6 +5,7 @@ import { get, programBytes, type ProgramEntry, remove, upload } from "../api";
 import { bytes } from "../format";
 import { ProgramText } from "../program/lines";
 import { reminders } from "../state/functions";
+import { failingLine } from "../state/model";
 import { channel, command, commandTo, machine, tell } from "../state/store";
 import { ProgramView } from "./ProgramView";
 
@@ -196,7 +197,7 @@ export function ProgramPanel() {
       {open.value ? (
         <Library close={() => (open.value = false)} />
       ) : text.value ? (
-        <ProgramView text={text.value} line={one.line} />
+        <ProgramView text={text.value} line={one.line} failing={failingLine(machine.value, one)} />
       ) : (
         <div class="code dim">{loading.value ? "Loading…" : one.program ? "" : "Select a program or enter an MDI line."}</div>
       )}

@@ -9,7 +9,7 @@ const lineHeight = 21;
  * Shows a window of the program and scrolls by lines itself: a browser's own scroll area cannot be as high as a
  * million lines. It follows the executed line until the operator scrolls, and again when that line changes 3 s later.
  */
-export function ProgramView({ text, line }: { text: ProgramText; line: number }) {
+export function ProgramView({ text, line, failing }: { text: ProgramText; line: number; failing: number }) {
   const first = useSignal(1);
   const visible = useSignal(20);
   const place = useRef<HTMLDivElement>(null);
@@ -24,8 +24,8 @@ export function ProgramView({ text, line }: { text: ProgramText; line: number })
   }, []);
   useEffect(() => {
     if (performance.now() - scrolledAt.current < 3000) return;
-    first.value = follow(first.peek(), visible.peek(), line, text.count);
-  }, [line, text, visible.value]);
+    first.value = follow(first.peek(), visible.peek(), failing || line, text.count);
+  }, [line, failing, text, visible.value]);
 
   const last = Math.max(1, text.count - visible.value + 1);
   const scrollTo = (wanted: number) => {
@@ -63,7 +63,11 @@ export function ProgramView({ text, line }: { text: ProgramText; line: number })
     >
       <div class="lines">
         {shown.map((number) => (
-          <div class={`line ${number === line ? "current" : ""}`} key={number}>
+          <div
+            class={`line ${number === line ? "current" : ""} ${number === failing ? "failing" : ""}`}
+            data-test={number === failing ? "failing-line" : undefined}
+            key={number}
+          >
             <span class="number digits">{number}</span>
             <span class="text" data-test={number === line ? "current-line" : undefined}>{text.line(number)}</span>
           </div>
