@@ -26,7 +26,7 @@ here=(--domain "$domain")
 
 printf 'G21 G90 G54\nG0 X5\nG1 Y10 F1000\nM30\n' > "$work/part.nc"
 "$trunnion" program put "$work/part.nc" "${here[@]}" > "$work/out"
-grep -q "^part.nc stored: revision 1, 38 bytes, 4 lines" "$work/out" || fail "$(cat "$work/out")"
+grep -q "^part.nc stored: revision 1, 35 bytes, 4 lines" "$work/out" || fail "$(cat "$work/out")"
 refused "is stored already (revision 1)" program put "$work/part.nc" "${here[@]}"
 echo 'G0 X6' >> "$work/part.nc"
 "$trunnion" program put "$work/part.nc" --replace "${here[@]}" > "$work/out"
@@ -39,7 +39,7 @@ cmp "$work/part.nc" "$work/again.nc"
 refused "there is no stored program nothing" program get nothing "${here[@]}"
 
 "$trunnion" program list "${here[@]}" > "$work/out"
-grep -Eq "^part.nc +2 +44 +5$" "$work/out" || fail "$(cat "$work/out")"
+grep -Eq "^part.nc +2 +41 +5$" "$work/out" || fail "$(cat "$work/out")"
 "$trunnion" program check part "${here[@]}" > "$work/out" || fail "$(cat "$work/out")"
 printf 'G90 G54\nG0 X99999\nM30\n' > "$work/far.nc"
 "$trunnion" program put "$work/far.nc" "${here[@]}" > "$work/out"
