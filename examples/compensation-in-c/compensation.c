@@ -93,9 +93,11 @@ static double clamp(double value, double low, double high) {
 
 static double compensate(struct axis *a, double x, int primed) {
   if (!primed) a->last = x;
-  if (x > a->last) a->direction = 1;
-  if (x < a->last) a->direction = -1;
-  a->last = x;
+  const double rounding = 1e-9; /* mm or deg: no reversal */
+  if (fabs(x - a->last) > rounding) {
+    a->direction = x > a->last ? 1 : -1;
+    a->last = x;
+  }
   const double wanted = a->direction < 0 ? -a->backlash : 0;
   a->added += clamp(wanted - a->added, -a->rate, a->rate);
   return x + a->added + pitch_at(&a->pitch, x, a->direction >= 0);

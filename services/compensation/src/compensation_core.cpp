@@ -65,9 +65,12 @@ void CompensationCore::configure(const machine::Parameters& p, std::uint16_t cha
 
 double CompensationCore::compensate(Axis& axis, double x) const {
   if (!primed_) axis.last = x;
-  if (x > axis.last) axis.direction = 1;
-  if (x < axis.last) axis.direction = -1;
-  axis.last = x;
+  // The rounding of a transformation is no reversal: the backlash of an axis at rest must not jump by it.
+  constexpr double rounding = 1e-9;  // mm or deg
+  if (std::abs(x - axis.last) > rounding) {
+    axis.direction = x > axis.last ? 1 : -1;
+    axis.last = x;
+  }
   // A positive backlash is travel lost when the motion turns negative, so it is taken off there, step by
   // step.
   const double wanted = axis.direction < 0 ? -axis.backlash : 0;

@@ -39,6 +39,19 @@ TEST(Compensation, BacklashIsTakenUpAtTheReversalStepByStep) {
   for (std::size_t i = 0; i < want.size(); ++i) EXPECT_NEAR(y[i], want[i], 1e-12) << i;
 }
 
+// Both rotary axes turning, a linear axis that is to stay at rest has the rounding of the transformation, 1e-13 here. A slow
+// move is one: 2e-9 in each cycle are 0.12 um a minute.
+TEST(Compensation, RoundingIsNoReversalAndASlowMoveIs) {
+  auto p = one_axis();
+  p.values[300000] = {1, ""}, p.values[300001] = {0.02, ""}, p.values[300002] = {0.02, ""};
+  CompensationCore core;
+  core.configure(p, 0);
+  for (const double y : run(core, {10, 10 - 1e-13, 10 + 1e-13, 10 - 1e-13})) EXPECT_NEAR(y, 10, 1e-12);
+  double x = 10, y = 10;
+  for (int i = 0; i < 10; ++i) y = run(core, {x -= 0.4e-9}).back();
+  EXPECT_NEAR(y, x - 0.02, 1e-12) << "4e-9 in all";
+}
+
 TEST(Compensation, PitchIsInterpolatedAndKeepsItsBoundaryValueOutside) {
   auto p = one_axis();
   // Table 0.00 0.01 0.03 at -10, 0, 10, doubled by the override.
