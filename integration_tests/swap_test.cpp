@@ -301,7 +301,8 @@ TEST_F(Swapping, WhatCannotBeStartedOrDoesNotExistIsRefused) {
   const auto nowhere = swap(cluster, "kinematics", "/nowhere/at/all");
   EXPECT_EQ(nowhere.outcome, SwapOutcome::REFUSED);
   EXPECT_NE(nowhere.reason.find("No such file"), std::string::npos) << nowhere.reason;
-  EXPECT_EQ(swap(cluster, "kinematics", variant("trunnion")).outcome, SwapOutcome::ENDED) << "it ends at once";
+  EXPECT_EQ(swap(cluster, "kinematics", variant("trunnion")).outcome, SwapOutcome::ENDED)
+      << "it ends at once";
   const auto unknown = swap(cluster, "lathe");
   EXPECT_EQ(unknown.outcome, SwapOutcome::REFUSED);
   EXPECT_NE(unknown.reason.find("has no lathe"), std::string::npos) << unknown.reason;
