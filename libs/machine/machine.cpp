@@ -77,8 +77,8 @@ MachineConfig parse_machine(const std::string& text, const std::string& director
   const std::string file = directory + "/machine.yaml";
   const auto document = parse_yaml(text, file);
   check_keys(file, document,
-             {"name", "title", "domain", "port", "host_names", "time", "vendor", "hardware", "hal", "hosts", "network",
-              "security", "open", "swap_directories", "services", "chains"});
+             {"name", "title", "domain", "port", "host_names", "time", "vendor", "hardware", "hal", "hosts",
+              "network", "security", "open", "swap_directories", "services", "chains"});
   MachineConfig config;
   config.directory = directory;
   config.name = value<std::string>(file, document, "name", "");
