@@ -39,8 +39,8 @@ TEST(Compensation, BacklashIsTakenUpAtTheReversalStepByStep) {
   for (std::size_t i = 0; i < want.size(); ++i) EXPECT_NEAR(y[i], want[i], 1e-12) << i;
 }
 
-// Both rotary axes turning, a linear axis that is to stay at rest has the rounding of the transformation, 1e-13 here. A slow
-// move is one: 2e-9 in each cycle are 0.12 um a minute.
+// Both rotary axes turning, a linear axis that is to stay at rest has the rounding of the transformation,
+// 1e-13 here. A slow move is one: 2e-9 in each cycle are 0.12 um a minute.
 TEST(Compensation, RoundingIsNoReversalAndASlowMoveIs) {
   auto p = one_axis();
   p.values[300000] = {1, ""}, p.values[300001] = {0.02, ""}, p.values[300002] = {0.02, ""};
