@@ -10,7 +10,6 @@ namespace {
 
 using http_client::raw_exchange;
 using http_client::send_and_go;
-using http_client::WebSocketClient;
 using testing::HasSubstr;
 
 TEST_F(Gateway, ShowsTheCluster) {

@@ -49,7 +49,7 @@ TEST(Router, EveryDocumentedOperationIsRoutedAndEveryRouteDocumented) {
     for (const auto& [method, operation] : operations.items()) {
       std::string upper;
       for (const unsigned char c : method) upper.push_back(static_cast<char>(std::toupper(c)));
-      documented.insert(upper + " " + path);
+      documented.insert(upper.append(" ").append(path));
       EXPECT_FALSE(operation["summary"].get<std::string>().empty());
       // Each {part} of the path is described, and nothing else claims to be one.
       std::set<std::string> described;
