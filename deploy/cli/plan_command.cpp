@@ -80,12 +80,13 @@ int run_plan(const Plan& plan) {
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 
   std::printf(
-      "{\"motion_time\": %.6f, \"bound_time\": %.6f, \"time_to_bound\": %.4f, \"cycles\": %llu, \"blocks\": "
+      "{\"motion_time\": %.6f, \"bound_time\": %.6f, \"time_to_bound\": %.4f, \"least_time\": %.6f, "
+      "\"cycles\": %llu, \"blocks\": "
       "%llu, "
       "\"blocks_per_second\": %.0f, \"contour_deviation\": %.6f, \"orientation_deviation\": %.6f, \"axes\": "
       "{",
       report.motion_time, report.bound, report.bound > 0 ? report.motion_time / report.bound : 0.0,
-      static_cast<unsigned long long>(report.result.cycles),
+      report.least_time, static_cast<unsigned long long>(report.result.cycles),
       static_cast<unsigned long long>(report.result.blocks),
       seconds > 0 ? static_cast<double>(timed.blocks) / seconds : 0.0, report.deviation.contour,
       report.deviation.orientation);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "analysis/time_scaling.hpp"
 #include "language/codes.hpp"
 #include "motion/axis_motion.hpp"
 #include "program_execution/program_flow.hpp"
@@ -182,6 +183,10 @@ PlanReport plan_program(language::TextSource& text, channel_setup::ChannelSetup&
   const motion::Limits& limits = machine.limits();
   LimitCheck check(limits, start, machine.cycle_seconds());
   ContourCheck contour(start, limits.contour_tolerance, limits.orientation_tolerance);
+  motion::Limits effective = limits;
+  for (motion::AxisLimits& axis : effective.axes)
+    axis.jerk = std::min(axis.jerk, axis.acceleration / (limits.smoothing_cycles * machine.cycle_seconds()));
+  LeastTime least(effective, machine.cycle_seconds());
   MachineModel model{limits, machine.chain(), machine.cycle_seconds()};
   FrameMoves group;
   group.start = start;
@@ -197,6 +202,9 @@ PlanReport plan_program(language::TextSource& text, channel_setup::ChannelSetup&
       text, machine, start,
       [&](const PlannedCycle& cycle) {
         check.add(cycle.machine, cycle.setpoint->rapid);
+        const motion::Setpoint& now = *cycle.setpoint;
+        least.add(
+            {cycle.machine, now.programmed_speed > 0 ? now.path_speed / now.programmed_speed : 0, now.rapid});
         const Deviation d = contour.of(cycle.position, cycle.setpoint->sequence);
         report.deviation.contour = std::max(report.deviation.contour, d.contour);
         report.deviation.orientation = std::max(report.deviation.orientation, d.orientation);
@@ -209,6 +217,7 @@ PlanReport plan_program(language::TextSource& text, channel_setup::ChannelSetup&
       });
   close(group);
   report.motion_time = static_cast<double>(check.moving_cycles()) * machine.cycle_seconds();
+  report.least_time = least.finish();
   report.axes = check.axes();
   return report;
 }

@@ -48,6 +48,7 @@ struct PlanReport {
   ProgramResult result;
   double motion_time = 0;  ///< s, from the first to the last change of any axis
   double bound = 0;        ///< s, of acceleration_bound over the moves
+  double least_time = 0;   ///< s, of LeastTime over the planned motion: its path under all limits
   std::array<AxisRatios, language::axis_count> axes{};
   Deviation deviation;
 };
