@@ -22,6 +22,8 @@ constexpr double mixed_share = 0.4;
 constexpr double chained_share = 0.995;
 // Arcs, radians: the highest speed of a cell is that of its slowest place.
 constexpr double arc_cell_angle = 0.025;
+// Where a jump of curvature is rounded, as a share of its reach: derivatives are interpolated on a cell.
+constexpr double bend_cell_share = 0.25;
 constexpr double fastest = 1e5;
 // Cells of one call: a long path that becomes known at once must not take long in one cycle.
 constexpr std::uint64_t most_at_once = 2048;
@@ -70,13 +72,15 @@ void limit_cell(LimitCell& cell, const CellRates& rates, const Limits& limits) {
 
 namespace {
 
-// What the cell keeps so that its axes can be checked one by one.
+// What the cell keeps of its axes; `by_axis`: they can be checked one by one.
 void keep_axes(LimitCell& cell, const PathRates& begins, const PathRates& ends, const CellRates& rates,
-               const Limits& limits) {
-  cell.axis_count = 0;
-  double top = cell.rapid ? fastest : std::min(fastest, cell.feed * highest_override);
+               const Limits& limits, bool by_axis) {
+  cell.axis_count = cell.known_axes = 0;
+  double top = fastest;
   if (rates.curvature > 0 && limits.centripetal_acceleration > 0)
     top = std::min(top, std::sqrt(limits.centripetal_acceleration / rates.curvature));
+  cell.reachable = top;
+  if (!cell.rapid) top = std::min(top, cell.feed * highest_override);
   std::size_t count = 0;
   for (std::size_t i = 0; i < axis_count; ++i) {
     if (rates.first[i] <= 0 && rates.second[i] <= 0 && rates.third[i] <= 0) continue;
@@ -90,12 +94,17 @@ void keep_axes(LimitCell& cell, const PathRates& begins, const PathRates& ends, 
     kept.acceleration = static_cast<float>(axis.acceleration);
     kept.jerk = static_cast<float>(axis.jerk);
     const double velocity = cell.rapid ? axis.rapid_velocity : axis.velocity;
-    if (rates.first[i] > 0) top = std::min(top, velocity / rates.first[i]);
+    if (rates.first[i] > 0) {
+      top = std::min(top, velocity / rates.first[i]);
+      cell.reachable = std::min(cell.reachable, velocity / rates.first[i]);
+    }
     if (rates.second[i] > 0)
       top = std::min(top, std::sqrt(top_normal_share * axis.acceleration / rates.second[i]));
     if (rates.third[i] > 0) top = std::min(top, std::cbrt(top_bend_share * axis.jerk / rates.third[i]));
   }
-  cell.axis_count = static_cast<int>(count);
+  cell.known_axes = static_cast<int>(count);
+  if (!by_axis) return;
+  cell.axis_count = cell.known_axes;
   cell.top = std::max(cell.speed, top);
 }
 
@@ -145,7 +154,7 @@ LimitCell CellBuilder::make(const BlendedPath& path, double from, double to) con
   cell.block = block_;
   const double middle = (from + to) / 2, length = to - from;
   PathRates begins = path.derivatives(block_, from, middle), ends;
-  const bool bends = path.bends(block_, middle);
+  const bool bends = path.bend_reach(block_, middle) > 0;
   if (block.path.is_arc() || bends) {
     ends = path.derivatives(block_, to, middle);
   } else {  // a polynomial of the third degree
@@ -173,7 +182,8 @@ LimitCell CellBuilder::make(const BlendedPath& path, double from, double to) con
   }
   rates.curvature = bend;
   limit_cell(cell, rates, limits);
-  if (block.path.is_arc() && !bends && !cell.uniform) keep_axes(cell, begins, ends, rates, limits);
+  keep_axes(cell, begins, ends, rates, limits, block.path.is_arc() && !bends && !cell.uniform);
+  cell.dense = block.path.is_curve();
   return cell;
 }
 
@@ -223,7 +233,9 @@ double CellBuilder::longest(const BlendedPath& path) const {
 // End of the cell that begins at `from`, at most `upto`.
 double CellBuilder::cell_end(const BlendedPath& path, double from, double upto) const {
   const double knot = std::min(upto, path.next_knot(block_, from));
-  const double most = longest(path);
+  double most = longest(path);
+  const double reach = path.bend_reach(block_, 0.5 * (from + knot));
+  if (reach > 0) most = std::min(most, bend_cell_share * reach);
   return knot - from > most ? from + (knot - from) / std::ceil((knot - from) / most) : knot;
 }
 

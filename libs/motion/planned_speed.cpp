@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "motion/planned_speed.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace trunnion::motion {
+namespace {
+
+// s of motion in the first window and in the others.
+constexpr double first_horizon = 0.2, horizon = 0.42;
+// A window begins this far ahead of the motion, s: more cycles than solving takes.
+constexpr double lead = 0.045;
+// The next window is begun when no more than this and the braking ahead are left of the plan, s.
+constexpr double least_left = 0.13;
+// Near the end of a section the stage takes over as soon as it can, s before it.
+constexpr double hand_over = 0.06;
+// Slower motion is the stage's, mm/s or degrees/s.
+constexpr double slowest = 1;
+// Cycles after an attempt that failed.
+constexpr int pause = 40;
+// Dense curves this time ahead are near, s.
+constexpr double near_time = 0.15;
+constexpr int most_near = 200;
+
+}  // namespace
+
+void PlannedSpeed::clear() {
+  plan_.clear();
+  pause_ = 0;
+  blocked_to_ = -1e300;
+}
+
+PlannedSpeed::Demand PlannedSpeed::demand_of(const Overrides& overrides, const LimitCell& cell) {
+  const double feed = std::clamp(overrides.feed, 0.0, 1.5), rapid = std::clamp(overrides.rapid, 0.0, 1.0);
+  return {feed, rapid, overrides.hold || (cell.rapid ? rapid <= 0 : feed <= 0)};
+}
+
+bool PlannedSpeed::is_near(const SpeedStage& stage, bool any_curve) const {
+  const CellRing& cells = stage.cells();
+  const std::uint64_t here = stage.current_cell();
+  const double reach = stage.state().s + (any_curve ? 2 : 1) * near_time * stage.state().v;
+  for (std::uint64_t k = here; k < cells.size() && k < here + most_near; ++k) {
+    if (k > here && (cells[k].stop || cells[k].at > reach)) return false;
+    if (cells[k].known_axes == 0) return false;
+    if (cells[k].dense || (any_curve && !cells[k].uniform && cells[k].axis_count == 0)) return true;
+  }
+  return false;
+}
+
+void PlannedSpeed::take(std::size_t index) {
+  if (!plan_.replace(index, optimizer_.pieces())) return;
+  demand_ = asked_;
+  known_ = asked_known_;
+  reaches_end_ = optimizer_.reaches_end();
+  left_ = 0;
+  for (std::size_t k = plan_.current(); k < plan_.size(); ++k) left_ += plan_[k].duration();
+}
+
+void PlannedSpeed::end(const SpeedStage& stage, bool at_end) {
+  if (at_end) blocked_to_ = plan_.end() + 0.001;
+  plan_.clear();
+  pause_ = at_end ? 0 : pause;
+  (void)stage;
+}
+
+void PlannedSpeed::launch(const SpeedStage& stage, const Demand& demand) {
+  std::size_t index = plan_.current() + 1;
+  for (double time = 0; time < lead && index < plan_.size(); ++index) time += plan_[index].duration();
+  if (index + 1 >= plan_.size()) return;
+  const SpeedPiece& piece = plan_[index];
+  const CellRing& cells = stage.cells();
+  SpeedRequest request;
+  request.cell = stage.current_cell();
+  while (request.cell + 1 < cells.size() && cells[request.cell].end <= piece.at + 1e-12) ++request.cell;
+  request.from = {piece.at, std::sqrt(std::max(0.0, piece.b0)), piece.b1 / 2};
+  request.feed = demand.feed;
+  request.rapid = demand.rapid;
+  request.brake = demand.brake;
+  request.horizon = horizon;
+  start_ = index;
+  asked_ = demand;
+  asked_known_ = cells.size();
+  if (!optimizer_.begin(cells, request, &plan_)) {
+    pause_ = pause;
+    demand_ = demand;
+    known_ = cells.size();
+  }
+}
+
+void PlannedSpeed::work(const SpeedStage& stage) {
+  if (!optimizer_.work(stage.cells())) return;
+  if (!optimizer_.solved()) {
+    ++failed_;
+    pause_ = pause;
+    return;
+  }
+  ++solved_;
+  if (plan_.current() < start_) take(start_);
+}
+
+bool PlannedSpeed::step(SpeedStage& stage, const Overrides& overrides) {
+  if (plan_.empty()) return false;
+  const Demand demand = demand_of(overrides, stage.cells()[stage.current_cell()]);
+  if (pause_ > 0) --pause_;
+  if (optimizer_.running()) {
+    work(stage);
+  } else if (pause_ == 0) {
+    const bool grown = stage.cells().size() != known_;
+    const double stopping = 1.3 * stage.state().v * 6e-4;
+    const bool short_left = left_ < least_left + stopping;
+    if (!(demand == demand_) || (short_left && (!reaches_end_ || grown))) launch(stage, demand);
+  }
+  const bool ends = left_ < hand_over && !optimizer_.running();
+  if ((demand.brake || ends || !is_near(stage, true)) && stage.take_over()) {
+    end(stage, ends);
+    return false;
+  }
+  const PathState next = plan_.advance(stage.state(), cycle_);
+  left_ -= cycle_;
+  stage.place(next);
+  return true;
+}
+
+void PlannedSpeed::begin(SpeedStage& stage, const Overrides& overrides) {
+  if (stage.at_standstill()) {
+    blocked_to_ = -1e300;
+    pause_ = 0;
+    return;
+  }
+  if (pause_ > 0) {
+    --pause_;
+    return;
+  }
+  if (stage.state().v < slowest || stage.state().s < blocked_to_ || !is_near(stage, false)) return;
+  const CellRing& cells = stage.cells();
+  const Demand demand = demand_of(overrides, cells[stage.current_cell()]);
+  if (demand.brake) return;
+  SpeedRequest request;
+  request.cell = stage.current_cell();
+  request.from = stage.state();
+  request.feed = demand.feed;
+  request.rapid = demand.rapid;
+  request.horizon = first_horizon;
+  asked_ = demand;
+  asked_known_ = cells.size();
+  pause_ = pause;
+  if (!optimizer_.begin(cells, request, nullptr)) return;
+  while (!optimizer_.work(cells)) {
+  }
+  if (!optimizer_.solved()) {
+    ++failed_;
+    return;
+  }
+  ++solved_;
+  plan_.clear();
+  pause_ = 0;
+  take(0);
+}
+
+}  // namespace trunnion::motion
