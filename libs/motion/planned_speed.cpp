@@ -7,12 +7,12 @@
 namespace trunnion::motion {
 namespace {
 
-// s of motion in the first window and in the others.
-constexpr double first_horizon = 0.2, horizon = 0.42;
+// s of motion in a window, and more for each second of a stop.
+constexpr double least_horizon = 0.42, longest_horizon = 1.5, horizon_in_stops = 2.2, beside_stops = 0.25;
 // A window begins this far ahead of the motion, s: more cycles than solving takes.
 constexpr double lead = 0.045;
 // The next window is begun when no more than this and the braking ahead are left of the plan, s.
-constexpr double least_left = 0.13;
+constexpr double least_left = 0.08, left_in_stops = 1.3;
 // Near the end of a section the stage takes over as soon as it can, s before it.
 constexpr double hand_over = 0.06;
 // Slower motion is the stage's, mm/s or degrees/s.
@@ -21,11 +21,27 @@ constexpr double slowest = 1;
 constexpr int pause = 40;
 // Dense curves this time ahead are near, s.
 constexpr double near_time = 0.15;
+constexpr double longest_stop = 0.5;
 constexpr int most_near = 200;
+
+// Time of a stop from the speed v on a cell, s, by what it permits at low speed.
+double stop_time(const LimitCell& cell, double v) {
+  const RampLimits& ramp = cell.ramps[LimitCell::levels - 1];
+  const double a = std::max(ramp.acceleration, 1e-3), j = std::max(ramp.jerk, 1e-3);
+  return v / a + a / j;
+}
+
+double horizon_at(const LimitCell& cell, double v, double feed) {
+  const double fastest =
+      std::max(v, cell.rapid ? cell.reachable : std::min(cell.reachable, cell.feed * feed));
+  return std::clamp(beside_stops + horizon_in_stops * stop_time(cell, fastest), least_horizon,
+                    longest_horizon);
+}
 
 }  // namespace
 
 void PlannedSpeed::clear() {
+  optimizer_.cancel();
   plan_.clear();
   pause_ = 0;
   blocked_to_ = -1e300;
@@ -53,15 +69,16 @@ void PlannedSpeed::take(std::size_t index) {
   demand_ = asked_;
   known_ = asked_known_;
   reaches_end_ = optimizer_.reaches_end();
+  drawn_ = optimizer_.drawn();
   left_ = 0;
   for (std::size_t k = plan_.current(); k < plan_.size(); ++k) left_ += plan_[k].duration();
 }
 
-void PlannedSpeed::end(const SpeedStage& stage, bool at_end) {
+void PlannedSpeed::end(bool at_end) {
   if (at_end) blocked_to_ = plan_.end() + 0.001;
+  optimizer_.cancel();
   plan_.clear();
   pause_ = at_end ? 0 : pause;
-  (void)stage;
 }
 
 void PlannedSpeed::launch(const SpeedStage& stage, const Demand& demand) {
@@ -77,7 +94,8 @@ void PlannedSpeed::launch(const SpeedStage& stage, const Demand& demand) {
   request.feed = demand.feed;
   request.rapid = demand.rapid;
   request.brake = demand.brake;
-  request.horizon = horizon;
+  request.lower = drawn_ || demand.brake || demand.feed < demand_.feed || demand.rapid < demand_.rapid;
+  request.horizon = horizon_at(cells[request.cell], request.from.v, demand.feed);
   start_ = index;
   asked_ = demand;
   asked_known_ = cells.size();
@@ -107,13 +125,13 @@ bool PlannedSpeed::step(SpeedStage& stage, const Overrides& overrides) {
     work(stage);
   } else if (pause_ == 0) {
     const bool grown = stage.cells().size() != known_;
-    const double stopping = 1.3 * stage.state().v * 6e-4;
-    const bool short_left = left_ < least_left + stopping;
+    const double stop = stop_time(stage.cells()[stage.current_cell()], stage.state().v);
+    const bool short_left = left_ < least_left + left_in_stops * std::min(stop, longest_stop);
     if (!(demand == demand_) || (short_left && (!reaches_end_ || grown))) launch(stage, demand);
   }
   const bool ends = left_ < hand_over && !optimizer_.running();
   if ((demand.brake || ends || !is_near(stage, true)) && stage.take_over()) {
-    end(stage, ends);
+    end(ends);
     return false;
   }
   const PathState next = plan_.advance(stage.state(), cycle_);
@@ -141,7 +159,7 @@ void PlannedSpeed::begin(SpeedStage& stage, const Overrides& overrides) {
   request.from = stage.state();
   request.feed = demand.feed;
   request.rapid = demand.rapid;
-  request.horizon = first_horizon;
+  request.horizon = horizon_at(cells[request.cell], request.from.v, demand.feed);
   asked_ = demand;
   asked_known_ = cells.size();
   pause_ = pause;

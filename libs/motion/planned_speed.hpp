@@ -43,7 +43,7 @@ class PlannedSpeed {
   void work(const SpeedStage& stage);
   void launch(const SpeedStage& stage, const Demand& demand);
   void take(std::size_t index);
-  void end(const SpeedStage& stage, bool at_end);
+  void end(bool at_end);
 
   double cycle_;
   SpeedOptimizer optimizer_;
@@ -52,7 +52,7 @@ class PlannedSpeed {
   std::size_t start_ = 0;                      // piece that the one being made begins at
   std::uint64_t known_ = 0, asked_known_ = 0;  // cells that were known
   double left_ = 0;                            // s until the end of the plan
-  bool reaches_end_ = false;
+  bool reaches_end_ = false, drawn_ = false;
   int pause_ = 0;               // cycles until another attempt
   double blocked_to_ = -1e300;  // no plan before this coordinate, or the next standstill
   std::uint64_t solved_ = 0, failed_ = 0;

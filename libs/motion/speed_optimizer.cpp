@@ -249,6 +249,12 @@ void SpeedOptimizer::finish(bool good) {
       piece.b1 += first[x] * b_[k + x];
       piece.b2 += 0.5 * second[x] * b_[k + x];
     }
+    const double middle = piece.square(s + piece.length / 2);
+    if (!(piece.b0 > 0 && middle > 0 && piece.square(piece.end()) > 0 && std::isfinite(middle))) {
+      solved_ = false;
+      pieces_.clear();
+      return;
+    }
     pieces_.push_back(piece);
   }
 }
@@ -259,7 +265,7 @@ void SpeedOptimizer::check(const CellRing& cells) {
   const std::size_t n = window_.pieces();
   for (std::size_t k = 0; k < n; ++k) {
     const double use = window_.use(cells, k, &b_[k]);
-    if (!(use > most_use)) continue;
+    if (use <= most_use) continue;
     good = false;
     for (std::size_t r = window_.rows_from(k); r < window_.rows_from(k + 1); ++r)
       for (double& c : window_.rows()[r].c) c *= use * tighten_more;

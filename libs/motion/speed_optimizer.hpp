@@ -25,9 +25,11 @@ class SpeedOptimizer {
   /// One share of the work, at most some hundred microseconds. True when it has ended.
   bool work(const CellRing& cells);
   bool running() const { return running_; }
+  void cancel() { running_ = false; }
   /// The window was solved within all limits.
   bool solved() const { return solved_; }
   const std::vector<SpeedPiece>& pieces() const { return pieces_; }
+  bool drawn() const { return window_.drawn(); }
   bool reaches_end() const { return window_.reaches_end(); }
 
  private:

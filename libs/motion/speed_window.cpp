@@ -9,10 +9,10 @@
 namespace trunnion::motion {
 namespace {
 
-// Time of a piece, s.
-constexpr double piece_time = 2.5e-3;
+// Least time of a piece, s, and the share of the horizon that it is.
+constexpr double least_piece_time = 2.5e-3, piece_share = 1.0 / 150;
 // What rows use of the limits; the rest is for what lies between the places of the rows.
-constexpr double velocity_share = 0.9995, acceleration_share = 0.996, jerk_share = 0.992;
+constexpr double acceleration_share = 0.996, jerk_share = 0.992;
 // Windows end at this speed, mm/s or degrees/s, or at a share of the slowest speed on them.
 constexpr double creep = 2, slowest_share = 0.5;
 // The reference speed that the pieces are cut by accelerates with this share of what the axes permit.
@@ -23,12 +23,26 @@ constexpr double guess_share = 0.6;
 constexpr double trusted_share = 0.4;
 // Third derivatives that differ by less than this share of the largest are the same.
 constexpr double same_third = 1e-4;
+// A cap beside what the plan in force has.
+constexpr double drawn_share = 1.02;
 constexpr std::size_t fewest_pieces = 6;
 constexpr double shortest_piece = 1e-6;
 
 double part_of(const LimitCell& cell, double s) {
   const double length = cell.end - cell.at;
   return length > 0 ? std::clamp((s - cell.at) / length, 0.0, 1.0) : 0.0;
+}
+
+// Third derivatives change linearly on a cell, which then is exact on roundings too.
+AxisRates exact_rates(const AxisOnCell& axis, double x, double length) {
+  const auto mix = [x, &axis](std::size_t n) {
+    const auto begin = static_cast<double>(axis.begin[n]), end = static_cast<double>(axis.end[n]);
+    return begin + x * (end - begin);
+  };
+  const auto third = static_cast<double>(axis.begin[2]), change = static_cast<double>(axis.end[2]) - third;
+  const double bow = x * (1 - x) / 2;
+  return {mix(0) - length * length * (third * bow + change * (x - x * x * x) / 6),
+          mix(1) - length * change * bow, third + x * change};
 }
 
 // Highest speed under an override, by feed and velocity.
@@ -56,7 +70,7 @@ bool continues(const LimitCell& a, const LimitCell& b) {
 SpeedWindow::SpeedWindow() {
   spans_.reserve(most_cells);
   nodes_.reserve(most_pieces + 1);
-  for (auto* list : {&caps_, &guess_, &pull_, &feed_}) list->reserve(most_pieces + 2);
+  for (auto* list : {&caps_, &guess_, &pull_, &feed_, &reach_}) list->reserve(most_pieces + 2);
   samples_.reserve(most_samples + 8);
   rows_.reserve(most_rows + 128);
   row_from_.reserve(most_pieces + 2);
@@ -113,8 +127,9 @@ bool SpeedWindow::scan(const CellRing& cells, const SpeedRequest& request) {
       span.end = reach;
       span.speed = std::min(span.speed, speed);
       span.cap = std::min(span.cap, cap);
+      span.reachable = std::min(span.reachable, cell.reachable);
     } else {
-      spans_.push_back({from, reach, c, speed, cap});
+      spans_.push_back({from, reach, c, speed, cap, cell.reachable});
     }
     end_ = reach;
   }
@@ -169,6 +184,7 @@ bool SpeedWindow::cut(const SpeedRequest& request) {
     span.speed = std::min(span.speed, std::sqrt(v * v + 2 * ramp_ * (span.end - span.at)));
     v = span.speed;
   }
+  const double piece_time = std::max(least_piece_time, piece_share * request.horizon);
   nodes_.assign(1, from_.s);
   span_of_.clear();
   std::size_t i = 0;
@@ -225,7 +241,7 @@ void SpeedWindow::add_sample(const CellRing& cells, std::uint64_t& c, double s, 
   samples_.push_back({value, static_cast<std::int16_t>(piece)});
   for (int i = 0; i < cell.known_axes; ++i) {
     const AxisOnCell& axis = cell.axes[static_cast<std::size_t>(i)];
-    const AxisRates q = rates_at(axis, part_of(cell, s), cell.end - cell.at);
+    const AxisRates q = exact_rates(axis, part_of(cell, s), cell.end - cell.at);
     const double a = 1 / (acceleration_share * static_cast<double>(axis.acceleration)),
                  j = 1 / (jerk_share * static_cast<double>(axis.jerk));
     SpeedRow row;
@@ -246,6 +262,7 @@ bool SpeedWindow::add_rows(const CellRing& cells) {
   rows_.clear();
   row_from_.clear();
   feed_.clear();
+  reach_.clear();
   std::size_t first = 0;
   for (std::size_t k = 0; k + 1 < nodes_.size(); ++k) {
     row_from_.push_back(rows_.size());
@@ -261,10 +278,11 @@ bool SpeedWindow::add_rows(const CellRing& cells) {
     std::size_t inside = 0;
     for (std::size_t i = first; i < spans_.size() && spans_[i].at < end - 1e-12; ++i) ++inside;
     const std::size_t stride = 1 + inside / 12;
-    double cap = 1e9;
+    double cap = 1e9, reachable = 1e9;
     for (std::size_t i = first; i < first + inside; ++i) {
       const Span& span = spans_[i];
       cap = std::min(cap, span.cap);
+      reachable = std::min(reachable, span.reachable);
       if ((i - first) % stride != 0) continue;
       const double low = std::max(begin, span.at), high = std::min(end, span.end);
       const double middle = 0.5 * (low + high);
@@ -274,7 +292,8 @@ bool SpeedWindow::add_rows(const CellRing& cells) {
       // The last place of a cell counts as inside it.
       add_sample(cells, cell, high, low, k, false);
     }
-    feed_.push_back(velocity_share * velocity_share * cap * cap);
+    feed_.push_back(cap * cap);
+    reach_.push_back(reachable * reachable);
   }
   row_from_.push_back(rows_.size());
   return nodes_.size() > fewest_pieces;
@@ -282,6 +301,7 @@ bool SpeedWindow::add_rows(const CellRing& cells) {
 
 void SpeedWindow::bound(const SpeedRequest& request, const SpeedPlan* before) {
   const std::size_t n = pieces(), m = n + 2;
+  drawn_ = false;
   caps_.assign(m, 1e18);
   pull_.assign(n, 0);
   guess_.assign(m, 0);
@@ -310,11 +330,13 @@ void SpeedWindow::bound(const SpeedRequest& request, const SpeedPlan* before) {
     return (*before)[piece].square(s);
   };
   // Where the plan in force is faster than is asked for now, the new one may be too, and is drawn down.
-  for (std::size_t k = 0; k < n; ++k) {
+  for (std::size_t k = 0; request.lower && k < n; ++k) {
     if (nodes_[k] >= before->end()) break;
     const double b = std::max(fast(nodes_[k]), fast(std::min(nodes_[k + 1], before->end())));
     if (b <= free[k] * 1.0005) continue;
-    for (std::size_t x = 0; x < 3; ++x) caps_[k + x] = std::max(caps_[k + x], 1.05 * b);
+    drawn_ = true;
+    for (std::size_t x = 0; x < 3; ++x)
+      caps_[k + x] = std::max(caps_[k + x], std::min(drawn_share * b, reach_[k]));
     const double v = std::max(std::sqrt(free[k]), request.brake ? creep : 1e-3);
     pull_[k] = 0.6 / (v * v * v);
   }
@@ -357,7 +379,7 @@ double SpeedWindow::use(const CellRing& cells, std::size_t k, const double* b) c
     const double v = std::sqrt(std::max(0.0, square));
     for (int i = 0; i < cell.known_axes; ++i) {
       const AxisOnCell& axis = cell.axes[static_cast<std::size_t>(i)];
-      const AxisRates q = rates_at(axis, part_of(cell, s), cell.end - cell.at);
+      const AxisRates q = exact_rates(axis, part_of(cell, s), cell.end - cell.at);
       const double a = std::abs(q.second * square + 0.5 * q.first * slope);
       const double j = std::abs(q.third * square + 1.5 * q.second * slope + 0.5 * q.first * bend) * v;
       most = std::max({most, a / static_cast<double>(axis.acceleration), j / static_cast<double>(axis.jerk)});

@@ -17,6 +17,7 @@ struct SpeedRequest {
   PathState from;          ///< there
   double feed = 1;         ///< overrides
   double rapid = 1;
+  bool lower = false;    ///< the plan in force may be faster than the feed allows now: it is drawn down to it
   bool brake = false;    ///< to a creeping speed, as soon as possible
   double horizon = 0.4;  ///< s of motion about
 };
@@ -65,6 +66,8 @@ class SpeedWindow {
   const std::vector<double>& guess() const { return guess_; }
   /// Weight of b in the objective beside the time, where it has to fall below what `before` has.
   const std::vector<double>& pull() const { return pull_; }
+  /// Somewhere it is faster than the feed allows.
+  bool drawn() const { return drawn_; }
   double end_speed() const { return end_speed_; }
   /// It ends where the path is known to end, or at a stop.
   bool reaches_end() const { return reaches_end_; }
@@ -76,7 +79,7 @@ class SpeedWindow {
   struct Span {  // cells with the same third derivatives
     double at = 0, end = 0;
     std::uint64_t cell = 0;
-    double speed = 0, cap = 0;
+    double speed = 0, cap = 0, reachable = 0;
   };
   bool scan(const CellRing& cells, const SpeedRequest& request);
   bool cut(const SpeedRequest& request);
@@ -87,13 +90,13 @@ class SpeedWindow {
   double near_speed(const Span& span, double s) const;
 
   std::vector<Span> spans_;
-  std::vector<double> nodes_, caps_, guess_, pull_, feed_;
+  std::vector<double> nodes_, caps_, guess_, pull_, feed_, reach_;
   std::vector<SpeedSample> samples_;
   std::vector<SpeedRow> rows_;
   std::vector<std::size_t> row_from_, span_of_;
   PathState from_;
   double end_ = 0, end_speed_ = 0, ramp_ = 0, brake_ramp_ = 0;
-  bool reaches_end_ = false, brake_ = false;
+  bool reaches_end_ = false, brake_ = false, drawn_ = false;
 };
 
 }  // namespace trunnion::motion
