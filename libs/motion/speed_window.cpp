@@ -23,6 +23,8 @@ constexpr double guess_share = 0.6;
 constexpr double trusted_share = 0.4;
 // Third derivatives that differ by less than this share of the largest are the same.
 constexpr double same_third = 1e-4;
+// Places of a check lie this far apart, s.
+constexpr double check_time = 6e-4;
 // A cap beside what the plan in force has.
 constexpr double drawn_share = 1.02;
 constexpr std::size_t fewest_pieces = 6;
@@ -365,11 +367,13 @@ bool SpeedWindow::build(const CellRing& cells, const SpeedRequest& request, cons
 }
 
 double SpeedWindow::use(const CellRing& cells, std::size_t k, const double* b) const {
-  constexpr int places = 5;
+  const double whole = nodes_[k + 1] - nodes_[k];
+  const double time = whole / std::sqrt(std::max(1e-9, std::min(b[0], b[2])));
+  const int places = static_cast<int>(std::clamp(time / check_time, 5.0, 20.0));
   std::uint64_t c = spans_[span_of_[k]].cell;
   double most = 0;
   for (int n = 0; n < places; ++n) {
-    const double s = nodes_[k] + (nodes_[k + 1] - nodes_[k]) * (n + 0.5) / places;
+    const double s = nodes_[k] + whole * (n + 0.5) / places;
     while (c + 1 < cells.size() && cells[c].end < s) ++c;
     const LimitCell& cell = cells[c];
     Basis value, first, second;
