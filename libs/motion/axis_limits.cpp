@@ -56,6 +56,17 @@ AxisRates rates_at(const AxisOnCell& axis, double part, double length) {
   return {mix(0) - third * length * length * part * (1 - part) / 2, mix(1), third};
 }
 
+AxisRates exact_rates(const AxisOnCell& axis, double x, double length) {
+  const auto mix = [x, &axis](std::size_t n) {
+    const auto begin = static_cast<double>(axis.begin[n]), end = static_cast<double>(axis.end[n]);
+    return begin + x * (end - begin);
+  };
+  const auto third = static_cast<double>(axis.begin[2]), change = static_cast<double>(axis.end[2]) - third;
+  const double bow = x * (1 - x) / 2;
+  return {mix(0) - length * length * (third * bow + change * (x - x * x * x) / 6),
+          mix(1) - length * change * bow, third + x * change};
+}
+
 Range jerk_range(const LimitCell& cell, double part, double v, double a) {
   if (cell.uniform || cell.axis_count == 0) {
     const RampLimits& ramp = cell.uniform ? cell.ramps[0] : cell.ramp(v);

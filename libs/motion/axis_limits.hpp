@@ -16,6 +16,9 @@ struct AxisRates {
 /// nearly constant on a cell.
 AxisRates rates_at(const AxisOnCell& axis, double part, double length);
 
+/// The same where the third derivative changes linearly on the cell, as on every rounding.
+AxisRates exact_rates(const AxisOnCell& axis, double part, double length);
+
 struct Range {
   double low = 0, high = 0;
 };

@@ -15,6 +15,7 @@ constexpr double lead = 0.045;
 constexpr double least_left = 0.08, left_in_stops = 1.3;
 // Near the end of a section the stage takes over as soon as it can, s before it.
 constexpr double hand_over = 0.06;
+constexpr double creep_cycles = 2;
 // Slower motion is the stage's, mm/s or degrees/s.
 constexpr double slowest = 1;
 // Cycles after an attempt that failed.
@@ -64,14 +65,22 @@ bool PlannedSpeed::is_near(const SpeedStage& stage, bool any_curve) const {
   return false;
 }
 
-void PlannedSpeed::take(std::size_t index) {
-  if (!plan_.replace(index, optimizer_.pieces())) return;
+// The last piece is left at a constant speed, and there the stage has to prove its stop: at the latest at its
+// end, within which a cycle ends.
+bool PlannedSpeed::take(const SpeedStage& stage, std::size_t index) {
+  const SpeedPiece& last = optimizer_.pieces().back();
+  const double square = last.square(last.end()), v = std::sqrt(std::max(0.0, square));
+  const SpeedPiece creeping{last.end(), creep_cycles * cycle_ * v, square, 0, 0};
+  if (!(v > 0) || !stage.stops_from({creeping.at, v, 0}) || !stage.stops_from({creeping.end(), v, 0}))
+    return false;
+  if (!plan_.replace(index, optimizer_.pieces(), creeping)) return false;
   demand_ = asked_;
   known_ = asked_known_;
   reaches_end_ = optimizer_.reaches_end();
   drawn_ = optimizer_.drawn();
   left_ = 0;
   for (std::size_t k = plan_.current(); k < plan_.size(); ++k) left_ += plan_[k].duration();
+  return true;
 }
 
 void PlannedSpeed::end(bool at_end) {
@@ -113,8 +122,12 @@ void PlannedSpeed::work(const SpeedStage& stage) {
     pause_ = pause;
     return;
   }
-  ++solved_;
-  if (plan_.current() < start_) take(start_);
+  if (plan_.current() < start_ && take(stage, start_)) {
+    ++solved_;
+    return;
+  }
+  ++failed_;
+  pause_ = pause;
 }
 
 bool PlannedSpeed::step(SpeedStage& stage, const Overrides& overrides) {
@@ -170,10 +183,13 @@ void PlannedSpeed::begin(SpeedStage& stage, const Overrides& overrides) {
     ++failed_;
     return;
   }
-  ++solved_;
   plan_.clear();
+  if (!take(stage, 0)) {
+    ++failed_;
+    return;
+  }
+  ++solved_;
   pause_ = 0;
-  take(0);
 }
 
 }  // namespace trunnion::motion

@@ -42,7 +42,7 @@ class PlannedSpeed {
   bool is_near(const SpeedStage& stage, bool any_curve) const;
   void work(const SpeedStage& stage);
   void launch(const SpeedStage& stage, const Demand& demand);
-  void take(std::size_t index);
+  bool take(const SpeedStage& stage, std::size_t index);
   void end(bool at_end);
 
   double cycle_;

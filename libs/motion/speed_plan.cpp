@@ -38,12 +38,13 @@ double SpeedPiece::duration() const {
   return length / 6 * (1 / first + 4 / middle + 1 / last);
 }
 
-bool SpeedPlan::replace(std::size_t index, const std::vector<SpeedPiece>& pieces) {
-  if (index - current_ + pieces.size() > capacity) return false;
+bool SpeedPlan::replace(std::size_t index, const std::vector<SpeedPiece>& pieces, const SpeedPiece& last) {
+  if (index - current_ + pieces.size() + 1 > capacity) return false;
   pieces_.erase(pieces_.begin() + static_cast<std::ptrdiff_t>(index), pieces_.end());
   pieces_.erase(pieces_.begin(), pieces_.begin() + static_cast<std::ptrdiff_t>(current_));
   current_ = 0;
   pieces_.insert(pieces_.end(), pieces.begin(), pieces.end());
+  pieces_.push_back(last);
   return true;
 }
 

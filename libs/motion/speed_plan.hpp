@@ -38,9 +38,9 @@ class SpeedPlan {
   std::size_t current() const { return current_; }
   double end() const { return pieces_.empty() ? 0 : pieces_.back().end(); }
 
-  /// `pieces` from the start of the piece `index` on; pieces that have been executed are dropped. False, and
-  /// nothing changed, when there is no room.
-  bool replace(std::size_t index, const std::vector<SpeedPiece>& pieces);
+  /// `pieces` and behind them `last` from the start of the piece `index` on; pieces that have been executed
+  /// are dropped. False, and nothing changed, when there is no room.
+  bool replace(std::size_t index, const std::vector<SpeedPiece>& pieces, const SpeedPiece& last);
 
   /// From `state` on the current piece `time` seconds on. At the end of the pieces the time left is not used.
   PathState advance(const PathState& state, double time);

@@ -25,6 +25,13 @@ void SpeedStage::place(const PathState& state) {
   tail_.reset();
 }
 
+bool SpeedStage::stops_from(const PathState& state) const {
+  std::uint64_t cell = current_;
+  while (cell + 1 < cells_.size() && !cells_[cell + 1].stop && state.s > cells_[cell].end) ++cell;
+  PhaseList stop;
+  return state.s <= cells_[cell].end && find_stop(state, cell, stop);
+}
+
 bool SpeedStage::take_over() {
   PhaseList stop;
   Braked why = Braked::yes;

@@ -58,6 +58,8 @@ class SpeedStage {
   void place(const PathState& state);
   /// After place(): true when a stop from there is proved, so that step() may go on.
   bool take_over();
+  /// A stop from `state` on the cells ahead is proved.
+  bool stops_from(const PathState& state) const;
 
   const PathState& state() const { return state_; }
   bool at_standstill() const { return state_.v == 0 && state_.a == 0; }

@@ -35,18 +35,6 @@ double part_of(const LimitCell& cell, double s) {
   return length > 0 ? std::clamp((s - cell.at) / length, 0.0, 1.0) : 0.0;
 }
 
-// Third derivatives change linearly on a cell, which then is exact on roundings too.
-AxisRates exact_rates(const AxisOnCell& axis, double x, double length) {
-  const auto mix = [x, &axis](std::size_t n) {
-    const auto begin = static_cast<double>(axis.begin[n]), end = static_cast<double>(axis.end[n]);
-    return begin + x * (end - begin);
-  };
-  const auto third = static_cast<double>(axis.begin[2]), change = static_cast<double>(axis.end[2]) - third;
-  const double bow = x * (1 - x) / 2;
-  return {mix(0) - length * length * (third * bow + change * (x - x * x * x) / 6),
-          mix(1) - length * change * bow, third + x * change};
-}
-
 // Highest speed under an override, by feed and velocity.
 double highest(const LimitCell& cell, const SpeedRequest& request) {
   if (request.brake) return std::min(cell.reachable, creep);
