@@ -142,7 +142,7 @@ bool PlannedSpeed::step(SpeedStage& stage, const Overrides& overrides) {
     const bool short_left = left_ < least_left + left_in_stops * std::min(stop, longest_stop);
     if (!(demand == demand_) || (short_left && (!reaches_end_ || grown))) launch(stage, demand);
   }
-  const bool ends = left_ < hand_over && !optimizer_.running();
+  const bool ends = (left_ < hand_over && !optimizer_.running()) || plan_.current() + 1 == plan_.size();
   if ((demand.brake || ends || !is_near(stage, true)) && stage.take_over()) {
     end(ends);
     return false;

@@ -35,7 +35,7 @@ Moved move(const SpeedPiece& piece, double x, double v, double t) {
 double SpeedPiece::duration() const {
   const double middle = std::sqrt(std::max(1e-12, square(at + length / 2)));
   const double first = std::sqrt(std::max(1e-12, b0)), last = std::sqrt(std::max(1e-12, square(end())));
-  return length / 6 * (1 / first + 4 / middle + 1 / last);
+  return length / (first + middle) + length / (middle + last);
 }
 
 bool SpeedPlan::replace(std::size_t index, const std::vector<SpeedPiece>& pieces, const SpeedPiece& last) {

@@ -19,7 +19,7 @@ struct SpeedPiece {
   double end() const { return at + length; }
   double square(double s) const { return b0 + (s - at) * (b1 + (s - at) * b2); }
   double slope(double s) const { return b1 + 2 * (s - at) * b2; }
-  /// s about, for pieces that last a few cycles.
+  /// s about: exact where the acceleration is constant on either half.
   double duration() const;
 };
 
