@@ -95,7 +95,17 @@ int run_plan(const Plan& plan) {
     std::printf("%s\"%c\": {\"velocity\": %.6f, \"acceleration\": %.6f, \"jerk\": %.6f}", k > 0 ? ", " : "",
                 axes.letters[k], r.velocity, r.acceleration, r.jerk);
   }
-  std::printf("}}\n");
+  std::printf("}, \"costly_places\": [");
+  static constexpr const char* limit_names[] = {"velocity", "acceleration", "jerk"};
+  for (std::size_t k = 0; k < report.places.size(); ++k) {
+    const analysis::CostlyPlace& place = report.places[k];
+    std::printf(
+        "%s{\"lines\": [%u, %u], \"begin\": %.3f, \"lost\": %.4f, \"axis\": \"%c\", \"limit\": \"%s\", "
+        "\"use\": %.3f}",
+        k > 0 ? ", " : "", place.first_line, place.last_line, place.begin, place.lost,
+        canonical::axis_letters[place.axis], limit_names[static_cast<std::size_t>(place.limit)], place.use);
+  }
+  std::printf("]}\n");
   if (report.result.good) return 0;
   std::cerr << plan.program << ":" << report.result.alarm << "\n";
   return 1;
