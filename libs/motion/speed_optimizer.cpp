@@ -128,7 +128,7 @@ void SpeedOptimizer::evaluate() {
     for (std::size_t e = 0; e < 2; ++e) {
       const double* v = &gauss_[7 * k + 3 * e];
       const double square = std::max(least_square, v[0] * b[0] + v[1] * b[1] + v[2] * b[2]);
-      const double time = gauss_[7 * k + 6] / std::sqrt(square),
+      const double time = window_.weight()[k] * gauss_[7 * k + 6] / std::sqrt(square),
                    drawn = window_.pull()[k] * gauss_[7 * k + 6];
       objective_ += time + drawn * square;
       // Of the negative gradient.

@@ -60,7 +60,7 @@ bool continues(const LimitCell& a, const LimitCell& b) {
 SpeedWindow::SpeedWindow() {
   spans_.reserve(most_cells);
   nodes_.reserve(most_pieces + 1);
-  for (auto* list : {&caps_, &guess_, &pull_, &feed_, &reach_}) list->reserve(most_pieces + 2);
+  for (auto* list : {&caps_, &guess_, &pull_, &feed_, &reach_, &weight_}) list->reserve(most_pieces + 2);
   samples_.reserve(most_samples + 8);
   rows_.reserve(most_rows + 128);
   row_from_.reserve(most_pieces + 2);
@@ -294,6 +294,7 @@ void SpeedWindow::bound(const SpeedRequest& request, const SpeedPlan* before) {
   drawn_ = false;
   caps_.assign(m, 1e18);
   pull_.assign(n, 0);
+  weight_.assign(n, 1);
   guess_.assign(m, 0);
   std::vector<double>& free = feed_;
   for (std::size_t k = 0; k < n; ++k)
@@ -328,7 +329,8 @@ void SpeedWindow::bound(const SpeedRequest& request, const SpeedPlan* before) {
     for (std::size_t x = 0; x < 3; ++x)
       caps_[k + x] = std::max(caps_[k + x], std::min(drawn_share * b, reach_[k]));
     const double v = std::max(std::sqrt(free[k]), request.brake ? creep : 1e-3);
-    pull_[k] = 0.6 / (v * v * v);
+    pull_[k] = std::min(0.6 / (v * v * v), 3 / (b * std::sqrt(b)));
+    weight_[k] = pull_[k] * v * v * v / 0.6;
   }
   std::size_t covered = 0;
   while (covered < m && node(static_cast<std::ptrdiff_t>(covered)) < before->end()) ++covered;

@@ -64,7 +64,9 @@ class SpeedWindow {
   const std::vector<double>& caps() const { return caps_; }
   /// A first guess of the speed on each piece.
   const std::vector<double>& guess() const { return guess_; }
-  /// Weight of b in the objective beside the time, where it has to fall below what `before` has.
+  /// Weights in the objective of the time on a piece, and of b where it has to fall below what `before` has:
+  /// together they are least a little below the speed asked for.
+  const std::vector<double>& weight() const { return weight_; }
   const std::vector<double>& pull() const { return pull_; }
   /// Somewhere it is faster than the feed allows.
   bool drawn() const { return drawn_; }
@@ -90,7 +92,7 @@ class SpeedWindow {
   double near_speed(const Span& span, double s) const;
 
   std::vector<Span> spans_;
-  std::vector<double> nodes_, caps_, guess_, pull_, feed_, reach_;
+  std::vector<double> nodes_, caps_, guess_, pull_, feed_, reach_, weight_;
   std::vector<SpeedSample> samples_;
   std::vector<SpeedRow> rows_;
   std::vector<std::size_t> row_from_, span_of_;
