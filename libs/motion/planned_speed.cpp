@@ -134,6 +134,10 @@ bool PlannedSpeed::step(SpeedStage& stage, const Overrides& overrides) {
   if (plan_.empty()) return false;
   const Demand demand = demand_of(overrides, stage.cells()[stage.current_cell()]);
   if (pause_ > 0) --pause_;
+  if (demand.brake && !asked_.brake) {  // a hold waits for no other window
+    optimizer_.cancel();
+    pause_ = 0;
+  }
   if (optimizer_.running()) {
     work(stage);
   } else if (pause_ == 0) {
