@@ -43,6 +43,7 @@ double horizon_at(const LimitCell& cell, double v, double feed) {
 
 void PlannedSpeed::clear() {
   optimizer_.cancel();
+  braking_.clear();
   plan_.clear();
   pause_ = 0;
   blocked_to_ = -1e300;
@@ -86,6 +87,7 @@ bool PlannedSpeed::take(const SpeedStage& stage, std::size_t index) {
 void PlannedSpeed::end(bool at_end) {
   if (at_end) blocked_to_ = plan_.end() + 0.001;
   optimizer_.cancel();
+  braking_.clear();
   plan_.clear();
   pause_ = at_end ? 0 : pause;
 }
@@ -134,11 +136,13 @@ bool PlannedSpeed::step(SpeedStage& stage, const Overrides& overrides) {
   if (plan_.empty()) return false;
   const Demand demand = demand_of(overrides, stage.cells()[stage.current_cell()]);
   if (pause_ > 0) --pause_;
-  if (demand.brake && !asked_.brake) {  // a hold waits for no other window
+  if (demand.brake && !braking_.active()) {
     optimizer_.cancel();
-    pause_ = 0;
+    braking_.start(plan_, stage.state());
   }
-  if (optimizer_.running()) {
+  if (braking_.active()) {
+    // The plan is followed more slowly until the stage proves a stop.
+  } else if (optimizer_.running()) {
     work(stage);
   } else if (pause_ == 0) {
     const bool grown = stage.cells().size() != known_;
@@ -147,14 +151,28 @@ bool PlannedSpeed::step(SpeedStage& stage, const Overrides& overrides) {
     if (!(demand == demand_) || (short_left && (!reaches_end_ || grown))) launch(stage, demand);
   }
   const bool ends = (left_ < hand_over && !optimizer_.running()) || plan_.current() + 1 == plan_.size();
-  if ((demand.brake || ends || !is_near(stage, true)) && stage.take_over()) {
+  if ((braking_.active() || ends || !is_near(stage, true)) && stage.take_over()) {
     end(ends);
     return false;
   }
-  const PathState next = plan_.advance(stage.state(), cycle_);
-  left_ -= cycle_;
-  stage.place(next);
+  if (braking_.active()) {
+    slow_down(stage, demand.brake);
+  } else {
+    stage.place(plan_.advance(stage.state(), cycle_));
+    left_ -= cycle_;
+  }
   return true;
+}
+
+// When the hold is over before the stage has proved a stop, the plan goes on at the rate reached.
+void PlannedSpeed::slow_down(SpeedStage& stage, bool brake) {
+  stage.place(braking_.step(plan_, stage, cycle_, brake));
+  left_ -= braking_.plan_time();
+  if (brake || !braking_.constant()) return;
+  plan_.slow_down(braking_.rate());
+  left_ /= braking_.rate();
+  braking_.clear();
+  demand_ = {0, 0};  // to be replaced
 }
 
 void PlannedSpeed::begin(SpeedStage& stage, const Overrides& overrides) {

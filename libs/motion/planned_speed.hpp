@@ -4,6 +4,7 @@
 
 #include <cstdint>
 
+#include "motion/plan_braking.hpp"
 #include "motion/speed_optimizer.hpp"
 #include "motion/speed_plan.hpp"
 #include "motion/speed_stage.hpp"
@@ -43,11 +44,13 @@ class PlannedSpeed {
   void work(const SpeedStage& stage);
   void launch(const SpeedStage& stage, const Demand& demand);
   bool take(const SpeedStage& stage, std::size_t index);
+  void slow_down(SpeedStage& stage, bool brake);
   void end(bool at_end);
 
   double cycle_;
   SpeedOptimizer optimizer_;
   SpeedPlan plan_;
+  PlanBraking braking_;
   Demand demand_, asked_;                      // of the plan in force, of the one being made
   std::size_t start_ = 0;                      // piece that the one being made begins at
   std::uint64_t known_ = 0, asked_known_ = 0;  // cells that were known

@@ -48,10 +48,10 @@ bool SpeedPlan::replace(std::size_t index, const std::vector<SpeedPiece>& pieces
   return true;
 }
 
-PathState SpeedPlan::advance(const PathState& state, double time) {
+PathState SpeedPlan::advance(const PathState& state, double time, std::size_t& current) const {
   double s = state.s, v = state.v;
-  while (current_ < pieces_.size()) {
-    const SpeedPiece& piece = pieces_[current_];
+  while (current < pieces_.size()) {
+    const SpeedPiece& piece = pieces_[current];
     const double x = s - piece.at;
     const Moved whole = move(piece, x, v, time);
     if (x + whole.way < piece.length) {
@@ -74,10 +74,15 @@ PathState SpeedPlan::advance(const PathState& state, double time) {
     const double end = piece.end();
     v = std::sqrt(std::max(0.0, piece.square(end)));
     s = end;
-    if (current_ + 1 == pieces_.size()) return {s, v, piece.slope(end) / 2};
-    ++current_;
+    if (current + 1 == pieces_.size()) return {s, v, piece.slope(end) / 2};
+    ++current;
   }
   return {s, v, 0};
+}
+
+void SpeedPlan::slow_down(double rate) {
+  const double square = rate * rate;
+  for (SpeedPiece& piece : pieces_) piece.b0 *= square, piece.b1 *= square, piece.b2 *= square;
 }
 
 }  // namespace trunnion::motion

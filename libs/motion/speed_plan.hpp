@@ -43,7 +43,11 @@ class SpeedPlan {
   bool replace(std::size_t index, const std::vector<SpeedPiece>& pieces, const SpeedPiece& last);
 
   /// From `state` on the current piece `time` seconds on. At the end of the pieces the time left is not used.
-  PathState advance(const PathState& state, double time);
+  PathState advance(const PathState& state, double time) { return advance(state, time, current_); }
+  /// The same from `state` on the piece `piece`, which is moved along instead of the place.
+  PathState advance(const PathState& state, double time, std::size_t& piece) const;
+  /// Follows the rest at `rate` (above 0, at most 1) of its speed, from the place on.
+  void slow_down(double rate);
 
  private:
   std::vector<SpeedPiece> pieces_;
