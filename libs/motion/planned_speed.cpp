@@ -8,6 +8,8 @@ namespace trunnion::motion {
 namespace {
 
 // s of motion in a window, and more for each second of a stop.
+// The first window is solved within one cycle.
+constexpr double first_horizon = 0.15;
 constexpr double least_horizon = 0.42, longest_horizon = 1.5, horizon_in_stops = 2.2, beside_stops = 0.25;
 // A window begins this far ahead of the motion, s: more cycles than solving takes.
 constexpr double lead = 0.045;
@@ -104,8 +106,7 @@ void PlannedSpeed::launch(const SpeedStage& stage, const Demand& demand) {
   request.from = {piece.at, std::sqrt(std::max(0.0, piece.b0)), piece.b1 / 2};
   request.feed = demand.feed;
   request.rapid = demand.rapid;
-  request.brake = demand.brake;
-  request.lower = drawn_ || demand.brake || demand.feed < demand_.feed || demand.rapid < demand_.rapid;
+  request.lower = drawn_ || demand.feed < demand_.feed || demand.rapid < demand_.rapid;
   request.horizon = horizon_at(cells[request.cell], request.from.v, demand.feed);
   start_ = index;
   asked_ = demand;
@@ -138,7 +139,7 @@ bool PlannedSpeed::step(SpeedStage& stage, const Overrides& overrides) {
   if (pause_ > 0) --pause_;
   if (demand.brake && !braking_.active()) {
     optimizer_.cancel();
-    braking_.start(plan_, stage.state());
+    braking_.start(plan_, stage);
   }
   if (braking_.active()) {
     // The plan is followed more slowly until the stage proves a stop.
@@ -194,7 +195,7 @@ void PlannedSpeed::begin(SpeedStage& stage, const Overrides& overrides) {
   request.from = stage.state();
   request.feed = demand.feed;
   request.rapid = demand.rapid;
-  request.horizon = horizon_at(cells[request.cell], request.from.v, demand.feed);
+  request.horizon = std::min(first_horizon, horizon_at(cells[request.cell], request.from.v, demand.feed));
   asked_ = demand;
   asked_known_ = cells.size();
   pause_ = pause;
@@ -212,6 +213,7 @@ void PlannedSpeed::begin(SpeedStage& stage, const Overrides& overrides) {
   }
   ++solved_;
   pause_ = 0;
+  if (!reaches_end_) demand_ = {0, 0};  // to be replaced at once
 }
 
 }  // namespace trunnion::motion

@@ -16,7 +16,7 @@ constexpr double acceleration_share = 0.996, jerk_share = 0.992;
 // Windows end at this speed, mm/s or degrees/s, or at a share of the slowest speed on them.
 constexpr double creep = 2, slowest_share = 0.5;
 // The reference speed that the pieces are cut by accelerates with this share of what the axes permit.
-constexpr double reference_share = 0.4, brake_share = 0.5;
+constexpr double reference_share = 0.4;
 // The first guess as a share of the reference speed.
 constexpr double guess_share = 0.6;
 // Of the plan in force this part is taken as the first guess.
@@ -37,7 +37,6 @@ double part_of(const LimitCell& cell, double s) {
 
 // Highest speed under an override, by feed and velocity.
 double highest(const LimitCell& cell, const SpeedRequest& request) {
-  if (request.brake) return std::min(cell.reachable, creep);
   if (cell.rapid) return cell.reachable * std::max(request.rapid, 1e-3);
   return std::min(cell.reachable, cell.feed * request.feed);
 }
@@ -72,8 +71,8 @@ bool SpeedWindow::scan(const CellRing& cells, const SpeedRequest& request) {
   double time = 0, before = std::max(request.from.v, creep), slowest = 1e9;
   std::uint64_t c = request.cell, counted = 0;
   end_ = request.from.s;
+  ramp_ = 1e9;
   reaches_end_ = false;
-  brake_ramp_ = 0;
   bool full = false;
   for (;; ++c) {
     if (c >= cells.size() || (c > request.cell && cells[c].stop) || cells[c].known_axes == 0) {
@@ -94,17 +93,12 @@ bool SpeedWindow::scan(const CellRing& cells, const SpeedRequest& request) {
       if (most(1) > 0) speed = std::min(speed, std::sqrt(acceleration / most(1)));
       if (most(2) > 0) speed = std::min(speed, std::cbrt(static_cast<double>(axis.jerk) / most(2)));
     }
-    if (brake_ramp_ == 0) brake_ramp_ = brake_share * ramp, ramp_ = reference_share * ramp;
     ramp_ = std::min(ramp_, reference_share * ramp);
     const double from = std::max(cell.at, request.from.s), length = cell.end - from;
     if (!(length > 0)) continue;
     slowest = std::min(slowest, speed);
     double reach = cell.end;
-    double reached = std::min(speed, std::sqrt(before * before + 2 * ramp_ * length));
-    if (request.brake)
-      reached =
-          std::max(speed, std::sqrt(std::max(creep * creep, request.from.v * request.from.v -
-                                                                2 * brake_ramp_ * (from - request.from.s))));
+    const double reached = std::min(speed, std::sqrt(before * before + 2 * ramp_ * length));
     const double lasts = length / std::max(reached, 1e-3);
     if (time + lasts > request.horizon) {
       full = true;
@@ -152,17 +146,12 @@ double SpeedWindow::near_speed(const Span& span, double s) const {
   const auto index = static_cast<std::size_t>(&span - spans_.data());
   const double v0 = index == 0 ? std::max(from_.v, end_speed_) : spans_[index - 1].speed;
   const double v1 = index + 1 == spans_.size() ? end_speed_ : spans_[index + 1].speed;
-  double speed = std::min({span.speed, std::sqrt(v0 * v0 + 2 * ramp_ * (s - span.at + shortest_piece)),
-                           std::sqrt(v1 * v1 + 2 * ramp_ * std::max(0.0, span.end - s))});
-  if (brake_)
-    speed = std::max(speed, std::sqrt(std::max(end_speed_ * end_speed_,
-                                               from_.v * from_.v - 2 * brake_ramp_ * (s - from_.s))));
-  return speed;
+  return std::min({span.speed, std::sqrt(v0 * v0 + 2 * ramp_ * (s - span.at + shortest_piece)),
+                   std::sqrt(v1 * v1 + 2 * ramp_ * std::max(0.0, span.end - s))});
 }
 
 bool SpeedWindow::cut(const SpeedRequest& request) {
   from_ = request.from;
-  brake_ = request.brake;
   double v = std::max(from_.v, end_speed_);
   for (Span& span : spans_) {
     span.speed = std::min(span.speed, std::sqrt(v * v + 2 * ramp_ * (span.end - span.at)));
@@ -328,7 +317,7 @@ void SpeedWindow::bound(const SpeedRequest& request, const SpeedPlan* before) {
     drawn_ = true;
     for (std::size_t x = 0; x < 3; ++x)
       caps_[k + x] = std::max(caps_[k + x], std::min(drawn_share * b, reach_[k]));
-    const double v = std::max(std::sqrt(free[k]), request.brake ? creep : 1e-3);
+    const double v = std::max(std::sqrt(free[k]), 1e-3);
     pull_[k] = std::min(0.6 / (v * v * v), 3 / (b * std::sqrt(b)));
     weight_[k] = pull_[k] * v * v * v / 0.6;
   }
@@ -346,7 +335,7 @@ void SpeedWindow::bound(const SpeedRequest& request, const SpeedPlan* before) {
       part = std::min(1.0, (static_cast<double>(k) - trusted) /
                                std::max(1.0, 0.5 * (static_cast<double>(covered) - trusted)));
     part = part * part * (3 - 2 * part);
-    guess_[k] = b * (1 - part) + part * (request.brake ? guess_[k] : std::max(b, guess_[k]));
+    guess_[k] = b * (1 - part) + part * std::max(b, guess_[k]);
   }
 }
 

@@ -18,7 +18,6 @@ struct SpeedRequest {
   double feed = 1;         ///< overrides
   double rapid = 1;
   bool lower = false;    ///< the plan in force may be faster than the feed allows now: it is drawn down to it
-  bool brake = false;    ///< to a creeping speed, as soon as possible
   double horizon = 0.4;  ///< s of motion about
 };
 
@@ -97,8 +96,8 @@ class SpeedWindow {
   std::vector<SpeedRow> rows_;
   std::vector<std::size_t> row_from_, span_of_;
   PathState from_;
-  double end_ = 0, end_speed_ = 0, ramp_ = 0, brake_ramp_ = 0;
-  bool reaches_end_ = false, brake_ = false, drawn_ = false;
+  double end_ = 0, end_speed_ = 0, ramp_ = 0;
+  bool reaches_end_ = false, drawn_ = false;
 };
 
 }  // namespace trunnion::motion
