@@ -3,6 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <string>
+
+#include "canonical/axes.hpp"
 
 namespace trunnion::analysis {
 namespace {
@@ -12,6 +16,17 @@ constexpr double slow_share = 0.98;
 constexpr double longest_place = 0.2;  // s
 
 }  // namespace
+
+std::string to_text(const CostlyPlace& place) {
+  static constexpr const char* names[] = {"velocity", "acceleration", "jerk"};
+  std::string lines = std::to_string(place.first_line);
+  if (place.last_line != place.first_line) lines += "-" + std::to_string(place.last_line);
+  char text[160];
+  std::snprintf(text, sizeof text, ": %.3f s lost from %.3f s on, axis %c uses %.0f %% of its %s on average",
+                place.lost, place.begin, canonical::axis_letters[place.axis], 100 * place.use,
+                names[static_cast<std::size_t>(place.limit)]);
+  return lines + text;
+}
 
 void PlaceCost::add(const motion::AxisValues& machine, const motion::Setpoint& setpoint) {
   if (count_ == 0) before_.fill(machine);

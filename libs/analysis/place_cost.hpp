@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "motion/interpolation.hpp"
@@ -22,6 +23,10 @@ struct CostlyPlace {
   BindingLimit limit = BindingLimit::jerk;
   double use = 0;  ///< mean share of that limit that is used there
 };
+
+/// One line of text: lines of the program, time lost and since when in s, the axis and the share of its
+/// limit.
+std::string to_text(const CostlyPlace& place);
 
 /// Follows setpoints, one per cycle, and keeps the ten places that cost most.
 class PlaceCost {
