@@ -19,13 +19,14 @@ constexpr double longest_place = 0.2;  // s
 
 std::string to_text(const CostlyPlace& place) {
   static constexpr const char* names[] = {"velocity", "acceleration", "jerk"};
-  std::string lines = std::to_string(place.first_line);
-  if (place.last_line != place.first_line) lines += "-" + std::to_string(place.last_line);
-  char text[160];
-  std::snprintf(text, sizeof text, ": %.3f s lost from %.3f s on, axis %c uses %.0f %% of its %s on average",
+  char lines[32], text[192];
+  std::snprintf(lines, sizeof lines, place.last_line == place.first_line ? "%u" : "%u-%u", place.first_line,
+                place.last_line);
+  std::snprintf(text, sizeof text,
+                "%s: %.3f s lost from %.3f s on, axis %c uses %.0f %% of its %s on average", lines,
                 place.lost, place.begin, canonical::axis_letters[place.axis], 100 * place.use,
                 names[static_cast<std::size_t>(place.limit)]);
-  return lines + text;
+  return text;
 }
 
 void PlaceCost::add(const motion::AxisValues& machine, const motion::Setpoint& setpoint) {

@@ -7,9 +7,9 @@
 namespace trunnion::motion {
 namespace {
 
-// s of motion in a window, and more for each second of a stop.
-// The first window is solved within one cycle.
-constexpr double first_horizon = 0.15;
+// s of motion in the first window, which is solved within one cycle.
+constexpr double first_horizon = 0.08;
+// And in the others, and more for each second of a stop.
 constexpr double least_horizon = 0.42, longest_horizon = 1.5, horizon_in_stops = 2.2, beside_stops = 0.25;
 // A window begins this far ahead of the motion, s: more cycles than solving takes.
 constexpr double lead = 0.045;
