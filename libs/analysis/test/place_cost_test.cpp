@@ -22,6 +22,7 @@ TEST(PlaceCost, names_lines_time_axis_and_limit) {
     machine[0] = 0.1 * k;
     machine[1] = k % 2 == 0 ? 0.005 : -0.005;
     motion::Setpoint setpoint;
+    setpoint.at_rest = false;
     setpoint.line = k < 150 ? 7 : 9;
     setpoint.programmed_speed = 100;
     setpoint.path_speed = k >= 100 && k < 200 ? 50 : 100;
