@@ -13,9 +13,9 @@ namespace trunnion::motion {
 
 /// A plan in force always ends at a creeping speed from which the speed stage stops, so following it to its
 /// end is the proved stop of every cycle. It is replaced from a place ahead on: when the path goes on, or
-/// when an override changes. During a hold it is followed at a falling rate (PlanBraking). The stage takes the
-/// motion back as soon as it proves a stop of its own: during a hold, near the end of a section, and where no
-/// dense curve is near. Work is spread over cycles by count, so setpoints depend on the calls alone.
+/// when an override changes. During a hold it is followed at a falling rate (PlanBraking). The stage takes
+/// the motion back as soon as it proves a stop of its own: during a hold, near the end of a section, and
+/// where no dense curve is near. Work is spread over cycles by count, so setpoints depend on the calls alone.
 class PlannedSpeed {
  public:
   explicit PlannedSpeed(double cycle_seconds) : cycle_(cycle_seconds) {}
