@@ -21,7 +21,14 @@ namespace {
 struct Plan {
   std::string program, machine, csv;
   std::vector<std::string> settings;
+  bool places = false;
 };
+
+void print_places(const Plan& plan, const std::vector<analysis::CostlyPlace>& places) {
+  for (const analysis::CostlyPlace& place : places)
+    std::printf("%s:%s\n", plan.program.c_str(), analysis::to_text(place).c_str());
+  if (places.empty()) std::printf("%s: the programmed feed is kept everywhere\n", plan.program.c_str());
+}
 
 void apply(const std::string& setting, machine::Parameters& parameters) {
   const auto equals = setting.find('=');
@@ -74,18 +81,28 @@ int run_plan(const Plan& plan) {
                                                if (file) write_row(file.get(), cycle, axes);
                                              });
   if (file && std::ferror(file.get()) != 0) throw std::runtime_error(plan.csv + ": cannot be written");
+  const auto status = [&] {
+    if (report.result.good) return 0;
+    std::cerr << plan.program << ":" << report.result.alarm << "\n";
+    return 1;
+  };
+  if (plan.places) {
+    print_places(plan, report.places);
+    return status();
+  }
   // A second time without rows and checks, for the speed of the planner itself.
   const auto begin = std::chrono::steady_clock::now();
   const auto timed = analysis::run_program(text, machine, machine.reference_position(), {}, {});
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 
   std::printf(
-      "{\"motion_time\": %.6f, \"bound_time\": %.6f, \"time_to_bound\": %.4f, \"cycles\": %llu, \"blocks\": "
+      "{\"motion_time\": %.6f, \"bound_time\": %.6f, \"time_to_bound\": %.4f, \"least_time\": %.6f, "
+      "\"cycles\": %llu, \"blocks\": "
       "%llu, "
       "\"blocks_per_second\": %.0f, \"contour_deviation\": %.6f, \"orientation_deviation\": %.6f, \"axes\": "
       "{",
       report.motion_time, report.bound, report.bound > 0 ? report.motion_time / report.bound : 0.0,
-      static_cast<unsigned long long>(report.result.cycles),
+      report.least_time, static_cast<unsigned long long>(report.result.cycles),
       static_cast<unsigned long long>(report.result.blocks),
       seconds > 0 ? static_cast<double>(timed.blocks) / seconds : 0.0, report.deviation.contour,
       report.deviation.orientation);
@@ -94,10 +111,18 @@ int run_plan(const Plan& plan) {
     std::printf("%s\"%c\": {\"velocity\": %.6f, \"acceleration\": %.6f, \"jerk\": %.6f}", k > 0 ? ", " : "",
                 axes.letters[k], r.velocity, r.acceleration, r.jerk);
   }
-  std::printf("}}\n");
-  if (report.result.good) return 0;
-  std::cerr << plan.program << ":" << report.result.alarm << "\n";
-  return 1;
+  std::printf("}, \"costly_places\": [");
+  static constexpr const char* limit_names[] = {"velocity", "acceleration", "jerk"};
+  for (std::size_t k = 0; k < report.places.size(); ++k) {
+    const analysis::CostlyPlace& place = report.places[k];
+    std::printf(
+        "%s{\"lines\": [%u, %u], \"begin\": %.3f, \"lost\": %.4f, \"axis\": \"%c\", \"limit\": \"%s\", "
+        "\"use\": %.3f}",
+        k > 0 ? ", " : "", place.first_line, place.last_line, place.begin, place.lost,
+        canonical::axis_letters[place.axis], limit_names[static_cast<std::size_t>(place.limit)], place.use);
+  }
+  std::printf("]}\n");
+  return status();
 }
 
 }  // namespace
@@ -111,6 +136,8 @@ void add_plan_command(CLI::App& app, Common& common) {
   command->add_option("program", plan->program, "The program's file")->required();
   command->add_option("--machine", plan->machine, "Folder or name of the machine")->required();
   command->add_option("--csv", plan->csv, "File for one row per cycle");
+  command->add_flag("--places", plan->places,
+                    "Print the ten places that lose most time as text, in place of JSON");
   command->add_option("--set", plan->settings,
                       "NUMBER=VALUE instead of the machine's parameter; may be repeated");
 }

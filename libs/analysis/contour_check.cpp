@@ -8,6 +8,8 @@
 namespace trunnion::analysis {
 namespace {
 
+constexpr std::size_t fewest_forgotten = 20000;
+
 double distance(const AxisValues& a, const AxisValues& b, std::size_t first) {
   return std::hypot(a[first] - b[first], a[first + 1] - b[first + 1], a[first + 2] - b[first + 2]);
 }
@@ -39,6 +41,19 @@ void ContourCheck::add(const language::Command& command) {
   }
   pieces_.push_back(piece);
   end_ = command.target;
+}
+
+void ContourCheck::forget(std::uint32_t sequence, double reach) {
+  if (pieces_.size() < 2 * kept_ || pieces_.size() < fewest_forgotten) return;
+  const auto found = std::lower_bound(pieces_.begin(), pieces_.end(), sequence,
+                                      [](const Piece& p, std::uint32_t s) { return p.sequence < s; });
+  auto first = found;
+  for (double passed = 0; first != pieces_.begin() && passed < reach;) {
+    --first;
+    passed += first->size;
+  }
+  pieces_.erase(pieces_.begin(), first);
+  kept_ = pieces_.size();
 }
 
 // The point of the piece at f in 0..1 of its angle or length; radii that differ are joined linearly.

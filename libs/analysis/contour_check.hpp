@@ -31,6 +31,10 @@ class ContourCheck {
   /// `reach` mm (or degrees) before and behind that command is searched.
   Deviation of(const AxisValues& position, std::uint32_t sequence, double reach = 5) const;
 
+  /// Commands before `sequence` will not be asked for again: what lies more than `reach` before it is
+  /// dropped.
+  void forget(std::uint32_t sequence, double reach = 5);
+
   std::size_t size() const { return pieces_.size(); }
 
  private:
@@ -48,6 +52,7 @@ class ContourCheck {
                 Deviation& deviation) const;
 
   std::vector<Piece> pieces_;
+  std::size_t kept_ = 0;  // pieces after the last forget()
   AxisValues end_;
   double contour_tolerance_, orientation_tolerance_;
 };

@@ -7,6 +7,8 @@
 namespace trunnion::analysis {
 namespace {
 
+constexpr std::size_t window_samples = 20000;
+
 struct Rates {
   AxisValues first{}, second{};
 };
@@ -26,8 +28,36 @@ double path_acceleration(const Rates& rates, double x, const motion::Limits& lim
 }  // namespace
 
 double acceleration_bound(const std::vector<PathSample>& path, const motion::Limits& limits) {
+  AccelerationBound bound(limits);
+  for (const PathSample& sample : path) bound.add(sample);
+  return bound.finish();
+}
+
+void AccelerationBound::add(const PathSample& sample) {
+  window_.push_back(sample);
+  if (window_.size() >= window_samples) sweep(false);
+}
+
+void AccelerationBound::slow(double speed) {
+  if (!window_.empty()) window_.back().speed = std::min(window_.back().speed, speed);
+}
+
+double AccelerationBound::finish() {
+  sweep(true);
+  window_.clear();
+  continues_ = false;
+  const double time = time_;
+  time_ = 0;
+  return time;
+}
+
+// Of a window that does not end the path only the part in front of its last third is kept: braking to rest at
+// its end reaches less far.
+void AccelerationBound::sweep(bool ends) {
+  const std::vector<PathSample>& path = window_;
+  const motion::Limits& limits = limits_;
   const std::size_t n = path.size();
-  if (n < 2) return 0;
+  if (n < 2) return;
   std::vector<Rates> rates(n);
   for (std::size_t k = 0; k < n; ++k) {
     const std::size_t a = k == 0 ? 0 : k - 1, c = k + 1 == n ? k : k + 1;
@@ -53,16 +83,22 @@ double acceleration_bound(const std::vector<PathSample>& path, const motion::Lim
     const double h = path[k + 1].s - path[k].s;
     x[k] = std::min(x[k], x[k + 1] + 2 * h * path_acceleration(rates[k + 1], x[k + 1], limits, -1));
   }
-  for (std::size_t k = 0; k + 1 < n; ++k) {
+  if (continues_) x[0] = first_, x[1] = second_;
+  for (std::size_t k = continues_ ? 1 : 0; k + 1 < n; ++k) {
     const double h = path[k + 1].s - path[k].s;
     x[k + 1] = std::min(x[k + 1], x[k] + 2 * h * path_acceleration(rates[k], x[k], limits, 1));
   }
-  double time = 0;
-  for (std::size_t k = 0; k + 1 < n; ++k) {
+  const std::size_t kept = ends ? n - 1 : n - n / 3;
+  for (std::size_t k = continues_ ? 1 : 0; k < kept; ++k) {
     const double speed = std::sqrt(x[k]) + std::sqrt(x[k + 1]);
-    if (speed > 0) time += 2 * (path[k + 1].s - path[k].s) / speed;
+    if (speed > 0) time_ += 2 * (path[k + 1].s - path[k].s) / speed;
   }
-  return time;
+  if (ends) return;
+  // The place before the first goes along: its rates need it.
+  first_ = x[kept - 1];
+  second_ = x[kept];
+  continues_ = true;
+  window_.erase(window_.begin(), window_.begin() + static_cast<std::ptrdiff_t>(kept - 1));
 }
 
 // The ramp in the plane of speed v and acceleration u: backwards from (top, 0) with the strongest decrease of

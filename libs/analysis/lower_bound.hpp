@@ -24,6 +24,27 @@ struct PathSample {
 /// Seconds. Needs at least two samples.
 double acceleration_bound(const std::vector<PathSample>& path, const motion::Limits& limits);
 
+/// The same for a path of any length in constant memory.
+class AccelerationBound {
+ public:
+  explicit AccelerationBound(const motion::Limits& limits) : limits_(limits) {}
+  /// The next place of the path. `speed` holds from there on.
+  void add(const PathSample& sample);
+  /// The speed allowed at the newest place is at most this.
+  void slow(double speed);
+  /// Seconds; the path has ended. The next one may begin.
+  double finish();
+
+ private:
+  void sweep(bool ends);
+
+  motion::Limits limits_;
+  std::vector<PathSample> window_;
+  double first_ = 0, second_ = 0;  // x at the first two places of a window that continues
+  bool continues_ = false;
+  double time_ = 0;
+};
+
 /// Least time for a full circle from rest to rest when the vectors of acceleration and jerk, whatever their
 /// direction, stay within the limits of one axis: speed sqrt(a r) (or cbrt(j r^2)), reached and left in ramps
 /// in which the acceleration along the path u, its normal part v^2/r, and the two parts of the jerk,

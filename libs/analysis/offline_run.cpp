@@ -60,35 +60,40 @@ RunReport run_commands(const MachineModel& machine, const AxisValues& start,
 double command_bound(const MachineModel& machine, const AxisValues& start,
                      language::Transformation transformation, double tool_length,
                      const std::vector<Command>& program, double step) {
-  const geometry::Chain* active =
-      transformation == language::Transformation::rtcp && machine.chain ? &*machine.chain : nullptr;
-  std::vector<PathSample> samples;
-  AxisValues end = start;
-  double s = 0;
-  samples.push_back({0, motion::machine_axes(start, active, tool_length), 1e9});
-  for (const Command& command : program) {
-    if (command.kind != CommandKind::line && command.kind != CommandKind::arc &&
-        command.kind != CommandKind::rapid)
-      continue;
-    const motion::PathSegment segment = command.kind == CommandKind::arc
-                                            ? motion::PathSegment::arc(end, command.target, command.arc)
-                                            : motion::PathSegment::line(end, command.target);
-    end = command.target;
-    const double length = segment.length();
-    if (!(length > 1e-6)) continue;
-    const bool inverse = command.modal.feed_mode == language::FeedMode::inverse_time;
-    const double feed =
-        command.kind == CommandKind::rapid ? 1e9 : command.modal.feed / 60 * (inverse ? length : 1);
-    samples.back().speed = std::min(samples.back().speed, feed);
-    const int parts = std::max(1, static_cast<int>(std::ceil(length / step - 1e-6)));
-    for (int k = 1; k <= parts; ++k) {
-      samples.push_back({s + length * k / parts,
-                         motion::machine_axes(segment.position(length * k / parts), active, tool_length),
-                         feed});
-    }
-    s += length;
-  }
-  return acceleration_bound(samples, machine.limits);
+  CommandBound bound(machine);
+  bound.begin(start, transformation, tool_length);
+  for (const Command& command : program) bound.add(command, step);
+  return bound.finish();
+}
+
+void CommandBound::begin(const AxisValues& start, language::Transformation transformation,
+                         double tool_length) {
+  active_ = transformation == language::Transformation::rtcp && machine_.chain ? &*machine_.chain : nullptr;
+  tool_length_ = tool_length;
+  end_ = start;
+  s_ = 0;
+  bound_.add({0, motion::machine_axes(start, active_, tool_length_), 1e9});
+}
+
+void CommandBound::add(const Command& command, double step) {
+  if (command.kind != CommandKind::line && command.kind != CommandKind::arc &&
+      command.kind != CommandKind::rapid)
+    return;
+  const motion::PathSegment segment = command.kind == CommandKind::arc
+                                          ? motion::PathSegment::arc(end_, command.target, command.arc)
+                                          : motion::PathSegment::line(end_, command.target);
+  end_ = command.target;
+  const double length = segment.length();
+  if (!(length > 1e-6)) return;
+  const bool inverse = command.modal.feed_mode == language::FeedMode::inverse_time;
+  const double feed =
+      command.kind == CommandKind::rapid ? 1e9 : command.modal.feed / 60 * (inverse ? length : 1);
+  bound_.slow(feed);
+  const int parts = std::max(1, static_cast<int>(std::ceil(length / step - 1e-6)));
+  for (int k = 1; k <= parts; ++k)
+    bound_.add({s_ + length * k / parts,
+                motion::machine_axes(segment.position(length * k / parts), active_, tool_length_), feed});
+  s_ += length;
 }
 
 }  // namespace trunnion::analysis

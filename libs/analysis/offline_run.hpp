@@ -9,6 +9,7 @@
 
 #include "analysis/contour_check.hpp"
 #include "analysis/limit_check.hpp"
+#include "analysis/lower_bound.hpp"
 #include "motion/trajectory.hpp"
 
 namespace trunnion::analysis {
@@ -43,5 +44,23 @@ RunReport run_commands(const MachineModel& machine, const AxisValues& start,
 double command_bound(const MachineModel& machine, const AxisValues& start,
                      language::Transformation transformation, double tool_length,
                      const std::vector<language::Command>& program, double step = 0.1);
+
+/// The same command after command, in constant memory.
+class CommandBound {
+ public:
+  /// `machine` must outlive the bound.
+  explicit CommandBound(const MachineModel& machine) : machine_(machine), bound_(machine.limits) {}
+  void begin(const AxisValues& start, language::Transformation transformation, double tool_length);
+  void add(const language::Command& command, double step = 0.1);
+  /// Seconds of the commands since begin().
+  double finish() { return bound_.finish(); }
+
+ private:
+  const MachineModel& machine_;
+  AccelerationBound bound_;
+  const geometry::Chain* active_ = nullptr;
+  double tool_length_ = 0, s_ = 0;
+  AxisValues end_{};
+};
 
 }  // namespace trunnion::analysis

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <memory>
 
+#include "analysis/time_scaling.hpp"
+
 #include "language/codes.hpp"
 #include "motion/axis_motion.hpp"
 #include "program_execution/program_flow.hpp"
@@ -182,33 +184,42 @@ PlanReport plan_program(language::TextSource& text, channel_setup::ChannelSetup&
   const motion::Limits& limits = machine.limits();
   LimitCheck check(limits, start, machine.cycle_seconds());
   ContourCheck contour(start, limits.contour_tolerance, limits.orientation_tolerance);
+  motion::Limits effective = limits;
+  for (motion::AxisLimits& axis : effective.axes)
+    axis.jerk = std::min(axis.jerk, axis.acceleration / (limits.smoothing_cycles * machine.cycle_seconds()));
+  LeastTime least(effective, machine.cycle_seconds());
   MachineModel model{limits, machine.chain(), machine.cycle_seconds()};
-  FrameMoves group;
-  group.start = start;
+  CommandBound bound(model);
+  bound.begin(start, language::Transformation::none, 0);
+  PlaceCost places(effective, machine.cycle_seconds());
   const auto close = [&](const FrameMoves& next) {
-    if (!group.commands.empty())
-      report.bound +=
-          command_bound(model, group.start, group.transformation, group.tool_length, group.commands);
-    group = next;
-    group.commands.clear();
+    report.bound += bound.finish();
+    bound.begin(next.start, next.transformation, next.tool_length);
     contour.jump(next.start);
   };
   report.result = run_program(
       text, machine, start,
       [&](const PlannedCycle& cycle) {
         check.add(cycle.machine, cycle.setpoint->rapid);
+        const motion::Setpoint& now = *cycle.setpoint;
+        least.add(
+            {cycle.machine, now.programmed_speed > 0 ? now.path_speed / now.programmed_speed : 0, now.rapid});
         const Deviation d = contour.of(cycle.position, cycle.setpoint->sequence);
         report.deviation.contour = std::max(report.deviation.contour, d.contour);
         report.deviation.orientation = std::max(report.deviation.orientation, d.orientation);
+        contour.forget(cycle.setpoint->sequence);
+        places.add(cycle.machine, now);
         if (sink) sink(cycle);
       },
       [&](const Command& command, const FrameMoves& frame) {
         if (!is_move(command)) return close(frame);
-        group.commands.push_back(command);
+        bound.add(command);
         contour.add(command);
       });
-  close(group);
+  report.bound += bound.finish();
+  report.places = places.finish();
   report.motion_time = static_cast<double>(check.moving_cycles()) * machine.cycle_seconds();
+  report.least_time = least.finish();
   report.axes = check.axes();
   return report;
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "analysis/offline_run.hpp"
+#include "analysis/place_cost.hpp"
 #include "channel_setup/channel_setup.hpp"
 #include "language/interpreter.hpp"
 
@@ -21,12 +22,11 @@ struct PlannedCycle {
   const motion::Setpoint* setpoint = nullptr;
 };
 
-/// Moves of one frame between two places where the axes must stand for another reason than the path.
+/// What the moves between two places where the axes stand for another reason than the path begin with.
 struct FrameMoves {
   AxisValues start{};
   language::Transformation transformation = language::Transformation::none;
   double tool_length = 0;
-  std::vector<language::Command> commands;
 };
 
 struct ProgramResult {
@@ -46,8 +46,10 @@ ProgramResult run_program(language::TextSource& text, channel_setup::ChannelSetu
 /// Everything the command `plan` reports.
 struct PlanReport {
   ProgramResult result;
-  double motion_time = 0;  ///< s, from the first to the last change of any axis
-  double bound = 0;        ///< s, of acceleration_bound over the moves
+  double motion_time = 0;           ///< s, from the first to the last change of any axis
+  double bound = 0;                 ///< s, of acceleration_bound over the moves
+  double least_time = 0;            ///< s, of LeastTime over the planned motion: its path under all limits
+  std::vector<CostlyPlace> places;  ///< that cost most, the costliest first
   std::array<AxisRatios, language::axis_count> axes{};
   Deviation deviation;
 };

@@ -15,20 +15,6 @@ constexpr double kept_jerk = 0.05;
 constexpr double rounding = 1e-7;
 constexpr double rounding_distance = 2e-9;
 
-struct Rates {
-  double first, second, third;
-};
-
-// The first derivative is taken with the third, which is nearly constant on a cell.
-inline Rates rates_at(const AxisOnCell& axis, double part, double length) {
-  const auto mix = [part, &axis](std::size_t n) {
-    return static_cast<double>(axis.begin[n]) +
-           part * (static_cast<double>(axis.end[n]) - static_cast<double>(axis.begin[n]));
-  };
-  const double third = mix(2);
-  return {mix(0) - third * length * length * part * (1 - part) / 2, mix(1), third};
-}
-
 // Narrows the range of x so that |offset + factor x| <= limit.
 inline void narrow(Range& range, double offset, double factor, double limit) {
   if (std::abs(factor) < 1e-12) {
@@ -49,7 +35,7 @@ bool within_axis_limits(const LimitCell& cell, double part, const PathState& sta
   const double v = state.v, a = state.a;
   for (int i = 0; i < cell.axis_count; ++i) {
     const AxisOnCell& axis = cell.axes[static_cast<std::size_t>(i)];
-    const Rates q = rates_at(axis, part, cell.end - cell.at);
+    const AxisRates q = rates_at(axis, part, cell.end - cell.at);
     if (std::abs(q.second * v * v + q.first * a) > checked_share * static_cast<double>(axis.acceleration))
       return false;
     if (std::abs(v * (q.third * v * v + 3 * q.second * a) + q.first * jerk) >
@@ -61,6 +47,26 @@ bool within_axis_limits(const LimitCell& cell, double part, const PathState& sta
 
 }  // namespace
 
+AxisRates rates_at(const AxisOnCell& axis, double part, double length) {
+  const auto mix = [part, &axis](std::size_t n) {
+    return static_cast<double>(axis.begin[n]) +
+           part * (static_cast<double>(axis.end[n]) - static_cast<double>(axis.begin[n]));
+  };
+  const double third = mix(2);
+  return {mix(0) - third * length * length * part * (1 - part) / 2, mix(1), third};
+}
+
+AxisRates exact_rates(const AxisOnCell& axis, double x, double length) {
+  const auto mix = [x, &axis](std::size_t n) {
+    const auto begin = static_cast<double>(axis.begin[n]), end = static_cast<double>(axis.end[n]);
+    return begin + x * (end - begin);
+  };
+  const auto third = static_cast<double>(axis.begin[2]), change = static_cast<double>(axis.end[2]) - third;
+  const double bow = x * (1 - x) / 2;
+  return {mix(0) - length * length * (third * bow + change * (x - x * x * x) / 6),
+          mix(1) - length * change * bow, third + x * change};
+}
+
 Range jerk_range(const LimitCell& cell, double part, double v, double a) {
   if (cell.uniform || cell.axis_count == 0) {
     const RampLimits& ramp = cell.uniform ? cell.ramps[0] : cell.ramp(v);
@@ -69,7 +75,7 @@ Range jerk_range(const LimitCell& cell, double part, double v, double a) {
   Range range{-1e12, 1e12};
   for (int i = 0; i < cell.axis_count; ++i) {
     const AxisOnCell& axis = cell.axes[static_cast<std::size_t>(i)];
-    const Rates q = rates_at(axis, part, cell.end - cell.at);
+    const AxisRates q = rates_at(axis, part, cell.end - cell.at);
     narrow(range, v * (q.third * v * v + 3 * q.second * a), q.first,
            range_share * static_cast<double>(axis.jerk));
   }
@@ -84,7 +90,7 @@ Range acceleration_range(const LimitCell& cell, double part, double v) {
   Range range{-1e9, 1e9};
   for (int i = 0; i < cell.axis_count; ++i) {
     const AxisOnCell& axis = cell.axes[static_cast<std::size_t>(i)];
-    const Rates q = rates_at(axis, part, cell.end - cell.at);
+    const AxisRates q = rates_at(axis, part, cell.end - cell.at);
     narrow(range, q.second * v * v, q.first, range_share * static_cast<double>(axis.acceleration));
     const double bend = q.third * v * v * v, jerk = static_cast<double>(axis.jerk);
     narrow(range, bend, 3 * q.second * v, std::max((1 - kept_jerk) * jerk, std::abs(bend)));

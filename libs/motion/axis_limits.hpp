@@ -7,6 +7,18 @@
 
 namespace trunnion::motion {
 
+/// Derivatives of an axis by the path length.
+struct AxisRates {
+  double first = 0, second = 0, third = 0;
+};
+
+/// At `part` (0..1) of a cell that is `length` long. The first derivative is taken with the third, which is
+/// nearly constant on a cell.
+AxisRates rates_at(const AxisOnCell& axis, double part, double length);
+
+/// The same where the third derivative changes linearly on the cell, as on every rounding.
+AxisRates exact_rates(const AxisOnCell& axis, double part, double length);
+
 struct Range {
   double low = 0, high = 0;
 };

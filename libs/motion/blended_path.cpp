@@ -247,10 +247,12 @@ std::array<AxisValues, 3> BlendedPath::derivatives(std::uint64_t index, double s
   return d;
 }
 
-bool BlendedPath::bends(std::uint64_t index, double s) const {
-  bool found = false;
-  for_joins(index, s, [&](const PathBlock& join) { found = found || join.bend_weight > 0; });
-  return found;
+double BlendedPath::bend_reach(std::uint64_t index, double s) const {
+  double shortest = 0;
+  for_joins(index, s, [&](const PathBlock& join) {
+    if (join.bend_weight > 0 && (shortest == 0 || join.reach < shortest)) shortest = join.reach;
+  });
+  return shortest;
 }
 
 double BlendedPath::next_knot(std::uint64_t index, double s) const {

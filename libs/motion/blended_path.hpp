@@ -93,8 +93,9 @@ class BlendedPath {
   /// same section between two ends of roundings.
   std::array<AxisValues, 3> derivatives(std::uint64_t index, double s, double inside) const;
 
-  /// A jump of curvature is rounded at s: the curve there is no polynomial of the third degree.
-  bool bends(std::uint64_t index, double s) const;
+  /// Shortest reach of the jumps of curvature that are rounded at s, 0: there is none. With one the curve is
+  /// no polynomial of the third degree.
+  double bend_reach(std::uint64_t index, double s) const;
 
   /// The next place behind `s` on block `index` where a rounding begins, turns or ends; at most the block's
   /// end.

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "motion/axis_limits.hpp"
+
 namespace trunnion::motion {
 namespace {
 
@@ -22,6 +24,12 @@ constexpr double mixed_share = 0.4;
 constexpr double chained_share = 0.995;
 // Arcs, radians: the highest speed of a cell is that of its slowest place.
 constexpr double arc_cell_angle = 0.025;
+// Where a jump of curvature is rounded, as a share of its reach: derivatives are interpolated on a cell.
+constexpr double bend_cell_share = 0.25;
+// Moves up to this length are dense, mm or degrees.
+constexpr double longest_dense = 5;
+// Share of a derivative in the middle of a cell by which the interpolation may miss it.
+constexpr double most_missed = 0.25;
 constexpr double fastest = 1e5;
 // Cells of one call: a long path that becomes known at once must not take long in one cycle.
 constexpr std::uint64_t most_at_once = 2048;
@@ -70,18 +78,49 @@ void limit_cell(LimitCell& cell, const CellRates& rates, const Limits& limits) {
 
 namespace {
 
-// What the cell keeps so that its axes can be checked one by one.
+// Derivatives between the ends of a cell are interpolated. Through a chain that is not exact: by how much the
+// middle is missed, the limits are reduced, and where it is missed widely, the axes are not known.
+void judge_interpolation(LimitCell& cell, const PathRates& middle,
+                         const std::array<std::size_t, LimitCell::most_axes>& moving) {
+  double second = 1e-12, third = 1e-12, second_missed = 0, third_missed = 0;
+  for (int k = 0; k < cell.known_axes; ++k) {
+    const AxisOnCell& axis = cell.axes[static_cast<std::size_t>(k)];
+    const std::size_t i = moving[static_cast<std::size_t>(k)];
+    const AxisRates q = exact_rates(axis, 0.5, cell.end - cell.at);
+    const double a = 1 / static_cast<double>(axis.acceleration), j = 1 / static_cast<double>(axis.jerk);
+    second = std::max({second, a * std::abs(middle[1][i]), a * std::abs(static_cast<double>(axis.begin[1]))});
+    third = std::max({third, j * std::abs(middle[2][i]), j * std::abs(static_cast<double>(axis.begin[2]))});
+    second_missed = std::max(second_missed, a * std::abs(middle[1][i] - q.second));
+    third_missed = std::max(third_missed, j * std::abs(middle[2][i] - q.third));
+  }
+  const double missed = second_missed / second + third_missed / third;
+  if (!(missed <= most_missed)) {
+    cell.known_axes = 0;
+    return;
+  }
+  for (int k = 0; k < cell.known_axes; ++k) {
+    AxisOnCell& axis = cell.axes[static_cast<std::size_t>(k)];
+    axis.acceleration /= static_cast<float>(1 + missed);
+    axis.jerk /= static_cast<float>(1 + missed);
+  }
+}
+
+// What the cell keeps of its axes; `by_axis`: they can be checked one by one.
 void keep_axes(LimitCell& cell, const PathRates& begins, const PathRates& ends, const CellRates& rates,
-               const Limits& limits) {
-  cell.axis_count = 0;
-  double top = cell.rapid ? fastest : std::min(fastest, cell.feed * highest_override);
+               const PathRates* middle, const Limits& limits, bool by_axis) {
+  std::array<std::size_t, LimitCell::most_axes> moving{};
+  cell.axis_count = cell.known_axes = 0;
+  double top = fastest;
   if (rates.curvature > 0 && limits.centripetal_acceleration > 0)
     top = std::min(top, std::sqrt(limits.centripetal_acceleration / rates.curvature));
+  cell.reachable = top;
+  if (!cell.rapid) top = std::min(top, cell.feed * highest_override);
   std::size_t count = 0;
   for (std::size_t i = 0; i < axis_count; ++i) {
     if (rates.first[i] <= 0 && rates.second[i] <= 0 && rates.third[i] <= 0) continue;
     if (count == LimitCell::most_axes) return;
     const AxisLimits& axis = limits.axes[i];
+    moving[count] = i;
     AxisOnCell& kept = cell.axes[count++];
     for (std::size_t n = 0; n < 3; ++n) {
       kept.begin[n] = static_cast<float>(begins[n][i]);
@@ -90,12 +129,18 @@ void keep_axes(LimitCell& cell, const PathRates& begins, const PathRates& ends, 
     kept.acceleration = static_cast<float>(axis.acceleration);
     kept.jerk = static_cast<float>(axis.jerk);
     const double velocity = cell.rapid ? axis.rapid_velocity : axis.velocity;
-    if (rates.first[i] > 0) top = std::min(top, velocity / rates.first[i]);
+    if (rates.first[i] > 0) {
+      top = std::min(top, velocity / rates.first[i]);
+      cell.reachable = std::min(cell.reachable, velocity / rates.first[i]);
+    }
     if (rates.second[i] > 0)
       top = std::min(top, std::sqrt(top_normal_share * axis.acceleration / rates.second[i]));
     if (rates.third[i] > 0) top = std::min(top, std::cbrt(top_bend_share * axis.jerk / rates.third[i]));
   }
-  cell.axis_count = static_cast<int>(count);
+  cell.known_axes = static_cast<int>(count);
+  if (middle != nullptr) judge_interpolation(cell, *middle, moving);
+  if (!by_axis) return;
+  cell.axis_count = cell.known_axes;
   cell.top = std::max(cell.speed, top);
 }
 
@@ -145,7 +190,7 @@ LimitCell CellBuilder::make(const BlendedPath& path, double from, double to) con
   cell.block = block_;
   const double middle = (from + to) / 2, length = to - from;
   PathRates begins = path.derivatives(block_, from, middle), ends;
-  const bool bends = path.bends(block_, middle);
+  const bool bends = path.bend_reach(block_, middle) > 0;
   if (block.path.is_arc() || bends) {
     ends = path.derivatives(block_, to, middle);
   } else {  // a polynomial of the third degree
@@ -173,7 +218,13 @@ LimitCell CellBuilder::make(const BlendedPath& path, double from, double to) con
   }
   rates.curvature = bend;
   limit_cell(cell, rates, limits);
-  if (block.path.is_arc() && !bends && !cell.uniform) keep_axes(cell, begins, ends, rates, limits);
+  PathRates between;
+  if (chain_ != nullptr)
+    between = machine_rates(path.position(block_, middle), path.derivatives(block_, middle, middle), chain_,
+                            tool_length_);
+  keep_axes(cell, begins, ends, rates, chain_ != nullptr ? &between : nullptr, limits,
+            block.path.is_arc() && !bends && !cell.uniform);
+  cell.dense = !block.rapid && (block.path.is_curve() || block.move_length() <= longest_dense);
   return cell;
 }
 
@@ -223,7 +274,9 @@ double CellBuilder::longest(const BlendedPath& path) const {
 // End of the cell that begins at `from`, at most `upto`.
 double CellBuilder::cell_end(const BlendedPath& path, double from, double upto) const {
   const double knot = std::min(upto, path.next_knot(block_, from));
-  const double most = longest(path);
+  double most = longest(path);
+  const double reach = path.bend_reach(block_, 0.5 * (from + knot));
+  if (reach > 0) most = std::min(most, bend_cell_share * reach);
   return knot - from > most ? from + (knot - from) / std::ceil((knot - from) / most) : knot;
 }
 

@@ -46,6 +46,7 @@ Setpoint Interpolation::follow(const BlendedPath& path, const PathPlace& place) 
   setpoint.feed =
       std::hypot(position_[0] - before[0], position_[1] - before[1], position_[2] - before[2]) / cycle_;
   setpoint.path_speed = place.speed;
+  setpoint.programmed_speed = block.rapid ? 0 : block.feed;
   setpoint.rapid = block.rapid;
   setpoint.dwelling = place.waiting;
   return setpoint;

@@ -15,9 +15,10 @@ struct Setpoint {
   AxisValues distance_to_go{};  ///< to the end of the command, per axis
   std::uint32_t line = 0;       ///< of the command being executed, 0 before the first
   std::uint32_t sequence = 0;
-  double fraction = 0;    ///< of that command completed, 0..1
-  double feed = 0;        ///< speed of X Y Z in that frame, mm/s
-  double path_speed = 0;  ///< mm/s (deg/s when only rotary axes move)
+  double fraction = 0;          ///< of that command completed, 0..1
+  double feed = 0;              ///< speed of X Y Z in that frame, mm/s
+  double path_speed = 0;        ///< mm/s (deg/s when only rotary axes move)
+  double programmed_speed = 0;  ///< of the path at override 1, likewise; 0: none, as of a rapid
   bool rapid = false;
   bool dwelling = false;  ///< at standstill between segments: dwell or exact stop
   bool at_rest = true;    ///< everything pushed is done

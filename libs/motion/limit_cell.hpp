@@ -32,8 +32,11 @@ struct LimitCell {
   double top =
       0;  ///< highest speed that the axes themselves allow; from `speed` to it only keeps_axes() decides
   static constexpr std::size_t most_axes = 6;
-  std::array<AxisOnCell, most_axes> axes{};  ///< of cells that are not uniform
-  int axis_count = 0;                        ///< 0: too many move, only the ramps decide
+  std::array<AxisOnCell, most_axes> axes{};
+  int axis_count = 0;    ///< of arcs, whose axes are checked one by one; 0: only the ramps decide
+  int known_axes = 0;    ///< `axes` that move; 0: too many do
+  double reachable = 0;  ///< highest speed by the velocities of the axes alone
+  bool dense = false;    ///< of a short move, or of a piece of the curve that replaces some
   bool rapid = false;
   bool uniform = false;         ///< all levels are the same
   bool stop = false;            ///< motion stops at the start

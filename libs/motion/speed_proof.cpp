@@ -14,6 +14,32 @@ constexpr double least_staged = 0.5;
 
 }  // namespace
 
+void SpeedStage::place(const PathState& state) {
+  state_ = state;
+  while (current_ + 1 < cells_.size() && !cells_[current_ + 1].stop && state_.s > cells_[current_].end)
+    ++current_;
+  stop_.clear();
+  clear_until_ = 0;
+  arriving_ = false;
+  braking_for_.reset();
+  tail_.reset();
+}
+
+bool SpeedStage::stops_from(const PathState& state) const {
+  std::uint64_t cell = current_;
+  while (cell + 1 < cells_.size() && !cells_[cell + 1].stop && state.s > cells_[cell].end) ++cell;
+  PhaseList stop;
+  return state.s <= cells_[cell].end && find_stop(state, cell, stop);
+}
+
+bool SpeedStage::take_over() {
+  PhaseList stop;
+  Braked why = Braked::yes;
+  if (!find_stop(state_, current_, stop) && !find_curved_stop(state_, current_, stop, why)) return false;
+  stop_ = stop;
+  return true;
+}
+
 bool SpeedStage::find_stop(const PathState& state, std::uint64_t cell, PhaseList& stop) const {
   return find_stop(state, cell, 1, stop) || find_stop(state, cell, 0.5, stop);
 }

@@ -54,6 +54,13 @@ class SpeedStage {
 
   void step(const Overrides& overrides);
 
+  /// Another plan has moved to `state`, forwards on the cells known and not over a stop.
+  void place(const PathState& state);
+  /// After place(): true when a stop from there is proved, so that step() may go on.
+  bool take_over();
+  /// A stop from `state` on the cells ahead is proved.
+  bool stops_from(const PathState& state) const;
+
   const PathState& state() const { return state_; }
   bool at_standstill() const { return state_.v == 0 && state_.a == 0; }
   std::uint64_t current_cell() const { return current_; }

@@ -55,6 +55,7 @@ Trajectory::Trajectory(const Limits& limits, const geometry::Chain* chain, doubl
       chain_(chain),
       speed_(cycle_seconds),
       back_(cycle_seconds),
+      planned_(cycle_seconds),
       interpolation_(cycle_seconds) {
   start({}, canonical::Transformation::none, 0);
 }
@@ -76,6 +77,7 @@ void Trajectory::restart_path() {
   path_.clear();
   builder_.start(limits_, active_chain_, tool_length_);
   speed_.clear();
+  planned_.clear();
   pending_.reset();
   interpolation_.drop_tail();
   stop_next_ = exact_next_ = true;
@@ -276,6 +278,7 @@ void Trajectory::plan_back() {
 void Trajectory::reverse() {
   const std::uint64_t block = current_block();
   const double s = current_s();
+  planned_.clear();
   retracing_ = !retracing_;
   if (retracing_) {
     back_builder_.start(limits_, active_chain_, tool_length_);
@@ -328,7 +331,11 @@ Setpoint Trajectory::step(double feed_override, double rapid_override, bool hold
   if (retracing_ && !back_complete_) plan_back();
   SpeedStage& stage = retracing_ ? back_ : speed_;
   stage.allow_overlap(!interpolation_.overlapping() && !aborting_ && !turning);
-  stage.step({feed_override, rapid_override, hold || aborting_ || turning});
+  const Overrides overrides{feed_override, rapid_override, hold || aborting_ || turning};
+  if (retracing_ || !planned_.step(speed_, overrides)) {
+    stage.step(overrides);
+    if (!retracing_ && !interpolation_.overlapping()) planned_.begin(speed_, overrides);
+  }
   if (const auto tail = stage.take_tail()) interpolation_.begin_tail(*tail, stage.cells()[tail->cell].block);
 
   const bool moves = stage.cells().size() > 0;

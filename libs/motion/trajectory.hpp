@@ -11,6 +11,7 @@
 #include "motion/compressor.hpp"
 #include "motion/interpolation.hpp"
 #include "motion/limits.hpp"
+#include "motion/planned_speed.hpp"
 #include "motion/speed_stage.hpp"
 
 namespace trunnion::motion {
@@ -116,6 +117,7 @@ class Trajectory {
   BlendedPath path_;
   CellBuilder builder_, back_builder_;
   SpeedStage speed_, back_;  ///< forwards, and backwards over the same path
+  PlannedSpeed planned_;     ///< instead of speed_ on dense curves
   Interpolation interpolation_;
   AxisValues end_{}, joined_{};
   std::optional<PathBlock> pending_;  ///< a move too short to be worth a segment, until more follows

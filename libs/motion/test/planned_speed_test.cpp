@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: Apache-2.0
+// Plans of the speed on dense curves: limits under overrides, holds, resets and retracing, and repeatability.
+#include "motion/planned_speed.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "motion_fixture.hpp"
+
+namespace trunnion::motion::test {
+namespace {
+
+using canonical::Transformation;
+
+// A winding line with waves of random lengths in Z, its points rounded: smooth to kinked.
+std::vector<AxisValues> relief(std::uint64_t seed, int count) {
+  std::mt19937_64 random(seed);
+  std::uniform_real_distribution<double> unit(0, 1);
+  const double grain = std::pow(10, -2 - static_cast<int>(random() % 3)), step = 0.03 + 0.1 * unit(random);
+  std::array<std::array<double, 3>, 12> waves{};
+  for (auto& wave : waves) wave = {0.3 + 9 * unit(random), 6.3 * unit(random), 0.3 * (unit(random) - 0.5)};
+  std::vector<AxisValues> points;
+  for (int k = 0; k < count; ++k) {
+    const double u = step * k;
+    AxisValues p{u, 4 * std::sin(0.2 * u), 0};
+    for (const auto& [number, phase, height] : waves) p[2] += height / number * std::sin(number * u + phase);
+    for (double& v : p) v = std::round(v / grain) * grain;
+    points.push_back(p);
+  }
+  return points;
+}
+
+std::vector<Command> program_of(const std::vector<AxisValues>& points, double feed) {
+  std::vector<Command> program;
+  for (std::size_t k = 1; k < points.size(); ++k)
+    if (points[k] != points[k - 1])
+      program.push_back(line_to(points[k], feed, static_cast<std::uint32_t>(k)));
+  return program;
+}
+
+Limits strong() { return uniform_limits(500, 3000, 1); }
+
+void expect_limits(const std::vector<Setpoint>& setpoints, const AxisValues& start, const Limits& limits) {
+  Motion motion;
+  motion.setpoints = setpoints;
+  const Ratios ratios = axis_ratios(motion, start, limits, nullptr, 0);
+  EXPECT_LE(ratios.velocity, 1.001);
+  EXPECT_LE(ratios.acceleration, 1.001);
+  EXPECT_LE(ratios.jerk, 1.001);
+}
+
+class PlannedRelief : public ::testing::TestWithParam<std::uint64_t> {};
+INSTANTIATE_TEST_SUITE_P(seeds, PlannedRelief, ::testing::Range<std::uint64_t>(0, 40));
+
+// Every 10 to 300 cycles another override, a hold, a retrace, or a reset, which ends the run.
+TEST_P(PlannedRelief, limits_hold_under_overrides_holds_retraces_and_resets) {
+  const std::uint64_t seed = GetParam();
+  const auto points = relief(seed, 400);
+  const Limits limits = strong();
+  Trajectory t(limits, nullptr, cycle);
+  t.start(points.front(), Transformation::none, 0);
+  for (const Command& command : program_of(points, 6000)) ASSERT_TRUE(t.push(command));
+  t.finish();
+  std::mt19937_64 random(seed + 1000);
+  std::vector<Setpoint> setpoints;
+  double feed = 1;
+  bool hold = false, retrace = false;
+  int next = 100;
+  const bool resets = seed % 4 == 3;
+  for (int k = 0; k < 200000; ++k) {
+    if (k == next) {
+      next += 10 + static_cast<int>(random() % 290);
+      const auto what = random() % 6;
+      hold = what == 0;
+      if (seed % 4 == 2) retrace = what == 1;
+      t.retrace(retrace);
+      if (!hold) feed = 0.25 * static_cast<double>(random() % 7);
+      if (resets && k > 2000) t.abort();
+    }
+    if (k > 100000) feed = 1, hold = false, t.retrace(retrace = false);
+    setpoints.push_back(t.step(feed, 1, hold));
+    if (setpoints.back().at_rest) break;
+  }
+  EXPECT_TRUE(setpoints.back().at_rest);
+  if (!resets) {
+    EXPECT_EQ(t.position(), points.back());
+  }
+  expect_limits(setpoints, points.front(), limits);
+}
+
+// Without its jerk at the plan's own limits a stop from the programmed 100 mm/s takes 2 sqrt(v / J) = 82 ms
+// at J = 60000 mm/s3; it reaches sqrt(v J) = 2449 mm/s2 of 3000. At its limits a plan of least time leaves
+// jerk in one direction only. With a quarter of the jerk, the stop takes twice as long: 164 cycles.
+TEST_P(PlannedRelief, a_hold_stops_as_with_a_quarter_of_the_jerk_at_least) {
+  const std::uint64_t seed = GetParam();
+  const auto points = relief(seed, 400);
+  Trajectory t(strong(), nullptr, cycle);
+  t.start(points.front(), Transformation::none, 0);
+  for (const Command& command : program_of(points, 6000)) ASSERT_TRUE(t.push(command));
+  t.finish();
+  for (int k = 0; k < 300 + static_cast<int>(17 * seed); ++k) t.step(1, 1, false);
+  int cycles = 0;
+  AxisValues before{};
+  do {
+    before = t.position();
+    t.step(1, 1, true);
+    ++cycles;
+  } while (t.position() != before && cycles < 1000);
+  EXPECT_LE(cycles, 164);
+}
+
+// Holds of 1 to 40 cycles, 1 to 90 cycles apart: most end while the motion still brakes.
+TEST_P(PlannedRelief, limits_hold_when_holds_end_before_the_standstill) {
+  const std::uint64_t seed = GetParam();
+  const auto points = relief(seed, 600);
+  Trajectory t(strong(), nullptr, cycle);
+  t.start(points.front(), Transformation::none, 0);
+  for (const Command& command : program_of(points, 6000)) ASSERT_TRUE(t.push(command));
+  t.finish();
+  std::mt19937_64 random(seed + 2000);
+  std::vector<Setpoint> setpoints;
+  bool hold = false;
+  while (!t.at_rest() && setpoints.size() < 100000) {
+    for (auto left = 1 + random() % (hold ? 40 : 90); left > 0 && !t.at_rest(); --left)
+      setpoints.push_back(t.step(1, 1, hold));
+    hold = !hold;
+  }
+  EXPECT_EQ(t.position(), points.back());
+  expect_limits(setpoints, points.front(), strong());
+}
+
+// A program that arrives in pieces runs to the same end within the limits; calls in the same cycles give the
+// same bits.
+TEST(PlannedSpeed, the_same_calls_give_the_same_bits) {
+  const auto points = relief(5, 600);
+  const auto program = program_of(points, 6000);
+  const auto run_slowly = [&] {
+    Trajectory t(strong(), nullptr, cycle);
+    t.start(points.front(), Transformation::none, 0);
+    std::vector<Setpoint> setpoints;
+    for (const Command& command : program) {
+      EXPECT_TRUE(t.push(command));
+      for (int k = 0; k < 3; ++k) setpoints.push_back(t.step(1, 1, false));
+    }
+    t.finish();
+    while (!t.at_rest()) setpoints.push_back(t.step(1, 1, false));
+    return setpoints;
+  };
+  const auto first = run_slowly(), second = run_slowly();
+  ASSERT_EQ(first.size(), second.size());
+  for (std::size_t k = 0; k < first.size(); ++k) ASSERT_EQ(first[k].position, second[k].position) << k;
+  EXPECT_EQ(first.back().position, points.back());
+  expect_limits(first, points.front(), strong());
+}
+
+}  // namespace
+}  // namespace trunnion::motion::test
