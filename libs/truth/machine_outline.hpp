@@ -22,6 +22,7 @@ struct MachineOutline {
   geometry::ChainParameters design;
   std::array<AxisOutline, axis_count> axes;  ///< X Y Z A B C U V W of the channel
   std::vector<std::string> drives;           ///< names of all servo axes, slaves of gantries too
+  std::vector<std::string> turning;          ///< those of them that turn
 };
 
 /// Of `channel`. `parameters` are those the machine was delivered with: what the operator changes later does

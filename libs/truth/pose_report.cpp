@@ -68,7 +68,7 @@ std::optional<PoseAnswer> PoseReport::answer(const std::string& line, std::size_
         if (has(k)) names += letters[k];
       fail(number, i, "expected a word of one of the axes " + names + ", for example X10.5");
     }
-    if (given[axis]) fail(number, i, std::string("axis ") + letters[axis] + " is there twice");
+    if (given[axis]) fail(number, i, std::string("axis ").append(1, letters[axis]).append(" is there twice"));
     const std::size_t end = std::min(line.find_first_of(" \t\r#;XYZABCUVW", i + 1), line.size());
     const char* first = line.data() + i + 1;
     if (first + 1 < line.data() + end && *first == '+' && first[1] != '-') ++first;

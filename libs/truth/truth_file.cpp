@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "machine/yaml.hpp"
+#include "truth/drive_section.hpp"
 #include "truth/error_section.hpp"
 #include "truth/random_machine.hpp"
 #include "truth/truth_reader.hpp"
@@ -35,12 +36,15 @@ class TruthParser {
   Truth parse(const YAML::Node& root) {
     if (root.IsNull()) return truth_;
     if (root.IsMap() && root["random"]) random(root["random"]);
-    reader_.each(root, "structure, random, axes, spindle, beam",
+    reader_.each(root, "structure, random, axes, spindle, beam, drives",
                  [&](const std::string& key, const YAML::Node& node) {
                    if (key == "structure") return structure(node), true;
                    if (key == "random") return true;
                    if (key == "axes") return axes(node), true;
                    if (key == "spindle") return spindle(node), true;
+                   if (key == "drives")
+                     return truth_.drives = read_drives(reader_, node, machine_.drives, machine_.turning),
+                            true;
                    return key == "beam" && (beam(node), true);
                  });
     check(root);

@@ -2,16 +2,19 @@
 // truth.yaml: how a machine differs from its design. docs/truth.md has the format.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 
+#include "truth/drive_truth.hpp"
 #include "truth/machine_outline.hpp"
 #include "truth/true_geometry.hpp"
 
 namespace trunnion::truth {
 
 struct Truth {
-  GeometryTruth geometry;  ///< with the errors that `random` has drawn
+  GeometryTruth geometry;                    ///< with the errors that `random` has drawn
+  std::map<std::string, DriveTruth> drives;  ///< by the name of the servo axis
 };
 
 /// `file` is named in errors. Throws std::runtime_error that begins with file:line:column: a key that is not

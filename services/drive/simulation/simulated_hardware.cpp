@@ -14,8 +14,9 @@ void SimulatedHardware::configure(const machine::Parameters& p, const std::vecto
   home_switches_.resize(axes.size());
   for (std::size_t i = 0; i < axes.size(); ++i) {
     const auto number = axes[i].number;
+    const auto truth = truth_.find(axes[i].name);
+    servos_[i].configure(ServoParameters::from(p, number), truth == truth_.end() ? nullptr : &truth->second);
     if (first) servos_[i].place(p.get(parameter::reference_coordinate, number));
-    servos_[i].configure(ServoParameters::from(p, number));
     home_switches_[i].position = p.get(parameter::reference_coordinate, number);
     home_switches_[i].direction = p.integer(parameter::homing_direction, number);
   }
@@ -45,6 +46,7 @@ void SimulatedHardware::status(DriveStatus& out) const {
     axis.hold_position = servo.command();
     axis.velocity = servo.velocity();
     axis.torque = servo.torque();
+    axis.homed = servo.homed();
     axis.home_switch = home_switches_[i].on;
     axis.home_latch = home_switches_[i].latch;
   }
@@ -53,9 +55,7 @@ void SimulatedHardware::status(DriveStatus& out) const {
     out.spindles[i] = {spindles_[i].speed(), spindles_[i].angle()};
 }
 
-void SimulatedHardware::set_reference(std::size_t i, double shift) {
-  servos_[i].place(servos_[i].command() + shift);
-}
+void SimulatedHardware::set_reference(std::size_t i, double shift) { servos_[i].set_reference(shift); }
 
 void SimulatedHardware::exchange(const SetpointRow& row, DriveStatus& out, EncoderRowSink& rows) {
   for (std::size_t i = 0; i < servos_.size(); ++i) {
