@@ -28,6 +28,7 @@ void add_parameter_commands(CLI::App& app, Common& common);  // param
 void add_topic_commands(CLI::App& app, Common& common);      // topic, record
 void add_kins_command(CLI::App& app, Common& common);        // kins
 void add_truth_command(CLI::App& app, Common& common);       // truth
+void add_measure_command(CLI::App& app, Common& common);     // measure ballbar, laser, rtest
 void add_check_command(CLI::App& app, Common& common);       // check
 void add_plan_command(CLI::App& app, Common& common);        // plan
 void add_recording_commands(CLI::App& app, Common& common);  // info, diff, export

@@ -2,19 +2,13 @@
 // truth: where the tool of a machine with errors truly is, without a cluster
 #include <CLI/CLI.hpp>
 #include <cmath>
-#include <filesystem>
 #include <iostream>
 #include <memory>
 
 #include "bus/json.hpp"
 #include "commands.hpp"
-#include "machine/kinematics.hpp"
-#include "machine/machine.hpp"
-#include "machine/yaml.hpp"
-#include "machine_settings.hpp"
 #include "storage/file.hpp"
-#include "truth/pose_report.hpp"
-#include "truth/truth_file.hpp"
+#include "true_machine.hpp"
 #include "truth_picture.hpp"
 
 namespace trunnion::cli {
@@ -28,38 +22,6 @@ struct TruthOptions {
   std::uint64_t seed = 1;
   std::vector<std::string> set;
 };
-
-double number_of(const std::string& setting, const std::string& text, double most) {
-  std::size_t used = 0;
-  double value = 0;
-  try {
-    value = std::stod(text, &used);
-  } catch (const std::exception&) {
-  }
-  if (used != text.size() || text.empty() || !(std::abs(value) <= most))
-    throw std::runtime_error("--set " + setting + ": expected a number within -" + std::to_string(most) +
-                             " .. " + std::to_string(most));
-  return value;
-}
-
-// A location error or a temperature; false when it is another setting.
-bool apply_truth_setting(truth::GeometryTruth& truth, truth::Temperatures& temperatures,
-                         const truth::MachineOutline& outline, const std::string& setting) {
-  const auto equals = std::min(setting.find('='), setting.size());
-  const auto name = setting.substr(0, equals), value = setting.substr(std::min(equals + 1, setting.size()));
-  if (const auto error = truth::location_error(truth, outline, name)) {
-    *error->value = number_of(setting, value, 1e5) * (error->angle ? 1e-6 : 1e-3);
-    return true;
-  }
-  if (!name.starts_with("rise.")) return false;
-  const auto source =
-      name.size() == 6 ? std::string_view("XYZABCUVWS").find(name[5]) : std::string_view::npos;
-  if (source == std::string_view::npos)
-    throw std::runtime_error("--set " + setting +
-                             ": expected rise. and an axis letter, or rise.S of the spindle");
-  temperatures[source] = number_of(setting, value, 100);
-  return true;
-}
 
 bus::Json json_of(const truth::Vec3& v, double unit) {
   return bus::Json::array({v[0] * unit, v[1] * unit, v[2] * unit});
@@ -105,27 +67,13 @@ void answer_lines(truth::PoseReport& report, bool json, bus::Json& poses) {
 
 int truth_of(const TruthOptions& options, bool json) {
   if (!std::isfinite(options.tool_length)) throw std::runtime_error("--tool-length: not a number");
-  const auto directory = machine_directory(options.machine);
-  const auto config = machine::load_machine(directory);
-  machine::Parameters delivered;
-  delivered.values = machine::machine_parameters(config);
-  const auto outline = truth::outline_of(delivered, options.channel);
-  const auto file = directory + "/truth.yaml";
-  truth::Truth truth;
-  if (std::filesystem::exists(file)) truth = truth::parse_truth(machine::read_text(file), file, outline);
-  auto model = delivered;
-  truth::Temperatures temperatures{};
-  for (const auto& setting : options.set)
-    if (!apply_truth_setting(truth.geometry, temperatures, outline, setting))
-      apply_setting(model, options.channel, setting);
-  truth::PoseReport report(truth::make_geometry(truth.geometry, outline, file),
-                           machine::make_chain(model, options.channel), outline);
+  const auto machine = load_true_machine(options.machine, options.channel, options.set);
+  auto& report = *machine.report;
   report.tool_length = options.tool_length;
-  report.temperatures = temperatures;
-  bus::Json out = {{"machine", config.name}, {"structure", report.geometry().notation()}};
+  bus::Json out = {{"machine", machine.name}, {"structure", report.geometry().notation()}};
   if (!options.plot.empty()) {
-    storage::replace_file(options.plot,
-                          truth_picture(report, outline, config.name + " " + report.geometry().notation()));
+    storage::replace_file(options.plot, truth_picture(report, machine.outline,
+                                                      machine.name + " " + report.geometry().notation()));
     if (!json) std::cout << options.plot << "\n";
   }
   if (options.summary > 0) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/angle.hpp"
 #include "report/plot.hpp"
 
 namespace trunnion::cli {
@@ -14,6 +15,7 @@ constexpr double side = 300, left = 60, gap = 90, top = 60,
                  longest_error = 0.08;  // pixels; share of the travel
 constexpr const char* ideal_style = "stroke=\"#afb8c1\" stroke-width=\"1\" fill=\"none\"";
 constexpr const char* true_style = "stroke=\"#cf222e\" stroke-width=\"1.3\" fill=\"none\"";
+constexpr const char* second_style = "stroke=\"#0969da\" stroke-width=\"1.3\" fill=\"none\"";
 
 struct Plane {
   std::size_t across, up;
@@ -92,6 +94,66 @@ std::string truth_picture(const truth::PoseReport& report, const truth::MachineO
     x += side + gap;
   }
   return report::document(x - gap + 30, top + side + 60, content);
+}
+
+std::string ballbar_picture(const truth::BallbarMeasurement& measured, const std::string& title) {
+  double largest = 1e-9;
+  for (const auto* circle : {&measured.ccw, &measured.cw})
+    for (const auto& reading : *circle) largest = std::max(largest, std::abs(reading.deviation));
+  // Of a radius of 1 the largest deviation takes a third.
+  const double division = report::round_down(largest * 1e3), magnification = 0.33 / largest;
+  report::Plot plot(40, 60, 460, 460, {-1.45, 1.45}, {-1.45, 1.45});
+  const auto circle = [&](double radius, const char* style) {
+    std::vector<report::PlotPoint> points;
+    for (int i = 0; i <= 180; ++i) {
+      const auto [s, c] = geometry::sine_cosine(2.0 * i);
+      points.push_back({radius * c, radius * s});
+    }
+    plot.curve(points, style);
+  };
+  for (int k = -3; k <= 3; ++k) circle(1 + 1e-3 * division * k * magnification, ideal_style);
+  const auto trace = [&](const std::vector<truth::BallbarReading>& readings, const char* style) {
+    std::vector<report::PlotPoint> points;
+    for (const auto& reading : readings) {
+      const auto [s, c] = geometry::sine_cosine(reading.angle);
+      const double radius = 1 + magnification * reading.deviation;
+      points.push_back({radius * c, radius * s});
+    }
+    if (!points.empty()) points.push_back(points.front());
+    plot.curve(points, style);
+  };
+  trace(measured.ccw, true_style);
+  trace(measured.cw, second_style);
+  char line[160];
+  std::snprintf(line, sizeof line, "red counter-clockwise, blue clockwise; %g um for each circle of the grid",
+                division);
+  return report::document(540, 580,
+                          report::text(40, 24, title, "font-size=\"15\" font-weight=\"600\"") +
+                              report::text(40, 42, line) + plot.svg());
+}
+
+std::string laser_picture(const truth::LaserMeasurement& measured, const std::string& title, double unit,
+                          const std::string& unit_name) {
+  report::Range x{measured.targets.front().position, measured.targets.back().position}, y{0, 0};
+  for (const auto& target : measured.targets)
+    for (const auto* values : {&target.up, &target.down})
+      for (const double value : *values) y = {std::min(y.low, value * unit), std::max(y.high, value * unit)};
+  const double margin = std::max(0.1 * y.span(), 1e-3);
+  y = {y.low - margin, y.high + margin};
+  report::Plot plot(80, 60, 620, 320, x, y);
+  plot.labels("mm", unit_name);
+  for (std::size_t run = 0; run < measured.targets.front().up.size(); ++run) {
+    std::vector<report::PlotPoint> up, down;
+    for (const auto& target : measured.targets) {
+      up.push_back({target.position, target.up[run] * unit});
+      down.push_back({target.position, target.down[run] * unit});
+    }
+    plot.curve(up, true_style);
+    plot.curve(down, second_style);
+  }
+  return report::document(740, 440,
+                          report::text(80, 24, title, "font-size=\"15\" font-weight=\"600\"") +
+                              report::text(80, 42, "red up, blue down") + plot.svg());
 }
 
 }  // namespace trunnion::cli

@@ -53,6 +53,7 @@ class PoseReport {
   DeviationSummary summary(std::size_t count, std::uint64_t seed) const;
 
   const TrueGeometry& geometry() const { return geometry_; }
+  const geometry::Chain& model() const { return model_; }
 
  private:
   bool has(std::size_t axis) const;

@@ -36,12 +36,13 @@ class TruthParser {
   Truth parse(const YAML::Node& root) {
     if (root.IsNull()) return truth_;
     if (root.IsMap() && root["random"]) random(root["random"]);
-    reader_.each(root, "structure, random, axes, spindle, beam, drives",
+    reader_.each(root, "structure, random, axes, spindle, beam, drives, instruments",
                  [&](const std::string& key, const YAML::Node& node) {
                    if (key == "structure") return structure(node), true;
                    if (key == "random") return true;
                    if (key == "axes") return axes(node), true;
                    if (key == "spindle") return spindle(node), true;
+                   if (key == "instruments") return instruments(node), true;
                    if (key == "drives")
                      return truth_.drives = read_drives(reader_, node, machine_.drives, machine_.turning),
                             true;
@@ -213,6 +214,26 @@ class TruthParser {
                [](std::size_t) { return false; }))
         beam.slave_error = std::move(error.function);
     geometry().beam = beam;
+  }
+
+  void instruments(const YAML::Node& node) {
+    reader_.each(
+        node, "ballbar, laser, laser_angle, rtest", [&](const std::string& name, const YAML::Node& entry) {
+          const bool angle = name == "laser_angle";
+          if (!angle && name != "ballbar" && name != "laser" && name != "rtest") return false;
+          const std::string noise = angle ? "noise_urad" : "noise_um",
+                            resolution = angle ? "resolution_urad" : "resolution_um";
+          const double unit = angle ? urad : um;
+          InstrumentTruth& out = truth_.instruments[name];
+          reader_.each(
+              entry, noise + ", " + resolution + ", seed", [&](const std::string& key, const YAML::Node& v) {
+                if (key == noise) return out.noise = unit * reader_.number(v, {0, 1e3}), true;
+                if (key == resolution) return out.resolution = unit * reader_.number(v, {0, 1e3}), true;
+                return key == "seed" &&
+                       (out.seed = static_cast<std::uint64_t>(reader_.number(v, {0, 4294967295.0})), true);
+              });
+          return true;
+        });
   }
 
   void check(const YAML::Node& root) {

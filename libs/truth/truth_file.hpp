@@ -7,6 +7,7 @@
 #include <string>
 
 #include "truth/drive_truth.hpp"
+#include "truth/instrument.hpp"
 #include "truth/machine_outline.hpp"
 #include "truth/true_geometry.hpp"
 
@@ -15,6 +16,8 @@ namespace trunnion::truth {
 struct Truth {
   GeometryTruth geometry;                    ///< with the errors that `random` has drawn
   std::map<std::string, DriveTruth> drives;  ///< by the name of the servo axis
+  /// ballbar, laser, rtest (mm), laser_angle (rad); without an entry an instrument is exact.
+  std::map<std::string, InstrumentTruth> instruments;
 };
 
 /// `file` is named in errors. Throws std::runtime_error that begins with file:line:column: a key that is not

@@ -81,10 +81,25 @@ TEST(TruthFile, AnExplicitLocationErrorReplacesADrawnOne) {
   EXPECT_EQ(both.axes[2].inclination, drawn.axes[2].inclination);
 }
 
+TEST(TruthFile, InstrumentsHaveTheirNoiseAndResolution) {
+  const auto instruments = parse_truth(R"(
+instruments:
+  ballbar: {noise_um: 0.3, resolution_um: 0.1, seed: 5}
+  laser_angle: {noise_urad: 0.5}
+)",
+                                       "truth.yaml", ac)
+                               .instruments;
+  EXPECT_DOUBLE_EQ(instruments.at("ballbar").noise, 0.3e-3);
+  EXPECT_DOUBLE_EQ(instruments.at("ballbar").resolution, 1e-4);
+  EXPECT_EQ(instruments.at("ballbar").seed, 5u);
+  EXPECT_DOUBLE_EQ(instruments.at("laser_angle").noise, 0.5e-6);
+}
+
 TEST(TruthFile, EveryFaultIsOneLineWithItsPlace) {
   const std::vector<std::pair<std::string, std::string>> faults{
       {"axis: {}",
-       "1:1: error: unknown key 'axis'; the keys are structure, random, axes, spindle, beam, drives"},
+       "1:1: error: unknown key 'axis'; the keys are structure, random, axes, spindle, beam, drives, "
+       "instruments"},
       {"axes: {X: {EXY: []}}",
        "1:12: error: unknown key 'EXY'; the keys are reference_point_mm, thermal, EXX"},
       {"axes: {B: {}}", "1:11: error: the machine has no linear or rotary axis 'B' in its kinematic chain"},
