@@ -11,7 +11,7 @@ namespace trunnion::cli {
 namespace {
 
 constexpr int cells = 8, steps = 5;  // steps of a curve in each cell
-constexpr double side = 300, left = 60, gap = 90, top = 60,
+constexpr double side = 300, left = 85, gap = 90, top = 60,
                  longest_error = 0.08;  // pixels; share of the travel
 constexpr const char* ideal_style = "stroke=\"#afb8c1\" stroke-width=\"1\"";
 constexpr const char* true_style = "stroke=\"#cf222e\" stroke-width=\"1.3\"";

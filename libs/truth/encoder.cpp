@@ -24,7 +24,8 @@ double interpolation_error(const EncoderTruth& e, double position) {
 }
 
 double distance_coded_mark(const EncoderTruth& e, long number) {
-  const auto j = static_cast<double>(number / 2);
+  const long pair = number / 2;
+  const auto j = static_cast<double>(pair);
   return number % 2 == 0 ? e.first_mark + j * e.mark_spacing
                          : e.first_mark + (j + 0.5) * e.mark_spacing + j * e.mark_increment;
 }

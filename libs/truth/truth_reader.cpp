@@ -21,7 +21,8 @@ void TruthReader::each(const YAML::Node& map, const std::string& keys, const Vis
   for (const auto& entry : map) {
     const auto key = machine::scalar(file_, entry.first);
     if (!seen.insert(key).second) fail(entry.first, "'" + key + "' is there twice");
-    if (!visit(key, entry.second)) fail(entry.first, "unknown key '" + key + "'; the keys are " + keys);
+    if (!visit(key, entry.second))
+      fail(entry.first, std::string("unknown key '").append(key).append("'; the keys are ").append(keys));
   }
 }
 
