@@ -39,6 +39,22 @@ is laser "$(awk '$1 == "mean_bidirectional_M" { print $2 }' "$work/laser")" 4.00
   "$python" -c 'import json, sys; assert len(json.load(sys.stdin)["readings"]) == 3'
 for picture in grid circle laser; do well_formed "$work/$picture.svg"; done
 
+# A cluster whose X has two masses, backlash and a coarse scale: twice the same bits, and others than an ideal one.
+printf 'G90 G1 F3000 X30 Y10\nG3 X30 Y10 I-10 J0\nG1 X0 Y0\nM30\n' > "$work/circle.nc"
+run() {
+  "$trunnion" run "$machine" "$work/circle.nc" --report "$work/$1" > "$work/$1.log" 2>&1 || fail "$(cat "$work/$1.log")"
+  "$trunnion" export "$work/$1/recording.mcap" --csv feedback_frame > "$work/$1.csv"
+}
+run ideal
+printf 'drives:\n  X:\n    mechanics: {coulomb: 0.02, backlash_um: 10}\n    load_encoder: {resolution_um: 1}\n    feedback: load\n' \
+  > "$machine/truth.yaml"
+run first
+run second
+cmp "$work/first.csv" "$work/second.csv" || fail "the second run differs"
+commanded() { cut -d, -f5-9 "$1"; }
+cmp <(commanded "$work/first.csv") <(commanded "$work/ideal.csv") || fail "the commands differ from the ideal machine's"
+! cmp -s "$work/first.csv" "$work/ideal.csv" || fail "the drive does not use truth.yaml"
+
 printf 'axes:\n  Y: {C0Y_um: 10}\n' > "$machine/truth.yaml"
 status=0
 echo X1 | "$trunnion" truth "$machine" > "$work/out" 2> "$work/error" || status=$?

@@ -228,7 +228,7 @@ void add_measure_command(CLI::App& app, Common& common) {
   bar->add_option("--radius", options->radius, "mm (default 100)")->check(CLI::Range(1.0, 1e4));
   bar->add_option("--at", options->at, "Centre X,Y,Z of the tip in the workpiece frame (default 0,0,0)");
   bar->add_option("--points", options->points, "Readings of each circle (default 720)")
-      ->check(CLI::Range(8, 100000));
+      ->check(CLI::Range(16, 100000));
   bar->add_option("--plot", options->plot, "Write the polar plot (SVG)");
   auto* beam = add(*measure, common, "laser", "Position, straightness or angle of an axis by ISO 230-2",
                    options, &laser);

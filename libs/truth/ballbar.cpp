@@ -3,6 +3,7 @@
 
 #include <Eigen/QR>
 #include <algorithm>
+#include <cmath>
 
 #include "geometry/angle.hpp"
 
@@ -10,6 +11,15 @@ namespace trunnion::truth {
 namespace {
 
 enum Term { mean, centre_first, centre_second, scale, square, lag, back_first, back_second, terms };
+
+// deg: readings nearer to a reversal do not count in the fit. There an axis is still crossing its lost
+// motion.
+constexpr double reversal_zone = 3;
+
+bool near_reversal(double angle) {
+  const double beyond = angle - 90 * std::round(angle / 90);
+  return std::abs(beyond) < reversal_zone;
+}
 
 int sign(double value) { return (value > 0) - (value < 0); }
 
@@ -23,7 +33,7 @@ BallbarResult evaluate_ballbar(const BallbarPath& path, std::span<const BallbarR
                                std::span<const BallbarReading> cw) {
   Eigen::Matrix<double, Eigen::Dynamic, terms> rows(static_cast<Eigen::Index>(ccw.size() + cw.size()),
                                                     int{terms});
-  Eigen::VectorXd values(rows.rows());
+  Eigen::VectorXd values(rows.rows()), weights(rows.rows());
   Eigen::Index row = 0;
   const auto add = [&](std::span<const BallbarReading> readings, int sense) {
     for (const BallbarReading& reading : readings) {
@@ -39,12 +49,14 @@ BallbarResult evaluate_ballbar(const BallbarPath& path, std::span<const BallbarR
       rows(row, lag) = sense * s * c;
       rows(row, back_first) = -0.5 * first * c;
       rows(row, back_second) = -0.5 * second * s;
-      values(row++) = reading.deviation;
+      values(row) = reading.deviation;
+      weights(row++) = near_reversal(reading.angle) ? 0 : 1;
     }
   };
   add(ccw, 1);
   add(cw, -1);
-  const Eigen::Matrix<double, terms, 1> x = rows.colPivHouseholderQr().solve(values);
+  const Eigen::Matrix<double, terms, 1> x =
+      (weights.asDiagonal() * rows).colPivHouseholderQr().solve(weights.cwiseProduct(values));
   BallbarResult result;
   result.radius = x[mean];
   result.centre[static_cast<Eigen::Index>(path.first)] = x[centre_first];

@@ -7,6 +7,7 @@
 
 #include "simulated_hardware.hpp"
 #include "snapshot/fields.hpp"
+#include "truth/ballbar.hpp"
 #include "two_axes.hpp"
 
 namespace trunnion::drive {
@@ -96,6 +97,64 @@ TEST(ElasticAxis, AnIncrementalEncoderHasNoReferenceUntilItIsGivenOne) {
   EXPECT_EQ(axis.encoder(), 30);
   EXPECT_EQ(axis.command(), 30);
   EXPECT_NEAR(axis.load(), 30, 1e-9) << "the axis itself has not moved";
+}
+
+// A circle of both axes at constant speed after a run-up, seen by a ballbar.
+truth::BallbarResult ballbar(SimulatedAxis& x, SimulatedAxis& y, double radius, double speed) {
+  truth::BallbarPath path;
+  path.centre = {-radius, 0, 0};
+  path.radius = radius;
+  std::vector<truth::BallbarReading> circles[2];
+  const double turn = 2 * std::numbers::pi * radius / speed;  // s
+  path.points = static_cast<std::size_t>(std::round(turn * 1000));
+  AxisSetpoint sx, sy;
+  for (const int sense : {1, -1}) {
+    x.place(0), y.place(0);
+    sx = sy = {};
+    for (std::size_t n = 1; n <= 2 * path.points; ++n) {
+      const double t = static_cast<double>(n) * 0.001;
+      // The angular speed rises over half a turn's time.
+      const double rise = turn / 2,
+                   angle = sense * speed / radius * (t < rise ? t * t / rise / 2 : t - rise / 2);
+      const auto to = [](SimulatedAxis& axis, AxisSetpoint& s, double position) {
+        const double velocity = (position - s.position) / 0.001;
+        s = {position, velocity, (velocity - s.velocity) / 0.001};
+        axis.step(s, 0.001);
+      };
+      to(x, sx, radius * (std::cos(angle) - 1));
+      to(y, sy, radius * std::sin(angle));
+      if (n <= path.points) continue;
+      circles[sense < 0].push_back(
+          {angle * 180 / std::numbers::pi, truth::ballbar_deviation(path, {x.load(), y.load(), 0})});
+    }
+  }
+  return truth::evaluate_ballbar(path, circles[0], circles[1]);
+}
+
+TEST(Ballbar, SeesTheMismatchOfTheGainsOfTwoServoAxes) {
+  ServoParameters px, py;
+  px.velocity_feedforward = py.velocity_feedforward = 0;
+  px.acceleration_feedforward = py.acceleration_feedforward = 0;
+  px.position_gain = 50, py.position_gain = 40;
+  SimulatedAxis x, y;
+  x.configure(px), y.configure(py);
+  // 20 mm/s on a radius of 100 mm: 20 * (1/50 - 1/40) = -0.1 mm. The lag of w / Kv = 0.5 % leaves a part of
+  // second order.
+  const auto found = ballbar(x, y, 100, 20);
+  EXPECT_NEAR(found.lag_mismatch, -0.1, 0.02 * 0.1);
+  EXPECT_NEAR(found.squareness, 0, 1e-6);
+}
+
+TEST(Ballbar, SeesTheBacklashOfAnAxisWithTwoMasses) {
+  auto truth = elastic();
+  truth.mechanics->backlash = 0.02;
+  SimulatedAxis x, y;
+  x.configure({}, &truth), y.configure({});
+  const auto found = ballbar(x, y, 100, 20);
+  // With the 0.00095 mm that friction leaves in the spring; 2 % of it, and the load that crosses the gap a
+  // little later.
+  EXPECT_NEAR(found.reversal_first, 0.02 + 0.00095, 0.02 * 0.021);
+  EXPECT_NEAR(found.reversal_second, 0, 1e-3);
 }
 
 struct NoRows : EncoderRowSink {
