@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# truth_commands.sh TRUNNION MACHINES PYTHON: the commands truth and measure on a copy of a machine with a truth.yaml.
+# truth_commands.sh TRUNNION MACHINES PYTHON EXAMPLES: the commands truth and measure on a copy of a machine with a truth.yaml.
 set -euo pipefail
 trunnion=$1 python=$3
 work=$(mktemp -d)
@@ -54,6 +54,13 @@ cmp "$work/first.csv" "$work/second.csv" || fail "the second run differs"
 commanded() { cut -d, -f5-9 "$1"; }
 cmp <(commanded "$work/first.csv") <(commanded "$work/ideal.csv") || fail "the commands differ from the ideal machine's"
 ! cmp -s "$work/first.csv" "$work/ideal.csv" || fail "the drive does not use truth.yaml"
+
+# The example: a machine of tenths of a millimetre, which its drives can still move.
+cp "$4/worn-trunnion/truth.yaml" "$machine"
+"$trunnion" truth "$machine" --summary 2000 > "$work/summary"
+awk '/^tip/ && ($3 + 0 < 50 || $3 + 0 > 300) { exit 1 }' "$work/summary" || fail "$(cat "$work/summary")"
+run worn
+[ "$(commanded "$work/worn.csv" | wc -l)" = "$(commanded "$work/ideal.csv" | wc -l)" ] || fail "the run did not end"
 
 printf 'axes:\n  Y: {C0Y_um: 10}\n' > "$machine/truth.yaml"
 status=0
