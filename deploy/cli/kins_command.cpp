@@ -2,16 +2,14 @@
 // kins: positions through the kinematics of a machine, without a cluster
 #include <CLI/CLI.hpp>
 #include <cmath>
-#include <filesystem>
 #include <iostream>
 #include <memory>
-#include <sstream>
 
-#include "cluster/cluster_files.hpp"
 #include "commands.hpp"
 #include "machine/kinematics.hpp"
 #include "machine/machine.hpp"
 #include "machine/pose_lines.hpp"
+#include "machine_settings.hpp"
 
 namespace trunnion::cli {
 namespace {
@@ -23,52 +21,11 @@ struct KinsOptions {
   std::vector<std::string> set;
 };
 
-std::string directory_of(const std::string& machine) {
-  const std::filesystem::path path(machine);
-  if (path.filename() != "machine.yaml") return cluster::find_machine(machine);
-  return cluster::find_machine(path.has_parent_path() ? path.parent_path().string() : ".");
-}
-
-// The vector of a correction, as its element in machine.yaml has it.
-bool apply_correction(machine::Parameters& parameters, std::uint16_t channel, const std::string& name,
-                      const std::string& text) {
-  for (const auto& element : machine::correction_elements(parameters, channel)) {
-    if (element.name != name) continue;
-    std::istringstream in(text);
-    double v[3];
-    char comma[2];
-    if (!(in >> v[0] >> comma[0] >> v[1] >> comma[1] >> v[2]) || comma[0] != ',' || comma[1] != ',' ||
-        in >> comma[0])
-      throw std::runtime_error("--set " + name + ": expected NAME=X,Y,Z");
-    for (std::uint32_t i = 0; i < 3; ++i) {
-      const double value = element.sign * v[i];
-      const auto refused = machine::Catalogue::instance().check(element.number + i, value, "");
-      if (!refused.empty()) throw std::runtime_error(refused);
-      parameters.values[element.number + i] = {value, ""};
-    }
-    return true;
-  }
-  return false;
-}
-
-void apply(machine::Parameters& parameters, std::uint16_t channel, const std::string& setting) {
-  const auto equals = setting.find('=');
-  if (equals == std::string::npos)
-    throw std::runtime_error("--set " + setting + ": expected NUMBER=VALUE or NAME=X,Y,Z");
-  if (apply_correction(parameters, channel, setting.substr(0, equals), setting.substr(equals + 1))) return;
-  std::string number = setting.substr(0, equals);
-  if (!number.empty() && number.size() < 6) number.insert(0, 6 - number.size(), '0');
-  // As a line of parameters.yaml, so that the same limits hold.
-  const auto values =
-      machine::read_parameter_text("\"" + number + "\": " + setting.substr(equals + 1), "--set " + setting);
-  for (const auto& [key, value] : values) parameters.values[key] = value;
-}
-
 int kins(const KinsOptions& options) {
   if (!std::isfinite(options.tool_length)) throw std::runtime_error("--tool-length: not a number");
   machine::Parameters parameters;
-  parameters.values = machine::machine_parameters(machine::load_machine(directory_of(options.machine)));
-  for (const auto& setting : options.set) apply(parameters, options.channel, setting);
+  parameters.values = machine::machine_parameters(machine::load_machine(machine_directory(options.machine)));
+  for (const auto& setting : options.set) apply_setting(parameters, options.channel, setting);
   const machine::PoseLines lines(parameters, options.channel, options.tool_length);
   for (const auto& line : machine::kinematics_warnings(parameters, options.channel))
     std::cerr << "trunnion: warning: " << line << "\n";

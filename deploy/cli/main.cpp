@@ -20,6 +20,8 @@ int main(int argc, char** argv) {
   add_parameter_commands(app, common);
   add_topic_commands(app, common);
   add_kins_command(app, common);
+  add_truth_command(app, common);
+  add_measure_command(app, common);
   add_check_command(app, common);
   add_plan_command(app, common);
   add_program_commands(app, common);

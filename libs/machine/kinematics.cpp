@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "machine/alarm_constants.hpp"
+#include "machine/chain_parameters.hpp"
 #include "machine/parameter_constants.hpp"
 
 namespace trunnion::machine {
@@ -133,7 +134,7 @@ const AlarmDefinition& alarm_of(const std::exception& error) {
   return kinematics != nullptr ? kinematics->alarm() : alarm::kinematics_invalid;
 }
 
-geometry::Chain make_chain(const Parameters& parameters, std::uint16_t channel) {
+geometry::ChainParameters chain_parameters(const Parameters& parameters, std::uint16_t channel) {
   geometry::ChainParameters p;
   p.tool_direction = vector(parameters, parameter::tool_direction, channel);
   read_side(parameters, head, channel, {&p.head_2, &p.head_1, &p.head_0});
@@ -145,7 +146,11 @@ geometry::Chain make_chain(const Parameters& parameters, std::uint16_t channel) 
   p.origin = vector(parameters, parameter::chain_origin, channel);
   p.open = parameters.integer(parameter::chain_open, channel) != 0;
   p.base_correction = vector(parameters, parameter::base_correction, channel);
-  auto made = geometry::Chain::make(p);
+  return p;
+}
+
+geometry::Chain make_chain(const Parameters& parameters, std::uint16_t channel) {
+  auto made = geometry::Chain::make(chain_parameters(parameters, channel));
   if (const auto* error = std::get_if<ChainError>(&made)) {
     std::string where = number_of(parameter::tool_direction, channel) + " .. " +
                         number_of(parameter::table_offset_2, channel, 2);

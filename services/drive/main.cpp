@@ -1,15 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <filesystem>
 #include <stdexcept>
 
+#include "machine/yaml.hpp"
 #include "service.hpp"
 #include "simulation/simulated_hardware.hpp"
+#include "truth/truth_file.hpp"
 
 namespace trunnion::drive {
 namespace {
 
+// Of truth.yaml beside machine.yaml, which refers to the machine as it was delivered.
+std::map<std::string, truth::DriveTruth> drives_of(const machine::MachineConfig& config) {
+  const auto file = config.directory + "/truth.yaml";
+  if (!std::filesystem::exists(file)) return {};
+  machine::Parameters delivered;
+  delivered.values = machine::machine_parameters(config);
+  return truth::parse_truth(machine::read_text(file), file, truth::outline_of(delivered, 0)).drives;
+}
+
 class SimulatedDrive : public DriveService {
  public:
-  explicit SimulatedDrive(service::Node& node) : DriveService(node, std::make_unique<SimulatedHardware>()) {
+  explicit SimulatedDrive(service::Node& node)
+      : DriveService(node, std::make_unique<SimulatedHardware>(drives_of(node.options().machine))) {
     if (node.options().machine.hardware != machine::Hardware::simulation)
       throw std::runtime_error(
           "this program moves simulated axes only; machine.yaml says 'hardware: hal', which " +

@@ -31,12 +31,14 @@ ServoParameters ServoParameters::from(const machine::Parameters& p, std::uint32_
 
 void ServoAxis::place(double position) {
   command_ = position_ = encoder_ = load_ = position;
-  velocity_ = torque_ = integral_ = 0;
+  velocity_ = 0;
+  loop_.clear();
 }
 
 void ServoAxis::hold() {
   command_ = position_;
-  velocity_ = torque_ = integral_ = 0;
+  velocity_ = 0;
+  loop_.clear();
 }
 
 void ServoAxis::step(const AxisSetpoint& setpoint, double dt) {
@@ -48,21 +50,13 @@ void ServoAxis::step(const AxisSetpoint& setpoint, double dt) {
   for (int i = 0; i < substeps; ++i) {
     const double t = i * h;
     const double set = command_ + (velocity + acceleration * t / 2) * t;
-    const double speed_set =
-        p_.position_gain * (set - position_) + p_.velocity_feedforward * (velocity + acceleration * t);
-    const double speed_error = speed_set - velocity_;
-    const double demand =
-        p_.speed_gain * speed_error + integral_ + p_.acceleration_feedforward * acceleration;
-    const double limited = std::clamp(demand, -p_.peak_torque, p_.peak_torque);
-    // The integrator stops while the torque is at its limit, so that it does not wind up.
-    if (p_.speed_integral_time > 0 && demand == limited)
-      integral_ += p_.speed_gain / p_.speed_integral_time * speed_error * h;
-    torque_ += (limited - torque_) * std::min(1.0, h / p_.current_time_constant);
+    const double torque =
+        loop_.step(p_, set - position_, velocity + acceleration * t, acceleration, velocity_, h);
     // Coulomb friction is steep rather than a step around standstill, so that the solution does not chatter.
     constexpr double steep = 0.05;  // mm/s or deg/s
     const double friction = p_.rated_torque * (p_.coulomb * std::clamp(velocity_ / steep, -1.0, 1.0) +
                                                p_.viscous * velocity_ / p_.rapid);
-    const double change = (torque_ - friction) / p_.inertia * h;
+    const double change = (torque - friction) / p_.inertia * h;
     position_ += (velocity_ + change / 2) * h;
     velocity_ += change;
   }

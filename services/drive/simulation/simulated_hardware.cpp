@@ -15,8 +15,9 @@ void SimulatedHardware::configure(const machine::Parameters& p, const std::vecto
   homed_.resize(axes.size(), 1);
   for (std::size_t i = 0; i < axes.size(); ++i) {
     const auto number = axes[i].number;
+    const auto truth = truth_.find(axes[i].name);
+    servos_[i].configure(ServoParameters::from(p, number), truth == truth_.end() ? nullptr : &truth->second);
     if (first) servos_[i].place(p.get(parameter::reference_coordinate, number));
-    servos_[i].configure(ServoParameters::from(p, number));
     home_switches_[i].position = p.get(parameter::reference_coordinate, number);
     home_switches_[i].direction = p.integer(parameter::homing_direction, number);
   }
@@ -49,7 +50,7 @@ void SimulatedHardware::status(DriveStatus& out) const {
     axis.hold_position = servo.command();
     axis.velocity = servo.velocity();
     axis.torque = servo.torque();
-    axis.homed = homed_[i] != 0;
+    axis.homed = homed_[i] != 0 && servo.homed();
     axis.home_switch = home_switches_[i].on;
     axis.home_latch = home_switches_[i].latch;
   }
@@ -59,7 +60,7 @@ void SimulatedHardware::status(DriveStatus& out) const {
 }
 
 void SimulatedHardware::set_reference(std::size_t i, double shift) {
-  servos_[i].place(servos_[i].command() + shift);
+  servos_[i].set_reference(shift);
   homed_[i] = 1;
 }
 

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // A simulated machine: servo loops with their mechanics, spindles, skip inputs, and home switches at the
-// reference coordinates. Its encoders are absolute, its axes homed while their positions are known, and a row
-// is executed while it is handed over.
+// reference coordinates. Its encoders are absolute, unless truth.yaml says otherwise, and its axes homed
+// while their positions are known. A row is executed while it is handed over.
 #pragma once
 
+#include <map>
+#include <string>
+
 #include "drive_hardware.hpp"
-#include "servo_axis.hpp"
+#include "simulated_axis.hpp"
 #include "simulated_spindle.hpp"
 #include "skip_inputs.hpp"
 
@@ -13,6 +16,10 @@ namespace trunnion::drive {
 
 class SimulatedHardware : public DriveHardware {
  public:
+  /// `truth`: the drives of truth.yaml; the other axes are ServoAxis.
+  explicit SimulatedHardware(std::map<std::string, truth::DriveTruth> truth = {})
+      : truth_(std::move(truth)) {}
+
   void configure(const machine::Parameters& parameters, const std::vector<machine::AxisInfo>& axes,
                  const std::vector<machine::AxisInfo>& spindles, double period) override;
   void restore(std::span<const double> positions, std::span<const std::uint8_t> homed) override;
@@ -44,8 +51,9 @@ class SimulatedHardware : public DriveHardware {
   };
   double period_ = 0.001;
   std::vector<HomeSwitch> home_switches_;
-  std::vector<ServoAxis> servos_;
+  std::vector<SimulatedAxis> servos_;
   std::vector<std::uint8_t> homed_;
+  std::map<std::string, truth::DriveTruth> truth_;  // by the name of the axis
   std::vector<SimulatedSpindle> spindles_;
   SkipInputs skip_inputs_;
   std::vector<double> encoder_, angle_;  // of the row that is handed over

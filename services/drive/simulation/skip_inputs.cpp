@@ -14,7 +14,7 @@ void SkipInputs::configure(const machine::Parameters& p, const std::vector<machi
   }
 }
 
-void SkipInputs::step(const std::vector<ServoAxis>& servos, std::uint64_t number, EncoderRowSink& rows) {
+void SkipInputs::step(const std::vector<SimulatedAxis>& servos, std::uint64_t number, EncoderRowSink& rows) {
   const bool first = load_.size() != servos.size();
   if (first) {
     load_.resize(servos.size());

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "drive_hardware.hpp"
-#include "servo_axis.hpp"
+#include "simulated_axis.hpp"
 
 namespace trunnion::drive {
 
@@ -16,7 +16,7 @@ class SkipInputs {
   void configure(const machine::Parameters& parameters, const std::vector<machine::AxisInfo>& axes);
   /// The period of row `number` is over. Within it every axis is taken to have moved evenly, so a position is
   /// latched more finely than by the period. The first call only learns where the axes are.
-  void step(const std::vector<ServoAxis>& servos, std::uint64_t number, EncoderRowSink& rows);
+  void step(const std::vector<SimulatedAxis>& servos, std::uint64_t number, EncoderRowSink& rows);
 
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {

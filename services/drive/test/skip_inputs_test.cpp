@@ -13,7 +13,7 @@ struct SkipInput : ::testing::Test, EncoderRowSink {
   }
   void encoder_row(const EncoderRow&) override {}
   SkipInputs inputs;
-  std::vector<ServoAxis> servos{2};
+  std::vector<SimulatedAxis> servos{2};
   std::vector<idl::stream::SkipEdge> edges;
 
   // Input 1: axis 0 below -2; input 3: axis 1 above 5.

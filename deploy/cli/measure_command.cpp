@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: Apache-2.0
+// measure: the instruments on a machine with errors, without a cluster
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <iostream>
+#include <memory>
+#include <sstream>
+
+#include "bus/json.hpp"
+#include "commands.hpp"
+#include "storage/file.hpp"
+#include "true_machine.hpp"
+#include "truth/measurement.hpp"
+#include "truth_picture.hpp"
+
+namespace trunnion::cli {
+namespace {
+
+constexpr double um = 1e3, urad = 1e6;
+
+struct MeasureOptions {
+  std::string machine, plot, plane = "XY", error = "EXX", axis = "C", at = "0,0,0";
+  double tool_length = 0, radius = 100, from = 0, to = 0;
+  std::uint16_t channel = 0;
+  std::size_t points = 0, runs = 5;
+  std::vector<std::string> set;
+};
+
+truth::Vec3 vector_of(const std::string& option, const std::string& text) {
+  std::istringstream in(text);
+  truth::Vec3 v;
+  char comma[2], more = 0;
+  if (!(in >> v[0] >> comma[0] >> v[1] >> comma[1] >> v[2]) || comma[0] != ',' || comma[1] != ',' ||
+      in >> more || !v.allFinite() || !(v.cwiseAbs().maxCoeff() <= 1e6))
+    throw std::runtime_error(option + " " + text + ": expected X,Y,Z in mm");
+  return v;
+}
+
+bus::Json json_of(const truth::Vec3& v, double unit) {
+  return bus::Json::array({v[0] * unit, v[1] * unit, v[2] * unit});
+}
+
+truth::InstrumentTruth instrument(const TrueMachine& machine, const std::string& name) {
+  const auto found = machine.truth.instruments.find(name);
+  return found == machine.truth.instruments.end() ? truth::InstrumentTruth{} : found->second;
+}
+
+void print(const char* name, double value, const char* unit) {
+  char line[120];
+  std::snprintf(line, sizeof line, "%-34s %10.3f %s", name, value, unit);
+  std::cout << line << "\n";
+}
+
+void write_plot(const std::string& path, const std::string& svg, bool json) {
+  if (path.empty()) return;
+  storage::replace_file(path, svg);
+  if (!json) std::cout << path << "\n";
+}
+
+TrueMachine machine_of(const MeasureOptions& o) {
+  if (!std::isfinite(o.tool_length)) throw std::runtime_error("--tool-length: not a number");
+  auto machine = load_true_machine(o.machine, o.channel, o.set);
+  machine.report->tool_length = o.tool_length;
+  return machine;
+}
+
+int ballbar(const MeasureOptions& o, bool json) {
+  const auto machine = machine_of(o);
+  truth::BallbarPath path;
+  path.centre = vector_of("--at", o.at);
+  path.radius = o.radius;
+  path.first = o.plane[0] == 'X' ? 0 : 1;
+  path.second = o.plane[1] == 'Y' ? 1 : 2;
+  if (o.points > 0) path.points = o.points;
+  const auto m = truth::measure_ballbar(*machine.report, path, instrument(machine, "ballbar"));
+  const auto& r = m.result;
+  write_plot(o.plot, ballbar_picture(m, machine.name + ", plane " + o.plane), json);
+  if (json) {
+    const auto readings = [](const auto& list) {
+      bus::Json all = bus::Json::array();
+      for (const auto& reading : list) all.push_back({reading.angle, reading.deviation * um});
+      return all;
+    };
+    std::cout << bus::text_of({{"machine", machine.name},
+                               {"plane", o.plane},
+                               {"radius_mm", path.radius},
+                               {"circular_ccw_um", r.circular_ccw * um},
+                               {"circular_cw_um", r.circular_cw * um},
+                               {"bidirectional_um", r.bidirectional * um},
+                               {"radial_um", {r.radial_minimum * um, r.radial_maximum * um}},
+                               {"centre_um", json_of(r.centre, um)},
+                               {"radius_um", r.radius * um},
+                               {"squareness_urad", r.squareness * urad},
+                               {"scale_mismatch_um_per_m", r.scale_mismatch * urad},
+                               {"reversal_um", {r.reversal_first * um, r.reversal_second * um}},
+                               {"lag_mismatch_um", r.lag_mismatch * um},
+                               {"ccw", readings(m.ccw)},
+                               {"cw", readings(m.cw)}})
+              << "\n";
+    return 0;
+  }
+  const std::string first(1, o.plane[0]), second(1, o.plane[1]);
+  print("circular deviation G, ccw", r.circular_ccw * um, "um");
+  print("circular deviation G, cw", r.circular_cw * um, "um");
+  print("bidirectional G(b)", r.bidirectional * um, "um");
+  print("radial deviation F, least", r.radial_minimum * um, "um");
+  print("radial deviation F, largest", r.radial_maximum * um, "um");
+  print("squareness", r.squareness * urad, "urad (above zero: more than 90 degrees)");
+  print(("scale " + first + " less " + second).c_str(), r.scale_mismatch * urad, "um/m");
+  print(("lost motion " + first).c_str(), r.reversal_first * um, "um");
+  print(("lost motion " + second).c_str(), r.reversal_second * um, "um");
+  return 0;
+}
+
+int laser(const MeasureOptions& o, bool json) {
+  const auto machine = machine_of(o);
+  truth::LaserPlan plan;
+  const std::string letters = "XYZABC";
+  plan.component = o.error.size() == 3 && o.error[0] == 'E' ? letters.find(o.error[1]) : std::string::npos;
+  plan.axis = o.error.size() == 3 ? letters.find(o.error[2]) : std::string::npos;
+  if (plan.component == std::string::npos || plan.axis > 2)
+    throw std::runtime_error("--error " + o.error + ": expected EXX, EYX .. ECZ: an error of X, Y or Z");
+  const bool angle = plan.component > 2;
+  if (angle && truth::Vec3::Unit(static_cast<Eigen::Index>(plan.component - 3))
+                       .cross(machine.report->model().tool_direction())
+                       .norm() < 0.01)
+    throw std::runtime_error("--error " + o.error +
+                             ": a rotation about the tool does not move the tool's axis");
+  const auto& travel = machine.outline.axes[plan.axis];
+  const bool given = o.from != o.to;
+  plan.from = given ? o.from : travel.low + 0.05 * (travel.high - travel.low);
+  plan.to = given ? o.to : travel.high - 0.05 * (travel.high - travel.low);
+  if (!(plan.to > plan.from)) throw std::runtime_error("--from must be below --to");
+  plan.others = vector_of("--at", o.at);
+  if (o.points > 0) plan.targets = o.points;
+  plan.runs = o.runs;
+  const auto m =
+      truth::measure_laser(*machine.report, plan, instrument(machine, angle ? "laser_angle" : "laser"));
+  const double unit = angle ? urad : um;
+  const char* name = angle ? "urad" : "um";
+  write_plot(o.plot, laser_picture(m, machine.name + " " + o.error, unit, name), json);
+  const auto& a = m.accuracy;
+  const std::pair<const char*, double> figures[] = {{"accuracy_A", a.accuracy},
+                                                    {"systematic_E", a.systematic},
+                                                    {"mean_bidirectional_M", a.mean_bidirectional},
+                                                    {"repeatability_R", a.repeatability},
+                                                    {"reversal_B", a.reversal},
+                                                    {"mean_reversal", a.mean_reversal}};
+  if (json) {
+    bus::Json out = {{"machine", machine.name}, {"error", o.error}, {"unit", name}};
+    for (const auto& [figure, value] : figures) out[figure] = value * unit;
+    for (const auto& target : m.targets) {
+      bus::Json up = bus::Json::array(), down = bus::Json::array();
+      for (const double value : target.up) up.push_back(value * unit);
+      for (const double value : target.down) down.push_back(value * unit);
+      out["targets"].push_back({{"position_mm", target.position}, {"up", up}, {"down", down}});
+    }
+    std::cout << bus::text_of(out) << "\n";
+    return 0;
+  }
+  for (const auto& target : m.targets) {
+    char line[120];
+    double up = 0, down = 0;
+    for (const double value : target.up) up += value * unit / static_cast<double>(target.up.size());
+    for (const double value : target.down) down += value * unit / static_cast<double>(target.down.size());
+    std::snprintf(line, sizeof line, "%12.4f %10.3f %10.3f %s", target.position, up, down, name);
+    std::cout << line << "\n";
+  }
+  for (const auto& [figure, value] : figures) print(figure, value * unit, name);
+  return 0;
+}
+
+int rtest(const MeasureOptions& o, bool json) {
+  const auto machine = machine_of(o);
+  const auto index = o.axis.size() == 1 ? std::string_view("ABCUVW").find(o.axis[0]) : std::string_view::npos;
+  if (index == std::string_view::npos || !machine.report->model().turns(index))
+    throw std::runtime_error("--axis " + o.axis + ": the machine has no rotary axis of this name");
+  const auto& travel = machine.outline.axes[3 + index];
+  const bool given = o.from != o.to;
+  const double from = given ? o.from : std::max(travel.low, -180.0),
+               to = given ? o.to : std::min(travel.high, 180.0);
+  const auto readings =
+      truth::measure_nest(*machine.report, 3 + index, from, to, o.points > 0 ? o.points : 13,
+                          vector_of("--at", o.at), instrument(machine, "rtest"));
+  bus::Json out = bus::Json::array();
+  for (const auto& r : readings) {
+    if (json) {
+      out.push_back({{"angle_deg", r.angle},
+                     {"sensors_um", {r.sensors[0] * um, r.sensors[1] * um, r.sensors[2] * um}},
+                     {"deviation_um", json_of(r.deviation, um)}});
+      continue;
+    }
+    char line[160];
+    std::snprintf(line, sizeof line, "%10.3f %9.3f %9.3f %9.3f   %9.3f %9.3f %9.3f", r.angle,
+                  r.sensors[0] * um, r.sensors[1] * um, r.sensors[2] * um, r.deviation[0] * um,
+                  r.deviation[1] * um, r.deviation[2] * um);
+    std::cout << line << "\n";
+  }
+  if (json)
+    std::cout << bus::text_of({{"machine", machine.name}, {"axis", o.axis}, {"readings", out}}) << "\n";
+  return 0;
+}
+
+CLI::App* add(CLI::App& app, Common& common, const std::string& name, const std::string& about,
+              const std::shared_ptr<MeasureOptions>& options, int (*run)(const MeasureOptions&, bool)) {
+  auto* command =
+      add_command(app, common, name, about, [options, &common, run] { return run(*options, common.json); });
+  command
+      ->add_option("machine", options->machine,
+                   "Name under configs/machines, or a directory with machine.yaml")
+      ->required();
+  command->add_option("--tool-length", options->tool_length, "mm (default 0)")->check(CLI::Range(-1e6, 1e6));
+  command->add_option("--channel", options->channel, "Channel (default 0)")->check(CLI::Range(0, 9));
+  command->add_option("--set", options->set, "As of `trunnion truth`; may be repeated")->take_all();
+  return command;
+}
+
+}  // namespace
+
+void add_measure_command(CLI::App& app, Common& common) {
+  auto* measure = app.add_subcommand("measure", "Measure a machine that has a truth.yaml, without a cluster");
+  measure->require_subcommand(1);
+  auto options = std::make_shared<MeasureOptions>();
+  auto* bar = add(*measure, common, "ballbar", "Circular test by ISO 230-4: both circles and what they say",
+                  options, &ballbar);
+  bar->add_option("--plane", options->plane, "XY (default), XZ or YZ")
+      ->check(CLI::IsMember({"XY", "XZ", "YZ"}));
+  bar->add_option("--radius", options->radius, "mm (default 100)")->check(CLI::Range(1.0, 1e4));
+  bar->add_option("--at", options->at, "Centre X,Y,Z of the tip in the workpiece frame (default 0,0,0)");
+  bar->add_option("--points", options->points, "Readings of each circle (default 720)")
+      ->check(CLI::Range(16, 100000));
+  bar->add_option("--plot", options->plot, "Write the polar plot (SVG)");
+  auto* beam = add(*measure, common, "laser", "Position, straightness or angle of an axis by ISO 230-2",
+                   options, &laser);
+  beam->add_option("--error", options->error, "EXX (default), EYX, EBX ...: which error of which axis");
+  beam->add_option("--from", options->from, "First target in machine coordinates, mm (default: the travel)");
+  beam->add_option("--to", options->to, "Last target");
+  beam->add_option("--at", options->at, "X,Y,Z of the other axes in machine coordinates (default 0,0,0)");
+  beam->add_option("--points", options->points, "Targets (default 11)")->check(CLI::Range(2, 10000));
+  beam->add_option("--runs", options->runs, "Runs up and down (default 5)")->check(CLI::Range(2, 1000));
+  beam->add_option("--plot", options->plot, "Write the deviations (SVG)");
+  auto* nest =
+      add(*measure, common, "rtest",
+          "A rotary axis turns while the control keeps the tip at a place of the workpiece (RTCP): angle, "
+          "three sensors, deviation x y z",
+          options, &rtest);
+  nest->add_option("--axis", options->axis, "Rotary axis (default C)");
+  nest->add_option("--from", options->from, "deg (default: the travel, at most a turn)");
+  nest->add_option("--to", options->to, "deg");
+  nest->add_option("--at", options->at, "Place X,Y,Z of the ball in the workpiece frame (default 0,0,0)");
+  nest->add_option("--points", options->points, "Angles (default 13)")->check(CLI::Range(2, 10000));
+}
+
+}  // namespace trunnion::cli

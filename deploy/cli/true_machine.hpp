@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// A machine of the command line with its truth.yaml.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "truth/pose_report.hpp"
+#include "truth/truth_file.hpp"
+
+namespace trunnion::cli {
+
+struct TrueMachine {
+  std::string name;
+  truth::MachineOutline outline;
+  truth::Truth truth;
+  std::unique_ptr<truth::PoseReport> report;
+};
+
+/// `settings`: NAME=VALUE of the truth (location errors, temperature rises) or of the control's model. Throws
+/// std::runtime_error.
+TrueMachine load_true_machine(const std::string& machine, std::uint16_t channel,
+                              const std::vector<std::string>& settings);
+
+}  // namespace trunnion::cli

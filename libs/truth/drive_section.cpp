@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "truth/drive_section.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <tuple>
+
+#include "truth/error_section.hpp"
+
+namespace trunnion::truth {
+namespace {
+
+constexpr double highest_frequency = 500;  // Hz: beyond it the steps of the simulation are too long
+
+class DriveParser {
+ public:
+  DriveParser(const TruthReader& reader, bool turns)
+      : reader_(reader), turns_(turns), place_(turns ? "_deg" : "_mm"), fine_(turns ? "_urad" : "_um") {
+    small_ = turns ? 1e-6 * 180 / std::numbers::pi : 1e-3;
+  }
+
+  DriveTruth read(const YAML::Node& node) {
+    DriveTruth drive;
+    reader_.each(node, "mechanics, motor_encoder, load_encoder, feedback",
+                 [&](const std::string& key, const YAML::Node& v) {
+                   if (key == "mechanics") return drive.mechanics = mechanics(v), true;
+                   if (key == "motor_encoder") return drive.motor = encoder(v), true;
+                   if (key == "load_encoder") return drive.load = encoder(v), true;
+                   return key == "feedback" &&
+                          (drive.load_feedback = reader_.choice<bool>(v, {{"motor", false}, {"load", true}}),
+                           true);
+                 });
+    if (drive.load_feedback && !drive.load)
+      reader_.fail(node, "feedback: load, but there is no load_encoder");
+    return drive;
+  }
+
+ private:
+  using Targets = std::initializer_list<std::tuple<std::string, double*, Limits, double>>;
+  bool number(const Targets& targets, const std::string& key, const YAML::Node& node) const {
+    for (const auto& [name, target, limits, unit] : targets)
+      if (name == key) return *target = unit * reader_.number(node, limits), true;
+    return false;
+  }
+  static std::string names(const Targets& targets, std::string text) {
+    for (const auto& target : targets) text.append(text.empty() ? "" : ", ").append(std::get<0>(target));
+    return text;
+  }
+
+  MechanicsTruth mechanics(const YAML::Node& node) const {
+    MechanicsTruth m;
+    const std::string per_speed = turns_ ? "_deg_per_s" : "_mm_per_s";
+    const Limits share{0, 10};
+    const Targets targets{{"load_share", &m.load_share, {0.02, 0.98}, 1},
+                          {"locked_frequency_Hz", &m.locked_frequency, {1, highest_frequency}, 1},
+                          {"damping_ratio", &m.damping_ratio, {0, 1}, 1},
+                          {"coulomb", &m.coulomb, share, 1},
+                          {"breakaway", &m.breakaway, share, 1},
+                          {"stribeck_speed" + per_speed, &m.stribeck_speed, {0.01, 1e4}, 1},
+                          {"viscous_per" + per_speed, &m.viscous, {0, 1}, 1},
+                          {"backlash" + fine_, &m.backlash, {0, 1e5}, small_},
+                          {"gravity", &m.gravity, {-10, 10}, 1},
+                          {"cogging", &m.cogging, share, 1},
+                          {"cogging_period" + place_, &m.cogging_period, {1e-3, 1e5}, 1},
+                          {"cogging_phase_deg", &m.cogging_phase, {-360, 360}, 1}};
+    const std::string screw = "screw_error";
+    reader_.each(node, names(targets, screw), [&](const std::string& key, const YAML::Node& v) {
+      if (key == screw) return m.screw = terms(v), true;
+      return number(targets, key, v);
+    });
+    const double resonance = m.locked_frequency / std::sqrt(1 - m.load_share);
+    if (resonance > highest_frequency) {
+      char text[160];
+      std::snprintf(text, sizeof text,
+                    "the resonance locked_frequency_Hz / sqrt(1 - load_share) is %.0f Hz, above %.0f Hz",
+                    resonance, highest_frequency);
+      reader_.fail(node, text);
+    }
+    if (node["breakaway"] && m.breakaway < m.coulomb)
+      reader_.fail(node["breakaway"], "breakaway is less than coulomb");
+    return m;
+  }
+
+  // Values of rotary axes in urad become deg.
+  ErrorFunction terms(const YAML::Node& node) const {
+    auto errors = read_errors(
+        reader_, node, turns_ ? 3 : 0, turns_ ? 3 : 0,
+        [&](const YAML::Node& n, const std::string&) -> std::size_t {
+          reader_.fail(n, "the error of a screw is one by the position of its motor");
+        },
+        [&](std::size_t) { return turns_; });
+    ErrorFunction f = std::move(errors.front().function);
+    if (turns_) {
+      const double degrees = 180 / std::numbers::pi;
+      for (auto* t : {&f.terms, &f.positive, &f.negative}) {
+        for (auto& p : t->polynomials)
+          for (double& c : p.coefficients) c *= degrees;
+        for (auto& h : t->harmonics) h.amplitude *= degrees;
+        for (auto& table : t->tables)
+          for (double& value : table.values) value *= degrees;
+      }
+      f.reversal *= degrees;
+    }
+    return f;
+  }
+
+  EncoderTruth encoder(const YAML::Node& node) const {
+    EncoderTruth e;
+    double lost = 0;
+    const Targets targets{{"resolution" + fine_, &e.resolution, {1e-5, 1e4}, small_},
+                          {"signal_period" + fine_, &e.signal_period, {0, 1e6}, small_},
+                          {"amplitude_error", &e.amplitude, {-0.5, 0.5}, 1},
+                          {"sine_offset", &e.sine_offset, {-0.5, 0.5}, 1},
+                          {"cosine_offset", &e.cosine_offset, {-0.5, 0.5}, 1},
+                          {"phase_error_deg", &e.phase, {-45, 45}, 1},
+                          {"mark_spacing" + place_, &e.mark_spacing, {0.01, 1e4}, 1},
+                          {"mark_increment" + place_, &e.mark_increment, {1e-3, 100}, 1},
+                          {"first_mark" + place_, &e.first_mark, {-1e5, 1e5}, 1},
+                          {"lost_at" + place_, &e.lost_at, {-1e5, 1e5}, 1},
+                          {"lost_counts", &lost, {-1e6, 1e6}, 1}};
+    reader_.each(node, names(targets, "kind, inverted"), [&](const std::string& key, const YAML::Node& v) {
+      if (key == "kind")
+        return e.kind = reader_.choice<EncoderKind>(v, {{"absolute", EncoderKind::absolute},
+                                                        {"incremental", EncoderKind::incremental},
+                                                        {"distance_coded", EncoderKind::distance_coded}}),
+               true;
+      if (key == "inverted")
+        return e.inverted = reader_.choice<bool>(v, {{"false", false}, {"true", true}}), true;
+      return number(targets, key, v);
+    });
+    e.lost_counts = static_cast<std::int32_t>(lost);
+    if (e.kind == EncoderKind::distance_coded && e.mark_increment * 4 > e.mark_spacing)
+      reader_.fail(node, "the increment of distance-coded marks must be at most a quarter of their spacing");
+    return e;
+  }
+
+  const TruthReader& reader_;
+  bool turns_;
+  std::string place_, fine_;
+  double small_ = 1e-3;
+};
+
+}  // namespace
+
+std::map<std::string, DriveTruth> read_drives(const TruthReader& reader, const YAML::Node& section,
+                                              const std::vector<std::string>& axes,
+                                              const std::vector<std::string>& turning) {
+  std::string known;
+  for (const auto& name : axes) known.append(known.empty() ? "" : ", ").append(name);
+  std::map<std::string, DriveTruth> drives;
+  const auto in = [](const std::vector<std::string>& list, const std::string& name) {
+    return std::find(list.begin(), list.end(), name) != list.end();
+  };
+  reader.each(section, known, [&](const std::string& name, const YAML::Node& node) {
+    return in(axes, name) && (drives[name] = DriveParser(reader, in(turning, name)).read(node), true);
+  });
+  return drives;
+}
+
+}  // namespace trunnion::truth

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+// The section `drives` of truth.yaml.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "truth/drive_truth.hpp"
+#include "truth/truth_reader.hpp"
+
+namespace trunnion::truth {
+
+/// By the names of the servo axes; `turning` are those that turn. Throws std::runtime_error that begins with
+/// file:line:column.
+std::map<std::string, DriveTruth> read_drives(const TruthReader& reader, const YAML::Node& section,
+                                              const std::vector<std::string>& names,
+                                              const std::vector<std::string>& turning);
+
+}  // namespace trunnion::truth

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+// The mechanics and the encoders of one servo axis as they are: the section `drives` of truth.yaml.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "truth/error_function.hpp"
+
+namespace trunnion::truth {
+
+/// Motor and load with an elastic coupling between them. Torques are shares of the motor's rated torque;
+/// positions and speeds are those of the load, mm or deg. Frequencies follow from the share of the load in
+/// the total inertia.
+struct MechanicsTruth {
+  double load_share = 0.5;        ///< of the total inertia, 0.02 .. 0.98
+  double locked_frequency = 100;  ///< Hz: of the load while the motor is held
+  double damping_ratio = 0.03;    ///< of that vibration
+  /// Friction of the load's guide: coulomb + (breakaway - coulomb) / (1 + (v / stribeck_speed)^2) + viscous *
+  /// |v|.
+  double coulomb = 0, breakaway = 0;
+  double stribeck_speed = 1;                      ///< mm/s or deg/s
+  double viscous = 0;                             ///< per mm/s or deg/s
+  double backlash = 0;                            ///< mm or deg
+  double gravity = 0;                             ///< pulls the load in the negative direction
+  double cogging = 0;                             ///< amplitude
+  double cogging_period = 10, cogging_phase = 0;  ///< mm or deg of the axis; deg
+  ErrorFunction screw;  ///< by the motor's position: how far the load is ahead of it, mm or deg
+};
+
+enum class EncoderKind : std::uint8_t {
+  absolute,        ///< has its position from the start
+  incremental,     ///< counts from its start, with an index at regular positions
+  distance_coded,  ///< counts from its start; the distance of two neighbouring marks gives their place
+};
+
+/// One encoder. mm or deg of the axis.
+struct EncoderTruth {
+  EncoderKind kind = EncoderKind::absolute;
+  double resolution = 1e-5;
+  bool inverted = false;     ///< mounted the wrong way round
+  double signal_period = 0;  ///< of a 1 Vpp signal; 0: digital, without an interpolation error
+  double amplitude = 0;      ///< of the sine over the cosine, less one
+  double sine_offset = 0, cosine_offset = 0;  ///< shares of the amplitude
+  double phase = 0;                           ///< deg: of the sine ahead of its right place
+  double mark_spacing = 20;      ///< of the index marks; of distance-coded marks: of those of the first track
+  double mark_increment = 0.02;  ///< distance-coded: by which the gaps change
+  double first_mark = 0;         ///< of distance-coded marks below the travel
+  double lost_at = 0;            ///< a damaged place, where pulses are missing at every passage
+  std::int32_t lost_counts = 0;  ///< as many, of `resolution`
+};
+
+struct DriveTruth {
+  std::optional<MechanicsTruth> mechanics;
+  EncoderTruth motor;
+  std::optional<EncoderTruth> load;
+  bool load_feedback = false;  ///< the position loop is closed over the load's encoder
+};
+
+}  // namespace trunnion::truth

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "truth/machine_outline.hpp"
+
+#include "machine/axes.hpp"
+#include "machine/chain_parameters.hpp"
+#include "machine/parameter_constants.hpp"
+
+namespace trunnion::truth {
+
+MachineOutline outline_of(const machine::Parameters& parameters, std::uint16_t channel) {
+  MachineOutline outline;
+  outline.design = machine::chain_parameters(parameters, channel);
+  const auto axes = machine::channel_axes(parameters, channel);
+  for (std::size_t i = 0; i < axes.index.size(); ++i)
+    outline.axes[axes.index[i]] = {true, parameters.get(parameter::negative_limit, axes.number[i]),
+                                   parameters.get(parameter::positive_limit, axes.number[i])};
+  for (const auto& axis : machine::drive_axes(parameters)) {
+    outline.drives.push_back(axis.name);
+    if (axis.type != machine::axis_type_linear) outline.turning.push_back(axis.name);
+  }
+  return outline;
+}
+
+}  // namespace trunnion::truth

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the truth of a machine refers to: the machine as it was designed.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "geometry/chain.hpp"
+#include "machine/parameters.hpp"
+#include "truth/warm_up.hpp"
+
+namespace trunnion::truth {
+
+struct AxisOutline {
+  bool present = false;
+  double low = 0, high = 0;  ///< travel, mm or deg
+};
+
+struct MachineOutline {
+  geometry::ChainParameters design;
+  std::array<AxisOutline, axis_count> axes;  ///< X Y Z A B C U V W of the channel
+  std::vector<std::string> drives;           ///< names of all servo axes, slaves of gantries too
+  std::vector<std::string> turning;          ///< those of them that turn
+};
+
+/// Of `channel`. `parameters` are those the machine was delivered with: what the operator changes later does
+/// not change the machine. Throws machine::KinematicsError.
+MachineOutline outline_of(const machine::Parameters& parameters, std::uint16_t channel);
+
+}  // namespace trunnion::truth

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "outline.hpp"
+#include "truth/truth_file.hpp"
+
+namespace trunnion::truth {
+namespace {
+
+MachineOutline machine() {
+  auto m = outline(geometry::ac_table());
+  m.drives = {"X", "Y2", "C"};
+  m.turning = {"C"};
+  return m;
+}
+
+TEST(DriveSection, EveryValueHasItsUnit) {
+  const auto drives = parse_truth(R"(
+drives:
+  X:
+    mechanics: {load_share: 0.6, locked_frequency_Hz: 80, damping_ratio: 0.05, coulomb: 0.05, breakaway: 0.08,
+                stribeck_speed_mm_per_s: 2, viscous_per_mm_per_s: 1e-4, backlash_um: 12, gravity: 0.2, cogging: 0.01,
+                cogging_period_mm: 8, screw_error: [{harmonic_um: 2, period_mm: 10}]}
+    motor_encoder: {kind: incremental, resolution_um: 0.1, mark_spacing_mm: 10}
+    load_encoder: {kind: distance_coded, resolution_um: 0.05, inverted: true, signal_period_um: 20, sine_offset: 0.01,
+                   mark_spacing_mm: 20, mark_increment_mm: 0.02, first_mark_mm: -500, lost_at_mm: 30, lost_counts: 2}
+    feedback: load
+  C: {mechanics: {backlash_urad: 100}, motor_encoder: {resolution_urad: 10}}
+)",
+                                  "truth.yaml", machine())
+                          .drives;
+  ASSERT_EQ(drives.size(), 2u);
+  const auto& x = drives.at("X");
+  EXPECT_DOUBLE_EQ(x.mechanics->backlash, 0.012);
+  EXPECT_DOUBLE_EQ(x.mechanics->screw.value(2.5, 0), 0.002);
+  EXPECT_EQ(x.mechanics->gravity, 0.2);
+  EXPECT_EQ(x.motor.kind, EncoderKind::incremental);
+  EXPECT_DOUBLE_EQ(x.load->signal_period, 0.02);
+  EXPECT_TRUE(x.load->inverted);
+  EXPECT_EQ(x.load->lost_counts, 2);
+  EXPECT_TRUE(x.load_feedback);
+  const double degrees = 180 / std::numbers::pi;
+  EXPECT_DOUBLE_EQ(drives.at("C").mechanics->backlash, 100e-6 * degrees);
+  EXPECT_DOUBLE_EQ(drives.at("C").motor.resolution, 10e-6 * degrees);
+}
+
+TEST(DriveSection, EveryFaultIsOneLineWithItsPlace) {
+  const std::vector<std::pair<std::string, std::string>> faults{
+      {"drives: {Y: {}}", "1:10: error: unknown key 'Y'; the keys are X, Y2, C"},
+      {"drives: {X: {feedback: load}}", "1:13: error: feedback: load, but there is no load_encoder"},
+      {"drives: {X: {mechanics: {load_share: 1}}}", "1:38: error: 1 is not within 0.02 .. 0.98"},
+      {"drives: {X: {mechanics: {locked_frequency_Hz: 400}}}", "1:25: error: the resonance"},
+      {"drives: {X: {mechanics: {coulomb: 0.1, breakaway: 0.05}}}",
+       "1:51: error: breakaway is less than coulomb"},
+      {"drives: {X: {mechanics: {backlash_urad: 3}}}", "1:26: error: unknown key 'backlash_urad'"},
+      {"drives: {X: {motor_encoder: {kind: optical}}}",
+       "1:36: error: 'optical' is none of absolute, distance_coded, incremental"}};
+  for (const auto& [text, expected] : faults) {
+    try {
+      parse_truth(text, "truth.yaml", machine());
+      ADD_FAILURE() << text;
+    } catch (const std::runtime_error& e) {
+      EXPECT_THAT(e.what(), testing::StartsWith("truth.yaml:" + expected)) << text;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace trunnion::truth

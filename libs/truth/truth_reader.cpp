@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "truth/truth_reader.hpp"
+
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <set>
+#include <stdexcept>
+
+#include "machine/yaml.hpp"
+
+namespace trunnion::truth {
+
+void TruthReader::fail(const YAML::Node& node, const std::string& text) const {
+  throw std::runtime_error(machine::at(file_, node) + text);
+}
+
+void TruthReader::each(const YAML::Node& map, const std::string& keys, const Visit& visit) const {
+  if (!map.IsMap()) fail(map, "expected 'key: value' with the keys " + keys);
+  std::set<std::string> seen;
+  for (const auto& entry : map) {
+    const auto key = machine::scalar(file_, entry.first);
+    if (!seen.insert(key).second) fail(entry.first, "'" + key + "' is there twice");
+    if (!visit(key, entry.second))
+      fail(entry.first, std::string("unknown key '").append(key).append("'; the keys are ").append(keys));
+  }
+}
+
+double TruthReader::number(const YAML::Node& node, Limits limits) const {
+  const auto word = text(node);
+  double value = 0;
+  const char* last = word.data() + word.size();
+  const char* first = word.data() + (word.size() > 1 && word[0] == '+' && word[1] != '-');
+  const auto [end, error] = std::from_chars(first, last, value);
+  if (error != std::errc() || end != last || !std::isfinite(value))
+    fail(node, "'" + word + "' is not a number");
+  if (value < limits.low || value > limits.high) {
+    char range[80];
+    std::snprintf(range, sizeof range, " is not within %.9g .. %.9g", limits.low, limits.high);
+    fail(node, word + range);
+  }
+  return value;
+}
+
+std::vector<double> TruthReader::numbers(const YAML::Node& node, std::size_t most, Limits limits) const {
+  if (!node.IsSequence() || node.size() == 0 || node.size() > most)
+    fail(node, "expected a list of 1 .. " + std::to_string(most) + " numbers");
+  std::vector<double> values;
+  for (const auto& element : node) values.push_back(number(element, limits));
+  return values;
+}
+
+geometry::Vec3 TruthReader::vector(const YAML::Node& node, Limits limits) const {
+  if (!node.IsSequence() || node.size() != 3) fail(node, "expected [x, y, z]");
+  return {number(node[0], limits), number(node[1], limits), number(node[2], limits)};
+}
+
+std::string TruthReader::text(const YAML::Node& node) const { return machine::scalar(file_, node); }
+
+}  // namespace trunnion::truth
