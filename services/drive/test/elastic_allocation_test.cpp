@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+// What runs in every period allocates nothing.
+#include <gtest/gtest.h>
+
+#include "simulated_axis.hpp"
+#include "testing_support/allocation_count.hpp"
+#include "truth/random_machine.hpp"
+
+namespace trunnion::drive {
+namespace {
+
+TEST(Allocation, APeriodOfAnElasticAxisAndThePoseOfTheToolAllocateNothing) {
+  truth::DriveTruth drive;
+  drive.mechanics.emplace();
+  drive.mechanics->backlash = 0.01, drive.mechanics->cogging = 0.01;
+  drive.mechanics->screw.terms.harmonics.push_back({10, 0.002, 0});
+  drive.load.emplace();
+  drive.load->kind = truth::EncoderKind::distance_coded;
+  drive.load->first_mark = -500, drive.load->signal_period = 0.02, drive.load->sine_offset = 0.01;
+  SimulatedAxis axis;
+  axis.configure({}, &drive);
+  axis.place(0);
+  truth::MachineOutline machine;
+  machine.design.table_2 = geometry::RotaryAxis{-truth::Vec3::UnitZ(), truth::Vec3::Zero(), 2};
+  for (const std::size_t i : {0u, 1u, 2u}) machine.axes[i] = {true, -400, 400};
+  const auto geometry = std::get<truth::TrueGeometry>(
+      truth::TrueGeometry::make(machine.design, truth::draw_machine(truth::grades()[1], 7, machine)));
+  truth::WarmUp warm;
+  truth::MachinePose pose;
+  AxisSetpoint setpoint{0, 50, 0};
+  const auto before = testing_support::allocations;
+  double sum = 0;
+  for (int i = 0; i < 1000; ++i) {
+    setpoint.position += 0.05;
+    axis.step(setpoint, 0.001);
+    pose.positions[0] = axis.load();
+    warm.step(geometry.truth().heat, {50, 0, 0}, 0.001);
+    pose.temperatures = warm.temperatures();
+    sum += geometry.pose(pose).tip.x();
+  }
+  EXPECT_EQ(testing_support::allocations, before) << sum;
+}
+
+}  // namespace
+}  // namespace trunnion::drive
