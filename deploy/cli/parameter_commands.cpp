@@ -129,10 +129,13 @@ int list(const Common& common, const std::string& filter) {
     all.back()["pending"] = waiting != pending.end();
     std::string waits;
     if (waiting != pending.end()) {
-      const bool text = Catalogue::instance().find(number)->type == machine::ParameterType::text;
-      auto& value = all.back()["pending_value"];
-      text ? value = waiting->second.text : value = waiting->second.value;
-      waits = " (" + value.dump() + " waits)";
+      const bool is_text = Catalogue::instance().find(number)->type == machine::ParameterType::text;
+      auto& pending_value = all.back()["pending_value"];
+      if (is_text)
+        pending_value = waiting->second.text;
+      else
+        pending_value = waiting->second.value;
+      waits = " (" + pending_value.dump() + " waits)";
     }
     if (!common.json)
       std::printf("%s %-32s %14s %-14s %s%s\n", number_text(number).c_str(),
