@@ -14,8 +14,6 @@ namespace {
 
 using Asker = std::pair<std::uint64_t, std::uint64_t>;  // client and number
 using idl::channel::ChannelRequest;
-using idl::channel::CommandKind;
-using idl::gateway::Sender;
 
 constexpr std::size_t target_bytes = 256;  // as in gateway.idl: a longer one is cut off
 constexpr unsigned not_read_to_its_end = 413;

@@ -47,8 +47,9 @@ class Parser {
       const auto key = scalar(file_, pair.first);
       if (std::ranges::find(known, key) != known.end()) continue;
       std::string list;
-      for (const auto& name : known) list += (list.empty() ? "" : ", ") + name;
-      throw std::runtime_error(at(file_, pair.first) + "unknown key '" + key + "', known are " + list);
+      for (const auto& name : known) list.append(list.empty() ? "" : ", ").append(name);
+      throw std::runtime_error(
+          at(file_, pair.first).append("unknown key '").append(key).append("', known are ").append(list));
     }
   }
 
