@@ -87,6 +87,8 @@ class Parser {
     SuiteEntry entry;
     entry.place = at(file_, node);
     if (!node["recording"]) throw std::runtime_error(entry.place + "'recording' is missing");
+    if (scalar(file_, node["recording"]).empty())
+      throw std::runtime_error(at(file_, node["recording"]) + "'recording' is empty");
     entry.recording = path(scalar(file_, node["recording"]));
     if (const auto machine = node["machine"]) {
       entry.machine = scalar(file_, machine);

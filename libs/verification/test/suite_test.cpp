@@ -58,6 +58,7 @@ TEST(Suite, WhatIsWrongIsOneLineWithItsPlace) {
       {"tests: []", "dir/suite.yaml:1:1: error: 'tests' is missing"},
       {"title: x", "dir/suite.yaml:1:1: error: 'tests' is missing"},
       {"tests:\n  - {services: [drive]}", "dir/suite.yaml:2:5: error: 'recording' is missing"},
+      {"tests:\n  - {recording: ''}", "dir/suite.yaml:2:17: error: 'recording' is empty"},
       {"tests:\n  - {recording: a, service: drive}",
        "dir/suite.yaml:2:20: error: unknown key 'service', known are recording"},
       {"tests:\n  - {recording: a, services: [drives]}",
