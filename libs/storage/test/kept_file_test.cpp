@@ -26,8 +26,9 @@ TEST(KeptText, IsTheContentAndOneReadableLine) {
 }
 
 TEST(KeptText, GivesBackEveryContentToTheByte) {
-  for (const std::string content :
-       {"", "\n", "a", "a\n", "a\n\n", "a\n# b", std::string("\0\xff\n\n x", 6).c_str()}) {
+  const std::vector<std::string> contents = {
+      "", "\n", "a", "a\n", "a\n\n", "a\n# b", std::string("\0\xff\n\n x", 6)};
+  for (const auto& content : contents) {
     std::string problem;
     const auto back = unseal("f", seal("f", 1, content), problem);
     ASSERT_TRUE(back) << problem;
