@@ -36,7 +36,7 @@ record() {  # MACHINE PROGRAM...: writes $work/golden.mcap
     sleep 0.05
   done
   local good=0
-  "$root/tools/golden_operator.py" "$port" "$@" > "$work/log" 2>&1 || good=1
+  /usr/bin/python3 "$root/tools/golden_operator.py" "$port" "$@" > "$work/log" 2>&1 || good=1
   kill "$recorder"
   wait "$recorder" || true
   recorder=

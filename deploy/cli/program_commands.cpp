@@ -132,26 +132,26 @@ int get(const Common& common, const Options& options) {
   return answer(common, "written to " + options.file, entry);
 }
 
-int remove(const Common& common, const Options& options) {
+/// Changes a stored program that no channel executes; returns it as it was and as it is now.
+std::pair<ProgramEntry, ProgramEntry> change(const Common& common, const Options& options,
+                                             Operation operation) {
   auto client = connect(common);
   const auto entry = stored(client.newest(topics::program_list), options.name);
   refuse_in_use(client, entry.name);
   idl::program::ProgramRequest request;
-  request.operation = Operation::REMOVE;
+  request.operation = operation;
   request.name = entry.name;
-  client.program(request);
-  return answer(common, "deleted", entry);
+  request.new_name = options.new_name;
+  return {entry, client.program(request).entry};
+}
+
+int remove(const Common& common, const Options& options) {
+  return answer(common, "deleted", change(common, options, Operation::REMOVE).first);
 }
 
 int rename(const Common& common, const Options& options) {
-  auto client = connect(common);
-  const auto entry = stored(client.newest(topics::program_list), options.name);
-  refuse_in_use(client, entry.name);
-  idl::program::ProgramRequest request;
-  request.operation = Operation::RENAME;
-  request.name = entry.name;
-  request.new_name = options.new_name;
-  return answer(common, "was " + entry.name, client.program(request).entry);
+  const auto [before, now] = change(common, options, Operation::RENAME);
+  return answer(common, "was " + before.name, now);
 }
 
 int check(const Common& common, const Options& options) {

@@ -309,7 +309,8 @@ void SpeedWindow::bound(const SpeedRequest& request, const SpeedPlan* before) {
     while (piece + 1 < before->size() && (*before)[piece].end() < s) ++piece;
     return (*before)[piece].square(s);
   };
-  // Where the plan in force is faster than is asked for now, the new one may be too, and is drawn down.
+  // Where the plan in force is faster than the feed and the override permit, the new one may begin faster,
+  // too, and is drawn down to them.
   for (std::size_t k = 0; request.lower && k < n; ++k) {
     if (nodes_[k] >= before->end()) break;
     const double b = std::max(fast(nodes_[k]), fast(std::min(nodes_[k + 1], before->end())));

@@ -5,18 +5,10 @@
 
 #include <cmath>
 
-#include "outline.hpp"
-#include "truth/truth_file.hpp"
+#include "ac_report.hpp"
 
 namespace trunnion::truth {
 namespace {
-
-const MachineOutline ac = outline(geometry::ac_table());
-
-PoseReport report(const std::string& text) {
-  return {make_geometry(parse_truth(text, "truth.yaml", ac).geometry, ac, "truth.yaml"),
-          geometry::make(ac.design), ac};
-}
 
 TEST(Measurement, ABallbarWithNoiseStillFindsSquarenessAndBacklash) {
   const auto r = report("axes: {Y: {C0Y_urad: 40, EYY: [{reversal_um: -6}]}}\n");

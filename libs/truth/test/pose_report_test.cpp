@@ -4,18 +4,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "outline.hpp"
-#include "truth/truth_file.hpp"
+#include "ac_report.hpp"
 
 namespace trunnion::truth {
 namespace {
-
-const MachineOutline ac = outline(geometry::ac_table());
-
-PoseReport report(const std::string& text) {
-  return {make_geometry(parse_truth(text, "truth.yaml", ac).geometry, ac, "truth.yaml"),
-          geometry::make(ac.design), ac};
-}
 
 TEST(PoseReport, GivesTipAxisAndTheirDeviations) {
   auto r = report("axes: {Y: {C0Y_urad: 10}}\n");
