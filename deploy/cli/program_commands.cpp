@@ -14,6 +14,7 @@
 #include "cluster/cluster.hpp"
 #include "commands.hpp"
 #include "machine/yaml.hpp"
+#include "storage/temporary_directory.hpp"
 
 namespace trunnion::cli {
 namespace {
@@ -158,19 +159,10 @@ int check(const Common& common, const Options& options) {
   const auto cluster = cluster::find_cluster(common.domain);
   cluster::Client client(cluster.run.domain);
   const auto entry = stored(client.newest(topics::program_list), options.name);
-  const auto directory = fs::temp_directory_path() / ("trunnion-check-" + std::to_string(getpid()));
-  fs::create_directories(directory);
-  const auto file = directory / entry.name;
+  const storage::TemporaryDirectory directory("trunnion-check");
+  const auto file = directory.path() / entry.name;
   std::ofstream(file, std::ios::binary) << client.download(entry.name);
-  int status = 1;
-  try {
-    status = check_file(file.string(), cluster.machine_directory);
-  } catch (...) {
-    fs::remove_all(directory);
-    throw;
-  }
-  fs::remove_all(directory);
-  return status;
+  return check_file(file.string(), cluster.machine_directory);
 }
 
 }  // namespace

@@ -17,6 +17,7 @@
 #include "machine/machine.hpp"
 #include "machine/yaml.hpp"
 #include "service/node.hpp"
+#include "storage/temporary_directory.hpp"
 #include "verification/stored_recording.hpp"
 #include "verification/suite.hpp"
 #include "verification/suite_report.hpp"
@@ -81,9 +82,7 @@ class Runner {
     auto& result = results_[number];
     result.recording = suite_.entries[test.entry].recording;
     result.name = test.name;
-    const auto log = (fs::temp_directory_path() /
-                      ("trunnion-test-" + std::to_string(getpid()) + "-" + std::to_string(number)))
-                         .string();
+    const auto log = (logs_.path() / std::to_string(number)).string();
     cluster::ChildOptions options;
     options.arguments = verification::verify_arguments(suite_, test);
     options.arguments.insert(options.arguments.begin(), fs::read_symlink("/proc/self/exe").string());
@@ -102,7 +101,6 @@ class Runner {
       result.problem = e.what();
     }
     result.seconds = service::monotonic_seconds() - begin;
-    fs::remove(log);
     if (quiet_) return;
     const std::lock_guard lock(mutex_);
     std::printf("[%zu/%zu] %s %-14s %6.2f s  %s%s%s\n", ++done_, tests_.size(),
@@ -111,6 +109,7 @@ class Runner {
     std::fflush(stdout);
   }
 
+  const storage::TemporaryDirectory logs_{"trunnion-test"};
   const Suite& suite_;
   std::vector<SuiteTest> tests_;
   std::vector<SuiteResult> results_;

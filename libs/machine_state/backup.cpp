@@ -21,6 +21,7 @@
 #include "storage/crc32.hpp"
 #include "storage/file.hpp"
 #include "storage/kept_text.hpp"
+#include "storage/temporary_directory.hpp"
 
 namespace trunnion::machine_state {
 namespace fs = std::filesystem;
@@ -55,22 +56,6 @@ std::string damage_in(const fs::path& directory) {
   return "";
 }
 
-// A directory of this process that ends with it.
-class Scratch {
- public:
-  Scratch() : path_(fs::temp_directory_path() / ("trunnion-backup-" + std::to_string(getpid()))) {}
-  ~Scratch() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  Scratch(const Scratch&) = delete;
-  Scratch& operator=(const Scratch&) = delete;
-  const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
-};
-
 // Names as state_files() gives them: none leads out of the directory.
 bool valid_name(const std::string& name) {
   const auto slash = name.find('/');
@@ -87,15 +72,16 @@ bool valid_name(const std::string& name) {
 
 Backup collect(const std::string& directory, const std::string& machine, const std::string& version,
                const std::string& time) {
-  const Scratch scratch;
+  const storage::TemporaryDirectory scratch("trunnion-backup");
+  const auto copy = scratch.path() / "state";
   std::string problem;
   for (int i = 0; i < tries; ++i) {
     Backup backup{machine, version, time, {}};
     try {
       for (const auto& name : state_files(directory))
         backup.files[name] = read_file(fs::path(directory) / name);
-      write_files(scratch.path(), backup.files);
-      problem = damage_in(scratch.path());
+      write_files(copy, backup.files);
+      problem = damage_in(copy);
     } catch (const storage::StorageError& e) {
       problem = e.what();  // a file that was replaced meanwhile
     }
