@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "machine/gantry_pairs.hpp"
 #include "machine/parameter_constants.hpp"
 #include "motion/path_segment.hpp"
 
@@ -82,13 +83,10 @@ void ChannelSetup::configure(const machine::Parameters& p) {
                         p.get(parameter::mode_centripetal_acceleration, channel_, k)};
   radius_deviation_ = p.get(parameter::radius_deviation);
   cycle_seconds_ = p.get(parameter::interpolation_cycle) * 1e-6;
-  lead_ = static_cast<std::uint64_t>(p.integer(parameter::stream_lead));
+  stream_real_ = {p, false};
+  stream_virtual_ = {p, true};
+  has_gantry_ = !machine::gantry_pairs(p, channel_).empty();
   checks_exact_stops_ = p.get(parameter::exact_stop_check_time) > 0;
-  // Two frames must fit into the lead, or the credits would never let the second be written.
-  const auto most = static_cast<std::uint32_t>(std::max<std::uint64_t>(1, lead_ / 2));
-  frame_real_ = std::min(most, static_cast<std::uint32_t>(p.integer(parameter::frame_cycles_real_time)));
-  frame_virtual_ =
-      std::min(most, static_cast<std::uint32_t>(p.integer(parameter::frame_cycles_virtual_time)));
   revision_ = p.revision;
 }
 

@@ -14,6 +14,7 @@
 #include "geometry/direction_path.hpp"
 #include "language/environment.hpp"
 #include "machine/axes.hpp"
+#include "machine/stream_settings.hpp"
 #include "motion/limits.hpp"
 #include "tool_tables/machine_tables.hpp"
 
@@ -102,10 +103,14 @@ class ChannelSetup : public language::Environment {
   double jog_renewal_seconds() const { return jog_renewal_seconds_; }
   double reference_feed(std::uint8_t axis) const { return reference_feed_[axis]; }
   double cycle_seconds() const { return cycle_seconds_; }
-  std::uint64_t lead() const { return lead_; }
+  const machine::StreamSettings& stream(bool virtual_time) const {
+    return virtual_time ? stream_virtual_ : stream_real_;
+  }
+  std::uint64_t lead() const { return stream_real_.lead; }
   /// Axes are checked at an exact stop (parameter 010166), which then takes at least lead() + 2 cycles.
   bool checks_exact_stops() const { return checks_exact_stops_; }
-  std::uint32_t frame_cycles(bool virtual_time) const { return virtual_time ? frame_virtual_ : frame_real_; }
+  /// The slave of a gantry belongs to the channel: the gantry stage uses feedback in all its motions.
+  bool has_gantry() const { return has_gantry_; }
   std::uint64_t revision() const { return revision_; }
 
  private:
@@ -146,9 +151,9 @@ class ChannelSetup : public language::Environment {
   AxisValues jog_feed_{}, reference_feed_{};
   std::uint16_t mask_ = 0;
   double radius_deviation_ = 0.1, cycle_seconds_ = 0.001;
-  std::uint64_t lead_ = 32, revision_ = 0;
-  bool checks_exact_stops_ = false;
-  std::uint32_t frame_real_ = 4, frame_virtual_ = 8;
+  std::uint64_t revision_ = 0;
+  bool checks_exact_stops_ = false, has_gantry_ = false;
+  machine::StreamSettings stream_real_, stream_virtual_;
 };
 
 }  // namespace trunnion::channel_setup

@@ -50,7 +50,7 @@ bool ReplicaWatch::far_behind(const Replica& replica, std::uint64_t distance) co
   });
 }
 
-std::vector<ReplicaWatch::Change> ReplicaWatch::evaluate(std::uint64_t lead, double now) {
+std::vector<ReplicaWatch::Change> ReplicaWatch::evaluate(std::uint64_t ahead, double now) {
   std::vector<Change> changes;
   for (auto& replica : replicas_) {
     const bool silent = replica.last_report == 0 || now - replica.last_report > report_timeout;
@@ -61,7 +61,7 @@ std::vector<ReplicaWatch::Change> ReplicaWatch::evaluate(std::uint64_t lead, dou
       replica.lagging_since = now;
     const bool overdue = replica.lags() && now - replica.lagging_since > progress_timeout;
     const auto before = replica.status;
-    if (!late && !overdue && (before == Status::in_step || !far_behind(replica, 2 * lead)))
+    if (!late && !overdue && (before == Status::in_step || !far_behind(replica, 2 * ahead)))
       replica.status = Status::in_step;
     else if (overdue && replica.last_report != 0)
       replica.status = Status::dropped;

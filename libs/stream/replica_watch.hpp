@@ -51,8 +51,8 @@ class ReplicaWatch {
 
   void update(const idl::stream::StageProgress& progress, double now);
   /// Evaluates the status again; call it at least every 20 ms. A dropped replica is in step again within 2 *
-  /// `lead` cycles of the other one. Returns the replicas dropped or in step again since the last call.
-  std::vector<Change> evaluate(std::uint64_t lead, double now);
+  /// `ahead` cycles of the other one. Returns the replicas dropped or in step again since the last call.
+  std::vector<Change> evaluate(std::uint64_t ahead, double now);
 
   /// Every replica is in step, or has been late for longer than a start waits.
   bool may_start(double now) const;

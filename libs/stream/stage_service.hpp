@@ -12,6 +12,7 @@
 #include "machine/gantry_pairs.hpp"
 #include "machine/kinematics.hpp"
 #include "machine/parameter_constants.hpp"
+#include "machine/stream_settings.hpp"
 #include "service/node.hpp"
 #include "service/parameter_client.hpp"
 #include "stream/frame_window.hpp"
@@ -22,8 +23,9 @@ namespace trunnion::stream {
 /// The number of batches that a writer of the stream must keep: twice the lead, in batches, and a few, for
 /// every channel. Never fewer than 1024: in virtual time that is how late a recorder may be before cycles are
 /// lost to it, about a quarter of a second.
-inline int stream_depth(int lead, int frame_cycles, int channels) {
-  return std::max(1024, (2 * lead / std::max(1, frame_cycles) + 6) * std::max(1, channels));
+inline int stream_depth(const machine::StreamSettings& stream, std::size_t channels) {
+  const auto batches = 2 * stream.ahead / std::max(1u, stream.feedback_batch) + 6;
+  return static_cast<int>(std::max<std::size_t>(1024, batches * std::max<std::size_t>(1, channels)));
 }
 
 /// Topic on which a stage writes while it is on standby, only compared with the one it is to replace.
@@ -134,11 +136,9 @@ class StageService : public service::Service {
 
   void start() {
     const auto& p = *parameters_.newest();
-    const int frame = p.integer(node_.options().virtual_time ? parameter::frame_cycles_virtual_time
-                                                             : parameter::frame_cycles_real_time);
-    node_.bus().set_depth({stream_depth(p.integer(parameter::stream_lead), frame,
-                                        static_cast<int>(node_.options().machine.channels))});
-    lead_ = static_cast<std::uint64_t>(p.integer(parameter::stream_lead));
+    const machine::StreamSettings stream(p, node_.options().virtual_time);
+    node_.bus().set_depth({stream_depth(stream, node_.options().machine.channels)});
+    ahead_ = stream.ahead;
     const auto& services = node_.options().machine.services;
     replicated_ = std::count_if(services.begin(), services.end(),
                                 [&](const auto& entry) { return entry.service == stage_name(stage_); }) > 1;
@@ -174,7 +174,7 @@ class StageService : public service::Service {
     return "";
   }
 
-  // Ten times a second; of a stage with replicas also whenever a lead was computed, because the channel waits
+  // Ten times a second; of a stage with replicas also whenever as much was computed as may be written ahead, because the channel waits
   // for it.
   void report_progress(std::uint16_t channel, Lane& lane) {
     if (lane.in_step && !lane.settled) lane.settled = !lane.window.has_next() && writer_->matched() > 0;
@@ -188,7 +188,7 @@ class StageService : public service::Service {
     const auto& reported = lane.reported;
     const bool news =
         replicated_ && (progress.in_step != reported.in_step || progress.epoch != reported.epoch ||
-                        progress.next >= reported.next + lead_ || lane.at_rest != lane.reported_at_rest);
+                        progress.next >= reported.next + ahead_ || lane.at_rest != lane.reported_at_rest);
     const double now = service::monotonic_seconds();
     if (!news && now - lane.reported_at <= 0.1) return;
     lane.reported = progress;
@@ -335,7 +335,7 @@ class StageService : public service::Service {
   bool have_feedback_ = false;
   std::uint64_t frames_in_ = 0, frames_out_ = 0, frames_lost_ = 0;
   double unknown_since_ = 0, feedback_until_ = 0;
-  std::uint64_t lead_ = 0;
+  std::uint64_t ahead_ = 0;
   bool replicated_ = false, standby_ = false;
   std::string fault_;
 };

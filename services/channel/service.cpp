@@ -189,8 +189,7 @@ void ChannelService::change_tables() {
 
 void ChannelService::start_stream() {
   const auto& p = *parameters_.newest();
-  const int frame = static_cast<int>(core_.machine().frame_cycles(node_.options().virtual_time));
-  node_.bus().set_depth({stream::stream_depth(p.integer(parameter::stream_lead), frame, 1)});
+  node_.bus().set_depth({stream::stream_depth(core_.machine().stream(node_.options().virtual_time), 1)});
   frame_writer_.emplace(node_.bus().writer(topics::path_frame));
   auto& bus = node_.bus();
   present_reader_.emplace(
@@ -229,15 +228,16 @@ void ChannelService::watch_alarms() {
                                           : "");
 }
 
-// Replicas: a start waits for both; in virtual time neither is left farther behind than 2 * lead.
+// Replicas: a start waits for both; in virtual time neither is left farther behind than twice what may be
+// written ahead.
 void ChannelService::watch_replicas() {
   if (!progress_reader_) return;
   const double now = service::monotonic_seconds();
   idl::stream::StageProgress progress;
   while (progress_reader_->take(progress))
     if (progress.channel == node_.options().channel) replicas_.update(progress, now);
-  const auto lead = static_cast<std::uint64_t>(core_.machine().lead());
-  for (const auto& change : replicas_.evaluate(lead, now)) {
+  const auto ahead = core_.machine().stream(node_.options().virtual_time).ahead;
+  for (const auto& change : replicas_.evaluate(ahead, now)) {
     const auto part = stream::replica_part(change.stage, change.number);
     if (change.lost)
       node_.alarms().raise(alarm::redundancy_lost, part,

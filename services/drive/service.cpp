@@ -63,11 +63,9 @@ void DriveService::start() {
   const auto memory = core_.memory();
   encoders_.open(bytes_of(memory));
   const auto& p = *parameters_.find(revision_);
-  frame_cycles_ =
-      static_cast<std::uint32_t>(p.integer(node_.options().virtual_time ? parameter::frame_cycles_virtual_time
-                                                                        : parameter::frame_cycles_real_time));
-  node_.bus().set_depth(
-      {stream::stream_depth(p.integer(parameter::stream_lead), static_cast<int>(frame_cycles_), 1)});
+  const machine::StreamSettings stream(p, node_.options().virtual_time);
+  frame_cycles_ = stream.batch;
+  node_.bus().set_depth({stream::stream_depth(stream, 1)});
   writer_.emplace(node_.bus().writer(topics::feedback_frame));
   outputs_.emplace(node_.bus().reader(topics::plc_outputs));
   services_.emplace(node_.bus().reader(topics::service_state));

@@ -215,6 +215,7 @@ class ChannelCore {
     const auto* preparing = states_.preparing();
     return states_.is(Activity::program) && (preparing == nullptr || !preparing->approaching);
   }
+  bool uses_feedback() const;
   bool braking() const { return states_.feed_hold() && !tapping_.active(); }
   language::ModalState power_on_modal() const;
   AxisValues machine_position() const;

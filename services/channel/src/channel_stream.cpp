@@ -125,10 +125,19 @@ StreamCycle ChannelCore::step_cycle(std::uint64_t cycle) {
   return out;
 }
 
+// Cycle n must not be computed before the drive has executed cycle n - lead - 1. An operator who moves axes by
+// hand watches them, so these do not run far ahead either.
+bool ChannelCore::uses_feedback() const {
+  const bool by_hand = !states_.is(Activity::program) && !states_.is(Activity::mdi);
+  return by_hand || skip_.active() || exact_stop_.checking();
+}
+
 bool ChannelCore::produce(idl::stream::PathFrame& frame) {
   if (link().state() != LinkState::active) return false;
-  const std::uint32_t count = machine_.frame_cycles(virtual_time_);
-  if (!stream_.may_write(count, machine_.lead())) return false;
+  const auto& settings = machine_.stream(virtual_time_);
+  const bool bound = uses_feedback();
+  const std::uint32_t count = bound || machine_.has_gantry() ? settings.feedback_batch : settings.batch;
+  if (!stream_.may_write(count, bound ? settings.lead : settings.ahead)) return false;
   stream_.open(frame);
   auto flow = FlowState::full;
   while (frame.count < count && !frame.ends) {
@@ -137,6 +146,7 @@ bool ChannelCore::produce(idl::stream::PathFrame& frame) {
       if (flow == FlowState::waiting) break;
     }
     stream_.add(frame, step_cycle(stream_.cycle(frame)));
+    if (!bound && uses_feedback()) break;
   }
   if (frame.count == 0) return false;
   stream_.close(frame, path(), in_machine_coordinates(), machine_.revision(),

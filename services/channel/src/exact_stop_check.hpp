@@ -22,6 +22,8 @@ class ExactStopCheck {
   /// Longest standstill in cycles, for motion::Trajectory::set_position_check(); 0 = no check.
   int cycles() const { return cycles_; }
   void on_feedback(const idl::stream::FeedbackFrame& feedback);
+  /// The axes are at an exact stop, which feedback ends.
+  bool checking() const { return checking_; }
   /// Before the setpoint of `cycle` is taken from `trajectory`: ends its standstill when the axes are in
   /// position. False when the longest time has passed; failure() then names the axis.
   bool step(motion::Trajectory& trajectory, std::uint64_t cycle);

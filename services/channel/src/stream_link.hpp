@@ -35,8 +35,8 @@ class StreamLink {
   /// What was written and not executed is void; the next start is a new epoch.
   void leave();
   /// A frame of `count` setpoints may be written now.
-  bool credit(std::uint32_t count, std::uint64_t lead) const {
-    return state_ == LinkState::active && next_ + count <= executed_ + lead;
+  bool credit(std::uint32_t count, std::uint64_t ahead) const {
+    return state_ == LinkState::active && next_ + count <= executed_ + ahead;
   }
   void written(std::uint32_t count, bool ends) {
     next_ += count;

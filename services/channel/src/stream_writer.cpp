@@ -14,10 +14,10 @@ void StreamWriter::start() {
 }
 
 // The slowest replica may not have heard of this motion yet.
-bool StreamWriter::may_write(std::uint32_t count, std::uint64_t lead) {
-  if (!link_.credit(count, lead)) return false;
+bool StreamWriter::may_write(std::uint32_t count, std::uint64_t ahead) {
+  if (!link_.credit(count, ahead)) return false;
   if (link_.starts()) motion_start_ = link_.next();
-  const auto end = link_.next() + count, distance = 2 * lead;
+  const auto end = link_.next() + count, distance = 2 * ahead;
   return end <= distance || end - distance <= std::max(floor_, motion_start_);
 }
 

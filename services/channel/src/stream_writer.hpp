@@ -36,13 +36,13 @@ class StreamWriter {
   bool idle() const { return link_.state() == LinkState::idle; }
 
   /// The replicas of every stage are in step, or a start has to wait. `floor` is the cycle the slowest of
-  /// them computes next; nothing is written farther than two leads beyond it.
+  /// them computes next; nothing is written farther than twice `ahead` beyond it.
   void set_replicas(bool may_start, std::uint64_t floor) { may_start_ = may_start, floor_ = floor; }
   /// Asks the drive for a place in the stream, once the replicas are in step.
   void start();
 
-  /// Credit of the drive and of the replicas for `count` more cycles.
-  bool may_write(std::uint32_t count, std::uint64_t lead);
+  /// Credit of the drive and of the replicas for `count` more cycles, at most `ahead` beyond the executed one.
+  bool may_write(std::uint32_t count, std::uint64_t ahead);
   /// An empty batch, from the next cycle on.
   void open(idl::stream::PathFrame& batch) const;
   /// The cycle that the next add() writes.

@@ -20,6 +20,7 @@ using Codes = std::vector<std::pair<idl::channel::AuxiliaryKind, std::uint32_t>>
 inline std::shared_ptr<machine::Parameters> three_axes(std::uint64_t revision = 1) {
   auto p = std::make_shared<machine::Parameters>();
   p->revision = revision;
+  p->values[902] = {16, ""}, p->values[903] = {32, ""};  // as in real time, nothing beyond the lead
   for (std::uint32_t a = 0; a < 3; ++a) {
     p->values[40001 + a] = {static_cast<double>(a), ""};
     p->values[100000 + a * 1000] = {0, std::string(1, "XYZ"[a])};

@@ -7,6 +7,7 @@
 
 #include "machine/alarm_constants.hpp"
 #include "machine/parameter_constants.hpp"
+#include "machine/stream_settings.hpp"
 
 namespace trunnion::drive {
 
@@ -20,11 +21,10 @@ void DriveCore::configure(const machine::Parameters& p, bool virtual_time) {
   virtual_time_ = virtual_time;
   revision_ = p.revision;
   dt_ = p.get(parameter::interpolation_cycle) * 1e-6;
-  lead_ = static_cast<std::uint64_t>(p.integer(parameter::stream_lead));
+  const machine::StreamSettings stream(p, virtual_time);
+  lead_ = stream.lead;
   // Three quarters of the lead, but no more than the channel's credit allows it to write: whole frames only.
-  const auto frame = static_cast<std::uint64_t>(
-      p.integer(virtual_time ? parameter::frame_cycles_virtual_time : parameter::frame_cycles_real_time));
-  prefill_ = std::max<std::uint64_t>(1, std::min((lead_ * 3 - 1) / 4, lead_ > frame ? lead_ - frame + 1 : 1));
+  prefill_ = std::max<std::uint64_t>(1, std::min((lead_ * 3 - 1) / 4, lead_ - stream.feedback_batch + 1));
   if (first) {
     axes_ = machine::drive_axes(p);
     const std::size_t n = axes_.size();

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+// How far the channel runs ahead of the drive in virtual time (parameters 000900, 000902, 000903), and that
+// the setpoints do not depend on it.
+#include "channel_fixture.hpp"
+
+namespace trunnion::channel {
+namespace {
+
+using idl::channel::CommandKind;
+using testing::Channel;
+using testing::FakeDrive;
+
+struct WriteAhead : Channel {
+  void begin_with(double lead, double ahead, double batch) {
+    parameters = testing::three_axes(2);
+    auto& values = parameters->values;
+    values[900] = {lead, ""}, values[902] = {batch, ""}, values[903] = {ahead, ""};
+    values[105000] = {0, "S"}, values[105001] = {10, ""};  // a spindle for tapping
+    values[105036] = {12000, ""};
+    drive = FakeDrive(3);
+    drive.switch_ = {1, 0, 20.25};  // of the G31 below
+    begin();
+  }
+  /// What the drive executes of `program`.
+  std::vector<std::vector<double>> rows_of(const std::string& program) {
+    load(program);
+    EXPECT_TRUE(ask(CommandKind::CYCLE_START).accepted);
+    run();
+    EXPECT_EQ(core->run_state(), RunState::IDLE);
+    EXPECT_TRUE(events.empty());
+    return drive.rows;
+  }
+  /// Cycles written and not executed when the drive executes nothing more.
+  std::uint64_t written_ahead() {
+    cycles_per_round = 0;
+    for (int i = 0; i < 20; ++i) round();
+    return core->link().next() - core->link().executed();
+  }
+};
+
+// An exact stop, a skip move that is ended by its input, corners, an arc, tapping and a dwell.
+const char* const everything =
+    "G21 G90 G94 G54\nG9 G1 X10 F3000\nG1 X12 Y3\nG31 X60 F1200\nG1 X20 F2000\nG2 X30 Y3 I5 J0 F2000\nS400 M3\n"
+    "G99 G84 X30 Y3 Z-4 R2 F500\nG80\nG4 P50\nG0 X0 Y0 Z20\nM30\n";
+
+TEST_F(WriteAhead, TheSetpointsAreTheSameForEveryDistanceAndBatchAndHoweverTheFeedbackArrives) {
+  begin_with(32, 32, 16);
+  const auto expected = rows_of(everything);
+  ASSERT_GT(expected.size(), 1440u) << "6 mm down and up at 500 mm/min alone";
+  for (const double ahead : {32.0, 100.0, 256.0, 512.0})
+    for (const double batch : {1.0, 16.0, 64.0})
+      for (const std::uint64_t cycles : {1ull, 40ull, 100000ull}) {
+        begin_with(32, ahead, batch);
+        cycles_per_round = cycles;
+        EXPECT_EQ(rows_of(everything), expected) << ahead << " cycles, batches of " << batch << ", " << cycles;
+      }
+}
+
+TEST_F(WriteAhead, AProgramIsWrittenToTheLimitInWholeBatches) {
+  begin_with(32, 256, 64);
+  load("G21 G90 G94 G54\nG1 X100 F1000\nM30\n");
+  ASSERT_TRUE(ask(CommandKind::CYCLE_START).accepted);
+  EXPECT_EQ(written_ahead(), 256u);
+}
+
+TEST_F(WriteAhead, ASkipMoveAndAJogAreWrittenToTheLeadOnly) {
+  begin_with(32, 256, 64);
+  load("G21 G90 G94 G54\nG31 X100 F1000\nM30\n");
+  ASSERT_TRUE(ask(CommandKind::CYCLE_START).accepted);
+  EXPECT_EQ(written_ahead(), 32u);
+  begin_with(32, 256, 64);
+  ASSERT_TRUE(ask(CommandKind::SET_MODE, "", 0, 0, Mode::JOG).accepted);
+  ASSERT_TRUE(ask(CommandKind::JOG_AXIS, "", 1000, 0).accepted);
+  EXPECT_EQ(written_ahead(), 32u);
+}
+
+TEST_F(WriteAhead, AtAnExactStopTheChannelWaitsForTheFeedbackOfTheLead) {
+  begin_with(32, 256, 64);
+  load("G21 G90 G94 G54\nG9 G1 X0.2 F3000\nG1 X100 F1000\nM30\n");
+  ASSERT_TRUE(ask(CommandKind::CYCLE_START).accepted);
+  // The move of 0.2 mm ends within the first 256 cycles. Nothing behind its stop can be computed before the
+  // following error at the stop is known, so at most the move, the cycle that finds the stop and one lead are
+  // written.
+  const auto ahead = written_ahead();
+  EXPECT_LT(ahead, 256u);
+  cycles_per_round = ~0ull;
+  run();
+  std::size_t move = 0;
+  while (drive.rows[move][0] < 0.2) ++move;
+  EXPECT_LE(ahead, move + 2 + 32);
+}
+
+}  // namespace
+}  // namespace trunnion::channel
