@@ -72,14 +72,7 @@ int mdi(const Common& common, const std::string& line, std::uint16_t channel, do
 int alarms(const Common& common, bool reset) {
   const auto cluster = cluster::find_cluster(common.domain);
   cluster::Client client(cluster.run.domain);
-  if (reset) {
-    auto writer = client.bus().writer(topics::alarm_reset);
-    for (int i = 0; i < 500 && writer.matched() < 2; ++i)
-      std::this_thread::sleep_for(std::chrono::milliseconds(2));
-    std::this_thread::sleep_for(std::chrono::milliseconds(100));
-    writer.write({service::make_client_id(), 1, 65535});
-    std::this_thread::sleep_for(std::chrono::milliseconds(200));
-  }
+  if (reset) client.reset_alarms();
   auto reader = client.bus().reader(topics::alarm);
   std::map<std::array<std::uint32_t, 3>, idl::service::Alarm> list;
   const double until = service::monotonic_seconds() + 0.5;

@@ -12,6 +12,11 @@
 #include "cluster/child_process.hpp"
 #include "cluster/client.hpp"
 #include "cluster/cluster.hpp"
+#include "machine/alarm_constants.hpp"
+#include "machine/parameter_constants.hpp"
+#include "machine/stream_settings.hpp"
+#include "recording/file_stream.hpp"
+#include "report/capture.hpp"
 #include "service/network.hpp"
 
 namespace trunnion::cli {
@@ -229,6 +234,10 @@ std::string execute(cluster::Client& client, std::size_t channels, const RunOpti
   return alarm;
 }
 
+bool is_starvation(const std::string& alarm) {
+  return alarm.starts_with("alarm " + std::to_string(alarm::setpoint_missing.number) + " ");
+}
+
 // A cluster for this run alone, on this computer, whatever hosts machine.yaml names.
 cluster::UpOptions up_options(const std::string& directory, const RunOptions& options) {
   cluster::UpOptions up;
@@ -315,6 +324,38 @@ RecordingCost measure_recording(const RunOptions& options, int rounds) {
     (record ? cost.with : cost.without).push_back(cycles / seconds);
   }
   return cost;
+}
+
+report::StreamTiming measure_real_time(const RunOptions& options, double seconds) {
+  const auto directory = cluster::find_machine(options.machine);
+  const auto machine = machine::load_machine(directory, options.vendor);
+  ClusterGuard cluster(cluster::start_cluster(up_options(directory, options)));
+  cluster::Client client(cluster.get().run.domain);
+  const auto name = place_program(client, machine, options.programs.at(0));
+  client.set_mode(0, Mode::AUTO);
+  select(client, 0, name);
+  const auto parameters = machine::parameters_of(client.newest(topics::parameter_set));
+  const machine::StreamSettings stream(parameters, false);
+  report::StreamTiming timing(stream.lead, parameters.get(parameter::interpolation_cycle) * 1e-6);
+  const double until = service::monotonic_seconds() + seconds;
+  do {
+    {
+      Recorder recorder(options.recording, cluster.get());
+      const bool bar = !options.quiet && isatty(2) != 0;
+      auto alarm = execute(client, 1, options, bar);
+      // The drive has stopped on the path because setpoints were missing: the starved periods say so.
+      while (is_starvation(alarm) && service::monotonic_seconds() < until) {
+        client.reset_alarms();
+        alarm = execute(client, 1, options, bar);
+      }
+      if (!alarm.empty() && !is_starvation(alarm)) throw std::runtime_error(alarm);
+      recorder.stop();
+    }
+    recording::FileSource source(options.recording);
+    timing.add(report::read_capture(source, 0));
+    fs::remove(options.recording);
+  } while (service::monotonic_seconds() < until);
+  return timing;
 }
 
 }  // namespace trunnion::cli

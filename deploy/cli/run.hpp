@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "report/report.hpp"
+#include "report/stream_timing.hpp"
 
 namespace trunnion::cli {
 
@@ -39,5 +40,10 @@ struct RecordingCost {
 /// Runs the first program of `options` twice in each round, all in one cluster in virtual time. Throws
 /// std::runtime_error with the alarm when a run does not end well.
 RecordingCost measure_recording(const RunOptions& options, int rounds);
+
+/// Runs the first program of `options` in one cluster in real time, again and again for `seconds` of wall
+/// time, at least once. Throws std::runtime_error with the alarm when a run does not end well; starved
+/// periods are counted and do not end it.
+report::StreamTiming measure_real_time(const RunOptions& options, double seconds);
 
 }  // namespace trunnion::cli

@@ -74,6 +74,29 @@ int bench(const Common& common, const std::string& machine, const std::string& p
   return 0;
 }
 
+// Runs the program for some time in real time and says how punctual every process was.
+int bench_real_time(const Common& common, RunOptions options, const std::vector<std::string>& vendors,
+                    double seconds) {
+  options.recording =
+      (fs::temp_directory_path() / ("trunnion-bench-" + std::to_string(getpid()) + ".mcap")).string();
+  options.quiet = common.json;
+  options.real_time = true;
+  bus::Json rows = bus::Json::array();
+  for (const auto& vendor : vendors) {
+    options.vendor = vendor;
+    const auto timing = measure_real_time(options, seconds);
+    if (common.json) {
+      rows.push_back(bus::Json::parse(report::json_text(timing)));
+      rows.back()["vendor"] = vendor;
+    } else {
+      std::printf("%s\n%s\n", vendor.c_str(), report::terminal_text(timing).c_str());
+      std::fflush(stdout);
+    }
+  }
+  if (common.json) std::cout << rows.dump(2) << "\n";
+  return 0;
+}
+
 double median(std::vector<double> values) {
   std::sort(values.begin(), values.end());
   return values[values.size() / 2];
@@ -138,17 +161,24 @@ void add_run_command(CLI::App& app, Common& common) {
   auto vendors =
       std::make_shared<std::vector<std::string>>(std::vector<std::string>{"cyclonedds", "mixed", "fastdds"});
   auto rounds = std::make_shared<int>(3);
+  auto seconds = std::make_shared<double>(0);
   auto real_time = std::make_shared<bool>(false), recording = std::make_shared<bool>(false);
   auto subject = std::make_shared<std::string>("stream");
-  command = add_command(app, common, "bench",
-                        "Measure the stream: the speed of a program in virtual time over the DDS vendors, or "
-                        "starved cycles in real time; or the planner: the reference motions and its speed",
-                        [&common, machine, program, vendors, rounds, real_time, recording, subject] {
-                          if (*subject == "motion") return bench_motion(common, *machine);
-                          if (*recording)
-                            return bench_recording(common, *machine, *program, *vendors, *rounds);
-                          return bench(common, *machine, *program, *vendors, *rounds, *real_time);
-                        });
+  command =
+      add_command(app, common, "bench",
+                  "Measure the stream: the speed of a program in virtual time over the DDS vendors, or "
+                  "starved cycles and delays in real time; or the planner: the reference motions and its "
+                  "speed",
+                  [&common, machine, program, vendors, rounds, real_time, seconds, recording, subject] {
+                    if (*subject == "motion") return bench_motion(common, *machine);
+                    if (*recording) return bench_recording(common, *machine, *program, *vendors, *rounds);
+                    if (*real_time && *seconds > 0) {
+                      RunOptions repeated;
+                      repeated.machine = *machine, repeated.programs = {*program};
+                      return bench_real_time(common, repeated, *vendors, *seconds);
+                    }
+                    return bench(common, *machine, *program, *vendors, *rounds, *real_time);
+                  });
   command->add_option("subject", *subject, "stream (default) or motion")
       ->check(CLI::IsMember({"stream", "motion"}));
   command->add_option("--machine", *machine, "Machine (default ac-table)");
@@ -157,6 +187,11 @@ void add_run_command(CLI::App& app, Common& common) {
       ->check(CLI::IsMember({"fastdds", "cyclonedds", "mixed"}));
   command->add_option("--rounds", *rounds, "Rounds over the vendors")->check(CLI::Range(1, 1000));
   command->add_flag("--real-time", *real_time, "Run in real time and count starved cycles");
+  command
+      ->add_option("--seconds", *seconds,
+                   "With --real-time: repeat the program for this many seconds for each vendor; prints the "
+                   "delays of every process and the lead this computer could run with")
+      ->check(CLI::Range(1.0, 86400.0));
   command->add_flag("--recording", *recording, "What a recorder costs: runs with and without one by turns");
 }
 

@@ -33,7 +33,7 @@ chmod -R a+rX "$root/tmp/packages"
 in_root() { chroot "$root" env -i PATH=/usr/bin:/usr/sbin:/bin:/sbin HOME=/tmp/home LANG=C.UTF-8 "$@"; }
 as_user() { in_root setpriv --reuid=65534 --regid=65534 --clear-groups "$@"; }
 # Every path but what programs other than ours keep for themselves.
-files() { in_root find / -xdev \( -path /tmp -o -path /proc -o -path /var/lib/dpkg -o -path /var/log -o -path /var/cache -o -path /run -o -path /root \) -prune -o -print | sort; }
+files() { in_root find /etc /home /opt /srv /usr /var -xdev \( -path /var/lib/dpkg -o -path /var/log -o -path /var/cache \) -prune -o -print | sort; }
 
 in_root mkdir -p /tmp/home
 in_root chown 65534:65534 /tmp/home

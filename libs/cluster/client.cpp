@@ -9,7 +9,8 @@
 namespace trunnion::cluster {
 namespace {
 constexpr double timeout = 3;  // s for an answer
-}
+constexpr std::uint16_t every_channel = 65535;
+}  // namespace
 
 Client::Client(std::uint32_t domain) : Client(network_in(domain)) {}
 
@@ -67,6 +68,16 @@ idl::plc::PanelReply Client::panel(idl::plc::PanelRequestKind kind) {
   if (!reply) throw std::runtime_error("the PLC does not answer");
   if (!reply->accepted) throw std::runtime_error(reply->reason);
   return *reply;
+}
+
+void Client::reset_alarms() {
+  constexpr int readers = 2;  // at least the drive and the launcher
+  auto writer = bus_.writer(topics::alarm_reset);
+  for (int i = 0; i < 500 && writer.matched() < readers; ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  writer.write({service::make_client_id(), 1, every_channel});
+  std::this_thread::sleep_for(std::chrono::milliseconds(200));
 }
 
 void Client::upload(const std::string& name, const std::string& text) {

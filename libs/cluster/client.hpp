@@ -33,6 +33,8 @@ class Client {
   idl::program::ProgramReply program(idl::program::ProgramRequest request);
   idl::parameters::ParameterReply parameter(idl::parameters::ParameterRequest request);
   idl::plc::PanelReply panel(idl::plc::PanelRequestKind kind);
+  /// Resets the alarms of the whole machine; returns when the services have had time to answer.
+  void reset_alarms();
   /// Stores `text` under `name` in chunks.
   void upload(const std::string& name, const std::string& text);
   std::string download(const std::string& name);

@@ -74,6 +74,7 @@ class Collector {
     auto& times = out_.frames[{path_.epoch, path_.first}];
     const bool news = times.written[0] == 0;
     stamp(times, 0, time, path_.first + path_.count - 1);
+    times.starts = path_.starts;
     if (!news) return true;
     for (std::size_t i = 0; i < rows; ++i) {
       const bool rtcp = path_.transformation == idl::stream::Transformation::RTCP;
@@ -105,7 +106,7 @@ class Collector {
     last_starved_ = feedback_.starved;
     if (feedback_.count == 0 || feedback_.axis_count == 0) return true;
     coverage("feedback_frame", 0).add(feedback_.first, feedback_.count, false, false);
-    out_.feedback.push_back({feedback_.first, feedback_.count, time});
+    out_.feedback.push_back({feedback_.first, feedback_.count, feedback_.tick, time});
     const std::size_t width = feedback_.axis_count;
     const std::size_t rows = std::min({static_cast<std::size_t>(feedback_.count),
                                        feedback_.commanded.size() / width, feedback_.actual.size() / width});

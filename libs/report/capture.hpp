@@ -44,11 +44,12 @@ struct RowTable {
 /// First arrival of the frame that begins at a cycle, by stage; ns since the epoch, 0 = not there.
 struct FrameTimes {
   std::uint64_t last_cycle = 0;
+  bool starts = false;  ///< the first of a motion
   std::array<std::int64_t, frame_stages.size()> written{};
 };
 
 struct FeedbackTime {
-  std::uint64_t first = 0, count = 0;
+  std::uint64_t first = 0, count = 0, tick = 0;
   std::int64_t written = 0;
 };
 

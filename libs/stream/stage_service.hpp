@@ -174,8 +174,8 @@ class StageService : public service::Service {
     return "";
   }
 
-  // Ten times a second; of a stage with replicas also whenever as much was computed as may be written ahead, because the channel waits
-  // for it.
+  // Ten times a second; of a stage with replicas also whenever as much was computed as may be written ahead,
+  // because the channel waits for it.
   void report_progress(std::uint16_t channel, Lane& lane) {
     if (lane.in_step && !lane.settled) lane.settled = !lane.window.has_next() && writer_->matched() > 0;
     if (standby_) return;

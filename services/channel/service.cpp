@@ -188,7 +188,6 @@ void ChannelService::change_tables() {
 }
 
 void ChannelService::start_stream() {
-  const auto& p = *parameters_.newest();
   node_.bus().set_depth({stream::stream_depth(core_.machine().stream(node_.options().virtual_time), 1)});
   frame_writer_.emplace(node_.bus().writer(topics::path_frame));
   auto& bus = node_.bus();

@@ -125,8 +125,8 @@ StreamCycle ChannelCore::step_cycle(std::uint64_t cycle) {
   return out;
 }
 
-// Cycle n must not be computed before the drive has executed cycle n - lead - 1. An operator who moves axes by
-// hand watches them, so these do not run far ahead either.
+// Cycle n must not be computed before the drive has executed cycle n - lead - 1. An operator who moves axes
+// by hand watches them, so these do not run far ahead either.
 bool ChannelCore::uses_feedback() const {
   const bool by_hand = !states_.is(Activity::program) && !states_.is(Activity::mdi);
   return by_hand || skip_.active() || exact_stop_.checking();

@@ -41,7 +41,8 @@ class StreamWriter {
   /// Asks the drive for a place in the stream, once the replicas are in step.
   void start();
 
-  /// Credit of the drive and of the replicas for `count` more cycles, at most `ahead` beyond the executed one.
+  /// Credit of the drive and of the replicas for `count` more cycles, at most `ahead` beyond the executed
+  /// one.
   bool may_write(std::uint32_t count, std::uint64_t ahead);
   /// An empty batch, from the next cycle on.
   void open(idl::stream::PathFrame& batch) const;

@@ -40,7 +40,8 @@ struct WriteAhead : Channel {
 
 // An exact stop, a skip move that is ended by its input, corners, an arc, tapping and a dwell.
 const char* const everything =
-    "G21 G90 G94 G54\nG9 G1 X10 F3000\nG1 X12 Y3\nG31 X60 F1200\nG1 X20 F2000\nG2 X30 Y3 I5 J0 F2000\nS400 M3\n"
+    "G21 G90 G94 G54\nG9 G1 X10 F3000\nG1 X12 Y3\nG31 X60 F1200\nG1 X20 F2000\nG2 X30 Y3 I5 J0 F2000\nS400 "
+    "M3\n"
     "G99 G84 X30 Y3 Z-4 R2 F500\nG80\nG4 P50\nG0 X0 Y0 Z20\nM30\n";
 
 TEST_F(WriteAhead, TheSetpointsAreTheSameForEveryDistanceAndBatchAndHoweverTheFeedbackArrives) {
@@ -52,7 +53,8 @@ TEST_F(WriteAhead, TheSetpointsAreTheSameForEveryDistanceAndBatchAndHoweverTheFe
       for (const std::uint64_t cycles : {1ull, 40ull, 100000ull}) {
         begin_with(32, ahead, batch);
         cycles_per_round = cycles;
-        EXPECT_EQ(rows_of(everything), expected) << ahead << " cycles, batches of " << batch << ", " << cycles;
+        EXPECT_EQ(rows_of(everything), expected)
+            << ahead << " cycles, batches of " << batch << ", " << cycles;
       }
 }
 
