@@ -209,16 +209,23 @@ def generate(args):
     registry = ['#include "contracts/topics.hpp"', '#include "bus/registry.hpp"', '#include "bus/typed_registry.hpp"', "", "namespace trunnion::bus {",
                 "const std::vector<TopicEntry>& all_topics() {", "  static const std::vector<TopicEntry> entries{"]
     doc = ["# Topics", "", "Generated from `idl/topics.yaml`; the types and the meaning and unit of each field are in `idl/`.", "",
-           "| topic | type | QoS | writers | readers | about |", "|---|---|---|---|---|---|"]
+           "The type on the wire ends with the hash of its IDL, so that endpoints of different contracts never match.", "",
+           "| topic | type on the wire | QoS | writers | readers | about |", "|---|---|---|---|---|---|"]
     for t in topics:
         kind = scope.by_name[t["type"]]
         text = schema(kind, scope)
         wire = t["type"] if t.get("frozen") else f"{t['type']}_{digest(text)}"
         handles.append(f'inline constexpr bus::Topic<{cpp_name(kind)}> {t["handle"]}{{"{t["name"]}", "{wire}", bus::QosKind::{t["qos"]}}};')
         registry.append(f'    typed_entry(topics::{t["handle"]}, "{t["handle"]}", R"idl({text})idl", "{t["about"]}", {{{quoted(t["writers"])}}}, {{{quoted(t["readers"])}}}),')
-        doc.append(f"| `{t['name']}` | `{t['type']}` | {t['qos']} | {', '.join(t['writers'])} | {', '.join(t['readers'])} | {t['about']} |")
+        doc.append(f"| `{t['name']}` | `{wire}` | {t['qos']} | {', '.join(t['writers'])} | {', '.join(t['readers'])} | {t['about']} |")
     handles.append("}")
     registry += ["  };", "  return entries;", "}", "}"]
+    doc += ["", "## Quality of service", "", "All topics are reliable. `share/trunnion/sdk/fastdds.xml` has it as profiles.", "",
+            "| QoS | durability | writers keep | readers keep |", "|---|---|---|---|",
+            "| frame | transient local | the newest 1024 or more of the topic (twice what is written ahead, in batches, and 6) | all |",
+            "| state | transient local | the newest of each key | the newest of each key |",
+            "| event | volatile | the newest 64; a slow reader loses old ones and stalls no writer | the newest 64 |",
+            "| history | transient local | the newest 16 of each key | the newest 16 of each key |"]
 
     # One source per IDL file instantiates what walks over the fields of its types, so that no other source has to.
     codecs = {}

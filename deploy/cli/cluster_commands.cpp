@@ -72,10 +72,19 @@ int down(const Common& common) {
   return 0;
 }
 
-std::string host_of(const machine::MachineConfig& config, std::uint32_t instance) {
-  for (const auto& entry : config.services)
-    if (entry.instance == cluster::place_of(instance)) return entry.host;
-  return "";
+// Host and, of a channel, its number.
+void add_place(Json& row, const machine::MachineConfig& config, std::uint32_t instance) {
+  row["host"] = "";
+  for (const auto& entry : config.services) {
+    if (entry.instance != cluster::place_of(instance)) continue;
+    row["host"] = entry.host;
+    if (entry.service == "channel") row["channel"] = entry.channel;
+  }
+}
+
+std::string name_in_table(const Json& row) {
+  const auto service = row["service"].get<std::string>();
+  return row.contains("channel") ? service + " " + std::to_string(row["channel"].get<int>()) : service;
 }
 
 // Behind the columns: the host, where there are several, and what the service publishes of itself.
@@ -139,7 +148,7 @@ int status(const Common& common) {
     row["contract_matches"] = a != announced.end() && a->second.contract == topics::contract_hash;
     if (a != announced.end() && a->second.contract != topics::contract_hash)
       row["state"] = "CONTRACT " + a->second.contract + ", expected " + topics::contract_hash;
-    row["host"] = host_of(config, service.instance);
+    add_place(row, config, service.instance);
     services.push_back(row);
   }
   Json active = Json::array();
@@ -160,9 +169,8 @@ int status(const Common& common) {
     std::printf("%-14s %-7s %-11s %8s %-14s %-8s %10s %10s %8s  %s\n", "service", "replica", "vendor", "pid",
                 "state", "in step", "uptime s", "frames/s", "restarts", "");
     for (const auto& row : services)
-      std::printf("%-14s %-7d %-11s %8d %-14s %-8s %10.1f %10.1f %8d  %s\n",
-                  row["service"].get<std::string>().c_str(), row["replica"].get<int>(),
-                  row["vendor"].get<std::string>().c_str(), row["pid"].get<int>(),
+      std::printf("%-14s %-7d %-11s %8d %-14s %-8s %10.1f %10.1f %8d  %s\n", name_in_table(row).c_str(),
+                  row["replica"].get<int>(), row["vendor"].get<std::string>().c_str(), row["pid"].get<int>(),
                   row["state"].get<std::string>().c_str(), row["replica_state"].get<std::string>().c_str(),
                   row["uptime_seconds"].get<double>(), row["frames_per_second"].get<double>(),
                   row["restarts"].get<int>(), remark(row).c_str());

@@ -86,6 +86,11 @@ int main(int argc, char** argv) { return trunnion::service::service_main<Other>(
 CPP
 in_root bash -c 'cmake -S /tmp/other -B /tmp/other/build && cmake --build /tmp/other/build' > "$root/tmp/other.log" 2>&1 || { cat "$root/tmp/other.log"; exit 1; }
 in_root /tmp/other/build/trunnion-other --help | head -n 1
+for example in compensation-in-c listener-in-c listener-in-cpp; do
+  in_root bash -c "cp -r /usr/share/doc/trunnion-dev/examples/$example /tmp/$example && cmake -S /tmp/$example -B /tmp/$example/build && cmake --build /tmp/$example/build" \
+    > "$root/tmp/$example.log" 2>&1 || { cat "$root/tmp/$example.log"; exit 1; }
+  echo "$example built against the package"
+done
 
 echo "== purge"
 in_root bash -c 'dpkg -P $(dpkg-query -W -f "\${Package} " "trunnion*")' > "$root/tmp/purge.log" 2>&1 || { cat "$root/tmp/purge.log"; exit 1; }
