@@ -1,0 +1,35 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# readme_commands.sh README BUILD: the commands under "A machine's life in a few commands" run as they are printed, one after the
+# other, on a computer of its own (namespaces), with a home of its own and without the clusters of others.
+set -euo pipefail
+readme=$1 build=$2
+if [ "${3:-}" != inside ]; then
+  unshare --net --mount --map-root-user true 2> /dev/null || exit 77  # the computer allows no namespaces
+  exec unshare --net --mount --map-root-user bash "$0" "$readme" "$build" inside
+fi
+ip link set lo up
+running=/tmp/trunnion-$(id -u)
+mkdir -p "$running"
+mount -t tmpfs -o mode=0700 tmpfs "$running"
+work=$(mktemp -d)
+export HOME=$work/home
+mkdir -p "$HOME" "$work/build"
+ln -s "$build" "$work/build/release"
+cd "$work"
+trap 'PATH=$build/bin:$PATH; trunnion down > /dev/null 2>&1 || true; cd /; rm -rf "$work"' EXIT
+printf 'G21 G90 G94 G54\nG0 X5 Y5\nG1 X10 F1000\nM30\n' > part.nc  # the user's program
+
+awk '/^## /{inside = /A machine.s life/} inside && /^```/{code = !code; next} inside && code' "$readme" > commands
+[ "$(wc -l < commands)" -ge 10 ] || { echo "$readme: hardly any command was found"; exit 1; }
+number=0
+while IFS= read -r command <&3; do
+  number=$((number + 1))
+  if ! eval "$command" > said 2>&1; then
+    echo "$command"
+    cat said
+    exit 1
+  fi
+done 3< commands
+[ -z "$(ls -A "$running")" ] || { echo "left behind:"; ls -A "$running"; exit 1; }
+echo "$number commands ran as printed"
