@@ -45,7 +45,7 @@ ProgramEntry stored(const ProgramList& list, const std::string& name) {
   throw std::runtime_error("there is no stored program " + name + "; trunnion program list shows them");
 }
 
-// A channel reads the text as it executes it.
+// The channel would go on with the text it has: its next start would be another program.
 void refuse_in_use(cluster::Client& client, const std::string& name) {
   auto states = client.bus().reader(topics::channel_state);
   const double until =
@@ -133,12 +133,12 @@ int get(const Common& common, const Options& options) {
   return answer(common, "written to " + options.file, entry);
 }
 
-/// Changes a stored program that no channel executes; returns it as it was and as it is now.
+/// Changes a stored program; the program service refuses one that a channel executes. Returns it as it was
+/// and as it is now.
 std::pair<ProgramEntry, ProgramEntry> change(const Common& common, const Options& options,
                                              Operation operation) {
   auto client = connect(common);
   const auto entry = stored(client.newest(topics::program_list), options.name);
-  refuse_in_use(client, entry.name);
   idl::program::ProgramRequest request;
   request.operation = operation;
   request.name = entry.name;

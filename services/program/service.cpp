@@ -36,6 +36,7 @@ ProgramService::ProgramService(service::Node& node)
       state_(node.options().state_directory),
       store_(programs_, state_),
       list_(node.bus().writer(topics::program_list)),
+      channels_(node.bus().reader(topics::channel_state)),
       requests_(node.bus(), topics::program_request, topics::program_reply) {
   const auto& machine = node.options().machine;
   if (std::filesystem::is_directory(machine.programs_directory())) {
@@ -85,8 +86,17 @@ void ProgramService::raise_damaged() {
   node_.alarms().release(alarm::program_damaged, 0);
 }
 
+void ProgramService::watch_channels() {
+  idl::channel::ChannelState state;
+  while (channels_.take(state)) {
+    const bool executed = state.suspended || state.state != idl::channel::RunState::IDLE;
+    store_.set_executed(state.channel, executed ? state.program : "");
+  }
+}
+
 void ProgramService::pump() {
   const double now = service::monotonic_seconds();
+  watch_channels();
   idl::program::ProgramRequest request;
   while (requests_.take(request)) {
     auto reply = store_.apply(request, now);

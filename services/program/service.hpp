@@ -24,11 +24,13 @@ class ProgramService : public service::Service {
 
  private:
   void raise_damaged();
+  void watch_channels();
   service::Node& node_;
   DirectoryFiles programs_, state_;
   std::optional<DirectoryFiles> cycles_;
   ProgramStore store_;
   bus::Writer<idl::program::ProgramList> list_;
+  bus::Reader<idl::channel::ChannelState> channels_;
   service::RequestServer<idl::program::ProgramRequest, idl::program::ProgramReply> requests_;
 };
 

@@ -299,8 +299,24 @@ std::string ProgramStore::abort(const Request& request) {
   return "";
 }
 
+// A channel reads the text as it executes it.
+std::string ProgramStore::in_use(const std::string& name) const {
+  for (const auto& [channel, program] : executed_)
+    if (program == name)
+      return name + " is being executed by channel " + std::to_string(channel) + ": reset the channel first";
+  return "";
+}
+
+void ProgramStore::set_executed(std::uint16_t channel, const std::string& name) {
+  if (name.empty())
+    executed_.erase(channel);
+  else
+    executed_[channel] = name;
+}
+
 std::string ProgramStore::remove(const Request& request) {
   if (index_.count(request.name) == 0) return unknown(request.name);
+  if (auto reason = in_use(request.name); !reason.empty()) return reason;
   removing_.insert(request.name);
   try {
     save_index();
@@ -322,6 +338,7 @@ std::string ProgramStore::remove(const Request& request) {
 std::string ProgramStore::rename(const Request& request, Reply& reply) {
   const auto found = index_.find(request.name);
   if (found == index_.end()) return unknown(request.name);
+  if (auto reason = in_use(request.name); !reason.empty()) return reason;
   if (!valid_name(request.new_name)) return "'" + request.new_name.substr(0, 64) + "' is not a program name";
   if (index_.count(request.new_name) != 0) return "program '" + request.new_name + "' exists already";
   if (const auto damaged = damaged_.find(request.name); damaged != damaged_.end()) return damaged->second;

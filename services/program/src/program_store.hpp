@@ -46,6 +46,9 @@ class ProgramStore {
   const std::map<std::string, std::string>& damaged() const { return damaged_; }
   /// How the index was found.
   const storage::Kept& index_found() const { return index_found_; }
+  /// `channel` executes the program `name`, or has it suspended; empty: none. Such a program is neither
+  /// removed nor renamed.
+  void set_executed(std::uint16_t channel, const std::string& name);
 
  private:
   struct Upload {
@@ -64,6 +67,7 @@ class ProgramStore {
   std::string abort(const Request& request);
   std::string remove(const Request& request);
   std::string rename(const Request& request, Reply& reply);
+  std::string in_use(const std::string& name) const;
   std::string find(const Request& request, Reply& reply);
   void put(const std::string& name, const TextScan& text);
   void adopt_files(const IndexFile& index);
@@ -79,6 +83,7 @@ class ProgramStore {
   std::set<std::string> removed_;                   ///< removed on request, so not installed again
   std::map<std::string, TextIdentity> next_;        ///< texts that are being put in place
   std::set<std::string> removing_;
+  std::map<std::uint16_t, std::string> executed_;  ///< program by channel
   std::map<std::string, std::string> damaged_;
   storage::Kept index_found_;
   std::uint64_t revision_ = 0;  ///< of the list

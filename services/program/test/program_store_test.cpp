@@ -392,6 +392,29 @@ TEST(ProgramStore, AFullDiskRefusesTheChunkAndTheUploadGoesOnLater) {
   EXPECT_TRUE(store.apply(write, 0).accepted);
 }
 
+TEST(ProgramStore, WhatAChannelExecutesIsNeitherRemovedNorRenamedUntilItHasEnded) {
+  MemoryFiles files, state;
+  ProgramStore store(files, state);
+  upload(store, "a", "M30\n");
+  upload(store, "b", "M30\n");
+  store.set_executed(0, "a");
+  store.set_executed(1, "a");
+  auto rename = request(Operation::RENAME, "a");
+  rename.new_name = "c";
+  for (const auto& refused : {request(Operation::REMOVE, "a"), rename}) {
+    const auto reply = store.apply(refused, 0);
+    EXPECT_FALSE(reply.accepted);
+    EXPECT_EQ(reply.reason, "a is being executed by channel 0: reset the channel first");
+  }
+  EXPECT_TRUE(store.apply(request(Operation::REMOVE, "b"), 0).accepted);
+  store.set_executed(0, "");
+  EXPECT_FALSE(store.apply(rename, 0).accepted) << "channel 1 still executes it";
+  store.set_executed(1, "c");
+  EXPECT_TRUE(store.apply(rename, 0).accepted);
+  EXPECT_FALSE(store.apply(request(Operation::REMOVE, "c"), 0).accepted);
+  EXPECT_EQ(store.list().programs.size(), 1u);
+}
+
 TEST(ProgramStore, AnUploadThatCannotBePutInPlaceChangesNothing) {
   RenameFailsFiles files;
   MemoryFiles state;
