@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "language/canonical.hpp"
@@ -38,18 +39,30 @@ class ContourCheck {
   std::size_t size() const { return pieces_.size(); }
 
  private:
+  /// An arc, helix or spiral: in the plane (u, v), rising along `normal`.
+  struct Circle {
+    std::size_t u = 0, v = 1, normal = 2;
+    double centre_u = 0, centre_v = 0;
+    double radius = 0, growth = 0;  ///< at the start, and what the end has more
+    double angle = 0, sweep = 0;    ///< radians, > 0 anticlockwise
+  };
   struct Piece {
     AxisValues start{}, target{};
-    language::Arc arc{};
-    bool is_arc = false;
+    std::optional<Circle> circle;  ///< nothing: a line
+    bool turns = false;            ///< the orientation changes along it
     std::uint32_t sequence = 0;
     double size = 0;
   };
+  static Circle circle_of(const Piece& piece, const language::Arc& arc);
+  static double nearest_possible(const Piece& piece, const AxisValues& position);
+  static double foot_on_line(const Piece& piece, const AxisValues& position);
+  double foot_on_arc(const Piece& piece, double f, const AxisValues& position) const;
   AxisValues at(const Piece& piece, double f) const;
   double weigh(const Piece& piece, double f, const AxisValues& position, Deviation& deviation) const;
   double search(const Piece& piece, const AxisValues& position, Deviation& deviation) const;
   double search(const Piece& piece, double low, double high, const AxisValues& position,
                 Deviation& deviation) const;
+  double search_arc(const Piece& piece, const AxisValues& position, Deviation& deviation) const;
 
   std::vector<Piece> pieces_;
   std::size_t kept_ = 0;  // pieces after the last forget()
