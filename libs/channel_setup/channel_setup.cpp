@@ -32,13 +32,18 @@ void ChannelSetup::configure(const machine::Parameters& p) {
   columns_.clear();
   mask_ = 0;
   limits_ = {};
+  // The rest belongs to the volumetric compensation, which adds to the setpoints of the path.
+  const double share = p.integer(parameter::volumetric_type, channel_) != 0
+                           ? 1 - p.get(parameter::volumetric_reserve, channel_)
+                           : 1;
   for (std::size_t i = 0; i < channel_axes_.index.size(); ++i) {
     const auto index = channel_axes_.index[i];
     const auto a = channel_axes_.number[i];
     columns_.push_back(machine::column_of(drive, a));
     mask_ = static_cast<std::uint16_t>(mask_ | (1u << index));
-    limits_.axes[index] = {p.get(parameter::maximum_feed, a) / 60, p.get(parameter::rapid_feed, a) / 60,
-                           p.get(parameter::maximum_acceleration, a), p.get(parameter::maximum_jerk, a)};
+    limits_.axes[index] = {
+        share * p.get(parameter::maximum_feed, a) / 60, share * p.get(parameter::rapid_feed, a) / 60,
+        share * p.get(parameter::maximum_acceleration, a), share * p.get(parameter::maximum_jerk, a)};
     travel_[index] = {p.get(parameter::negative_limit, a), p.get(parameter::positive_limit, a)};
     reference_[index] = p.get(parameter::reference_coordinate, a);
     jog_feed_[index] = p.get(parameter::jog_feed, a);

@@ -5,6 +5,7 @@
 
 #include "machine/kinematics.hpp"
 #include "one_channel.hpp"
+#include "testing_support/allocation_count.hpp"
 
 namespace trunnion::compensation {
 namespace {
@@ -125,6 +126,27 @@ TEST(VolumetricStage, TheToolLengthOfTheBatchIsUsed) {
   const auto out = channel.run(rows_of_x(std::vector<double>(800, 0)), 3);
   EXPECT_NEAR(out[1], -0.0174533, 1e-5);
   EXPECT_NEAR(out[3 * 799 + 1], -2 * 0.0174533, 1e-7);
+}
+
+TEST(VolumetricStage, ACycleAllocatesNothing) {
+  auto p = reversal_of_20_um();
+  Set set{p};
+  set(300000, 2), set(300001, 0.01), set(301030, 1), set(301031, 0), set(301033, 0.01);
+  set(302050, 0), set(302051, 2), set(302053, 2), set(302054, 50), set(302080, 1), set(302081, 0);
+  set(302083, 1), set(302085, 2), set(302086, 50), set(300110, 1), set(300111, 0.004);
+  Channel channel(p);
+  stream::StateValues state;
+  channel.in.axes = {0, 1, 2};
+  channel.in.setpoints = rows_of_x(there_and_back(16));
+  channel.in.count = 16;
+  const auto batch = [&] {
+    channel.core.process(channel.in, {}, channel.out);
+    channel.core.save(state);
+  };
+  batch();  // the first one reserves what it needs
+  const auto before = testing_support::allocations;
+  for (int i = 0; i < 10; ++i) batch();
+  EXPECT_EQ(testing_support::allocations, before);
 }
 
 TEST(VolumetricStage, ItsValuesCountAgainstTheMaximum) {
