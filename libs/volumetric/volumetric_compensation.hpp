@@ -14,7 +14,7 @@ struct CompensationSettings {
   /// Near a pole a rotary axis hardly changes the direction of the tool. With s = change of direction by its
   /// motion, rad/rad, the share (damping^2 / (s^2 + damping^2))^3 of the error remains (three steps of
   /// Levenberg's method), so that no rotary axis is corrected by more than error / damping. At least 1e-4.
-  double damping = 0.04;
+  double damping = 0.08;
 };
 
 /// What is added to the commanded positions, X Y Z A B C U V W, mm or deg.
