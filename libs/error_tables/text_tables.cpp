@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <stdexcept>
 #include <string_view>
+#include <tuple>
 
 namespace trunnion::error_tables {
 namespace {
