@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "compensation/channel_compensation.hpp"
 #include "machine/parameter_constants.hpp"
 #include "motion/path_segment.hpp"
 
@@ -26,6 +27,8 @@ ChannelSetup::ChannelSetup(const tool_tables::MachineTables& tables) : ChannelSe
 
 void ChannelSetup::configure(const machine::Parameters& p) {
   auto chain = machine::make_chain(p, channel_);
+  // What the compensation would refuse is refused here, before setpoints need it.
+  compensation::ChannelCompensation::read(p, channel_);
   channel_axes_ = machine::channel_axes(p, channel_);
   chain_ = chain;
   const auto drive = machine::drive_axes(p);

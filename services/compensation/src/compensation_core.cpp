@@ -3,79 +3,22 @@
 
 #include <algorithm>
 
-#include "machine/alarm_constants.hpp"
-#include "machine/parameter_constants.hpp"
-
 namespace trunnion::compensation {
-namespace {
-
-const TableParameters pitch_table{
-    parameter::pitch_type,    parameter::pitch_start,     parameter::pitch_points, parameter::pitch_interval,
-    &parameter::pitch_modulo, &parameter::pitch_override, parameter::pitch_table};
-
-}  // namespace
-
-CompensationCore::Axis CompensationCore::read_axis(TableReader& reader, std::uint32_t a) {
-  const auto& p = reader.parameters();
-  Axis axis;
-  axis.backlash = Backlash::read(p, a);
-  axis.pitch = reader.read(pitch_table, a);
-  axis.thermal = Thermal::read(reader, a);
-  axis.jump = ReversalJump::read(p, a);
-  return axis;
-}
-
 void CompensationCore::configure(const machine::Parameters& p, std::uint16_t channel) {
-  const auto own = machine::channel_axes(p, channel);
-  ChannelColumns columns{own.number, channel};
-  TableReader reader(p);
-  std::vector<Axis> axes;
-  std::vector<Slave> slaves;
-  for (const auto number : own.number) axes.push_back(read_axis(reader, number));
-  for (std::size_t i = 0; i < axes.size(); ++i) {
-    axes[i].squareness = read_squareness(p, own.number[i], columns);
-    axes[i].straightness = read_straightness(reader, own.number[i], columns);
-  }
-  auto angles = std::vector<AngleCompensation>();
-  const auto add_angles = [&](std::uint32_t number) {
-    auto found = read_angles(reader, number, columns);
-    std::move(found.begin(), found.end(), std::back_inserter(angles));
-  };
-  for (const auto number : own.number) add_angles(number);
-  for (const auto& pair : machine::gantry_pairs(p, channel)) {
-    const auto master = static_cast<std::size_t>(
-        std::find(own.number.begin(), own.number.end(), pair.master) - own.number.begin());
-    auto axis = read_axis(reader, pair.slave);
-    columns.numbers.push_back(pair.slave);
-    axis.squareness = read_squareness(p, pair.slave, columns);
-    axis.straightness = read_straightness(reader, pair.slave, columns);
-    const auto before = angles.size();
-    add_angles(pair.slave);
-    const bool by_angle = std::any_of(angles.begin(), angles.end(), [&](const AngleCompensation& angle) {
-      return angle.compensated == master || angle.compensated + 1 == columns.numbers.size();
-    });
-    if (!axis.active() && !axes[master].active() && !by_angle && angles.size() == before) {
-      columns.numbers.pop_back();
-      continue;
-    }
-    axes.push_back(std::move(axis));
-    slaves.push_back({pair, master});
-  }
-  if (axes.size() > most_axes)
-    throw machine::KinematicsError(alarm::compensation_invalid,
-                                   "channel " + std::to_string(channel) + " has more than 32 axes");
-  volume_.configure(p, channel, reader);
-  cross_tables_ = std::any_of(axes.begin(), axes.end(), [](const Axis& axis) {
+  auto read = ChannelCompensation::read(p, channel);
+  axes_.clear();
+  for (auto& axis : read.axes) axes_.push_back({std::move(axis), {}, 0});
+  slaves_ = std::move(read.slaves);
+  angles_ = std::move(read.angles);
+  letters_ = std::move(read.letters);
+  cross_tables_ = std::any_of(axes_.begin(), axes_.end(), [](const Axis& axis) {
     return axis.thermal.enabled || axis.jump.amount != 0 || !axis.squareness.empty() ||
            !axis.straightness.empty();
   });
-  needs_further_ = volume_.enabled() ||
-                   std::any_of(axes.begin(), axes.end(), [](const Axis& a) { return a.has_further_state(); });
+  volume_.configure(std::move(read.volumetric), p, channel);
+  needs_further_ = volume_.enabled() || std::any_of(axes_.begin(), axes_.end(),
+                                                    [](const Axis& a) { return a.has_further_state(); });
   further_ = needs_further_;
-  axes_ = std::move(axes);
-  slaves_ = std::move(slaves);
-  angles_ = std::move(angles);
-  letters_ = own.index;
 }
 
 // `x` and `to` have a value for each of axes_.

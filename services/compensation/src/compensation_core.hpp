@@ -6,15 +6,9 @@
 #include <array>
 #include <vector>
 
-#include "angle.hpp"
-#include "axis_motion.hpp"
-#include "backlash.hpp"
-#include "machine/gantry_pairs.hpp"
-#include "reversal_jump.hpp"
-#include "squareness.hpp"
-#include "straightness.hpp"
+#include "compensation/axis_motion.hpp"
+#include "compensation/channel_compensation.hpp"
 #include "stream/stage_core.hpp"
-#include "thermal.hpp"
 #include "volumetric_stage.hpp"
 
 namespace trunnion::compensation {
@@ -34,37 +28,19 @@ class CompensationCore : public stream::StageCore<idl::stream::AxisFrame> {
   void save(stream::StateValues& state) const override;
 
  private:
-  static constexpr std::size_t most_axes = 32;
+  static constexpr std::size_t most_axes = ChannelCompensation::most_axes;
   static constexpr std::size_t base_state = 3, further_state = 4;
 
-  struct Axis {
-    /// A compensation that depends on more than the setpoint and its direction.
-    bool has_further_state() const { return backlash.has_rapid || thermal.enabled || jump.amount != 0; }
-    bool active() const {
-      return backlash.active() || pitch.enabled || thermal.enabled || jump.amount != 0 ||
-             !squareness.empty() || !straightness.empty();
-    }
-
-    Backlash backlash;
-    ErrorTable pitch;
-    Thermal thermal;
-    ReversalJump jump;
-    std::vector<Squareness> squareness;
-    std::vector<Straightness> straightness;
+  struct Axis : AxisCompensation {
     AxisMotion motion;
     double previous = 0;  // setpoint of the newest cycle
   };
-  struct Slave {
-    machine::GantryPair pair;
-    std::size_t master = 0;  // column of its master
-  };
 
-  static Axis read_axis(TableReader& reader, std::uint32_t number);
   void compensate(const double* x, double* to);
   std::size_t further_count() const;
 
   std::vector<Axis> axes_;                 // of the channel, then the slaves
-  std::vector<Slave> slaves_;              // those that are compensated
+  std::vector<CompensatedSlave> slaves_;   // those that are compensated
   std::vector<AngleCompensation> angles_;  // of all axes
   std::vector<std::uint8_t> letters_;      // 0 .. 8 of the channel's axes
   VolumetricStage volume_;

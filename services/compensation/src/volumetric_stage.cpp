@@ -1,18 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "volumetric_stage.hpp"
 
-#include "machine/axes.hpp"
 #include "machine/parameter_constants.hpp"
 
 namespace trunnion::compensation {
 
-void VolumetricStage::configure(const machine::Parameters& p, std::uint16_t channel, TableReader& reader) {
-  auto compensation = volumetric::compensation_of(p, channel);
-  if (compensation)
-    for (const auto number : machine::channel_axes(p, channel).number)
-      reader.count(static_cast<std::size_t>(p.integer(parameter::volumetric_points, number)) *
-                   volumetric::component_count *
-                   (p.integer(parameter::volumetric_direction, number) % 2 == 0 ? 2 : 1));
+void VolumetricStage::configure(std::optional<volumetric::VolumetricCompensation> compensation,
+                                const machine::Parameters& p, std::uint16_t channel) {
   compensation_ = std::move(compensation);
   const double cycle = p.integer(parameter::interpolation_cycle) * 1e-3;  // ms
   share_ = cycle / (p.get(parameter::volumetric_smoothing_time, channel) + cycle);

@@ -7,9 +7,9 @@
 #include <span>
 #include <vector>
 
-#include "error_table.hpp"
+#include "machine/parameters.hpp"
 #include "smooth_transition.hpp"
-#include "volumetric/model_parameters.hpp"
+#include "volumetric/volumetric_compensation.hpp"
 
 namespace trunnion::compensation {
 
@@ -21,8 +21,9 @@ class VolumetricStage {
   using Rows = std::array<double, volumetric::axis_count>;
   using Directions = std::array<int, volumetric::axis_count>;
 
-  /// Throws machine::KinematicsError. Keeps the state.
-  void configure(const machine::Parameters& parameters, std::uint16_t channel, TableReader& reader);
+  /// Keeps the state.
+  void configure(std::optional<volumetric::VolumetricCompensation> compensation,
+                 const machine::Parameters& parameters, std::uint16_t channel);
   bool enabled() const { return compensation_.has_value(); }
 
   /// What is added to X Y Z A B C U V W in this cycle, mm or deg. `directions`: of the last moves, before and

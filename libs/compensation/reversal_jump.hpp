@@ -2,7 +2,7 @@
 // Compensation of the jump at a reversal (quadrant jump; parameters 30a110 .. 30a114, numbers inferred).
 #pragma once
 
-#include "error_table.hpp"
+#include "compensation/error_table.hpp"
 
 namespace trunnion::compensation {
 

@@ -2,7 +2,7 @@
 // Squareness compensation (HNC-8 parameters 30a030 .. 30a033, 30a040 .. 30a043).
 #pragma once
 
-#include "channel_columns.hpp"
+#include "compensation/channel_columns.hpp"
 
 namespace trunnion::compensation {
 

@@ -2,8 +2,8 @@
 // Angle compensation (HNC-8 parameters 30a080 .. 30a089, 30a095 .. 30a104).
 #pragma once
 
-#include "axis_motion.hpp"
-#include "channel_columns.hpp"
+#include "compensation/axis_motion.hpp"
+#include "compensation/channel_columns.hpp"
 
 namespace trunnion::compensation {
 

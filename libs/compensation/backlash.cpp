@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "backlash.hpp"
+#include "compensation/backlash.hpp"
 
 #include "machine/parameter_constants.hpp"
 

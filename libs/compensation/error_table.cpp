@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "error_table.hpp"
+#include "compensation/error_table.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "squareness.hpp"
+#include "compensation/squareness.hpp"
 
 #include "geometry/angle.hpp"
 #include "machine/parameter_constants.hpp"

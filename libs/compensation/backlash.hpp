@@ -2,7 +2,7 @@
 // Backlash compensation (HNC-8 parameters 30a000 .. 30a003).
 #pragma once
 
-#include "error_table.hpp"
+#include "compensation/error_table.hpp"
 
 namespace trunnion::compensation {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "reversal_jump.hpp"
+#include "compensation/reversal_jump.hpp"
 
 #include <cmath>
 

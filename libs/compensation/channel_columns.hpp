@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "error_table.hpp"
+#include "compensation/error_table.hpp"
 
 namespace trunnion::compensation {
 

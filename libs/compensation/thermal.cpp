@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "thermal.hpp"
+#include "compensation/thermal.hpp"
 
 #include "machine/parameter_constants.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "straightness.hpp"
+#include "compensation/straightness.hpp"
 
 #include "machine/parameter_constants.hpp"
 

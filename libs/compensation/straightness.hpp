@@ -2,8 +2,8 @@
 // Straightness compensation (HNC-8 parameters 30a050 .. 30a057, 30a065 .. 30a072).
 #pragma once
 
-#include "axis_motion.hpp"
-#include "channel_columns.hpp"
+#include "compensation/axis_motion.hpp"
+#include "compensation/channel_columns.hpp"
 
 namespace trunnion::compensation {
 

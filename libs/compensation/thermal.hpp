@@ -3,7 +3,7 @@
 // 30a017 inferred).
 #pragma once
 
-#include "error_table.hpp"
+#include "compensation/error_table.hpp"
 
 namespace trunnion::compensation {
 
