@@ -34,10 +34,13 @@ def choice(path, row, key, allowed):
 
 def parameters(path):
     document = load(path, "parameters")
-    lines = []
+    lines, numbers = [], {}
     for row in document["parameters"]:
         if row["class"] not in document["classes"]: fail(path, f"{row['name']}: unknown class '{row['class']}'")
         first = document["classes"][row["class"]]["base"] + row["offset"]
+        for number in range(first, first + row.get("count", 1)):
+            if number in numbers: fail(path, f"{row['name']}: {number:06} is {numbers[number]} already")
+            numbers[number] = row["name"]
         kind = PARAMETER_TYPES[choice(path, row, "type", PARAMETER_TYPES)]
         lines.append(f"inline constexpr machine::{kind} {row['name']}{{{first}, \"{row['name']}\"}};")
     return header("machine/parameter_key.hpp", "The parameters of libs/machine/catalogue.yaml.", "parameter", lines)

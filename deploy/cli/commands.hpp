@@ -20,25 +20,26 @@ struct Common {
   std::function<int()> action;  ///< of the sub-command that was parsed
 };
 
-void add_cluster_commands(CLI::App& app, Common& common);    // up, down, status
-void add_run_command(CLI::App& app, Common& common);         // run
-void add_operator_commands(CLI::App& app, Common& common);   // mdi, alarms, estop
-void add_channel_command(CLI::App& app, Common& common);     // channel
-void add_parameter_commands(CLI::App& app, Common& common);  // param
-void add_topic_commands(CLI::App& app, Common& common);      // topic, record
-void add_kins_command(CLI::App& app, Common& common);        // kins
-void add_truth_command(CLI::App& app, Common& common);       // truth
-void add_measure_command(CLI::App& app, Common& common);     // measure ballbar, laser, rtest
-void add_check_command(CLI::App& app, Common& common);       // check
-void add_program_commands(CLI::App& app, Common& common);    // program
-void add_plan_command(CLI::App& app, Common& common);        // plan
-void add_recording_commands(CLI::App& app, Common& common);  // info, diff, export
-void add_verify_command(CLI::App& app, Common& common);      // verify
-void add_test_command(CLI::App& app, Common& common);        // test
-void add_replay_command(CLI::App& app, Common& common);      // replay
-void add_state_commands(CLI::App& app, Common& common);      // state, backup, restore
-void add_swap_command(CLI::App& app, Common& common);        // swap
-void add_completion_command(CLI::App& app, Common& common);  // completion
+void add_cluster_commands(CLI::App& app, Common& common);      // up, down, status
+void add_run_command(CLI::App& app, Common& common);           // run
+void add_operator_commands(CLI::App& app, Common& common);     // mdi, alarms, estop
+void add_channel_command(CLI::App& app, Common& common);       // channel
+void add_parameter_commands(CLI::App& app, Common& common);    // param
+void add_compensation_command(CLI::App& app, Common& common);  // compensation
+void add_topic_commands(CLI::App& app, Common& common);        // topic, record
+void add_kins_command(CLI::App& app, Common& common);          // kins
+void add_truth_command(CLI::App& app, Common& common);         // truth
+void add_measure_command(CLI::App& app, Common& common);       // measure ballbar, laser, rtest
+void add_check_command(CLI::App& app, Common& common);         // check
+void add_program_commands(CLI::App& app, Common& common);      // program
+void add_plan_command(CLI::App& app, Common& common);          // plan
+void add_recording_commands(CLI::App& app, Common& common);    // info, diff, export
+void add_verify_command(CLI::App& app, Common& common);        // verify
+void add_test_command(CLI::App& app, Common& common);          // test
+void add_replay_command(CLI::App& app, Common& common);        // replay
+void add_state_commands(CLI::App& app, Common& common);        // state, backup, restore
+void add_swap_command(CLI::App& app, Common& common);          // swap
+void add_completion_command(CLI::App& app, Common& common);    // completion
 
 /// `trunnion check` of a file for a machine by name or directory; 1 when the program has an error.
 int check_file(const std::string& program, const std::string& machine);

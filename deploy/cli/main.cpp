@@ -18,6 +18,7 @@ int main(int argc, char** argv) {
   add_operator_commands(app, common);
   add_channel_command(app, common);
   add_parameter_commands(app, common);
+  add_compensation_command(app, common);
   add_topic_commands(app, common);
   add_kins_command(app, common);
   add_truth_command(app, common);

@@ -8,6 +8,7 @@
 
 #include "bus/json.hpp"
 #include "commands.hpp"
+#include "geometry_command.hpp"
 #include "storage/file.hpp"
 #include "true_machine.hpp"
 #include "truth/measurement.hpp"
@@ -220,6 +221,7 @@ CLI::App* add(CLI::App& app, Common& common, const std::string& name, const std:
 void add_measure_command(CLI::App& app, Common& common) {
   auto* measure = app.add_subcommand("measure", "Measure a machine that has a truth.yaml, without a cluster");
   measure->require_subcommand(1);
+  add_geometry_command(*measure, common);
   auto options = std::make_shared<MeasureOptions>();
   auto* bar = add(*measure, common, "ballbar", "Circular test by ISO 230-4: both circles and what they say",
                   options, &ballbar);

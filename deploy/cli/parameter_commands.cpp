@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // param get|set|list|export|import
-#include <unistd.h>
-
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <fstream>
@@ -13,6 +11,7 @@
 #include "cluster/cluster.hpp"
 #include "commands.hpp"
 #include "machine/parameters.hpp"
+#include "parameter_request.hpp"
 
 namespace trunnion::cli {
 namespace {
@@ -56,11 +55,6 @@ bus::Json row(std::uint32_t number, const machine::Parameters& parameters) {
   return json;
 }
 
-std::string user() {
-  const char* name = std::getenv("USER");
-  return name != nullptr && *name != 0 ? name : "uid " + std::to_string(getuid());
-}
-
 int get(const Common& common, const std::vector<std::string>& numbers) {
   cluster::Client client(cluster::find_cluster(common.domain).run.domain);
   const auto parameters = active(client);
@@ -73,21 +67,6 @@ int get(const Common& common, const std::vector<std::string>& numbers) {
                   json["value"].dump().c_str(), json["unit"].get<std::string>().c_str());
   }
   if (common.json) std::cout << all.dump(2) << "\n";
-  return 0;
-}
-
-int send(const Common& common, cluster::Client& client, idl::parameters::ParameterRequest request) {
-  request.who = user();
-  const auto reply = client.parameter(std::move(request));
-  if (common.json)
-    std::cout
-        << bus::Json{{"accepted", true}, {"revision", reply.revision}, {"pending", reply.pending}}.dump()
-        << "\n";
-  else
-    std::printf("accepted, active revision %llu%s\n", static_cast<unsigned long long>(reply.revision),
-                reply.pending > 0
-                    ? (", " + std::to_string(reply.pending) + " waiting for reset or restart").c_str()
-                    : "");
   return 0;
 }
 
@@ -111,7 +90,7 @@ int set(const Common& common, const std::string& number, const std::string& valu
   idl::parameters::ParameterRequest request;
   request.operation = idl::parameters::Operation::SET;
   request.values = {parameter};
-  return send(common, client, request);
+  return send_parameters(common, client, std::move(request));
 }
 
 int list(const Common& common, const std::string& filter) {
@@ -163,12 +142,7 @@ int save(const Common& common, const std::string& file) {
 }
 
 int load(const Common& common, const std::string& file) {
-  cluster::Client client(cluster::find_cluster(common.domain).run.domain);
-  idl::parameters::ParameterRequest request;
-  request.operation = idl::parameters::Operation::IMPORT;
-  for (const auto& [number, value] : machine::read_parameter_file(file))
-    request.values.push_back({number, value.value, value.text});
-  return send(common, client, request);
+  return import_parameters(common, machine::read_parameter_file(file));
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "machine/machine.hpp"
 #include "machine/yaml.hpp"
 #include "machine_settings.hpp"
+#include "volumetric/model_parameters.hpp"
 
 namespace trunnion::cli {
 namespace {
@@ -68,6 +69,10 @@ TrueMachine load_true_machine(const std::string& name, std::uint16_t channel,
       std::make_unique<truth::PoseReport>(truth::make_geometry(machine.truth.geometry, machine.outline, file),
                                           machine::make_chain(model, channel), machine.outline);
   machine.report->temperatures = temperatures;
+  if (auto compensation = volumetric::compensation_of(model, channel))
+    machine.report->compensation =
+        std::make_shared<volumetric::VolumetricCompensation>(*std::move(compensation));
+  machine.model = std::move(model);
   return machine;
 }
 

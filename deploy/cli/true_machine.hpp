@@ -15,9 +15,11 @@ struct TrueMachine {
   std::string name;
   truth::MachineOutline outline;
   truth::Truth truth;
+  machine::Parameters model;  ///< of the control: as delivered, with the settings
   std::unique_ptr<truth::PoseReport> report;
 };
 
+/// The report has the volumetric compensation of the parameters when they have one.
 /// `settings`: NAME=VALUE of the truth (location errors, temperature rises) or of the control's model. Throws
 /// std::runtime_error.
 TrueMachine load_true_machine(const std::string& machine, std::uint16_t channel,

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "compensation/channel_compensation.hpp"
 #include "machine/gantry_pairs.hpp"
 #include "machine/parameter_constants.hpp"
 #include "motion/path_segment.hpp"
@@ -27,19 +28,26 @@ ChannelSetup::ChannelSetup(const tool_tables::MachineTables& tables) : ChannelSe
 
 void ChannelSetup::configure(const machine::Parameters& p) {
   auto chain = machine::make_chain(p, channel_);
+  // What the compensation would refuse is refused here, before setpoints need it.
+  compensation::ChannelCompensation::read(p, channel_);
   channel_axes_ = machine::channel_axes(p, channel_);
   chain_ = chain;
   const auto drive = machine::drive_axes(p);
   columns_.clear();
   mask_ = 0;
   limits_ = {};
+  // The rest belongs to the volumetric compensation, which adds to the setpoints of the path.
+  const double share = p.integer(parameter::volumetric_type, channel_) != 0
+                           ? 1 - p.get(parameter::volumetric_reserve, channel_)
+                           : 1;
   for (std::size_t i = 0; i < channel_axes_.index.size(); ++i) {
     const auto index = channel_axes_.index[i];
     const auto a = channel_axes_.number[i];
     columns_.push_back(machine::column_of(drive, a));
     mask_ = static_cast<std::uint16_t>(mask_ | (1u << index));
-    limits_.axes[index] = {p.get(parameter::maximum_feed, a) / 60, p.get(parameter::rapid_feed, a) / 60,
-                           p.get(parameter::maximum_acceleration, a), p.get(parameter::maximum_jerk, a)};
+    limits_.axes[index] = {
+        share * p.get(parameter::maximum_feed, a) / 60, share * p.get(parameter::rapid_feed, a) / 60,
+        share * p.get(parameter::maximum_acceleration, a), share * p.get(parameter::maximum_jerk, a)};
     travel_[index] = {p.get(parameter::negative_limit, a), p.get(parameter::positive_limit, a)};
     reference_[index] = p.get(parameter::reference_coordinate, a);
     jog_feed_[index] = p.get(parameter::jog_feed, a);

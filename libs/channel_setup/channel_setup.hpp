@@ -32,7 +32,8 @@ class ChannelSetup : public language::Environment {
   /// Configured with the tables. Throws as configure() does.
   explicit ChannelSetup(const tool_tables::MachineTables& tables);
 
-  /// Throws std::runtime_error when the kinematic parameters make no chain.
+  /// Throws std::runtime_error when the kinematic parameters make no chain, or the parameters
+  /// of the compensation are not valid.
   void configure(const machine::Parameters& parameters);
   void set_tools(const idl::parameters::ToolTable& tools);
   void set_offsets(const idl::parameters::WorkOffsets& offsets);

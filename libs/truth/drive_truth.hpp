@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "truth/error_function.hpp"
+#include "truth/true_geometry.hpp"
 
 namespace trunnion::truth {
 

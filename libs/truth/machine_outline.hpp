@@ -9,7 +9,7 @@
 
 #include "geometry/chain.hpp"
 #include "machine/parameters.hpp"
-#include "truth/warm_up.hpp"
+#include "truth/true_geometry.hpp"
 
 namespace trunnion::truth {
 

@@ -23,7 +23,7 @@ class Motion {
     next.temperatures = report_.temperatures;
     started_ = true;
     now_ = next;
-    return report_.geometry().pose(now_);
+    return report_.true_pose(now_);
   }
 
  private:
@@ -103,7 +103,8 @@ LaserMeasurement measure_laser(const PoseReport& report, const LaserPlan& plan,
 }
 
 std::vector<NestReading> measure_nest(const PoseReport& report, std::size_t axis, double from, double to,
-                                      std::size_t points, const Vec3& centre, const InstrumentTruth& truth) {
+                                      std::size_t points, const Vec3& centre, const InstrumentTruth& truth,
+                                      bool back) {
   Instrument instrument(truth);
   Motion motion(report);
   const auto at = [&](double angle) {
@@ -115,14 +116,18 @@ std::vector<NestReading> measure_nest(const PoseReport& report, std::size_t axis
   at(from - 0.1 * step);
   const auto nest = Nest::at(at(from));
   std::vector<NestReading> readings;
-  for (std::size_t i = 0; i < points; ++i) {
+  const auto read = [&](std::size_t i) {
     NestReading reading;
     reading.angle = from + step * static_cast<double>(i);
     reading.sensors = nest.readings(at(reading.angle));
     for (double& sensor : reading.sensors) sensor = instrument.read(sensor);
     reading.deviation = nest.place(reading.sensors) - nest.centre;
     readings.push_back(reading);
-  }
+  };
+  for (std::size_t i = 0; i < points; ++i) read(i);
+  if (!back) return readings;
+  at(to + 0.1 * step);
+  for (std::size_t i = points; i-- > 0;) read(i);
   return readings;
 }
 

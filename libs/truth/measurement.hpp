@@ -48,9 +48,9 @@ struct NestReading {
 };
 
 /// The control keeps the ball at `centre` of the workpiece (RTCP) while a rotary axis (3 .. 8: A .. W) turns
-/// from `from` to `to` deg; the nest was set to zero at the first pose.
+/// from `from` to `to` deg, with `back` also back again; the nest was set to zero at the first pose.
 std::vector<NestReading> measure_nest(const PoseReport& report, std::size_t axis, double from, double to,
                                       std::size_t points, const Vec3& centre,
-                                      const InstrumentTruth& instrument);
+                                      const InstrumentTruth& instrument, bool back = false);
 
 }  // namespace trunnion::truth

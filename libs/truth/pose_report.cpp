@@ -96,7 +96,7 @@ std::optional<PoseAnswer> PoseReport::answer(const std::string& line, std::size_
 PoseAnswer PoseReport::at(const MachinePose& machine) const {
   PoseAnswer answer;
   answer.commanded = machine;
-  answer.actual = geometry_.pose(machine);
+  answer.actual = true_pose(machine);
   const auto angles = geometry::angles_of(machine.positions.data());
   answer.deviation.tip =
       answer.actual.tip -
@@ -106,14 +106,19 @@ PoseAnswer PoseReport::at(const MachinePose& machine) const {
   return answer;
 }
 
-DeviationSummary PoseReport::summary(std::size_t count, std::uint64_t seed) const {
+ToolPose PoseReport::true_pose(const MachinePose& machine) const {
+  if (!compensation) return geometry_.pose(machine);
+  const auto correction = compensation->correction(machine);
+  auto moved = machine;
+  for (std::size_t k = 0; k < axis_count; ++k) moved.positions[k] += correction.added[k];
+  return geometry_.pose(moved);
+}
+
+std::vector<MachinePose> PoseReport::random_poses(std::size_t count, std::uint64_t seed) const {
   RandomSource random(seed);
-  std::vector<double> tips, angles;
-  DeviationSummary summary;
-  summary.count = count;
-  if (count == 0) return summary;
+  std::vector<MachinePose> poses;
   for (std::size_t n = 0; n < count; ++n) {
-    MachinePose pose;
+    MachinePose& pose = poses.emplace_back();
     for (std::size_t k = 0; k < axis_count; ++k) {
       const double share = random.uniform();
       pose.approach[k] = random.uniform() < 0.5 ? -1 : 1;
@@ -124,6 +129,16 @@ DeviationSummary PoseReport::summary(std::size_t count, std::uint64_t seed) cons
     }
     pose.tool_length = tool_length;
     pose.temperatures = temperatures;
+  }
+  return poses;
+}
+
+DeviationSummary PoseReport::summary(std::size_t count, std::uint64_t seed) const {
+  std::vector<double> tips, angles;
+  DeviationSummary summary;
+  summary.count = count;
+  if (count == 0) return summary;
+  for (const auto& pose : random_poses(count, seed)) {
     const auto answer = at(pose);
     tips.push_back(answer.deviation.tip.norm());
     angles.push_back(

@@ -3,11 +3,14 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "truth/machine_outline.hpp"
 #include "truth/true_geometry.hpp"
+#include "volumetric/volumetric_compensation.hpp"
 
 namespace trunnion::truth {
 
@@ -41,6 +44,8 @@ class PoseReport {
 
   double tool_length = 0;  ///< mm
   Temperatures temperatures{};
+  /// When present, what the control adds to the commanded positions.
+  std::shared_ptr<const volumetric::VolumetricCompensation> compensation;
 
   /// A line of axis words: `X100 Y-20 A30 C45`, in any order; an axis that is not named is at zero. The
   /// direction of approach of each axis is that from the line before. Nothing for an empty line or a comment
@@ -48,8 +53,12 @@ class PoseReport {
   std::optional<PoseAnswer> answer(const std::string& line, std::size_t line_number);
 
   PoseAnswer at(const MachinePose& machine) const;
-  /// Of `count` poses that are evenly distributed in the travel (of an endless axis: a turn), with either
+  /// Where the tool truly is when the control commands `machine`.
+  ToolPose true_pose(const MachinePose& machine) const;
+  /// `count` poses that are evenly distributed in the travel (of an endless axis: a turn), with either
   /// approach.
+  std::vector<MachinePose> random_poses(std::size_t count, std::uint64_t seed) const;
+  /// Of random_poses().
   DeviationSummary summary(std::size_t count, std::uint64_t seed) const;
 
   const TrueGeometry& geometry() const { return geometry_; }

@@ -2,7 +2,6 @@
 #include "truth/truth_file.hpp"
 
 #include <algorithm>
-#include <sstream>
 #include <stdexcept>
 
 #include "machine/yaml.hpp"
@@ -10,6 +9,7 @@
 #include "truth/error_section.hpp"
 #include "truth/random_machine.hpp"
 #include "truth/truth_reader.hpp"
+#include "volumetric/structure.hpp"
 
 namespace trunnion::truth {
 namespace {
@@ -78,29 +78,10 @@ class TruthParser {
 
   // [w C' A' b X Y Z (S) t], with or without the brackets.
   void structure(const YAML::Node& node) {
-    std::string text = reader_.text(node);
-    if (text.size() > 1 && text.front() == '[' && text.back() == ']') text = text.substr(1, text.size() - 2);
-    std::istringstream in(text);
-    std::vector<std::string> words;
-    for (std::string word; in >> word;) words.push_back(word);
-    if (words.size() < 3 || words.front() != "w" || words.back() != "t")
-      reader_.fail(node, "a structure begins with w and ends with t: w C' A' b X Y Z (S) t");
-    words.erase(words.begin()), words.pop_back();
-    if (words.back() == "(S)") words.pop_back();
-    bool bed = false;
-    geometry().structure.clear();
-    for (const auto& word : words) {
-      if (word == "b") {
-        if (bed) reader_.fail(node, "the bed b is there twice");
-        bed = true;
-        continue;
-      }
-      const bool workpiece = word.size() == 2 && word[1] == '\'';
-      if (workpiece == bed)
-        reader_.fail(node, "'" + word + "': axes with ' are before b, axes without it after b");
-      geometry().structure.push_back({axis(node, workpiece ? word.substr(0, 1) : word), workpiece});
-    }
-    if (!bed) reader_.fail(node, "the bed b is missing");
+    auto structure = volumetric::parse_structure(reader_.text(node));
+    if (const auto* refused = std::get_if<std::string>(&structure)) reader_.fail(node, *refused);
+    geometry().structure = std::get<std::vector<StructureAxis>>(std::move(structure));
+    for (const auto& word : geometry().structure) axis(node, std::string(1, "XYZABCUVW"[word.axis]));
   }
 
   void axes(const YAML::Node& node) {

@@ -74,6 +74,35 @@ TEST(ChannelSetup, TheSmoothCornerAngleIsAnInteriorAngle) {
   EXPECT_EQ(ChannelSetup(tables).limits().smooth_corner_angle, 80);
 }
 
+// X of the machine: 30000 mm/min rapid, 20000 feed, 4000 mm/s2. A tenth belongs to the volumetric
+// compensation.
+TEST(ChannelSetup, TheVolumetricCompensationHasItsShareOfTheLimits) {
+  auto tables = tool_tables::load_machine_tables(ac_table);
+  const auto off = ChannelSetup(tables).limits().axes[0];
+  EXPECT_DOUBLE_EQ(off.rapid_velocity, 500);
+  tables.parameters.values[40954] = {0.1, ""};
+  EXPECT_EQ(ChannelSetup(tables).limits().axes[0].rapid_velocity, off.rapid_velocity) << "it is off";
+  tables.parameters.values[40951] = {1, ""};
+  const auto on = ChannelSetup(tables).limits().axes[0];
+  EXPECT_DOUBLE_EQ(on.rapid_velocity, 450);
+  EXPECT_DOUBLE_EQ(on.velocity, 300);
+  EXPECT_DOUBLE_EQ(on.acceleration, 3600);
+  EXPECT_DOUBLE_EQ(on.jerk, 0.9 * off.jerk);
+}
+
+TEST(ChannelSetup, CompensationParametersThatMakeNoSenseAreRefused) {
+  auto tables = tool_tables::load_machine_tables(ac_table);
+  tables.parameters.values[300020] = {1, ""};
+  tables.parameters.values[300022] = {2, ""};
+  tables.parameters.values[300026] = {709999, ""};
+  try {
+    ChannelSetup setup(tables);
+    FAIL() << "taken";
+  } catch (const std::runtime_error& e) {
+    EXPECT_STREQ(e.what(), "parameter 300026 (pitch_table) is 709999: 2 values end after 709999");
+  }
+}
+
 TEST(ChannelSetup, MCodesOfUserCyclesAreParameters) {
   auto tables = tool_tables::load_machine_tables(ac_table);
   EXPECT_EQ(ChannelSetup(tables).cycle_m_code(3), 0);

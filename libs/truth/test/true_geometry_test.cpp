@@ -233,7 +233,7 @@ TEST_P(EveryMachine, TheCompositionIsThatOfHomogeneousMatrices) {
   Random random{std::mt19937_64(3)};
   for (int machine = 0; machine < 16; ++machine) {
     auto truth = large_errors(random);
-    truth.structure = make(GetParam().parameters, {}).truth().structure;
+    truth.structure = make(GetParam().parameters, {}).errors().structure;
     if (machine % 2 == 1) {
       // Linear axes that no rotary axis carries, dealt out to both sides of the bed in any order.
       std::vector<StructureAxis> table, head, free;

@@ -2,80 +2,48 @@
 #include "compensation_core.hpp"
 
 #include <algorithm>
-#include <cmath>
-
-#include "machine/parameter_constants.hpp"
 
 namespace trunnion::compensation {
-
-double PitchTable::at(double x, bool positive_direction) const {
-  const auto& table = bidirectional && !positive_direction ? negative : positive;
-  if (!enabled || table.empty()) return 0;
-  double place = (x - start) / interval;
-  const auto n = static_cast<double>(table.size());
-  if (modulo) {
-    place -= std::floor(place / n) * n;
-    const auto i = std::min(static_cast<std::size_t>(place), table.size() - 1);
-    const double next = table[(i + 1) % table.size()];
-    return factor * (table[i] + (next - table[i]) * (place - static_cast<double>(i)));
-  }
-  if (place <= 0) return factor * table.front();
-  if (place >= n - 1) return factor * table.back();
-  const auto i = static_cast<std::size_t>(place);
-  return factor * (table[i] + (table[i + 1] - table[i]) * (place - static_cast<double>(i)));
-}
-
-CompensationCore::Axis CompensationCore::read_axis(const machine::Parameters& p, std::uint32_t a) {
-  Axis axis;
-  axis.backlash = p.integer(parameter::backlash_type, a) == 1 ? p.get(parameter::backlash, a) : 0;
-  axis.rate = p.get(parameter::backlash_rate, a);
-  auto& pitch = axis.pitch;
-  const int type = p.integer(parameter::pitch_type, a);
-  const int points = p.integer(parameter::pitch_points, a);
-  pitch.enabled = type != 0 && points > 0;
-  pitch.bidirectional = type == 2;
-  pitch.modulo = p.integer(parameter::pitch_modulo, a) == 1;
-  pitch.start = p.get(parameter::pitch_start, a);
-  pitch.interval = p.get(parameter::pitch_interval, a);
-  pitch.factor = p.get(parameter::pitch_override, a);
-  const auto first = static_cast<std::uint32_t>(p.integer(parameter::pitch_table, a));
-  for (int k = 0; k < points && pitch.enabled; ++k) {
-    pitch.positive.push_back(p.at(first + static_cast<std::uint32_t>(k)));
-    if (pitch.bidirectional) pitch.negative.push_back(p.at(first + static_cast<std::uint32_t>(points + k)));
-  }
-  return axis;
-}
-
 void CompensationCore::configure(const machine::Parameters& p, std::uint16_t channel) {
-  const auto numbers = machine::channel_axes(p, channel).number;
-  std::vector<Axis> axes;
-  std::vector<Slave> slaves;
-  for (const auto number : numbers) axes.push_back(read_axis(p, number));
-  for (const auto& pair : machine::gantry_pairs(p, channel)) {
-    const auto master =
-        static_cast<std::size_t>(std::find(numbers.begin(), numbers.end(), pair.master) - numbers.begin());
-    auto axis = read_axis(p, pair.slave);
-    if (!axis.active() && !axes[master].active()) continue;
-    axes.push_back(std::move(axis));
-    slaves.push_back({pair, master});
-  }
-  axes_ = std::move(axes);
-  slaves_ = std::move(slaves);
+  auto read = ChannelCompensation::read(p, channel);
+  axes_.clear();
+  for (auto& axis : read.axes) axes_.push_back({std::move(axis), {}, 0});
+  slaves_ = std::move(read.slaves);
+  angles_ = std::move(read.angles);
+  letters_ = std::move(read.letters);
+  cross_tables_ = std::any_of(axes_.begin(), axes_.end(), [](const Axis& axis) {
+    return axis.thermal.enabled || axis.jump.amount != 0 || !axis.squareness.empty() ||
+           !axis.straightness.empty();
+  });
+  volume_.configure(std::move(read.volumetric), p, channel);
+  needs_further_ = volume_.enabled() || std::any_of(axes_.begin(), axes_.end(),
+                                                    [](const Axis& a) { return a.has_further_state(); });
+  further_ = needs_further_;
 }
 
-double CompensationCore::compensate(Axis& axis, double x) const {
-  if (!primed_) axis.last = x;
-  // The rounding of a transformation is no reversal: the backlash of an axis at rest must not jump by it.
-  constexpr double rounding = 1e-9;  // mm or deg
-  if (std::abs(x - axis.last) > rounding) {
-    axis.direction = x > axis.last ? 1 : -1;
-    axis.last = x;
+// `x` and `to` have a value for each of axes_.
+void CompensationCore::compensate(const double* x, double* to) {
+  std::array<bool, most_axes> reversed{};
+  for (std::size_t i = 0; i < axes_.size(); ++i) {
+    auto& axis = axes_[i];
+    if (!primed_) axis.motion.last = x[i];
+    reversed[i] = axis.motion.follow(x[i]);
+    const double direction = axis.motion.direction;
+    const double added = axis.backlash.add(direction, std::abs(x[i] - axis.previous));
+    to[i] = x[i] + added + axis.pitch.at(x[i], direction >= 0);
   }
-  // A positive backlash is travel lost when the motion turns negative, so it is taken off there, step by
-  // step.
-  const double wanted = axis.direction < 0 ? -axis.backlash : 0;
-  axis.added += std::clamp(wanted - axis.added, -axis.rate, axis.rate);
-  return x + axis.added + axis.pitch.at(x, axis.direction >= 0);
+  if (cross_tables_)
+    for (std::size_t i = 0; i < axes_.size(); ++i) {
+      auto& axis = axes_[i];
+      if (axis.thermal.enabled) to[i] += axis.thermal.add(x[i]);
+      if (axis.jump.amount != 0) to[i] += axis.jump.add(reversed[i], axis.motion.direction);
+      for (const auto& squareness : axis.squareness) to[i] += squareness.at(x);
+      for (const auto& straightness : axis.straightness)
+        to[i] += straightness.at(x, axes_[straightness.reference].motion.direction);
+    }
+  for (const auto& angle : angles_)
+    to[angle.compensated] += angle.at(x, axes_[angle.reference].motion.direction);
+  for (std::size_t i = 0; i < axes_.size(); ++i) axes_[i].previous = x[i];
 }
 
 bool CompensationCore::process(const idl::stream::AxisFrame& in, const stream::FeedbackWindow&,
@@ -90,35 +58,86 @@ bool CompensationCore::process(const idl::stream::AxisFrame& in, const stream::F
   const std::size_t out_width = axes_.size();
   const std::size_t rows = own == 0 ? 0 : std::min<std::size_t>(in.count, in.setpoints.size() / own);
   out.setpoints.resize(rows * out_width);
+  const double tool_length = in.snapshot.tool_length;
+  bool moved = static_cast<double>(in.epoch) != epoch_;
+  epoch_ = static_cast<double>(in.epoch);
+  if (moved)
+    for (auto& axis : axes_) axis.thermal.offset = axis.thermal.slope = 0;
+  std::array<double, most_axes> x;
   for (std::size_t row = 0; row < rows; ++row) {
     const double* from = &in.setpoints[row * in_width];
     double* to = &out.setpoints[row * out_width];
-    for (std::size_t i = 0; i < own; ++i) to[i] = compensate(axes_[i], from[i]);
+    std::copy_n(from, own, x.begin());
     for (std::size_t k = 0; k < slaves_.size(); ++k)
-      to[own + k] = compensate(axes_[own + k], slaves_[k].pair.slave_position(from[slaves_[k].master]));
+      x[own + k] = slaves_[k].pair.slave_position(from[slaves_[k].master]);
+    if (!primed_)
+      for (std::size_t i = 0; i < out_width; ++i) axes_[i].previous = x[i];
+    if (!further_) {
+      compensate(x.data(), to);
+    } else {
+      VolumetricStage::Rows positions{};
+      VolumetricStage::Directions before{}, now{};
+      for (std::size_t i = 0; i < own; ++i) before[letters_[i]] = static_cast<int>(axes_[i].motion.direction);
+      compensate(x.data(), to);
+      for (std::size_t i = 0; i < own; ++i) {
+        positions[letters_[i]] = x[i];
+        now[letters_[i]] = static_cast<int>(axes_[i].motion.direction);
+      }
+      const auto& added = volume_.step(positions, before, now, tool_length, moved);
+      for (std::size_t i = 0; i < own; ++i) to[i] += added[letters_[i]];
+      for (std::size_t k = 0; k < slaves_.size(); ++k)
+        to[own + k] += slaves_[k].pair.sign * added[letters_[slaves_[k].master]];
+    }
+    moved = false;
     primed_ = true;
   }
   return true;
 }
 
+std::size_t CompensationCore::further_count() const {
+  return further_state * axes_.size() + 1 + VolumetricStage::state_count(letters_) + 1;
+}
+
 void CompensationCore::load(std::span<const double> state) {
-  primed_ = !state.empty() && state.size() == 3 * axes_.size();
-  for (std::size_t i = 0; i < axes_.size(); ++i) {
+  const std::size_t n = axes_.size(), base = base_state * n;
+  const bool whole = state.size() == base + further_count() && state.back() == static_cast<double>(n);
+  primed_ = !state.empty() && (state.size() == base || whole);
+  volume_.clear();
+  epoch_ = 0;
+  for (std::size_t i = 0; i < n; ++i) {
     auto& axis = axes_[i];
-    axis.last = primed_ ? state[3 * i] : 0;
-    axis.direction = primed_ ? state[3 * i + 1] : 0;
-    axis.added = primed_ ? state[3 * i + 2] : 0;
+    axis.motion.last = primed_ ? state[base_state * i] : 0;
+    axis.motion.direction = primed_ ? state[base_state * i + 1] : 0;
+    axis.backlash.added = primed_ ? state[base_state * i + 2] : 0;
+    axis.previous = axis.motion.last;
+    axis.thermal.offset = axis.thermal.slope = 0;
+    axis.jump.age = -1;
+    if (!whole) continue;
+    const double* further = &state[base + further_state * i];
+    axis.previous = further[0];
+    axis.thermal.offset = further[1], axis.thermal.slope = further[2];
+    axis.jump.age = further[3];
   }
+  further_ = needs_further_ || whole;
+  if (!whole) return;
+  epoch_ = state[base + further_state * n];
+  volume_.load(state.subspan(base + further_state * n + 1, VolumetricStage::state_count(letters_)), letters_);
 }
 
 void CompensationCore::save(stream::StateValues& state) const {
-  state.resize(primed_ ? 3 * axes_.size() : 0);
+  state.clear();
   if (!primed_) return;
-  for (std::size_t i = 0; i < axes_.size(); ++i) {
-    state[3 * i] = axes_[i].last;
-    state[3 * i + 1] = axes_[i].direction;
-    state[3 * i + 2] = axes_[i].added;
-  }
+  state.reserve(base_state * axes_.size() + (further_ ? further_count() : 0));
+  for (const auto& axis : axes_)
+    for (const double value : {axis.motion.last, axis.motion.direction, axis.backlash.added})
+      state.push_back(value);
+  if (!further_) return;
+  for (const auto& axis : axes_)
+    for (const double value : {axis.previous, axis.thermal.offset, axis.thermal.slope, axis.jump.age})
+      state.push_back(value);
+  state.push_back(epoch_);
+  volume_.save(state, letters_);
+  state.push_back(static_cast<double>(axes_.size()));
 }
 
 }  // namespace trunnion::compensation

@@ -1,33 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
-// Backlash and pitch error compensation, added to the machine setpoints: positive moves positive.
-// Source: HNC-8 parameters 30a000..003 and 30a020..026 with tables 70xxxx (docs/spec in
-// docs/compensation.md).
+// Compensation of errors in machine setpoints: positive values move the axis in positive direction.
+// docs/compensation.md has the formulas and their sources.
 #pragma once
 
+#include <array>
 #include <vector>
 
-#include "machine/gantry_pairs.hpp"
+#include "compensation/axis_motion.hpp"
+#include "compensation/channel_compensation.hpp"
 #include "stream/stage_core.hpp"
+#include "volumetric_stage.hpp"
 
 namespace trunnion::compensation {
-
-/// A table of errors over the machine coordinate, interpolated linearly; outside the travel the boundary
-/// value holds unless the table is modulo.
-struct PitchTable {
-  bool enabled = false;
-  bool bidirectional = false;
-  bool modulo = false;
-  double start = 0, interval = 1, factor = 1;
-  std::vector<double> positive, negative;
-
-  /// mm or deg to add at machine coordinate `x` when moving in direction `positive_direction`.
-  double at(double x, bool positive_direction) const;
-};
 
 /// The slave of a gantry has its own tables. When it or its master is compensated, its compensated setpoint
 /// becomes a column of the frames, behind the channel's axes; gantry then only corrects it.
 /// State per axis, slaves last: last uncompensated setpoint, direction of the last move (-1, 0, 1), backlash
-/// added now.
+/// added now. With thermal, rapid-traverse, reversal or volumetric compensation in addition: for each axis
+/// the setpoint of the newest cycle, thermal offset and slope, cycles since the reversal; the epoch; the
+/// volumetric state; the number of axes.
 class CompensationCore : public stream::StageCore<idl::stream::AxisFrame> {
  public:
   void configure(const machine::Parameters& parameters, std::uint16_t channel) override;
@@ -37,23 +28,26 @@ class CompensationCore : public stream::StageCore<idl::stream::AxisFrame> {
   void save(stream::StateValues& state) const override;
 
  private:
-  struct Axis {
-    bool active() const { return backlash != 0 || pitch.enabled; }
+  static constexpr std::size_t most_axes = ChannelCompensation::most_axes;
+  static constexpr std::size_t base_state = 3, further_state = 4;
 
-    double backlash = 0, rate = 0;
-    PitchTable pitch;
-    double last = 0, direction = 0, added = 0;
+  struct Axis : AxisCompensation {
+    AxisMotion motion;
+    double previous = 0;  // setpoint of the newest cycle
   };
-  struct Slave {
-    machine::GantryPair pair;
-    std::size_t master = 0;  // column of its master
-  };
-  static Axis read_axis(const machine::Parameters& parameters, std::uint32_t number);
-  double compensate(Axis& axis, double x) const;
 
-  std::vector<Axis> axes_;     // of the channel, then the slaves
-  std::vector<Slave> slaves_;  // those that are compensated
-  bool primed_ = false;        // false until the first setpoint gives the axes' positions
+  void compensate(const double* x, double* to);
+  std::size_t further_count() const;
+
+  std::vector<Axis> axes_;                 // of the channel, then the slaves
+  std::vector<CompensatedSlave> slaves_;   // those that are compensated
+  std::vector<AngleCompensation> angles_;  // of all axes
+  std::vector<std::uint8_t> letters_;      // 0 .. 8 of the channel's axes
+  VolumetricStage volume_;
+  bool cross_tables_ = false;
+  bool primed_ = false;                           // false until the first setpoint gives the axes' positions
+  bool needs_further_ = false, further_ = false;  // the parameters need, the state has the additional part
+  double epoch_ = 0;
 };
 
 }  // namespace trunnion::compensation

@@ -78,7 +78,7 @@ TEST(Compensation, ABidirectionalTableUsesItsSecondHalfGoingDown) {
 }
 
 TEST(Compensation, AModuloTableRepeats) {
-  PitchTable table{true, false, true, 0, 90, 1, {0, 0.01, 0, -0.01}, {}};
+  ErrorTable table{true, false, true, 0, 90, 1, {0, 0.01, 0, -0.01}, {}};
   EXPECT_NEAR(table.at(90, true), 0.01, 1e-15);
   EXPECT_NEAR(table.at(450, true), 0.01, 1e-15);
   EXPECT_NEAR(table.at(315, true), -0.005, 1e-15) << "half way from -0.01 at 270 to 0 at 360";

@@ -34,7 +34,7 @@ TEST(Allocation, APeriodOfAnElasticAxisAndThePoseOfTheToolAllocateNothing) {
     setpoint.position += 0.05;
     axis.step(setpoint, 0.001);
     pose.positions[0] = axis.load();
-    warm.step(geometry.truth().heat, {50, 0, 0}, 0.001);
+    warm.step(geometry.errors().heat, {50, 0, 0}, 0.001);
     pose.temperatures = warm.temperatures();
     sum += geometry.pose(pose).tip.x();
   }

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "truth/true_geometry.hpp"
+#include "volumetric/error_model.hpp"
 
 #include <algorithm>
 
 #include "geometry/angle.hpp"
 
-namespace trunnion::truth {
+namespace trunnion::volumetric {
 namespace {
 
 using geometry::radians_per_degree;
@@ -52,7 +52,7 @@ std::vector<StructureAxis> default_structure(const geometry::ChainParameters& p)
   return structure;
 }
 
-bool has_effect(const AxisTruth& axis) {
+bool has_effect(const AxisErrors& axis) {
   return !axis.errors.empty() || !axis.displacement.isZero(0) || !axis.inclination.isZero(0);
 }
 
@@ -82,32 +82,32 @@ Mat3 rotation(const Vec3& angles) {
   return r;
 }
 
-bool GeometryTruth::ideal() const {
+bool GeometryErrors::ideal() const {
   return !beam && !has_effect(spindle) &&
          std::none_of(axes.begin(), axes.end(), [](const auto& axis) { return has_effect(axis); }) &&
          std::none_of(heat.begin(), heat.end(), [](const auto& source) { return has_effect(source); });
 }
 
-std::variant<TrueGeometry, std::string> TrueGeometry::make(const geometry::ChainParameters& design,
-                                                           const GeometryTruth& truth) {
+std::variant<ErrorModel, std::string> ErrorModel::make(const geometry::ChainParameters& design,
+                                                       const GeometryErrors& errors) {
   auto chain = geometry::Chain::make(design);
   if (std::holds_alternative<geometry::ChainError>(chain))
     return "the kinematic parameters of the machine make no chain";
-  TrueGeometry made(std::get<geometry::Chain>(std::move(chain)));
-  made.truth_ = truth;
-  made.ideal_ = truth.ideal();
-  for (auto& axis : made.truth_.axes)
+  ErrorModel made(std::get<geometry::Chain>(std::move(chain)));
+  made.errors_ = errors;
+  made.ideal_ = errors.ideal();
+  for (auto& axis : made.errors_.axes)
     for (auto& error : axis.errors)
       for (auto* terms : {&error.function.terms, &error.function.positive, &error.function.negative})
         for (auto& table : terms->tables) table.finish();
   if (auto refused = made.order(design); !refused.empty()) return refused;
   for (Joint& joint : made.joints_)
     if (auto refused = made.place(design, joint); !refused.empty()) return refused;
-  if (truth.beam) {
+  if (errors.beam) {
     const auto joint = std::find_if(made.joints_.begin(), made.joints_.end(),
-                                    [&](const Joint& j) { return j.axis == truth.beam->axis; });
+                                    [&](const Joint& j) { return j.axis == errors.beam->axis; });
     if (joint == made.joints_.end() || joint->rotary) return "the beam's axis must be X, Y or Z";
-    const Vec3 beam = truth.beam->slave_foot - truth.beam->master_foot;
+    const Vec3 beam = errors.beam->slave_foot - errors.beam->master_foot;
     made.beam_axis_ = beam.cross(joint->direction);
     made.beam_span_ = made.beam_axis_.norm();
     if (!(made.beam_span_ >= 1)) return "the feet of the beam must be 1 mm or more apart, across its axis";
@@ -117,8 +117,8 @@ std::variant<TrueGeometry, std::string> TrueGeometry::make(const geometry::Chain
 }
 
 // Adopts the structure when it is one of this chain.
-std::string TrueGeometry::order(const geometry::ChainParameters& design) {
-  auto& structure = truth_.structure;
+std::string ErrorModel::order(const geometry::ChainParameters& design) {
+  auto& structure = errors_.structure;
   const auto expected = default_structure(design);
   if (structure.empty()) structure = expected;
   for (const auto& axis : expected) {
@@ -171,8 +171,8 @@ std::string TrueGeometry::order(const geometry::ChainParameters& design) {
 }
 
 // Where the axis is, with its location errors. docs/truth.md derives the points from the parameters.
-std::string TrueGeometry::place(const geometry::ChainParameters& design, Joint& joint) const {
-  const AxisTruth& axis = truth_.axes[joint.axis];
+std::string ErrorModel::place(const geometry::ChainParameters& design, Joint& joint) const {
+  const AxisErrors& axis = errors_.axes[joint.axis];
   if (!joint.rotary) {
     joint.direction = design.linear_direction.col(static_cast<Eigen::Index>(joint.axis)).stableNormalized();
     joint.direction = rotation(axis.inclination) * joint.direction;
@@ -197,9 +197,9 @@ std::string TrueGeometry::place(const geometry::ChainParameters& design, Joint& 
   return "";
 }
 
-void TrueGeometry::apply_errors(const Joint& joint, const MachinePose& machine, Points& p) const {
-  const AxisTruth& axis = truth_.axes[joint.axis];
-  const HeatSource& heat = truth_.heat[joint.axis];
+void ErrorModel::apply_errors(const Joint& joint, const MachinePose& machine, Points& p) const {
+  const AxisErrors& axis = errors_.axes[joint.axis];
+  const HeatSource& heat = errors_.heat[joint.axis];
   const double warm = machine.temperatures[joint.axis];
   Vec3 translation = warm * heat.shift, angles = warm * heat.tilt;
   if (!joint.rotary && heat.expansion != 0)
@@ -213,8 +213,8 @@ void TrueGeometry::apply_errors(const Joint& joint, const MachinePose& machine, 
   apply(translation, angles, joint.reference, p.tip, p.axis);
 }
 
-void TrueGeometry::apply_beam(const MachinePose& machine, Points& p) const {
-  const BeamTruth& beam = *truth_.beam;
+void ErrorModel::apply_beam(const MachinePose& machine, Points& p) const {
+  const BeamErrors& beam = *errors_.beam;
   const double lead = machine.slave_lead + beam.misalignment +
                       beam.slave_error.value(machine.positions[beam.axis], machine.approach[beam.axis]);
   const double hypotenuse = std::sqrt(lead * lead + beam_span_ * beam_span_);
@@ -223,7 +223,7 @@ void TrueGeometry::apply_beam(const MachinePose& machine, Points& p) const {
   p.axis = turned(beam_axis_, t, p.axis);
 }
 
-void TrueGeometry::apply_motion(const Joint& joint, double position, Points& p) const {
+void ErrorModel::apply_motion(const Joint& joint, double position, Points& p) const {
   if (!joint.rotary) {
     p.tip += position * joint.direction;
     return;
@@ -233,43 +233,76 @@ void TrueGeometry::apply_motion(const Joint& joint, double position, Points& p) 
   p.axis = turned(joint.direction, t, p.axis);
 }
 
-ToolPose TrueGeometry::pose(const MachinePose& machine) const {
-  if (ideal_) return ideal_pose(machine);
-  const AxisTruth& spindle = truth_.spindle;
-  const HeatSource& heat = truth_.heat[spindle_source];
+// Of the tool in the frame of its spindle carriage, with every axis at zero.
+ErrorModel::Points ErrorModel::tool(const MachinePose& machine) const {
+  const AxisErrors& spindle = errors_.spindle;
+  const HeatSource& heat = errors_.heat[spindle_source];
   const double warm = machine.temperatures[spindle_source];
   Points p{face_ - machine.tool_length * chain_.tool_direction(), chain_.tool_direction()};
   apply(spindle.displacement + warm * heat.shift, spindle.inclination + warm * heat.tilt, face_, p.tip,
         p.axis);
-  for (std::size_t i = joints_.size(); i-- > 0;) {
-    const Joint& joint = joints_[i];
-    // The errors of a carriage are those of its own frame, the errors of a rotary axis those of the frame on
-    // the side of the bed.
-    const bool errors_first = joint.rotary == joint.workpiece;
-    if (errors_first) apply_errors(joint, machine, p);
-    if (truth_.beam && truth_.beam->axis == joint.axis && !joint.workpiece) apply_beam(machine, p);
-    apply_motion(joint, machine.positions[joint.axis], p);
-    if (truth_.beam && truth_.beam->axis == joint.axis && joint.workpiece) apply_beam(machine, p);
-    if (!errors_first) apply_errors(joint, machine, p);
-  }
+  return p;
+}
+
+void ErrorModel::apply_joint(const Joint& joint, const MachinePose& machine, Points& p) const {
+  // The errors of a carriage are those of its own frame, the errors of a rotary axis those of the frame on
+  // the side of the bed.
+  const bool errors_first = joint.rotary == joint.workpiece;
+  const bool beam = errors_.beam && errors_.beam->axis == joint.axis;
+  if (errors_first) apply_errors(joint, machine, p);
+  if (beam && !joint.workpiece) apply_beam(machine, p);
+  apply_motion(joint, machine.positions[joint.axis], p);
+  if (beam && joint.workpiece) apply_beam(machine, p);
+  if (!errors_first) apply_errors(joint, machine, p);
+}
+
+ToolPose ErrorModel::pose(const MachinePose& machine) const {
+  if (ideal_) return ideal_pose(machine);
+  Points p = tool(machine);
+  for (std::size_t i = joints_.size(); i-- > 0;) apply_joint(joints_[i], machine, p);
   return {p.tip, p.axis};
 }
 
-ToolPose TrueGeometry::ideal_pose(const MachinePose& machine) const {
+PoseDerivatives ErrorModel::derivatives(const MachinePose& machine) const {
+  PoseDerivatives d;
+  d.tip.fill(Vec3::Zero());
+  d.axis.fill(Vec3::Zero());
+  Points p = tool(machine);
+  for (std::size_t i = joints_.size(); i-- > 0;) {
+    const Joint& joint = joints_[i];
+    apply_joint(joint, machine, p);
+    if (!joint.rotary) {
+      d.tip[joint.axis] = joint.direction;
+      continue;
+    }
+    const auto t = geometry::sine_cosine(machine.positions[joint.axis] + joint.zero);
+    for (std::size_t k = i + 1; k < joints_.size(); ++k) {
+      Vec3 &tip = d.tip[joints_[k].axis], &axis = d.axis[joints_[k].axis];
+      tip = turned(joint.direction, t, tip);
+      axis = turned(joint.direction, t, axis);
+    }
+    d.tip[joint.axis] = joint.direction.cross(p.tip - joint.pivot);
+    d.axis[joint.axis] = joint.direction.cross(p.axis);
+  }
+  d.pose = {p.tip, p.axis};
+  return d;
+}
+
+ToolPose ErrorModel::ideal_pose(const MachinePose& machine) const {
   const auto angles = geometry::angles_of(machine.positions.data());
   return {chain_.tip_from_machine({machine.positions[0], machine.positions[1], machine.positions[2]}, angles,
                                   machine.tool_length),
           chain_.tool_direction_in_workpiece(angles)};
 }
 
-std::string TrueGeometry::notation() const {
+std::string ErrorModel::notation() const {
   std::string text = "[w";
   bool bed = false;
-  for (const auto& axis : truth_.structure) {
+  for (const auto& axis : errors_.structure) {
     if (!axis.workpiece && !bed) text += " b", bed = true;
     text.append(" ").append(1, letters[axis.axis]).append(axis.workpiece ? "'" : "");
   }
   return text + (bed ? "" : " b") + " (S) t]";
 }
 
-}  // namespace trunnion::truth
+}  // namespace trunnion::volumetric

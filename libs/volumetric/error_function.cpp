@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "truth/error_function.hpp"
+#include "volumetric/error_function.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include "geometry/angle.hpp"
 
-namespace trunnion::truth {
+namespace trunnion::volumetric {
 
 void Table::finish() {
   const std::size_t n = positions.size();
@@ -69,4 +69,4 @@ double ErrorFunction::value(double x, int approach) const {
   return sum + 0.5 * reversal * ((approach > 0) - (approach < 0));
 }
 
-}  // namespace trunnion::truth
+}  // namespace trunnion::volumetric

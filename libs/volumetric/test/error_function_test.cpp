@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "truth/error_function.hpp"
+#include "volumetric/error_function.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "truth/warm_up.hpp"
+#include "volumetric/warm_up.hpp"
 
-namespace trunnion::truth {
+namespace trunnion::volumetric {
 namespace {
 
 TEST(ErrorFunction, APolynomialIsInUnitsFromItsOrigin) {
@@ -86,4 +86,4 @@ TEST(WarmUp, FollowsTheExponentialAndTheFinalRise) {
 }
 
 }  // namespace
-}  // namespace trunnion::truth
+}  // namespace trunnion::volumetric

@@ -8,7 +8,7 @@
 
 #include "geometry/types.hpp"
 
-namespace trunnion::truth {
+namespace trunnion::volumetric {
 
 /// X Y Z A B C U V W, and the spindle.
 inline constexpr std::size_t axis_count = 9, heat_source_count = 10, spindle_source = 9;
@@ -46,4 +46,4 @@ class WarmUp {
   Temperatures rise_{};
 };
 
-}  // namespace trunnion::truth
+}  // namespace trunnion::volumetric

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace trunnion::truth {
+namespace trunnion::volumetric {
 
 /// Sum over k of coefficients[k] * ((x - origin) / unit)^k.
 struct Polynomial {
@@ -57,4 +57,4 @@ struct ErrorFunction {
   double value(double x, int approach) const;
 };
 
-}  // namespace trunnion::truth
+}  // namespace trunnion::volumetric

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "truth/warm_up.hpp"
+#include "volumetric/warm_up.hpp"
 
 #include <cmath>
 
-namespace trunnion::truth {
+namespace trunnion::volumetric {
 
 void WarmUp::step(const HeatSources& sources, const std::array<double, heat_source_count>& speeds,
                   double dt) {
@@ -14,4 +14,4 @@ void WarmUp::step(const HeatSources& sources, const std::array<double, heat_sour
   }
 }
 
-}  // namespace trunnion::truth
+}  // namespace trunnion::volumetric
