@@ -183,7 +183,7 @@ def address(first, index, stride):
 
 
 def registers():
-    path = "services/plc/registers.yaml"
+    path = "libs/plc/library/registers.yaml"
     out = ["# PLC registers", "", f"Generated from `{path}` by `tools/generate_docs.py`.", "",
            "The interface between the PLC program and the other services; programs use the names. A name with several registers is `name_0`, `name_1` "
            "and so on. X: inputs, Y: outputs (bytes), F: from the NC, G: to the NC (16 bit), R: relays (bytes), B: retained through a restart (32 bit). "
