@@ -25,9 +25,17 @@ Value Lowering::call(const Expression& e, const Type* expected) {
   Value none;
   none.type = elementary(Kind::none);
   const bool plain = callee.kind == Expression::Kind::name;
-  const bool local = plain && ((pou_ != nullptr && pou_->names.contains(callee.name) &&
-                                pou_->names.find(callee.name)->second != pou_->result) ||
-                               unit_.find_global(callee.name) != nullptr);
+  // A variable hides a function only when it can be called itself.
+  const auto instance_named = [&] {
+    const auto* variable = unit_.find_global(callee.name);
+    if (pou_ != nullptr)
+      if (const auto found = pou_->names.find(callee.name); found != pou_->names.end())
+        variable = found->second;
+    if (variable == nullptr) return false;
+    return variable->type->kind == Kind::block ||
+           (unit_.find_pou(callee.name) == nullptr && !is_standard_function(callee.name));
+  };
+  const bool local = plain && instance_named();
   if (plain && !local) {
     if (auto* pou = unit_.find_pou(callee.name)) {
       switch (pou->declaration->kind) {

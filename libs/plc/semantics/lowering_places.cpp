@@ -172,7 +172,7 @@ void Lowering::store_cell(const Place& place, const Type& type, std::int32_t sou
       emit_.add(Op::save, source, place.offset);
       break;
     case Place::Base::indirect:
-      emit_.add(Op::save_at, place.cell, source, place.offset);
+      emit_.add(Op::save_at, source, place.cell, place.offset);
       break;
     case Place::Base::none:
       break;
