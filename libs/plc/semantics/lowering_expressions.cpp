@@ -213,7 +213,8 @@ bool Lowering::settle(Value& left, Value& right, const std::string& op, Position
   if (common_type(*left.type, *right.type) != nullptr) return true;
   std::string text =
       "'" + op + "' between " + left.type->name + " and " + right.type->name + " is not defined";
-  if (left.type->kind < Kind::string && right.type->kind < Kind::string)
+  const bool logical = left.type->kind == Kind::boolean || right.type->kind == Kind::boolean;
+  if (left.type->kind < Kind::string && right.type->kind < Kind::string && !logical)
     text += "; convert one side, as with " + elementary(right.type->kind)->name + "_TO_" +
             elementary(left.type->kind)->name;
   failed(at, text);

@@ -178,7 +178,8 @@ Value Lowering::index(const Expression& e) {
     return failed(e.at, value.type->name + " is no array and has no index");
   const auto& type = *value.type;
   if (e.parts.size() - 1 != type.dimensions.size())
-    return failed(e.at, "the array has " + std::to_string(type.dimensions.size()) + " dimensions, not " +
+    return failed(e.at, "the array has " + std::to_string(type.dimensions.size()) +
+                            (type.dimensions.size() == 1 ? " dimension, not " : " dimensions, not ") +
                             std::to_string(e.parts.size() - 1));
   std::int64_t stride = type.cells, offset = 0;
   std::optional<std::int32_t> sum;

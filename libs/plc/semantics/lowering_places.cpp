@@ -29,8 +29,8 @@ std::uint64_t constant_cell(const Value& value, const Type& to) {
   if (to.kind == Kind::real) {
     if (from_real && !value.text.empty()) {
       float exact = 0;  // rounded once
-      std::from_chars(value.text.data(), value.text.data() + value.text.size(), exact);
-      return cell_of(exact);
+      const auto parsed = std::from_chars(value.text.data(), value.text.data() + value.text.size(), exact);
+      return cell_of(parsed.ec == std::errc{} ? exact : static_cast<float>(value.real));
     }
     return cell_of(from_real ? static_cast<float>(value.real) : static_cast<float>(value.integer));
   }
@@ -217,7 +217,9 @@ void Lowering::mark_written(const Value& target) {
 bool Lowering::check_writable(const Value& target, Position at) {
   if (target.is_error()) return false;
   if (target.is_constant || target.place.base == Place::Base::none) {
-    unit_.diagnostics().error(at, "a value cannot be written here: a variable is required");
+    unit_.diagnostics().error(at, target.variable != nullptr
+                                      ? "'" + target.variable->text + "' is a constant and cannot be written"
+                                      : "a value cannot be written here: a variable is required");
     return false;
   }
   if (!target.place.writable) {
@@ -259,7 +261,8 @@ Value Lowering::converted(Value value, const Type& to, Position at) {
     auto result = constant_real(&to, value.real);
     if (to.kind == Kind::real) {
       const auto narrow = as_float(constant_cell(value, to));
-      if (std::isinf(narrow)) return failed(at, "the value is too large for REAL; use LREAL");
+      if (std::isinf(narrow) || std::abs(value.real) > std::numeric_limits<float>::max())
+        return failed(at, "the value is too large for REAL; use LREAL");
       result.real = static_cast<double>(narrow);
     }
     return result;
@@ -280,7 +283,8 @@ Value Lowering::converted(Value value, const Type& to, Position at) {
     return value;
   }
   const auto& from_name = value.type->name;
-  std::string text = "expected " + to.name + ", found " + from_name;
+  std::string text = "expected " + to.name + ", found " +
+                     (from == Kind::integer_literal || from == Kind::real_literal ? "a number" : from_name);
   const bool numbers = from < Kind::string && to.kind < Kind::string;
   if (numbers) text += "; convert with " + elementary(from)->name + "_TO_" + elementary(to.kind)->name;
   if (from == Kind::real_literal && (is_integer(to.kind) || is_bits(to.kind)))

@@ -35,8 +35,8 @@ constexpr std::array rows = std::to_array<Row>({
     {Kind::date, "DATE", 64, true},
     {Kind::tod, "TIME_OF_DAY", 64, true},
     {Kind::dt, "DATE_AND_TIME", 64, true},
-    {Kind::integer_literal, "integer literal", 64, true},
-    {Kind::real_literal, "real literal", 64, false},
+    {Kind::integer_literal, "a whole number", 64, true},
+    {Kind::real_literal, "a number with a decimal point", 64, false},
     {Kind::none, "nothing", 64, false},
     {Kind::error, "unknown", 64, false},
 });

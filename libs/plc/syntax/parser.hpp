@@ -97,6 +97,7 @@ class StatementParser : public ExpressionParser {
   void case_statement(Statement& s);
   void for_statement(Statement& s);
   bool at_case_label() const;
+  bool at_declaration() const;
   void recover(std::initializer_list<std::string_view> ends);
   std::vector<CaseLabel> labels();
 };

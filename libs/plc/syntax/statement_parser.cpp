@@ -9,7 +9,7 @@ Statements StatementParser::statements(std::initializer_list<std::string_view> e
   const Depth depth(*this);
   Statements result;
   const auto ended = [&] {
-    return now().kind == TokenKind::end ||
+    return now().kind == TokenKind::end || at_declaration() ||
            std::any_of(ends.begin(), ends.end(), [&](auto word) { return is_word(word); });
   };
   const auto starts_with_label = std::find(ends.begin(), ends.end(), "END_CASE") != ends.end();
@@ -25,13 +25,21 @@ Statements StatementParser::statements(std::initializer_list<std::string_view> e
   return result;
 }
 
+// A unit begins where statements are expected: the end of the one before is missing.
+bool StatementParser::at_declaration() const {
+  for (const auto* word : {"PROGRAM", "FUNCTION", "FUNCTION_BLOCK", "TEST", "TYPE", "VAR_GLOBAL"})
+    if (is_word(word)) return true;
+  return false;
+}
+
 // To behind the next ';', or to the end of the enclosing statement.
 void StatementParser::recover(std::initializer_list<std::string_view> ends) {
   while (now().kind != TokenKind::end) {
     if (accept_symbol(";")) return;
     if (std::any_of(ends.begin(), ends.end(), [&](auto word) { return is_word(word); })) return;
     const bool outer = now().kind == TokenKind::identifier && now().upper.rfind("END_", 0) == 0;
-    for (const auto* word : {"IF", "CASE", "FOR", "WHILE", "REPEAT", "PROGRAM", "FUNCTION", "FUNCTION_BLOCK"})
+    if (at_declaration()) return;
+    for (const auto* word : {"IF", "CASE", "FOR", "WHILE", "REPEAT"})
       if (is_word(word)) return;
     take();
     if (outer) {

@@ -5,9 +5,10 @@
 namespace trunnion::st {
 namespace {
 
-/// `output` after each scan of `call`, in which IN is the scan's character; '1' is TRUE. Scans are 10 ms apart.
-std::string trace(const std::string& block, const std::string& call, const std::string& output, const std::string& inputs,
-                  const std::string& others = "") {
+/// `output` after each scan of `call`, in which IN is the scan's character; '1' is TRUE. Scans are 10 ms
+/// apart.
+std::string trace(const std::string& block, const std::string& call, const std::string& output,
+                  const std::string& inputs, const std::string& others = "") {
   Translated program("VAR x, y : BOOL; b : " + block + "; END_VAR", "b(" + call + ");");
   std::string result;
   for (std::size_t i = 0; i < inputs.size(); ++i) {
@@ -43,11 +44,14 @@ TEST(Counters, CountRisingEdges) {
 // Scans at 0, 10, 20 ... ms; 20 ms are reached in the second scan behind the edge.
 TEST(Timers, FollowTheDiagramsOfTheStandard) {
   EXPECT_EQ(trace("TON", "IN := x, PT := T#20ms", "Q", "0111100110"), "0001100000");
-  EXPECT_EQ(trace("TON", "IN := x, PT := T#20ms", "ET", "01111001"), "T#0ms T#0ms T#10ms T#20ms T#20ms T#0ms T#0ms T#0ms ");
+  EXPECT_EQ(trace("TON", "IN := x, PT := T#20ms", "ET", "01111001"),
+            "T#0ms T#0ms T#10ms T#20ms T#20ms T#0ms T#0ms T#0ms ");
   EXPECT_EQ(trace("TOF", "IN := x, PT := T#20ms", "Q", "0110000100"), "0111100111");
-  EXPECT_EQ(trace("TOF", "IN := x, PT := T#20ms", "ET", "0110000"), "T#0ms T#0ms T#0ms T#0ms T#10ms T#20ms T#20ms ");
+  EXPECT_EQ(trace("TOF", "IN := x, PT := T#20ms", "ET", "0110000"),
+            "T#0ms T#0ms T#0ms T#0ms T#10ms T#20ms T#20ms ");
   EXPECT_EQ(trace("TP", "IN := x, PT := T#20ms", "Q", "0100110111"), "0110110110");
-  EXPECT_EQ(trace("TP", "IN := x, PT := T#20ms", "ET", "0111100"), "T#0ms T#0ms T#10ms T#20ms T#20ms T#0ms T#0ms ");
+  EXPECT_EQ(trace("TP", "IN := x, PT := T#20ms", "ET", "0111100"),
+            "T#0ms T#0ms T#10ms T#20ms T#20ms T#0ms T#0ms ");
   EXPECT_EQ(trace("TON", "IN := x, PT := T#0s", "Q", "010"), "010");
 }
 
@@ -67,9 +71,11 @@ TEST(Timers, AreKnownToTheService) {
 // Kp 100 %, Ts 1, Ti 10, Td 2, target 1000. With e = 1000, 1000, 1000, 500, 500 the increments
 // (e - e1) + Ts/Ti e + Td/Ts (e - 2 e1 + e2) are 3100, -1900, 100, -1450, 1050.
 TEST(Pid, GivesTheNumbersOfTheManual) {
-  Translated program("VAR r AT %B420 : ARRAY[0..15] OF DINT; out AT %B44 : DINT; actual : DINT; done : BOOL; first : BOOL := TRUE; END_VAR",
-                     "IF first THEN r[4] := 1; r[5] := 100; r[6] := 10; r[7] := 2; first := FALSE; END_IF;\n"
-                     "done := PID(S1 := 1000, S2 := actual, S3 := r, S4 := out);");
+  Translated program(
+      "VAR r AT %B420 : ARRAY[0..15] OF DINT; out AT %B44 : DINT; actual : DINT; done : BOOL; first : BOOL "
+      ":= TRUE; END_VAR",
+      "IF first THEN r[4] := 1; r[5] := 100; r[6] := 10; r[7] := 2; first := FALSE; END_IF;\n"
+      "done := PID(S1 := 1000, S2 := actual, S3 := r, S4 := out);");
   std::string outputs;
   for (const char* actual : {"0", "0", "0", "500", "500"}) {
     program.set("actual", actual);
@@ -81,8 +87,10 @@ TEST(Pid, GivesTheNumbersOfTheManual) {
 }
 
 TEST(Pid, LimitsReversesFiltersAndKeepsItsPeriod) {
-  Translated program("VAR r : ARRAY[0..15] OF DINT := [3(0), 50, 1, 100, 0, 0, 400, -200, 0]; out, actual, target : DINT; done : BOOL; END_VAR",
-                     "done := PID(target, actual, r, out);");
+  Translated program(
+      "VAR r : ARRAY[0..15] OF DINT := [3(0), 50, 1, 100, 0, 0, 400, -200, 0]; out, actual, target : DINT; "
+      "done : BOOL; END_VAR",
+      "done := PID(target, actual, r, out);");
   program.set("target", "1000");
   program.scan();
   EXPECT_EQ(program.get("out"), "400");  // e = 1000 - 0: increment 1000, limited
