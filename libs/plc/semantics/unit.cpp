@@ -156,6 +156,7 @@ void Unit::declare_variable(Pou& pou, const VariableBlock& block, const Variable
     } else if (!same_type(*global->type, type)) {
       diagnostics_.error(declaration.at, "the global variable '" + declaration.text + "' has the type " +
                                              global->type->name + ", not " + type.name);
+      variable.type = elementary(Kind::error);
     } else {
       variable.place = global->place;
       variable.constant = global->constant;

@@ -25,9 +25,11 @@ Statements StatementParser::statements(std::initializer_list<std::string_view> e
   return result;
 }
 
-// A unit begins where statements are expected: the end of the one before is missing.
+// A unit begins or ends where statements are expected: the end of a statement or of the unit before is
+// missing.
 bool StatementParser::at_declaration() const {
-  for (const auto* word : {"PROGRAM", "FUNCTION", "FUNCTION_BLOCK", "TEST", "TYPE", "VAR_GLOBAL"})
+  for (const auto* word : {"PROGRAM", "FUNCTION", "FUNCTION_BLOCK", "TEST", "TYPE", "VAR_GLOBAL",
+                           "END_PROGRAM", "END_FUNCTION", "END_FUNCTION_BLOCK", "END_TEST"})
     if (is_word(word)) return true;
   return false;
 }

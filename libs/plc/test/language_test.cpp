@@ -211,10 +211,12 @@ TEST(Units, InOutIsTheCallersVariable) {
 
 TEST(Units, BlocksKeepTheirStateAndNest) {
   const std::string before =
-      "FUNCTION_BLOCK Count\nVAR_INPUT add_n : INT := 1; END_VAR\nVAR_OUTPUT n : INT; END_VAR\nVAR_TEMP t : INT "
+      "FUNCTION_BLOCK Count\nVAR_INPUT add_n : INT := 1; END_VAR\nVAR_OUTPUT n : INT; END_VAR\nVAR_TEMP t : "
+      "INT "
       ":= 5; END_VAR\n"
       "t := t + 1; n := n + add_n + t - 6;\nEND_FUNCTION_BLOCK\n"
-      "FUNCTION_BLOCK Pair\nVAR a, b : Count; END_VAR\nVAR_OUTPUT sum : INT; END_VAR\na(); b(add_n := 10); sum "
+      "FUNCTION_BLOCK Pair\nVAR a, b : Count; END_VAR\nVAR_OUTPUT sum : INT; END_VAR\na(); b(add_n := 10); "
+      "sum "
       ":= a.n + b.n;\nEND_FUNCTION_BLOCK\n";
   Translated program("VAR p : ARRAY[1..2] OF Pair; i : INT := 2; s : INT; c : Count := (add_n := 3); END_VAR",
                      "p[i](); p[2](sum => s); c();", before);
