@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Statements per second, and the translation of a long program.
 #include <benchmark/benchmark.h>
+#include <algorithm>
 
 #include "plc/compile.hpp"
 #include "plc/library/register_names.hpp"

@@ -2,6 +2,9 @@
 #include "plc/machine/machine.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
 #include <stdexcept>
 
 #include "plc/machine/arithmetic.hpp"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // X_TO_Y, TO_Y, TRUNC (IEC 61131-3:2013, 6.6.2.5.3).
 #include <cmath>
+#include <optional>
 
 #include "plc/machine/arithmetic.hpp"
 #include "plc/semantics/lowering.hpp"

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Operators.
+#include <algorithm>
 #include <charconv>
+#include <limits>
 
 #include "plc/machine/arithmetic.hpp"
 #include "plc/semantics/lowering.hpp"

@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // The standard functions.
+#include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <map>
+#include <optional>
+#include <span>
 #include <sstream>
 
 #include "plc/library/functions.hpp"

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Literals, names and parts of variables.
+#include <algorithm>
 #include <charconv>
+#include <limits>
+#include <optional>
 
 #include "plc/semantics/lowering.hpp"
 #include "plc/semantics/time_literal.hpp"

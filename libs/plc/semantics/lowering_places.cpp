@@ -2,6 +2,7 @@
 // Reading and writing of places, and conversions without a call.
 #include <charconv>
 #include <cmath>
+#include <limits>
 
 #include "plc/machine/arithmetic.hpp"
 #include "plc/semantics/lowering.hpp"

@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <optional>
+
 #include "plc/semantics/lowering.hpp"
 
 namespace trunnion::st {

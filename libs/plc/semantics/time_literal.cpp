@@ -2,6 +2,7 @@
 #include "plc/semantics/time_literal.hpp"
 
 #include <chrono>
+#include <limits>
 
 namespace trunnion::st {
 namespace {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plc/syntax/parser.hpp"
 
+#include <algorithm>
 #include <map>
 
 namespace trunnion::st {

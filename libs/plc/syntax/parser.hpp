@@ -2,6 +2,7 @@
 // From words to the syntax tree.
 #pragma once
 
+#include <algorithm>
 #include <string_view>
 
 #include "plc/syntax/ast.hpp"

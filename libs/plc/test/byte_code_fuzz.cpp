@@ -2,6 +2,7 @@
 // Changed byte code is refused, or it runs within its budget and its memory. The bytes of the input are
 // written over those of a real program: each three give a place and a value. An input that begins with the
 // mark is byte code itself.
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>

@@ -3,6 +3,7 @@
 // strings, REAL and LREAL to the bit.
 #include <bit>
 #include <cmath>
+#include <functional>
 #include <optional>
 #include <random>
 

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plc/tools/value_text.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <chrono>
 #include <cstdio>
+#include <limits>
 #include <stdexcept>
 
 #include "plc/machine/arithmetic.hpp"
