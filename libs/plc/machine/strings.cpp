@@ -27,6 +27,7 @@ class Buffer {
  public:
   void add(Text text) {
     const auto count = std::min(text.size(), bytes_.size() - size_);
+    if (count == 0) return;
     std::memcpy(bytes_.data() + size_, text.data(), count);
     size_ += count;
   }
