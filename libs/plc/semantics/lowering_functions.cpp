@@ -44,10 +44,11 @@ bool in_order(const FunctionRow& row, const Expression& e, Diagnostics& diagnost
     if (!argument.name.empty()) {
       const auto found = std::find(names.begin(), names.end(), argument.name);
       index = static_cast<std::size_t>(found - names.begin());
-      if (row.parameters.empty() && argument.name.rfind("IN", 0) == 0 && argument.name.size() < 5)
-        index = static_cast<std::size_t>(
-            std::max(std::atoi(argument.name.c_str() + 2), 1) - 1 +
-            (row.name == "MUX" ? std::max(0, 2 - (std::atoi(argument.name.c_str() + 2) == 0 ? 1 : 1)) : 0));
+      if (row.parameters.empty() && argument.name.rfind("IN", 0) == 0 && argument.name.size() < 5) {
+        // IN1 is the first, of MUX IN0 behind K.
+        const int number = std::atoi(argument.name.c_str() + 2);
+        index = static_cast<std::size_t>(row.name == "MUX" ? number + 1 : std::max(number, 1) - 1);
+      }
       if (row.name == "MUX" && argument.name == "K") index = 0;
     }
     if (index >= result.size() || result[index] != nullptr)

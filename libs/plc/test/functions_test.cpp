@@ -99,6 +99,8 @@ const Row rows[] = {
     {"LREAL", "MAX(1.5, 2.5)", "2.5"},
     {"TIME", "MIN(T#1s, T#2s)", "T#1s"},
     {"INT", "MUX(0, INT#10, INT#20, INT#30)", "10"},
+    {"INT", "MUX(K := 1, IN0 := INT#10, IN1 := INT#20)", "20"},
+    {"INT", "MAX(IN2 := INT#1, IN1 := INT#3)", "3"},
     {"INT", "MUX(2, INT#10, INT#20, INT#30)", "30"},
     {"INT", "MUX(i0 + 1, INT#10, INT#20)", "20"},
     // strings (table 29)
