@@ -142,6 +142,15 @@ class OwnMachine {
   OwnMachine& operator=(const OwnMachine&) = delete;
   std::string path() const { return directory_.string(); }
   std::ofstream append(const std::string& file) const { return {directory_ / file, std::ios::app}; }
+  void replace(const std::string& file, const std::string& from, const std::string& to) const {
+    std::ostringstream text;
+    text << std::ifstream(directory_ / file).rdbuf();
+    auto content = text.str();
+    const auto at = content.find(from);
+    ASSERT_NE(at, std::string::npos) << from;
+    content.replace(at, from.size(), to);
+    std::ofstream(directory_ / file) << content;
+  }
 
  private:
   std::filesystem::path directory_;
@@ -280,10 +289,10 @@ TEST_F(Swapping, APlcAndKeepersThatWouldDoOtherwiseAreNotTaken) {
                 .find("differs in tick "),
             std::string::npos);
   // The same executable with another program: a lamp that the next M code switches on.
-  machine.append("plc/main.il") << "\nLD m_strobe_0\nS Y31.0\n";
+  machine.replace("plc/main.st", "END_PROGRAM", "IF m_strobe_0 THEN %Y31.0 := TRUE; END_IF;\nEND_PROGRAM");
   refused("plc", "", ", register Y31: 0 and 1 (the first is");
-  machine.append("plc/main.il") << "LD nothing_of_that_name\n";
-  refused("plc", "", "main.il:");
+  machine.replace("plc/main.st", "END_PROGRAM", "nothing_of_that_name := 1;\nEND_PROGRAM");
+  refused("plc", "", "main.st:");
   // What the machine delivers has changed behind the back of the running ones.
   machine.append("parameters.yaml") << "\"000010\": 0.004\n";
   refused("parameters", "", "differs in parameter 000010, which waits");

@@ -11,7 +11,7 @@ import argparse, os, re, sys, textwrap
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 WIDTH = 120
 GLOSSARY = "docs/glossary.md"
-TEXTS = ("libs/machine/alarms.yaml", "libs/machine/catalogue.yaml", "services/plc/registers.yaml", "libs/language/alarms.hpp")
+TEXTS = ("libs/machine/alarms.yaml", "libs/machine/catalogue.yaml", "libs/plc/library/registers.yaml", "libs/language/alarms.hpp")
 FENCE = re.compile(r"\s*(```|~~~)")
 WHOLE = re.compile(r"`[^`]*`|\[[^\]]*\]\([^)]*\)")  # code and links, which stay on one line
 ENTRY = re.compile(r"(\s*)((?:[-*+]|\d+\.)\s+)")

@@ -183,11 +183,11 @@ def address(first, index, stride):
 
 
 def registers():
-    path = "services/plc/registers.yaml"
+    path = "libs/plc/library/registers.yaml"
     out = ["# PLC registers", "", f"Generated from `{path}` by `tools/generate_docs.py`.", "",
            "The interface between the PLC program and the other services; programs use the names. A name with several registers is `name_0`, `name_1` "
            "and so on. X: inputs, Y: outputs (bytes), F: from the NC, G: to the NC (16 bit), R: relays (bytes), B: retained through a restart (32 bit). "
-           "Free for programs: X16.., Y16.., G300.., all R and all B. The language is described in [services/plc](../services/plc/README.md).", ""]
+           "Free for programs: X16.., Y16.., G300.., all R and all B. The languages are described in [plc.md](plc.md).", ""]
     rows = []
     for r in yaml.safe_load(read(path))["registers"]:
         count, stride = r.get("count", 1), r.get("stride", 1)

@@ -33,6 +33,7 @@ void add_measure_command(CLI::App& app, Common& common);       // measure ballba
 void add_check_command(CLI::App& app, Common& common);         // check
 void add_program_commands(CLI::App& app, Common& common);      // program
 void add_plan_command(CLI::App& app, Common& common);          // plan
+void add_plc_command(CLI::App& app, Common& common);           // plc check, run, test
 void add_recording_commands(CLI::App& app, Common& common);    // info, diff, export
 void add_verify_command(CLI::App& app, Common& common);        // verify
 void add_test_command(CLI::App& app, Common& common);          // test

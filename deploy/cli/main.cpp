@@ -25,6 +25,7 @@ int main(int argc, char** argv) {
   add_measure_command(app, common);
   add_check_command(app, common);
   add_plan_command(app, common);
+  add_plc_command(app, common);
   add_program_commands(app, common);
   add_recording_commands(app, common);
   add_verify_command(app, common);

@@ -134,9 +134,11 @@ Retained RetainedPair::load() const {
 void RetainedPair::open(std::span<const std::uint8_t> content) {
   const std::string paths[2] = {path_, path_ + previous_suffix};
   Half halves[2] = {inspect(paths[0], kind_, size_), inspect(paths[1], kind_, size_)};
-  sequence_ = 0;
-  for (const auto& half : halves)
-    if (half.whole || half.interrupted) sequence_ = std::max(sequence_, half.sequence);
+  std::uint64_t last = 0, newest = 0;  // of all, of those that are whole
+  for (const auto& half : halves) {
+    if (half.whole || half.interrupted) last = std::max(last, half.sequence);
+    if (half.whole) newest = std::max(newest, half.sequence);
+  }
   for (std::size_t i = 0; i < 2; ++i) {
     if (!halves[i].whole && !halves[i].interrupted) {
       if (halves[i].there) rename_over(paths[i], paths[i] + damaged_suffix);
@@ -149,13 +151,16 @@ void RetainedPair::open(std::span<const std::uint8_t> content) {
         std::memcpy(header.mark, mark, sizeof header.mark);
         std::memcpy(header.kind, kind_.data(), kind_.size());
         header.size = size_;
-        write(file.data(), sequence_ + (sequence_ % 2 == i ? 2 : 1), content);
+        const auto sequence = last + (last % 2 == i ? 2 : 1);
+        write(file.data(), sequence, content);
+        newest = std::max(newest, sequence);
       }
       rename_over(fresh, paths[i]);
     }
     files_[i] = std::make_unique<MappedFile>(paths[i], sizeof(Header) + size_);
   }
-  sequence_ += 2;
+  // The next write goes to the other file: never to the only one that is whole.
+  sequence_ = newest;
   save(content);
   save(content);
 }

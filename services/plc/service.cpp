@@ -40,7 +40,6 @@ std::string in_directory(const std::string& directory, const char* name) {
 
 PlcService::PlcService(service::Node& node)
     : node_(node),
-      retained_(in_directory(node.options().state_directory, "plc.image")),
       boot_(read_file(node.options().state_directory + "/cluster.boot").substr(0, 63)),
       parameters_(node.bus()),
       round_writer_(node.options().state_directory + rounds_file),
@@ -53,30 +52,45 @@ PlcService::PlcService(service::Node& node)
       image_(node.bus().writer(topics::plc_image)),
       log_(node.bus().writer(topics::plc_input_log)),
       panel_(node.bus(), topics::panel_request, topics::panel_reply) {
-  const auto found = retained_.load();
-  service::report_damage(node.alarms(), 0, retained_.path(), {found.state, "", 0, found.problem},
+  try {
+    for (const auto& warning : load_programs(node.options().machine.plc_directory(), core_))
+      std::cerr << warning << "\n";
+  } catch (const std::runtime_error& e) {
+    fault_ = e.what();
+    std::cerr << fault_ << "\n";
+    node_.alarms().raise(alarm::plc_program, 0, fault_.substr(0, fault_.find('\n')));
+  }
+  load_state();
+}
+
+void PlcService::load_state() {
+  const auto path = in_directory(node_.options().state_directory, "plc.image");
+  const auto found = RetainedMemory(path, core_.memory().program.cells).load();
+  service::report_damage(node_.alarms(), 0, path, {found.state, "", 0, found.problem},
                          "retained registers of the PLC");
   if (const auto& kept = found.kept) {
+    if (fault_.empty() && kept->memory.program.cells > 0 && !core_.accepts(kept->memory.program))
+      std::cerr << "the variables of the PLC programs have changed: they begin with their initial values\n";
     // Only within one run of the cluster may a spindle keep turning without a new command of the program.
     if (!boot_.empty() && kept->boot == boot_)
       core_.restore(kept->memory);
     else
       core_.power_up(kept->memory);
   }
+  retained_.emplace(path, core_.memory().program.cells);
   tick_ = core_.memory().tick;
-  try {
-    load_programs(node.options().machine.plc_directory(), core_);
-  } catch (const std::runtime_error& e) {
-    fault_ = e.what();
-    std::cerr << fault_ << "\n";
-    node_.alarms().raise(alarm::plc_program, 0, fault_);
-  }
 }
 
 service::SnapshotAnswer PlcService::snapshot() {
   using idl::service::SnapshotKind;
   if (!core_.configured()) return {SnapshotKind::LATER, "the PLC waits for parameters", ""};
-  bus::Json state = {{"core", snapshot::written(core_.snapshot())}};
+  const auto core = core_.snapshot();
+  bus::Json state = {{"core", snapshot::written(core)}};
+  if (const auto& program = core.memory.program; program.cells > 0) {
+    const std::vector<std::uint64_t> values(program.values.begin(), program.values.begin() + program.cells);
+    state["variables"] = {
+        {"layout", program.layout}, {"fault", snapshot::written(program.fault)}, {"values", values}};
+  }
   auto& alarms = state["active_alarms"] = bus::Json::array();
   for (const auto& [key, alarm] : active_alarms_) alarms.push_back(snapshot::written(alarm));
   return {SnapshotKind::GIVEN, "", bus::text_of(state)};
@@ -87,6 +101,15 @@ void PlcService::continue_from_snapshot() {
   const auto& state = *node_.snapshot();
   auto core = core_.snapshot();
   snapshot::read(state.at("core"), core);
+  if (const auto found = state.find("variables"); found != state.end()) {
+    auto& program = core.memory.program;
+    std::vector<std::uint64_t> values;
+    snapshot::read(found->at("values"), values);
+    if (found->at("layout") == program.layout && values.size() == program.cells) {
+      std::copy(values.begin(), values.end(), program.values.begin());
+      snapshot::read(found->at("fault"), program.fault);
+    }
+  }
   core_.adopt(core);
   tick_ = core_.memory().tick;
   std::vector<idl::service::Alarm> alarms;
@@ -214,7 +237,7 @@ void PlcService::pump() {
   }
   advance(tick_now(now));
   publish_inputs(now);
-  retained_.save(boot_, core_.memory());
+  retained_->save(boot_, core_.memory());
   publish(now);
 }
 
@@ -249,6 +272,13 @@ void PlcService::publish(double now) {
   }
   first_ = false;
   if (fault_.empty()) {
+    if (core_.has_program_fault() != stopped_) {
+      stopped_ = core_.has_program_fault();
+      if (stopped_)
+        node_.alarms().raise(alarm::plc_program, 0, core_.program_fault(), outputs.tick);
+      else
+        node_.alarms().clear(alarm::plc_program, 0);
+    }
     if (core_.emergency_stop())
       node_.alarms().raise(alarm::emergency_stop, 0,
                            "Emergency stop is active: release the button, reset the emergency stop, then the "

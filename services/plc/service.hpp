@@ -34,6 +34,7 @@ class PlcService : public service::Service {
   }
 
  private:
+  void load_state();
   void configure();
   void continue_from_snapshot();
   void begin_round();
@@ -46,7 +47,7 @@ class PlcService : public service::Service {
   void publish_inputs(double now);
 
   service::Node& node_;
-  RetainedMemory retained_;
+  std::optional<RetainedMemory> retained_;
   std::string boot_, fault_;
   service::ParameterClient parameters_;
   PlcCore core_;
@@ -71,7 +72,7 @@ class PlcService : public service::Service {
   std::uint64_t tick_ = 0, frames_in_ = 0, frames_out_ = 0;
   double tick_seen_ = 0, period_ = 0.001, outputs_written_ = 0, image_written_ = 0, log_written_ = 0,
          waiting_since_ = 0;
-  bool first_ = true, continued_ = false;
+  bool first_ = true, continued_ = false, stopped_ = false;
 };
 
 }  // namespace trunnion::plc

@@ -2,6 +2,7 @@
 // The retained state of the PLC: plain data, so that it can be in a mapped file and survive the process.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <type_traits>
@@ -85,6 +86,36 @@ struct Handshake {
   }
 };
 
+inline constexpr std::size_t program_cells = 4096;  ///< of the variables of Structured Text
+
+/// The variables of the programs in Structured Text and the fault that has stopped them. All zero without
+/// such programs.
+struct ProgramVariables {
+  struct Fault {
+    std::uint32_t kind = 0;  ///< st::FaultKind
+    std::uint32_t task = 0, instruction = 0, reserved = 0;
+    std::int64_t value = 0, low = 0, high = 0;
+    bool operator==(const Fault&) const = default;
+
+    template <class Self, class Visit>
+    static void fields(Self& self, Visit&& visit) {
+      visit("kind", self.kind), visit("task", self.task), visit("instruction", self.instruction);
+      visit("value", self.value), visit("low", self.low), visit("high", self.high);
+    }
+  };
+  std::uint64_t layout = 0;    ///< identifies names, types and addresses
+  std::uint64_t identity = 0;  ///< of the code
+  Fault fault;
+  std::uint32_t cells = 0;  ///< of `values` that are used
+  std::uint32_t reserved = 0;
+  std::array<std::uint64_t, program_cells> values{};
+
+  bool operator==(const ProgramVariables& other) const {
+    return layout == other.layout && identity == other.identity && fault == other.fault &&
+           cells == other.cells && std::equal(values.begin(), values.begin() + cells, other.values.begin());
+  }
+};
+
 struct Memory {
   Registers registers;
   Blocks blocks;
@@ -94,7 +125,8 @@ struct Memory {
   std::uint64_t tick = 0;                               ///< drive tick that belongs to now_us
   std::array<double, spindle_count> spindle_command{};  ///< 1/min, signed
   std::array<std::uint64_t, spindle_count>
-      spindle_since{};  ///< PLC time in ms of the last change of the command
+      spindle_since{};       ///< PLC time in ms of the last change of the command
+  ProgramVariables program;  ///< the last member: files without such programs end before it. Not in `fields`
 
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {

@@ -60,11 +60,39 @@ void PlcCore::configure(const machine::Parameters& parameters, bool virtual_time
   view_.changed = true;
 }
 
-void PlcCore::load(Program fast, Program main) {
+void PlcCore::load(Program fast, Program main, StructuredText structured) {
   fast_ = std::move(fast);
   main_ = std::move(main);
+  structured_ = std::move(structured);
+  structured_.reset(memory_.program);
   loaded_ = true;
   view_.changed = true;
+}
+
+void PlcCore::restore(const Memory& memory) {
+  memory_ = memory;
+  if (loaded_) structured_.restore(memory_.program);
+}
+
+void PlcCore::power_up(const Memory& memory) {
+  memory_.registers.b = memory.registers.b;
+  // Programs with an error lose nothing: the corrected ones find their variables.
+  if (loaded_)
+    structured_.power_up(memory.program, memory_.program);
+  else
+    memory_.program = memory.program;
+}
+
+void PlcCore::adopt(const Snapshot& snapshot) {
+  memory_ = snapshot.memory;
+  view_ = snapshot.view;
+  structured_.restore(memory_.program);
+}
+
+void PlcCore::press_reset() {
+  view_.changed = view_.changed || has_program_fault();
+  memory_.program.fault = {};
+  input(reset_button_, 1);
 }
 
 void PlcCore::input(Address address, std::int64_t value) {
@@ -236,8 +264,8 @@ void PlcCore::finish() {
 void PlcCore::scan(bool main, bool present) {
   auto& r = memory_.registers;
   set_strobes(present);
-  execute(fast_, r, memory_.blocks, memory_.scans);
-  if (main) execute(main_, r, memory_.blocks, memory_.scans);
+  run_task(TaskName::fast, fast_);
+  if (main) run_task(TaskName::main, main_);
   check_spindles();
   finish();
   if (main) {
@@ -246,11 +274,20 @@ void PlcCore::scan(bool main, bool present) {
   }
 }
 
+void PlcCore::run_task(TaskName task, const Program& program) {
+  if (has_program_fault()) return;
+  if (structured_.has(task))
+    structured_.run(task, memory_.registers, memory_.program, memory_.scans);
+  else
+    execute(program, memory_.registers, memory_.blocks, memory_.scans);
+}
+
 void PlcCore::settle() {
   for (int i = 0; i < most_settling; ++i) {
     const auto before = memory_.registers;
+    if (memory_.program.cells > 0) settling_ = memory_.program;
     scan(true, true);
-    if (memory_.registers == before) break;
+    if (memory_.registers == before && memory_.program == settling_) break;
   }
 }
 
@@ -265,7 +302,7 @@ void PlcCore::advance(std::uint64_t tick) {
     ++memory_.scans;
     scan(memory_.scans % main_period == 0, false);
   }
-  if (view_.changed || timer_due(memory_.blocks, now)) settle();
+  if (view_.changed || timer_due(memory_.blocks, now) || structured_.timer_due(now)) settle();
   view_.changed = false;
 }
 
@@ -276,7 +313,7 @@ Registers PlcCore::rescanned() const {
 }
 
 bool PlcCore::emergency_stop() const {
-  return !loaded_ || plc::load(memory_.registers, emergency_stop_) != 0;
+  return !loaded_ || has_program_fault() || plc::load(memory_.registers, emergency_stop_) != 0;
 }
 
 idl::plc::Outputs PlcCore::outputs() const {
@@ -301,6 +338,8 @@ idl::plc::Outputs PlcCore::outputs() const {
   outputs.run_until_tick = memory_.tick;
   if (period_us_ > 0) {
     auto until = next_timer_end(memory_.blocks, memory_.scans);
+    if (const auto end = structured_.next_timer_end(memory_.scans))
+      until = std::min(until.value_or(*end), *end);
     if (spindle_moves) until = std::min(until.value_or(~std::uint64_t{0}), memory_.scans + main_period);
     if (until) outputs.run_until_tick += (*until * 1000 - memory_.now_us + period_us_ - 1) / period_us_;
   }

@@ -9,6 +9,7 @@
 #include "contracts/types.hpp"
 #include "execution.hpp"
 #include "machine/parameters.hpp"
+#include "structured_text.hpp"
 #include "symbols.hpp"
 
 namespace trunnion::plc {
@@ -28,16 +29,22 @@ class PlcCore {
   void configure(const machine::Parameters& parameters, bool virtual_time);
   bool configured() const { return period_us_ > 0; }
   /// No programs: the outputs are safe (emergency stop).
-  void load(Program fast, Program main);
+  void load(Program fast, Program main, StructuredText structured = {});
   /// After a restart of the process in a running cluster: everything as it was.
-  void restore(const Memory& memory) { memory_ = memory; }
-  /// After a restart of the cluster: only the kept registers B.
-  void power_up(const Memory& memory) { memory_.registers.b = memory.registers.b; }
+  /// After load().
+  void restore(const Memory& memory);
+  /// After a restart of the cluster: only the kept registers B and RETAIN variables. After load().
+  void power_up(const Memory& memory);
   const Memory& memory() const { return memory_; }
   /// Valid after take_done() has returned the finished functions.
   Snapshot snapshot() const { return {memory_, view_}; }
+  /// Whether the variables are those of the loaded programs in Structured Text.
+  bool accepts(const ProgramVariables& variables) const { return structured_.fits(variables); }
   /// Continues like the core of the snapshot, given the same programs and parameters.
-  void adopt(const Snapshot& snapshot) { memory_ = snapshot.memory, view_ = snapshot.view; }
+  void adopt(const Snapshot& snapshot);
+  /// Why the programs were stopped; empty while they run. file:line:column: ...
+  std::string program_fault() const { return structured_.fault_text(memory_.program); }
+  bool has_program_fault() const { return memory_.program.fault.kind != 0; }
   /// The registers as they would be if the main task ran once more until they are stable.
   Registers rescanned() const;
 
@@ -47,7 +54,8 @@ class PlcCore {
   void set_alarms(bool any, bool stops);
   /// Returns an empty text or why the request is refused.
   std::string panel(const idl::plc::PanelRequest& request);
-  void press_reset() { input(reset_button_, 1); }
+  /// Also starts programs again that a fault has stopped.
+  void press_reset();
   /// The drive does not confirm the standstill that a request waits for: continue without.
   void give_up_waiting();
   bool waits_for_standstill() const;
@@ -73,6 +81,7 @@ class PlcCore {
   };
   void input(Address address, std::int64_t value);
   void scan(bool main, bool present);
+  void run_task(TaskName task, const Program& program);
   void settle();
   void set_strobes(bool present);
   void check_spindles();
@@ -81,6 +90,7 @@ class PlcCore {
   bool at_standstill(std::size_t channel) const;
 
   Program fast_, main_;
+  StructuredText structured_;
   bool loaded_ = false, virtual_time_ = false;
   std::array<ChannelSymbols, channel_count> channel_symbols_;
   std::array<SpindleSymbols, spindle_count> spindle_symbols_;
@@ -94,6 +104,7 @@ class PlcCore {
   std::uint64_t period_us_ = 0;
   Memory memory_;
   View view_;
+  ProgramVariables settling_;  ///< before the scan
   std::vector<idl::plc::AuxiliaryDone> done_;
 };
 

@@ -12,7 +12,8 @@ namespace trunnion::plc {
 
 class RetainedMemory {
  public:
-  explicit RetainedMemory(const std::string& path);
+  /// `cells`: of the variables of the programs in Structured Text.
+  explicit RetainedMemory(const std::string& path, std::size_t cells = 0);
 
   struct Kept {
     std::string boot;
@@ -37,6 +38,7 @@ class RetainedMemory {
   };
   std::optional<Kept> of_format_0() const;
   storage::RetainedPair files_;
+  std::size_t size_;
   Content content_{};
 };
 

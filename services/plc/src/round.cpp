@@ -61,6 +61,9 @@ std::uint64_t state_digest(const Snapshot& snapshot) {
   digest.add(m.now_us), digest.add(m.scans), digest.add(m.tick);
   for (const double command : m.spindle_command) digest.add(command);
   digest.add(m.spindle_since);
+  const auto& program = m.program;
+  digest.add(program.layout), digest.add(program.fault), digest.add(program.cells);
+  for (std::uint32_t i = 0; i < program.cells; ++i) digest.add(program.values[i]);
   const auto& view = snapshot.view;
   for (const auto& channel : view.channels)
     digest.add(channel.seen), digest.add(channel.active), digest.add(channel.resets);

@@ -53,6 +53,8 @@ StandbyComparison::Outcome StandbyComparison::begin(const Round& round) {
   if (round.start.size() != sizeof snapshot) return differ(round.tick, "a different memory layout");
   if (!parameters(round.revision)) return Outcome::waiting;
   std::memcpy(&snapshot, round.start.data(), sizeof snapshot);
+  if (!core_.accepts(snapshot.memory.program))
+    return differ(round.tick, "the variables of the programs: names, types or places differ");
   core_.adopt(snapshot);
   generation_ = round.generation;
   number_ = 0;
@@ -104,7 +106,7 @@ StandbyComparison::Outcome StandbyComparison::compare(const Round& round, const 
   if (core_.outputs() != round.outputs) return differ(round.tick, "the outputs");
   if (core_.take_done() != round.done) return differ(round.tick, "the functions finished");
   if (state_digest(core_.snapshot()) != round.state)
-    return differ(round.tick, "a timer, counter or edge that no register shows yet");
+    return differ(round.tick, "a timer, counter, edge or variable that no register shows yet");
   return Outcome::equal;
 }
 

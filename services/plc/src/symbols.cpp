@@ -4,9 +4,9 @@
 #include <stdexcept>
 
 #include "machine/yaml.hpp"
+#include "plc/library/register_names.hpp"
 
 namespace trunnion::plc {
-extern const char* const registers_text;  // registers.yaml, embedded
 
 Symbols parse_symbols(const std::string& yaml, const std::string& file) {
   Symbols symbols;
@@ -33,7 +33,7 @@ Symbols parse_symbols(const std::string& yaml, const std::string& file) {
 }
 
 const Symbols& interface_symbols() {
-  static const Symbols symbols = parse_symbols(registers_text, "registers.yaml");
+  static const Symbols symbols = parse_symbols(st::registers_text, "registers.yaml");
   return symbols;
 }
 

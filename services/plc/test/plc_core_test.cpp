@@ -3,22 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <fstream>
-#include <sstream>
 
-#include "compiler.hpp"
 #include "plc_core.hpp"
+#include "program_files.hpp"
 
 namespace trunnion::plc {
 namespace {
-
-std::string file(const std::string& machine, const std::string& name) {
-  std::ifstream in(std::string(TRUNNION_MACHINES) + "/" + machine + "/plc/" + name);
-  EXPECT_TRUE(in) << name;
-  std::ostringstream text;
-  text << in.rdbuf();
-  return text.str();
-}
 
 // Axes 0 and 2, spindles 10 and 11.
 machine::Parameters parameters() {
@@ -33,9 +23,7 @@ machine::Parameters parameters() {
 struct Bench {
   explicit Bench(const std::string& machine = "ac-table", bool drive_answers = true) {
     core.configure(parameters(), true);
-    Compiler compiler(interface_symbols());
-    auto fast = compiler.compile(file(machine, "fast.il"), "fast.il");
-    core.load(std::move(fast), compiler.compile(file(machine, "main.il"), "main.il"));
+    load_programs(std::string(TRUNNION_MACHINES) + "/" + machine + "/plc", core);
     if (drive_answers) feedback();
   }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "contracts/topics.hpp"
+#include "machine/alarm_constants.hpp"
 #include "service/request.hpp"
 #include "testing_support/running_service.hpp"
 
@@ -27,6 +28,7 @@ class Machine {
         outputs_(bus_.reader(topics::plc_outputs)),
         done_(bus_.reader(topics::auxiliary_done)),
         states_(bus_.reader(topics::service_state)),
+        alarms_(bus_.reader(topics::alarm)),
         panel_(bus_, topics::panel_request, topics::panel_reply) {
     idl::parameters::ParameterSet set;
     set.revision = 1;
@@ -61,10 +63,20 @@ class Machine {
     while (done_.take(done)) ++done_count;
     while (states_.take(state)) {
     }
+    idl::service::Alarm alarm;
+    while (alarms_.take(alarm))
+      if (alarm.number == alarm::plc_program.number) alarm_text = alarm.text;
   }
   bool press(idl::plc::PanelRequestKind kind) {
     idl::plc::PanelRequest request;
     request.kind = kind;
+    const auto reply = panel_.call(request, 10);
+    return reply && reply->accepted;
+  }
+  bool force(std::uint32_t address, std::uint32_t value) {
+    idl::plc::PanelRequest request;
+    request.kind = PanelRequestKind::FORCE_INPUT;
+    request.address = address, request.value = value;
     const auto reply = panel_.call(request, 10);
     return reply && reply->accepted;
   }
@@ -79,6 +91,7 @@ class Machine {
   idl::plc::AuxiliaryDone done;
   idl::service::ServiceState state;
   bool have_outputs = false;
+  std::string alarm_text;  // of the newest alarm of the program
   int done_count = 0;
 
  private:
@@ -89,6 +102,7 @@ class Machine {
   bus::Reader<idl::plc::Outputs> outputs_;
   bus::Reader<idl::plc::AuxiliaryDone> done_;
   bus::Reader<idl::service::ServiceState> states_;
+  bus::Reader<idl::service::Alarm> alarms_;
   service::RequestClient<idl::plc::PanelRequest, idl::plc::PanelReply> panel_;
 };
 
@@ -136,13 +150,36 @@ TEST(PlcServiceOverDds, HandshakesTakeTheSameTicksAndAKillChangesNoOutput) {
 TEST(PlcServiceOverDds, AFaultyProgramIsAFaultWithItsPlaceAndSafeOutputs) {
   RunningService service(TRUNNION_PLC, "plc_faulty", domain);
   install(service);
-  service.write("machine/plc/main.il", "LD X0.0\nSTX Y0.0\n");
+  service.write("machine/plc/main.st", "PROGRAM main\nlamp := TRUE;\nEND_PROGRAM\n");
   service.start({"--virtual-time"});
   Machine machine;
   ASSERT_TRUE(machine.wait_for([&] { return machine.state.lifecycle == idl::service::Lifecycle::FAULT; }));
-  EXPECT_NE(machine.state.detail.find("main.il:2:1: error"), std::string::npos) << machine.state.detail;
+  EXPECT_NE(machine.state.detail.find("main.st:2:1: error: there is no variable 'lamp'"), std::string::npos)
+      << machine.state.detail;
   EXPECT_TRUE(machine.outputs.emergency_stop);
   EXPECT_EQ(machine.outputs.axis_enable.at(0), 0);
+}
+
+TEST(PlcServiceOverDds, ADivisionByZeroIsAnAlarmWithItsPlaceAndAResetStartsTheProgramAgain) {
+  RunningService service(TRUNNION_PLC, "plc_division", domain);
+  install(service);
+  service.write("machine/plc/extra.st",
+                "FUNCTION quotient : INT\nVAR_INPUT d : INT; END_VAR\nquotient := 1 / d;\nEND_FUNCTION\n");
+  service.write(
+      "machine/plc/main.st",
+      "PROGRAM main\nVAR a : INT; END_VAR\nIF NOT %X16.0 THEN\n  a := quotient(0);\nEND_IF;\nEND_PROGRAM\n");
+  service.start({"--virtual-time"});
+  Machine machine;
+  ASSERT_TRUE(machine.wait_for([&] { return machine.outputs.emergency_stop; }));
+  ASSERT_TRUE(machine.wait_for([&] {
+    return machine.alarm_text.find("extra.st:3:15: error: division by zero in the main task") !=
+           std::string::npos;
+  })) << machine.alarm_text;
+  // The cause is gone: after the reset the axes are enabled.
+  ASSERT_TRUE(machine.force(16, 1));
+  ASSERT_TRUE(machine.press(PanelRequestKind::RESET_EMERGENCY_STOP));
+  ASSERT_TRUE(machine.wait_for(
+      [&] { return !machine.outputs.emergency_stop && machine.outputs.axis_enable.at(0) == 1; }));
 }
 
 }  // namespace

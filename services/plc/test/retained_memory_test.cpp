@@ -103,5 +103,28 @@ TEST(RetainedMemory, AfterAKillAtAnyMomentASlotIsWhole) {
   EXPECT_GT(newest, 0);
 }
 
+// Processes that are killed as soon as they have begun to write: the next one writes over the file that is
+// not whole.
+TEST(RetainedMemory, AfterKillsDuringTheFirstWritesNothingIsLost) {
+  const auto path = temporary("started");
+  std::mt19937 random(11);
+  Memory memory;
+  memory.registers.b[3] = 33;
+  RetainedMemory(path).save("", memory);
+  for (int round = 0; round < 150; ++round) {
+    const pid_t writer = fork();
+    if (writer == 0) {
+      RetainedMemory retained(path);
+      for (;;) retained.save("", memory);
+    }
+    usleep(200 + random() % 1500);
+    kill(writer, SIGKILL);
+    waitpid(writer, nullptr, 0);
+    const auto found = RetainedMemory(path).load();
+    ASSERT_EQ(found.state, storage::KeptState::good) << "round " << round << " " << found.problem;
+    ASSERT_EQ(found.kept->memory.registers.b[3], 33);
+  }
+}
+
 }  // namespace
 }  // namespace trunnion::plc

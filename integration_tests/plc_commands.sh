@@ -1,0 +1,70 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# plc_commands.sh TRUNNION MACHINES EXAMPLES DOCS: the commands plc check, run and test, the programs of the repository in
+# Structured Text with their tests, and the programs of the tutorial.
+set -euo pipefail
+trunnion=$1 machines=$2 examples=$3 docs=$4
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+fail() { echo "$*" >&2; exit 1; }
+is() { [ "$2" = "$3" ] || fail "$1: expected '$3', there is '$2'"; }
+
+# Every machine's programs in Structured Text, without warnings, and every test.
+for directory in "$examples/plc-tool-changer" $(ls -d "$machines"/*/plc); do
+  ls "$directory"/*.st > /dev/null 2>&1 || continue
+  is "$directory" "$("$trunnion" plc check "$directory"/*.st | grep -v '^No errors' || true)" ""
+  ! grep -lq '^TEST' "$directory"/*.st || "$trunnion" plc test "$directory" > "$work/tests" || fail "$(cat "$work/tests")"
+done
+
+cd "$work"
+cat > good.st <<'END'
+FUNCTION area : LREAL
+VAR_INPUT width, height : LREAL := 2.0; END_VAR
+area := width * height;
+END_FUNCTION
+PROGRAM main
+VAR n : INT; t : TON; on AT %X0.3 : BOOL; list : ARRAY[1..3] OF INT; END_VAR
+n := n + 1;
+t(IN := on, PT := T#20ms);
+list[2] := list[2] + n;
+END_PROGRAM
+END
+is function "$("$trunnion" plc run good.st --call area --set width=1.5)" "$(printf 'width = 1.5\nheight = 2.0\narea = 3.0')"
+is scans "$("$trunnion" plc run good.st --scans 3 --set main.list[2]=10 | grep list)" "main.list = [0, 16, 0]"
+is register "$("$trunnion" plc run good.st --scans 3 --set %X0.3=TRUE | grep main.t)" "main.t = (IN := TRUE, PT := T#20ms, Q := TRUE, ET := T#20ms)"
+printf 'main.n,%%X0.3\n5,1\n,0\n' > inputs.csv
+is inputs "$("$trunnion" plc run good.st --scans 2 --inputs inputs.csv | grep -c 'main.n = 7\|main.on = FALSE')" 2
+is json "$("$trunnion" plc run good.st --json | grep -c '"main.n":"1"')" 1
+is "second run" "$("$trunnion" plc run good.st --scans 5)" "$("$trunnion" plc run good.st --scans 5)"
+
+refused() {  # WHAT SENTENCE COMMAND...
+  local what=$1 sentence=$2 status=0
+  shift 2
+  "$trunnion" plc "$@" > out 2>&1 || status=$?
+  is "$what" $status 1
+  grep -qF -- "$sentence" out || fail "$what: $(cat out)"
+}
+refused "a variable" "'nothing': there is no such variable" run good.st --set nothing=1
+refused "a value" "'x' is no INT: write a whole number -32768 .. 32767" run good.st --set main.n=x
+refused "a name" "--call other: there is no such program or function" run good.st --call other
+refused "a file" "none.st: cannot be read" check none.st
+refused "no test" "has no TEST" test "$work"
+printf 'main.n\n1,2\n' > wrong.csv
+refused "a row" "wrong.csv:2: more values than the first row has names" run good.st --inputs wrong.csv
+printf 'PROGRAM main\nVAR i : INT; END_VAR\ni := 1.5;\nj := 2;\nEND_PROGRAM\n' > bad.st
+refused "two errors" "bad.st:4:1: error: there is no variable 'j'" check bad.st
+refused "the other" "bad.st:3:6: error: expected a whole number (INT), found a number with a decimal point" check bad.st
+printf 'PROGRAM main\nVAR i, n : INT; END_VAR\nn := 1 / i;\nEND_PROGRAM\n' > fault.st
+refused "a fault" "fault.st:3:8: division by zero" run fault.st
+
+# The blocks of the tutorial: each is a whole unit or a part of one that step 3 begins.
+awk '/^```/ { inside = !inside; if (inside) ++n; next } inside { print > ("tutorial_" n ".st") }' "$docs/plc.md"
+for n in 1 2 3; do
+  "$trunnion" plc check tutorial_$n.st > out || fail "block $n of the tutorial: $(cat out)"
+done
+mkdir steps
+cp tutorial_3.st steps/tool_changer.st
+cp tutorial_4.st steps/changer_test.st
+refused "the test of step 4" "changer_test.st:6:1: the assertion is not met" test steps
+sed -i "/^arm_forward := state/e cat $work/tutorial_5.st" steps/tool_changer.st
+"$trunnion" plc test steps > out || fail "$(cat out)"

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "plc/compile.hpp"
+
+#include <algorithm>
+
+#include "plc/library/functions.hpp"
+#include "plc/machine/verify.hpp"
+#include "plc/syntax/parser.hpp"
+
+namespace trunnion::st {
+namespace {
+
+constexpr std::uint16_t library_files = 1;
+
+struct Kept {
+  SourceTree tree;
+  Diagnostics diagnostics;
+  RegisterNames registers;
+  std::optional<Unit> unit;
+};
+
+void add_symbol(const Variable& variable, const std::string& prefix, std::uint32_t base,
+                std::vector<Symbol>& symbols) {
+  if (variable.type->kind == Kind::error || variable.constant.is_constant ||
+      variable.section == VariableSection::in_out || variable.section == VariableSection::external ||
+      variable.section == VariableSection::temporary)
+    return;
+  const auto& place = variable.place;
+  if (place.base == Place::Base::none) return;
+  const auto offset = static_cast<std::uint32_t>(place.offset);
+  const bool absolute = place.base == Place::Base::absolute;
+  symbols.push_back({prefix + variable.text, variable.type, absolute ? offset : base + offset, place.bit,
+                     absolute && offset < image_cells});
+}
+
+FunctionInterface interface_of(const Pou& pou) {
+  FunctionInterface result;
+  result.name = pou.declaration->text;
+  result.routine = pou.routine;
+  result.base = pou.base;
+  for (const auto& variable : pou.variables) {
+    const auto address = pou.base + static_cast<std::uint32_t>(std::max(variable.place.offset, 0));
+    if (&variable == pou.result) {
+      result.result = variable.type;
+      result.result_address = address;
+    } else if (variable.section == VariableSection::input || variable.section == VariableSection::output ||
+               variable.section == VariableSection::in_out) {
+      result.parameters.push_back({variable.text, variable.type, address,
+                                   variable.section == VariableSection::output,
+                                   variable.section == VariableSection::in_out});
+    }
+  }
+  return result;
+}
+
+}  // namespace
+
+std::vector<std::string> Compilation::lines() const {
+  std::vector<std::string> result;
+  for (const auto& diagnostic : diagnostics) result.push_back(to_line(diagnostic, files));
+  return result;
+}
+
+std::uint64_t Compilation::layout() const {
+  std::uint64_t hash = 14695981039346656037u;  // FNV-1a
+  const auto add = [&](const std::string& text) {
+    for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211u;
+    hash = (hash ^ 255u) * 1099511628211u;
+  };
+  for (const auto& symbol : symbols) {
+    if (symbol.is_register) continue;
+    add(symbol.path), add(symbol.type->name), add(std::to_string(symbol.address)),
+        add(std::to_string(symbol.type->cells));
+  }
+  add(code ? std::to_string(code->initial.size()) : "");
+  return hash;
+}
+
+Compilation compile(const std::vector<Source>& sources, const RegisterNames& registers,
+                    bool entries_for_functions) {
+  Compilation result;
+  auto kept = std::make_shared<Kept>();
+  kept->registers = registers;
+  result.files.push_back("standard_blocks.st");
+  parse(standard_blocks_text, 0, kept->tree, kept->diagnostics);
+  for (const auto& source : sources) {
+    result.files.push_back(source.name);
+    parse(source.text, static_cast<std::uint16_t>(result.files.size() - 1), kept->tree, kept->diagnostics);
+  }
+  auto& unit = kept->unit.emplace(kept->tree, kept->diagnostics, kept->registers, library_files);
+  // What could not be read is missing, so names are not checked then.
+  if (kept->diagnostics.errors() == 0) unit.run();
+  result.diagnostics = kept->diagnostics.sorted();
+  result.types = kept;
+  if (kept->diagnostics.errors() > 0) return result;
+  for (const auto& variable : unit.globals) add_symbol(variable, "", 0, result.symbols);
+  for (const auto* pou : unit.order) {
+    const auto kind = pou->declaration->kind;
+    if (kind == PouKind::program)
+      for (const auto& variable : pou->variables)
+        add_symbol(variable, pou->declaration->text + ".", pou->base, result.symbols);
+    if (kind != PouKind::function || unit.is_library(pou->declaration->at)) continue;
+    result.functions.push_back(interface_of(*pou));
+    if (entries_for_functions)
+      unit.code.entries.push_back({pou->declaration->name, pou->routine, pou->base, false});
+  }
+  unit.code.files = result.files;
+  result.code = std::make_shared<ByteCode>(std::move(unit.code));
+  return result;
+}
+
+}  // namespace trunnion::st

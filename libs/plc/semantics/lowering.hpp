@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+// Checks the body of one program organization unit and translates it into instructions.
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "plc/semantics/emitter.hpp"
+#include "plc/semantics/unit.hpp"
+
+namespace trunnion::st {
+
+class Lowering {
+ public:
+  /// `pou` may be nullptr for constant expressions.
+  Lowering(Unit& unit, Pou* pou, std::uint32_t first_temporary)
+      : unit_(unit), pou_(pou), emit_(first_temporary) {}
+
+  void body(const Statements& statements);
+  /// `expected`: the type that an enumerated value without its type's name may have.
+  Value expression(const Expression& e, const Type* expected = nullptr);
+  /// The value as one of the type, or an error at `at`. `what` begins the message: "the value".
+  Value converted(Value value, const Type& to, Position at);
+  Emitter& emitter() { return emit_; }
+  /// Instructions that give variables their initial values at each call.
+  void initialize(const Variable& variable);
+
+ private:
+  // expressions
+  Value literal_integer(const Expression& e);
+  Value literal_time(const Expression& e);
+  Value typed(const Expression& e);
+  Value name(const Expression& e, const Type* expected);
+  Value member(const Expression& e);
+  Value part(const Expression& e);
+  Value index(const Expression& e);
+  Value unary(const Expression& e, const Type* expected);
+  Value binary(const Expression& e, const Type* expected);
+  Value logic(const Expression& e, const Type* expected);
+  Value arithmetic(const std::string& op, Value left, Value right, Position at);
+  Value comparison(const std::string& op, Value left, Value right, Position at);
+  Value time_arithmetic(const std::string& op, const Value& left, const Value& right, Position at);
+  Value folded(const std::string& op, const Value& left, const Value& right, const Type& type, Position at);
+  Value folded_comparison(const std::string& op, const Value& left, const Value& right) const;
+  Value string_comparison(const std::string& op, const Value& left, const Value& right);
+  Value power(Value left, Value right, Position at);
+  Value operation(Op op, const Type* type, const Value& left, const Value& right, bool narrow);
+  bool settle(Value& left, Value& right, const std::string& op, Position at);
+  Value failed(Position at, const std::string& text);
+  Value error() const { return {elementary(Kind::error), false, 0, false, 0, "", {}, nullptr}; }
+  Value temporary(const Type* type);
+  Value kept(Value value);
+  Value variable_value(Variable& variable);
+
+  // places
+  std::int32_t cell(const Value& value, const Type& type);
+  std::int32_t cell(const Value& value) { return cell(value, *value.type); }
+  std::int32_t address(const Value& value);
+  std::int32_t address(const Place& place);
+  void store(const Value& target, const Value& value);
+  void store_cell(const Place& place, const Type& type, std::int32_t cell);
+  void copy(const Value& target, const Value& value);
+  std::int32_t load(const Place& place, const Type& type);
+  Place moved(Place place, std::int32_t cells) const;
+  bool check_writable(const Value& target, Position at);
+  void mark_written(const Value& target);
+  void check_range(const Type& type, const Value& value, std::int32_t cell);
+
+  // calls
+  Value call(const Expression& e, const Type* expected);
+  Value call_function(Pou& function, const Expression& e);
+  void call_block(const Value& instance, const Expression& e);
+  void call_program(Pou& program, const Expression& e);
+  bool bind(const Pou& pou, const Expression& e, bool is_block, std::vector<const Argument*>& bound);
+  std::int32_t reference(const Argument& argument, const Variable& parameter);
+  std::optional<Value> standard_function(const Expression& e, const Type* expected);
+  std::optional<Value> conversion(const Expression& e, const std::string& name);
+  Value converted_to(const Value& value, const Type& to, bool truncate, Position at);
+  Value selection(const std::string& name, const Expression& e, std::vector<Value> values);
+  Value shift(const std::string& name, const std::vector<Value>& values, const Expression& e);
+  Value string_function(const std::string& name, const std::vector<Value>& values, const Expression& e);
+  Value math_function(MathFunction function, const std::vector<Value>& values, const Expression& e);
+  Value test_function(const std::string& name, const std::vector<Value>& values, const Expression& e);
+  Value string_result(StringFunction function, std::span<const std::int32_t> arguments, std::uint32_t length);
+
+  // statements
+  void statement(const Statement& s);
+  void assign(const Statement& s);
+  void if_statement(const Statement& s);
+  void case_statement(const Statement& s);
+  void case_label(const CaseLabel& label, const Value& selector, std::vector<std::size_t>& jumps,
+                  std::vector<std::pair<std::int64_t, std::int64_t>>& seen);
+  void for_statement(const Statement& s);
+  void while_statement(const Statement& s);
+  void repeat_statement(const Statement& s);
+  std::int32_t condition(const Expression& e, const char* what);
+  bool in_test() const;
+
+  struct Loop {
+    std::vector<std::size_t> exits, continues;
+  };
+
+  Unit& unit_;
+  Pou* pou_;
+  Emitter emit_;
+  std::vector<Loop> loops_;
+  std::vector<std::size_t> returns_;
+};
+
+}  // namespace trunnion::st

@@ -1,0 +1,286 @@
+// SPDX-License-Identifier: Apache-2.0
+// Calls of functions, function blocks and programs.
+#include "plc/library/functions.hpp"
+#include "plc/semantics/lowering.hpp"
+
+namespace trunnion::st {
+namespace {
+
+bool is_parameter(const Variable& variable, const Pou& pou) {
+  return &variable != pou.result &&
+         (variable.section == VariableSection::input || variable.section == VariableSection::output ||
+          variable.section == VariableSection::in_out);
+}
+
+const char* section_name(VariableSection section) {
+  return section == VariableSection::input    ? "an input"
+         : section == VariableSection::output ? "an output"
+                                              : "VAR_IN_OUT";
+}
+
+}  // namespace
+
+Value Lowering::call(const Expression& e, const Type* expected) {
+  const auto& callee = *e.parts[0];
+  Value none;
+  none.type = elementary(Kind::none);
+  const bool plain = callee.kind == Expression::Kind::name;
+  // A variable hides a function only when it can be called itself.
+  const auto instance_named = [&] {
+    const auto* variable = unit_.find_global(callee.name);
+    if (pou_ != nullptr)
+      if (const auto found = pou_->names.find(callee.name); found != pou_->names.end())
+        variable = found->second;
+    if (variable == nullptr) return false;
+    return variable->type->kind == Kind::block ||
+           (unit_.find_pou(callee.name) == nullptr && !is_standard_function(callee.name));
+  };
+  const bool local = plain && instance_named();
+  if (plain && !local) {
+    if (auto* pou = unit_.find_pou(callee.name)) {
+      switch (pou->declaration->kind) {
+        case PouKind::function:
+          if (unit_.translated(callee.name, callee.at) == nullptr) return error();
+          return call_function(*pou, e);
+        case PouKind::program:
+          if (!in_test())
+            return failed(callee.at,
+                          "the program '" + callee.text + "' is run by its task; only a TEST calls it");
+          if (unit_.translated(callee.name, callee.at) == nullptr) return error();
+          call_program(*pou, e);
+          return none;
+        default:
+          return failed(callee.at, "'" + callee.text + "' is a function block: declare an instance, name : " +
+                                       callee.text + "; and call name(...)");
+      }
+    }
+    if (auto value = standard_function(e, expected)) return *value;
+    return failed(callee.at, "there is no function '" + callee.text + "'");
+  }
+  const auto instance = expression(callee);
+  if (instance.is_error()) return instance;
+  if (instance.type->kind != Kind::block)
+    return failed(callee.at, "'" + callee.text + "' is " + instance.type->name + " and cannot be called");
+  call_block(instance, e);
+  return none;
+}
+
+/// For each parameter in the order of declaration its argument or nullptr.
+bool Lowering::bind(const Pou& pou, const Expression& e, bool is_block, std::vector<const Argument*>& bound) {
+  std::vector<const Variable*> parameters;
+  for (const auto& variable : pou.variables)
+    if (is_parameter(variable, pou)) parameters.push_back(&variable);
+  bound.assign(parameters.size(), nullptr);
+  bool good = true;
+  std::size_t next = 0;
+  const auto report = [&](Position at, const std::string& text) {
+    unit_.diagnostics().error(at, text);
+    good = false;
+  };
+  const auto& name = pou.declaration->text;
+  for (const auto& argument : e.arguments) {
+    std::size_t index = 0;
+    if (argument.name.empty()) {
+      while (next < parameters.size() && parameters[next]->section == VariableSection::output) ++next;
+      if (next >= parameters.size()) {
+        report(argument.at, "'" + name + "' has fewer parameters than arguments");
+        continue;
+      }
+      index = next++;
+    } else {
+      while (index < parameters.size() && parameters[index]->name != argument.name) ++index;
+      if (index == parameters.size()) {
+        report(argument.at, "'" + name + "' has no parameter '" + argument.name + "'");
+        continue;
+      }
+      const auto section = parameters[index]->section;
+      if (argument.output != (section == VariableSection::output)) {
+        report(argument.at, "'" + parameters[index]->text + "' is " + section_name(section) + ": write " +
+                                (section == VariableSection::output ? "=> variable" : ":= value"));
+        continue;
+      }
+    }
+    if (bound[index] != nullptr) report(argument.at, "'" + parameters[index]->text + "' has two values");
+    bound[index] = &argument;
+  }
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    if (bound[i] != nullptr) continue;
+    const auto& p = *parameters[i];
+    if (p.section == VariableSection::in_out)
+      report(e.at, "VAR_IN_OUT '" + p.text + "' of '" + name + "' needs a variable in every call");
+    else if (p.section == VariableSection::input && !is_block && e.arguments.empty() &&
+             p.initial == p.type->initial)
+      report(e.at, "'" + name + "' needs a value for '" + p.text + "'");
+  }
+  return good;
+}
+
+/// The address of the variable that VAR_IN_OUT refers to.
+std::int32_t Lowering::reference(const Argument& argument, const Variable& parameter) {
+  const auto value = expression(*argument.value);
+  if (value.is_error()) return 0;
+  const auto at = argument.value->at;
+  if (!check_writable(value, at)) return 0;
+  if (value.place.bit >= 0 || value.place.form != 0) {
+    unit_.diagnostics().error(at, "a part of a register cannot be VAR_IN_OUT '" + parameter.text +
+                                      "'; copy it to a variable and back");
+    return 0;
+  }
+  if (!same_type(*value.type, *parameter.type) || value.type->ranged != parameter.type->ranged) {
+    unit_.diagnostics().error(
+        at, "VAR_IN_OUT '" + parameter.text + "' is " + parameter.type->name + ", not " + value.type->name);
+    return 0;
+  }
+  mark_written(value);
+  return address(value.place);
+}
+
+Value Lowering::call_function(Pou& function, const Expression& e) {
+  std::vector<const Argument*> bound;
+  const bool good = bind(function, e, false, bound);
+  struct Step {
+    const Variable* parameter;
+    std::int32_t cell;
+    Value value;
+  };
+  // All arguments first: an argument may call the same function.
+  std::vector<Step> steps;
+  std::size_t i = 0;
+  for (const auto& variable : function.variables) {
+    if (!is_parameter(variable, function)) continue;
+    const auto* argument = bound[i++];
+    if (argument == nullptr) {
+      if (variable.section == VariableSection::input) {
+        // Each call begins with the initial value of what it does not give.
+        Value initial;
+        initial.type = variable.type;
+        steps.push_back({&variable, -1, initial});
+      }
+      continue;
+    }
+    if (variable.section == VariableSection::output) continue;
+    if (variable.section == VariableSection::in_out) {
+      steps.push_back({&variable, reference(*argument, variable), {}});
+      continue;
+    }
+    const auto at = argument->value->at;
+    auto value = converted(expression(*argument->value, variable.type), *variable.type, at);
+    if (value.is_error()) continue;
+    if (is_elementary(variable.type->kind)) {
+      const auto source = cell(value, *variable.type);
+      check_range(*variable.type, value, source);
+      const auto keep = emit_.temporary();
+      emit_.add(Op::move, keep, source);
+      steps.push_back({&variable, keep, value});
+    } else {
+      steps.push_back({&variable, 0, value});
+    }
+  }
+  if (!good) return error();
+  const auto base = static_cast<std::int32_t>(function.base);
+  for (const auto& step : steps) {
+    const auto target = base + step.parameter->place.offset;
+    Value parameter;
+    parameter.type = step.parameter->type;
+    parameter.place = {Place::Base::absolute, target, 0, -1, 0, 0, true, ""};
+    if (step.parameter->section == VariableSection::in_out) {
+      emit_.add(Op::save, step.cell, target);
+    } else if (step.cell < 0) {
+      Value initial;
+      initial.type = step.parameter->type;
+      initial.place = {Place::Base::absolute,
+                       static_cast<std::int32_t>(unit_.allocate(step.parameter->initial)),
+                       0,
+                       -1,
+                       0,
+                       0,
+                       false,
+                       ""};
+      if (is_elementary(initial.type->kind))
+        emit_.add(Op::save, cell(initial), target);
+      else
+        copy(parameter, initial);
+    } else if (is_elementary(step.parameter->type->kind)) {
+      emit_.add(Op::save, step.cell, target);
+    } else {
+      copy(parameter, step.value);
+    }
+  }
+  emit_.add(Op::call, static_cast<std::int32_t>(function.routine), base);
+  i = 0;
+  for (const auto& variable : function.variables) {
+    if (!is_parameter(variable, function)) continue;
+    const auto* argument = bound[i++];
+    if (argument == nullptr || variable.section != VariableSection::output) continue;
+    const auto target = expression(*argument->value);
+    if (!check_writable(target, argument->value->at)) continue;
+    Value output;
+    output.type = variable.type;
+    output.place = {Place::Base::absolute, base + variable.place.offset, 0, -1, 0, 0, false, ""};
+    store(target, converted(output, *target.type, argument->value->at));
+  }
+  if (function.result == nullptr) {
+    Value none;
+    none.type = elementary(Kind::none);
+    return none;
+  }
+  // The next call of the function overwrites its frame.
+  auto result = temporary(function.result->type);
+  Value stored;
+  stored.type = result.type;
+  stored.place = {Place::Base::absolute, base + function.result->place.offset, 0, -1, 0, 0, false, ""};
+  if (is_elementary(result.type->kind))
+    emit_.add(Op::load, result.place.offset, stored.place.offset);
+  else
+    copy(result, stored);
+  return result;
+}
+
+void Lowering::call_block(const Value& instance, const Expression& e) {
+  const auto& pou = *instance.type->block->pou;
+  std::vector<const Argument*> bound;
+  if (!bind(pou, e, true, bound)) return;
+  const auto start = address(instance.place);
+  auto place_of = [&](const Variable& variable) {
+    Value value;
+    value.type = variable.type;
+    value.place = instance.place.base == Place::Base::indirect
+                      ? Place{Place::Base::indirect, variable.place.offset, start, -1, 0, 0, true, ""}
+                      : moved(instance.place, variable.place.offset);
+    value.place.writable = true;
+    return value;
+  };
+  std::size_t i = 0;
+  for (const auto& variable : pou.variables) {
+    if (!is_parameter(variable, pou)) continue;
+    const auto* argument = bound[i++];
+    if (argument == nullptr || variable.section == VariableSection::output) continue;
+    if (variable.section == VariableSection::in_out) {
+      const auto source = reference(*argument, variable);
+      store_cell(place_of(variable).place, *elementary(Kind::lint), source);
+      continue;
+    }
+    const auto at = argument->value->at;
+    store(place_of(variable), converted(expression(*argument->value, variable.type), *variable.type, at));
+  }
+  emit_.add(Op::call_at, static_cast<std::int32_t>(pou.routine), start);
+  i = 0;
+  for (const auto& variable : pou.variables) {
+    if (!is_parameter(variable, pou)) continue;
+    const auto* argument = bound[i++];
+    if (argument == nullptr || variable.section != VariableSection::output) continue;
+    const auto target = expression(*argument->value);
+    if (!check_writable(target, argument->value->at)) continue;
+    store(target, converted(place_of(variable), *target.type, argument->value->at));
+  }
+}
+
+void Lowering::call_program(Pou& program, const Expression& e) {
+  if (!e.arguments.empty())
+    failed(e.at, "a program is called without arguments; assign program.variable before");
+  emit_.add(Op::call, static_cast<std::int32_t>(program.routine), static_cast<std::int32_t>(program.base));
+}
+
+bool Lowering::in_test() const { return pou_ != nullptr && pou_->declaration->kind == PouKind::test; }
+
+}  // namespace trunnion::st

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: Apache-2.0
+// X_TO_Y, TO_Y, TRUNC (IEC 61131-3:2013, 6.6.2.5.3).
+#include <cmath>
+#include <optional>
+
+#include "plc/machine/arithmetic.hpp"
+#include "plc/semantics/lowering.hpp"
+
+namespace trunnion::st {
+namespace {
+
+constexpr std::int64_t millisecond = 1000000;
+
+bool whole(Kind kind) { return is_integer(kind) || is_bits(kind) || kind == Kind::enumeration; }
+bool timed(Kind kind) { return is_duration(kind) || is_date(kind); }
+
+}  // namespace
+
+std::optional<Value> Lowering::conversion(const Expression& e, const std::string& name) {
+  const Type* from = nullptr;
+  const Type* to = nullptr;
+  bool truncate = false;
+  if (name == "TRUNC") {
+    truncate = true;
+    to = elementary(Kind::dint);
+  } else if (name.rfind("TO_", 0) == 0) {
+    to = unit_.named_type(name.substr(3));
+  } else if (const auto cut = name.find("_TRUNC_"); cut != std::string::npos) {
+    truncate = true;
+    from = unit_.named_type(name.substr(0, cut));
+    to = unit_.named_type(name.substr(cut + 7));
+    if (from == nullptr) return std::nullopt;
+  } else {
+    // The name of a type of one's own may contain _TO_ too.
+    for (auto at = name.find("_TO_"); at != std::string::npos && to == nullptr;
+         at = name.find("_TO_", at + 1)) {
+      from = unit_.named_type(name.substr(0, at));
+      if (from != nullptr) to = unit_.named_type(name.substr(at + 4));
+    }
+    if (from == nullptr) return std::nullopt;
+  }
+  if (to == nullptr) return std::nullopt;
+  if (e.arguments.size() != 1)
+    return failed(e.at, e.parts[0]->text + " has 1 argument, not " + std::to_string(e.arguments.size()));
+  auto value = expression(*e.arguments[0].value, from);
+  if (value.is_error()) return value;
+  if (from != nullptr) {
+    value = from->kind == Kind::string && value.type->kind == Kind::string
+                ? value
+                : converted(value, *from, e.arguments[0].at);
+    if (value.is_error()) return value;
+  } else if (value.type->kind == Kind::integer_literal) {
+    value = converted(value, *elementary(Kind::lint), e.at);
+  } else if (value.type->kind == Kind::real_literal) {
+    value = converted(value, *elementary(Kind::lreal), e.at);
+  }
+  return converted_to(value, *to, truncate, e.at);
+}
+
+Value Lowering::converted_to(const Value& value, const Type& to, bool truncate, Position at) {
+  const auto from = value.type->kind;
+  const auto undefined = [&] {
+    return failed(at, "there is no conversion from " + value.type->name + " to " + to.name);
+  };
+  if (truncate && !is_real(from))
+    return failed(at, "TRUNC is for REAL and LREAL, not for " + value.type->name);
+  if (from == Kind::integer_literal) return converted(value, to, at);
+  if (from == Kind::string) {
+    const bool number = is_integer(to.kind) || (is_bits(to.kind) && to.kind != Kind::boolean);
+    if (to.kind == Kind::string) return value;
+    if (!number && !is_real(to.kind) && to.kind != Kind::boolean) return undefined();
+    const auto first = emit_.temporary();
+    emit_.add(Op::move, first, address(value));
+    auto result = temporary(elementary(to.kind));
+    const auto function = to.kind == Kind::real      ? StringFunction::to_real
+                          : to.kind == Kind::lreal   ? StringFunction::to_lreal
+                          : to.kind == Kind::boolean ? StringFunction::to_bool
+                                                     : StringFunction::to_int;
+    emit_.add(Op::string_query, result.place.offset, first, 0, static_cast<std::uint16_t>(function));
+    if (number) emit_.add(Op::narrow, result.place.offset, result.place.offset, 0, cell_form(to.kind));
+    return result;
+  }
+  if (!is_elementary(from)) return undefined();
+  if (to.kind == Kind::string) {
+    if (is_date(from)) return undefined();
+    const auto function = from == Kind::boolean ? StringFunction::from_bool
+                          : from == Kind::real  ? StringFunction::from_real
+                          : from == Kind::lreal ? StringFunction::from_lreal
+                          : is_duration(from)   ? StringFunction::from_time
+                          : is_signed(from)     ? StringFunction::from_int
+                                                : StringFunction::from_uint;
+    const std::int32_t argument[] = {cell(value)};
+    return string_result(function, argument, 40);
+  }
+  if (!is_elementary(to.kind)) return undefined();
+  const auto* type = to.kind == Kind::enumeration || to.ranged ? &to : elementary(to.kind);
+  if (value.is_constant && whole(from) && is_integer(to.kind) &&
+      !fits(to, value.integer, from == Kind::ulint && value.integer < 0))
+    unit_.diagnostics().warning(at, std::to_string(value.integer) + " is outside " + limits_text(to) +
+                                        " of " + to.name + "; the result is another number");
+  const auto source = cell(value);
+  auto result = temporary(type);
+  const auto target = result.place.offset;
+  const auto scale = [&](Kind duration) {
+    return duration == Kind::ltime || is_date(duration) ? std::int64_t{1} : millisecond;
+  };
+  if (to.kind == Kind::boolean) {
+    // Any value but zero is TRUE.
+    const auto zero = emit_.temporary();
+    emit_.constant(zero, 0);
+    emit_.add(from == Kind::real    ? Op::equal_f
+              : from == Kind::lreal ? Op::equal_d
+                                    : Op::equal,
+              target, source, zero);
+    emit_.add(Op::not_, target, target);
+  } else if (whole(from) && whole(to.kind)) {
+    emit_.add(Op::narrow, target, source, 0, cell_form(to.kind));
+  } else if (is_real(from) && (whole(to.kind) || is_duration(to.kind))) {
+    auto wide = source;
+    if (from == Kind::real) {
+      wide = emit_.temporary();
+      emit_.add(Op::f_to_d, wide, source);
+    }
+    const auto form = whole(to.kind) ? cell_form(to.kind) : cell_form(Kind::lint);
+    if (is_duration(to.kind)) {
+      const auto factor = emit_.temporary(), product = emit_.temporary();
+      emit_.constant(factor, cell_of(static_cast<double>(scale(to.kind))));
+      emit_.add(Op::multiply_d, product, wide, factor);
+      wide = product;
+    }
+    emit_.add(truncate ? Op::d_truncate : Op::d_round, target, wide, 0, form);
+  } else if (whole(from) && is_real(to.kind)) {
+    const bool is_unsigned = !is_signed(from);
+    emit_.add(to.kind == Kind::real ? (is_unsigned ? Op::uint_to_f : Op::int_to_f)
+                                    : (is_unsigned ? Op::uint_to_d : Op::int_to_d),
+              target, source);
+  } else if (is_real(from) && is_real(to.kind)) {
+    emit_.add(from == to.kind ? Op::move : from == Kind::real ? Op::f_to_d : Op::d_to_f, target, source);
+  } else if (timed(from) && (is_real(to.kind) || whole(to.kind))) {
+    const auto divisor = emit_.temporary();
+    if (is_real(to.kind)) {
+      emit_.constant(divisor, cell_of(static_cast<double>(scale(from))));
+      emit_.add(Op::int_to_d, target, source);
+      emit_.add(Op::divide_d, target, target, divisor);
+      if (to.kind == Kind::real) emit_.add(Op::d_to_f, target, target);
+    } else {
+      emit_.constant(divisor, static_cast<std::uint64_t>(scale(from)));
+      emit_.add(Op::divide, target, source, divisor);
+      emit_.add(Op::narrow, target, target, 0, cell_form(to.kind));
+    }
+  } else if (whole(from) && is_duration(to.kind)) {
+    const auto factor = emit_.temporary();
+    emit_.constant(factor, static_cast<std::uint64_t>(scale(to.kind)));
+    emit_.add(Op::multiply, target, source, factor);
+  } else if (is_duration(from) && is_duration(to.kind)) {
+    emit_.add(Op::move, target, source);
+  } else if (from == Kind::dt && (to.kind == Kind::date || to.kind == Kind::tod)) {
+    const auto day = emit_.temporary(), rest = emit_.temporary();
+    emit_.constant(day, 86400000000000u);
+    emit_.add(Op::modulo, rest, source, day);
+    emit_.add(to.kind == Kind::tod ? Op::move : Op::subtract, target, to.kind == Kind::tod ? rest : source,
+              rest);
+  } else if (from == to.kind) {
+    emit_.add(Op::move, target, source);
+  } else {
+    return undefined();
+  }
+  if (type->ranged) emit_.add(Op::check_range, target, unit_.range_entry({type->low, type->high, 1}));
+  return result;
+}
+
+}  // namespace trunnion::st

@@ -1,0 +1,400 @@
+// SPDX-License-Identifier: Apache-2.0
+// The standard functions.
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <map>
+#include <optional>
+#include <span>
+#include <sstream>
+
+#include "plc/library/functions.hpp"
+#include "plc/machine/arithmetic.hpp"
+#include "plc/semantics/lowering.hpp"
+
+namespace trunnion::st {
+namespace {
+
+bool is_literal(const Value& v) {
+  return v.type->kind == Kind::integer_literal || v.type->kind == Kind::real_literal;
+}
+
+/// Arguments in the order of the parameters; an error is reported and gives false.
+bool in_order(const FunctionRow& row, const Expression& e, Diagnostics& diagnostics,
+              std::vector<const Expression*>& result) {
+  const auto report = [&](Position at, const std::string& text) {
+    diagnostics.error(at, std::string(row.name) + " " + text);
+    return false;
+  };
+  const auto count = static_cast<int>(e.arguments.size());
+  if (count < row.least || count > row.most) {
+    const bool one = row.least == row.most;
+    return report(e.at, "has " + std::to_string(row.least) + (one ? "" : " or more") +
+                            (row.least == 1 && one ? " argument" : " arguments") + ", not " +
+                            std::to_string(count));
+  }
+  std::vector<std::string> names;
+  std::istringstream words{std::string(row.parameters)};
+  for (std::string word; words >> word;) names.push_back(word);
+  result.assign(e.arguments.size(), nullptr);
+  std::size_t next = 0;
+  for (const auto& argument : e.arguments) {
+    auto index = next;
+    if (argument.output) return report(argument.at, "has no outputs");
+    if (!argument.name.empty()) {
+      const auto found = std::find(names.begin(), names.end(), argument.name);
+      index = static_cast<std::size_t>(found - names.begin());
+      if (row.parameters.empty() && argument.name.rfind("IN", 0) == 0 && argument.name.size() < 5) {
+        // IN1 is the first, of MUX IN0 behind K.
+        const int number = std::atoi(argument.name.c_str() + 2);
+        index = static_cast<std::size_t>(row.name == "MUX" ? number + 1 : std::max(number, 1) - 1);
+      }
+      if (row.name == "MUX" && argument.name == "K") index = 0;
+    }
+    if (index >= result.size() || result[index] != nullptr)
+      return report(argument.at, argument.name.empty() ? "has two values for one parameter"
+                                                       : "has no free parameter '" + argument.name + "'");
+    result[index] = argument.value.get();
+    next = index + 1;
+  }
+  return true;
+}
+
+}  // namespace
+
+std::optional<Value> Lowering::standard_function(const Expression& e, const Type* expected) {
+  const auto& name = e.parts[0]->name;
+  const auto* row = find_function(name);
+  if (row == nullptr) return conversion(e, name);
+  std::vector<const Expression*> ordered;
+  if (!in_order(*row, e, unit_.diagnostics(), ordered)) return error();
+  std::vector<Value> values;
+  for (std::size_t i = 0; i < ordered.size(); ++i) {
+    const Type* hint = name == "SEL" || name == "MUX" ? (i == 0 ? nullptr : expected) : expected;
+    if (i > 0 && !values.back().is_error() && values.back().type->kind == Kind::enumeration)
+      hint = values.back().type;
+    auto value = expression(*ordered[i], hint);
+    for (auto j = i + 1; j < ordered.size(); ++j)
+      if (ordered[j]->kind == Expression::Kind::call) value = value.is_error() ? value : kept(value);
+    values.push_back(value);
+  }
+  for (const auto& value : values)
+    if (value.is_error()) return error();
+  for (const auto& value : values)
+    if (value.type->kind == Kind::none) return failed(e.at, "the function has no result");
+  emit_.place(e.at);
+  const auto fold_all = [&](const std::string& op, bool compares) {
+    auto result = values[0];
+    Value all;
+    for (std::size_t i = 1; i < values.size(); ++i) {
+      if (!compares) {
+        result = op == "**" ? power(result, values[i], e.at) : arithmetic(op, result, values[i], e.at);
+        if (result.is_error()) return result;
+        continue;
+      }
+      const auto one = comparison(op, values[i - 1], values[i], e.at);
+      if (one.is_error()) return one;
+      all = i == 1 ? one : operation(Op::and_, elementary(Kind::boolean), all, one, false);
+    }
+    return compares ? all : result;
+  };
+  switch (row->group) {
+    case FunctionGroup::arithmetic:
+      return fold_all(name == "ADD"   ? "+"
+                      : name == "MUL" ? "*"
+                      : name == "SUB" ? "-"
+                      : name == "DIV" ? "/"
+                                      : "**",
+                      false);
+    case FunctionGroup::time:
+      return fold_all(name.rfind("ADD", 0) == 0   ? "+"
+                      : name.rfind("SUB", 0) == 0 ? "-"
+                      : name == "MUL_TIME"        ? "*"
+                                                  : "/",
+                      false);
+    case FunctionGroup::comparison:
+      return fold_all(name == "GT"   ? ">"
+                      : name == "GE" ? ">="
+                      : name == "EQ" ? "="
+                      : name == "LE" ? "<="
+                      : name == "LT" ? "<"
+                                     : "<>",
+                      true);
+    case FunctionGroup::math: {
+      static const std::map<std::string_view, MathFunction> functions = {
+          {"SQRT", MathFunction::sqrt}, {"LN", MathFunction::ln},       {"LOG", MathFunction::log},
+          {"EXP", MathFunction::exp},   {"SIN", MathFunction::sin},     {"COS", MathFunction::cos},
+          {"TAN", MathFunction::tan},   {"ASIN", MathFunction::asin},   {"ACOS", MathFunction::acos},
+          {"ATAN", MathFunction::atan}, {"ATAN2", MathFunction::atan2}, {"FLOOR", MathFunction::floor},
+          {"CEIL", MathFunction::ceil}};
+      return math_function(functions.at(row->name), values, e);
+    }
+    case FunctionGroup::absolute: {
+      const auto kind = values[0].type->kind;
+      if (is_real(kind) || kind == Kind::real_literal) return math_function(MathFunction::abs, values, e);
+      if (is_literal(values[0]) || is_duration(kind) || (is_integer(kind) && is_signed(kind))) {
+        const auto value =
+            is_literal(values[0]) ? converted(values[0], *elementary(Kind::lint), e.at) : values[0];
+        const auto* type = elementary(value.type->kind);
+        auto result = temporary(type);
+        const auto zero = emit_.temporary(), negative = emit_.temporary();
+        emit_.add(Op::move, result.place.offset, cell(value));
+        emit_.constant(zero, 0);
+        emit_.add(Op::less_equal, negative, zero, result.place.offset);
+        const auto jump = emit_.add(Op::jump_if, 0, negative);
+        emit_.add(Op::negate, result.place.offset, result.place.offset);
+        if (bits(type->kind) < 64)
+          emit_.add(Op::narrow, result.place.offset, result.place.offset, 0, cell_form(type->kind));
+        emit_.jump_to_here(jump);
+        return result;
+      }
+      if (is_integer(kind)) return values[0];
+      return failed(e.at, "ABS is for numbers, not for " + values[0].type->name);
+    }
+    case FunctionGroup::shift:
+      return shift(name, values, e);
+    case FunctionGroup::selection:
+      return selection(name, e, std::move(values));
+    case FunctionGroup::string:
+      return string_function(name, values, e);
+    case FunctionGroup::move:
+      return values[0];
+    case FunctionGroup::clock: {
+      auto result = temporary(elementary(Kind::ltime));
+      const auto offset = emit_.temporary();
+      emit_.add(Op::now, result.place.offset);
+      emit_.add(Op::load, offset, static_cast<std::int32_t>(Unit::clock_offset_cell));
+      emit_.add(Op::add, result.place.offset, result.place.offset, offset);
+      return result;
+    }
+    case FunctionGroup::test:
+      return test_function(name, values, e);
+  }
+  return error();
+}
+
+Value Lowering::math_function(MathFunction function, const std::vector<Value>& values, const Expression& e) {
+  const bool single =
+      std::all_of(values.begin(), values.end(),
+                  [](const Value& v) {
+                    return v.type->kind == Kind::real || is_literal(v) ||
+                           widens(*v.type, *elementary(Kind::real));
+                  }) &&
+      std::any_of(values.begin(), values.end(), [](const Value& v) { return !is_literal(v); });
+  const auto* type = elementary(single ? Kind::real : Kind::lreal);
+  std::int32_t cells[2] = {0, 0};
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (!is_literal(values[i]) && !widens(*values[i].type, *type))
+      return failed(e.at, e.parts[0]->text + " is for REAL and LREAL, not for " + values[i].type->name);
+    cells[i] = cell(converted(values[i], *type, e.at), *type);
+  }
+  auto result = temporary(type);
+  emit_.add(single ? Op::math_f : Op::math, result.place.offset, cells[0],
+            values.size() > 1 ? cells[1] : cells[0], static_cast<std::uint16_t>(function));
+  return result;
+}
+
+Value Lowering::shift(const std::string& name, const std::vector<Value>& values, const Expression& e) {
+  const auto kind = values[0].type->kind;
+  if (kind == Kind::integer_literal) return failed(e.at, name + " needs a typed literal, as WORD#16#FF");
+  if (!is_bits(kind)) return failed(e.at, name + " is for bit strings, not for " + values[0].type->name);
+  const auto count_kind = values[1].type->kind;
+  if (!is_integer(count_kind) && count_kind != Kind::integer_literal)
+    return failed(e.at, "the number of places is an integer, not " + values[1].type->name);
+  const auto source = cell(values[0]);
+  const auto count = cell(converted(
+      values[1], count_kind == Kind::integer_literal ? *elementary(Kind::uint_) : *values[1].type, e.at));
+  auto result = temporary(elementary(kind));
+  const Op op = name == "SHL"   ? Op::shift_left
+                : name == "SHR" ? Op::shift_right
+                : name == "ROL" ? Op::rotate_left
+                                : Op::rotate_right;
+  emit_.add(op, result.place.offset, source, count, static_cast<std::uint16_t>(bits(kind)));
+  return result;
+}
+
+Value Lowering::selection(const std::string& name, const Expression& e, std::vector<Value> values) {
+  Value selector;
+  if (name == "SEL" || name == "MUX") {
+    selector = values[0];
+    values.erase(values.begin());
+    if (name == "SEL") selector = converted(selector, *elementary(Kind::boolean), e.at);
+    if (selector.is_error()) return selector;
+    if (name == "MUX" && !is_integer(selector.type->kind) && selector.type->kind != Kind::integer_literal)
+      return failed(e.at, "the first argument of MUX is an integer, not " + selector.type->name);
+  }
+  const auto* type = values[0].type;
+  for (const auto& value : values) {
+    if (is_literal(value) && (!is_literal(values[0]) || value.type->kind == Kind::integer_literal)) continue;
+    if (type->kind == Kind::integer_literal || (type->kind == Kind::real_literal && !is_literal(value))) {
+      type = is_literal(value) || !is_integer(value.type->kind) ? value.type : elementary(value.type->kind);
+      continue;
+    }
+    const auto* common = is_literal(value) ? type : common_type(*type, *value.type);
+    if (common == nullptr && type->kind == Kind::string && value.type->kind == Kind::string)
+      common = type->length >= value.type->length ? type : value.type;
+    if (common == nullptr)
+      return failed(e.at, name + " needs values of one type, not " + type->name + " and " + value.type->name);
+    type = common;
+  }
+  if (type->kind == Kind::integer_literal) type = elementary(Kind::lint);
+  if (type->kind == Kind::real_literal) type = elementary(Kind::lreal);
+  const bool orders = name != "SEL" && name != "MUX";
+  if (orders && (!is_elementary(type->kind) || type->kind == Kind::enumeration))
+    return failed(e.at, name + " is for elementary values, not for " + type->name);
+  auto result = temporary(type);
+  const auto place = result.place;
+  result.place.writable = true;
+  const auto put = [&](const Value& value) { store(result, converted(value, *type, e.at)); };
+  if (!orders) {
+    const auto k = selector.is_constant ? cell(selector, *elementary(Kind::lint)) : cell(selector);
+    std::vector<std::size_t> ends;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      std::optional<std::size_t> next;
+      if (i + 1 < values.size()) {
+        const auto number = emit_.temporary(), other = emit_.temporary();
+        emit_.constant(number, i);
+        emit_.add(Op::not_equal, other, k, number);
+        next = emit_.add(Op::jump_if, 0, other);
+      }
+      put(values[i]);
+      if (next) {
+        ends.push_back(emit_.add(Op::jump));
+        emit_.jump_to_here(*next);
+      }
+    }
+    emit_.jump_to_here(ends);
+  } else if (name == "LIMIT") {
+    // As the standard defines it: MIN(MAX(IN, MN), MX).
+    put(values[1]);
+    for (const std::size_t i : {std::size_t{0}, std::size_t{2}}) {
+      const auto limit = converted(values[i], *type, e.at);
+      const auto beyond = comparison(i == 0 ? "<" : ">", result, limit, e.at);
+      const auto jump = emit_.add(Op::jump_if_not, 0, cell(beyond));
+      put(limit);
+      emit_.jump_to_here(jump);
+    }
+  } else {
+    put(values[0]);
+    for (std::size_t i = 1; i < values.size(); ++i) {
+      const auto value = converted(values[i], *type, e.at);
+      if (value.is_error()) return value;
+      const auto better = comparison(name == "MAX" ? ">" : "<", value, result, e.at);
+      const auto jump = emit_.add(Op::jump_if_not, 0, cell(better));
+      put(value);
+      emit_.jump_to_here(jump);
+    }
+  }
+  result.place = place;
+  return result;
+}
+
+Value Lowering::string_result(StringFunction function, std::span<const std::int32_t> arguments,
+                              std::uint32_t length) {
+  const auto first = emit_.temporary(static_cast<std::uint32_t>(arguments.size()));
+  for (std::size_t i = 0; i < arguments.size(); ++i)
+    emit_.add(Op::move, first + static_cast<std::int32_t>(i), arguments[i]);
+  auto result = temporary(unit_.string_type(std::clamp<std::uint32_t>(length, 1, longest_string)));
+  emit_.add(Op::string_make, address(result.place), first, static_cast<std::int32_t>(result.type->length),
+            static_cast<std::uint16_t>(function));
+  return result;
+}
+
+Value Lowering::string_function(const std::string& name, const std::vector<Value>& values,
+                                const Expression& e) {
+  static const std::map<std::string_view, std::pair<StringFunction, int>> functions = {
+      {"LEN", {StringFunction::length, 1}},    {"LEFT", {StringFunction::left, 1}},
+      {"RIGHT", {StringFunction::right, 1}},   {"MID", {StringFunction::mid, 1}},
+      {"CONCAT", {StringFunction::concat, 2}}, {"INSERT", {StringFunction::insert, 2}},
+      {"DELETE", {StringFunction::erase, 1}},  {"REPLACE", {StringFunction::replace, 2}},
+      {"FIND", {StringFunction::find, 2}}};
+  const auto [function, strings] = functions.at(name);
+  std::vector<std::int32_t> cells;
+  std::uint32_t length = 0;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const bool is_string = i < static_cast<std::size_t>(strings) || function == StringFunction::concat;
+    const auto kind = values[i].type->kind;
+    if (is_string ? kind != Kind::string : !is_integer(kind) && kind != Kind::integer_literal)
+      return failed(e.at, "argument " + std::to_string(i + 1) + " of " + name + " is " +
+                              (is_string ? "a string" : "an integer") + ", not " + values[i].type->name);
+    if (is_string) length += values[i].type->length;
+    cells.push_back(is_string ? address(values[i]) : cell(values[i], *elementary(Kind::lint)));
+  }
+  if (function == StringFunction::length || function == StringFunction::find) {
+    const auto first = emit_.temporary(static_cast<std::uint32_t>(cells.size()));
+    for (std::size_t i = 0; i < cells.size(); ++i)
+      emit_.add(Op::move, first + static_cast<std::int32_t>(i), cells[i]);
+    auto result = temporary(elementary(Kind::int_));
+    emit_.add(Op::string_query, result.place.offset, first, 0, static_cast<std::uint16_t>(function));
+    return result;
+  }
+  if (function != StringFunction::concat) return string_result(function, cells, length);
+  Value joined = values[0];
+  for (std::size_t i = 1; i < values.size(); ++i) {
+    const std::int32_t pair[] = {address(joined), cells[i]};
+    joined = string_result(function, pair, joined.type->length + values[i].type->length);
+  }
+  return joined;
+}
+
+Value Lowering::test_function(const std::string& name, const std::vector<Value>& values,
+                              const Expression& e) {
+  Value none;
+  none.type = elementary(Kind::none);
+  if (!in_test()) return failed(e.at, name + " is for TEST only");
+  if (name == "ADVANCE") {
+    const auto time = converted(values[0], *elementary(Kind::ltime), e.at);
+    if (time.is_error()) return time;
+    const auto sum = emit_.temporary(), by = cell(time);
+    emit_.add(Op::load, sum, static_cast<std::int32_t>(Unit::clock_offset_cell));
+    emit_.add(Op::add, sum, sum, by);
+    emit_.add(Op::save, sum, static_cast<std::int32_t>(Unit::clock_offset_cell));
+    return none;
+  }
+  Assertion assertion;
+  Value condition;
+  if (name == "ASSERT_TRUE" || name == "ASSERT_FALSE") {
+    condition = converted(values[0], *elementary(Kind::boolean), e.at);
+    if (condition.is_error()) return condition;
+    auto result = temporary(elementary(Kind::boolean));
+    emit_.add(name == "ASSERT_TRUE" ? Op::move : Op::not_, result.place.offset, cell(condition));
+    condition = result;
+  } else {
+    auto actual = values[0], wanted = values[1];
+    if (name == "ASSERT_NEAR") {
+      const auto* lreal = elementary(Kind::lreal);
+      for (auto* value : {&actual, &wanted})
+        *value = widens(*value->type, *lreal) || is_literal(*value)
+                     ? converted(*value, *lreal, e.at)
+                     : converted_to(*value, *lreal, false, e.at);
+      const auto difference = arithmetic("-", actual, wanted, e.at);
+      if (difference.is_error()) return difference;
+      auto distance = temporary(lreal);
+      emit_.add(Op::math, distance.place.offset, cell(difference), cell(difference),
+                static_cast<std::uint16_t>(MathFunction::abs));
+      condition = comparison("<=", distance, values[2], e.at);
+    } else {
+      condition = comparison("=", actual, wanted, e.at);
+    }
+    if (condition.is_error()) return condition;
+    condition = condition.is_constant ? condition : kept(condition);
+    const auto* type = is_elementary(actual.type->kind) ? actual.type : wanted.type;
+    const auto* common = is_elementary(type->kind) ? common_type(is_literal(actual) ? *type : *actual.type,
+                                                                 is_literal(wanted) ? *type : *wanted.type)
+                                                   : nullptr;
+    if (common != nullptr) {
+      assertion.kind = common->kind == Kind::real    ? Assertion::Kind::real
+                       : common->kind == Kind::lreal ? Assertion::Kind::lreal
+                       : is_signed(common->kind)     ? Assertion::Kind::integer
+                                                     : Assertion::Kind::unsigned_integer;
+      assertion.actual = cell(converted(actual, *common, e.at), *common);
+      assertion.expected = cell(converted(wanted, *common, e.at), *common);
+    }
+  }
+  unit_.code.assertions.push_back(assertion);
+  emit_.place(e.at);
+  emit_.add(Op::assert_, cell(condition), static_cast<std::int32_t>(unit_.code.assertions.size() - 1));
+  return none;
+}
+
+}  // namespace trunnion::st

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+// The data types of IEC 61131-3:2013, 6.4, and which values convert to which by themselves.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace trunnion::st {
+
+enum class Kind : std::uint8_t {
+  boolean,
+  byte,
+  word,
+  dword,
+  lword,
+  sint,
+  int_,
+  dint,
+  lint,
+  usint,
+  uint_,
+  udint,
+  ulint,
+  real,
+  lreal,
+  time,
+  ltime,
+  date,
+  tod,
+  dt,
+  string,
+  enumeration,
+  array,
+  structure,
+  block,
+  integer_literal,  ///< takes the type of what it meets
+  real_literal,
+  none,   ///< result of a function without one
+  error,  ///< reported already
+};
+
+struct Type;
+
+struct Field {
+  std::string name, text;  ///< in capitals, as written
+  const Type* type = nullptr;
+  std::uint32_t offset = 0;  ///< cells
+};
+
+struct Enumerator {
+  std::string name, text;
+  std::int64_t value = 0;
+};
+
+struct Dimension {
+  std::int64_t low = 0, high = 0;
+};
+
+struct Block;  // a function block with its interface
+
+struct Type {
+  Kind kind = Kind::error;
+  std::string name;  ///< as messages show it
+  std::uint32_t cells = 1;
+  bool ranged = false;  ///< a subrange of an integer type
+  std::int64_t low = 0, high = 0;
+  std::uint32_t length = 0;           ///< of a string, bytes
+  std::vector<Dimension> dimensions;  ///< of an array
+  const Type* element = nullptr;
+  std::vector<Field> fields;  ///< of a structure
+  std::vector<Enumerator> enumerators;
+  const Block* block = nullptr;
+  std::vector<std::uint64_t> initial;  ///< the cells of a variable without initial value
+
+  const Field* field(std::string_view upper) const;
+  const Enumerator* enumerator(std::string_view upper) const;
+};
+
+/// The elementary types by name, in capitals; nothing for others.
+const Type* elementary(std::string_view upper);
+const Type* elementary(Kind kind);
+
+bool is_signed(Kind kind);
+bool is_integer(Kind kind);     ///< SINT .. ULINT
+bool is_real(Kind kind);        ///< REAL, LREAL
+bool is_bits(Kind kind);        ///< BOOL .. LWORD
+bool is_duration(Kind kind);    ///< TIME, LTIME
+bool is_date(Kind kind);        ///< DATE, TOD, DT
+bool is_elementary(Kind kind);  ///< one cell
+/// Bits of an integer, bit string or enumeration.
+int bits(Kind kind);
+/// `n` of Op::narrow: bits and sign.
+std::uint16_t cell_form(Kind kind);
+/// Whether a literal integer is a value of the type; `negative` is its sign.
+bool fits(const Type& type, std::int64_t value, bool is_large_unsigned = false);
+/// "-128 .. 127"
+std::string limits_text(const Type& type);
+
+/// Without regard to subranges.
+bool same_type(const Type& a, const Type& b);
+/// Whether a value converts implicitly, without loss (figure 12 of the standard).
+bool widens(const Type& from, const Type& to);
+/// The smallest type to which both convert implicitly; nullptr when there is none.
+const Type* common_type(const Type& a, const Type& b);
+
+}  // namespace trunnion::st

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+// Everything that is known while sources are translated: types, variables, program organization units,
+// memory.
+#pragma once
+
+#include <deque>
+#include <functional>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "plc/machine/byte_code.hpp"
+#include "plc/semantics/value.hpp"
+#include "plc/syntax/ast.hpp"
+
+namespace trunnion::st {
+
+/// Names of registers, in capitals.
+using RegisterNames = std::map<std::string, RegisterAddress, std::less<>>;
+
+struct Variable {
+  std::string name, text;
+  Position at;
+  const Type* type = nullptr;
+  VariableSection section = VariableSection::local;
+  bool retain = false;
+  Value constant;  ///< of VAR CONSTANT with an elementary type
+  bool is_constant = false;
+  Place place;  ///< of in_out: the cell of the address
+  bool used = false;
+  std::vector<std::uint64_t> initial;  ///< cells
+};
+
+/// A program, function, function block or test while it is translated and afterwards.
+struct Pou {
+  enum class State { declared, in_progress, done, failed };
+  const PouDeclaration* declaration = nullptr;
+  State state = State::declared;
+  std::deque<Variable> variables;  ///< in the order of declaration
+  std::map<std::string, Variable*, std::less<>> names;
+  Variable* result = nullptr;  ///< of a function
+  std::uint32_t routine = 0, frame = 0;
+  std::uint32_t base = 0;              ///< of the only frame of a program, function or test
+  Type type;                           ///< of the instances of a function block
+  std::vector<std::uint64_t> initial;  ///< cells of the frame
+  std::vector<std::uint32_t> timers;   ///< cells of the frame
+  std::vector<Cells> retained;         ///< cells of the frame
+};
+
+struct Block {
+  Pou* pou = nullptr;
+};
+
+/// The translation of one set of sources.
+class Unit {
+ public:
+  Unit(const SourceTree& tree, Diagnostics& diagnostics, const RegisterNames& registers,
+       std::uint16_t library_files);
+
+  /// Declares and translates everything.
+  void run();
+
+  // What declarations and bodies use:
+  Diagnostics& diagnostics() { return diagnostics_; }
+  /// The type of a specification; reports errors and returns the type `error`.
+  const Type* type_of(const TypeSpec& spec, Pou* context);
+  const Type* named_type(const std::string& upper);
+  const Type* string_type(std::uint32_t length);
+  /// The value of a constant expression, converted to the type; false when it is none, which is reported.
+  bool constant(const Expression& expression, const Type& type, Pou* context, Value& value);
+  /// Cells of an initial value.
+  std::vector<std::uint64_t> initial_cells(const Expression* initial, const Type& type, Pou* context);
+  /// The unit, translated; nullptr when there is none or it contains itself, which is reported at `at`.
+  Pou* translated(const std::string& upper, Position at);
+  Pou* find_pou(const std::string& upper);
+  Variable* find_global(const std::string& upper);
+  /// An enumerated value of any type; nullptr when none or several have the name.
+  const Enumerator* find_enumerator(const std::string& upper, const Type** type);
+  const RegisterNames& registers() const { return registers_; }
+  /// The place of a register, with its type.
+  Value register_value(const RegisterAddress& address, const Type* type, Position at);
+  void use_register(std::uint32_t address, std::uint32_t count, bool written);
+  std::uint32_t allocate(const std::vector<std::uint64_t>& initial);
+  std::uint32_t string_constant(const std::string& text);
+  std::int32_t range_entry(Range range);
+  std::uint32_t add_routine(std::vector<Instruction> code, const std::vector<LineEntry>& lines,
+                            std::uint32_t frame);
+  bool is_library(Position at) const { return at.file < library_files_; }
+  /// Calls visit(pou, offset) for every instance of a function block in a variable of the type.
+  static void each_block(const Type& type, std::uint32_t offset,
+                         const std::function<void(const Pou&, std::uint32_t)>& visit);
+
+  ByteCode code;
+  std::deque<Variable> globals;
+  std::map<std::string, Pou, std::less<>> pous;
+  std::vector<Pou*> order;  ///< of translation
+
+  static constexpr std::uint32_t clock_offset_cell = image_cells;  ///< ns that a test has advanced the time
+
+ private:
+  void register_types();
+  void build_types();
+  void declare_globals(const VariableBlock& block);
+  void declare_pous();
+  const Type* enumeration(const TypeSpec& spec, const std::string& name);
+  const Type* array(const TypeSpec& spec, Pou* context);
+  const Type* structure(const TypeSpec& spec, const std::string& name, Pou* context);
+  const Type* subrange(const TypeSpec& spec, const Type* base, Pou* context);
+  const Type* build(const TypeSpec& spec, const std::string& name, Pou* context);
+  void declare_variables(Pou& pou);
+  void declare_variable(Pou& pou, const VariableBlock& block, const VariableDeclaration& declaration);
+  void translate(Pou& pou);
+  bool locate(Variable& variable, const VariableDeclaration& declaration);
+  void warn_unused(const Pou& pou);
+  void list_cells(const Expression& list, const Type& type, Pou* context, std::vector<std::uint64_t>& cells);
+  void structure_cells(const Expression& list, const Type& type, Pou* context,
+                       std::vector<std::uint64_t>& cells);
+  void finish();
+
+  const SourceTree& tree_;
+  Diagnostics& diagnostics_;
+  const RegisterNames& registers_;
+  std::uint16_t library_files_;
+  std::deque<Type> types_;
+  std::map<std::string, const Type*, std::less<>> named_;
+  std::map<std::string, const TypeDeclaration*, std::less<>> declared_;
+  std::set<std::string> in_progress_;
+  std::map<std::uint32_t, const Type*> strings_;
+  std::map<std::string, Variable*, std::less<>> global_names_;
+  std::map<std::string, std::vector<std::pair<const Type*, const Enumerator*>>, std::less<>> enumerators_;
+  std::map<std::string, std::uint32_t> string_constants_;
+  std::map<Area, std::uint32_t> own_areas_;       ///< start of an area that is not in the image
+  std::map<std::uint32_t, bool> used_registers_;  ///< address -> written
+  std::deque<Block> blocks_;
+};
+
+}  // namespace trunnion::st

@@ -1,0 +1,322 @@
+// SPDX-License-Identifier: Apache-2.0
+// Types and initial values.
+#include <algorithm>
+
+#include "plc/semantics/lowering.hpp"
+#include "plc/semantics/unit.hpp"
+
+namespace trunnion::st {
+namespace {
+
+constexpr std::uint32_t default_string = 80;
+constexpr std::int64_t most_elements = 1 << 19;
+
+}  // namespace
+
+void Unit::register_types() {
+  for (const auto& declaration : tree_.types) {
+    if (elementary(declaration.name) != nullptr)
+      diagnostics_.error(declaration.at, "'" + declaration.text + "' is a type of the standard");
+    else if (!declared_.emplace(declaration.name, &declaration).second)
+      diagnostics_.error(declaration.at, "the type '" + declaration.text + "' is declared twice");
+  }
+}
+
+void Unit::build_types() {
+  for (const auto& [name, declaration] : declared_) named_type(name);
+}
+
+const Type* Unit::named_type(const std::string& upper) {
+  if (const auto* type = elementary(upper)) return type;
+  if (upper == "STRING") return string_type(default_string);
+  if (const auto found = named_.find(upper); found != named_.end()) return found->second;
+  const auto declared = declared_.find(upper);
+  if (declared == declared_.end()) return nullptr;
+  const auto& declaration = *declared->second;
+  if (!in_progress_.insert(upper).second) {
+    diagnostics_.error(declaration.at, "the type '" + declaration.text + "' contains itself");
+    return named_[upper] = elementary(Kind::error);
+  }
+  const auto* type = build(*declaration.type, declaration.text, nullptr);
+  if (const auto again = named_.find(upper); again != named_.end()) return again->second;
+  if (declaration.initial != nullptr && type->kind != Kind::error) {
+    auto& own = types_.emplace_back(*type);
+    own.initial = initial_cells(declaration.initial.get(), *type, nullptr);
+    type = &own;
+  }
+  in_progress_.erase(upper);
+  return named_[upper] = type;
+}
+
+const Type* Unit::string_type(std::uint32_t length) {
+  auto& known = strings_[length];
+  if (known == nullptr) {
+    auto& type = types_.emplace_back();
+    type.kind = Kind::string;
+    type.name = "STRING[" + std::to_string(length) + "]";
+    type.length = length;
+    type.cells = string_cells(length);
+    type.initial.assign(type.cells, 0);
+    known = &type;
+  }
+  return known;
+}
+
+const Type* Unit::type_of(const TypeSpec& spec, Pou* context) { return build(spec, "", context); }
+
+const Type* Unit::build(const TypeSpec& spec, const std::string& name, Pou* context) {
+  switch (spec.kind) {
+    case TypeSpec::Kind::enumeration:
+      return enumeration(spec, name.empty() ? "enumeration" : name);
+    case TypeSpec::Kind::structure:
+      return structure(spec, name.empty() ? "structure" : name, context);
+    case TypeSpec::Kind::array:
+      return array(spec, context);
+    case TypeSpec::Kind::string: {
+      if (!spec.length) return string_type(default_string);
+      Value length;
+      if (!constant(*spec.length, *elementary(Kind::dint), context, length)) return elementary(Kind::error);
+      if (length.integer < 1 || length.integer > longest_string) {
+        diagnostics_.error(spec.at, "the length of a string is 1 .. " + std::to_string(longest_string) +
+                                        ", not " + std::to_string(length.integer));
+        return elementary(Kind::error);
+      }
+      return string_type(static_cast<std::uint32_t>(length.integer));
+    }
+    case TypeSpec::Kind::named:
+      break;
+  }
+  const auto* type = named_type(spec.name);
+  if (type == nullptr)
+    if (auto* pou = find_pou(spec.name); pou != nullptr) {
+      if (pou->declaration->kind != PouKind::function_block) {
+        diagnostics_.error(spec.at, "'" + spec.text + "' is no type and no function block");
+        return elementary(Kind::error);
+      }
+      return translated(spec.name, spec.at) == nullptr ? elementary(Kind::error) : &pou->type;
+    }
+  if (type == nullptr) {
+    diagnostics_.error(spec.at, "there is no type '" + spec.text + "'");
+    return elementary(Kind::error);
+  }
+  return spec.low ? subrange(spec, type, context) : type;
+}
+
+const Type* Unit::subrange(const TypeSpec& spec, const Type* base, Pou* context) {
+  Value low, high;
+  if (!is_integer(base->kind)) {
+    diagnostics_.error(spec.at, "a subrange is of an integer type, not of " + base->name);
+    return elementary(Kind::error);
+  }
+  if (!constant(*spec.low, *base, context, low) || !constant(*spec.high, *base, context, high))
+    return elementary(Kind::error);
+  if (low.integer > high.integer) {
+    diagnostics_.error(spec.at, "the lower limit " + std::to_string(low.integer) +
+                                    " is above the upper limit " + std::to_string(high.integer));
+    return elementary(Kind::error);
+  }
+  auto& type = types_.emplace_back(*base);
+  type.ranged = true;
+  type.low = low.integer;
+  type.high = high.integer;
+  type.name = base->name + " (" + std::to_string(type.low) + ".." + std::to_string(type.high) + ")";
+  // Without initial value a variable has the value nearest to zero that the subrange has.
+  type.initial = {static_cast<std::uint64_t>(std::clamp<std::int64_t>(0, type.low, type.high))};
+  return &type;
+}
+
+const Type* Unit::enumeration(const TypeSpec& spec, const std::string& name) {
+  auto& type = types_.emplace_back();
+  type.kind = Kind::enumeration;
+  type.name = name;
+  std::int64_t next = 0;
+  for (const auto& enumerator : spec.enumerators) {
+    if (type.enumerator(enumerator.name) != nullptr) {
+      diagnostics_.error(enumerator.at, "the enumerated value '" + enumerator.text + "' is declared twice");
+      continue;
+    }
+    Value value;
+    if (enumerator.value && constant(*enumerator.value, *elementary(Kind::dint), nullptr, value))
+      next = value.integer;
+    type.enumerators.push_back({enumerator.name, enumerator.text, next});
+    ++next;
+  }
+  type.initial = {type.enumerators.empty() ? 0 : static_cast<std::uint64_t>(type.enumerators[0].value)};
+  for (const auto& enumerator : type.enumerators)
+    enumerators_[enumerator.name].push_back({&type, &enumerator});
+  return &type;
+}
+
+const Enumerator* Unit::find_enumerator(const std::string& upper, const Type** type) {
+  const auto found = enumerators_.find(upper);
+  if (found == enumerators_.end() || found->second.size() != 1) return nullptr;
+  *type = found->second[0].first;
+  return found->second[0].second;
+}
+
+const Type* Unit::array(const TypeSpec& spec, Pou* context) {
+  const auto* element = build(*spec.element, "", context);
+  Type type;
+  type.kind = Kind::array;
+  type.element = element;
+  type.name = "ARRAY[";
+  std::int64_t elements = 1;
+  bool good = element->kind != Kind::error;
+  for (const auto& dimension : spec.dimensions) {
+    Value low, high;
+    if (!constant(*dimension.low, *elementary(Kind::dint), context, low) ||
+        !constant(*dimension.high, *elementary(Kind::dint), context, high)) {
+      good = false;
+      continue;
+    }
+    if (low.integer > high.integer) {
+      diagnostics_.error(dimension.low->at, "the lower limit " + std::to_string(low.integer) +
+                                                " is above the upper limit " + std::to_string(high.integer));
+      good = false;
+      continue;
+    }
+    if (!type.dimensions.empty()) type.name += ",";
+    type.name += std::to_string(low.integer) + ".." + std::to_string(high.integer);
+    type.dimensions.push_back({low.integer, high.integer});
+    elements = std::min(elements * (high.integer - low.integer + 1), most_elements + 1);
+  }
+  if (!good) return elementary(Kind::error);
+  if (elements * element->cells > most_elements) {
+    diagnostics_.error(spec.at, "the array has more than " + std::to_string(most_elements) + " cells");
+    return elementary(Kind::error);
+  }
+  type.name += "] OF " + element->name;
+  type.cells = static_cast<std::uint32_t>(elements * element->cells);
+  type.initial.reserve(type.cells);
+  for (std::int64_t i = 0; i < elements; ++i)
+    type.initial.insert(type.initial.end(), element->initial.begin(), element->initial.end());
+  return &types_.emplace_back(std::move(type));
+}
+
+const Type* Unit::structure(const TypeSpec& spec, const std::string& name, Pou* context) {
+  Type type;
+  type.kind = Kind::structure;
+  type.name = name;
+  type.cells = 0;
+  bool good = true;
+  for (const auto& field : spec.fields) {
+    if (type.field(field.name) != nullptr) {
+      diagnostics_.error(field.at, "the field '" + field.text + "' is declared twice");
+      continue;
+    }
+    const auto* field_type = build(*field.type, "", context);
+    if (field_type->kind == Kind::error) {
+      good = false;
+      continue;
+    }
+    if (field_type->kind == Kind::block)
+      diagnostics_.error(field.at, "a structure cannot contain the function block '" + field.text + "'");
+    type.fields.push_back({field.name, field.text, field_type, type.cells});
+    const auto cells = initial_cells(field.initial, *field_type, context);
+    type.initial.insert(type.initial.end(), cells.begin(), cells.end());
+    type.cells += field_type->cells;
+  }
+  if (good && type.fields.empty()) {
+    diagnostics_.error(spec.at, "a structure has at least one field");
+    good = false;
+  }
+  return good ? &types_.emplace_back(std::move(type)) : elementary(Kind::error);
+}
+
+bool Unit::constant(const Expression& expression, const Type& type, Pou* context, Value& value) {
+  Lowering lowering(*this, context, 0);
+  value = lowering.expression(expression, &type);
+  if (value.is_error() || type.kind == Kind::error) return false;
+  if (!value.is_constant) {
+    diagnostics_.error(expression.at,
+                       "a constant is required here: a literal, a VAR CONSTANT or their combination");
+    return false;
+  }
+  value = lowering.converted(value, type, expression.at);
+  return !value.is_error();
+}
+
+std::vector<std::uint64_t> Unit::initial_cells(const Expression* initial, const Type& type, Pou* context) {
+  if (initial == nullptr || type.kind == Kind::error) return type.initial;
+  std::vector<std::uint64_t> cells;
+  if (type.kind == Kind::array) {
+    if (initial->kind == Expression::Kind::list) {
+      list_cells(*initial, type, context, cells);
+      return cells;
+    }
+  } else if (type.kind == Kind::structure || type.kind == Kind::block) {
+    if (initial->kind == Expression::Kind::structure) {
+      structure_cells(*initial, type, context, cells);
+      return cells;
+    }
+  } else {
+    Value value;
+    if (initial->kind == Expression::Kind::list || initial->kind == Expression::Kind::structure) {
+      diagnostics_.error(initial->at, type.name + " has one initial value, not a list");
+    } else if (constant(*initial, type, context, value)) {
+      if (type.kind != Kind::string) return {constant_cell(value, type)};
+      cells.assign(type.cells, 0);
+      const auto text = value.text.substr(0, type.length);
+      cells[0] = text.size();
+      std::copy(text.begin(), text.end(), reinterpret_cast<char*>(cells.data() + 1));
+      return cells;
+    }
+    return type.initial;
+  }
+  diagnostics_.error(initial->at, type.kind == Kind::array
+                                      ? "an array has its initial values in brackets: [1, 2, 5(0)]"
+                                      : "a structure has its initial values in parentheses: (a := 1)");
+  return type.initial;
+}
+
+void Unit::list_cells(const Expression& list, const Type& type, Pou* context,
+                      std::vector<std::uint64_t>& cells) {
+  for (std::size_t i = 0; i < list.parts.size(); ++i) {
+    std::int64_t count = 1;
+    if (list.repeat[i]) {
+      Value value;
+      if (!constant(*list.repeat[i], *elementary(Kind::dint), context, value)) break;
+      count = value.integer;
+    }
+    const auto one =
+        list.parts[i] ? initial_cells(list.parts[i].get(), *type.element, context) : type.element->initial;
+    if (count < 0 ||
+        static_cast<std::int64_t>(cells.size() / std::max<std::uint32_t>(type.element->cells, 1)) + count >
+            static_cast<std::int64_t>(type.cells / std::max<std::uint32_t>(type.element->cells, 1))) {
+      diagnostics_.error(list.at, "more initial values than the " +
+                                      std::to_string(type.cells / type.element->cells) +
+                                      " elements of the array");
+      break;
+    }
+    for (; count > 0; --count) cells.insert(cells.end(), one.begin(), one.end());
+  }
+  cells.insert(
+      cells.end(),
+      type.initial.begin() + static_cast<std::ptrdiff_t>(std::min(cells.size(), type.initial.size())),
+      type.initial.end());
+}
+
+void Unit::structure_cells(const Expression& list, const Type& type, Pou* context,
+                           std::vector<std::uint64_t>& cells) {
+  cells = type.initial;
+  for (const auto& argument : list.arguments) {
+    const Type* field_type = nullptr;
+    std::uint32_t offset = 0;
+    if (type.kind == Kind::structure) {
+      if (const auto* field = type.field(argument.name)) field_type = field->type, offset = field->offset;
+    } else if (const auto found = type.block->pou->names.find(argument.name);
+               found != type.block->pou->names.end()) {
+      const auto& variable = *found->second;
+      if (variable.place.base == Place::Base::frame && variable.section != VariableSection::in_out)
+        field_type = variable.type, offset = static_cast<std::uint32_t>(variable.place.offset);
+    }
+    if (field_type == nullptr) {
+      diagnostics_.error(argument.at, type.name + " has no field '" + argument.name + "'");
+      continue;
+    }
+    const auto field = initial_cells(argument.value.get(), *field_type, context);
+    std::copy(field.begin(), field.end(), cells.begin() + offset);
+  }
+}
+
+}  // namespace trunnion::st

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+// From words to the syntax tree.
+#pragma once
+
+#include <algorithm>
+#include <string_view>
+
+#include "plc/syntax/ast.hpp"
+#include "plc/syntax/token.hpp"
+
+namespace trunnion::st {
+
+/// Adds what the source declares to `tree`. After an error it continues behind the statement or declaration.
+void parse(std::string_view source, std::uint16_t file, SourceTree& tree, Diagnostics& diagnostics);
+
+/// What the parts of the parser share: the words, and what to do at an error.
+class TokenReader {
+ public:
+  TokenReader(std::vector<Token> tokens, Diagnostics& diagnostics)
+      : tokens_(std::move(tokens)), diagnostics_(diagnostics) {}
+
+ protected:
+  /// Leaves the current statement or declaration.
+  struct Abandoned {};
+
+  const Token& now() const { return tokens_[next_]; }
+  const Token& ahead(std::size_t count = 1) const {
+    return tokens_[std::min(next_ + count, tokens_.size() - 1)];
+  }
+  Token take() { return next_ + 1 < tokens_.size() ? tokens_[next_++] : tokens_[next_]; }
+  bool is_symbol(std::string_view text) const {
+    return now().kind == TokenKind::symbol && now().text == text;
+  }
+  bool is_word(std::string_view upper) const {
+    return now().kind == TokenKind::identifier && now().upper == upper;
+  }
+  bool accept_symbol(std::string_view text);
+  bool accept_word(std::string_view upper);
+  void expect_symbol(std::string_view text, std::string_view where);
+  void expect_word(std::string_view upper, std::string_view where);
+  Token expect_name(std::string_view what);
+  [[noreturn]] void fail(const std::string& expected);
+  /// How the current word is named in a message.
+  std::string found() const;
+  bool is_keyword() const;
+  /// Nesting of expressions, types and statements; throws Abandoned beyond a limit.
+  class Depth {
+   public:
+    explicit Depth(TokenReader& reader) : reader_(reader) {
+      if (++reader_.depth_ > 200) {
+        --reader_.depth_;
+        reader_.fail("less nesting (at most 200 levels)");
+      }
+    }
+    ~Depth() { --reader_.depth_; }
+    Depth(const Depth&) = delete;
+    Depth& operator=(const Depth&) = delete;
+
+   private:
+    TokenReader& reader_;
+  };
+
+  std::vector<Token> tokens_;
+  Diagnostics& diagnostics_;
+  std::size_t next_ = 0;
+  int depth_ = 0;
+};
+
+class ExpressionParser : public TokenReader {
+ public:
+  using TokenReader::TokenReader;
+
+ protected:
+  ExpressionPtr expression(int precedence = 0);
+  ExpressionPtr initializer();
+  /// A variable, or a call of a function or function block.
+  ExpressionPtr designator();
+  std::vector<Argument> arguments();
+
+ private:
+  ExpressionPtr unary();
+  ExpressionPtr primary();
+  ExpressionPtr make(Expression::Kind kind, Position at) const;
+  ExpressionPtr typed_literal();
+};
+
+class StatementParser : public ExpressionParser {
+ public:
+  using ExpressionParser::ExpressionParser;
+
+ protected:
+  /// Up to one of the words, which is not consumed.
+  Statements statements(std::initializer_list<std::string_view> ends);
+
+ private:
+  std::unique_ptr<Statement> statement();
+  void if_statement(Statement& s);
+  void case_statement(Statement& s);
+  void for_statement(Statement& s);
+  bool at_case_label() const;
+  bool at_declaration() const;
+  void recover(std::initializer_list<std::string_view> ends);
+  std::vector<CaseLabel> labels();
+};
+
+}  // namespace trunnion::st

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+// The tasks in Structured Text on the register image (libs/plc): their variables are part of the explicit
+// state.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "memory.hpp"
+#include "plc/machine/machine.hpp"
+
+namespace trunnion::plc {
+
+enum class TaskName : std::uint32_t { fast, main };
+
+/// What the PLC runs: of each task an instruction list or a program in Structured Text.
+struct StructuredPrograms {
+  std::shared_ptr<const st::ByteCode> code;
+  std::uint64_t layout = 0;                           ///< st::Compilation::layout
+  std::array<std::optional<std::size_t>, 2> entries;  ///< of code, by TaskName
+};
+
+class StructuredText {
+ public:
+  static constexpr std::int64_t most_statements = 100000;  ///< of one task in one scan
+
+  StructuredText() = default;
+  /// Throws std::runtime_error when the variables exceed the memory, std::invalid_argument for wrong byte
+  /// code.
+  explicit StructuredText(StructuredPrograms programs);
+
+  bool has(TaskName task) const {
+    return machine_ && programs_.entries[static_cast<std::size_t>(task)].has_value();
+  }
+  /// Every variable has its initial value.
+  void reset(ProgramVariables& variables);
+  /// After a restart of the process: all variables; initial values when they have another layout. A fault of
+  /// other code is forgotten.
+  void restore(ProgramVariables& variables);
+  /// After a new start of the cluster: RETAIN variables of `kept` when its layout is the same.
+  void power_up(const ProgramVariables& kept, ProgramVariables& variables);
+  /// Whether the variables are those of these programs.
+  bool fits(const ProgramVariables& variables) const;
+  /// One run on the registers, `now` in ms; a fault is left in `variables`.
+  void run(TaskName task, Registers& registers, ProgramVariables& variables, std::uint64_t now);
+  /// In ms, as of the instruction list.
+  std::optional<std::uint64_t> next_timer_end(std::uint64_t now) const;
+  bool timer_due(std::uint64_t now) const;
+  /// file:line:column: what happened, in which task; empty without a fault.
+  std::string fault_text(const ProgramVariables& variables) const;
+
+ private:
+  void take(const ProgramVariables& variables);
+  void give(ProgramVariables& variables) const;
+
+  StructuredPrograms programs_;
+  std::uint64_t identity_ = 0;
+  std::optional<st::Machine> machine_;
+};
+
+}  // namespace trunnion::plc

@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: Apache-2.0
+// Tasks in Structured Text: the same as the instruction list they replace, their state, their faults.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <random>
+
+#include "machine/parameters.hpp"
+#include "plc/compile.hpp"
+#include "plc/library/register_names.hpp"
+#include "plc_core.hpp"
+#include "program_files.hpp"
+#include "retained_memory.hpp"
+#include "round.hpp"
+
+namespace trunnion::plc {
+namespace {
+
+machine::Parameters parameters() {
+  machine::Parameters p;
+  p.values[100000] = {0, "X"}, p.values[110000] = {0, "S"}, p.values[110001] = {10, ""};
+  return p;
+}
+
+machine::Parameters without_spindle() {
+  machine::Parameters p;
+  p.values[100000] = {0, "X"};
+  return p;
+}
+
+/// A PLC whose main task is the source; the fast one does nothing.
+PlcCore core_of(const std::string& source) {
+  const auto compiled = st::compile({{"main.st", source}}, st::interface_registers());
+  EXPECT_TRUE(compiled.good()) << testing::PrintToString(compiled.lines());
+  PlcCore core;
+  core.configure(without_spindle(), true);
+  StructuredPrograms programs{compiled.code, compiled.layout(), {std::nullopt, std::size_t{0}}};
+  core.load({}, {}, StructuredText(std::move(programs)));
+  return core;
+}
+
+PlcCore machine_core(const std::string& machine) {
+  PlcCore core;
+  core.configure(parameters(), true);
+  EXPECT_TRUE(load_programs(std::string(TRUNNION_MACHINES) + "/" + machine + "/plc", core).empty());
+  return core;
+}
+
+// gantry-cb-head has in Instruction List what ac-table has in Structured Text. Whatever happens to both, in
+// the same order at the same ticks, every register, every output and every finished function is the same.
+TEST(StructuredText, TheLogicOfTheAcTableIsThatOfTheInstructionList) {
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    std::mt19937_64 random(seed);
+    auto list = machine_core("gantry-cb-head"), text = machine_core("ac-table");
+    std::uint64_t tick = 1000;
+    std::uint32_t number = 0;
+    double speed = 0;
+    const auto both = [&](auto&& act) { act(list), act(text); };
+    for (int step = 0; step < 400; ++step) {
+      const auto choice = random() % 100;
+      if (choice < 25) {
+        using enum AuxiliaryKind;
+        constexpr std::uint32_t codes[] = {0, 2, 3, 4, 5, 6, 7, 8, 9, 30, 99, 65535};
+        const auto kind = random() % 4;
+        idl::channel::AuxiliaryRequest request{0,
+                                               ++number,
+                                               kind == 0   ? S
+                                               : kind == 1 ? T
+                                                           : M,
+                                               codes[random() % std::size(codes)],
+                                               static_cast<double>(random() % 70000),
+                                               10};
+        both([&](PlcCore& core) { core.set_request(request); });
+      } else if (choice < 35) {
+        idl::plc::PanelRequest panel;
+        panel.kind = static_cast<idl::plc::PanelRequestKind>(random() % 3);
+        both([&](PlcCore& core) { EXPECT_EQ(core.panel(panel), ""); });
+      } else if (choice < 40) {
+        idl::plc::PanelRequest panel;
+        panel.kind = idl::plc::PanelRequestKind::FORCE_INPUT;
+        panel.value = static_cast<std::uint32_t>(random() % 8);
+        both([&](PlcCore& core) { EXPECT_EQ(core.panel(panel), ""); });
+      } else if (choice < 50) {
+        idl::channel::ChannelState state;
+        state.spindle_override = static_cast<double>(random() % 151) / 100;
+        state.reset_count = static_cast<std::uint32_t>(step / 50);
+        both([&](PlcCore& core) { core.set_channel(state); });
+      } else if (choice < 55) {
+        const bool any = random() % 2 == 0;
+        both([&](PlcCore& core) { core.set_alarms(any, false); });
+      } else {
+        tick += random() % 40;
+        const auto target = list.outputs().spindle_speed.at(0);
+        speed = random() % 3 == 0 ? target : speed + (target - speed) / 2;
+        idl::stream::FeedbackFrame frame;
+        frame.first = 10, frame.tick = tick, frame.spindle_speed = {speed}, frame.enabled = {1};
+        frame.channels.resize(1);
+        both([&](PlcCore& core) { core.set_feedback(frame); });
+      }
+      both([&](PlcCore& core) { core.advance(tick); });
+      ASSERT_EQ(text.outputs(), list.outputs()) << "seed " << seed << " step " << step;
+      const auto differing = changes(list.memory().registers, text.memory().registers);
+      ASSERT_TRUE(differing.empty()) << register_name(differing.at(0)) << ", seed " << seed << " step "
+                                     << step;
+      ASSERT_EQ(text.take_done(), list.take_done()) << "seed " << seed << " step " << step;
+    }
+  }
+}
+
+TEST(StructuredText, TimersOfVariablesRequestExactlyTheirTime) {
+  auto core = core_of(
+      "PROGRAM main\nVAR t : ARRAY[1..2] OF TON; END_VAR\nt[2](IN := %X16.0, PT := T#70ms);\n%Y16.0 := "
+      "t[2].Q;\nEND_PROGRAM\n");
+  core.advance(100);
+  idl::plc::PanelRequest panel;
+  panel.kind = idl::plc::PanelRequestKind::FORCE_INPUT;
+  panel.address = 16, panel.value = 1;
+  core.panel(panel);
+  core.advance(100);
+  EXPECT_EQ(core.outputs().run_until_tick, 170u);
+  core.advance(169);
+  EXPECT_EQ(core.image().y[16], 0);
+  core.advance(170);
+  EXPECT_EQ(core.image().y[16], 1);
+  EXPECT_EQ(core.outputs().run_until_tick, 170u);
+}
+
+constexpr const char* counting =
+    "PROGRAM main\nVAR n : DINT; END_VAR\nVAR RETAIN kept : DINT := 5; END_VAR\nn := n + 1;\nkept := kept + "
+    "1;\nEND_PROGRAM\n";
+
+TEST(StructuredText, ARestartedProcessContinuesAndAPowerUpKeepsRetainVariables) {
+  auto core = core_of(counting);
+  core.advance(0);
+  core.advance(100);
+  const auto& values = core.memory().program.values;
+  const auto n = values[1], kept = values[2];  // cell 0 is the time that a test has advanced
+  EXPECT_EQ(kept, n + 5);
+  EXPECT_GT(n, 9u);
+  auto restarted = core_of(counting);
+  restarted.restore(core.memory());
+  EXPECT_EQ(restarted.memory().program, core.memory().program);
+  auto adopted = core_of(counting);
+  adopted.adopt(core.snapshot());
+  adopted.advance(110), core.advance(110);
+  EXPECT_EQ(adopted.memory().program, core.memory().program);
+  auto powered = core_of(counting);
+  powered.power_up(core.memory());
+  EXPECT_EQ(powered.memory().program.values[1], 0u);
+  EXPECT_EQ(powered.memory().program.values[2], core.memory().program.values[2]);
+}
+
+TEST(StructuredText, VariablesOfAnotherProgramAreNotUsed) {
+  auto core = core_of(counting);
+  core.advance(0), core.advance(100);
+  auto other = core_of("PROGRAM main\nVAR RETAIN other : INT := 3; END_VAR\nother := other;\nEND_PROGRAM\n");
+  EXPECT_FALSE(other.accepts(core.memory().program));
+  other.power_up(core.memory());
+  EXPECT_EQ(other.memory().program.values[1], 3u);
+  other.restore(core.memory());
+  EXPECT_EQ(other.memory().program.values[1], 3u);
+}
+
+TEST(StructuredText, AFaultStopsBothTasksSafelyUntilAReset) {
+  auto core = core_of(
+      "PROGRAM main\nVAR i : INT; a : ARRAY[0..3] OF INT; END_VAR\naxes_enable := TRUE;\n"
+      "IF %X16.0 THEN i := 4; ELSE i := 0; END_IF;\na[i] := 1;\nEND_PROGRAM\n");
+  core.advance(10);
+  EXPECT_FALSE(core.emergency_stop());
+  idl::plc::PanelRequest panel;
+  panel.kind = idl::plc::PanelRequestKind::FORCE_INPUT;
+  panel.address = 16, panel.value = 1;
+  core.panel(panel);
+  core.advance(10);
+  EXPECT_TRUE(core.emergency_stop());
+  EXPECT_TRUE(core.outputs().emergency_stop);
+  EXPECT_EQ(core.program_fault().substr(0, 72),
+            "main.st:5:3: error: index 4 is outside 0 .. 3 of the array in the main t");
+  core.advance(1000);
+  EXPECT_TRUE(core.emergency_stop());
+  core.press_reset();  // the cause is still there
+  core.advance(1010);
+  EXPECT_TRUE(core.emergency_stop());
+  panel.value = 0;
+  core.panel(panel);
+  core.press_reset();
+  core.advance(1020);
+  EXPECT_FALSE(core.emergency_stop());
+  EXPECT_EQ(core.program_fault(), "");
+}
+
+TEST(StructuredText, AProgramWithoutEndIsStoppedWithItsPlace) {
+  auto core =
+      core_of("PROGRAM main\nVAR n : DINT; END_VAR\nWHILE TRUE DO\n  n := n + 1;\nEND_WHILE;\nEND_PROGRAM\n");
+  core.advance(10);
+  EXPECT_TRUE(core.emergency_stop());
+  EXPECT_NE(core.program_fault().find("more than 100000 statements in one scan in the main task"),
+            std::string::npos)
+      << core.program_fault();
+  EXPECT_EQ(core.program_fault().substr(0, 8), "main.st:");
+}
+
+TEST(StructuredText, TheStateDigestSeesEveryVariable) {
+  auto core = core_of(counting);
+  core.advance(0);
+  auto snapshot = core.snapshot();
+  const auto before = state_digest(snapshot);
+  snapshot.memory.program.values[1] ^= 1;
+  EXPECT_NE(state_digest(snapshot), before);
+}
+
+// The files have the size that the programs need; another program finds them, and the registers B survive.
+TEST(StructuredText, RetainedFilesChangeTheirSizeWithTheProgramAndLeaveNothingBehind) {
+  const auto directory =
+      std::filesystem::path(testing::TempDir()) / ("plc_sizes_" + std::to_string(getpid()));
+  std::filesystem::remove_all(directory);
+  std::filesystem::create_directories(directory);
+  const auto path = (directory / "plc.image").string();
+  Memory memory;
+  std::vector<std::size_t> sizes = {0, 7, 3, 0, 4096};
+  for (std::size_t i = 0; i < sizes.size(); ++i) {
+    const auto cells = sizes[i];
+    const auto found = RetainedMemory(path, cells).load();
+    if (i > 0) {
+      ASSERT_EQ(found.state, storage::KeptState::good) << i << " " << found.problem;
+      EXPECT_EQ(found.kept->memory.registers.b[7], static_cast<std::int32_t>(i) - 1);
+      EXPECT_EQ(found.kept->memory.program.cells, sizes[i - 1]);
+      if (sizes[i - 1] > 0) {
+        EXPECT_EQ(found.kept->memory.program.values[sizes[i - 1] - 1], 40 + i - 1);
+      }
+    }
+    memory = {};
+    memory.registers.b[7] = static_cast<std::int32_t>(i);
+    memory.program.cells = static_cast<std::uint32_t>(cells);
+    if (cells > 0) memory.program.values[cells - 1] = 40 + i;
+    RetainedMemory retained(path, cells);
+    retained.save("boot", memory);
+    retained.save("boot", memory);
+    std::size_t files = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(directory)) ++files, (void)entry;
+    EXPECT_EQ(files, 2u);
+  }
+  std::filesystem::remove_all(directory);
+}
+
+}  // namespace
+}  // namespace trunnion::plc
