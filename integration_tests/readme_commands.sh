@@ -5,8 +5,8 @@
 set -euo pipefail
 readme=$1 build=$2
 if [ "${3:-}" != inside ]; then
-  unshare --net --mount --map-root-user true 2> /dev/null || exit 77  # the computer allows no namespaces
-  exec unshare --net --mount --map-root-user bash "$0" "$readme" "$build" inside
+  unshare --net --mount --pid --fork --kill-child --map-root-user true 2> /dev/null || exit 77  # the computer allows no namespaces
+  exec unshare --net --mount --pid --fork --kill-child --mount-proc --map-root-user bash "$0" "$readme" "$build" inside
 fi
 ip link set lo up
 running=/tmp/trunnion-$(id -u)
@@ -16,6 +16,7 @@ work=$(mktemp -d)
 export HOME=$work/home
 mkdir -p "$HOME" "$work/build"
 ln -s "$build" "$work/build/release"
+ln -s "$(dirname "$readme")/configs" "$work/configs"
 cd "$work"
 trap 'PATH=$build/bin:$PATH; trunnion down > /dev/null 2>&1 || true; cd /; rm -rf "$work"' EXIT
 printf 'G21 G90 G94 G54\nG0 X5 Y5\nG1 X10 F1000\nM30\n' > part.nc  # the user's program

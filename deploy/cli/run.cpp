@@ -3,6 +3,8 @@
 
 #include <unistd.h>
 
+#include <atomic>
+#include <csignal>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -63,9 +65,24 @@ class Recorder {
   cluster::ChildProcess process_;
 };
 
+std::atomic<bool> interrupted{false};
+
+// Ctrl-C, SIGTERM and the end of the terminal end a run in order: its cluster does not outlive it.
+void watch_interrupts() {
+  struct sigaction action {};
+  action.sa_handler = [](int) { interrupted = true; };
+  for (const int number : {SIGINT, SIGTERM, SIGHUP}) sigaction(number, &action, nullptr);
+}
+
+void stop_when_interrupted() {
+  if (interrupted) throw std::runtime_error("interrupted; the cluster of the run was stopped");
+}
+
 class ClusterGuard {
  public:
   explicit ClusterGuard(cluster::RunningCluster cluster) : cluster_(std::move(cluster)) {}
+  ClusterGuard(ClusterGuard&& other) noexcept
+      : cluster_(std::move(other.cluster_)), running_(std::exchange(other.running_, false)) {}
   ~ClusterGuard() { stop(); }
   ClusterGuard(const ClusterGuard&) = delete;
   ClusterGuard& operator=(const ClusterGuard&) = delete;
@@ -163,6 +180,7 @@ void search_line(cluster::Client& client, std::uint32_t line) {
   const double until = service::monotonic_seconds() + 60;
   int idle = 0;
   while (service::monotonic_seconds() < until && idle < 4) {
+    stop_when_interrupted();
     idl::channel::ChannelState state;
     while (states.take(state)) {
       if (state.channel != 0) continue;
@@ -197,6 +215,7 @@ std::string execute(cluster::Client& client, std::size_t channels, const RunOpti
   std::string alarm;
   while (std::find(done.begin(), done.end(), false) != done.end()) {
     client.bus().signal().wait(0.05);
+    stop_when_interrupted();
     idl::channel::ChannelState state;
     while (states.take(state)) {
       if (state.channel >= channels) continue;
@@ -252,6 +271,14 @@ cluster::UpOptions up_options(const std::string& directory, const RunOptions& op
   return up;
 }
 
+// Its cluster is stopped with the guard.
+ClusterGuard start_for(const std::string& directory, const RunOptions& options) {
+  watch_interrupts();
+  ClusterGuard cluster(cluster::start_cluster(up_options(directory, options)));
+  stop_when_interrupted();
+  return cluster;
+}
+
 }  // namespace
 
 RunResult run_programs(const RunOptions& options) {
@@ -262,7 +289,7 @@ RunResult run_programs(const RunOptions& options) {
                              " channel(s), " + std::to_string(options.programs.size()) +
                              " programs were given");
   RunResult result;
-  ClusterGuard cluster(cluster::start_cluster(up_options(directory, options)));
+  auto cluster = start_for(directory, options);
   result.start_seconds = cluster.get().start_seconds;
   if (!options.quiet) {
     std::printf("%s is ready in %.2f s (%s time, domain %u)\n", machine.name.c_str(), result.start_seconds,
@@ -302,7 +329,7 @@ RunResult run_programs(const RunOptions& options) {
 RecordingCost measure_recording(const RunOptions& options, int rounds) {
   const auto directory = cluster::find_machine(options.machine);
   const auto machine = machine::load_machine(directory, options.vendor);
-  ClusterGuard cluster(cluster::start_cluster(up_options(directory, options)));
+  auto cluster = start_for(directory, options);
   cluster::Client client(cluster.get().run.domain);
   const auto name = place_program(client, machine, options.programs.at(0));
   client.set_mode(0, Mode::AUTO);
@@ -329,7 +356,7 @@ RecordingCost measure_recording(const RunOptions& options, int rounds) {
 report::StreamTiming measure_real_time(const RunOptions& options, double seconds) {
   const auto directory = cluster::find_machine(options.machine);
   const auto machine = machine::load_machine(directory, options.vendor);
-  ClusterGuard cluster(cluster::start_cluster(up_options(directory, options)));
+  auto cluster = start_for(directory, options);
   cluster::Client client(cluster.get().run.domain);
   const auto name = place_program(client, machine, options.programs.at(0));
   client.set_mode(0, Mode::AUTO);
