@@ -13,7 +13,7 @@ namespace {
 // and the batch that ends it (64 each), and 0.1 s for the path's own braking at 1 ms: 50 mm/s need 13 at the
 // axes' 4000 mm/s2 and twice the smoothing, 40, and the proof of the limits plans with less than the whole
 // acceleration.
-constexpr std::int64_t hold_bound = 256 + 2 * 64 + 100;
+constexpr std::int64_t hold_bound = 512 + 2 * 64 + 100;
 
 std::optional<std::uint32_t> given_domain() {
   const char* text = std::getenv("TRUNNION_TEST_DOMAIN");
@@ -156,7 +156,7 @@ std::string document() {
 Written by `make faults`, which causes the loss of every service in every way, on clusters of all Fast DDS, all Cyclone
 DDS and both mixed, and checks each cell of these tables. The machine is ac-table in virtual time, feed 3000 mm/min.
 Cycles are those that are still executed: from the one at which the channel detects the loss, or the drive the missing
-setpoint, to the standstill. The channel's hold is what it writes ahead (000903, 256; in real time the lead, 32), two
+setpoint, to the standstill. The channel's hold is what it writes ahead (000903, 512; in real time the lead, 32), two
 setpoint batches (64 each; 4) and at most 0.1 s for the braking on the path.
 
 - *killed*: SIGKILL. *terminated*: SIGTERM that the launcher did not send; the service ends in order, and the launcher
