@@ -61,7 +61,7 @@ def check_place(before, after):
     left = [[r - (t - e) for r, t, e in zip(*v)] for v in zip(reached, tips, errors)]
     without, with_it = mean_length(errors), mean_length(left)
     print(f"{len(cut)} setpoints: mean deviation of the tip {1000 * without:.2f} um, compensated {1000 * with_it:.2f} um")
-    return len(cut) < 100 or with_it > 0.15 * without
+    return len(cut) < 50 or with_it > 0.15 * without
 
 
 if __name__ == "__main__":
