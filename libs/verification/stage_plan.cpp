@@ -166,11 +166,12 @@ class StagePlan {
     return {{bus::find_topic(stage_.output), channel}, {span.epoch, span.first + span.count}};
   }
 
-  // The executed cycles that the channel's credit for this frame needed, in real time. The first behind the
-  // cut comes with it: feedback that is newer has a later cut.
+  // The executed cycles that the channel's credit for this frame needed, in real time. The first frame comes
+  // with the cut that it follows, or before the first cycle of its motion: a process that has just started
+  // would join at the later cut of newer feedback.
   std::uint64_t credit(const Lane& lane) const {
-    if (lane.next == 0 && lane.joins_at > 0) return lane.joins_at;
     const auto& span = lane.inputs[lane.next].span;
+    if (lane.next == 0) return lane.joins_at > 0 ? lane.joins_at : span.first;
     const auto end = span.first + span.count;
     return std::max(lane.joins_at, end > lead_ ? end - lead_ : 0);
   }

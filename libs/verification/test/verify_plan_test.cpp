@@ -164,6 +164,41 @@ TEST(StagePlan, ARecordingThatBeginsInMotionIsJoinedAtAConsistentCut) {
   play(plan);
 }
 
+// In virtual time a batch is longer than the lead. With the feedback of its own cycles at hand a process that
+// has just started would continue behind it.
+TEST(StagePlan, ALongFirstBatchComesBeforeTheFeedbackOfItsCycles) {
+  auto recording = sample_recording(5);
+  std::erase_if(recording.messages, [](const StoredMessage& m) { return is_cyclic(*m.topic); });
+  constexpr std::uint32_t batch = 64;
+  static_assert(batch > lead);
+  const auto lengthen = [](auto& frame) {
+    const auto width = frame.setpoints.size() / frame.count;
+    frame.count = batch;
+    frame.setpoints.assign(batch * width, 1.0);
+    frame.lines.assign(batch, 7);
+  };
+  auto path = path_frame(160, true, true);
+  auto axes = axis_frame(160, true, true);
+  lengthen(path), lengthen(axes);
+  recording.messages.push_back(stored(topics::feedback_frame, feedback_frame(160, 0), 10));
+  recording.messages.push_back(stored(topics::path_frame, path, 20));
+  recording.messages.push_back(stored(topics::kinematics_frame, axes, 30));
+  recording.messages.push_back(stored(topics::feedback_frame, feedback_frame(160, batch), 40));
+  const auto plan = plan_verification(recording, "kinematics", 0);
+  EXPECT_EQ(plan.cycles, batch);
+  MessageRows rows;
+  std::uint64_t executed = 0;
+  bool fed = false;
+  for (const auto& step : plan.steps) {
+    if (step.message->topic->handle == "feedback_frame" && rows.load(*step.message->topic, step.message->cdr))
+      executed = rows.span().first + rows.span().count;
+    if (step.message->topic->handle != "path_frame") continue;
+    fed = true;
+    EXPECT_EQ(executed, 160u);
+  }
+  EXPECT_TRUE(fed);
+}
+
 TEST(StagePlan, SaysWhichInputIsMissing) {
   auto recording = sample_recording(100);
   std::erase_if(recording.messages, [](const StoredMessage& m) {
