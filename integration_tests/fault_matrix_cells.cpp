@@ -47,8 +47,7 @@ const char* text_of(Way way) {
 std::string bound(const std::string& service, const Expectation& e) {
   if (e.machine == Machine::goes_on) return "0";
   if (service == "drive") return "0: the simulated axes stop where they are";
-  if (is_stage(service) || service == "channel")
-    return "the setpoints at hand (512), or the channel's hold";
+  if (is_stage(service) || service == "channel") return "the setpoints at hand (512), or the channel's hold";
   return "the channel's hold";
 }
 
