@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "identification/measurement_plan.hpp"
 
+#include <Eigen/Geometry>
 #include <cmath>
 
 #include "machine/yaml.hpp"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "volumetric/error_model.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 
 #include "geometry/angle.hpp"
