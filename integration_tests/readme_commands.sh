@@ -5,7 +5,7 @@
 set -euo pipefail
 readme=$1 build=$2
 if [ "${3:-}" != inside ]; then
-  unshare --net --mount --pid --fork --kill-child --map-root-user true 2> /dev/null || exit 77  # the computer allows no namespaces
+  unshare --net --mount --pid --fork --kill-child --mount-proc --map-root-user true 2> /dev/null || exit 77  # the computer allows no namespaces
   exec unshare --net --mount --pid --fork --kill-child --mount-proc --map-root-user bash "$0" "$readme" "$build" inside
 fi
 ip link set lo up

@@ -116,17 +116,25 @@ bool RunDirectory::verifies() const {
   return false;
 }
 
+namespace {
+
+// A directory that another process removes meanwhile is not stale: its domain may be reserved again already.
+bool is_stale(const RunDirectory& run) {
+  std::error_code gone;
+  const auto written = fs::last_write_time(run.path(), gone);
+  return !gone && written < fs::file_time_type::clock::now() - std::chrono::minutes(1) && !run.launcher() &&
+         !run.verifies();
+}
+
+}  // namespace
+
 std::uint32_t free_domain(double timeout) {
   const auto until = std::chrono::steady_clock::now() + std::chrono::duration<double>(timeout);
   const auto first = static_cast<std::uint32_t>(getpid()) % 20;
-  std::error_code ignored;
   for (;;) {
     for (std::uint32_t i = 0; i < 20; ++i) {
       const RunDirectory run{80 + (first + i) % 20};
-      if (fs::exists(run.path()) && !run.launcher() && !run.verifies() &&
-          fs::last_write_time(run.path(), ignored) <
-              fs::file_time_type::clock::now() - std::chrono::minutes(1))
-        run.remove();
+      if (is_stale(run)) run.remove();
       if (domain_holder(run.domain)) continue;  // of another user
       // A directory is made by one process only, so it reserves the domain.
       if (mkdir(base().c_str(), 0700) != 0 && errno != EEXIST) continue;
