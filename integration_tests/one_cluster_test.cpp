@@ -71,6 +71,12 @@ TEST_F(OneCluster, ASecondStartInTheDomainOrTheStateDirectoryIsRefusedAndNamesTh
   up.state_directory = state();
   EXPECT_THAT(refusal(up), AllOf(named, HasSubstr("the state directory " + state() + " is in use")));
   EXPECT_FALSE(fs::exists(root_ / "other")) << "nothing was made";
+  // An empty run directory is one that another start has just reserved, or one that this start has left.
+  for (std::uint32_t domain = 80; domain < 100; ++domain) {
+    const auto run = cluster::RunDirectory{domain}.path();
+    std::error_code gone;
+    EXPECT_TRUE(cluster.until([&] { return !fs::is_empty(run, gone) || gone; }, 5)) << run << " is left";
+  }
   EXPECT_TRUE(cluster.until([&] { return cluster.ready(); })) << "the first one is undisturbed";
   EXPECT_EQ(cluster.running().run.launcher(), launcher);
 }

@@ -106,6 +106,26 @@ void write_info(const RunningCluster& cluster) {
                                          << "\n";
 }
 
+namespace {
+
+// The directory that free_domain() has made, unless the start is refused.
+class Reservation {
+ public:
+  Reservation(const RunDirectory& run, bool reserved) : run_(run), reserved_(reserved) {}
+  ~Reservation() {
+    if (reserved_) run_.remove();
+  }
+  Reservation(const Reservation&) = delete;
+  Reservation& operator=(const Reservation&) = delete;
+  void keep() { reserved_ = false; }
+
+ private:
+  RunDirectory run_;
+  bool reserved_;
+};
+
+}  // namespace
+
 RunningCluster start_cluster(const UpOptions& up) {
   const double began = service::monotonic_seconds();
   auto config = machine::load_machine(find_machine(up.machine), up.vendor);
@@ -121,6 +141,7 @@ RunningCluster start_cluster(const UpOptions& up) {
   cluster.machine_directory = config.directory;
   cluster.open = !config.hosts.empty() && config.security.empty();
   cluster.virtual_time = up.virtual_time.value_or(config.virtual_time);
+  Reservation reservation(cluster.run, up.own_domain);
   check_hardware(config, cluster.virtual_time);
   cluster.port = up.with_gateway ? up.port.value_or(config.port) : std::uint16_t{0};
   cluster.state_directory = up.state_directory.empty()          ? default_state_directory(config.name)
@@ -129,6 +150,7 @@ RunningCluster start_cluster(const UpOptions& up) {
   if (up.state_directory != "temporary") check_state_directory(cluster.state_directory);
   check_not_in_use(cluster, up.take_over);
   cluster.run.make();
+  reservation.keep();
   auto args = launcher_arguments(up, cluster);
   if (up.foreground) {
     replace_process(args);
