@@ -112,15 +112,17 @@ void print(const Values& values, const std::string& fault, bool json) {
   if (!fault.empty()) std::cerr << fault << "\n";
 }
 
+int refuse(const st::Compilation& result, bool json) {
+  if (json)
+    std::cout << bus::text_of({{"good", false}, {"diagnostics", diagnostics_json(result)}}) << "\n";
+  else
+    for (const auto& line : result.lines()) std::cerr << line << "\n";
+  return 1;
+}
+
 int run(const PlcOptions& options, bool json) {
   auto result = compiled(options.files, !options.call.empty());
-  if (!result.good()) {
-    if (json)
-      std::cout << bus::text_of({{"good", false}, {"diagnostics", diagnostics_json(result)}}) << "\n";
-    else
-      for (const auto& line : result.lines()) std::cerr << line << "\n";
-    return 1;
-  }
+  if (!result.good()) return refuse(result, json);
   const auto name = st::upper_case(options.call);
   const st::FunctionInterface* function = nullptr;
   for (const auto& candidate : result.functions)
@@ -172,13 +174,7 @@ int test(const PlcOptions& options, bool json) {
   std::sort(files.begin(), files.end());
   if (files.empty()) throw std::runtime_error(options.directory + ": has no .st file");
   const auto result = compiled(files, false);
-  if (!result.good()) {
-    if (json)
-      std::cout << bus::text_of({{"good", false}, {"diagnostics", diagnostics_json(result)}}) << "\n";
-    else
-      for (const auto& line : result.lines()) std::cerr << line << "\n";
-    return 1;
-  }
+  if (!result.good()) return refuse(result, json);
   const auto tests = st::run_tests(result);
   std::size_t failed = 0;
   auto list = bus::Json::array();

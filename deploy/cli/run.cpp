@@ -279,6 +279,12 @@ ClusterGuard start_for(const std::string& directory, const RunOptions& options) 
   return cluster;
 }
 
+void select_first(cluster::Client& client, const machine::MachineConfig& machine, const RunOptions& options) {
+  const auto name = place_program(client, machine, options.programs.at(0));
+  client.set_mode(0, Mode::AUTO);
+  select(client, 0, name);
+}
+
 }  // namespace
 
 RunResult run_programs(const RunOptions& options) {
@@ -331,9 +337,7 @@ RecordingCost measure_recording(const RunOptions& options, int rounds) {
   const auto machine = machine::load_machine(directory, options.vendor);
   auto cluster = start_for(directory, options);
   cluster::Client client(cluster.get().run.domain);
-  const auto name = place_program(client, machine, options.programs.at(0));
-  client.set_mode(0, Mode::AUTO);
-  select(client, 0, name);
+  select_first(client, machine, options);
   RecordingCost cost;
   for (int round = 0; round < 2 * rounds; ++round) {
     // Which of the two is first changes from round to round, as the machine may warm up or be shared.
@@ -358,9 +362,7 @@ report::StreamTiming measure_real_time(const RunOptions& options, double seconds
   const auto machine = machine::load_machine(directory, options.vendor);
   auto cluster = start_for(directory, options);
   cluster::Client client(cluster.get().run.domain);
-  const auto name = place_program(client, machine, options.programs.at(0));
-  client.set_mode(0, Mode::AUTO);
-  select(client, 0, name);
+  select_first(client, machine, options);
   const auto parameters = machine::parameters_of(client.newest(topics::parameter_set));
   const machine::StreamSettings stream(parameters, false);
   report::StreamTiming timing(stream.lead, parameters.get(parameter::interpolation_cycle) * 1e-6);

@@ -4,10 +4,8 @@
 #include <algorithm>
 
 namespace trunnion::st {
-namespace {
 
-/// At most four digits, so nothing overflows.
-std::optional<int> number(std::string_view text) {
+std::optional<int> register_number(std::string_view text) {
   if (text.empty() || text.size() > 4) return std::nullopt;
   int value = 0;
   for (const char c : text) {
@@ -16,8 +14,6 @@ std::optional<int> number(std::string_view text) {
   }
   return value;
 }
-
-}  // namespace
 
 std::optional<RegisterAddress> parse_register(std::string_view text, const char** problem) {
   const auto refuse = [&](const char* why) {
@@ -52,13 +48,13 @@ std::optional<RegisterAddress> parse_register(std::string_view text, const char*
       std::find_if(areas.begin(), areas.end(), [&](const auto& a) { return a.letter == letter; });
   if (found == areas.end()) return refuse("the areas are X Y F G R B W D T C K P, and I Q M of the standard");
   const auto dot = text.find('.');
-  const auto index = number(text.substr(0, dot));
+  const auto index = register_number(text.substr(0, dot));
   RegisterAddress address{static_cast<Area>(found - areas.begin()), 0, -1};
   if (!index || *index >= static_cast<int>(area_size)) return refuse("the number is outside 0 .. 511");
   address.index = static_cast<std::uint16_t>(*index);
   if (dot != std::string_view::npos) {
     if (size != '\0' && size != 'X') return refuse("a bit is addressed with X: %IX0.3");
-    const auto bit = number(text.substr(dot + 1));
+    const auto bit = register_number(text.substr(dot + 1));
     if (!bit || *bit >= found->bits)
       return refuse(found->bits == 8    ? "the bit is outside 0 .. 7"
                     : found->bits == 16 ? "the bit is outside 0 .. 15"

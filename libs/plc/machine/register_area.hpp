@@ -46,6 +46,10 @@ struct RegisterAddress {
   std::int8_t bit = -1;  ///< -1: the whole register
 };
 
+/// The decimal digits of a register's number or bit, at most four, so nothing overflows; nullopt for other
+/// text.
+std::optional<int> register_number(std::string_view text);
+
 /// X0.3, G300, IX0.3 (= X), QX0.3 (= Y), MX0.3 (= R), IB5, QB5, MB5, MW7 (= W), MD7 (= D); capitals, without
 /// percent sign. On failure `problem` says why.
 std::optional<RegisterAddress> parse_register(std::string_view text, const char** problem);

@@ -4,21 +4,9 @@
 #include <algorithm>
 #include <limits>
 
+#include "plc/machine/register_area.hpp"
+
 namespace trunnion::plc {
-namespace {
-
-/// At most four digits, so nothing overflows.
-std::optional<int> number(std::string_view text) {
-  if (text.empty() || text.size() > 4) return std::nullopt;
-  int value = 0;
-  for (const char c : text) {
-    if (c < '0' || c > '9') return std::nullopt;
-    value = value * 10 + (c - '0');
-  }
-  return value;
-}
-
-}  // namespace
 
 int width(Area area) {
   switch (area) {
@@ -40,12 +28,12 @@ std::optional<Address> parse_address(std::string_view text) {
   if (area == std::string_view::npos) return std::nullopt;
   text.remove_prefix(1);
   const auto dot = text.find('.');
-  const auto index = number(text.substr(0, dot));
+  const auto index = st::register_number(text.substr(0, dot));
   Address address{static_cast<Area>(area), 0, -1};
   if (!index || *index >= static_cast<int>(register_count)) return std::nullopt;
   address.index = static_cast<std::uint16_t>(*index);
   if (dot != std::string_view::npos) {
-    const auto bit = number(text.substr(dot + 1));
+    const auto bit = st::register_number(text.substr(dot + 1));
     if (!bit || *bit >= width(address.area)) return std::nullopt;
     address.bit = static_cast<std::int8_t>(*bit);
   }
