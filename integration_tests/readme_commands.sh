@@ -5,13 +5,15 @@
 set -euo pipefail
 readme=$1 build=$2
 if [ "${3:-}" != inside ]; then
-  unshare --net --mount --pid --fork --kill-child --mount-proc --map-root-user true 2> /dev/null || exit 77  # the computer allows no namespaces
-  exec unshare --net --mount --pid --fork --kill-child --mount-proc --map-root-user bash "$0" "$readme" "$build" inside
+  # A user number of its own: the run directory /tmp/trunnion-UID is then not one that a cluster of this user removes when it
+  # ends, which would also take away whatever is mounted there in another namespace.
+  user=$((200000 + $$))
+  isolated=(unshare --net --mount --pid --fork --kill-child --mount-proc --user --map-user="$user" --keep-caps)
+  "${isolated[@]}" true 2> /dev/null || exit 77  # the computer allows no namespaces
+  exec "${isolated[@]}" bash "$0" "$readme" "$build" inside
 fi
 ip link set lo up
 running=/tmp/trunnion-$(id -u)
-mkdir -p "$running"
-mount -t tmpfs -o mode=0700 tmpfs "$running"
 work=$(mktemp -d)
 export HOME=$work/home
 mkdir -p "$HOME" "$work/build"
@@ -32,5 +34,5 @@ while IFS= read -r command <&3; do
     exit 1
   fi
 done 3< commands
-[ -z "$(ls -A "$running")" ] || { echo "left behind:"; ls -A "$running"; exit 1; }
+[ ! -e "$running" ] || { echo "left behind:"; ls -A "$running"; exit 1; }
 echo "$number commands ran as printed"

@@ -68,10 +68,17 @@ std::string default_state_directory(const std::string& machine) {
 std::string RunDirectory::path() const { return base() + "/" + std::to_string(domain); }
 
 void RunDirectory::make() const {
+  const auto failed = [](const std::string& directory) {
+    return std::runtime_error(directory + ": cannot be made: " + std::strerror(errno));
+  };
+  // A cluster that ends at this moment may remove the empty base in between.
+  for (int attempt = 0;; ++attempt) {
+    if (mkdir(base().c_str(), 0700) != 0 && errno != EEXIST) throw failed(base());
+    if (mkdir(path().c_str(), 0700) == 0 || errno == EEXIST) break;
+    if (errno != ENOENT || attempt == 100) throw failed(path());
+  }
   for (const auto& directory : {base(), path()}) {
     // What is in it, for example the tickets of swaps, is this user's alone.
-    if (mkdir(directory.c_str(), 0700) != 0 && errno != EEXIST)
-      throw std::runtime_error(directory + ": cannot be made: " + std::strerror(errno));
     struct stat status {};
     if (lstat(directory.c_str(), &status) != 0 || !S_ISDIR(status.st_mode) || status.st_uid != geteuid())
       throw std::runtime_error(directory + " belongs to another user: remove it");

@@ -35,6 +35,10 @@ class FrameWindow {
     auto& slot = slots_[frame.first % slots];
     if (slot.used && slot.frame.epoch == frame.epoch && slot.frame.first == frame.first)
       return same_values(slot.frame, frame) ? Arrival::duplicate : Arrival::differs;
+    // A writer that matches late sends its whole history, which begins long ago and must not replace what is
+    // still to be taken.
+    if (slot.used && std::pair(slot.frame.epoch, slot.frame.first) > std::pair(frame.epoch, frame.first))
+      return Arrival::stale;
     if (frame.starts &&
         (frame.epoch > start_epoch_ || (frame.epoch == start_epoch_ && frame.first > start_first_))) {
       start_epoch_ = frame.epoch;

@@ -69,6 +69,24 @@ TEST(FrameWindow, ACopyThatComputesOtherwiseIsSeenEvenAfterTheFrameWasTaken) {
   EXPECT_EQ(put(window, other), Arrival::differs);
 }
 
+TEST(FrameWindow, TheHistoryOfAWriterThatMatchesLateReplacesNothingThatIsStillToBeTaken) {
+  // A process that has just started hears first the replica that started shortly before it, then the other
+  // one, whose history reaches back to the start of the motion, 2048 cycles (two rounds of the slots)
+  // earlier.
+  FrameWindow<AxisFrame> window;
+  for (std::uint64_t first = 2040; first < 2064; first += 4) put(window, frame(first, 4));
+  window.set_next(1, 2040);
+  for (std::uint64_t first = 0; first < 2040; first += 4) put(window, frame(first, 4, 1, first == 0));
+  EXPECT_EQ(drain(window), (std::vector<std::uint64_t>{2040, 2044, 2048, 2052, 2056, 2060}));
+
+  // The same before the process knows where it continues.
+  FrameWindow<AxisFrame> joining;
+  for (std::uint64_t first = 2040; first < 2064; first += 4) put(joining, frame(first, 4));
+  for (std::uint64_t first = 0; first < 2040; first += 4) put(joining, frame(first, 4, 1, first == 0));
+  joining.set_next(1, 2040);
+  EXPECT_EQ(drain(joining), (std::vector<std::uint64_t>{2040, 2044, 2048, 2052, 2056, 2060}));
+}
+
 TEST(FrameWindow, ANewEpochDropsWhatIsLeftOfTheOld) {
   FrameWindow<AxisFrame> window;
   put(window, frame(0, 8, 1, true));
