@@ -55,6 +55,8 @@ printf 'G21 G90 G54\nG0 X5\nM0\nM30\n' > "$work/held.nc"
 "$trunnion" channel start "${here[@]}"
 sleep 1
 refused "is being executed by channel 0" program delete held "${here[@]}"
+"$trunnion" program put "$work/held.nc" --replace "${here[@]}" > "$work/out"  # the same text is no change
+echo "(later)" >> "$work/held.nc"
 refused "is being executed by channel 0" program put "$work/held.nc" --replace "${here[@]}"
 "$trunnion" channel reset "${here[@]}"
 sleep 1

@@ -45,21 +45,6 @@ ProgramEntry stored(const ProgramList& list, const std::string& name) {
   throw std::runtime_error("there is no stored program " + name + "; trunnion program list shows them");
 }
 
-// The channel would go on with the text it has: its next start would be another program.
-void refuse_in_use(cluster::Client& client, const std::string& name) {
-  auto states = client.bus().reader(topics::channel_state);
-  const double until =
-      service::monotonic_seconds() + 0.7;  // a channel publishes its state twice a second at rest
-  idl::channel::ChannelState state;
-  while (service::monotonic_seconds() < until) {
-    while (states.take(state))
-      if (state.program == name && (state.suspended || state.state != idl::channel::RunState::IDLE))
-        throw std::runtime_error(name + " is being executed by channel " + std::to_string(state.channel) +
-                                 " (" + bus::to_string(state.state) + "): reset the channel first");
-    client.bus().signal().wait(0.02);
-  }
-}
-
 bus::Json json_of(const ProgramEntry& entry) {
   return {{"name", entry.name},
           {"revision", entry.revision},
@@ -105,12 +90,9 @@ int put(const Common& common, const Options& options) {
   const auto name = options.name.empty() ? fs::path(options.file).filename().string() : options.name;
   const auto before = client.newest(topics::program_list);
   const auto same = std::ranges::find(before.programs, name, &ProgramEntry::name);
-  if (same != before.programs.end()) {
-    if (!options.replace)
-      throw std::runtime_error(name + " is stored already (revision " + std::to_string(same->revision) +
-                               "): --replace stores this text in its place");
-    refuse_in_use(client, name);
-  }
+  if (same != before.programs.end() && !options.replace)
+    throw std::runtime_error(name + " is stored already (revision " + std::to_string(same->revision) +
+                             "): --replace stores this text in its place");
   client.upload(name, text);
   idl::program::ProgramRequest request;
   request.operation = Operation::RESOLVE;

@@ -283,6 +283,9 @@ std::string ProgramStore::commit(const Request& request, Reply& reply) {
                     !damaged_.contains(request.name);
   if (same) {
     drop(found);  // the same text again is no change
+  } else if (auto reason = in_use(request.name); !reason.empty()) {
+    drop(found);
+    return reason;
   } else {
     replace(found->second.file, request.name, text);
     uploads_.erase(found);

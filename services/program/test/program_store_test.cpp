@@ -392,7 +392,7 @@ TEST(ProgramStore, AFullDiskRefusesTheChunkAndTheUploadGoesOnLater) {
   EXPECT_TRUE(store.apply(write, 0).accepted);
 }
 
-TEST(ProgramStore, WhatAChannelExecutesIsNeitherRemovedNorRenamedUntilItHasEnded) {
+TEST(ProgramStore, WhatAChannelExecutesIsNeitherReplacedNorRemovedNorRenamedUntilItHasEnded) {
   MemoryFiles files, state;
   ProgramStore store(files, state);
   upload(store, "a", "M30\n");
@@ -406,6 +406,10 @@ TEST(ProgramStore, WhatAChannelExecutesIsNeitherRemovedNorRenamedUntilItHasEnded
     EXPECT_FALSE(reply.accepted);
     EXPECT_EQ(reply.reason, "a is being executed by channel 0: reset the channel first");
   }
+  EXPECT_EQ(upload(store, "a", "G4 P1\n").reason,
+            "a is being executed by channel 0: reset the channel first");
+  EXPECT_EQ(store.uploads(), 0u);
+  EXPECT_TRUE(upload(store, "a", "M30\n").accepted) << "the same text is no change";
   EXPECT_TRUE(store.apply(request(Operation::REMOVE, "b"), 0).accepted);
   store.set_executed(0, "");
   EXPECT_FALSE(store.apply(rename, 0).accepted) << "channel 1 still executes it";
