@@ -40,6 +40,7 @@ void add_test_command(CLI::App& app, Common& common);          // test
 void add_replay_command(CLI::App& app, Common& common);        // replay
 void add_state_commands(CLI::App& app, Common& common);        // state, backup, restore
 void add_swap_command(CLI::App& app, Common& common);          // swap
+void add_upgrade_command(CLI::App& app, Common& common);       // upgrade
 void add_completion_command(CLI::App& app, Common& common);    // completion
 
 /// `trunnion check` of a file for a machine by name or directory; 1 when the program has an error.

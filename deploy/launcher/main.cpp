@@ -46,6 +46,8 @@ int main(int argc, char** argv) {
   app.add_flag("--virtual-time", options.virtual_time,
                "Time advances with the setpoints, not with the clock");
   app.add_option("--host", options.host, "Which host of machine.yaml this is");
+  std::int64_t clock_offset = 0;
+  app.add_option("--clock-offset", clock_offset, "ns from the monotonic clock to the time in messages");
   bool one_host = false;
   app.add_flag("--one-host", one_host, "Start everything here, whatever hosts machine.yaml names");
   app.add_option("--report", report_pipe, "File descriptor to which 'ready' or 'error ...' is written");
@@ -57,6 +59,7 @@ int main(int argc, char** argv) {
     if (one_host) machine::forget_hosts(options.machine);
     options.network = service::network_of(options.machine, options.host);
     options.network.identity = "deploy";
+    options.network.clock_offset = clock_offset;
     options.run.domain = domain;
     if (options.port == 0)
       std::erase_if(options.machine.services, [](const auto& s) { return s.service == "gateway"; });

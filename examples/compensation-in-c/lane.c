@@ -20,6 +20,8 @@ void lane_put(struct lane *l, trunnion_stream_AxisFrame *frame) {
   if (frame->count == 0 || frame->epoch < l->epoch) return;
   if (frame->epoch == l->epoch && frame->first + frame->count <= l->next && !frame->starts) return;
   if (slot->count != 0 && slot->epoch == frame->epoch && slot->first == frame->first) return;
+  /* The history of a writer that matches late replaces nothing that is still to be taken. */
+  if (slot->count != 0 && before(frame->epoch, frame->first, slot->epoch, slot->first)) return;
   if (frame->starts && before(l->start_epoch, l->start, frame->epoch, frame->first)) {
     l->start_epoch = frame->epoch;
     l->start = frame->first;

@@ -6,6 +6,7 @@
 #include <sys/syscall.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <ctime>
@@ -69,9 +70,29 @@ void Gathering::notify() {
   waits = waits_of_this_thread();
 }
 
-std::int64_t source_time() {
-  const auto now = std::chrono::system_clock::now().time_since_epoch();
+namespace {
+template <class Clock>
+std::int64_t nanoseconds_of() {
+  const auto now = Clock::now().time_since_epoch();
   return std::chrono::duration_cast<std::chrono::nanoseconds>(now).count();
+}
+
+std::atomic<std::int64_t>& clock_offset() {
+  static std::atomic offset = wall_clock_offset();
+  return offset;
+}
+}  // namespace
+
+std::int64_t wall_clock_offset() {
+  return nanoseconds_of<std::chrono::system_clock>() - nanoseconds_of<std::chrono::steady_clock>();
+}
+
+void use_clock_offset(std::int64_t offset) {
+  if (offset != 0) clock_offset() = offset;
+}
+
+std::int64_t source_time() {
+  return nanoseconds_of<std::chrono::steady_clock>() + clock_offset().load(std::memory_order_relaxed);
 }
 
 const char* to_string(Vendor vendor) { return vendor == Vendor::fastdds ? "fastdds" : "cyclonedds"; }
@@ -92,7 +113,9 @@ Bus::Bus(Vendor vendor, const NetworkSettings& network, StreamDepth depth)
     : vendor_(vendor),
       secured_(!network.security.empty()),
       backend_(make_backend(vendor, network)),
-      depth_(depth) {}
+      depth_(depth) {
+  use_clock_offset(network.clock_offset);
+}
 
 std::unique_ptr<SharedHistory> Bus::share(QosKind kind, EndpointQos& qos) const {
   if (kind != QosKind::frame || secured_) return nullptr;

@@ -73,8 +73,14 @@ struct SampleInfo {
   WriterId writer{};
 };
 
-/// The source time stamp of a message written now. Readers of either vendor find the same number.
+/// The source time stamp of a message written now, ns. Readers of either vendor find the same number. It is
+/// the monotonic clock plus what the wall clock was ahead of it when the cluster was started
+/// (NetworkSettings::clock_offset), so that it rises even when the wall clock is put back.
 std::int64_t source_time();
+/// For processes that need source_time() before they have a bus: NetworkSettings::clock_offset.
+void use_clock_offset(std::int64_t offset);
+/// By how much the wall clock is ahead of the monotonic clock now, ns.
+std::int64_t wall_clock_offset();
 
 class RawWriter {
  public:
@@ -109,6 +115,8 @@ struct NetworkSettings {
   std::string identity =
       {};  ///< the service, "deploy" or "recorder": others see it in the participant's user
            ///< data, and it names the certificate and the permissions below `security`
+  std::int64_t clock_offset =
+      0;  ///< ns, of source_time(); the same in all processes of a host; 0: wall clock
 };
 
 class Backend {

@@ -30,6 +30,7 @@ std::vector<std::string> launcher_arguments(const UpOptions& up, const RunningCl
                                 "--port",
                                 std::to_string(cluster.port)};
   args.insert(args.end(), {"--host", cluster.host});
+  args.insert(args.end(), {"--clock-offset", std::to_string(cluster.network.clock_offset)});
   if (up.one_host) args.emplace_back("--one-host");
   if (!up.vendor.empty()) args.insert(args.end(), {"--vendor", up.vendor});
   if (cluster.virtual_time) args.emplace_back("--virtual-time");
@@ -101,6 +102,7 @@ void write_info(const RunningCluster& cluster) {
                                                            {"peers", cluster.network.peers},
                                                            {"multicast", cluster.network.multicast},
                                                            {"security", cluster.network.security},
+                                                           {"clock_offset", cluster.network.clock_offset},
                                                            {"open", cluster.open},
                                                            {"domain", cluster.run.domain}}
                                          << "\n";
@@ -137,6 +139,7 @@ RunningCluster start_cluster(const UpOptions& up) {
   cluster.run.domain = up.own_domain ? free_domain() : up.domain.value_or(config.domain);
   cluster.network.domain = cluster.run.domain;
   cluster.network.identity = "deploy";
+  cluster.network.clock_offset = bus::wall_clock_offset();
   cluster.machine = config.name;
   cluster.machine_directory = config.directory;
   cluster.open = !config.hosts.empty() && config.security.empty();
@@ -202,6 +205,7 @@ bus::NetworkSettings network_in(std::uint32_t domain) {
   network.peers = info.value("peers", network.peers);
   network.multicast = info.value("multicast", false);
   network.security = info.value("security", "");
+  network.clock_offset = info.value("clock_offset", std::int64_t{0});
   return network;
 }
 

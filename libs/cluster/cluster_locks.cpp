@@ -39,9 +39,11 @@ std::string read_all(int file) {
   return {text, size > 0 ? static_cast<std::size_t>(size) : 0};
 }
 
-// Another user's file can be read and locked, but not written.
-int open_lock(const std::string& path) {
+// Another user's file, or one of a file system that is mounted read-only, can be read and locked, but not
+// written: `why_not` is the reason.
+int open_lock(const std::string& path, int& why_not) {
   const int file = open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
+  why_not = file >= 0 ? 0 : errno;
   return file >= 0 ? file : open(path.c_str(), O_RDONLY | O_CLOEXEC);
 }
 
@@ -93,9 +95,10 @@ bool alive(int pid) { return kill(pid, 0) == 0 || errno == EPERM; }
 
 }  // namespace
 
-StateLock::StateLock(const std::string& directory, const Identity& holder, std::uint32_t domain)
-    : file_(open_lock(directory + "/" + lock_file)) {
+StateLock::StateLock(const std::string& directory, const Identity& holder, std::uint32_t domain) {
   const auto path = directory + "/" + lock_file;
+  int why_not = 0;
+  file_ = open_lock(path, why_not);
   if (file_ < 0) throw std::runtime_error(path + ": cannot be opened: " + std::strerror(errno));
   if (flock(file_, LOCK_EX | LOCK_NB) != 0) {
     const auto other = holder_text(read_all(file_), "another process");
@@ -103,9 +106,11 @@ StateLock::StateLock(const std::string& directory, const Identity& holder, std::
     throw Locked("the state directory " + directory + " is in use by " + other);
   }
   const auto line = write_identity(holder, domain);
-  if (ftruncate(file_, 0) != 0 || pwrite(file_, line.data(), line.size(), 0) < 0) {
+  if (why_not == 0 && (ftruncate(file_, 0) != 0 || pwrite(file_, line.data(), line.size(), 0) < 0))
+    why_not = errno;
+  if (why_not != 0) {
     close(file_);
-    throw std::runtime_error(path + ": cannot be written: it belongs to another user");
+    throw std::runtime_error(path + ": cannot be written: " + std::strerror(why_not));
   }
 }
 

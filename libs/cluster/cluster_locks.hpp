@@ -30,7 +30,7 @@ class StateLock {
   StateLock& operator=(const StateLock&) = delete;
 
  private:
-  int file_;
+  int file_ = -1;
 };
 
 /// Who holds the state directory now; nothing when nobody does.

@@ -78,12 +78,16 @@ void add_network_options(CLI::App& app, bus::NetworkSettings& network) {
   app.add_option("--interface", network.interface_address, "IPv4 address of this host's interface");
   app.add_option("--peers", network.peers, "IPv4 addresses of the hosts, separated by commas");
   app.add_option("--security", network.security, "Directory with the cluster's certificates");
+  app.add_option("--clock-offset", network.clock_offset,
+                 "ns from the monotonic clock to the time in messages; 0: the wall clock's now");
   app.add_flag("--multicast", network.multicast, "Find the others by multicast instead of by --peers");
 }
 
 std::vector<std::string> network_arguments(const bus::NetworkSettings& network) {
   std::vector<std::string> arguments{"--interface", network.interface_address, "--peers", network.peers};
   if (!network.security.empty()) arguments.insert(arguments.end(), {"--security", network.security});
+  if (network.clock_offset != 0)
+    arguments.insert(arguments.end(), {"--clock-offset", std::to_string(network.clock_offset)});
   if (network.multicast) arguments.emplace_back("--multicast");
   return arguments;
 }

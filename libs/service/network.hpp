@@ -23,7 +23,7 @@ std::string local_host(const machine::MachineConfig& config);
 /// one of this computer.
 bus::NetworkSettings network_of(const machine::MachineConfig& config, const std::string& host);
 
-/// --interface, --peers, --security and --multicast.
+/// --interface, --peers, --security, --clock-offset and --multicast.
 void add_network_options(CLI::App& app, bus::NetworkSettings& network);
 /// What add_network_options() reads back. The domain and the identity are not in it.
 std::vector<std::string> network_arguments(const bus::NetworkSettings& network);

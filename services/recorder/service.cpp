@@ -66,12 +66,6 @@ std::vector<const bus::TopicEntry*> chosen_topics(const std::vector<std::string>
   return result;
 }
 
-std::int64_t nanoseconds_since_epoch() {
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(
-             std::chrono::system_clock::now().time_since_epoch())
-      .count();
-}
-
 // All topics of the recording, by the numbers that messages name.
 class Sources {
  public:
@@ -138,7 +132,7 @@ class FileThread {
       destination_ = std::make_unique<FlightRecorder>(
           options.output, header,
           FlightLimits{options.last, options.after, options.memory_mebibytes << 20, options.severity},
-          nanoseconds_since_epoch());
+          bus::source_time());
     else
       destination_ =
           std::make_unique<PartFiles>(options.output, header, options.parts, service::monotonic_seconds());
@@ -315,6 +309,7 @@ int record(const Options& options) {
   // A recorder that displaces a stage from the processor whenever packets arrive slows the stream. Writers
   // keep a thousand batches, much longer than the recorder waits for the processor.
   setpriority(PRIO_PROCESS, 0, priority);
+  bus::use_clock_offset(options.network.clock_offset);
   FileThread file(options, header, queue);
   bus::Gathering gathering;
   bus::Bus bus(options.vendor, options.network);

@@ -1,0 +1,68 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# upgrade.sh TRUNNION MACHINES: another build takes the places of all services of a machine that has moved, one after the other; it
+# is refused during a program and when it is not whole, and when one of its services fails the others are put back.
+set -euo pipefail
+trunnion=$1 machines=$2
+built=$(dirname "$trunnion")
+work=$(mktemp -d)
+domain=
+trap '[ -z "$domain" ] || "$trunnion" down --domain "$domain" > /dev/null; rm -rf "$work"' EXIT
+fail() { echo "$1"; cat "$work/said"; exit 1; }
+refused() { # TEXT COMMAND...
+  local text=$1 status=0
+  shift
+  "$trunnion" "$@" > "$work/said" 2>&1 || status=$?
+  [ $status = 1 ] && grep -q "$text" "$work/said" && [ "$(grep -c '^trunnion: ' "$work/said")" = 1 ] || fail "$*: status $status"
+}
+executables() { # of the services that run
+  "$trunnion" status --json "${here[@]}" > "$work/said"
+  python3 -c 'import json, sys, os
+for s in json.load(open(sys.argv[1]))["services"]: print(os.readlink(f"/proc/{s[\"pid\"]}/exe"))' "$work/said"
+}
+
+cp -r "$machines/ac-table" "$work/machine"
+echo "swap_directories: [$work/other, $work/partial, $work/faulty]" >> "$work/machine/machine.yaml"
+mkdir "$work/other" "$work/partial" "$work/faulty"
+for service in parameters program plc drive gantry compensation kinematics channel gateway; do
+  cp "$built/trunnion-$service" "$work/other"
+done
+cp "$work/other"/* "$work/faulty"
+cp "$work/other"/* "$work/partial"
+rm "$work/partial/trunnion-plc"
+printf '#!/bin/sh\ncase "$1" in --version) exec %s/trunnion-channel --version;; esac\necho "no licence for this machine"\nexit 1\n' \
+  "$built" > "$work/faulty/trunnion-channel"
+
+for number in $(seq 81 99); do
+  "$trunnion" up "$work/machine" --time virtual --state "$work/state" --domain "$number" --port $((20000 + $$ % 20000)) \
+    > "$work/said" 2>&1 && domain=$number && break
+  grep -q "domain $number is in use" "$work/said" || fail "up"
+done
+[ -n "$domain" ] || fail "no domain is free"
+here=(--domain "$domain")
+"$trunnion" mdi "G0 X10 Y5" "${here[@]}" > "$work/said" || fail "mdi"
+
+refused "partial/trunnion-plc: there is no such executable; nothing was replaced" upgrade "$work/partial" "${here[@]}"
+printf 'G0 X20\nM0\nM30\n' > "$work/held.nc"
+"$trunnion" program put "$work/held.nc" "${here[@]}" > "$work/said"
+"$trunnion" channel mode auto "${here[@]}"
+"$trunnion" channel select held.nc "${here[@]}"
+"$trunnion" channel start "${here[@]}"
+refused "channel 0 is .*: upgrade a machine at rest" upgrade "$work/other" "${here[@]}"
+"$trunnion" channel reset "${here[@]}"
+for _ in $(seq 100); do
+  "$trunnion" topic echo trunnion/channel/state/1 --count 1 "${here[@]}" 2> /dev/null | grep -q '"state":"IDLE"' && break
+  sleep 0.1
+done
+
+"$trunnion" upgrade "$work/other" "${here[@]}" > "$work/upgrade" 2>&1 || { cp "$work/upgrade" "$work/said"; fail "upgrade"; }
+[ "$(grep -c '^\[[0-9]*/9\] ' "$work/upgrade")" = 9 ] || { cp "$work/upgrade" "$work/said"; fail "not nine lines"; }
+[ "$(executables | grep -c "^$work/other/trunnion-")" = 9 ] || fail "not every service is the other build's"
+"$trunnion" mdi "G0 X-10 Y0" "${here[@]}" > "$work/said" || fail "mdi after the upgrade"
+
+refused "channel 0: .*no licence for this machine; the [0-9]* services before it were put back" \
+  upgrade "$work/faulty" "${here[@]}"
+[ "$(executables | grep -c "^$work/other/trunnion-")" = 9 ] || fail "not every service was put back"
+"$trunnion" mdi "G0 X10 Y5" "${here[@]}" > "$work/said" || fail "mdi after the failed upgrade"
+"$trunnion" alarms "${here[@]}" > "$work/said"
+! grep -q ERROR "$work/said" || fail "alarms are left"
