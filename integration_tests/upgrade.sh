@@ -18,7 +18,16 @@ refused() { # TEXT COMMAND...
 executables() { # of the services that run
   "$trunnion" status --json "${here[@]}" > "$work/said"
   python3 -c 'import json, sys, os
-for s in json.load(open(sys.argv[1]))["services"]: print(os.readlink(f"/proc/{s[\"pid\"]}/exe"))' "$work/said"
+for service in json.load(open(sys.argv[1]))["services"]: print(os.readlink("/proc/%d/exe" % service["pid"]))' "$work/said"
+}
+
+# The launcher publishes the new process numbers a moment after a swap.
+others_run() {
+  for _ in $(seq 50); do
+    [ "$(executables 2> /dev/null | grep -c "^$work/other/trunnion-")" = 9 ] && return
+    sleep 0.1
+  done
+  return 1
 }
 
 cp -r "$machines/ac-table" "$work/machine"
@@ -57,12 +66,12 @@ done
 
 "$trunnion" upgrade "$work/other" "${here[@]}" > "$work/upgrade" 2>&1 || { cp "$work/upgrade" "$work/said"; fail "upgrade"; }
 [ "$(grep -c '^\[[0-9]*/9\] ' "$work/upgrade")" = 9 ] || { cp "$work/upgrade" "$work/said"; fail "not nine lines"; }
-[ "$(executables | grep -c "^$work/other/trunnion-")" = 9 ] || fail "not every service is the other build's"
+others_run || fail "not every service is the other build's"
 "$trunnion" mdi "G0 X-10 Y0" "${here[@]}" > "$work/said" || fail "mdi after the upgrade"
 
 refused "channel 0: .*no licence for this machine; the [0-9]* services before it were put back" \
   upgrade "$work/faulty" "${here[@]}"
-[ "$(executables | grep -c "^$work/other/trunnion-")" = 9 ] || fail "not every service was put back"
+others_run || fail "not every service was put back"
 "$trunnion" mdi "G0 X10 Y5" "${here[@]}" > "$work/said" || fail "mdi after the failed upgrade"
 "$trunnion" alarms "${here[@]}" > "$work/said"
 ! grep -q ERROR "$work/said" || fail "alarms are left"

@@ -188,8 +188,10 @@ void add_cluster_commands(CLI::App& app, Common& common) {
   auto options = std::make_shared<cluster::UpOptions>();
   auto time = std::make_shared<std::string>();
   auto port = std::make_shared<int>(0);
+  auto executables = std::make_shared<std::vector<std::string>>();
   auto* command = add_command(app, common, "up", "Start the cluster of a machine and wait until it is ready",
-                              [&common, options, time, port] {
+                              [&common, options, time, port, executables] {
+                                options->executables = cluster::read_executables(*executables);
                                 if (*port != 0) options->port = static_cast<std::uint16_t>(*port);
                                 return up(common, *options, *time);
                               });
@@ -201,6 +203,7 @@ void add_cluster_commands(CLI::App& app, Common& common) {
       ->check(CLI::IsMember({"fastdds", "cyclonedds", "mixed"}));
   command->add_option("--time", *time, "real or virtual, instead of machine.yaml's")
       ->check(CLI::IsMember({"real", "virtual"}));
+  command->add_option("--exec", *executables, exec_help);
   command->add_option("--port", *port, "Port of the gateway")->check(CLI::Range(1, 65535));
   command->add_option("--state", options->state_directory,
                       "Directory for what must survive (default: under ~/.local/state/trunnion)");

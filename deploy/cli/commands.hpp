@@ -41,6 +41,7 @@ void add_replay_command(CLI::App& app, Common& common);        // replay
 void add_state_commands(CLI::App& app, Common& common);        // state, backup, restore
 void add_swap_command(CLI::App& app, Common& common);          // swap
 void add_upgrade_command(CLI::App& app, Common& common);       // upgrade
+void add_new_command(CLI::App& app, Common& common);           // new service
 void add_completion_command(CLI::App& app, Common& common);    // completion
 
 /// `trunnion check` of a file for a machine by name or directory; 1 when the program has an error.
@@ -48,6 +49,10 @@ int check_file(const std::string& program, const std::string& machine);
 
 /// The subject "motion" of bench; 1 when a requirement is missed.
 int bench_motion(const Common& common, const std::string& machine);
+
+/// Of the option --exec.
+inline constexpr const char* exec_help =
+    "SERVICE=PATH: start this executable as the service, instead of Trunnion's; may be repeated";
 
 /// --json and --domain.
 CLI::App* add_command(CLI::App& app, Common& common, const std::string& name, const std::string& about,

@@ -34,6 +34,7 @@ int main(int argc, char** argv) {
   add_state_commands(app, common);
   add_swap_command(app, common);
   add_upgrade_command(app, common);
+  add_new_command(app, common);
   add_completion_command(app, common);
   try {
     app.parse(argc, argv);

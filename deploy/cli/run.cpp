@@ -262,6 +262,7 @@ cluster::UpOptions up_options(const std::string& directory, const RunOptions& op
   cluster::UpOptions up;
   up.machine = directory;
   up.vendor = options.vendor;
+  up.executables = options.executables;
   up.state_directory = "temporary";
   up.own_domain = !options.domain;
   up.domain = options.domain;

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "cluster/executables.hpp"
 #include "report/report.hpp"
 #include "report/stream_timing.hpp"
 
@@ -14,6 +15,7 @@ struct RunOptions {
   std::string machine;
   std::vector<std::string> programs;  ///< files or names of stored programs, one for each channel
   std::string vendor;                 ///< empty, fastdds, cyclonedds or mixed
+  cluster::Executables executables;   ///< in the place of those beside the command
   std::string recording;              ///< file to write
   bool real_time = false;
   std::uint32_t from_line = 0;  ///< start from this line of the first program; 0 = from its top

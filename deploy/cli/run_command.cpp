@@ -134,9 +134,13 @@ int bench_recording(const Common& common, const std::string& machine, const std:
 void add_run_command(CLI::App& app, Common& common) {
   auto options = std::make_shared<RunOptions>();
   auto report_directory = std::make_shared<std::string>();
-  auto* command = add_command(
-      app, common, "run", "Start a cluster of its own, run a program on it, write a report, stop it",
-      [&common, options, report_directory] { return run(common, *options, *report_directory); });
+  auto executables = std::make_shared<std::vector<std::string>>();
+  auto* command = add_command(app, common, "run",
+                              "Start a cluster of its own, run a program on it, write a report, stop it",
+                              [&common, options, report_directory, executables] {
+                                options->executables = cluster::read_executables(*executables);
+                                return run(common, *options, *report_directory);
+                              });
   command
       ->add_option("machine", options->machine,
                    "Name under configs/machines, or a directory with machine.yaml")
@@ -152,6 +156,7 @@ void add_run_command(CLI::App& app, Common& common) {
                     "One cycle in one cycle time instead of as fast as possible");
   command->add_option("--vendor", options->vendor, "DDS vendor of every service, instead of machine.yaml's")
       ->check(CLI::IsMember({"fastdds", "cyclonedds", "mixed"}));
+  command->add_option("--exec", *executables, exec_help);
   command->add_option("--from-line", options->from_line, "Start the first program from this line");
   command->add_flag("--dry-run", options->dry_run, "Parameter 04c914 takes the place of programmed feeds");
   command->add_option("--timeout", options->timeout, "Seconds of wall time after which the run has failed");

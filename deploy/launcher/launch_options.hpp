@@ -6,6 +6,7 @@
 
 #include "bus/endpoint.hpp"
 #include "cluster/cluster_files.hpp"
+#include "cluster/executables.hpp"
 #include "machine/machine.hpp"
 
 namespace trunnion::launcher {
@@ -18,6 +19,7 @@ struct LaunchOptions {
   cluster::RunDirectory run;
   std::string host;  ///< which of the machine's hosts this is; empty when it has none
   bus::NetworkSettings network;
+  cluster::Executables executables;  ///< in the place of those beside the launcher
 
   /// Computers of a network can join without security.
   bool open() const { return !machine.hosts.empty() && machine.security.empty(); }

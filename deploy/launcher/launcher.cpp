@@ -82,6 +82,8 @@ Launcher::Launcher(LaunchOptions options)
     process.entry = entry;
     process.local = entry.host == options_.host;
     process.executable = cluster::binary_directory() + "/" + machine::program_of(options_.machine, entry);
+    if (const auto given = options_.executables.find(entry.service); given != options_.executables.end())
+      process.executable = given->second;
     process.log = options_.run.log_file(
         entry.service + "-" + std::to_string(entry.service == "channel" ? entry.channel : entry.replica));
     processes_.push_back(std::move(process));

@@ -46,6 +46,8 @@ int main(int argc, char** argv) {
   app.add_flag("--virtual-time", options.virtual_time,
                "Time advances with the setpoints, not with the clock");
   app.add_option("--host", options.host, "Which host of machine.yaml this is");
+  std::vector<std::string> executables;
+  app.add_option("--exec", executables, "SERVICE=PATH: what to start in the place of its executable");
   std::int64_t clock_offset = 0;
   app.add_option("--clock-offset", clock_offset, "ns from the monotonic clock to the time in messages");
   bool one_host = false;
@@ -56,6 +58,7 @@ int main(int argc, char** argv) {
   try {
     options.machine = machine::load_machine(machine, vendor);
     options.machine.domain = domain;
+    options.executables = cluster::read_executables(executables);
     if (one_host) machine::forget_hosts(options.machine);
     options.network = service::network_of(options.machine, options.host);
     options.network.identity = "deploy";

@@ -31,6 +31,7 @@ std::vector<std::string> launcher_arguments(const UpOptions& up, const RunningCl
                                 std::to_string(cluster.port)};
   args.insert(args.end(), {"--host", cluster.host});
   args.insert(args.end(), {"--clock-offset", std::to_string(cluster.network.clock_offset)});
+  for (auto& argument : executable_arguments(up.executables)) args.push_back(std::move(argument));
   if (up.one_host) args.emplace_back("--one-host");
   if (!up.vendor.empty()) args.insert(args.end(), {"--vendor", up.vendor});
   if (cluster.virtual_time) args.emplace_back("--virtual-time");

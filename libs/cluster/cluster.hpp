@@ -8,6 +8,7 @@
 
 #include "bus/endpoint.hpp"
 #include "cluster/cluster_files.hpp"
+#include "cluster/executables.hpp"
 #include "machine/machine.hpp"
 
 namespace trunnion::cluster {
@@ -21,6 +22,7 @@ struct UpOptions {
   std::optional<std::uint16_t> port;
   std::optional<bool> virtual_time;
   bool with_gateway = true;
+  Executables executables;  ///< in the place of those beside the command
   std::string host;  ///< which host of machine.yaml this is; empty: the one with an address of this computer
   bool one_host = false;  ///< run everything here, whatever machine.yaml says of hosts
   bool foreground = false;

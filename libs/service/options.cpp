@@ -4,7 +4,9 @@
 #include <CLI/CLI.hpp>
 #include <iostream>
 
+#include "contracts/topics.hpp"
 #include "service/network.hpp"
+#include "trunnion/version.hpp"
 
 namespace trunnion::service {
 

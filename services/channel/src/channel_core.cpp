@@ -72,9 +72,12 @@ void ChannelCore::set_programs(const idl::program::ProgramList& programs) {
 }
 
 RunningProgram ChannelCore::running_program() const {
-  if (!program_under_way()) return interrupted_;
-  return {selected_.name, selected_.revision, selected_.crc32,
-          std::max<std::uint32_t>(progress_.executed.line, 1)};
+  if (program_under_way())
+    return {selected_.name, selected_.revision, selected_.crc32,
+            std::max<std::uint32_t>(progress_.executed.line, 1)};
+  auto program = interrupted_;
+  program.ended = ended_;
+  return program;
 }
 
 // What the program has read ahead counts: a variable is not restored when the motion behind it is stopped.

@@ -71,7 +71,7 @@ class ChannelCore {
   /// The kept variables of the last time.
   void set_variables(const language::VariableStore& variables) { *variables_ = variables; }
   /// The program under way when the control was switched off: a start from its line is offered.
-  void set_interrupted(const RunningProgram& program) { interrupted_ = program; }
+  void set_interrupted(const RunningProgram& program) { interrupted_ = program, ended_ = program.ended; }
   void set_programs(const idl::program::ProgramList& programs);
   void on_feedback(const idl::stream::FeedbackFrame& feedback);
   /// A process that has just started may find that one before it died in the middle of a program. Call it
@@ -255,7 +255,8 @@ class ChannelCore {
   idl::program::ProgramEntry selected_;
   std::optional<RestartPoint> restart_;  // of the program, until it is reached
   AxisValues program_start_{};           // machine coordinates
-  RunningProgram interrupted_;           // before this process started, by the end of the control
+  std::uint64_t ended_ = 0;     // newest cycle of the drive's snapshot when a reset ended the program at rest
+  RunningProgram interrupted_;  // before this process started, by the end of the control
   Mdi mdi_;
   AxisValues machine_start_{};  // of the path at rest, in machine coordinates
   PathProgress progress_;

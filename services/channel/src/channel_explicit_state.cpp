@@ -40,6 +40,7 @@ bus::Json ChannelCore::explicit_state(std::string& why_not) const {
   auto state = snapshot::written(ChannelFields::Of<const ChannelCore>{*this});
   state["offset_on"] = manual_.offset_on();
   state["offset"] = manual_.offset();
+  state["ended"] = ended_;
   state["skips"] = snapshot::written(program_flow_.skips());
   state["variables"] = write_variables(*variables_, this_boot);
   if (const auto* executed = stream_.executed()) state["executed"] = snapshot::written(*executed);
@@ -53,6 +54,7 @@ void ChannelCore::continue_from(const bus::Json& state) {
   snapshot::read(state.at("offset"), offset);
   std::vector<program_execution::SkipResult> skips;
   snapshot::read(state.at("skips"), skips);
+  ended_ = state.value("ended", std::uint64_t{0});
   program_flow_.set_skips(std::move(skips));
   *variables_ = {};
   read_variables(state.at("variables").get<std::string>(), "snapshot", this_boot, *variables_);

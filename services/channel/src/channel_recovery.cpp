@@ -67,7 +67,7 @@ void ChannelCore::recover() {
       manual_.place_offset(own->offset);
     }
   }
-  if (!own || !own->running) {
+  if (!own || !own->running || link().snapshot().cycle <= ended_) {
     if (link().echo_active()) stream_.link().leave();
     offer_interrupted();
     return;

@@ -35,6 +35,7 @@ Answer ChannelCore::start_program(const Entry& entry) {
   program_flow_.start(program_path_.trajectory(), text, program_start_, power_on_modal(), *variables_, entry);
   restart_ = restart.sequence != 0 ? std::optional(restart) : std::nullopt;
   interrupted_ = {};
+  ended_ = 0;
   states_.begin(Activity::program);
   return {};
 }

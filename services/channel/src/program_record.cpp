@@ -1,16 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "program_record.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <sstream>
 #include <stdexcept>
+#include <vector>
 
 #include "storage/crc32.hpp"
 
 namespace trunnion::channel {
 namespace {
 
-constexpr const char* head = "trunnion program 1";
+constexpr const char* head = "trunnion program 2";
+constexpr const char* first_head = "trunnion program 1\n";  // up to version 0.3, without `ended`
 
 template <class Number>
 Number number_of(const std::string& text, const std::string& file, int line) {
@@ -25,28 +28,34 @@ Number number_of(const std::string& text, const std::string& file, int line) {
 }  // namespace
 
 std::string write_record(const RunningProgram& program) {
-  std::string text = std::string(head) + "\n" + std::to_string(program.revision) + "\n" +
-                     std::to_string(program.crc) + "\n" + std::to_string(program.line) + "\n" + program.name +
-                     "\n";
+  std::string text = head;
+  for (const auto number : {program.revision, std::uint64_t{program.crc}, std::uint64_t{program.line}})
+    text += "\n" + std::to_string(number);
+  text += "\n" + program.name + "\n" + std::to_string(program.ended) + "\n";
   return text + std::to_string(storage::crc32(text)) + "\n";
 }
 
 RunningProgram read_record(const std::string& text, const std::string& file) {
   std::istringstream in(text);
-  std::string lines[6];
-  for (int i = 0; i < 6; ++i)
+  const bool first_format = text.starts_with(first_head);
+  const std::size_t size = first_format ? 6 : 7;
+  std::vector<std::string> lines(size);
+  for (std::size_t i = 0; i < size; ++i)
     if (!std::getline(in, lines[i]) || in.eof())
       throw std::runtime_error(file + ":" + std::to_string(i + 1) + ":1: the file ends here");
-  if (lines[0] != head) throw std::runtime_error(file + ":1:1: '" + head + "' expected");
+  if (lines[0] != head && !first_format) throw std::runtime_error(file + ":1:1: '" + head + "' expected");
   RunningProgram program;
   program.revision = number_of<std::uint64_t>(lines[1], file, 2);
   program.crc = number_of<std::uint32_t>(lines[2], file, 3);
   program.line = number_of<std::uint32_t>(lines[3], file, 4);
   program.name = lines[4];
-  const auto sum = number_of<std::uint32_t>(lines[5], file, 6);
-  if (write_record(program) != text ||
-      sum != storage::crc32(text.substr(0, text.size() - lines[5].size() - 1)))
-    throw std::runtime_error(file + ":6:1: the check sum is wrong");
+  if (!first_format) program.ended = number_of<std::uint64_t>(lines[5], file, 6);
+  const auto last = static_cast<int>(size);
+  const auto sum = number_of<std::uint32_t>(lines.back(), file, last);
+  const auto summed = text.size() - std::min(text.size(), lines.back().size() + 1);
+  if (in.peek() != std::istringstream::traits_type::eof() || sum != storage::crc32(text.substr(0, summed)) ||
+      (!first_format && write_record(program) != text))
+    throw std::runtime_error(file + ":" + std::to_string(last) + ":1: the check sum is wrong");
   return program;
 }
 

@@ -52,8 +52,10 @@ struct Channel : ::testing::Test {
     core->set_tools(tools);
     core->set_offsets({});
   }
-  void begin() {
+  /// A new process, which finds the record that the one before kept.
+  void begin(const RunningProgram& kept = {}) {
     start_process();
+    core->set_interrupted(kept);
     core->set_ready(true);
     store();
     core->on_feedback(drive.run(0));

@@ -112,6 +112,23 @@ TEST_F(Recovery, AProgramThatWasLeftIsKnownToTheNextProcessAlsoWhenTheJogWasStop
   expect_no_jump();
 }
 
+TEST_F(Recovery, AProgramThatWasResetAtRestIsNotContinuedByTheNextProcess) {
+  hold_a_program();
+  ask(CommandKind::RESET);
+  EXPECT_EQ(core->run_state(), RunState::IDLE);
+  // The drive's newest snapshot is still that of the held program.
+  const auto kept = core->running_program();
+  begin(kept);
+  EXPECT_EQ(core->run_state(), RunState::IDLE);
+  // The next program is resumed again, even when nothing newer was kept of it.
+  load("G90\nG1 X100 Y50 F6000\nX0\nM30\n");
+  ASSERT_TRUE(ask(CommandKind::CYCLE_START).accepted);
+  rounds(40);
+  EXPECT_EQ(core->running_program().ended, 0u);
+  begin(kept);
+  EXPECT_EQ(core->run_state(), RunState::INTERRUPTED);
+}
+
 TEST_F(Recovery, MdiFunctionsStillEndInAProgramUnderWhichTheDrivesWereSwitchedOff) {
   hold_a_program();
   ask(CommandKind::SET_MODE, "", 0, 0, Mode::MDI);
