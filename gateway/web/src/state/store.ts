@@ -172,6 +172,7 @@ export function connect(): void {
     const now = performance.now() / 1000;
     for (const one of Object.values(next.state.channels)) {
       if (next.state.drive) runTime(one.channel).observe(one, next.state.drive.tick);
+      if ("state" in message) history(one.channel).interrupt();
       history(one.channel).record(now, next.state, one);
     }
   };

@@ -7,6 +7,8 @@ import { channelNumber, history, machine } from "../state/store";
 import { text } from "../text/texts";
 
 const views: View[] = ["XY", "XZ", "YZ", "3D"];
+/** The newest points are drawn; the 3D view shows all of them. */
+const mostPoints = 20_000;
 const chosen = signal<View>("3D");
 const rotation = signal<Rotation>({ turn: 30, tilt: 28 });
 
@@ -23,7 +25,7 @@ function draw(canvas: HTMLCanvasElement, number: number): void {
   context.clearRect(0, 0, width, height);
   const path = history(number).path;
   const points: Point2[] = [];
-  for (let row = 0; row < path.length; ++row)
+  for (let row = Math.max(0, path.length - mostPoints); row < path.length; ++row)
     points.push(project(chosen.value, rotation.value, path.at(row, 0), path.at(row, 1), path.at(row, 2)));
   const { scale, offsetX, offsetY } = fit(points, width, height, 26);
   const at = ([right, up]: Point2): Point2 => [offsetX + right * scale, offsetY - up * scale];
