@@ -21,9 +21,9 @@ test("a point is the tip, and its speed that of the segment that leads to it", (
   expect(buffer.speeds[1]).toBeCloseTo(3000, 2);
   expect([buffer.count, buffer.segments, buffer.scale]).toEqual([2, 1, 5000]);
   expect(buffer.update(history, source)).toBe("none");
-  history.record(1, state(14, 14, [[0.2, 0, 0]]), channel);
-  expect(buffer.update(history, source)).toBe("all"); // 0.1 mm in 1 ms are 6000 mm/min: another scale, every colour
-  history.record(2, state(15, 15, [[0.3, 0, 0]]), channel);
+  history.record(1, state(14, 14, [[0.3, 0, 0]]), channel);
+  expect(buffer.update(history, source)).toBe("all"); // 0.2 mm in the 2 ms since cycle 12 are 6000 mm/min: another scale, every colour
+  history.record(2, state(15, 15, [[0.4, 0, 0]]), channel);
   expect(buffer.update(history, source)).toEqual({ from: 3 });
 });
 
@@ -70,4 +70,46 @@ test("colours go from blue to red, scales are 1, 2 or 5 times a power of ten", (
   expect(speedColour(0)[2]).toBeGreaterThan(speedColour(0)[0]);
   expect(speedColour(1)[0]).toBeGreaterThan(speedColour(1)[2]);
   expect([0.9, 1, 1.1, 2, 3000, 5001].map(niceAbove)).toEqual([1, 1, 2, 2, 5000, 10000]);
+});
+
+test("what is drawn is within the tolerance of the path, joins up, and is the same however the points came", () => {
+  // A spiral with a gap, then a straight line: 0.05 mm steps with noise from a linear congruential generator, seed 1.
+  let seed = 1;
+  const noise = () => ((seed = (1103515245 * seed + 12345) % 2147483648) / 2147483648 - 0.5) * 0.002;
+  const rows = Array.from({ length: 4000 }, (_, i) =>
+    i < 3000
+      ? [20 * Math.cos(i / 400) * (1 + i / 9000), 20 * Math.sin(i / 400) * (1 + i / 9000), i / 1000 + noise()]
+      : [100 + 0.05 * (i - 3000), noise(), 0]);
+  const tolerance = 0.05;
+  const drawnAfter = (chunk: number) => {
+    const history = new History();
+    const buffer = new PathBuffer(5000);
+    for (let i = 0; i < rows.length; i += chunk) {
+      if (i === 3000) history.interrupt();
+      history.record(i, state(i + 1, i + chunk, rows.slice(i, i + chunk)), channel);
+      buffer.update(history, source);
+      buffer.simplify(tolerance);
+    }
+    return buffer;
+  };
+  const buffer = drawnAfter(3000);
+  const pairs = Array.from({ length: buffer.drawnSegments }, (_, k) => [buffer.drawn[2 * k]!, buffer.drawn[2 * k + 1]!] as const);
+  expect(buffer.segments).toBe(3998);
+  expect(pairs.length).toBeLessThan(400);
+  const gaps = pairs.filter(([from], k) => k > 0 && from !== pairs[k - 1]![1]);
+  expect(gaps).toEqual([[3000, gaps[0]![1]]]);
+  expect(pairs[0]![0]).toBe(0);
+  expect(pairs[pairs.length - 1]![1]).toBe(3999);
+  const at = (i: number) => [0, 1, 2].map((axis) => buffer.points[3 * i + axis]!);
+  const distance = (p: number[], a: number[], b: number[]) => {
+    const ab = b.map((value, i) => value - a[i]!);
+    const ap = p.map((value, i) => value - a[i]!);
+    const along = ap.reduce((sum, value, i) => sum + value * ab[i]!, 0) / Math.max(ab.reduce((sum, value) => sum + value * value, 0), 1e-12);
+    return Math.hypot(...ap.map((value, i) => value - Math.min(1, Math.max(0, along)) * ab[i]!));
+  };
+  // Points are within the tolerance of the line through the first two of the strip, and the chord to its last point,
+  // which is within it too, deviates from that line by no more: twice the tolerance.
+  for (const [a, b] of pairs) for (let i = a; i <= b; ++i) expect(distance(at(i), at(a), at(b))).toBeLessThan(2 * tolerance + 1e-6);
+  const again = drawnAfter(250);
+  expect([...again.drawn.subarray(0, 2 * again.drawnSegments)]).toEqual([...buffer.drawn.subarray(0, 2 * buffer.drawnSegments)]);
 });

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The executed path as arrays that a graphics card takes: points in the frame of the workpiece, a colour for each by the
-// speed that leads to it, and pairs of indices for the segments. Rows that were taken once are not computed again.
+// speed that leads to it, and pairs of indices for the segments. Rows that were taken once are not computed again. What is
+// drawn leaves out points that make no visible difference.
 import { type History, pathCapacity, pathColumns } from "../state/history";
 import type { Chain } from "./chain";
 
@@ -39,13 +40,26 @@ export class PathBuffer {
   segments = 0;
   /** mm/min of the last colour. */
   scale = 1000;
+  /** Pairs of points to draw, within `tolerance` of the path; the last pair grows. */
+  readonly drawn: Uint32Array;
+  drawnSegments = 0;
+  private tolerance = -1;
+  private simplified = 0;
+  private anchor = -1;
+  private end = -1;
+  private direction: [number, number, number] | undefined;
+  private reach = 0;
   private taken = 0;
   private cleared = -1;
 
-  constructor(readonly capacity = pathCapacity) {
+  /** Keeps at least the newest `kept` points. */
+  constructor(private readonly kept = pathCapacity) {
+    // A quarter more, so that old points need not be dropped with every new one.
+    const capacity = kept + (kept >> 2);
     this.points = new Float32Array(3 * capacity);
     this.colours = new Uint8Array(3 * capacity);
     this.indices = new Uint32Array(2 * capacity);
+    this.drawn = new Uint32Array(2 * capacity);
     this.speeds = new Float32Array(capacity);
   }
 
@@ -61,14 +75,15 @@ export class PathBuffer {
     if (this.cleared !== history.cleared) {
       this.cleared = history.cleared;
       this.count = this.segments = 0;
+      this.restart(-1);
       this.scale = 1000;
       this.taken = path.pushed - path.length;
       all = true;
     }
     const fresh = Math.min(path.length, path.pushed - this.taken);
     if (fresh === 0) return all ? "all" : "none";
-    if (this.count + fresh > this.capacity) {
-      this.drop(Math.min(this.count, Math.max(this.count + fresh - this.capacity, this.capacity >> 2)));
+    if (this.count + fresh > this.speeds.length) {
+      this.drop(Math.min(this.count, this.count + fresh - this.kept));
       all = true;
     }
     const from = this.count;
@@ -80,6 +95,70 @@ export class PathBuffer {
       all = true;
     }
     return all ? "all" : { from };
+  }
+
+  /**
+   * Leaves out points that are within `tolerance` (mm) of a straight line through the points around them (strips, after
+   * Reumann and Witkam, 1974). Gives the first pair of `drawn` that has changed.
+   */
+  simplify(tolerance: number): number {
+    if (tolerance !== this.tolerance || this.simplified > this.segments) this.restart(tolerance);
+    const from = Math.max(0, this.drawnSegments - 1);
+    const pending = this.simplified > 0;
+    if (pending) this.drawnSegments -= 1;
+    for (let segment = this.simplified; segment < this.segments; ++segment) {
+      const first = this.indices[2 * segment]!;
+      if (first !== this.end) {
+        this.emit();
+        this.anchor = first;
+        this.direction = undefined;
+      }
+      this.extend(first + 1, first, tolerance);
+      this.end = first + 1;
+    }
+    this.simplified = this.segments;
+    if (this.segments > 0) this.emit();
+    return from;
+  }
+
+  private restart(tolerance: number): void {
+    this.tolerance = tolerance;
+    this.simplified = this.drawnSegments = 0;
+    this.anchor = this.end = -1;
+    this.direction = undefined;
+  }
+
+  private emit(): void {
+    if (this.end < 0) return;
+    this.drawn[2 * this.drawnSegments] = this.anchor;
+    this.drawn[2 * this.drawnSegments + 1] = this.end;
+    this.drawnSegments += 1;
+  }
+
+  /** Takes a point into the strip, or ends the strip at the point before it and begins another. */
+  private extend(point: number, before: number, tolerance: number): void {
+    const { points } = this;
+    for (let attempt = 0; attempt < 2; ++attempt) {
+      const [x, y, z] = [0, 1, 2].map((axis) => points[3 * point + axis]! - points[3 * this.anchor + axis]!) as [number, number, number];
+      const length = Math.hypot(x, y, z);
+      if (!this.direction) {
+        if (length > tolerance) {
+          this.direction = [x / length, y / length, z / length];
+          this.reach = length;
+        }
+        return;
+      }
+      const along = x * this.direction[0] + y * this.direction[1] + z * this.direction[2];
+      const across = Math.sqrt(Math.max(0, length * length - along * along));
+      if (across <= tolerance && along >= this.reach - tolerance) {
+        this.reach = Math.max(this.reach, along);
+        return;
+      }
+      this.end = before;
+      this.emit();
+      this.anchor = before;
+      this.direction = undefined;
+    }
   }
 
   private take(history: History, row: number, { chain, toolLength, period }: PathSource): void {
@@ -113,6 +192,7 @@ export class PathBuffer {
     this.colours.copyWithin(0, 3 * points, 3 * this.count);
     this.speeds.copyWithin(0, points, this.count);
     this.count -= points;
+    this.restart(-1);
     let kept = 0;
     for (let segment = 0; segment < this.segments; ++segment) {
       const first = this.indices[2 * segment]! - points;

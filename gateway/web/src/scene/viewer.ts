@@ -58,7 +58,9 @@ export class Viewer {
   private readonly tables: Mesh[] = [];
   private readonly resize: ResizeObserver;
   private readonly materials: Record<"body" | "pivot" | "table" | "tool", MeshLambertMaterial>;
-  private uploaded = { points: 0, segments: 0 };
+  private uploaded = 0;
+  private simplifiedFor = 0;
+  private turning = false;
   private asked = 0;
   private size = 100;
   private following = false;
@@ -82,7 +84,7 @@ export class Viewer {
     const geometry = new BufferGeometry();
     geometry.setAttribute("position", new BufferAttribute(this.path.points, 3));
     geometry.setAttribute("color", new BufferAttribute(this.path.colours, 3, true));
-    geometry.setIndex(new BufferAttribute(this.path.indices, 1));
+    geometry.setIndex(new BufferAttribute(this.path.drawn, 1));
     this.pathLines = new LineSegments(geometry, new LineBasicMaterial({ vertexColors: true }));
     this.pathLines.frustumCulled = false;
 
@@ -113,7 +115,12 @@ export class Viewer {
     this.controls.zoomToCursor = true;
     this.controls.listenToKeyEvents(canvas);
     this.camera.up.set(0, 0, 1);
-    this.controls.addEventListener("change", () => this.ask());
+    this.controls.addEventListener("start", () => this.turn(true));
+    this.controls.addEventListener("end", () => this.turn(false));
+    this.controls.addEventListener("change", () => {
+      if (this.camera.zoom > 1.4 * this.simplifiedFor || this.camera.zoom < this.simplifiedFor / 2) this.simplify();
+      this.ask();
+    });
     this.resize = new ResizeObserver(() => this.measure());
     this.resize.observe(canvas);
     document.addEventListener("visibilitychange", this.ask);
@@ -193,6 +200,7 @@ export class Viewer {
     this.camera.zoom = 0.9 * Math.min(width / Math.max(size.x, 1e-3), height / Math.max(size.y, 1e-3));
     this.camera.updateProjectionMatrix();
     this.controls.update();
+    this.simplify();
     this.ask();
   }
 
@@ -279,20 +287,39 @@ export class Viewer {
   private upload(change: ReturnType<PathBuffer["update"]>): void {
     if (change === "none") return;
     const geometry = this.pathLines.geometry;
-    const index = geometry.getIndex()!;
-    const { count, segments } = this.path;
-    const first = change === "all" ? { points: 0, segments: 0 } : this.uploaded;
+    const { count } = this.path;
+    const first = change === "all" ? 0 : this.uploaded;
     const send = (attribute: BufferAttribute, from: number, to: number) => {
       // A frame may take several changes at once, so ranges add up until they were sent.
       if (change === "all") attribute.clearUpdateRanges();
       if (to > from) attribute.addUpdateRange(from, to - from);
       attribute.needsUpdate = true;
     };
-    send(geometry.getAttribute("position") as BufferAttribute, 3 * first.points, 3 * count);
-    send(geometry.getAttribute("color") as BufferAttribute, 3 * first.points, 3 * count);
-    send(index, 2 * first.segments, 2 * segments);
-    this.uploaded = { points: count, segments };
-    geometry.setDrawRange(0, 2 * segments);
+    send(geometry.getAttribute("position") as BufferAttribute, 3 * first, 3 * count);
+    send(geometry.getAttribute("color") as BufferAttribute, 3 * first, 3 * count);
+    this.uploaded = count;
+    this.simplify();
+  }
+
+  /** Leaves out of the path what is less than a fraction of a pixel at this zoom; more while the operator turns it. */
+  private simplify(): void {
+    const { zoom } = this.camera;
+    if (zoom > 1.4 * this.simplifiedFor || zoom < this.simplifiedFor / 2) this.simplifiedFor = zoom;
+    const from = this.path.simplify((this.turning ? 1.2 : 0.4) / this.simplifiedFor);
+    const geometry = this.pathLines.geometry;
+    const index = geometry.getIndex()!;
+    const count = this.path.drawnSegments;
+    if (from === 0) index.clearUpdateRanges();
+    if (count > from) index.addUpdateRange(2 * from, 2 * (count - from));
+    index.needsUpdate = true;
+    geometry.setDrawRange(0, 2 * count);
+    this.canvas.dataset.drawn = String(count);
+  }
+
+  private turn(on: boolean): void {
+    this.turning = on;
+    this.simplify();
+    this.ask();
   }
 
   private measure(): void {

@@ -57,6 +57,7 @@ export class History {
   /** How often the path was cleared. */
   cleared = 0;
   private lastTrace = -1;
+  private lastCycle = Infinity;
   private gap = true;
 
   record(seconds: number, state: MachineState, channel: Channel): void {
@@ -72,14 +73,16 @@ export class History {
     // The gateway sends every n-th cycle, n a power of two, from the first one on.
     const cycles = Math.max(1, (state.drive?.executed ?? 0) - trace.first + 1);
     const step = 2 ** Math.round(Math.log2(Math.max(1, cycles / Math.max(1, trace.rows.length))));
-    for (const row of trace.rows) {
+    trace.rows.forEach((row, index) => {
       const point = columns.map((column) => (column < 0 ? 0 : (row[column] ?? 0)));
       const last = this.path.length - 1;
       const moved = last < 0 || point.some((value, axis) => Math.abs(value - this.path.at(last, axis)) > 1e-3);
-      if (!moved) continue;
-      this.path.push([...point, channel.tool, step, this.gap ? 1 : 0]);
+      if (!moved) return;
+      const cycle = trace.first + index * step;
+      this.path.push([...point, channel.tool, cycle > this.lastCycle ? cycle - this.lastCycle : step, this.gap ? 1 : 0]);
+      this.lastCycle = cycle;
       this.gap = false;
-    }
+    });
   }
 
   /** Positions were missed: the next point is not joined to the last one. */

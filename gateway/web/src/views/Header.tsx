@@ -38,6 +38,7 @@ function ChannelTabs() {
 }
 
 function Elapsed({ number }: { number: number }) {
+  void machine.value.drive?.tick;  // what is shown changes with it
   const time = runTime(number);
   const period = cyclePeriod.value;
   if (time.ticks === 0 || period === undefined) return null;
