@@ -15,7 +15,7 @@ function EmergencyStop() {
     <button
       class={`estop ${stopped ? "engaged" : ""}`}
       data-test={stopped ? "estop-engaged" : "estop"}
-      aria-label={text.value.emergencyStop}
+      aria-label={`${stopped ? text.value.emergencyStopped : text.value.emergencyStopKey}: ${text.value.emergencyStop}`}
       title={text.value.emergencyStopAbout}
       {...onPress(pressEmergencyStop)}
     >
