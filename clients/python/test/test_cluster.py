@@ -3,10 +3,12 @@
 import math
 import os
 import pathlib
+import signal
 import subprocess
 import sys
 import tempfile
 import threading
+import time
 import unittest
 
 import trunnion
@@ -157,6 +159,26 @@ class Cluster(unittest.TestCase):
             self.assertEqual(second.channel().state.letters, "XYZAC")
         with self.assertRaises(trunnion.NotConnected):
             second.channel()
+
+    def test_a_gateway_that_is_killed_is_noticed_and_its_successor_answers(self):
+        gateway = next(one for one in self.machine.http.get("/api/status")["services"] if one["service"] == "gateway")
+        os.kill(gateway["pid"], signal.SIGKILL)
+        with self.assertRaises(trunnion.NotConnected):
+            self.machine.stream.wait(lambda state: False, 10)
+        with self.assertRaises(trunnion.NotConnected):
+            self.machine.alarms
+        self.machine.close()
+        until = time.monotonic() + 20
+        while True:
+            try:
+                type(self).machine = trunnion.connect(URL)
+                self.machine.stream.wait(lambda state: state.get("channels") and state.get("cluster", {}).get("ready"), 10)
+                break
+            except trunnion.Error:
+                self.assertLess(time.monotonic(), until, "no gateway answers")
+                time.sleep(0.1)
+        self.machine.recordings.command = COMMAND
+        self.addClassCleanup(self.machine.close)
 
 
 if __name__ == "__main__":
