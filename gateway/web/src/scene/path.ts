@@ -33,6 +33,7 @@ export type Change = { from: number } | "none" | "all";
 
 export class PathBuffer {
   readonly points: Float32Array;
+  /** Four bytes each: graphics cards read no three. */
   readonly colours: Uint8Array;
   readonly indices: Uint32Array;
   readonly speeds: Float32Array;
@@ -57,7 +58,7 @@ export class PathBuffer {
     // A quarter more, so that old points need not be dropped with every new one.
     const capacity = kept + (kept >> 2);
     this.points = new Float32Array(3 * capacity);
-    this.colours = new Uint8Array(3 * capacity);
+    this.colours = new Uint8Array(4 * capacity).fill(255);
     this.indices = new Uint32Array(2 * capacity);
     this.drawn = new Uint32Array(2 * capacity);
     this.speeds = new Float32Array(capacity);
@@ -183,13 +184,13 @@ export class PathBuffer {
   }
 
   private paint(i: number): void {
-    this.colours.set(speedColour(this.speeds[i]! / this.scale), 3 * i);
+    this.colours.set(speedColour(this.speeds[i]! / this.scale), 4 * i);
   }
 
   /** Drops the oldest points. */
   private drop(points: number): void {
     this.points.copyWithin(0, 3 * points, 3 * this.count);
-    this.colours.copyWithin(0, 3 * points, 3 * this.count);
+    this.colours.copyWithin(0, 4 * points, 4 * this.count);
     this.speeds.copyWithin(0, points, this.count);
     this.count -= points;
     this.restart(-1);

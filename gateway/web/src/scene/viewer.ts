@@ -16,6 +16,9 @@ import { PathBuffer } from "./path";
 export type FixedView = "front" | "right" | "top" | "space";
 export type Layer = "machine" | "travel" | "path";
 
+/** What a drawn path may be beside the executed one, in pixels. */
+const finePixels = 0.4;
+const mostWhileTurning = 12_000;
 const directionOf: Record<FixedView, Vector> = { front: [0, -1, 0], right: [1, 0, 0], top: [0, -1e-4, 1], space: [0.8, -1, 0.75] };
 const up = new Vector3(0, 1, 0);
 const vector = (v: Vector) => new Vector3(...v);
@@ -61,6 +64,7 @@ export class Viewer {
   private uploaded = 0;
   private simplifiedFor = 0;
   private turning = false;
+  private pixels = finePixels;
   private asked = 0;
   private size = 100;
   private following = false;
@@ -83,7 +87,7 @@ export class Viewer {
 
     const geometry = new BufferGeometry();
     geometry.setAttribute("position", new BufferAttribute(this.path.points, 3));
-    geometry.setAttribute("color", new BufferAttribute(this.path.colours, 3, true));
+    geometry.setAttribute("color", new BufferAttribute(this.path.colours, 4, true));
     geometry.setIndex(new BufferAttribute(this.path.drawn, 1));
     this.pathLines = new LineSegments(geometry, new LineBasicMaterial({ vertexColors: true }));
     this.pathLines.frustumCulled = false;
@@ -296,7 +300,7 @@ export class Viewer {
       attribute.needsUpdate = true;
     };
     send(geometry.getAttribute("position") as BufferAttribute, 3 * first, 3 * count);
-    send(geometry.getAttribute("color") as BufferAttribute, 3 * first, 3 * count);
+    send(geometry.getAttribute("color") as BufferAttribute, 4 * first, 4 * count);
     this.uploaded = count;
     this.simplify();
   }
@@ -305,7 +309,12 @@ export class Viewer {
   private simplify(): void {
     const { zoom } = this.camera;
     if (zoom > 1.4 * this.simplifiedFor || zoom < this.simplifiedFor / 2) this.simplifiedFor = zoom;
-    const from = this.path.simplify((this.turning ? 1.2 : 0.4) / this.simplifiedFor);
+    let from = this.path.simplify(this.pixels / this.simplifiedFor);
+    // While it turns the picture must be fluent: rather coarse than late.
+    while (this.turning && this.path.drawnSegments > mostWhileTurning && this.pixels < 8) {
+      this.pixels *= 2;
+      from = this.path.simplify(this.pixels / this.simplifiedFor);
+    }
     const geometry = this.pathLines.geometry;
     const index = geometry.getIndex()!;
     const count = this.path.drawnSegments;
@@ -318,6 +327,7 @@ export class Viewer {
 
   private turn(on: boolean): void {
     this.turning = on;
+    this.pixels = on ? 1.2 : finePixels;
     this.simplify();
     this.ask();
   }
