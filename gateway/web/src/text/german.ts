@@ -100,7 +100,7 @@ export const german: Texts = {
   modeReference: "Referenz",
   cycleStart: "NC-Start",
   reset: "Reset",
-  singleBlock: "Einzelsatz",
+  singleBlock: "Einzel\u00ADsatz",
   optionalStop: "Wahlhalt M1",
   feed: "Vorschub",
   rapid: "Eilgang",

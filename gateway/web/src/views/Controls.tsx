@@ -66,7 +66,7 @@ export function Controls() {
   if (!one) return null;
   const t = text.value;
   return (
-    <section class="controls" aria-label={t.operation}>
+    <section class={`controls ${channelList.value.length > 1 ? "several" : ""}`} aria-label={t.operation}>
       <div class="modes segments" role="group" aria-label={t.mode}>
         {modes.map(([mode, title]) => (
           <button
