@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Writes the reference tables of docs/ from the files that define their content: parameters, alarms, G and M codes, PLC registers.
+"""Writes the reference tables of docs/ from the files that define their content: parameters, alarms, G and M codes, PLC registers;
+and the alarm catalogue of the page.
 
 With --check nothing is written: differences are printed and the exit status is 1.
 """
-import argparse, difflib, os, re, sys, textwrap
+import argparse, difflib, json, os, re, sys, textwrap
 import yaml
 
 WIDTH = 120  # of a line of prose
@@ -78,9 +79,30 @@ def parameters():
     return out
 
 
+MACHINE_ALARMS = "libs/machine/alarms.yaml"
+
+
+def machine_alarms():
+    rows = sorted(yaml.safe_load(read(MACHINE_ALARMS))["alarms"], key=lambda a: a["number"])
+    for row in rows:
+        for key in ("cause", "remedy"):
+            if not row.get(key): fail(MACHINE_ALARMS, f"{row['name']}: {key} is missing")
+    return rows
+
+
+def alarm_catalogue():
+    """What the page shows below the text of an alarm; the NC language's alarms name cause and place in their texts."""
+    out = ["// SPDX-License-Identifier: Apache-2.0", f"// Generated from {MACHINE_ALARMS} by tools/generate_docs.py.", "",
+           "/** Usual cause of an alarm and what the operator does, by its number. */",
+           "export const alarmCatalogue: Readonly<Record<number, { cause: string; remedy: string }>> = {"]
+    for a in machine_alarms():
+        out += [f"  {a['number']}: {{", f"    cause: {json.dumps(a['cause'], ensure_ascii=False)},", f"    remedy: {json.dumps(a['remedy'], ensure_ascii=False)},", "  },"]
+    return out + ["};"]
+
+
 def alarms():
-    machine, language = "libs/machine/alarms.yaml", "libs/language/alarms.hpp"
-    rows = [(a["number"], f"`{a['name']}`", a["severity"], a["reaction"], a["about"], a["text"]) for a in sorted(yaml.safe_load(read(machine))["alarms"], key=lambda a: a["number"])]
+    machine, language = MACHINE_ALARMS, "libs/language/alarms.hpp"
+    rows = [(a["number"], f"`{a['name']}`", a["severity"], a["reaction"], a["about"], a["text"], a["cause"], a["remedy"]) for a in machine_alarms()]
     block = re.search(r"enum class AlarmNumber[^{]*\{(.*?)\};", read(language), re.S)
     if not block: fail(language, "enum AlarmNumber is not there")
     numbers = {name: int(value) for name, value in re.findall(r"(\w+)\s*=\s*(\d+)", block.group(1))}
@@ -92,7 +114,7 @@ def alarms():
            "to 113 the drive also brakes by itself; for 130 and 133 it brakes and switches the axes off. [faults.md](faults.md) describes the "
            "reaction to the loss of a process. *about*: the subject of the alarm. A reset of one channel clears the alarms about that channel and "
            "its axes, gantry slaves included, and all that the process of the channel has raised.", "", "## Machine and cluster", ""]
-    out += table(("number", "name", "severity", "reaction", "about", "text"), rows)
+    out += table(("number", "name", "severity", "reaction", "about", "text", "usual cause", "remedy"), rows)
     out += ["", "## NC language", "", "Severity *error*, reaction *show*: the program ends at the fault. The text names the place, `program:line:column`, and the word.", ""]
     return out + table(("number", "text"), [(numbers[n], texts[n]) for n in sorted(texts, key=numbers.get)])
 
@@ -198,7 +220,14 @@ def registers():
     return out + table(("name", "address", "step", "meaning"), rows)
 
 
-DOCUMENTS = {"parameters.md": parameters, "alarms.md": alarms, "codes.md": codes, "macros.md": macros, "plc-registers.md": registers}
+def paragraphs(lines): return [line for paragraph in lines for line in wrapped(paragraph)]
+
+
+OUTPUTS = {
+    "docs/parameters.md": lambda: paragraphs(parameters()), "docs/alarms.md": lambda: paragraphs(alarms()), "docs/codes.md": lambda: paragraphs(codes()),
+    "docs/macros.md": lambda: paragraphs(macros()), "docs/plc-registers.md": lambda: paragraphs(registers()),
+    "gateway/web/src/alarm_catalogue.ts": alarm_catalogue,
+}
 
 
 def main():
@@ -206,9 +235,9 @@ def main():
     parser.add_argument("--check", action="store_true", help="compare with the committed files instead of writing them")
     check = parser.parse_args().check
     stale = False
-    for name, make in DOCUMENTS.items():
-        path = os.path.join(ROOT, "docs", name)
-        text = "\n".join(line for paragraph in make() for line in wrapped(paragraph)).rstrip("\n") + "\n"
+    for name, make in OUTPUTS.items():
+        path = os.path.join(ROOT, name)
+        text = "\n".join(make()).rstrip("\n") + "\n"
         old = ""
         if os.path.exists(path):
             with open(path, encoding="utf-8") as f: old = f.read()
@@ -217,8 +246,8 @@ def main():
             with open(path, "w", encoding="utf-8") as f: f.write(text)
             continue
         stale = True
-        sys.stdout.writelines(difflib.unified_diff(old.splitlines(True), text.splitlines(True), f"docs/{name}", "as generated"))
-    if stale: sys.exit("docs/ differs from the output of tools/generate_docs.py: run it and commit the result")
+        sys.stdout.writelines(difflib.unified_diff(old.splitlines(True), text.splitlines(True), name, "as generated"))
+    if stale: sys.exit("a committed file differs from the output of tools/generate_docs.py: run it and commit the result")
 
 
 if __name__ == "__main__":

@@ -47,6 +47,7 @@ as_user bash -c 'source /usr/share/bash-completion/completions/trunnion && COMP_
 grep -q '^\.TH TRUNNION' "$root/usr/share/man/man1/trunnion.1"
 as_user trunnion up ac-table --time virtual --domain "$domain" --port "$((18000 + domain))" > "$root/tmp/up.log" 2>&1 || { cat "$root/tmp/up.log"; exit 1; }
 as_user curl -fsS "http://127.0.0.1:$((18000 + domain))/" | grep -q '<html' || { echo "the page is not served"; exit 1; }
+as_user env PYTHONDONTWRITEBYTECODE=1 python3 /usr/share/doc/python3-trunnion/examples/following_error.py "http://127.0.0.1:$((18000 + domain))" rtcp.nc
 as_user trunnion down --domain "$domain"
 as_user bash -c "cd /tmp/home && trunnion run ac-table nas979_cone --report /tmp/home/report" | tail -n 3
 [ -f "$root/tmp/home/report/path.svg" ] || { echo "the run has left no report"; exit 1; }
@@ -93,7 +94,7 @@ for example in compensation-in-c listener-in-c listener-in-cpp; do
 done
 
 echo "== purge"
-in_root bash -c 'dpkg -P $(dpkg-query -W -f "\${Package} " "trunnion*")' > "$root/tmp/purge.log" 2>&1 || { cat "$root/tmp/purge.log"; exit 1; }
+in_root bash -c 'dpkg -P $(dpkg-query -W -f "\${Package} " "trunnion*" python3-trunnion)' > "$root/tmp/purge.log" 2>&1 || { cat "$root/tmp/purge.log"; exit 1; }
 files > "$root/tmp/after"
 # Adding and removing a user leaves backups of the tables of users, and an updated count of none of our files.
 left=$(diff "$root/tmp/before" "$root/tmp/after" | grep -vE '^[<>] /etc/(passwd|group|shadow|gshadow|subuid|subgid)-?$|^[0-9,]+[acd][0-9,]+$' || true)

@@ -1,81 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
 // The page in a real browser against a real gateway. By default it starts a gateway and a fake cluster of its own;
 // with TRUNNION_URL it uses the cluster that runs there and leaves out what only the fake one can be asked.
-import { spawn } from "node:child_process";
-import { mkdtempSync, mkdirSync, rmSync } from "node:fs";
-import { createServer } from "node:net";
-import { tmpdir } from "node:os";
-import { join } from "node:path";
-import { chromium } from "playwright-core";
-
-const { TRUNNION_URL, GATEWAY, FAKE_CLUSTER, MACHINE, WEB } = process.env;
-const screenshots = process.env.SCREENSHOTS ?? join(tmpdir(), "trunnion-screenshots");
-mkdirSync(screenshots, { recursive: true });
-const scratch = mkdtempSync(join(tmpdir(), "trunnion-browser-"));
-const children = [];
-let cluster = "";
-
-function start(program, args) {
-  const child = spawn(program, args, { stdio: ["ignore", "pipe", "inherit"] });
-  children.push(child);
-  return child;
-}
-
-function freePort() {
-  return new Promise((resolve) => {
-    const server = createServer().listen(0, "127.0.0.1", () => {
-      const { port } = server.address();
-      server.close(() => resolve(port));
-    });
-  });
-}
-
-async function eventually(what, condition, seconds = 10) {
-  const until = Date.now() + seconds * 1000;
-  for (;;) {
-    const result = await condition();
-    if (result) return result;
-    if (Date.now() > until) throw new Error(`not within ${seconds} s: ${what}`);
-    await new Promise((resolve) => setTimeout(resolve, 50));
-  }
-}
-
-function check(what, condition) {
-  if (!condition) throw new Error(`does not hold: ${what}`);
-  console.log(`ok   ${what}`);
-}
-
-async function startCluster() {
-  const port = await freePort();
-  start(FAKE_CLUSTER, ["51"]).stdout.on("data", (text) => (cluster += text));
-  const gateway = ["--machine", MACHINE, "--state", scratch, "--domain", "51", "--web", WEB, "--port", String(port)];
-  start(GATEWAY, [...gateway, "--instance", "20"]);
-  const url = `http://127.0.0.1:${port}/`;
-  await eventually("the gateway answers", () => fetch(`${url}api/channels/0`).then((r) => r.ok, () => false));
-  return url;
-}
+import { appearance } from "./appearance.mjs";
+import {
+  check, cleanUp, cluster, coveredStops, eventually, killGateway, launch, openPage, overflowing, screenshots, shot, startCluster,
+  TRUNNION_URL,
+} from "./harness.mjs";
+import { operate } from "./operate.mjs";
+import { scene } from "./scene.mjs";
 
 async function run(page, url) {
-  const complaints = [];
-  page.on("pageerror", (error) => complaints.push(String(error)));
-  page.on("console", (message) => message.type() === "error" && complaints.push(message.text()));
   const text = (selector) => page.locator(selector).first().innerText();
+  const shown = (name) => page.locator(`[data-test="${name}"]`).getAttribute(`data-${name}`);
   const at = (name) => page.locator(`[data-test="${name}"]`);
-  const shot = (name) => page.screenshot({ path: join(screenshots, `${name}.png`) });
-
-  await page.goto(url);
-  await page.waitForSelector(".positions");
   check("the machine has a name", (await text('[data-test="machine"]')).length > 0);
   check("nothing covers the page when the connection is there", (await page.locator(".lost").count()) === 0);
-  const overflow = () =>
-    page.evaluate(() => {
-      const root = document.documentElement;
-      return [...document.querySelectorAll("section, header")]
-        .filter((element) => !element.classList.contains("services"))
-        .filter((element) => element.scrollWidth > element.clientWidth + 1 || element.scrollHeight > element.clientHeight + 1)
-        .map((element) => `${element.tagName}.${element.className} ${element.scrollWidth}x${element.scrollHeight} in ${element.clientWidth}x${element.clientHeight}`)
-        .concat(root.scrollHeight > innerHeight || root.scrollWidth > innerWidth ? ["page"] : []);
-    });
-
   const refuse = page.waitForResponse((response) => response.url().endsWith("/mdi"));
   await at("mdi").fill("?? X1");
   await at("mdi-send").click();
@@ -87,11 +26,11 @@ async function run(page, url) {
 
   if (!TRUNNION_URL) {
     await at("mode-AUTO").click();
-    await eventually("automatic mode", async () => (await text('[data-test="mode"]')) === "AUTO");
+    await eventually("automatic mode", async () => (await shown("mode")) === "AUTO");
     await at("cycle-start").click();
     await eventually("the request arrives", () => cluster.includes("CYCLE_START"));
     check("cycle start arrives at the channel", true);
-    await eventually("running", async () => (await text('[data-test="state"]')) === "RUNNING");
+    await eventually("running", async () => (await shown("state")) === "RUNNING");
     const seen = new Set();
     await eventually("positions change", async () => seen.add(await text('[data-test="position-X"]')).size >= 5);
     check("positions change", true);
@@ -99,12 +38,12 @@ async function run(page, url) {
     await eventually("the current line moves", async () => (await text('[data-test="current-line"]')) !== marked);
     check("the current line is shown and moves", /^G1 X/.test(marked));
     await page.waitForTimeout(6000);
-    const covered = await overflow();
-    check(`everything fits at 1440x900 ${covered}`, covered.length === 0);
-    await shot("operate");
+    const covered = await overflowing(page);
+    check(`everything fits at 1280x800 ${covered}`, covered.length === 0);
+    await shot(page, "operate");
     await at("plots").click();
     await page.waitForTimeout(700);
-    await shot("plots");
+    await shot(page, "plots");
     await page.getByRole("tab", { name: "Tool path" }).click();
 
     await at("functions").click();
@@ -121,24 +60,24 @@ async function run(page, url) {
     await at("from-line").fill("40");
     await at("search-line").click();
     await eventually("the line is asked for", () => cluster.includes("START_FROM_LINE"));
-    const covered_by_functions = await overflow();
+    const covered_by_functions = await overflowing(page);
     check(`the functions fit ${covered_by_functions}`, covered_by_functions.length === 0);
-    await shot("functions");
+    await shot(page, "functions");
     await at("dry-run").click();
     await at("lock-X").click();
     await at("handwheel-offset").click();
     await page.getByRole("tab", { name: "Tool path" }).click();
     await at("cycle-start").click();
-    await eventually("running again", async () => (await text('[data-test="state"]')) === "RUNNING");
+    await eventually("running again", async () => (await shown("state")) === "RUNNING");
 
     await at("feed-hold").click();
-    await eventually("held", async () => (await text('[data-test="state"]')) === "HELD");
+    await eventually("held", async () => (await shown("state")) === "HELD");
     check("feed hold holds", true);
     await at("reset").click();
-    await eventually("reset", async () => (await text('[data-test="state"]')) === "IDLE");
+    await eventually("reset", async () => (await shown("state")) === "IDLE");
 
     await at("mode-JOG").click();
-    await eventually("jog mode", async () => (await text('[data-test="mode"]')) === "JOG");
+    await eventually("jog mode", async () => (await shown("mode")) === "JOG");
     const box = await at("jog-X+").boundingBox();
     await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
     await page.mouse.down();
@@ -152,7 +91,7 @@ async function run(page, url) {
     await at("estop").click();
     await page.waitForSelector('[data-test="recover"]');
     check("an emergency stop changes the header", (await text(".estop")) === "STOPPED");
-    await shot("emergency-stop");
+    await shot(page, "emergency-stop");
     await at("recover").click();
     await page.waitForSelector('[data-test="estop"]');
   }
@@ -167,20 +106,20 @@ async function run(page, url) {
   check("a refused parameter shows the reason", (await text('[data-test="parameter-refusal"]')).length > 10);
   await at("parameter-search").fill("");
   await page.waitForTimeout(400);
-  await shot("parameters");
+  await shot(page, "parameters");
   await at("view-offsets").click();
   if (TRUNNION_URL) {
     const table = () => fetch(`${url}api/work-offsets`).then((answer) => answer.json());
     const g55 = (body) => body.offsets.find((offset) => offset.channel === 0 && offset.index === 1)?.values[1] ?? 0;
     const cell = page.getByLabel("G55 Y");
-    const shown = async () => (await cell.inputValue()).replace("\u2212", "-");
+    const value = async () => (await cell.inputValue()).replace("\u2212", "-");
     await cell.click();
     await page.keyboard.type("-123.45678", { delay: 120 });
     const typed = await cell.inputValue();
     check(`a work offset can be typed at the speed of a hand: ${typed}`, typed === "-123.45678");
     await page.keyboard.press("Enter");
     await eventually("the offset is stored with every digit", async () => g55(await table()) === -123.45678);
-    await eventually("and shown rounded", async () => (await shown()) === "-123.457");
+    await eventually("and shown rounded", async () => (await value()) === "-123.457");
     const { revision } = await table();
     await cell.click();
     await page.keyboard.press("Tab");
@@ -189,34 +128,34 @@ async function run(page, url) {
     await cell.click();
     await page.keyboard.type("77");
     await page.keyboard.press("Escape");
-    check("Escape leaves a cell as it was", (await shown()) === "-123.457" && g55(await table()) === -123.45678);
+    check("Escape leaves a cell as it was", (await value()) === "-123.457" && g55(await table()) === -123.45678);
     const late = { channel: 0, index: 1, values: [1, 2, 3, 0, 0, 0, 0, 0, 0], revision: revision - 1 };
     const refused = await fetch(`${url}api/work-offsets`, { method: "PUT", body: JSON.stringify(late) });
     check("a change made on old values is refused", refused.status === 409);
   }
   await page.waitForTimeout(300);
-  await shot("offsets");
+  await shot(page, "offsets");
   await at("view-diagnosis").click();
   await page.waitForSelector(".registers, .plc p");
   await page.waitForTimeout(700);
-  await shot("diagnosis");
+  await shot(page, "diagnosis");
   await page.keyboard.press("Alt+1");
   await page.waitForSelector(".positions");
   check("Alt+1 goes back to the operating view", true);
   await page.setViewportSize({ width: 1024, height: 768 });
   await page.waitForTimeout(700);
-  await shot("small");
-  const small = await overflow();
+  await shot(page, "small");
+  const small = await overflowing(page);
   check(`everything fits at 1024x768 ${small}`, small.length === 0);
-  // The two refusals above are logged by the browser itself; nothing else may be.
-  const unexpected = complaints.filter((line) => !/status of 4(00|09)/.test(line));
-  check(`the page has no errors ${unexpected}`, unexpected.length === 0);
+  check(`the page has no errors ${page.complaints}`, page.complaints.length === 0);
 
   if (!TRUNNION_URL) {
-    children[1].kill("SIGKILL");
+    killGateway();
     await page.waitForSelector(".lost h1");
     check("a lost connection is unmistakable", (await text(".lost h1")) === "Connection lost");
-    await shot("lost");
+    const covered = await coveredStops(page);
+    check(`and does not cover the keys that stop ${covered}`, covered.length === 0);
+    await shot(page, "lost");
   }
 }
 
@@ -224,27 +163,25 @@ let browser;
 let status = 1;
 try {
   const url = TRUNNION_URL ?? (await startCluster());
-  browser = await chromium.launchPersistentContext(join(scratch, "profile"), {
-    executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium",
-    viewport: { width: 1440, height: 900 },
-    args: [
-      "--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
-      "--disable-background-networking", "--disable-component-update", "--disable-sync", "--no-first-run",
-      "--disable-quic",
-    ],
-  });
-  const page = await browser.newPage();
-  await run(page, url).catch(async (error) => {
-    await page.screenshot({ path: join(screenshots, "failure.png") });
+  browser = await launch();
+  const parts = process.argv.slice(2);
+  const wanted = (part) => parts.length === 0 || parts.includes(part);
+  try {
+    if (TRUNNION_URL && wanted("operate")) await operate(browser, url);
+    if (TRUNNION_URL && wanted("scene")) await scene(browser, url);
+    if (TRUNNION_URL && wanted("appearance")) await appearance(browser, url);
+    if (wanted("page")) await run(await openPage(browser, url), url);
+  } catch (error) {
+    const pages = browser.contexts().flatMap((context) => context.pages());
+    if (pages[0]) await shot(pages[pages.length - 1], "failure");
     throw error;
-  });
+  }
   console.log(`screenshots in ${screenshots}`);
   status = 0;
 } catch (error) {
   console.error(error);
 } finally {
   await browser?.close();
-  for (const child of children) child.kill("SIGTERM");
-  rmSync(scratch, { recursive: true, force: true });
+  cleanUp();
 }
 process.exit(status);

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The gateway's HTTP side. An answer is never thrown: a refusal is something the operator must read.
+import { text } from "./text/texts";
+
 export type { Parameter, PlcImage, ProgramEntry, Tool, WorkOffset } from "./contract";
 
 export interface Answer<T = unknown> {
@@ -19,8 +21,8 @@ interface Refusal {
 
 function reasonOf(status: number, body: unknown): string {
   const refusal = (body ?? {}) as Refusal;
-  const text = refusal.reason || refusal.error || `the gateway answered ${status}`;
-  return refusal.alarm ? `${text} (alarm ${refusal.alarm})` : text;
+  const reason = refusal.reason || refusal.error || text.peek().gatewayAnswered(status);
+  return refusal.alarm ? `${reason} (${text.peek().alarmNumber(refusal.alarm)})` : reason;
 }
 
 /** To an order that came by the stream. */
@@ -41,7 +43,7 @@ async function call<T>(method: string, path: string, body?: BodyInit, type?: str
     const parsed: unknown = await response.json().catch(() => undefined);
     return answerOf<T>(response.status, parsed);
   } catch {
-    return { ok: false, status: 0, body: undefined, reason: "no connection to the gateway" };
+    return { ok: false, status: 0, body: undefined, reason: text.peek().noConnection };
   }
 }
 

@@ -47,6 +47,6 @@ export function limits(minimum: number | undefined, maximum: number | undefined)
 }
 
 /** "mm/min|deg/min" of the catalogue -> "mm/min or °/min". */
-export function unit(text: string): string {
-  return text.replace(/deg/g, "°").replace(/\|/g, " or ").replace(/2$|2(?= )/g, "²");
+export function unit(text: string, or = "or"): string {
+  return text.replace(/deg/g, "°").replace(/\|/g, ` ${or} `).replace(/2$|2(?= )/g, "²");
 }

@@ -2,8 +2,12 @@
 import { render } from "preact";
 import "uplot/dist/uPlot.min.css";
 import "./style.css";
+import { readCyclePeriod } from "./state/cycle_period";
+import { applyPreferences } from "./state/preferences";
 import { connect } from "./state/store";
 import { Page } from "./views/Page";
 
+applyPreferences();
 connect();
+readCyclePeriod();
 render(<Page />, document.getElementById("page")!);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import { expect, test } from "vitest";
 import { allLocks, levelsWith, locksWith, offsets, reminders } from "../src/state/functions";
+import { english } from "../src/text/english";
 import { canStart, type Channel, emptyState } from "../src/state/model";
 
 const channel = {
@@ -22,10 +23,10 @@ test("the lock of all axes locks the rest, and unlocks when all are locked", () 
 
 test("what changes a program is listed, and nothing else", () => {
   expect(offsets(channel)).toEqual(["Y -0.500"]);
-  expect(reminders(channel)).toEqual(["dry run", "lock Y", "offset Y -0.500"]);
+  expect(reminders(channel, english)).toEqual(["dry run", "lock Y", "offset Y -0.500"]);
   const plain = { ...channel, dry_run: false, locked: [0, 0, 0], handwheel_offset_on: false };
-  expect(reminders(plain)).toEqual([]);
-  expect(reminders({ ...plain, suspended: true, retracing: true, auxiliary_lock: true })).toEqual([
+  expect(reminders(plain, english)).toEqual([]);
+  expect(reminders({ ...plain, suspended: true, retracing: true, auxiliary_lock: true }, english)).toEqual([
     "M S T lock", "retrace", "program held",
   ]);
 });

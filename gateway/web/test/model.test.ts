@@ -69,8 +69,8 @@ test("the way out of a stop: the emergency stop, then alarms that hold, then cha
     ...emptyState, plc: { emergency_stop: true, feed_hold: false, coolant: [], spindle_speed: [] },
     alarms: { a: alarm("AXIS_STOP") }, channels: { "0": { ...channel, needs_reset: true }, "1": { ...channel, name: "Loader" } },
   };
-  expect(recoverySteps(stopped).map((step) => step.title)).toEqual(
-    ["release the emergency stop", "reset alarms", "reset channel 0"]);
+  expect(recoverySteps(stopped).map((step) => [step.kind, step.channel?.channel])).toEqual(
+    [["release", undefined], ["alarms", undefined], ["channel", 0]]);
   expect(recoverySteps({ ...emptyState, alarms: { a: alarm("SHOW") }, channels: { "0": channel } })).toEqual([]);
 });
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the switches of a program show and send.
+import type { Texts } from "../text/texts";
 import type { Channel } from "./model";
 
 export const skipLevels = [1, 2, 3, 4, 5, 6, 7, 8, 9];
@@ -32,14 +33,14 @@ export function offsets(channel: Channel): string[] {
 }
 
 /** What is switched on and changes what a program does: the operator must not forget it. */
-export function reminders(channel: Channel): string[] {
+export function reminders(channel: Channel, text: Texts): string[] {
   const locked = [...channel.letters].filter((_, i) => channel.locked[i] === 1).join("");
   return [
-    ...(channel.dry_run ? ["dry run"] : []),
-    ...(locked ? [`lock ${locked}`] : []),
-    ...(channel.auxiliary_lock ? ["M S T lock"] : []),
-    ...(channel.handwheel_offset_on ? [["offset", ...offsets(channel)].join(" ")] : []),
-    ...(channel.retracing ? ["retrace"] : []),
-    ...(channel.suspended ? ["program held"] : []),
+    ...(channel.dry_run ? [text.reminderDryRun] : []),
+    ...(locked ? [text.reminderLock(locked)] : []),
+    ...(channel.auxiliary_lock ? [text.reminderAuxiliary] : []),
+    ...(channel.handwheel_offset_on ? [[text.reminderOffset, ...offsets(channel)].join(" ")] : []),
+    ...(channel.retracing ? [text.reminderRetrace] : []),
+    ...(channel.suspended ? [text.reminderHeld] : []),
   ];
 }

@@ -4,7 +4,7 @@ import type { Channel, MachineState } from "./model";
 
 /** Samples in the order they came; the oldest fall out. */
 export class Ring {
-  private readonly values: Float64Array;
+  private readonly values: Float64Array | Float32Array;
   private start = 0;
   length = 0;
   /** Counts every row ever pushed, so that a reader knows what is new. */
@@ -13,8 +13,9 @@ export class Ring {
   constructor(
     readonly capacity: number,
     readonly columns: number,
+    Values: typeof Float64Array | typeof Float32Array = Float64Array,
   ) {
-    this.values = new Float64Array(capacity * columns);
+    this.values = new Values(capacity * columns);
   }
 
   push(row: ArrayLike<number>): void {
@@ -38,6 +39,12 @@ export class Ring {
   }
 }
 
+/** Points of the executed path that are kept. */
+export const pathCapacity = 200_001;
+/** Columns of the path: the axes X Y Z A B C U V W, the tool, cycles since the row before, and whether a gap is before. */
+export const pathColumns = { axes: 9, tool: 9, cycles: 10, gap: 11 } as const;
+const letters = "XYZABCUVW";
+
 export const historySeconds = 30;
 export const maxAxes = 9;
 const samplesPerSecond = 20;
@@ -45,9 +52,13 @@ const samplesPerSecond = 20;
 /** Time in s, feed in mm/min, then the peak following error of each axis of one channel in mm or degrees. */
 export class History {
   readonly samples = new Ring(historySeconds * samplesPerSecond, 2 + maxAxes);
-  /** X, Y, Z in mm, machine coordinates, actual. */
-  readonly path = new Ring(20000, 3);
+  /** Actual positions in machine coordinates, mm and degrees: pathColumns. */
+  readonly path = new Ring(pathCapacity, 12, Float32Array);
+  /** How often the path was cleared. */
+  cleared = 0;
   private lastTrace = -1;
+  private lastCycle = Infinity;
+  private gap = true;
 
   record(seconds: number, state: MachineState, channel: Channel): void {
     const errors = channel.axes.map((number) => Math.abs(state.axes[String(number)]?.following_peak ?? 0));
@@ -55,20 +66,34 @@ export class History {
     const trace = state.trace;
     if (!trace || trace.first === this.lastTrace) return;
     this.lastTrace = trace.first;
-    const columns = ["X", "Y", "Z"].map((letter) => {
+    const columns = [...letters].map((letter) => {
       const number = channel.axes[channel.letters.indexOf(letter)];
       return number === undefined ? -1 : trace.axes.indexOf(number);
     });
-    for (const row of trace.rows) {
+    // The gateway sends every n-th cycle, n a power of two, from the first one on.
+    const cycles = Math.max(1, (state.drive?.executed ?? 0) - trace.first + 1);
+    const step = 2 ** Math.round(Math.log2(Math.max(1, cycles / Math.max(1, trace.rows.length))));
+    trace.rows.forEach((row, index) => {
       const point = columns.map((column) => (column < 0 ? 0 : (row[column] ?? 0)));
       const last = this.path.length - 1;
       const moved = last < 0 || point.some((value, axis) => Math.abs(value - this.path.at(last, axis)) > 1e-3);
-      if (moved) this.path.push(point);
-    }
+      if (!moved) return;
+      const cycle = trace.first + index * step;
+      this.path.push([...point, channel.tool, cycle > this.lastCycle ? cycle - this.lastCycle : step, this.gap ? 1 : 0]);
+      this.lastCycle = cycle;
+      this.gap = false;
+    });
+  }
+
+  /** Positions were missed: the next point is not joined to the last one. */
+  interrupt(): void {
+    this.gap = true;
   }
 
   clear(): void {
     this.samples.clear();
     this.path.clear();
+    this.cleared += 1;
+    this.gap = true;
   }
 }

@@ -19,7 +19,7 @@ export interface Stream {
 
 export const emptyStream: Stream = { sequence: 0, state: emptyState };
 
-/** The stream after a message, or null when the message does not fit it and the client must connect anew. */
+/** The stream after a message, or null when the message does not fit it and the client must connect again. */
 export function receive(stream: Stream, message: Message): Stream | null {
   if ("state" in message) {
     return { sequence: message.sequence, state: { ...emptyState, ...(message.state as unknown as MachineState) } };
@@ -102,19 +102,20 @@ export function failingLine(state: MachineState, channel: ChannelState): number 
 
 /** What leads out of an emergency stop or a stop by an alarm, in this order; nothing moves by it. */
 export interface RecoveryStep {
-  title: string;
+  kind: "release" | "alarms" | "channel";
+  /** Of a channel's reset. */
+  channel?: ChannelState;
   paths: string[];
 }
 
 export function recoverySteps(state: MachineState): RecoveryStep[] {
   const steps: RecoveryStep[] = [];
   if (state.plc?.emergency_stop)
-    steps.push({ title: "release the emergency stop", paths: ["/api/panel/release", "/api/panel/reset"] });
-  if (holdingAlarms(state).length > 0) steps.push({ title: "reset alarms", paths: ["/api/alarms/reset"] });
+    steps.push({ kind: "release", paths: ["/api/panel/release", "/api/panel/reset"] });
+  if (holdingAlarms(state).length > 0) steps.push({ kind: "alarms", paths: ["/api/alarms/reset"] });
   for (const number of channelNumbers(state)) {
     const one = state.channels[String(number)]!;
-    if (one.needs_reset)
-      steps.push({ title: `reset ${one.name || `channel ${number}`}`, paths: [`/api/channels/${number}/reset`] });
+    if (one.needs_reset) steps.push({ kind: "channel", channel: one, paths: [`/api/channels/${number}/reset`] });
   }
   return steps;
 }

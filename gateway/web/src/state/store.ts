@@ -3,8 +3,10 @@
 import { computed, signal } from "@preact/signals";
 import { type Answer, answerOf, type OrderAnswer, post } from "../api";
 import type { ChannelCommands } from "../contract";
+import { text } from "../text/texts";
 import { History } from "./history";
 import { channelNumbers, emptyStream, type Message, receive, type Stream } from "./model";
+import { RunTime } from "./run_time";
 
 const stream = signal<Stream>(emptyStream);
 export const machine = computed(() => stream.value.state);
@@ -12,7 +14,7 @@ export const machine = computed(() => stream.value.state);
 /** connecting: never heard of the gateway; lost: what is shown is old. */
 export const connection = signal<"connecting" | "live" | "lost">("connecting");
 
-export type ViewName = "operate" | "parameters" | "offsets" | "diagnosis";
+export type ViewName = "operate" | "scene" | "parameters" | "offsets" | "diagnosis";
 export const view = signal<ViewName>("operate");
 
 const chosenChannel = signal<number | null>(null);
@@ -34,6 +36,18 @@ export function history(number: number): History {
   const fresh = new History();
   histories.set(number, fresh);
   return fresh;
+}
+
+const runTimes = new Map<number, RunTime>();
+export function runTime(number: number): RunTime {
+  const known = runTimes.get(number) ?? new RunTime();
+  runTimes.set(number, known);
+  return known;
+}
+
+/** The channel's name, or its number in words. */
+export function channelName(one: { channel: number; name: string }): string {
+  return one.name || text.value.channelNumber(one.channel);
 }
 
 export function chooseChannel(number: number): void {
@@ -93,6 +107,12 @@ export async function stop(what: string, path: string, body: object = {}): Promi
   return answer.ok;
 }
 
+/** Feed hold of every channel: pressed in haste, it means the machine and not the channel that is shown. */
+export function holdAll(): void {
+  const list = channelList.peek();
+  for (const number of list.length > 0 ? list : [0]) void stop(text.peek().feedHold, `/api/channels/${number}/feed-hold`);
+}
+
 /** False when the press has ended; the operator sees the axis stop, so nothing is told. */
 export async function renewJog(channel: number, press: number): Promise<boolean> {
   const path = `/api/channels/${channel}/jog-renew`;
@@ -150,7 +170,11 @@ export function connect(): void {
     stream.value = next;
     connection.value = "live";
     const now = performance.now() / 1000;
-    for (const one of Object.values(next.state.channels)) history(one.channel).record(now, next.state, one);
+    for (const one of Object.values(next.state.channels)) {
+      if (next.state.drive) runTime(one.channel).observe(one, next.state.drive.tick);
+      if ("state" in message) history(one.channel).interrupt();
+      history(one.channel).record(now, next.state, one);
+    }
   };
   opened.onclose = end;
   opened.onerror = end;

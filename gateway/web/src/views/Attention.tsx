@@ -1,67 +1,99 @@
 // SPDX-License-Identifier: Apache-2.0
-// The strip below the header, in every view: the first alarm, how many there are, and the way out of a stop.
+// The alarm strip below the state bar, in every view: how many alarms there are, the first one with its cause and
+// remedy, and what leads back after a stop. Its place is always reserved, so that nothing moves when an alarm comes.
 import { useSignal } from "@preact/signals";
-import { holdingAlarms, recoverySteps, sortedAlarms } from "../state/model";
-import { channelList, channels, machine, request, tell, view } from "../state/store";
+import { explanation } from "../state/alarms";
+import { holdingAlarms, type RecoveryStep, recoverySteps, sortedAlarms } from "../state/model";
+import { channelList, channelName, channels, machine, request, tell } from "../state/store";
+import { text } from "../text/texts";
+import { AlarmList } from "./Alarms";
 
-const patience = 3000;
+const timeOut = 3000;
+
+function titleOf(step: RecoveryStep): string {
+  const t = text.value;
+  if (step.kind === "release") return t.releaseEmergencyStop;
+  return step.kind === "alarms" ? t.resetAlarmsStep : t.resetChannelStep(step.channel ? channelName(step.channel) : "");
+}
 
 /** Carries the steps out one after the other; false when one is refused or does not take effect. */
 async function recover(): Promise<boolean> {
-  const until = performance.now() + patience;
+  const until = performance.now() + timeOut;
   let done = "";
   while (performance.now() < until) {
     const step = recoverySteps(machine.peek())[0];
     if (!step) return true;
-    if (step.title !== done) {
-      for (const path of step.paths) if (!(await request("Recovery", path))) return false;
-      done = step.title;
+    const title = titleOf(step);
+    if (title !== done) {
+      for (const path of step.paths) if (!(await request(text.peek().recovery, path))) return false;
+      done = title;
     }
     await new Promise((resolve) => setTimeout(resolve, 100));
   }
-  tell(`Recovery: "${done}" had no effect, its cause is still there`, true);
+  tell(text.peek().recoveryNoEffect(done), true);
   return false;
 }
 
-export function Attention() {
+function Recovery({ steps }: { steps: RecoveryStep[] }) {
   const busy = useSignal(false);
+  const t = text.value;
+  return (
+    <div class="recovery">
+      <span>{steps.map(titleOf).join(", ")}</span>
+      <button
+        class="primary"
+        data-test="recover"
+        disabled={busy.value}
+        onClick={() => {
+          busy.value = true;
+          void recover().finally(() => (busy.value = false));
+        }}
+      >
+        {busy.value ? t.recovering : t.recover}
+      </button>
+    </div>
+  );
+}
+
+export function Attention() {
+  const open = useSignal(false);
   const state = machine.value;
+  const t = text.value;
   const alarms = sortedAlarms(state);
   const steps = recoverySteps(state);
   const left = channelList.value.map((number) => channels.value[String(number)]!).filter((one) => one.restart_line > 0);
   const first = alarms[0];
-  if (!first && steps.length === 0 && left.length === 0) return null;
+  const why = first && explanation(first, t);
+  const kind = holdingAlarms(state).length > 0 || steps.length > 0 ? "bad" : first || left.length > 0 ? "warn" : "quiet";
+  const listed = open.value && alarms.length > 0;
   return (
-    <div class={`attention ${holdingAlarms(state).length > 0 || steps.length > 0 ? "bad" : "warn"}`} role="alert" data-test="attention">
-      {first && (
-        <button class="first" title="All alarms" onClick={() => (view.value = "operate")}>
-          <b class="digits">{alarms.length > 1 ? `${alarms.length} alarms` : "1 alarm"}</b>
-          <span>
-            <b class="digits">{first.number}</b> {first.text}
-          </span>
-        </button>
-      )}
-      {!first && steps.length === 0 && left.map((one) => (
-        <span key={one.channel}>
-          {one.program} was left in line <b class="digits">{one.restart_line}</b>: start from a line continues there.
-        </span>
-      ))}
-      {steps.length > 0 && (
-        <div class="recovery">
-          <span>{steps.map((step) => step.title).join(", ")}</span>
-          <button
-            class="primary"
-            data-test="recover"
-            disabled={busy.value}
-            onClick={() => {
-              busy.value = true;
-              void recover().finally(() => (busy.value = false));
-            }}
-          >
-            {busy.value ? "Recovering…" : "Recover"}
-          </button>
+    <section class={`attention ${kind}`} aria-label={t.alarms} data-test="attention">
+      <button
+        class="count"
+        aria-expanded={listed}
+        disabled={alarms.length === 0}
+        title={t.allAlarms}
+        data-test="alarm-count"
+        onClick={() => (open.value = !open.value)}
+      >
+        {alarms.length === 0 ? t.noAlarms : t.alarmCount(alarms.length)}
+      </button>
+      <div class="first" role="alert">
+        {first && (
+          <>
+            <p class="digits" title={first.text}><b>{first.number}</b> {first.text}</p>
+            {why?.cause && <p title={why.cause}>{t.cause}: {why.cause}</p>}
+            {why && <p title={why.remedy}>{t.remedy}: {why.remedy}</p>}
+          </>
+        )}
+        {!first && steps.length === 0 && left.map((one) => <p key={one.channel}>{t.leftInLine(one.program, one.restart_line)}</p>)}
+      </div>
+      {steps.length > 0 && <Recovery steps={steps} />}
+      {listed && (
+        <div class="alarm-panel alarms" tabIndex={0} aria-label={t.allAlarms} role="region">
+          <AlarmList />
         </div>
       )}
-    </div>
+    </section>
   );
 }

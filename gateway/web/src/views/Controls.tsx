@@ -1,36 +1,38 @@
 // SPDX-License-Identifier: Apache-2.0
 import { type Mode, canStart } from "../state/model";
-import { channel, command, machine, stop } from "../state/store";
+import { channel, channelList, channelName, command, machine, stop } from "../state/store";
+import { text, type Texts } from "../text/texts";
 import { onPress } from "./press";
 
-const modes: [Mode, string][] = [
-  ["AUTO", "Auto"],
-  ["MDI", "MDI"],
-  ["JOG", "Jog"],
-  ["REF", "Reference"],
+const modes: [Mode, keyof Texts & `mode${string}`][] = [
+  ["AUTO", "modeAuto"],
+  ["MDI", "modeMdi"],
+  ["JOG", "modeJog"],
+  ["REF", "modeReference"],
 ];
 
 interface OverrideProps {
   kind: "feed" | "rapid" | "spindle";
-  title: string;
   /** Fractions, as the channel takes them. */
   minimum: number;
   maximum: number;
   value: number;
 }
 
-function Override({ kind, title, minimum, maximum, value }: OverrideProps) {
+function Override({ kind, minimum, maximum, value }: OverrideProps) {
+  const t = text.value;
+  const title = t[kind];
   const send = (fraction: number) => {
     const limited = Math.min(maximum, Math.max(minimum, fraction));
-    void command(`${title} override`, "override", { kind, value: limited });
+    void command(t.override(title), "override", { kind, value: limited });
   };
   // An order, not a value: what is shown may be older than the last step.
-  const step = (by: number) => void command(`${title} override`, "override-step", { kind, step: by });
+  const step = (by: number) => void command(t.override(title), "override-step", { kind, step: by });
   const percent = Math.round(value * 100);
   return (
     <div class="override">
       <label for={`override-${kind}`}>{title}</label>
-      <button class="step" aria-label={`${title} override down`} onClick={() => step(-0.1)}>
+      <button class="step" aria-label={t.overrideDown(title)} onClick={() => step(-0.1)}>
         −
       </button>
       <input
@@ -40,14 +42,17 @@ function Override({ kind, title, minimum, maximum, value }: OverrideProps) {
         max={maximum * 100}
         step={5}
         value={percent}
+        aria-label={t.override(title)}
+        aria-valuetext={`${percent} %`}
         onInput={(event) => send(Number(event.currentTarget.value) / 100)}
       />
-      <button class="step" aria-label={`${title} override up`} onClick={() => step(0.1)}>
+      <button class="step" aria-label={t.overrideUp(title)} onClick={() => step(0.1)}>
         +
       </button>
       <button
         class={`digits percent ${percent === 100 ? "" : "changed"}`}
-        title="back to 100 %"
+        title={t.overrideBack(title)}
+        data-test={`percent-${kind}`}
         onClick={() => send(1)}
       >
         {percent} %
@@ -59,17 +64,18 @@ function Override({ kind, title, minimum, maximum, value }: OverrideProps) {
 export function Controls() {
   const one = channel.value;
   if (!one) return null;
+  const t = text.value;
   return (
-    <section class="controls" aria-label="operation">
-      <div class="modes segments" role="group" aria-label="mode">
+    <section class={`controls ${channelList.value.length > 1 ? "several" : ""}`} aria-label={t.operation}>
+      <div class="modes segments" role="group" aria-label={t.mode}>
         {modes.map(([mode, title]) => (
           <button
             key={mode}
             aria-pressed={one.mode === mode}
             data-test={`mode-${mode}`}
-            onClick={() => void command("Mode", "mode", { mode })}
+            onClick={() => void command(t.mode, "mode", { mode })}
           >
-            {title}
+            {t[title] as string}
           </button>
         ))}
       </div>
@@ -79,33 +85,39 @@ export function Controls() {
           data-test="cycle-start"
           title="Ctrl+Enter"
           aria-disabled={!canStart(machine.value, one)}
-          onClick={() => void command("Cycle start", "cycle-start", {})}
+          onClick={() => void command(t.cycleStart, "cycle-start", {})}
         >
-          Cycle start
+          {t.cycleStart}
         </button>
-        <button class="hold" data-test="feed-hold" title="Esc" {...onPress(() => void stop("Feed hold", `/api/channels/${one.channel}/feed-hold`))}>
-          Feed hold
-        </button>
-        <button data-test="reset" onClick={() => void command("Reset", "reset", {})}>Reset</button>
+        {channelList.value.length > 1 && (
+          <button
+            class="hold"
+            data-test="hold-channel"
+            {...onPress(() => void stop(t.feedHold, `/api/channels/${one.channel}/feed-hold`))}
+          >
+            {t.holdChannel(channelName(one))}
+          </button>
+        )}
+        <button data-test="reset" onClick={() => void command(t.reset, "reset", {})}>{t.reset}</button>
         <button
           class="toggle"
           aria-pressed={one.single_block}
-          onClick={() => void command("Single block", "single-block", { on: !one.single_block })}
+          onClick={() => void command(t.singleBlock, "single-block", { on: !one.single_block })}
         >
-          Single block
+          {t.singleBlock}
         </button>
         <button
           class="toggle"
           aria-pressed={one.optional_stop}
-          onClick={() => void command("Optional stop", "optional-stop", { on: !one.optional_stop })}
+          onClick={() => void command(t.optionalStop, "optional-stop", { on: !one.optional_stop })}
         >
-          Optional stop
+          {t.optionalStop}
         </button>
       </div>
       <div class="overrides">
-        <Override kind="feed" title="Feed" minimum={0} maximum={1.5} value={one.feed_override} />
-        <Override kind="rapid" title="Rapid" minimum={0} maximum={1} value={one.rapid_override} />
-        <Override kind="spindle" title="Spindle" minimum={0.5} maximum={1.5} value={one.spindle_override} />
+        <Override kind="feed" minimum={0} maximum={1.5} value={one.feed_override} />
+        <Override kind="rapid" minimum={0} maximum={1} value={one.rapid_override} />
+        <Override kind="spindle" minimum={0.5} maximum={1.5} value={one.spindle_override} />
       </div>
     </section>
   );

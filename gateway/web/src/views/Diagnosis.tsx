@@ -4,25 +4,28 @@ import { useEffect } from "preact/hooks";
 import { get, type PlcImage } from "../api";
 import { compact, duration } from "../format";
 import { sortedServices } from "../state/model";
+import { historySeconds } from "../state/history";
 import { machine } from "../state/store";
+import { text } from "../text/texts";
 import { Alarms } from "./Alarms";
 import { Plots } from "./Plots";
 
 function Services() {
   const rows = sortedServices(machine.value);
+  const t = text.value;
   return (
-    <section class="services" aria-label="services">
+    <section class="services" aria-label={t.services}>
       <div class="title">
-        <h2>Services</h2>
-        <span class="dim">{rows.filter((row) => row.alive).length} of {rows.length} alive</span>
+        <h2>{t.services}</h2>
+        <span class="dim">{t.aliveOf(rows.filter((row) => row.alive).length, rows.length)}</span>
       </div>
-      <div class="scroll">
+      <div class="scroll" tabIndex={0} role="region" aria-label={t.services}>
         <table>
           <thead>
             <tr>
-              <th>Service</th><th>Copy</th><th>Vendor</th><th>PID</th><th>State</th><th>Detail</th>
-              <th class="right">Frames/s</th><th class="right">Lost</th><th class="right">Restarts</th>
-              <th class="right">Up</th><th>Heartbeat</th>
+              <th>{t.service}</th><th>{t.replica}</th><th>{t.vendor}</th><th>PID</th><th>{t.state}</th><th>{t.detail}</th>
+              <th class="right">{t.framesPerSecond}</th><th class="right">{t.lost}</th><th class="right">{t.restarts}</th>
+              <th class="right">{t.up}</th><th>{t.heartbeat}</th>
             </tr>
           </thead>
           <tbody>
@@ -33,12 +36,12 @@ function Services() {
                 <td>{row.vendor}</td>
                 <td class="digits">{row.pid || "–"}</td>
                 <td><span class={`tag ${row.lifecycle === "ACTIVE" ? "good" : row.lifecycle === "FAULT" || row.lifecycle === "ABSENT" ? "bad" : "warn"}`}>{row.lifecycle.toLowerCase()}</span></td>
-                <td class="detail">{row.contract_match ? row.detail : `built with another contract (${row.contract})`}</td>
+                <td class="detail">{row.contract_match ? row.detail : t.otherContract(row.contract)}</td>
                 <td class="right digits">{compact(row.frames_per_second)}</td>
                 <td class="right digits">{row.frames_lost}</td>
                 <td class="right digits">{row.restarts}</td>
                 <td class="right digits">{duration(row.uptime)}</td>
-                <td><span class={`dot ${row.alive ? "good" : "bad"}`} /> {row.alive ? "alive" : "silent"}</td>
+                <td><span class={`dot ${row.alive ? "good" : "bad"}`} /> {row.alive ? t.alive : t.silent}</td>
               </tr>
             ))}
           </tbody>
@@ -74,11 +77,12 @@ function Plc() {
   }, []);
   const values = image.value?.[area.value] ?? [];
   const bits = area.value === "x" || area.value === "y" || area.value === "r";
+  const t = text.value;
   return (
-    <section class="plc" aria-label="PLC registers">
+    <section class="plc" aria-label={t.plcRegisters}>
       <div class="title">
-        <h2>PLC</h2>
-        <div class="segments small">
+        <h2>{t.plc}</h2>
+        <div class="segments" role="group" aria-label={t.plcArea}>
           {areas.map((name) => (
             <button key={name} aria-pressed={area.value === name} onClick={() => { area.value = name; start.value = 0; }}>
               {name.toUpperCase()}
@@ -86,15 +90,15 @@ function Plc() {
           ))}
         </div>
         <div class="end">
-          <button aria-label="earlier registers" disabled={start.value === 0} onClick={() => (start.value -= wordsPerPage)}>‹</button>
+          <button aria-label={t.earlierRegisters} disabled={start.value === 0} onClick={() => (start.value -= wordsPerPage)}>‹</button>
           <span class="dim digits">{start.value}…{Math.min(values.length, start.value + wordsPerPage) - 1}</span>
-          <button aria-label="later registers" disabled={start.value + wordsPerPage >= values.length} onClick={() => (start.value += wordsPerPage)}>›</button>
+          <button aria-label={t.laterRegisters} disabled={start.value + wordsPerPage >= values.length} onClick={() => (start.value += wordsPerPage)}>›</button>
         </div>
       </div>
       {values.length === 0 ? (
-        <p class="dim">{missing.value || "waiting for the first image"}</p>
+        <p class="dim">{missing.value || t.waitingForImage}</p>
       ) : (
-        <div class="registers digits">
+        <div class="registers digits" tabIndex={0} role="region" aria-label={t.plcRegisters}>
           {values.slice(start.value, start.value + wordsPerPage).map((value, index) => (
             <span key={index} class={value ? "set" : ""}>
               <i>{area.value.toUpperCase()}{start.value + index}</i>
@@ -109,13 +113,14 @@ function Plc() {
 
 export function Diagnosis() {
   const drive = machine.value.drive;
+  const t = text.value;
   return (
     <main class="diagnosis">
       <Services />
-      <section class="side" aria-label="plots">
+      <section class="side" aria-label={t.plots}>
         <div class="title">
-          <h2>Last 30 s</h2>
-          {drive && <span class="dim digits">cycle {drive.executed} · starved {drive.starved}</span>}
+          <h2>{t.lastSeconds(historySeconds)}</h2>
+          {drive && <span class="dim digits">{t.cycleAndStarved(drive.executed, drive.starved)}</span>}
         </div>
         <Plots />
       </section>

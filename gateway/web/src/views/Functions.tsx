@@ -4,6 +4,7 @@ import { useEffect } from "preact/hooks";
 import { allLocks, levelsWith, locksWith, offsets, skipLevels, skips } from "../state/functions";
 import { axisRows } from "../state/model";
 import { channel, command, machine } from "../state/store";
+import { text } from "../text/texts";
 
 const increments = [0.001, 0.01, 0.1, 1];
 const line = signal("");
@@ -31,9 +32,10 @@ function FromLine({ offered }: { offered: number }) {
   useEffect(() => {
     if (offered > 0) line.value = String(offered);
   }, [offered]);
+  const t = text.value;
   const search = () => {
     const wanted = Number(line.value);
-    if (line.value.trim() !== "") void command("Start from line", "start-from-line", { line: wanted });
+    if (line.value.trim() !== "") void command(t.startFromLine, "start-from-line", { line: wanted });
   };
   return (
     <form
@@ -43,39 +45,40 @@ function FromLine({ offered }: { offered: number }) {
         search();
       }}
     >
-      <label for="from-line">Line</label>
+      <label for="from-line">{t.line}</label>
       <input
         id="from-line"
         data-test="from-line"
         class="digits"
         inputMode="numeric"
-        placeholder="number"
+        placeholder={t.lineNumber}
         value={line.value}
         onInput={(event) => (line.value = event.currentTarget.value)}
       />
-      <button type="submit" data-test="search-line" title="Search the line; cycle start then approaches it">
-        Search line
+      <button type="submit" data-test="search-line" title={t.searchLineAbout}>
+        {t.searchLine}
       </button>
-      {offered > 0 && <span class="dim">left in line {offered}</span>}
+      {offered > 0 && <span class="dim">{t.offeredLine(offered)}</span>}
     </form>
   );
 }
 
 function Handwheel() {
   const one = channel.value!;
+  const t = text.value;
   const turn = (counts: number) =>
-    void command("Handwheel", "handwheel", { axis: wheelAxis.value, counts, increment: wheelIncrement.value });
+    void command(t.handwheel, "handwheel", { axis: wheelAxis.value, counts, increment: wheelIncrement.value });
   return (
     <div class="row">
-      <div class="segments small" role="group" aria-label="handwheel axis">
+      <div class="segments small" role="group" aria-label={t.handwheelAxis}>
         {axisRows(machine.value, one).map((row) => (
-          <button key={row.index} aria-pressed={wheelAxis.value === row.index} onClick={() => (wheelAxis.value = row.index)}>
+          <button key={row.index} aria-label={t.handwheelOf(row.letter)} aria-pressed={wheelAxis.value === row.index} onClick={() => (wheelAxis.value = row.index)}>
             {row.letter}
           </button>
         ))}
       </div>
       <select
-        aria-label="increment of a count"
+        aria-label={t.incrementOfCount}
         value={String(wheelIncrement.value)}
         onChange={(event) => (wheelIncrement.value = Number(event.currentTarget.value))}
       >
@@ -85,12 +88,12 @@ function Handwheel() {
           </option>
         ))}
       </select>
-      <button data-test="wheel-" aria-label="handwheel one count back" onClick={() => turn(-1)}>
+      <button data-test="wheel-" aria-label={t.countBack} onClick={() => turn(-1)}>
         −
       </button>
       <div
         class="wheel"
-        title="Turn the mouse wheel here"
+        title={t.turnHere}
         data-test="wheel"
         onWheel={(event) => {
           event.preventDefault();
@@ -99,7 +102,7 @@ function Handwheel() {
       >
         ◎
       </div>
-      <button data-test="wheel+" aria-label="handwheel one count on" onClick={() => turn(1)}>
+      <button data-test="wheel+" aria-label={t.countOn} onClick={() => turn(1)}>
         +
       </button>
     </div>
@@ -110,28 +113,30 @@ export function Functions() {
   const one = channel.value;
   if (!one) return null;
   const offset = offsets(one);
+  const t = text.value;
   return (
     <div class="functions">
-      <h3>Start from a line</h3>
+      <h3>{t.startFromLine}</h3>
       <FromLine offered={one.restart_line} />
-      <h3>Program</h3>
+      <h3>{t.program}</h3>
       <div class="row">
-        <Switch title="Dry run" about="Feed of parameter 04c914 in place of the program's" route="dry-run" on={one.dry_run} />
-        <Switch title="M S T lock" about="Functions are skipped" route="auxiliary-lock" on={one.auxiliary_lock} />
-        <Switch title="Retrace" about="Backwards along the path; again: forwards" route="retrace" on={one.retracing} />
+        <Switch title={t.dryRun} about={t.dryRunAbout} route="dry-run" on={one.dry_run} />
+        <Switch title={t.auxiliaryLock} about={t.auxiliaryLockAbout} route="auxiliary-lock" on={one.auxiliary_lock} />
+        <Switch title={t.retrace} about={t.retraceAbout} route="retrace" on={one.retracing} />
       </div>
       <div class="row">
-        <span class="name">Axis lock</span>
-        <div class="segments small" role="group" aria-label="axis lock">
-          <button data-test="lock-all" onClick={() => void command("Axis lock", "axis-lock", { axes: allLocks(one) })}>
-            all
+        <span class="name">{t.axisLock}</span>
+        <div class="segments small" role="group" aria-label={t.axisLock}>
+          <button data-test="lock-all" aria-label={t.lockAllAxes} onClick={() => void command(t.axisLock, "axis-lock", { axes: allLocks(one) })}>
+            {t.lockAll}
           </button>
           {[...one.letters].map((letter, i) => (
             <button
               key={letter}
               aria-pressed={one.locked[i] === 1}
               data-test={`lock-${letter}`}
-              onClick={() => void command("Axis lock", "axis-lock", { axes: locksWith(one, i) })}
+              aria-label={t.lockAxis(letter)}
+              onClick={() => void command(t.axisLock, "axis-lock", { axes: locksWith(one, i) })}
             >
               {letter}
             </button>
@@ -139,26 +144,27 @@ export function Functions() {
         </div>
       </div>
       <div class="row">
-        <span class="name">Skip /</span>
-        <div class="segments small" role="group" aria-label="block skip levels">
+        <span class="name">{t.blockSkip}</span>
+        <div class="segments small" role="group" aria-label={t.blockSkipLevels}>
           {skipLevels.map((level) => (
             <button
               key={level}
               aria-pressed={skips(one, level)}
               data-test={`skip-${level}`}
-              onClick={() => void command("Block skip", "block-skip", { levels: levelsWith(one, level) })}
+              aria-label={t.skipLevel(level)}
+              onClick={() => void command(t.blockSkip, "block-skip", { levels: levelsWith(one, level) })}
             >
               {level}
             </button>
           ))}
         </div>
       </div>
-      <h3>Handwheel</h3>
+      <h3>{t.handwheel}</h3>
       <Handwheel />
       <div class="row">
         <Switch
-          title="Offset on the program"
-          about="Counts are added to the path, until reset"
+          title={t.handwheelOffset}
+          about={t.handwheelOffsetAbout}
           route="handwheel-offset"
           on={one.handwheel_offset_on}
         />

@@ -1,33 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
-import { channel, channelList, channelNumber, channels, chooseChannel, machine, stop, view, type ViewName } from "../state/store";
+// The state bar over the whole width, in every view: what the channel does, and the two keys that stop. Nothing may lie
+// over it (style.css keeps it above everything else).
+import { duration } from "../format";
+import { cyclePeriod } from "../state/cycle_period";
+import { channel, channelList, channelName, channelNumber, channels, chooseChannel, holdAll, machine, runTime, stop } from "../state/store";
+import { text } from "../text/texts";
 import { onPress } from "./press";
 
-const views: [ViewName, string][] = [
-  ["operate", "Operate"],
-  ["parameters", "Parameters"],
-  ["offsets", "Tools & offsets"],
-  ["diagnosis", "Diagnosis"],
-];
-
-const pressEmergencyStop = () => void stop("Emergency stop", "/api/panel/emergency-stop");
+const pressEmergencyStop = () => void stop(text.peek().emergencyStop, "/api/panel/emergency-stop");
 
 function EmergencyStop() {
-  const plc = machine.value.plc;
-  if (!plc?.emergency_stop) {
-    return (
-      <button
-        class="estop"
-        data-test="estop"
-        title="Ask the PLC for an emergency stop. Not a replacement for the hard-wired one."
-        {...onPress(pressEmergencyStop)}
-      >
-        E-STOP
-      </button>
-    );
-  }
+  const stopped = machine.value.plc?.emergency_stop;
   return (
-    <button class="estop engaged" {...onPress(pressEmergencyStop)}>
-      STOPPED
+    <button
+      class={`estop ${stopped ? "engaged" : ""}`}
+      data-test={stopped ? "estop-engaged" : "estop"}
+      aria-label={`${stopped ? text.value.emergencyStopped : text.value.emergencyStopKey}: ${text.value.emergencyStop}`}
+      title={text.value.emergencyStopAbout}
+      {...onPress(pressEmergencyStop)}
+    >
+      {stopped ? text.value.emergencyStopped : text.value.emergencyStopKey}
     </button>
   );
 }
@@ -35,18 +27,26 @@ function EmergencyStop() {
 function ChannelTabs() {
   if (channelList.value.length < 2) return null;
   return (
-    <div class="segments" role="tablist" aria-label="channel">
+    <div class="segments" role="group" aria-label={text.value.channel}>
       {channelList.value.map((number) => (
-        <button
-          key={number}
-          role="tab"
-          aria-selected={number === channelNumber.value}
-          onClick={() => chooseChannel(number)}
-        >
-          {channels.value[String(number)]?.name || `Channel ${number}`}
+        <button key={number} aria-pressed={number === channelNumber.value} onClick={() => chooseChannel(number)}>
+          {channelName(channels.value[String(number)]!)}
         </button>
       ))}
     </div>
+  );
+}
+
+function Elapsed({ number }: { number: number }) {
+  void machine.value.drive?.tick;  // what is shown changes with it
+  const time = runTime(number);
+  const period = cyclePeriod.value;
+  if (time.ticks === 0 || period === undefined) return null;
+  return (
+    <span class="elapsed digits" title={time.partial ? text.value.elapsedPartAbout : text.value.elapsedAbout}>
+      <span class="dim">{text.value.elapsed}</span>
+      <b data-test="elapsed">{time.partial && "> "}{duration(time.ticks * period)}</b>
+    </span>
   );
 }
 
@@ -54,45 +54,44 @@ export function Header() {
   const state = machine.value;
   const one = channel.value;
   const cluster = state.cluster;
+  const t = text.value;
   return (
-    <header>
+    <header aria-label={t.stateBar}>
       <div class="machine-name">
         <strong data-test="machine">{cluster?.machine || "Trunnion"}</strong>
         <span class={`tag ${cluster?.ready ? "good" : "warn"}`} data-test="cluster">
-          {cluster ? (cluster.ready ? "cluster ready" : "cluster not ready") : "no cluster"}
+          {cluster ? (cluster.ready ? t.clusterReady : t.clusterNotReady) : t.noCluster}
         </span>
-        {cluster?.virtual_time && <span class="tag note">virtual time</span>}
+        {cluster?.virtual_time && <span class="tag note">{t.virtualTime}</span>}
       </div>
+      <ChannelTabs />
       {one && (
-        <div class="run">
-          <span class="mode" data-test="mode">{one.mode}</span>
-          <span class={`state ${one.state.toLowerCase()}`} data-test="state">{one.state}</span>
-          <span class="program">
-            <span class="program-name">{one.program || "no program"}</span>
-            <span class="meter" role="progressbar" aria-valuenow={Math.round(one.progress * 100)}>
+        <>
+          <span class="mode" data-test="mode" data-mode={one.mode}>{t[`mode${one.mode}`]}</span>
+          <span class={`state ${one.state.toLowerCase()}`} data-test="state" data-state={one.state}>{t[`state${one.state}`]}</span>
+          <div class="run">
+            <b class="program-name">{one.program || t.noProgram}</b>
+            <span
+              class="meter"
+              role="progressbar"
+              aria-label={t.progress}
+              aria-valuemin={0}
+              aria-valuemax={100}
+              aria-valuenow={Math.round(one.progress * 100)}
+            >
               <i style={{ width: `${Math.min(1, one.progress) * 100}%` }} />
             </span>
-            <span class="dim digits">
-              {one.line} / {one.lines_total}
-            </span>
-          </span>
-        </div>
+            <span class="dim digits">{one.lines_total > 0 && t.lineOf(one.line, one.lines_total)}</span>
+          </div>
+          <Elapsed number={one.channel} />
+        </>
       )}
-      <ChannelTabs />
-      <nav>
-        {views.map(([name, title], index) => (
-          <button
-            key={name}
-            aria-current={view.value === name ? "page" : undefined}
-            title={`Alt+${index + 1}`}
-            data-test={`view-${name}`}
-            onClick={() => (view.value = name)}
-          >
-            {title}
-          </button>
-        ))}
-      </nav>
-      <EmergencyStop />
+      <div class="stops">
+        <button class="hold" data-test="feed-hold" title={t.feedHoldAbout} {...onPress(holdAll)}>
+          {t.feedHold}
+        </button>
+        <EmergencyStop />
+      </div>
     </header>
   );
 }

@@ -6,6 +6,7 @@ import type { Parameter } from "../contract";
 import { JogHold } from "../state/jog";
 import { type AxisRow, axisRows } from "../state/model";
 import { channel, channelNumber, commandTo, machine, renewJog, stop } from "../state/store";
+import { text } from "../text/texts";
 
 const increments = [0, 0.001, 0.01, 0.1, 1, 10];
 const speeds = [60, 200, 600, 2000, 6000];
@@ -29,9 +30,9 @@ export function Jog() {
   const hold = useMemo(() => {
     const none = Promise.resolve(false);
     return new JogHold({
-      start: (jog, press) => (number === null ? none : commandTo(number, "Jog", "jog", { ...jog, press })),
+      start: (jog, press) => (number === null ? none : commandTo(number, text.peek().jog, "jog", { ...jog, press })),
       renew: (press) => (number === null ? none : renewJog(number, press)),
-      stop: (axis) => (number === null ? none : stop("Jog stop", `/api/channels/${number}/jog-stop`, { axis })),
+      stop: (axis) => (number === null ? none : stop(text.peek().jogStop, `/api/channels/${number}/jog-stop`, { axis })),
     });
   }, [number]);
   useEffect(() => {
@@ -53,6 +54,7 @@ export function Jog() {
   const axes = one?.axes.join();
   useEffect(() => void loadLimits(channel.peek()?.axes ?? []), [revision, axes]);
   if (!one) return null;
+  const t = text.value;
   const reference = one.mode === "REF";
   const usable = one.mode === "JOG" || reference;
 
@@ -64,7 +66,7 @@ export function Jog() {
         class="direction"
         disabled={!usable}
         title={`${used} ${unit}/min`}
-        aria-label={`jog ${letter} ${sign > 0 ? "plus" : "minus"}`}
+        aria-label={sign > 0 ? t.jogPlus(letter) : t.jogMinus(letter)}
         data-test={`jog-${letter}${sign > 0 ? "+" : "-"}`}
         onPointerDown={(event) => {
           if (event.button !== 0) return;
@@ -89,11 +91,7 @@ export function Jog() {
   };
 
   return (
-    <section class={`jog ${usable ? "" : "idle"}`} aria-label="jog">
-      <div class="title">
-        <h2>{reference ? "Reference" : "Jog"}</h2>
-        {!usable && <span class="dim">choose Jog or Reference</span>}
-      </div>
+    <section class={`jog ${usable ? "" : "idle"}`} aria-label={t.jog}>
       <div class="pad">
         {axisRows(machine.value, one).map((row) => (
           <div class="jog-axis" key={row.index}>
@@ -102,8 +100,8 @@ export function Jog() {
               <button
                 class="home"
                 data-test={`reference-${row.letter}`}
-                title={`reference ${row.letter}`}
-                onClick={() => void commandTo(one.channel, "Reference", "reference", { axis: row.index })}
+                aria-label={t.referenceAxis(row.letter)}
+                onClick={() => void commandTo(one.channel, t.modeReference, "reference", { axis: row.index })}
               >
                 ⌂ {row.letter}
               </button>
@@ -116,21 +114,23 @@ export function Jog() {
       </div>
       <div class="jog-choice">
         <label>
-          <span>Step mm, °</span>
+          <span>{t.step}</span>
           <select
+            aria-label={t.stepUnit}
+            title={usable ? t.stepUnit : t.chooseJog}
             value={String(increment.value)}
             onChange={(event) => (increment.value = Number(event.currentTarget.value))}
           >
             {increments.map((value) => (
               <option key={value} value={String(value)}>
-                {value === 0 ? "while held" : value}
+                {value === 0 ? t.whileHeld : value}
               </option>
             ))}
           </select>
         </label>
         <label>
-          <span>Speed /min</span>
-          <select value={String(speed.value)} onChange={(event) => (speed.value = Number(event.currentTarget.value))}>
+          <span>{t.speed}</span>
+          <select aria-label={t.speedUnit} title={t.speedUnit} value={String(speed.value)} onChange={(event) => (speed.value = Number(event.currentTarget.value))}>
             {speeds.map((value) => (
               <option key={value} value={String(value)}>
                 {value}

@@ -4,6 +4,7 @@ import { useEffect } from "preact/hooks";
 import { type Answer, get, put, type Tool, type WorkOffset } from "../api";
 import { millimetres } from "../format";
 import { channel, machine, tell } from "../state/store";
+import { text } from "../text/texts";
 
 const letters = "XYZABCUVW";
 
@@ -17,13 +18,13 @@ const exactly = (value: number) => String(value);
 function Cell({ value, label, store }: { value: number; label: string; store: (value: number) => Promise<Answer> }) {
   const draft = useSignal<string | null>(null);
   const commit = async () => {
-    const text = draft.value;
-    if (text === null || text === exactly(value)) {
+    const typed = draft.value;
+    if (typed === null || typed === exactly(value)) {
       draft.value = null;
       return;
     }
-    const entered = Number(text.replace(",", ".").replace("\u2212", "-"));
-    if (text.trim() === "" || !Number.isFinite(entered)) tell(`${label}: this is not a number`, true);
+    const entered = Number(typed.replace(",", ".").replace("\u2212", "-"));
+    if (typed.trim() === "" || !Number.isFinite(entered)) tell(`${label}: ${text.peek().notANumber}`, true);
     else if (entered !== value) {
       const answer = await store(entered);
       if (!answer.ok) tell(`${label}: ${answer.reason}`, true);
@@ -82,15 +83,15 @@ function WorkOffsets() {
     return put("/api/work-offsets", { channel: row.channel, index: row.index, values, revision: table.value.revision });
   };
   return (
-    <section class="list" aria-label="work offsets">
+    <section class="list" aria-label={text.value.workOffsets}>
       <div class="title">
-        <h2>Work offsets</h2>
-        <span class="dim">machine coordinates of the workpiece zero, mm and °</span>
+        <h2>{text.value.workOffsets}</h2>
+        <span class="dim">{text.value.workOffsetsAbout}</span>
       </div>
       <div class="scroll">
         <table>
           <thead>
-            <tr><th /> {columns.map(({ letter }) => <th class="right" key={letter}>{letter}</th>)}</tr>
+            <tr><td /> {columns.map(({ letter }) => <th class="right" key={letter}>{letter}</th>)}</tr>
           </thead>
           <tbody>
             {rows.map((row) => (
@@ -122,18 +123,19 @@ function Tools() {
       if (answer.body?.tools) tools.value = answer.body.tools;
     });
   }, [revision]);
+  const t = text.value;
   return (
-    <section class="list" aria-label="tools">
+    <section class="list" aria-label={t.tools}>
       <div class="title">
-        <h2>Tools</h2>
+        <h2>{t.tools}</h2>
         <span class="dim">mm</span>
       </div>
-      <div class="scroll">
+      <div class="scroll" tabIndex={0} role="region" aria-label={t.tools}>
         <table>
           <thead>
             <tr>
-              <th>T</th><th>Name</th><th class="right">Length</th><th class="right">Wear</th>
-              <th class="right">Radius</th><th class="right">Wear</th>
+              <th>T</th><th>{t.name}</th><th class="right">{t.length}</th><th class="right">{t.wear}</th>
+              <th class="right">{t.radius}</th><th class="right">{t.wear}</th>
             </tr>
           </thead>
           <tbody>
@@ -148,7 +150,7 @@ function Tools() {
             ))}
           </tbody>
         </table>
-        {tools.value.length === 0 && <p class="dim">No tools.</p>}
+        {tools.value.length === 0 && <p class="dim">{t.noTools}</p>}
       </div>
     </section>
   );

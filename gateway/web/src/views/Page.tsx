@@ -1,29 +1,30 @@
 // SPDX-License-Identifier: Apache-2.0
 import { useEffect } from "preact/hooks";
-import { channel, channelList, command, connection, machine, notice, stop, view, type ViewName } from "../state/store";
-import { Alarms } from "./Alarms";
+import { channel, command, connection, holdAll, machine, notice, view } from "../state/store";
+import { text } from "../text/texts";
 import { Attention } from "./Attention";
 import { Controls } from "./Controls";
 import { Diagnosis } from "./Diagnosis";
 import { Header } from "./Header";
 import { Jog } from "./Jog";
+import { Mdi } from "./Mdi";
 import { Offsets } from "./Offsets";
 import { Parameters } from "./Parameters";
 import { Positions } from "./Positions";
 import { ProgramPanel } from "./ProgramPanel";
+import { Question } from "./Question";
+import { Rail, viewOfKey } from "./Rail";
+import { SceneView } from "./SceneView";
 import { SidePanel } from "./SidePanel";
 import { Technology } from "./Technology";
 
-const viewOfKey: Record<string, ViewName> = { "1": "operate", "2": "parameters", "3": "offsets", "4": "diagnosis" };
-
 function Operate() {
+  const t = text.value;
   if (!channel.value) {
     return (
       <main class="empty">
-        <p>No channel has reported yet.</p>
-        <p class="dim">
-          {machine.value.cluster ? "The cluster is starting; see Diagnosis (Alt+4)." : "No cluster is announced."}
-        </p>
+        <p>{t.noChannel}</p>
+        <p class="dim">{machine.value.cluster ? t.clusterStarting : t.noClusterAnnounced}</p>
       </main>
     );
   }
@@ -33,13 +34,15 @@ function Operate() {
         <Positions />
         <Technology />
       </div>
-      <ProgramPanel />
       <div class="column">
-        <SidePanel />
-        <Alarms />
+        <ProgramPanel />
+        <Mdi />
       </div>
-      <Controls />
-      <Jog />
+      <SidePanel />
+      <div class="panel">
+        <Controls />
+        <Jog />
+      </div>
     </main>
   );
 }
@@ -57,19 +60,17 @@ function Notice() {
   );
 }
 
+/** Over what is old, but not over the keys that stop. */
 function ConnectionLost() {
   if (connection.value === "live") return null;
+  const t = text.value;
   const lost = connection.value === "lost";
   return (
-    <div class="lost" role="alertdialog" aria-label="connection">
+    <div class="lost" role="alertdialog" aria-label={t.connection}>
       <div>
-        <h1>{lost ? "Connection lost" : "Connecting…"}</h1>
-        <p>
-          {lost
-            ? "What is behind this is old. The machine may be moving: use the hard-wired emergency stop."
-            : "Waiting for the gateway."}
-        </p>
-        {lost && <p class="dim">Trying to reconnect…</p>}
+        <h1>{lost ? t.connectionLost : t.connecting}</h1>
+        <p>{lost ? t.lostAdvice : t.waitingForGateway}</p>
+        {lost && <p>{t.reconnecting}</p>}
       </div>
     </div>
   );
@@ -77,6 +78,7 @@ function ConnectionLost() {
 
 /** There Escape empties the field. */
 const isSearch = (target: EventTarget | null) => target instanceof HTMLInputElement && target.type === "search";
+const isText = (target: EventTarget | null) => target instanceof HTMLTextAreaElement;
 
 export function Page() {
   useEffect(() => {
@@ -85,10 +87,9 @@ export function Page() {
         view.value = viewOfKey[event.key]!;
         event.preventDefault();
       } else if (event.key === "Escape" && !isSearch(event.target)) {
-        // Whoever presses it in haste means the machine, not the channel that is shown.
-        for (const number of channelList.value) void stop("Feed hold", `/api/channels/${number}/feed-hold`);
-      } else if (event.key === "Enter" && event.ctrlKey && view.value === "operate") {
-        void command("Cycle start", "cycle-start", {});
+        holdAll();
+      } else if (event.key === "Enter" && event.ctrlKey && view.value === "operate" && !isText(event.target)) {
+        void command(text.peek().cycleStart, "cycle-start", {});
         event.preventDefault();
       }
     };
@@ -99,11 +100,14 @@ export function Page() {
     <div class={`page ${machine.value.plc?.emergency_stop ? "stopped" : ""}`}>
       <Header />
       <Attention />
+      <Rail />
       {view.value === "operate" && <Operate />}
+      {view.value === "scene" && <SceneView />}
       {view.value === "parameters" && <Parameters />}
       {view.value === "offsets" && <Offsets />}
       {view.value === "diagnosis" && <Diagnosis />}
       <Notice />
+      <Question />
       <ConnectionLost />
     </div>
   );

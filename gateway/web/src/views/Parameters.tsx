@@ -4,15 +4,16 @@ import { useEffect, useRef } from "preact/hooks";
 import { get, type Parameter, put } from "../api";
 import { limits, title, unit } from "../format";
 import { machine, tell } from "../state/store";
+import { text, type Texts } from "../text/texts";
 
-const classes: [string, string][] = [
-  ["", "All"],
-  ["nc", "NC"],
-  ["user", "Machine"],
-  ["channel", "Channel"],
-  ["axis", "Axis"],
-  ["compensation", "Compensation"],
-  ["table", "Tables"],
+const classes: [string, keyof Texts & `class${string}`][] = [
+  ["", "classAll"],
+  ["nc", "classNc"],
+  ["user", "classMachine"],
+  ["channel", "classChannel"],
+  ["axis", "classAxis"],
+  ["compensation", "classCompensation"],
+  ["table", "classTables"],
 ];
 
 const sixDigits = (number: number) => String(number).padStart(6, "0");
@@ -28,21 +29,22 @@ function Editor({ parameter, done }: { parameter: Parameter; done: () => void })
     entered.value = String(parameter.value);
     refused.value = "";
   }, [parameter.value]);
+  const t = text.value;
   const isText = typeof parameter.value === "string";
   const save = async () => {
     const number = Number(entered.value.replace(",", "."));
     if (!isText && (entered.value.trim() === "" || !Number.isFinite(number))) {
-      refused.value = "This is not a number.";
+      refused.value = t.notANumber;
       return;
     }
     const answer = await put(`/api/parameters/${sixDigits(parameter.number)}`, isText ? { text: entered.value } : { value: number });
     refused.value = answer.reason;
     if (!answer.ok) return;
-    tell(`${sixDigits(parameter.number)} ${title(parameter.name)} is stored`, false);
+    tell(t.stored(`${sixDigits(parameter.number)} ${title(parameter.name)}`), false);
     done();
   };
   return (
-    <section class="editor" aria-label="parameter">
+    <section class="editor" aria-label={t.parameter}>
       <h2>{sixDigits(parameter.number)}</h2>
       <h3>{title(parameter.name)}</h3>
       <p>{parameter.help}</p>
@@ -52,7 +54,7 @@ function Editor({ parameter, done }: { parameter: Parameter; done: () => void })
           void save();
         }}
       >
-        <label for="parameter-value">Value {parameter.unit && <span class="dim">in {unit(parameter.unit)}</span>}</label>
+        <label for="parameter-value">{t.value} {parameter.unit && <span class="dim">{t.valueIn(unit(parameter.unit, t.or))}</span>}</label>
         <input
           id="parameter-value"
           data-test="parameter-value"
@@ -63,20 +65,20 @@ function Editor({ parameter, done }: { parameter: Parameter; done: () => void })
           aria-invalid={refused.value !== ""}
           onInput={(event) => (entered.value = event.currentTarget.value)}
         />
-        <button type="submit" class="primary" data-test="parameter-save">Store</button>
+        <button type="submit" class="primary" data-test="parameter-save">{t.store}</button>
       </form>
       {refused.value && <p class="refusal" role="alert" data-test="parameter-refusal">{refused.value}</p>}
       <dl>
-        <dt>Limits</dt>
+        <dt>{t.limits}</dt>
         <dd class="digits">{limits(parameter.minimum, parameter.maximum) || "–"}</dd>
-        <dt>Default</dt>
+        <dt>{t.defaultValue}</dt>
         <dd class="digits">{parameter.default ?? "–"}</dd>
-        <dt>Takes effect</dt>
+        <dt>{t.takesEffect}</dt>
         <dd>{parameter.activation}</dd>
-        <dt>Access</dt>
+        <dt>{t.access}</dt>
         <dd>{parameter.access}</dd>
       </dl>
-      {parameter.pending && <p class="tag warn">{parameter.pending_value} is stored and waits for {parameter.activation.toLowerCase()}</p>}
+      {parameter.pending && <p class="tag warn">{t.waitsFor(String(parameter.pending_value), parameter.activation.toLowerCase())}</p>}
     </section>
   );
 }
@@ -103,37 +105,38 @@ export function Parameters() {
     const timer = setTimeout(() => void load(), 120);
     return () => clearTimeout(timer);
   }, [search.value, group.value, revision, pending]);
+  const t = text.value;
   const current = found.value.find((parameter) => parameter.number === chosen.value);
   return (
     <main class="parameters">
-      <section class="list" aria-label="parameters">
+      <section class="list" aria-label={t.parameters}>
         <div class="title">
-          <h2>Parameters</h2>
+          <h2>{t.parameters}</h2>
           <input
             type="search"
             autofocus
             data-test="parameter-search"
-            placeholder="Number or name"
-            aria-label="number or name"
+            placeholder={t.numberOrName}
+            aria-label={t.numberOrName}
             value={search.value}
             onInput={(event) => (search.value = event.currentTarget.value)}
           />
-          <div class="segments small">
+          <div class="segments" role="group" aria-label={t.parameterClass}>
             {classes.map(([value, title]) => (
               <button key={value} aria-pressed={group.value === value} onClick={() => (group.value = value)}>
-                {title}
+                {t[title] as string}
               </button>
             ))}
           </div>
           <span class="dim end">
-            {found.value.length < total.value ? `${found.value.length} of ${total.value}` : total.value}
-            {pending ? ` · ${pending} pending` : ""}
+            {found.value.length < total.value ? t.shownOf(found.value.length, total.value) : total.value}
+            {pending ? ` · ${t.pending(pending)}` : ""}
           </span>
         </div>
         <div class="scroll">
           <table>
             <thead>
-              <tr><th>Number</th><th>Name</th><th class="right">Value</th><th>Unit</th><th>Limits</th><th>Effect</th></tr>
+              <tr><th>{t.number}</th><th>{t.name}</th><th class="right">{t.value}</th><th>{t.unit}</th><th>{t.limits}</th><th>{t.effect}</th></tr>
             </thead>
             <tbody>
               {found.value.map((parameter) => (
@@ -148,21 +151,21 @@ export function Parameters() {
                   <td class="digits">{sixDigits(parameter.number)}</td>
                   <td>{title(parameter.name)}</td>
                   <td class={`right digits ${parameter.value === parameter.default ? "" : "changed"}`}>{parameter.value}</td>
-                  <td class="dim">{unit(parameter.unit)}</td>
+                  <td class="dim">{unit(parameter.unit, t.or)}</td>
                   <td class="dim digits">{limits(parameter.minimum, parameter.maximum)}</td>
-                  <td>{parameter.activation}{parameter.pending && <span class="tag warn">{parameter.pending_value} waits</span>}</td>
+                  <td>{parameter.activation}{parameter.pending && <span class="tag warn">{t.waits(String(parameter.pending_value))}</span>}</td>
                 </tr>
               ))}
             </tbody>
           </table>
           {problem.value && <p class="refusal">{problem.value}</p>}
-          {!problem.value && found.value.length === 0 && <p class="dim">Nothing found.</p>}
+          {!problem.value && found.value.length === 0 && <p class="dim">{t.nothingFound}</p>}
         </div>
       </section>
       {current ? (
         <Editor key={current.number} parameter={current} done={() => void load()} />
       ) : (
-        <section class="editor dim">Choose a parameter to read what it does and to change it.</section>
+        <section class="editor dim">{t.chooseParameter}</section>
       )}
     </main>
   );

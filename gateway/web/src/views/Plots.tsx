@@ -2,15 +2,18 @@
 import { useEffect, useRef } from "preact/hooks";
 import uPlot from "uplot";
 import { historySeconds } from "../state/history";
+import { colour, shownTheme } from "../state/preferences";
 import { channel, channelNumber, history, machine } from "../state/store";
+import { text } from "../text/texts";
 
-const colours = ["#5cc8ff", "#7ee08a", "#ffc857", "#ff8fab", "#c9a7ff", "#7fe3d4", "#ffa36c", "#b5d95b", "#9aa9ff"];
+const names = ["accent", "good", "warn", "axis-x", "curve-5", "curve-6", "curve-7", "curve-8", "curve-9"];
+const curveColour = (index: number) => colour(names[index % names.length]!);
 
 function axis(size: number): uPlot.Axis {
   return {
-    stroke: "#8593a1",
+    stroke: colour("dim"),
     font: "11px sans-serif",
-    grid: { stroke: "#232c35", width: 1 },
+    grid: { stroke: colour("grid"), width: 1 },
     ticks: { show: false },
     size,
     gap: 4,
@@ -42,11 +45,11 @@ export function Plots() {
   const letters = channel.value?.letters ?? "";
   useEffect(() => {
     if (number === null) return;
-    const feed = makePlot(feedPlace.current!, "Feed, mm/min", [{ stroke: colours[0], width: 1.5 }]);
+    const feed = makePlot(feedPlace.current!, text.peek().feedPlot, [{ stroke: curveColour(0), width: 1.5 }]);
     const lag = makePlot(
       lagPlace.current!,
-      "Following error, mm or °",
-      [...letters].map((_, index) => ({ stroke: colours[index], width: 1.2 })),
+      text.peek().followingErrorPlot,
+      [...letters].map((_, index) => ({ stroke: curveColour(index), width: 1.2 })),
     );
     const resize = new ResizeObserver(() => {
       for (const [plot, place] of [[feed, feedPlace.current], [lag, lagPlace.current]] as const)
@@ -75,14 +78,14 @@ export function Plots() {
       feed.destroy();
       lag.destroy();
     };
-  }, [number, letters]);
+  }, [number, letters, text.value, shownTheme.value]);
   return (
     <div class="plots">
       <div class="plot" ref={feedPlace} />
       <div class="plot" ref={lagPlace} />
       <div class="legend">
         {[...letters].map((letter, index) => (
-          <span key={letter} style={{ color: colours[index] }}>
+          <span key={letter} style={{ color: curveColour(index) }}>
             {letter}
           </span>
         ))}

@@ -3,6 +3,7 @@ import { signal } from "@preact/signals";
 import { millimetres } from "../format";
 import { axisRows } from "../state/model";
 import { channel, machine } from "../state/store";
+import { text } from "../text/texts";
 
 /** Which coordinates are the large digits. */
 const large = signal<"workpiece" | "machine">("workpiece");
@@ -10,24 +11,24 @@ const large = signal<"workpiece" | "machine">("workpiece");
 export function Positions() {
   const one = channel.value;
   if (!one) return null;
+  const t = text.value;
   const rows = axisRows(machine.value, one);
   const workpieceLarge = large.value === "workpiece";
   return (
-    <section class="positions" aria-label="positions">
+    <section class="positions" aria-label={t.positions}>
       <div class="title">
-        <h2>Position</h2>
-        {!one.homed && <span class="tag warn">not referenced</span>}
-        {one.rtcp && <span class="tag note">RTCP</span>}
-        <div class="segments small">
+        <div class="segments" role="group" aria-label={t.positions}>
           <button aria-pressed={workpieceLarge} onClick={() => (large.value = "workpiece")}>
-            Workpiece G{54 + one.work_offset}
+            {t.workpiece} G{54 + one.work_offset}
           </button>
           <button aria-pressed={!workpieceLarge} onClick={() => (large.value = "machine")}>
-            Machine
+            {t.machine}
           </button>
         </div>
+        {!one.homed && <span class="tag warn">{t.notReferenced}</span>}
+        {one.rtcp && <span class="tag note">RTCP</span>}
       </div>
-      <div class={`rows ${rows.length > 6 ? "many" : ""}`}>
+      <div class={`rows ${rows.length > 5 ? "many" : ""}`} tabIndex={0} role="region" aria-label={t.positions}>
         {rows.map((row) => (
           <div class={`axis ${row.enabled === false ? "off" : ""}`} key={row.index} data-axis={row.letter}>
             <span class="letter">{row.letter}</span>
@@ -35,11 +36,11 @@ export function Positions() {
               {millimetres(workpieceLarge ? row.workpiece : row.machine)}
             </span>
             <dl class="digits">
-              <dt>{workpieceLarge ? "Mach" : "Work"}</dt>
+              <dt class="go">{t.toGo}</dt>
+              <dd class="go" data-test={`to-go-${row.letter}`}>{millimetres(row.distanceToGo)}</dd>
+              <dt>{workpieceLarge ? t.machineShort : t.workpieceShort}</dt>
               <dd>{millimetres(workpieceLarge ? row.machine : row.workpiece)}</dd>
-              <dt>To go</dt>
-              <dd>{millimetres(row.distanceToGo)}</dd>
-              <dt title="following error">Lag</dt>
+              <dt title={t.followingError}>{t.followingErrorShort}</dt>
               <dd>{row.followingError === undefined ? "–" : millimetres(row.followingError, 4)}</dd>
             </dl>
           </div>

@@ -6,8 +6,10 @@ import { bytes } from "../format";
 import { ProgramText } from "../program/lines";
 import { reminders } from "../state/functions";
 import { failingLine } from "../state/model";
-import { channel, command, commandTo, machine, tell } from "../state/store";
+import { channel, command, machine, tell } from "../state/store";
+import { text as texts } from "../text/texts";
 import { ProgramView } from "./ProgramView";
+import { ask } from "./Question";
 
 const programs = signal<ProgramEntry[]>([]);
 const text = signal<ProgramText | null>(null);
@@ -37,24 +39,36 @@ async function load(name: string, revision: number): Promise<void> {
 async function uploadFile(file: File): Promise<void> {
   await refreshList();
   const same = programs.peek().find((entry) => entry.name === file.name);
-  if (same && !window.confirm(`${file.name} is stored already (revision ${same.revision}). Store this file in its place?`))
-    return;
-  tell(`Uploading ${file.name} (${bytes(file.size)})…`, false);
+  const t = texts.peek();
+  if (same) ask(t.replaceQuestion(file.name, same.revision), t.replaceKey, () => void store(file));
+  else await store(file);
+}
+
+async function store(file: File): Promise<void> {
+  const t = texts.peek();
+  tell(t.uploading(file.name, bytes(file.size)), false);
   const answer = await upload(file.name, file);
-  tell(answer.ok ? `${file.name} is stored` : `Upload of ${file.name}: ${answer.reason}`, !answer.ok);
+  tell(answer.ok ? t.stored(file.name) : `${t.uploadOf(file.name)}: ${answer.reason}`, !answer.ok);
+  await refreshList();
+}
+
+async function removeProgram(name: string): Promise<void> {
+  const answer = await remove(`/api/programs/${encodeURIComponent(name)}`);
+  if (!answer.ok) tell(`${texts.peek().deleteProgram(name)}: ${answer.reason}`, true);
   await refreshList();
 }
 
 function Library({ close }: { close: () => void }) {
   const filter = useSignal("");
+  const t = texts.value;
   const chosen = channel.value?.program;
   const shown = programs.value.filter((entry) => entry.name.toLowerCase().includes(filter.value.toLowerCase()));
   return (
     <div class="library">
       <input
         type="search"
-        placeholder="Find a program"
-        aria-label="find a program"
+        placeholder={t.findProgram}
+        aria-label={t.findProgram}
         value={filter.value}
         onInput={(event) => (filter.value = event.currentTarget.value)}
       />
@@ -64,82 +78,27 @@ function Library({ close }: { close: () => void }) {
             <button
               class="choose"
               onClick={() => {
-                void command("Select", "select", { program: entry.name });
+                void command(t.select, "select", { program: entry.name });
                 close();
               }}
             >
               <b>{entry.name}</b>
               <span class="dim digits">
-                {bytes(entry.size)} · {entry.lines} lines · revision {entry.revision}
+                {t.programEntry(bytes(entry.size), entry.lines, entry.revision)}
               </span>
             </button>
             <button
-              aria-label={`delete ${entry.name}`}
+              aria-label={t.deleteProgram(entry.name)}
               disabled={entry.name === chosen}
-              onClick={() => {
-                if (!window.confirm(`Delete ${entry.name}?`)) return;
-                void remove(`/api/programs/${encodeURIComponent(entry.name)}`).then((answer) => {
-                  if (!answer.ok) tell(`Delete: ${answer.reason}`, true);
-                  return refreshList();
-                });
-              }}
+              onClick={() => ask(t.deleteQuestion(entry.name), t.deleteKey, () => void removeProgram(entry.name))}
             >
               ✕
             </button>
           </li>
         ))}
-        {shown.length === 0 && <li class="dim">No program.</li>}
+        {shown.length === 0 && <li class="dim">{t.noProgramFound}</li>}
       </ul>
     </div>
-  );
-}
-
-const mdiHistory = signal<string[]>([]);
-
-function Mdi() {
-  const line = useSignal("");
-  const at = useSignal(-1);
-  const one = channel.value;
-  const execute = async () => {
-    const entered = line.value.trim();
-    if (!entered || !one) return;
-    if (one.mode !== "MDI" && !(await command("Mode", "mode", { mode: "MDI" }))) return;
-    mdiHistory.value = [entered, ...mdiHistory.value.filter((old) => old !== entered)].slice(0, 50);
-    at.value = -1;
-    if (await commandTo(one.channel, "MDI", "mdi", { line: entered })) line.value = "";
-  };
-  const recall = (step: number) => {
-    const next = Math.min(mdiHistory.value.length - 1, Math.max(-1, at.value + step));
-    at.value = next;
-    line.value = next < 0 ? "" : (mdiHistory.value[next] ?? "");
-  };
-  return (
-    <form
-      class="mdi"
-      onSubmit={(event) => {
-        event.preventDefault();
-        void execute();
-      }}
-    >
-      <label for="mdi">MDI</label>
-      <input
-        id="mdi"
-        data-test="mdi"
-        value={line.value}
-        maxLength={255}
-        spellcheck={false}
-        autocomplete="off"
-        placeholder="G0 X10 Y20    (↑ ↓ earlier lines)"
-        onInput={(event) => (line.value = event.currentTarget.value)}
-        onKeyDown={(event) => {
-          if (event.key === "ArrowUp") recall(1);
-          else if (event.key === "ArrowDown") recall(-1);
-          else return;
-          event.preventDefault();
-        }}
-      />
-      <button type="submit" data-test="mdi-send">Execute</button>
-    </form>
   );
 }
 
@@ -154,22 +113,24 @@ export function ProgramPanel() {
     if (now) void load(now.program, now.program_revision);
   });
   if (!one) return null;
+  const t = texts.value;
   const newest = programs.value.find((entry) => entry.name === one.program);
   const older = newest !== undefined && newest.revision !== one.program_revision;
   return (
-    <section class="program-panel" aria-label="program">
+    <section class="program-panel" aria-label={t.program}>
       <div class="title">
-        <h2>Program</h2>
-        <b class="name">{one.program || "none selected"}</b>
+        <h2>{t.program}</h2>
+        <b class="name">{one.program || t.noneSelected}</b>
         <div class="end">
           <button aria-expanded={open.value} onClick={() => (open.value = !open.value)}>
-            {open.value ? "Back to text" : "Select…"}
+            {open.value ? t.backToText : t.selectProgram}
           </button>
-          <button onClick={() => file.current?.click()}>Upload…</button>
+          <button onClick={() => file.current?.click()}>{t.upload}</button>
           <input
             ref={file}
             type="file"
             hidden
+            aria-label={t.upload}
             onChange={(event) => {
               const chosen = event.currentTarget.files?.[0];
               if (chosen) void uploadFile(chosen);
@@ -178,9 +139,9 @@ export function ProgramPanel() {
           />
         </div>
       </div>
-      {(one.detail || reminders(one).length > 0) && (
+      {(one.detail || reminders(one, t).length > 0) && (
         <div class="program-detail" data-test="detail">
-          {reminders(one).map((what) => (
+          {reminders(one, t).map((what) => (
             <span class="tag warn" key={what}>
               {what}
             </span>
@@ -190,8 +151,8 @@ export function ProgramPanel() {
       )}
       {older && (
         <div class="program-detail" data-test="other-revision">
-          <span class="tag warn">revision {newest.revision} is shown</span>
-          <span>Revision {one.program_revision} is selected; select the program again to use the new text.</span>
+          <span class="tag warn">{t.revisionShown(newest.revision)}</span>
+          <span>{t.revisionSelected(one.program_revision)}</span>
         </div>
       )}
       {open.value ? (
@@ -199,9 +160,8 @@ export function ProgramPanel() {
       ) : text.value ? (
         <ProgramView text={text.value} line={one.line} failing={failingLine(machine.value, one)} />
       ) : (
-        <div class="code dim">{loading.value ? "Loading…" : one.program ? "" : "Select a program or enter an MDI line."}</div>
+        <div class="code dim">{loading.value ? t.loading : one.program ? "" : t.selectOrMdi}</div>
       )}
-      <Mdi />
     </section>
   );
 }

@@ -2,6 +2,7 @@
 import { useSignal } from "@preact/signals";
 import { useEffect, useLayoutEffect, useRef } from "preact/hooks";
 import { follow, type ProgramText } from "../program/lines";
+import { text as texts } from "../text/texts";
 
 const lineHeight = 21;
 
@@ -52,7 +53,8 @@ export function ProgramView({ text, line, failing }: { text: ProgramText; line: 
       class="code"
       ref={place}
       tabIndex={0}
-      aria-label="program text"
+      role="region"
+      aria-label={texts.value.programText}
       onWheel={(event) => scrollTo(first.value + Math.sign(event.deltaY) * Math.max(1, Math.abs(event.deltaY) / 40))}
       onKeyDown={(event) => {
         const step = steps[event.key];

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import { signal } from "@preact/signals";
+import { text } from "../text/texts";
 import { Functions } from "./Functions";
 import { Plots } from "./Plots";
 import { ToolPath } from "./ToolPath";
@@ -7,12 +8,13 @@ import { ToolPath } from "./ToolPath";
 const shown = signal<"path" | "plots" | "functions">("path");
 
 export function SidePanel() {
+  const t = text.value;
   return (
-    <section class="side" aria-label="path and plots">
+    <section class="side" aria-label={t.pathAndPlots}>
       <div class="title">
-        <div class="segments small" role="tablist">
-          <button role="tab" aria-selected={shown.value === "path"} onClick={() => (shown.value = "path")}>
-            Tool path
+        <div class="segments" role="tablist" aria-label={t.pathAndPlots}>
+          <button role="tab" aria-selected={shown.value === "path"} data-test="path" onClick={() => (shown.value = "path")}>
+            {t.toolPath}
           </button>
           <button
             role="tab"
@@ -20,7 +22,7 @@ export function SidePanel() {
             data-test="plots"
             onClick={() => (shown.value = "plots")}
           >
-            Feed & lag
+            {t.plots}
           </button>
           <button
             role="tab"
@@ -28,7 +30,7 @@ export function SidePanel() {
             data-test="functions"
             onClick={() => (shown.value = "functions")}
           >
-            Functions
+            {t.functions}
           </button>
         </div>
       </div>

@@ -1,23 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
 import { millimetres, whole } from "../format";
 import { channel, machine } from "../state/store";
+import { text } from "../text/texts";
 
 export function Technology() {
   const one = channel.value;
   if (!one) return null;
+  const t = text.value;
   const spindle = machine.value.drive?.spindle_speed[0];
   return (
-    <section class="technology" aria-label="feed, spindle and tool">
+    <section class="technology" aria-label={t.technology}>
       <div class="values digits">
         <div>
           <b>F</b>
           <span class="value">{whole(one.feed)}</span>
-          <span class="dim">prog {whole(one.programmed_feed)} <span class="wide">mm/min</span></span>
+          <span class="dim">{t.programmed} {whole(one.programmed_feed)} <span class="wide">mm/min</span></span>
         </div>
         <div>
           <b>S</b>
           <span class="value">{spindle === undefined ? "–" : whole(spindle)}</span>
-          <span class="dim">prog {whole(one.spindle_programmed)} <span class="wide">1/min</span></span>
+          <span class="dim">{t.programmed} {whole(one.spindle_programmed)} <span class="wide">1/min</span></span>
         </div>
         <div>
           <b>T</b>
@@ -27,7 +29,7 @@ export function Technology() {
           </span>
         </div>
       </div>
-      <div class="modal" aria-label="active G codes">
+      <div class="modal" role="group" aria-label={t.activeCodes}>
         {one.modal.map((code) => (
           <span key={code}>{code}</span>
         ))}

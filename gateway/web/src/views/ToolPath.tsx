@@ -2,9 +2,13 @@
 import { signal } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
 import { fit, gridStep, type Point2, project, type Rotation, type View } from "../state/projection";
+import { colour, shownTheme } from "../state/preferences";
 import { channelNumber, history, machine } from "../state/store";
+import { text } from "../text/texts";
 
 const views: View[] = ["XY", "XZ", "YZ", "3D"];
+/** The newest points are drawn; the 3D view shows all of them. */
+const mostPoints = 20_000;
 const chosen = signal<View>("3D");
 const rotation = signal<Rotation>({ turn: 30, tilt: 28 });
 
@@ -21,7 +25,7 @@ function draw(canvas: HTMLCanvasElement, number: number): void {
   context.clearRect(0, 0, width, height);
   const path = history(number).path;
   const points: Point2[] = [];
-  for (let row = 0; row < path.length; ++row)
+  for (let row = Math.max(0, path.length - mostPoints); row < path.length; ++row)
     points.push(project(chosen.value, rotation.value, path.at(row, 0), path.at(row, 1), path.at(row, 2)));
   const { scale, offsetX, offsetY } = fit(points, width, height, 26);
   const at = ([right, up]: Point2): Point2 => [offsetX + right * scale, offsetY - up * scale];
@@ -30,7 +34,7 @@ function draw(canvas: HTMLCanvasElement, number: number): void {
   context.font = "11px sans-serif";
   const step = gridStep(scale, 60);
   if (chosen.value !== "3D") {
-    context.strokeStyle = "#1f2830";
+    context.strokeStyle = colour("grid");
     context.beginPath();
     for (let x = Math.ceil(-offsetX / scale / step) * step; offsetX + x * scale < width; x += step) {
       context.moveTo(offsetX + x * scale, 0);
@@ -43,7 +47,7 @@ function draw(canvas: HTMLCanvasElement, number: number): void {
     context.stroke();
   }
   // The directions of the axes, at a fixed place, so that a turned view can be read.
-  const colours = ["#ff6b6b", "#6bdc8b", "#5cc8ff"];
+  const colours = [colour("axis-x"), colour("axis-y"), colour("axis-z")];
   const origin: Point2 = [34, height - 34];
   ["X", "Y", "Z"].forEach((letter, index) => {
     const unit = [0, 0, 0];
@@ -57,12 +61,12 @@ function draw(canvas: HTMLCanvasElement, number: number): void {
     context.stroke();
     context.fillText(letter, origin[0] + right * 27 - 3, origin[1] - up * 27 + 4);
   });
-  context.fillStyle = "#8593a1";
+  context.fillStyle = colour("dim");
   context.fillText(`${step >= 1 ? step : step.toPrecision(1)} mm`, width - 62, height - 12);
-  context.strokeStyle = "#8593a1";
+  context.strokeStyle = colour("dim");
   context.strokeRect(width - 20 - step * scale, height - 8, step * scale, 0);
 
-  context.strokeStyle = "#5cc8ff";
+  context.strokeStyle = colour("accent");
   context.lineWidth = 1.3;
   context.lineJoin = "round";
   context.beginPath();
@@ -71,7 +75,7 @@ function draw(canvas: HTMLCanvasElement, number: number): void {
   const tip = points[points.length - 1];
   if (tip) {
     const [x, y] = at(tip);
-    context.fillStyle = "#ffc857";
+    context.fillStyle = colour("warn");
     context.beginPath();
     context.arc(x, y, 4, 0, 2 * Math.PI);
     context.fill();
@@ -90,13 +94,13 @@ export function ToolPath() {
       const element = canvas.current;
       if (!element) return;
       const { turn, tilt } = rotation.value;
-      const key = [history(number).path.pushed, chosen.value, turn, tilt, element.clientWidth, element.clientHeight].join();
+      const key = [history(number).path.pushed, chosen.value, shownTheme.value, turn, tilt, element.clientWidth, element.clientHeight].join();
       if (key === drawn) return;
       drawn = key;
       draw(element, number);
     };
     const ask = () => (asked ||= requestAnimationFrame(paint));
-    const stops = [machine.subscribe(ask), chosen.subscribe(ask), rotation.subscribe(ask)];
+    const stops = [machine.subscribe(ask), chosen.subscribe(ask), shownTheme.subscribe(ask), rotation.subscribe(ask)];
     return () => {
       for (const stop of stops) stop();
       cancelAnimationFrame(asked);
@@ -106,7 +110,8 @@ export function ToolPath() {
     <div class="tool-path">
       <canvas
         ref={canvas}
-        aria-label="tool path of the actual positions"
+        role="img"
+        aria-label={text.value.toolPathAbout}
         onPointerDown={(event) => event.currentTarget.setPointerCapture(event.pointerId)}
         onPointerMove={(event) => {
           if (event.buttons !== 1 || chosen.value !== "3D") return;
@@ -117,13 +122,13 @@ export function ToolPath() {
           };
         }}
       />
-      <div class="path-keys segments small">
+      <div class="path-keys segments" role="group" aria-label={text.value.sceneViews}>
         {views.map((name) => (
           <button key={name} aria-pressed={chosen.value === name} onClick={() => (chosen.value = name)}>
             {name}
           </button>
         ))}
-        <button onClick={() => number !== null && history(number).clear()}>Clear</button>
+        <button onClick={() => number !== null && history(number).clear()}>{text.value.clear}</button>
       </div>
     </div>
   );

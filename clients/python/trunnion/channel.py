@@ -1,0 +1,141 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Operating one channel."""
+from __future__ import annotations
+
+import contextlib
+import time
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, Any, Literal
+
+from .data import Alarm, ChannelState, Mode, from_json
+from .errors import NotConnected, ProgramStopped, Refused
+from .signals import Signals
+
+if TYPE_CHECKING:
+    from .machine import Machine
+
+# A message that is younger than this may show the state from before an order that was answered.
+_SETTLED = 0.3  # s
+
+
+class Channel:
+    """One channel of a machine: `machine.channel()`."""
+
+    def __init__(self, machine: Machine, number: int):
+        self._machine = machine
+        self.number = number
+
+    @property
+    def state(self) -> ChannelState:
+        """The newest state. Raises NotConnected when the channel has not reported."""
+        return self._in(self._machine.stream.state)
+
+    def command(self, command: str, **fields: Any) -> None:
+        """Any operator command of docs/operator-commands.md, for example command("dry-run", on=True). Raises Refused."""
+        self._machine.http.send("POST", f"/api/channels/{self.number}/{command}", fields)
+
+    def set_mode(self, mode: Mode) -> None:
+        """AUTO, MDI, JOG or REF. Raises Refused."""
+        if self.state.mode != mode:
+            self.command("mode", mode=mode)
+            self._machine.stream.wait(lambda state: self._in(state).mode == mode, 10.0)
+
+    def select(self, program: str) -> None:
+        """Selects a stored program. Raises Refused."""
+        self.set_mode("AUTO")
+        self.command("select", program=program)
+        self._machine.stream.wait(lambda state: self._in(state).program == program, 10.0)
+
+    def start(self) -> None:
+        """Cycle start. Raises Refused."""
+        self.command("cycle-start")
+
+    def hold(self) -> None:
+        """Feed hold."""
+        self.command("feed-hold")
+
+    def reset(self) -> None:
+        """Ends the program and clears the alarms of this channel whose cause is gone."""
+        before = self.state.reset_count
+        self.command("reset")
+        self._machine.stream.wait(lambda state: self._in(state).reset_count != before, 10.0)
+
+    def run(self, program: str, signals: list[str] = (), timeout: float = 3600.0) -> Signals:
+        """Selects a program, starts it and waits for its end.
+
+        signals: names of what is sampled meanwhile (signals.py). timeout: seconds of this computer's clock.
+        Raises Refused, ProgramStopped (alarm, reset, emergency stop) or TimedOut; the program then goes on.
+        """
+        self.select(program)
+        with self.sampled(signals) as samples:
+            self._do("cycle-start", {}, program, timeout)
+        return samples
+
+    def mdi(self, text: str, timeout: float = 600.0) -> None:
+        """Executes lines one after the other and waits for the end of each.
+
+        timeout: seconds for each line. Raises Refused, ProgramStopped or TimedOut; the lines after that are not executed.
+        """
+        self.set_mode("MDI")
+        for line in filter(None, map(str.strip, text.splitlines())):
+            self._do("mdi", {"line": line}, line, timeout)
+
+    @contextlib.contextmanager
+    def sampled(self, signals: list[str] = ()) -> Iterator[Signals]:
+        """Samples signals while the block runs: `with channel.sampled(["X.torque"]) as samples:`."""
+        state = self.state
+        samples = Signals(list(signals), self.number, state.letters, state.axes, self._machine.period)
+        samples.begin(self._machine.stream.state)
+        self._machine.stream.listen(samples.take)
+        try:
+            yield samples
+        finally:
+            self._machine.stream.forget(samples.take)
+
+    def wait(self, timeout: float = 3600.0, wanted: Literal["IDLE", "HELD"] = "IDLE") -> None:
+        """Waits until the channel is idle (or held), and raises ProgramStopped when it stops for another reason."""
+        self._wait(self.state.program or "the program", self._errors(), self.state.reset_count, timeout, wanted, moved=True)
+
+    def _in(self, state: dict[str, Any]) -> ChannelState:
+        one = state.get("channels", {}).get(str(self.number))
+        if one is None:
+            raise NotConnected(f"channel {self.number} has not reported; there are {sorted(state.get('channels', {}))}")
+        return from_json(ChannelState, one)
+
+    def _errors(self) -> set[tuple[int, ...]]:
+        return {alarm.key for alarm in self._machine.alarms if alarm.is_error}
+
+    def _do(self, command: str, fields: dict[str, Any], what: str, timeout: float) -> None:
+        known, resets = self._errors(), self.state.reset_count
+        # The state that made the channel look idle may be older than its last motion.
+        for attempt in range(10):
+            try:
+                self.command(command, **fields)
+                break
+            except Refused as refusal:
+                if "busy" not in str(refusal) or attempt == 9:
+                    raise
+                time.sleep(0.1)
+        self._wait(what, known, resets, timeout, "IDLE", moved=False)
+
+    def _wait(self, what: str, known: set[tuple[int, ...]], resets: int, timeout: float, wanted: str, moved: bool) -> None:
+        answered = time.monotonic()
+
+        def ended(state: dict[str, Any]) -> bool:
+            nonlocal moved
+            one = self._in(state)
+            raised = [from_json(Alarm, alarm) for alarm in state.get("alarms", {}).values()]
+            new = [alarm for alarm in raised if alarm.is_error and alarm.key not in known]
+            if one.needs_reset or one.reset_count != resets or one.state == "INTERRUPTED":
+                raise ProgramStopped(f"{what} was ended by a reset or an emergency stop", new)
+            if new and one.state in ("IDLE", "HELD"):
+                raise ProgramStopped(f"{what} was stopped in line {one.line}", new)
+            moved = moved or one.state not in ("IDLE", wanted)
+            return one.state == wanted and (moved or time.monotonic() - answered > _SETTLED)
+
+        self._machine.stream.wait(ended, timeout)
+        # An error that ends a line may arrive in the message after the one with the new state.
+        until = time.monotonic() + 0.1
+        while time.monotonic() < until:
+            time.sleep(0.05)
+            self._machine.stream.wait(lambda state: ended(state) or True, 1.0)

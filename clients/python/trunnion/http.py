@@ -1,0 +1,67 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Requests to the gateway. A refusal is an exception with the cluster's reason."""
+from __future__ import annotations
+
+import http.client
+import json
+import time
+import urllib.parse
+from collections.abc import Callable
+from typing import Any
+
+from .errors import NotConnected, Refused
+
+_SHOWN_WITHIN = 5.0  # s
+
+
+class Http:
+    """One gateway. Every request has a connection of its own, so any thread may call."""
+
+    def __init__(self, url: str, timeout: float = 10.0):
+        """url: for example http://localhost:8080; timeout: seconds to wait for an answer."""
+        parts = urllib.parse.urlsplit(url if "//" in url else f"//{url}", scheme="http")
+        if parts.scheme != "http" or not parts.hostname:
+            raise ValueError(f"{url}: not a URL of the form http://HOST:PORT")
+        self.host, self.port, self.timeout = parts.hostname, parts.port or 80, timeout
+
+    def request(self, method: str, path: str, body: bytes | None = None, kind: str = "application/json") -> bytes:
+        """The body of the answer. Raises Refused or NotConnected."""
+        connection = http.client.HTTPConnection(self.host, self.port, timeout=self.timeout)
+        try:
+            connection.request(method, path, body, {"Content-Type": kind} if body is not None else {})
+            answer = connection.getresponse()
+            content = answer.read()
+        except (OSError, http.client.HTTPException) as error:
+            raise NotConnected(f"http://{self.host}:{self.port} does not answer: {error}") from error
+        finally:
+            connection.close()
+        if 200 <= answer.status < 300:
+            return content
+        try:
+            refusal = json.loads(content)
+        except ValueError:
+            refusal = {}
+        if not isinstance(refusal, dict):
+            refusal = {}
+        reason = refusal.get("reason") or refusal.get("error") or f"the gateway answered {answer.status}"
+        raise Refused(str(reason), answer.status, int(refusal.get("alarm") or 0))
+
+    @staticmethod
+    def until_shown(shown: Callable[[], bool]) -> None:
+        """Waits until the gateway shows what it has accepted, so that the next read gives it.
+
+        It answers when the cluster has accepted a change, and shows it when the cluster has published it, some ms later. Gives
+        up after 5 s: another client may have changed the same in between.
+        """
+        until = time.monotonic() + _SHOWN_WITHIN
+        while not shown() and time.monotonic() < until:
+            time.sleep(0.01)
+
+    def get(self, path: str) -> Any:
+        """JSON of a GET."""
+        return json.loads(self.request("GET", path))
+
+    def send(self, method: str, path: str, body: dict[str, Any] | None = None) -> Any:
+        """JSON of the answer to a POST, PUT or DELETE with a JSON body."""
+        content = None if method == "DELETE" else json.dumps(body or {}).encode()
+        return json.loads(self.request(method, path, content) or b"{}")

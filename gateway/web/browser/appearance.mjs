@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+// Every view in three sizes and two languages, dark and light: nothing is cut, everything can be touched, the keys that
+// stop are free, the digits are as large as promised, and axe-core has no serious findings.
+import { check as judged, coveredStops, inaccessible, openPage, overflowing, shot, smallTargets } from "./harness.mjs";
+
+const languages = {
+  en: { locale: "en-GB", views: ["Operate", "3D", "Parameters", "Tools", "Diagnosis"], estop: "Emergency stop", hold: "Feed hold", start: "Cycle start" },
+  de: { locale: "de-DE", views: ["Bedienen", "3D", "Parameter", "Werkzeuge", "Diagnose"], estop: "Not-Halt", hold: "Vorschub-Halt", start: "NC-Start" },
+};
+const sizes = [
+  { size: [1280, 800], digits: 48, operates: true },
+  { size: [1920, 1080], digits: 72, operates: true },
+  { size: [390, 844], digits: 36, operates: false },
+];
+
+const failures = [];
+
+/** The other views are looked at, too, when one is wrong. */
+function check(what, condition) {
+  try {
+    judged(what, condition);
+  } catch (error) {
+    failures.push(error.message);
+  }
+}
+
+async function one(browser, url, code, { size, digits, operates }, colorScheme) {
+  const { locale, views, estop, hold, start } = languages[code];
+  const page = await openPage(browser, url, { size, locale, colorScheme });
+  const where = `${code} ${size.join("x")} ${colorScheme}`;
+  check(`${where}: the language of the browser is used`, (await page.locator("html").getAttribute("lang")) === code);
+  const height = await page.locator("[data-test=position-X]").evaluate((element) => parseFloat(getComputedStyle(element).fontSize));
+  check(`${where}: digits of ${height} px`, height >= digits);
+  check(`${where}: cycle start is ${operates ? "" : "not "}offered`, (await page.getByRole("button", { name: start }).isVisible()) === operates);
+  for (const [index, view] of views.entries()) {
+    await page.getByRole("navigation").getByRole("button", { name: view, exact: true }).click();
+    await page.waitForTimeout(view === "3D" ? 1500 : 500);
+    for (const name of [estop, hold]) check(`${where} ${view}: ${name} is there`, await page.getByRole("button", { name }).isVisible());
+    const covered = await coveredStops(page);
+    check(`${where} ${view}: the keys that stop are free ${covered}`, covered.length === 0);
+    const small = await smallTargets(page);
+    check(`${where} ${view}: touch targets of 48 px ${small}`, small.length === 0);
+    if (operates) {
+      const cut = await overflowing(page);
+      check(`${where} ${view}: nothing is cut ${cut}`, cut.length === 0);
+    }
+    const findings = await inaccessible(page);
+    check(`${where} ${view}: axe-core ${findings}`, findings.length === 0);
+    await shot(page, `${["operate", "scene", "parameters", "tools", "diagnosis"][index]}-${size[0]}-${code}-${colorScheme}`);
+  }
+  check(`${where}: no errors ${page.complaints}`, page.complaints.length === 0);
+  await page.context().close();
+}
+
+export async function appearance(browser, url) {
+  for (const size of sizes)
+    for (const [code, colorScheme] of [["en", "dark"], ["de", "light"]]) await one(browser, url, code, size, colorScheme);
+
+  const page = await openPage(browser, url);
+  await page.getByRole("combobox", { name: "Language" }).selectOption("zh");
+  await page.getByRole("button", { name: "循环启动" }).waitFor();
+  const cut = await overflowing(page);
+  check(`Chinese fits ${cut}`, cut.length === 0);
+  await page.getByRole("combobox", { name: "颜色" }).selectOption("light");
+  await page.reload();
+  await page.getByRole("button", { name: "循环启动" }).waitFor();
+  check("language and colours are kept over a reload", (await page.locator("html").getAttribute("data-theme")) === "light");
+  await page.context().close();
+  if (failures.length > 0) throw new Error(failures.join("\n"));
+}

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+// Operating a real cluster by roles and names: MDI of several lines, alarms with cause and remedy in every view, and the
+// keys that stop.
+import { channelState, check, coveredStops, eventually, openPage, post, shot } from "./harness.mjs";
+
+const hand = { delay: 120 };  // ms a key
+const views = ["Operate", "3D", "Parameters", "Tools", "Diagnosis"];
+const machineX = async (url) => (await channelState(url)).machine[0];
+const close = (a, b) => Math.abs(a - b) < 0.01;
+
+async function mdi(page, url) {
+  const field = page.getByRole("textbox", { name: "MDI lines" });
+  await field.click();
+  await page.keyboard.type("G54 G0 X11\nG1 X12 F3000\nG4 P0.1\nG0 X13.25", hand);
+  check("MDI lines can be typed at the speed of a hand", (await field.inputValue()) === "G54 G0 X11\nG1 X12 F3000\nG4 P0.1\nG0 X13.25");
+  await page.getByRole("button", { name: "Execute" }).click();
+  await eventually("the last of several MDI lines is executed", async () => close(await machineX(url), 13.25), 20);
+  await eventually("the field is empty again", async () => (await field.inputValue()) === "");
+  check("several MDI lines are executed one after the other", true);
+
+  await field.fill("G0 X14\n?? X15\nG0 X16");
+  await page.getByRole("button", { name: "Execute" }).click();
+  await page.locator(".notice.refused, .notice").filter({ hasText: "line 2 of 3" }).waitFor();
+  await page.waitForTimeout(600);
+  check("a bad line ends the rest", close(await machineX(url), 14));
+  check("and the lines stay to be corrected", (await field.inputValue()).includes("?? X15"));
+  await post(url, "alarms/reset");
+
+  await page.reload();
+  const history = page.getByRole("combobox", { name: "Earlier MDI lines" });
+  await history.selectOption({ label: "G54 G0 X11 / G1 X12 F3000 / G4 P0.1 / G0 X13.25" });
+  check("earlier MDI lines are kept over a reload", (await field.inputValue()).startsWith("G54 G0 X11\nG1 X12"));
+  await field.fill("");
+}
+
+async function alarmsAndStops(page, url) {
+  const stop = page.getByRole("button", { name: "Emergency stop" });
+  const hold = page.getByRole("button", { name: "Feed hold" });
+  check("stop and hold are free before anything happened", (await coveredStops(page)).length === 0);
+
+  // On press: the pointer goes down and does not come up again before the order has acted.
+  const box = await stop.boundingBox();
+  await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
+  await page.mouse.down();
+  await page.locator("[data-test=estop-engaged]").waitFor();
+  check("the emergency stop acts on press", true);
+  await page.mouse.up();
+
+  const alarms = page.getByRole("region", { name: "Alarms", exact: true }).first();
+  for (const view of views) {
+    await page.getByRole("navigation", { name: "Views" }).getByRole("button", { name: view, exact: true }).click();
+    const text = await alarms.innerText();
+    check(`${view}: the strip has count, text, cause and remedy`, /\d+ alarms?/.test(text) && /130/.test(text) && /Cause: /.test(text) && /Remedy: /.test(text));
+    await alarms.getByRole("button", { name: /alarm/ }).first().click();
+    check(`${view}: the list of alarms covers no key that stops`, (await coveredStops(page)).length === 0);
+    if (view === "Operate") await shot(page, "alarms");
+    await alarms.getByRole("button", { name: /alarm/ }).first().click();
+  }
+  await page.getByRole("button", { name: "Operate", exact: true }).click();
+  await page.getByRole("button", { name: "Recover" }).click();
+  await page.locator("[data-test=estop]").waitFor();
+  await eventually("the alarms are gone", async () => /No alarms/.test(await alarms.innerText()));
+  check("recovery leads back", true);
+
+  // A question does not cover them either, and the machine can be held while it waits.
+  await page.getByRole("button", { name: "Upload…" }).waitFor();
+  const upload = (content) =>
+    page.setInputFiles("input[type=file]", { name: "page_test.nc", mimeType: "text/plain", buffer: Buffer.from(content) });
+  await fetch(`${url}api/programs/page_test.nc`, { method: "PUT", body: "G0 X0\nM30\n" });
+  const listed = () => fetch(`${url}api/programs`).then((answer) => answer.json());
+  await eventually("the program is listed", async () => (await listed()).programs.some((one) => one.name === "page_test.nc"));
+  await upload("G1 X100 F20\nG1 X-100\nM30\n");
+  const question = page.getByRole("alertdialog", { name: /page_test.nc is stored already/ });
+  await question.waitFor();
+  check("a question covers no key that stops", (await coveredStops(page)).length === 0);
+  await question.getByRole("button", { name: "Replace" }).click();
+  await eventually("the program is replaced", async () => (await (await fetch(`${url}api/programs/page_test.nc`)).text()).includes("F20"));
+  await page.getByRole("button", { name: "Select…" }).click();
+  await page.getByRole("button", { name: /^page_test.nc/ }).click();
+  await page.getByRole("button", { name: "Auto", exact: true }).click();
+  await eventually("automatic mode", async () => (await channelState(url)).mode === "AUTO");
+  await page.getByRole("button", { name: "Cycle start" }).click();
+  await eventually("the program runs", async () => (await channelState(url)).state === "RUNNING");
+  await eventually("the running time counts", async () => /\d:\d\d:\d\d/.test(await page.locator("[data-test=elapsed]").innerText()));
+  await eventually("distance to go is shown", async () => (await page.locator("[data-test=to-go-X]").innerText()) !== "0.000");
+  await page.getByRole("button", { name: "Parameters", exact: true }).click();
+  const at = await hold.boundingBox();
+  await page.mouse.move(at.x + at.width / 2, at.y + at.height / 2);
+  await page.mouse.down();
+  await eventually("feed hold in another view holds on press", async () => (await channelState(url)).state === "HELD");
+  await page.mouse.up();
+  check("feed hold acts on press in every view", true);
+  await page.getByRole("button", { name: "Operate", exact: true }).click();
+  await page.getByRole("button", { name: "Reset", exact: true }).click();
+  await eventually("reset", async () => (await channelState(url)).state === "IDLE");
+  await page.getByRole("button", { name: "Select…" }).click();
+  await page.getByRole("button", { name: /^rtcp.nc/ }).click();
+  await eventually("another program is selected", async () => (await channelState(url)).program === "rtcp.nc");
+  await page.getByRole("button", { name: "Select…" }).click();
+  await page.getByRole("button", { name: "Delete page_test.nc" }).click();
+  await page.getByRole("alertdialog", { name: "Delete page_test.nc?" }).getByRole("button", { name: "Delete" }).click();
+  await eventually("the program is deleted", async () => (await fetch(`${url}api/programs/page_test.nc`)).status === 404);
+  await page.getByRole("button", { name: "Back to text" }).click();
+}
+
+export async function operate(browser, url) {
+  const page = await openPage(browser, url);
+  await mdi(page, url);
+  await alarmsAndStops(page, url);
+  check(`operating logs no errors ${page.complaints}`, page.complaints.length === 0);
+  await page.context().close();
+}

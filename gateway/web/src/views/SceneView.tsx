@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+import { signal, useSignal } from "@preact/signals";
+import { useEffect, useRef } from "preact/hooks";
+import { speedColour } from "../scene/path";
+import type { FixedView, Layer, Viewer } from "../scene/viewer";
+import { colour, shownTheme } from "../state/preferences";
+import { channel, channelNumber, history, machine } from "../state/store";
+import { text, type Texts } from "../text/texts";
+
+const views: [FixedView, keyof Texts & `scene${string}`][] = [
+  ["front", "sceneFront"], ["right", "sceneRight"], ["top", "sceneTop"], ["space", "sceneSpace"],
+];
+const layers: [Layer, keyof Texts & `scene${string}`][] = [
+  ["machine", "sceneMachine"], ["travel", "sceneTravel"], ["path", "scenePath"],
+];
+const shown = signal<Record<Layer, boolean>>({ machine: true, travel: true, path: true });
+const following = signal(false);
+const scaleColours = Array.from({ length: 9 }, (_, i) => `rgb(${speedColour(i / 8).join()})`).join();
+
+type Status = "sceneLoading" | "sceneMissing" | "sceneNoChain" | "";
+
+export function SceneView() {
+  const canvas = useRef<HTMLCanvasElement>(null);
+  const viewer = useRef<Viewer | undefined>(undefined);
+  const status = useSignal<Status>("sceneLoading");
+  const facts = useSignal({ segments: 0, scale: 0 });
+  const number = channelNumber.value;
+  const { parameters, tools, work_offsets } = machine.value.revisions;
+  const resets = channel.value?.reset_count;
+
+  useEffect(() => {
+    if (number === null) return;
+    let ended = false;
+    const stops: (() => void)[] = [];
+    const open = async () => {
+      const now = channel.peek();
+      const [{ Viewer }, { readMachine }] = await Promise.all([import("../scene/viewer"), import("../scene/machine_data")]);
+      const data = now && (await readMachine(now));
+      if (ended || !canvas.current) return;
+      if (!data) {
+        status.value = "sceneNoChain";
+        return;
+      }
+      let made: Viewer;
+      try {
+        made = new Viewer(canvas.current, data);
+      } catch {
+        status.value = "sceneMissing";
+        return;
+      }
+      viewer.current = made;
+      status.value = "";
+      for (const [layer] of layers) made.show(layer, shown.peek()[layer]);
+      made.follow(following.peek());
+      let first = true;
+      const follow = () => {
+        // Nothing is computed or drawn for a tab that is not seen; the history goes on.
+        const one = channel.peek();
+        if (document.hidden || !one) return;
+        made.update(one, history(one.channel));
+        if (first) made.fit();
+        first = false;
+        if (facts.peek().segments !== made.segments || facts.peek().scale !== made.scale)
+          facts.value = { segments: made.segments, scale: made.scale };
+      };
+      stops.push(machine.subscribe(follow), shownTheme.subscribe(() => made.paint(colour)), () => made.dispose());
+    };
+    void open();
+    return () => {
+      ended = true;
+      for (const stop of stops) stop();
+      viewer.current = undefined;
+    };
+  }, [number, parameters, tools, work_offsets, resets]);
+
+  const t = text.value;
+  return (
+    <main class="scene" aria-label={t.scene}>
+      <canvas ref={canvas} key={[number, parameters, tools, work_offsets, resets].join()} tabIndex={0} role="img" aria-label={t.scenePicture} data-test="scene" />
+      <div class="scene-keys">
+        <div class="segments" role="group" aria-label={t.sceneViews}>
+          {views.map(([name, title]) => (
+            <button key={name} data-test={`look-${name}`} onClick={() => viewer.current?.look(name)}>{t[title] as string}</button>
+          ))}
+          <button data-test="look-fit" onClick={() => viewer.current?.fit()}>{t.sceneFit}</button>
+        </div>
+        <div class="segments" role="group" aria-label={t.sceneShow}>
+          {layers.map(([layer, title]) => (
+            <button
+              key={layer}
+              aria-pressed={shown.value[layer]}
+              onClick={() => {
+                shown.value = { ...shown.value, [layer]: !shown.value[layer] };
+                viewer.current?.show(layer, shown.value[layer]);
+              }}
+            >
+              {t[title] as string}
+            </button>
+          ))}
+        </div>
+        <button
+          aria-pressed={following.value}
+          onClick={() => {
+            following.value = !following.value;
+            viewer.current?.follow(following.value);
+          }}
+        >
+          {t.sceneFollow}
+        </button>
+        <button onClick={() => number !== null && history(number).clear()}>{t.clear}</button>
+      </div>
+      {status.value ? (
+        <p class="scene-facts" role="status">{t[status.value] as string}</p>
+      ) : (
+        <div class="scene-facts digits">
+          <span data-test="segments">{t.sceneSegments(facts.value.segments)}</span>
+          <span class="scale" style={{ background: `linear-gradient(90deg, ${scaleColours})` }} />
+          <span>{t.sceneSpeed(facts.value.scale)}</span>
+        </div>
+      )}
+    </main>
+  );
+}

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+import { expect, test } from "vitest";
+import { alarmCatalogue } from "../src/alarm_catalogue";
+import { explanation } from "../src/state/alarms";
+import { languageOf, themeOf } from "../src/state/preferences";
+import { languages } from "../src/text/texts";
+
+// The compiler checks that every key is present; a text that was not translated has the English words.
+const same = new Set([
+  "viewScene", "modeAUTO", "modeMDI", "modeJOG", "modeREF", "modeAuto", "modeMdi", "mdi", "plc", "classNc", "reset", "name",
+  "virtualTime", "detail", "radius", "viewParameters", "parameters", "parameter", "programmed", "sceneSpeed", "valueIn",
+]);
+
+test("every text is translated and none is empty", () => {
+  const values = { number: 7, name: "X" };
+  const shown = (text: unknown) => (typeof text === "function" ? String(text(values.number, values.name, 3)) : String(text));
+  const untranslated: string[] = [];
+  for (const language of ["zh", "de"] as const) {
+    for (const [key, text] of Object.entries(languages[language])) {
+      const english = languages.en[key as keyof typeof languages.en];
+      expect(shown(text).trim(), `${language}.${key}`).not.toBe("");
+      if (!same.has(key) && shown(text) === shown(english)) untranslated.push(`${language}.${key}`);
+    }
+  }
+  expect(untranslated).toEqual([]);
+});
+
+test("the browser's language is used where the page has it, else English", () => {
+  expect(languageOf(null, ["fr-FR", "de-AT", "en"])).toBe("de");
+  expect(languageOf(null, ["zh-Hans-CN"])).toBe("zh");
+  expect(languageOf("zh", ["de"])).toBe("zh");
+  expect(languageOf("xx", [])).toBe("en");
+  expect(themeOf("light")).toBe("light");
+  expect(themeOf("pink")).toBe("system");
+});
+
+test("every machine alarm has cause and remedy; alarms of the language name theirs in the text", () => {
+  expect(explanation({ number: 130 }, languages.en)?.remedy).toBe(alarmCatalogue[130]!.remedy);
+  expect(explanation({ number: 1107 }, languages.de)).toEqual({ cause: "", remedy: languages.de.languageRemedy });
+  expect(explanation({ number: 9999 }, languages.en)).toBeUndefined();
+});
