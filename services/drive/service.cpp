@@ -195,6 +195,7 @@ void DriveService::drain() {
     plc_seen_ = now;
     core_.set_enables(plc_.axis_enable, plc_.emergency_stop);
     core_.set_spindle_speed(plc_.spindle_speed);
+    core_.set_probe(plc_.probe_on);
     changed_ = true;
   }
   idl::service::ServiceState state;

@@ -313,7 +313,9 @@ bool DriveCore::pass_cycle() {
   for (auto& [number, channel] : channels_) {
     if (!channel.active) continue;
     const auto* frame = channel.window.peek();
-    if (frame == nullptr || next_ + 1 != frame->first + frame->count) continue;
+    if (frame == nullptr) continue;
+    channel.skip_move = frame->skip_move;
+    if (next_ + 1 != frame->first + frame->count) continue;
     channel.snapshot = frame->snapshot;
     channel.states = frame->states;
     const bool ends = frame->ends;
@@ -408,6 +410,7 @@ void DriveCore::exchange() {
   }
   for (std::size_t i = 0; i < spindles_.size(); ++i) row_.spindles[i] = spindles_[i].setpoint();
   hardware_->exchange(row_, status_, rows_);
+  watch_probe();
   if (row_.controlled) {
     supervise();
   } else if (!row_.enable) {
@@ -440,6 +443,28 @@ void DriveCore::supervise() {
     reported_[i] = true;
     stop();
   }
+}
+
+// Behind the last setpoint of a skip move the contact may still come: the axes follow with their lag.
+void DriveCore::watch_probe() {
+  const bool contact = (status_.skip_inputs & 1u) != 0;
+  const bool risen = contact && !std::exchange(probe_contact_, contact);
+  probe_contact_ = contact;
+  if (!risen || !row_.probe_on) return;
+  if (mode_ != Mode::HOMING && std::any_of(channels_.begin(), channels_.end(),
+                                           [](const auto& entry) { return entry.second.skip_move; }))
+    return;
+  std::string place;
+  for (std::size_t i = 0; i < axes_.size() && place.size() < 120; ++i) {
+    char text[48];
+    const bool turns = axes_[i].type != machine::axis_type_linear;
+    std::snprintf(text, sizeof text, "%s%s %.4f%s", place.empty() ? "" : ", ", axes_[i].name.c_str(),
+                  status_.axes[i].position, turns ? " deg" : " mm");
+    place += text;
+  }
+  raise(alarm::probe_contact, 0,
+        "The touch probe made contact outside a skip move at " + place + ": reset, retract the probe");
+  stop();
 }
 
 void DriveCore::acknowledge() {
