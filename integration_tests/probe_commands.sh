@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # probe_commands.sh TRUNNION MACHINES EXAMPLES PYTHON: examples/probe-sphere in virtual time. %001 measures 16 centres on a
-# machine whose table is beside its place; they are those of the true axes. Its recording is verified.
+# machine whose table is beside its place; they are those of the true axes. A recorded measurement is verified.
 set -euo pipefail
 trunnion=$1 python=$4
 work=$(mktemp -d)
@@ -38,22 +38,24 @@ run() {
 # Inputs out of their limits are one clear alarm before anything moves.
 run O0001.nc
 "$trunnion" alarms --domain "$domain" > "$work/alarms"
-grep -q '#52002 #52003, the rotary axes, must be 4, 5 or 6' "$work/alarms" || fail "$(cat "$work/alarms")"
+grep -q '#52000, the calibration type, must be 0, 1 or 2' "$work/alarms" || fail "$(cat "$work/alarms")"
 "$trunnion" alarms --reset --domain "$domain" > "$work/log"
 "$trunnion" channel reset --domain "$domain"
 
 run calibrate.nc
+run O0001.nc
+"$trunnion" alarms --domain "$domain" > "$work/alarms"
+grep -q 'no alarms' "$work/alarms" || fail "$(cat "$work/alarms")"
+[ "$("$trunnion" variables 52999 --domain "$domain")" = "#52999 16" ] || fail "$("$trunnion" variables --domain "$domain")"
+"$trunnion" variables --domain "$domain" --json > "$work/variables.json"
+"$python" "$(dirname "$0")/check_measured_centres.py" "$trunnion" "$machine" "$work/variables.json" || fail "wrong centres"
+
 "$trunnion" record "$work/r.mcap" --domain "$domain" > "$work/record.log" 2>&1 &
 recorder=$!
 for _ in $(seq 100); do [ -s "$work/r.mcap" ] && break; sleep 0.1; done
-run O0001.nc
+run measure_sphere.nc
 kill -INT $recorder
 wait $recorder || fail "$(cat "$work/record.log")"
-"$trunnion" alarms --domain "$domain" > "$work/alarms"
-grep -q 'no alarms' "$work/alarms" || fail "$(cat "$work/alarms")"
-"$trunnion" variables --domain "$domain" --json > "$work/variables.json"
-[ "$("$trunnion" variables 52999 --domain "$domain")" = "#52999 16" ] || fail "$("$trunnion" variables --domain "$domain")"
-"$python" "$(dirname "$0")/check_measured_centres.py" "$trunnion" "$machine" "$work/variables.json" || fail "wrong centres"
 for service in drive channel plc; do
   "$trunnion" verify --service $service --recording "$work/r.mcap" --machine "$machine" > "$work/verify.log" 2>&1 ||
     fail "$(cat "$work/verify.log")"

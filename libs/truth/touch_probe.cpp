@@ -41,7 +41,7 @@ double TouchProbe::margin(const Vec3& ball, const ProbePose& pose) const {
   const Solid* nearest = nullptr;
   const double free = distance(ball, nearest);
   if (nearest == nullptr) return free;
-  if (early()) return free - truth_.early;
+  if (early(touches_ + 1)) return free - truth_.early;
   double deflection = truth_.pre_travel;
   // The direction only matters near the surface.
   if (truth_.lobing != 0 && free < 1 + truth_.lobing) {
@@ -95,9 +95,10 @@ std::optional<double> TouchProbe::move(const ProbePose& pose, double duration) {
   const double start_margin = margin_, length = (pose.ball - from).norm();
   const double end_margin = margin(pose.ball, pose);
   double begins = 0;  // s: from then on the delay runs
-  if (!open_ && (end_margin <= 0 || start_margin < length)) {
-    const double share = length > 0 ? contact_share(from, pose) : 0;
-    if (share <= 1 && (length > 0 || end_margin <= 0)) {
+  // A faulty probe that would be early at once waits for the next approach.
+  if (!open_ && start_margin > 0 && (end_margin <= 0 || start_margin < length)) {
+    const double share = length > 0 ? contact_share(from, pose) : 2;
+    if (share <= 1) {
       open_ = true;
       ++touches_;
       waiting_ = truth_.no_signal_from == 0 || touches_ < truth_.no_signal_from;
@@ -117,7 +118,7 @@ std::optional<double> TouchProbe::move(const ProbePose& pose, double duration) {
     }
   }
   const Solid* nearest = nullptr;
-  if (open_ && distance(pose.ball, nearest) > reseat + (truth_.early > 0 ? truth_.early : 0)) {
+  if (open_ && distance(pose.ball, nearest) > reseat + (early(touches_) ? truth_.early : 0)) {
     open_ = waiting_ = signal_ = false;
     draw();
     margin_ = margin(pose.ball, pose);

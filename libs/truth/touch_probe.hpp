@@ -66,7 +66,7 @@ class TouchProbe {
   }
 
  private:
-  bool early() const { return truth_.early > 0 && touches_ + 1 >= truth_.early_from; }
+  bool early(std::uint32_t touch) const { return truth_.early > 0 && touch >= truth_.early_from; }
   double distance(const Vec3& ball, const Solid*& nearest) const;
   double margin(const Vec3& ball, const ProbePose& pose) const;
   double contact_share(const Vec3& from, const ProbePose& pose) const;

@@ -191,7 +191,9 @@ TEST(TouchProbe, FaultsBeginAtTheirTouch) {
   hasty.early = 2, hasty.early_from = 2;
   Touch early(hasty, SphereGauge{});
   EXPECT_NEAR(early.move({0, 0, 20}, {0, 0, 10})->z(), 15.5, 1e-8);
-  early.probe.move({{0, 0, 20}}, 1);
+  early.probe.move({{0, 0, 16}}, 1);
+  EXPECT_FALSE(early.probe.signal())
+      << "the touch before was not early: 0.5 mm off the surface it has reseated";
   EXPECT_NEAR(early.move({0, 0, 20}, {0, 0, 10})->z(), 17.5, 1e-8);
 }
 

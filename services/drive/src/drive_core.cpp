@@ -445,12 +445,13 @@ void DriveCore::supervise() {
   }
 }
 
-// Behind the last setpoint of a skip move the contact may still come: the axes follow with their lag.
+// Behind the last setpoint of a skip move the contact may still come: the axes follow with their lag. A probe
+// that is switched on in contact has not made it now.
 void DriveCore::watch_probe() {
   const bool contact = (status_.skip_inputs & 1u) != 0;
-  const bool risen = contact && !std::exchange(probe_contact_, contact);
-  probe_contact_ = contact;
-  if (!risen || !row_.probe_on) return;
+  const bool made = !std::exchange(probe_contact_, contact) && contact;
+  const bool watched = std::exchange(probe_watched_, row_.probe_on);
+  if (!made || !watched || !row_.probe_on) return;
   if (mode_ != Mode::HOMING && std::any_of(channels_.begin(), channels_.end(),
                                            [](const auto& entry) { return entry.second.skip_move; }))
     return;
@@ -464,7 +465,10 @@ void DriveCore::watch_probe() {
   }
   raise(alarm::probe_contact, 0,
         "The touch probe made contact outside a skip move at " + place + ": reset, retract the probe");
-  stop();
+  if (mode_ == Mode::RETURNING)
+    begin_braking();
+  else
+    stop();
 }
 
 void DriveCore::acknowledge() {

@@ -207,6 +207,7 @@ class DriveCore {
   Mode mode_ = Mode::OFF;
   bool enabled_ = false;
   bool probe_contact_ = false;  // skip input 1 was on in the period before
+  bool probe_watched_ = false;  // the probe was on in it
   bool control_lost_ = false;   // the hardware has switched a drive off; until the alarms are reset
   std::uint64_t next_ = 0, tick_ = 0, starved_ = 0;
   std::vector<double> command_;   // setpoint of this period

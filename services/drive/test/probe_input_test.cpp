@@ -138,16 +138,16 @@ struct Contact : ::testing::Test {
   idl::stream::FeedbackFrame feedback;
   double lowest = 0;
 
-  void come_down(bool skip_move, bool on = true) {
+  void come_down(bool skip_move, bool on = true, double from = -80) {
     auto p = machine_xyzc();
-    p.values[100012] = {100, ""}, p.values[102012] = {-80, ""};
+    p.values[100012] = {100, ""}, p.values[102012] = {from, ""};
     core.configure(p, true);
     core.set_enables({1, 1, 1, 1}, false);
     core.set_probe(on);
     core.request({0, 1, StreamRequestKind::NEW_EPOCH, 1});
     // 0.05 mm a cycle after 100 cycles: Z-84.5 is reached within 140.
-    const auto z = [](std::uint64_t n) {
-      return -80 - (n < 100 ? 0.00025 * static_cast<double>(n * n) : 0.05 * (static_cast<double>(n) - 50));
+    const auto z = [from](std::uint64_t n) {
+      return from - (n < 100 ? 0.00025 * static_cast<double>(n * n) : 0.05 * (static_cast<double>(n) - 50));
     };
     for (std::uint64_t first = 0; first < 400; first += 8) {
       idl::stream::AxisFrame f;
@@ -186,6 +186,13 @@ TEST_F(Contact, InASkipMoveIsItsEdge) {
   ASSERT_EQ(edges.size(), 1u);
   EXPECT_NEAR(edges[0].position[2], -84.5, 1e-3) << "the load less what the encoder counts";
   EXPECT_EQ(core.mode(), Mode::FOLLOWING);
+  EXPECT_EQ(feedback.skip_inputs, 1);
+}
+
+TEST_F(Contact, ThatIsThereWhenTheProbeIsSwitchedOnIsNoAlarm) {
+  come_down(false, true, -84.6);
+  EXPECT_TRUE(events.empty());
+  EXPECT_TRUE(edges.empty());
   EXPECT_EQ(feedback.skip_inputs, 1);
 }
 
