@@ -130,6 +130,14 @@ Answer Api::read(const Match& match, const std::string& query) const {
           number ? channel_answer(*snapshot, static_cast<std::uint16_t>(*number)) : Json(nullptr);
       return answer.is_null() ? error_answer(404, "no channel " + match.parts[0]) : json_answer(200, answer);
     }
+    case Operation::variables: {
+      const auto number = path_number(match.parts.at(0), 65535);
+      const auto found =
+          number ? snapshot->variables.find(static_cast<std::uint16_t>(*number)) : snapshot->variables.end();
+      if (found == snapshot->variables.end())
+        return error_answer(404, "no variables of channel " + match.parts[0]);
+      return json_answer(200, bus::to_json(*found->second));
+    }
     case Operation::parameters: {
       ParameterQuery wanted;
       wanted.group = query_value(query, "class");

@@ -34,6 +34,7 @@ ClusterView::ClusterView(bus::Bus& bus)
       feedback_(bus.reader(topics::feedback_frame)),
       outputs_(bus.reader(topics::plc_outputs)),
       image_(bus.reader(topics::plc_image)),
+      variables_(bus.reader(topics::variables)),
       parameters_(bus.reader(topics::parameter_set)),
       tools_(bus.reader(topics::tool_table)),
       offsets_(bus.reader(topics::work_offsets)),
@@ -62,6 +63,9 @@ void ClusterView::drain(double now) {
   idl::plc::Outputs outputs;
   if (outputs_.take_newest(outputs)) document_.apply(outputs);
   keep_newest(image_, next_.image);
+  idl::channel::Variables variables;
+  while (variables_.take(variables))
+    next_.variables[variables.channel] = std::make_shared<const idl::channel::Variables>(variables);
   if (keep_newest(parameters_, next_.parameters)) {
     document_.set_revision("parameters", next_.parameters->revision);
     document_.set_revision("pending", next_.parameters->pending.size());

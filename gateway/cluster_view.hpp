@@ -30,6 +30,7 @@ class ClusterView {
   bus::Reader<idl::stream::FeedbackFrame> feedback_;
   bus::Reader<idl::plc::Outputs> outputs_;
   bus::Reader<idl::plc::Image> image_;
+  bus::Reader<idl::channel::Variables> variables_;
   bus::Reader<idl::parameters::ParameterSet> parameters_;
   bus::Reader<idl::parameters::ToolTable> tools_;
   bus::Reader<idl::parameters::WorkOffsets> offsets_;

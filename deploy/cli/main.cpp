@@ -22,6 +22,7 @@ int main(int argc, char** argv) {
   add_topic_commands(app, common);
   add_kins_command(app, common);
   add_truth_command(app, common);
+  add_variables_command(app, common);
   add_measure_command(app, common);
   add_check_command(app, common);
   add_plan_command(app, common);

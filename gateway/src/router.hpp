@@ -24,6 +24,7 @@ enum class Operation {
   write_program,
   remove_program,
   plc_image,
+  variables,
   openapi,
   stream,
   channel_command,  ///< one of commands::channel_commands()

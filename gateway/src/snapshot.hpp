@@ -20,6 +20,7 @@ struct Snapshot {
   std::shared_ptr<const idl::parameters::WorkOffsets> offsets;
   std::shared_ptr<const idl::program::ProgramList> programs;
   std::shared_ptr<const idl::plc::Image> image;
+  std::map<std::uint16_t, std::shared_ptr<const idl::channel::Variables>> variables;  ///< by channel
 };
 
 /// Answers of the GET operations, as the OpenAPI document describes them. Null when the service has not

@@ -124,6 +124,8 @@ TEST(Schema, TablesAndProgramsAreWhatIsDescribed) {
   idl::plc::Image image;
   image.x = {1}, image.b = {-1};
   EXPECT_EQ(differences("PlcImage", bus::to_json(image)), std::vector<std::string>{});
+  const idl::channel::Variables variables{0, {50, 500}, {1.5, -2}};
+  EXPECT_EQ(differences("Variables", bus::to_json(variables)), std::vector<std::string>{});
 }
 
 TEST(Schema, AWrongDocumentIsFound) {

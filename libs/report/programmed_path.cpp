@@ -98,6 +98,7 @@ ProgrammedPath programmed_path(const std::string& text, const MachineTables& tab
         switch (command.kind) {
           case language::CommandKind::rapid:
           case language::CommandKind::line:
+          case language::CommandKind::skip:
           case language::CommandKind::arc:
             tracer.trace(at, command);
             at = command.target;
@@ -126,6 +127,9 @@ ProgrammedPath programmed_path(const std::string& text, const MachineTables& tab
           default:
             break;
         }
+        break;
+      case language::Step::position:  // no probe: a skip move ends at its end
+        interpreter.set_position(at);
         break;
       case language::Step::alarm: {
         const auto& alarm = interpreter.alarm();

@@ -87,15 +87,15 @@ void compare_shape(Comparison& comparison, const Frame& a, const Frame& b) {
 
 bool same_values(const idl::stream::AxisFrame& a, const idl::stream::AxisFrame& b) {
   return a.count == b.count && a.revision == b.revision && a.ends == b.ends && a.axes == b.axes &&
-         a.spindle_axis == b.spindle_axis && a.spindle == b.spindle && a.setpoints == b.setpoints &&
-         a.snapshot == b.snapshot && a.states == b.states;
+         a.spindle_axis == b.spindle_axis && a.spindle == b.spindle && a.skip_move == b.skip_move &&
+         a.setpoints == b.setpoints && a.snapshot == b.snapshot && a.states == b.states;
 }
 
 bool same_values(const idl::stream::PathFrame& a, const idl::stream::PathFrame& b) {
   return a.count == b.count && a.revision == b.revision && a.ends == b.ends &&
          a.transformation == b.transformation && a.tool_length == b.tool_length &&
-         a.spindle_axis == b.spindle_axis && a.spindle == b.spindle && a.setpoints == b.setpoints &&
-         a.snapshot == b.snapshot && a.states == b.states;
+         a.spindle_axis == b.spindle_axis && a.spindle == b.spindle && a.skip_move == b.skip_move &&
+         a.setpoints == b.setpoints && a.snapshot == b.snapshot && a.states == b.states;
 }
 
 std::optional<FrameDifference> difference(const idl::stream::AxisFrame& a, const idl::stream::AxisFrame& b) {
@@ -104,6 +104,7 @@ std::optional<FrameDifference> difference(const idl::stream::AxisFrame& a, const
   comparison.list("axis", a.first, a.axes, b.axes);
   comparison.value("spindle axis", a.first, std::uint64_t{a.spindle_axis}, std::uint64_t{b.spindle_axis});
   comparison.list("spindle", a.first, a.spindle, b.spindle);
+  comparison.value("skip move", a.first, std::uint64_t{a.skip_move}, std::uint64_t{b.skip_move});
   comparison.rows(a.setpoints, b.setpoints, a.axes.size());
   comparison.snapshot(a.snapshot, b.snapshot);
   comparison.states(a.states, b.states);
@@ -118,6 +119,7 @@ std::optional<FrameDifference> difference(const idl::stream::PathFrame& a, const
   comparison.value("tool length", a.first, a.tool_length, b.tool_length);
   comparison.value("spindle axis", a.first, std::uint64_t{a.spindle_axis}, std::uint64_t{b.spindle_axis});
   comparison.list("spindle", a.first, a.spindle, b.spindle);
+  comparison.value("skip move", a.first, std::uint64_t{a.skip_move}, std::uint64_t{b.skip_move});
   comparison.rows(a.setpoints, b.setpoints, 9);
   comparison.snapshot(a.snapshot, b.snapshot);
   comparison.states(a.states, b.states);

@@ -11,11 +11,17 @@ namespace trunnion::truth {
 struct SphereGauge {
   Vec3 centre = Vec3::Zero();
   double radius = 12.5;
+  /// Of a shaft that holds it: a cylinder from the centre in the direction of `shaft`, a unit vector, to the
+  /// distance `shaft_length`; radius 0: none.
+  Vec3 shaft = -Vec3::UnitZ();
+  double shaft_radius = 0, shaft_length = 0;
 };
 
-/// A cuboid, its edges along the axes of the workpiece frame.
+/// A cuboid. The columns of `edges` are the directions of its edges, unit vectors perpendicular to each
+/// other.
 struct CuboidGauge {
   Vec3 centre = Vec3::Zero(), half_lengths = Vec3::Constant(25);
+  Mat3 edges = Mat3::Identity();
 };
 
 /// A ring gauge: the material between two cylinders about `axis`, and between two planes.
@@ -25,9 +31,15 @@ struct RingGauge {
   double half_height = 10;
 };
 
-using Solid = std::variant<SphereGauge, CuboidGauge, RingGauge>;
+struct CylinderGauge {
+  Vec3 centre = Vec3::Zero(), axis = Vec3::UnitZ();  ///< unit vector
+  double radius = 25, half_height = 25;
+};
 
-/// Distance of a point from the surface; exact outside and inside.
+using Solid = std::variant<SphereGauge, CuboidGauge, RingGauge, CylinderGauge>;
+
+/// Distance of a point from the surface; exact outside, inside too but for a sphere with a shaft, where it is
+/// the larger depth of the two.
 double signed_distance(const Solid& solid, const Vec3& point);
 /// Unit vector out of the material at the point of the surface that is nearest.
 Vec3 outward(const Solid& solid, const Vec3& point);

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 #include "geometry/angle.hpp"
 
@@ -16,36 +18,111 @@ double pre_travel(const TouchProbeTruth& probe, const Vec3& normal) {
   return probe.pre_travel + probe.lobing * across * geometry::sine_cosine(3 * direction).cosine;
 }
 
-std::optional<TouchProbe::Edge> TouchProbe::move(const Solid& solid, const Vec3& from, const Vec3& to,
-                                                 double duration) {
-  const Vec3 way = to - from;
-  const double length = way.norm();
-  if (!(length > 0)) return std::nullopt;
-  const auto clearance = [&](double at) {
-    return signed_distance(solid, from + at / length * way) - truth_.ball_radius;
-  };
-  // The tip can advance by its clearance without a touch, because a distance changes no faster than the point
-  // moves.
-  constexpr double close = 1e-9;  // mm
-  double at = 0;
-  for (int i = 0; i < 10000 && at < length; ++i) {
-    const double free = clearance(at);
-    if (free <= close) break;
-    at += std::max(free, close);
+TouchProbe::TouchProbe(const TouchProbeTruth& truth, std::vector<Solid> solids)
+    : truth_(truth), solids_(std::move(solids)), random_(truth.seed) {
+  draw();
+}
+
+void TouchProbe::draw() { noise_ = truth_.repeatability > 0 ? truth_.repeatability * random_.normal() : 0; }
+
+// Of the ball's surface from the nearest solid.
+double TouchProbe::distance(const Vec3& ball, const Solid*& nearest) const {
+  double least = std::numeric_limits<double>::max();
+  nearest = nullptr;
+  for (const Solid& solid : solids_) {
+    const double value = signed_distance(solid, ball) - truth_.ball_radius;
+    if (value < least) least = value, nearest = &solid;
   }
-  if (at >= length && clearance(length) > close) return std::nullopt;
+  return least;
+}
+
+// How far the ball is from where the contact opens, in the direction of the surface; below zero beyond it.
+double TouchProbe::margin(const Vec3& ball, const ProbePose& pose) const {
+  const Solid* nearest = nullptr;
+  const double free = distance(ball, nearest);
+  if (nearest == nullptr) return free;
+  if (early(touches_ + 1)) return free - truth_.early;
+  double deflection = truth_.pre_travel;
+  // The direction only matters near the surface.
+  if (truth_.lobing != 0 && free < 1 + truth_.lobing) {
+    const Vec3 normal = outward(*nearest, ball);
+    deflection = pre_travel(
+        truth_, {normal.dot(pose.across), normal.dot(pose.axis.cross(pose.across)), normal.dot(pose.axis)});
+  }
+  return free + std::max(0.0, deflection + noise_);
+}
+
+void TouchProbe::place(const ProbePose& pose) {
+  margin_ = margin(pose.ball, pose);
+  open_ = signal_ = margin_ <= 0;
+  waiting_ = false;
+  ball_ = {pose.ball.x(), pose.ball.y(), pose.ball.z()};
+}
+
+// The share of the motion after which the contact opens; above 1: it does not. A distance changes no faster
+// than the ball moves, so the ball can advance by its margin; then the interval is halved.
+double TouchProbe::contact_share(const Vec3& from, const ProbePose& pose) const {
+  const Vec3 way = pose.ball - from;
+  const double length = way.norm();
+  const auto margin_at = [&](double at) { return margin(from + at / length * way, pose); };
+  constexpr double close = 1e-9;  // mm
+  double before = 0, at = 0, free = margin_;
+  for (int i = 0; i < 100 && free > close; ++i) {
+    before = at;
+    at += free;
+    if (at >= length) break;
+    free = margin_at(at);
+  }
   at = std::min(at, length);
-  Edge edge;
-  edge.contact = from + at / length * way;
-  const Vec3 normal = outward(solid, edge.contact);
-  const double approach = -normal.dot(way) / length;
-  if (approach <= 1e-6) return std::nullopt;  // slides along the surface or leaves it
-  double deflection = pre_travel(truth_, normal);
-  if (truth_.repeatability > 0) deflection += truth_.repeatability * random_.normal();
-  // Along the way the ball goes on until it has moved by the pre-travel against the surface.
-  const double opens = at + std::max(0.0, deflection) / approach;
-  if (opens > length) return std::nullopt;
-  edge.share = opens / length + truth_.delay / duration;
+  free = margin_at(at);
+  if (free > close) {
+    if (margin_at(length) > 0) return 2;
+    before = at, at = length;
+  }
+  for (int i = 0; i < 60 && free < -close; ++i) {
+    const double middle = (before + at) / 2;
+    const double value = margin_at(middle);
+    if (value > 0)
+      before = middle;
+    else
+      at = middle, free = value;
+  }
+  return at / length;
+}
+
+std::optional<double> TouchProbe::move(const ProbePose& pose, double duration) {
+  const Vec3 from(ball_[0], ball_[1], ball_[2]);
+  const double start_margin = margin_, length = (pose.ball - from).norm();
+  const double end_margin = margin(pose.ball, pose);
+  double begins = 0;  // s: from then on the delay runs
+  // A faulty probe that would be early at once waits for the next approach.
+  if (!open_ && start_margin > 0 && (end_margin <= 0 || start_margin < length)) {
+    const double share = length > 0 ? contact_share(from, pose) : 2;
+    if (share <= 1) {
+      open_ = true;
+      ++touches_;
+      waiting_ = truth_.no_signal_from == 0 || touches_ < truth_.no_signal_from;
+      remaining_ = truth_.delay;
+      begins = share * duration;
+    }
+  }
+  margin_ = end_margin;
+  ball_ = {pose.ball.x(), pose.ball.y(), pose.ball.z()};
+  std::optional<double> edge;
+  if (waiting_) {
+    remaining_ -= duration - begins;
+    if (remaining_ <= 0) {
+      waiting_ = false;
+      signal_ = true;
+      edge = std::clamp((duration + remaining_) / duration, std::numeric_limits<double>::min(), 1.0);
+    }
+  }
+  const Solid* nearest = nullptr;
+  if (open_ && distance(pose.ball, nearest) > reseat + (early(touches_) ? truth_.early : 0)) {
+    open_ = waiting_ = signal_ = false;
+    draw();
+    margin_ = margin(pose.ball, pose);
+  }
   return edge;
 }
 

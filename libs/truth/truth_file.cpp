@@ -7,6 +7,7 @@
 #include "machine/yaml.hpp"
 #include "truth/drive_section.hpp"
 #include "truth/error_section.hpp"
+#include "truth/probe_section.hpp"
 #include "truth/random_machine.hpp"
 #include "truth/truth_reader.hpp"
 #include "volumetric/structure.hpp"
@@ -36,13 +37,15 @@ class TruthParser {
   Truth parse(const YAML::Node& root) {
     if (root.IsNull()) return truth_;
     if (root.IsMap() && root["random"]) random(root["random"]);
-    reader_.each(root, "structure, random, axes, spindle, beam, drives, instruments",
+    reader_.each(root, "structure, random, axes, spindle, beam, drives, instruments, probe, solids",
                  [&](const std::string& key, const YAML::Node& node) {
                    if (key == "structure") return structure(node), true;
                    if (key == "random") return true;
                    if (key == "axes") return axes(node), true;
                    if (key == "spindle") return spindle(node), true;
                    if (key == "instruments") return instruments(node), true;
+                   if (key == "probe") return truth_.probe = read_probe(reader_, node), true;
+                   if (key == "solids") return truth_.solids = read_solids(reader_, node), true;
                    if (key == "drives")
                      return truth_.drives = read_drives(reader_, node, machine_.drives, machine_.turning),
                             true;

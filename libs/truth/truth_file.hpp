@@ -9,6 +9,7 @@
 #include "truth/drive_truth.hpp"
 #include "truth/instrument.hpp"
 #include "truth/machine_outline.hpp"
+#include "truth/touch_probe.hpp"
 #include "truth/true_geometry.hpp"
 
 namespace trunnion::truth {
@@ -18,6 +19,8 @@ struct Truth {
   std::map<std::string, DriveTruth> drives;  ///< by the name of the servo axis
   /// ballbar, laser, rtest (mm), laser_angle (rad); without an entry an instrument is exact.
   std::map<std::string, InstrumentTruth> instruments;
+  std::optional<TouchProbeTruth> probe;  ///< in the spindle
+  std::vector<Solid> solids;             ///< in the workpiece frame
 };
 
 /// `file` is named in errors. Throws std::runtime_error that begins with file:line:column: a key that is not

@@ -16,9 +16,9 @@ namespace {
 
 // Published by the clock, or saying who is there: two runs never have the same.
 const std::set<std::string>& not_compared() {
-  static const std::set<std::string> handles = {"announcement",  "service_state", "stage_progress",
-                                                "channel_state", "plc_outputs",   "plc_image",
-                                                "plc_input_log", "alarm",         "cluster"};
+  static const std::set<std::string> handles = {
+      "announcement", "service_state", "stage_progress", "channel_state", "plc_outputs",
+      "plc_image",    "plc_input_log", "alarm",          "cluster",       "variables"};
   return handles;
 }
 

@@ -13,6 +13,7 @@
 #include "storage/file.hpp"
 #include "storage/kept_file.hpp"
 #include "stream/stage_service.hpp"
+#include "variable_message.hpp"
 #include "variable_text.hpp"
 
 namespace trunnion::channel {
@@ -37,6 +38,7 @@ ChannelService::ChannelService(service::Node& node)
       alarm_reader_(node.bus().reader(topics::alarm)),
       cluster_reader_(node.bus().reader(topics::cluster)),
       state_writer_(node.bus().writer(topics::channel_state)),
+      variables_writer_(node.bus().writer(topics::variables)),
       auxiliary_writer_(node.bus().writer(topics::auxiliary_request)),
       stream_writer_(node.bus().writer(topics::stream_request)),
       hand_over_file_(node.options().state_directory + "/channel-" + std::to_string(node.options().channel) +
@@ -157,19 +159,25 @@ void ChannelService::end() {
 // Vacant variables are safer than wrong ones.
 void ChannelService::read_variables() {
   const auto text = read_file(variables_file_, 1, "macro variables");
-  if (!text) return;
   auto variables = std::make_unique<language::VariableStore>();
-  try {
-    channel::read_variables(*text, variables_file_, boot_, *variables);
-    core_.set_variables(*variables);
-  } catch (const std::exception& e) {
-    put_aside(variables_file_, e.what());
-  }
+  if (text) try {
+      channel::read_variables(*text, variables_file_, boot_, *variables);
+      core_.set_variables(*variables);
+    } catch (const std::exception& e) {
+      *variables = {};
+      put_aside(variables_file_, e.what());
+    }
+  publish_variables(*variables);
+}
+
+void ChannelService::publish_variables(const language::VariableStore& variables) {
+  variables_writer_.write(variable_message(variables, static_cast<std::uint16_t>(node_.options().channel)));
 }
 
 void ChannelService::save_variables() {
   const auto* variables = core_.take_variables();
   if (variables == nullptr) return;
+  publish_variables(*variables);
   const auto channel = static_cast<std::uint32_t>(node_.options().channel);
   try {
     const auto text = write_variables(*variables, boot_);

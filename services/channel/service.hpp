@@ -32,6 +32,7 @@ class ChannelService : public service::Service {
   void change_tables();
   void read_variables();
   void save_variables();
+  void publish_variables(const language::VariableStore& variables);
   std::optional<std::string> read_file(const std::string& file, std::uint32_t part, const std::string& loss);
   void put_aside(const std::string& file, const std::string& problem);
   void read_record();
@@ -58,6 +59,7 @@ class ChannelService : public service::Service {
   stream::ReplicaWatch replicas_;
   std::optional<bus::Reader<idl::stream::StageProgress>> progress_reader_;  ///< of a machine with replicas
   bus::Writer<idl::channel::ChannelState> state_writer_;
+  bus::Writer<idl::channel::Variables> variables_writer_;
   bus::Writer<idl::channel::AuxiliaryRequest> auxiliary_writer_;
   bus::Writer<idl::stream::StreamRequest> stream_writer_;
   std::optional<bus::Writer<idl::stream::PathFrame>> frame_writer_;

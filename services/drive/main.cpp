@@ -10,19 +10,24 @@
 namespace trunnion::drive {
 namespace {
 
-// Of truth.yaml beside machine.yaml, which refers to the machine as it was delivered.
-std::map<std::string, truth::DriveTruth> drives_of(const machine::MachineConfig& config) {
+// By truth.yaml beside machine.yaml, which refers to the machine as it was delivered.
+std::unique_ptr<SimulatedHardware> hardware_of(const machine::MachineConfig& config) {
   const auto file = config.directory + "/truth.yaml";
-  if (!std::filesystem::exists(file)) return {};
+  if (!std::filesystem::exists(file)) return std::make_unique<SimulatedHardware>();
   machine::Parameters delivered;
   delivered.values = machine::machine_parameters(config);
-  return truth::parse_truth(machine::read_text(file), file, truth::outline_of(delivered, 0)).drives;
+  const auto outline = truth::outline_of(delivered, 0);
+  const auto truth = truth::parse_truth(machine::read_text(file), file, outline);
+  std::optional<ProbeSetup> probe;
+  if (truth.probe)
+    probe.emplace(ProbeSetup{outline.design, truth::make_geometry(truth.geometry, outline, file),
+                             *truth.probe, truth.solids});
+  return std::make_unique<SimulatedHardware>(truth.drives, probe);
 }
 
 class SimulatedDrive : public DriveService {
  public:
-  explicit SimulatedDrive(service::Node& node)
-      : DriveService(node, std::make_unique<SimulatedHardware>(drives_of(node.options().machine))) {
+  explicit SimulatedDrive(service::Node& node) : DriveService(node, hardware_of(node.options().machine)) {
     if (node.options().machine.hardware != machine::Hardware::simulation)
       throw std::runtime_error(
           "this program moves simulated axes only; machine.yaml says 'hardware: hal', which " +

@@ -195,6 +195,7 @@ void DriveService::drain() {
     plc_seen_ = now;
     core_.set_enables(plc_.axis_enable, plc_.emergency_stop);
     core_.set_spindle_speed(plc_.spindle_speed);
+    core_.set_probe(plc_.probe_on);
     changed_ = true;
   }
   idl::service::ServiceState state;
@@ -246,8 +247,9 @@ void DriveService::run_virtual() {
     core_.step();
     waiting_since_ = 0;
     if (core_.rows() >= frame_cycles_) send();
-    if (core_.tick() % 256 == 0)
-      drain();  // an emergency stop is not kept waiting by a long return to the path
+    // An emergency stop is not kept waiting by a long return to the path. The periods in which the servos
+    // settle are few, and a start within them would make their number a matter of time.
+    if (core_.tick() % 256 == 0 && (core_.any_active() || core_.mode() != Mode::FOLLOWING)) drain();
   }
   // Nothing moves: time passes as far as the PLC asked for its timers and the spindle.
   while (!core_.any_active() && have_plc_ && core_.tick() < plc_.run_until_tick) {

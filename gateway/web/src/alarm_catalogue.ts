@@ -67,6 +67,10 @@ export const alarmCatalogue: Readonly<Record<number, { cause: string; remedy: st
     cause: "The home switch or the index pulse did not come within the travel",
     remedy: "Check switch, cable and the homing parameters of the axis, then repeat the reference return",
   },
+  117: {
+    cause: "The probe was switched on and touched something on the way, or its cable is faulty",
+    remedy: "Reset, jog the probe away from the contact in the opposite direction, check its stylus, then measure again",
+  },
   120: {
     cause: "Master and slave of a gantry move apart: load, friction or a wrong offset",
     remedy: "Check the axis mechanically before the limit is reached",
@@ -109,7 +113,7 @@ export const alarmCatalogue: Readonly<Record<number, { cause: string; remedy: st
   },
   144: {
     cause: "The drives were switched off or a process ended while the program ran",
-    remedy: "Reset, then continue by a start from the line that is offered",
+    remedy: "Remove the cause and press cycle start; after an emergency stop reset and start from the line that is offered",
   },
   145: {
     cause: "A kinematic parameter is infinite or not a number",

@@ -333,6 +333,14 @@ export interface ProgramList {
   programs: ProgramEntry[];
 }
 
+export interface Variables {
+  channel: number;
+  /** ascending: 50..199, 500..999, 50000..54999 */
+  numbers: number[];
+  /** of each */
+  values: number[];
+}
+
 export interface PlcImage {
   plc: number;
   /** 1 ms scans since the start */

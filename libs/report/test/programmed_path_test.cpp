@@ -46,6 +46,12 @@ TEST(ProgrammedPath, ATurningTableDrawsACircleOnTheWorkpiece) {
     }
 }
 
+TEST(ProgrammedPath, ASkipMoveEndsAtItsEndAndTheProgramGoesOn) {
+  const auto p = programmed_path("G54 G90\nG31 X10 F1000\nG1 X[#5061+20]\nM30\n", test::ac_table(), {});
+  EXPECT_EQ(p.problem, "");
+  EXPECT_NEAR(p.feed_length, 30, 1e-9);
+}
+
 TEST(ProgrammedPath, AnAlarmIsNamedWithItsPlace) {
   const auto p = programmed_path("G54 G90\nG1 X10\nM30\n", test::ac_table(), {});
   EXPECT_EQ(p.problem.substr(0, 2), "2:") << p.problem;

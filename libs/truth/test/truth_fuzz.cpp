@@ -18,7 +18,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     truth::MachinePose pose;
     pose.positions = {100, -200, 50, 30, -20, 45, 0, 0, 0};
     pose.approach = {1, -1, 0, 1, -1, 0, 1, -1, 0};
-    if (!geometry.pose(pose).tip.allFinite()) std::abort();
+    const auto tool = geometry.pose(pose);
+    if (!tool.tip.allFinite()) std::abort();
+    truth::TouchProbe probe(truth.probe.value_or(truth::TouchProbeTruth{}), truth.solids);
+    probe.place({truth::Vec3(0, 0, 500)});
+    for (const auto& to : {tool.tip, truth::Vec3(truth::Vec3::Zero())})
+      if (const auto edge = probe.move({to}, 1); edge && !(*edge > 0 && *edge <= 1)) std::abort();
   });
   return 0;
 }

@@ -151,6 +151,7 @@ bool ChannelCore::produce(idl::stream::PathFrame& frame) {
   if (frame.count == 0) return false;
   stream_.close(frame, path(), in_machine_coordinates(), machine_.revision(),
                 machine_.tapping_spindle(tapping_.axis()).axis.value_or(0));
+  frame.skip_move = skip_.active();
   store_state(flow, frame.snapshot);
   frame.snapshot.cycle = frame.first + frame.count - 1;
   stream_.written(frame);

@@ -232,6 +232,9 @@ void HalHardware::status(DriveStatus& out) const {
     if (!controlled_ && enabled_from_ == 0) out.axes[i].hold_position = axes_[i].status.position;
   }
   out.spindles = spindles_;
+  unsigned on = 0;
+  for (std::size_t k = 0; k < sample_columns_.skip_inputs; ++k) on |= skip_inputs_[k] ? 1u << k : 0u;
+  out.skip_inputs = static_cast<std::uint8_t>(on);
 }
 
 bool HalHardware::enabled() const {

@@ -25,6 +25,7 @@ void SimulatedHardware::configure(const machine::Parameters& p, const std::vecto
   for (std::size_t i = 0; i < spindles.size(); ++i)
     spindles_[i].configure(p.get(parameter::maximum_acceleration, spindles[i].number), period);
   skip_inputs_.configure(p, axes);
+  if (probe_) probe_->configure(p, axes);
   encoder_.resize(axes.size());
   angle_.resize(spindles.size());
 }
@@ -57,6 +58,8 @@ void SimulatedHardware::status(DriveStatus& out) const {
   out.spindles.resize(spindles_.size());
   for (std::size_t i = 0; i < spindles_.size(); ++i)
     out.spindles[i] = {spindles_[i].speed(), spindles_[i].angle()};
+  out.skip_inputs = skip_inputs_.on();
+  if (probe_ && probe_->on()) out.skip_inputs |= 1;
 }
 
 void SimulatedHardware::set_reference(std::size_t i, double shift) {
@@ -82,6 +85,7 @@ void SimulatedHardware::exchange(const SetpointRow& row, DriveStatus& out, Encod
   for (std::size_t i = 0; i < spindles_.size(); ++i) angle_[i] = spindles_[i].angle();
   rows.encoder_row({row.number, encoder_, angle_});
   if (row.controlled) skip_inputs_.step(servos_, row.number, rows);
+  if (probe_) probe_->step(row, period_, servos_, spindles_, rows);
   status(out);
 }
 

@@ -5,9 +5,11 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 
 #include "drive_hardware.hpp"
+#include "probe_input.hpp"
 #include "simulated_axis.hpp"
 #include "simulated_spindle.hpp"
 #include "skip_inputs.hpp"
@@ -16,9 +18,12 @@ namespace trunnion::drive {
 
 class SimulatedHardware : public DriveHardware {
  public:
-  /// `truth`: the drives of truth.yaml; the other axes are ServoAxis.
-  explicit SimulatedHardware(std::map<std::string, truth::DriveTruth> truth = {})
-      : truth_(std::move(truth)) {}
+  /// `truth`: the drives of truth.yaml; the other axes are ServoAxis. `probe`: its touch probe.
+  explicit SimulatedHardware(std::map<std::string, truth::DriveTruth> truth = {},
+                             const std::optional<ProbeSetup>& probe = {})
+      : truth_(std::move(truth)) {
+    if (probe) probe_.emplace(*probe);
+  }
 
   void configure(const machine::Parameters& parameters, const std::vector<machine::AxisInfo>& axes,
                  const std::vector<machine::AxisInfo>& spindles, double period) override;
@@ -36,6 +41,7 @@ class SimulatedHardware : public DriveHardware {
     visit("servos", self.servos_), visit("spindles", self.spindles_);
     visit("home_switches", self.home_switches_), visit("skip_inputs", self.skip_inputs_);
     visit("homed", self.homed_);
+    if (self.probe_) visit("probe", *self.probe_);
   }
 
  private:
@@ -56,6 +62,7 @@ class SimulatedHardware : public DriveHardware {
   std::map<std::string, truth::DriveTruth> truth_;  // by the name of the axis
   std::vector<SimulatedSpindle> spindles_;
   SkipInputs skip_inputs_;
+  std::optional<ProbeInput> probe_;
   std::vector<double> encoder_, angle_;  // of the row that is handed over
 };
 

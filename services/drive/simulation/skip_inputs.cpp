@@ -40,4 +40,14 @@ void SkipInputs::step(const std::vector<SimulatedAxis>& servos, std::uint64_t nu
   }
 }
 
+std::uint8_t SkipInputs::on() const {
+  unsigned bits = 0;
+  for (std::size_t k = 0; k < inputs_.size(); ++k) {
+    const Input& input = inputs_[k];
+    if (input.column < 0 || static_cast<std::size_t>(input.column) >= load_.size()) continue;
+    if ((load_[static_cast<std::size_t>(input.column)] - input.position) * input.side >= 0) bits |= 1u << k;
+  }
+  return static_cast<std::uint8_t>(bits);
+}
+
 }  // namespace trunnion::drive

@@ -18,6 +18,9 @@ class SkipInputs {
   /// latched more finely than by the period. The first call only learns where the axes are.
   void step(const std::vector<SimulatedAxis>& servos, std::uint64_t number, EncoderRowSink& rows);
 
+  /// That are on at the end of the newest period: bit 0 = input 1.
+  std::uint8_t on() const;
+
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
     visit("load", self.load_);

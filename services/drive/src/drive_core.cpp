@@ -313,7 +313,9 @@ bool DriveCore::pass_cycle() {
   for (auto& [number, channel] : channels_) {
     if (!channel.active) continue;
     const auto* frame = channel.window.peek();
-    if (frame == nullptr || next_ + 1 != frame->first + frame->count) continue;
+    if (frame == nullptr) continue;
+    channel.skip_move = frame->skip_move;
+    if (next_ + 1 != frame->first + frame->count) continue;
     channel.snapshot = frame->snapshot;
     channel.states = frame->states;
     const bool ends = frame->ends;
@@ -408,6 +410,7 @@ void DriveCore::exchange() {
   }
   for (std::size_t i = 0; i < spindles_.size(); ++i) row_.spindles[i] = spindles_[i].setpoint();
   hardware_->exchange(row_, status_, rows_);
+  watch_probe();
   if (row_.controlled) {
     supervise();
   } else if (!row_.enable) {

@@ -83,6 +83,9 @@ class DriveCore {
       spindles_[i].demand_speed(i < speed.size() ? speed[i] : 0);
   }
 
+  /// With the probe on, a rising edge of skip input 1 outside a skip move stops the axes and is an alarm.
+  void set_probe(bool on) { row_.probe_on = on; }
+
   /// True when a tick would execute, brake, return or settle; false when there is nothing to do but wait.
   /// `give_up`: the setpoints that are missing have been waited for long enough.
   bool can_step(bool give_up) const;
@@ -130,7 +133,8 @@ class DriveCore {
     std::vector<idl::stream::StageState> states;
     std::vector<std::uint16_t> axes;  // of the frames, and the column of each
     std::vector<int> columns;
-    int spindle = -1;  // that follows the channel's frames
+    int spindle = -1;        // that follows the channel's frames
+    bool skip_move = false;  // of the newest frame of which a setpoint was passed
 
     template <class Self, class Visit>
     static void fields(Self& self, Visit&& visit) {
@@ -138,7 +142,7 @@ class DriveCore {
       visit("prefilled", self.prefilled), visit("begun", self.begun), visit("epoch", self.epoch);
       visit("request", self.request), visit("start", self.start), visit("snapshot", self.snapshot);
       visit("states", self.states), visit("axes", self.axes), visit("columns", self.columns);
-      visit("spindle", self.spindle);
+      visit("spindle", self.spindle), visit("skip_move", self.skip_move);
     }
   };
   // How far the setpoints at hand reach.
@@ -181,6 +185,7 @@ class DriveCore {
   void lose_control();
   void stop_at_newest_row(std::uint64_t starved);
   void supervise();
+  void watch_probe();
   void stopped();
   double rate_step();
   void return_to_whole_cycles();
@@ -201,7 +206,9 @@ class DriveCore {
 
   Mode mode_ = Mode::OFF;
   bool enabled_ = false;
-  bool control_lost_ = false;  // the hardware has switched a drive off; until the alarms are reset
+  bool probe_contact_ = false;  // skip input 1 was on in the period before
+  bool probe_watched_ = false;  // the probe was on in it
+  bool control_lost_ = false;   // the hardware has switched a drive off; until the alarms are reset
   std::uint64_t next_ = 0, tick_ = 0, starved_ = 0;
   std::vector<double> command_;   // setpoint of this period
   std::vector<double> target_;    // setpoint of cycle next_ - 1: a point of the path

@@ -50,11 +50,12 @@ struct SetpointRow {
   bool controlled = false;
   std::vector<AxisSetpoint> axes;
   std::vector<SpindleSetpoint> spindles;
+  bool probe_on = false;  ///< the touch probe is switched on
 
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
     visit("number", self.number), visit("enable", self.enable), visit("controlled", self.controlled);
-    visit("axes", self.axes), visit("spindles", self.spindles);
+    visit("axes", self.axes), visit("spindles", self.spindles), visit("probe_on", self.probe_on);
   }
 };
 
@@ -99,6 +100,7 @@ class EncoderRowSink {
 struct DriveStatus {
   std::vector<AxisStatus> axes;
   std::vector<SpindleStatus> spindles;
+  std::uint8_t skip_inputs = 0;  ///< that are on: bit 0 = input 1
 };
 
 class DriveHardware {

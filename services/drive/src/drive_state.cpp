@@ -14,6 +14,7 @@ struct DriveState {
     static void fields(Self& self, Visit&& visit) {
       auto& c = self.core;
       visit("channels", c.channels_), visit("row", c.row_), visit("rows", c.rows_);
+      visit("probe_contact", c.probe_contact_), visit("probe_watched", c.probe_watched_);
       visit("mode", c.mode_), visit("enabled", c.enabled_), visit("control_lost", c.control_lost_);
       visit("next", c.next_), visit("tick", c.tick_), visit("starved", c.starved_);
       visit("command", c.command_), visit("target", c.target_), visit("velocity", c.velocity_);

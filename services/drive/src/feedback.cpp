@@ -24,6 +24,7 @@ void DriveCore::fill(idl::stream::FeedbackFrame& out) {
   out.spindle_speed.resize(spindles_.size());
   for (std::size_t i = 0; i < spindles_.size(); ++i) out.spindle_speed[i] = status_.spindles[i].speed;
   out.starved = starved_;
+  out.skip_inputs = status_.skip_inputs;
   out.channels.resize(channels_.size());
   std::size_t k = 0;
   for (const auto& [number, channel] : channels_) {

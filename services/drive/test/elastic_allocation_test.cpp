@@ -2,6 +2,7 @@
 // What runs in every period allocates nothing.
 #include <gtest/gtest.h>
 
+#include "probe_input.hpp"
 #include "simulated_axis.hpp"
 #include "testing_support/allocation_count.hpp"
 #include "truth/random_machine.hpp"
@@ -39,6 +40,32 @@ TEST(Allocation, APeriodOfAnElasticAxisAndThePoseOfTheToolAllocateNothing) {
     sum += geometry.pose(pose).tip.x();
   }
   EXPECT_EQ(testing_support::allocations, before) << sum;
+}
+
+TEST(Allocation, APeriodWithTheProbeOnAllocatesNothing) {
+  struct NoEdges : EncoderRowSink {
+    void skip_edge(std::uint64_t, const idl::stream::SkipEdge&) override { FAIL() << "it touches nothing"; }
+    void encoder_row(const EncoderRow&) override {}
+  } rows;
+  truth::MachineOutline machine;
+  machine.design.table_2 = geometry::RotaryAxis{-truth::Vec3::UnitZ(), truth::Vec3::Zero(), 2};
+  for (const std::size_t i : {0u, 1u, 2u}) machine.axes[i] = {true, -400, 400};
+  truth::TouchProbeTruth probe;
+  probe.lobing = 0.001;
+  ProbeInput input({machine.design,
+                    std::get<truth::TrueGeometry>(truth::TrueGeometry::make(
+                        machine.design, truth::draw_machine(truth::grades()[1], 7, machine))),
+                    probe,
+                    {truth::SphereGauge{truth::Vec3(0, 0, -500), 12.5}, truth::CuboidGauge{}}});
+  std::vector<SimulatedAxis> servos(4);
+  const std::vector<SimulatedSpindle> spindles(1);
+  SetpointRow row;
+  row.axes.resize(4);
+  row.probe_on = true;
+  input.step(row, 0.001, servos, spindles, rows);
+  const auto before = testing_support::allocations;
+  for (int i = 0; i < 1000; ++i) input.step(row, 0.001, servos, spindles, rows);
+  EXPECT_EQ(testing_support::allocations, before);
 }
 
 }  // namespace

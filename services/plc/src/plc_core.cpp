@@ -25,6 +25,7 @@ PlcCore::PlcCore() {
   emergency_button_ = name("emergency_stop_button"), reset_button_ = name("reset_button");
   drive_present_ = name("drive_present"), drives_on_ = name("drives_on");
   alarm_active_ = name("alarm_active"), alarm_stops_ = name("alarm_stops");
+  probe_contact_ = name("probe_contact"), probe_on_ = name("probe_on");
   emergency_stop_ = name("emergency_stop"), feed_hold_ = name("feed_hold"),
   axes_enable_ = name("axes_enable");
   for (std::size_t i = 0; i < axis_inhibit_.size(); ++i)
@@ -156,6 +157,7 @@ void PlcCore::set_feedback(const idl::stream::FeedbackFrame& frame) {
   view_.spindles_received = static_cast<std::uint32_t>(spindles);
   std::copy_n(frame.spindle_speed.begin(), spindles, view_.spindle_actual.begin());
   input(drive_present_, 1);
+  input(probe_contact_, frame.skip_inputs & 1);
   input(drives_on_, !frame.enabled.empty() && std::all_of(frame.enabled.begin(), frame.enabled.end(),
                                                           [](std::uint8_t on) { return on != 0; }));
   for (std::size_t s = 0; s < std::min(spindles_, spindles); ++s)
@@ -322,6 +324,7 @@ idl::plc::Outputs PlcCore::outputs() const {
   outputs.tick = memory_.tick;
   outputs.emergency_stop = emergency_stop();
   outputs.feed_hold = plc::load(r, feed_hold_) != 0;
+  outputs.probe_on = plc::load(r, probe_on_) != 0;
   outputs.axis_enable = axis_exists_;
   const bool enable = !outputs.emergency_stop && plc::load(r, axes_enable_) != 0;
   for (std::size_t a = 0; a < outputs.axis_enable.size(); ++a)

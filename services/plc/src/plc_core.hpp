@@ -94,8 +94,9 @@ class PlcCore {
   bool loaded_ = false, virtual_time_ = false;
   std::array<ChannelSymbols, channel_count> channel_symbols_;
   std::array<SpindleSymbols, spindle_count> spindle_symbols_;
-  Address emergency_button_, reset_button_, drive_present_, drives_on_, alarm_active_, alarm_stops_;
-  Address emergency_stop_, feed_hold_, axes_enable_;
+  Address emergency_button_, reset_button_, drive_present_, drives_on_, alarm_active_, alarm_stops_,
+      probe_contact_;
+  Address emergency_stop_, feed_hold_, axes_enable_, probe_on_;
   std::array<Address, 16> axis_inhibit_;
   std::array<Address, 8> coolant_;
 

@@ -36,6 +36,7 @@ struct Bench {
     frame.channels[0].active = active;
     frame.spindle_speed.assign(speed.begin(), speed.end());
     frame.enabled = {1, 1};
+    frame.skip_inputs = skip_inputs;
     core.set_feedback(frame);
     step();
   }
@@ -69,6 +70,7 @@ struct Bench {
   std::uint64_t tick = 1000, executed = 500;
   bool active = false;
   std::uint32_t number = 0;
+  std::uint8_t skip_inputs = 0;
   std::array<double, 2> speed{};
   double ramp = 2;  // 1/min in each tick of 1 ms
   std::vector<idl::plc::AuxiliaryDone> finished;
@@ -120,6 +122,37 @@ TEST(Handshake, M4TurnsTheOtherWayAndM5WaitsForStandstill) {
   EXPECT_TRUE(bench.done());
   EXPECT_GE(bench.speed[0], -5);
   EXPECT_EQ(bench.core.outputs().spindle_speed[0], 0);
+}
+
+TEST(TouchProbe, M40SwitchesItOnAndTheContactIsAnInputOfTheFastTask) {
+  Bench bench;
+  bench.request(M, 40);
+  EXPECT_TRUE(bench.core.outputs().probe_on);
+  EXPECT_FALSE(bench.done());
+  EXPECT_GE(bench.run(), 100u) << "until the receiver has started";
+  EXPECT_TRUE(bench.done());
+  const auto contact = [&] { return (bench.core.image().x[4] & 1u << 5) != 0; };  // X4.5
+  EXPECT_FALSE(contact());
+  bench.skip_inputs = 1;
+  bench.feedback();
+  EXPECT_TRUE(contact());
+  bench.skip_inputs = 2;
+  bench.feedback();
+  EXPECT_FALSE(contact()) << "input 2 is another";
+  bench.request(M, 41);
+  EXPECT_TRUE(bench.done());
+  EXPECT_FALSE(bench.core.outputs().probe_on);
+}
+
+TEST(TouchProbe, M70FailsInContact) {
+  Bench bench;
+  bench.skip_inputs = 1;
+  bench.feedback();
+  bench.request(M, 70);
+  bench.run();
+  ASSERT_TRUE(bench.done());
+  EXPECT_TRUE(bench.finished.back().failed);
+  EXPECT_FALSE(bench.core.outputs().probe_on);
 }
 
 TEST(Handshake, AnotherSWithTurningSpindleWaitsForTheNewSpeed) {

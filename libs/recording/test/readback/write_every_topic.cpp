@@ -112,6 +112,7 @@ int main(int argc, char** argv) {
   all.add(topics::stream_request);
   all.add(topics::stage_progress);
   all.add(topics::channel_state);
+  all.add(topics::variables);
   all.add(topics::channel_request);
   all.add(topics::channel_reply);
   all.add(topics::auxiliary_request);

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "truth/probe_section.hpp"
+
+#include <array>
+
+#include "geometry/angle.hpp"
+
+namespace trunnion::truth {
+namespace {
+
+constexpr double um = 1e-3, ms = 1e-3;
+constexpr Limits position{-1e5, 1e5}, angle{-360, 360};  // mm, deg
+constexpr Limits size{1e-3, 1e4};                        // mm: lengths and diameters
+constexpr std::size_t most_solids = 64;
+
+// A length that the entry of a solid must have.
+struct Length {
+  const char* key;
+  double value = 0;
+};
+
+class SolidReader {
+ public:
+  explicit SolidReader(const TruthReader& reader) : reader_(reader) {}
+
+  Solid read(const YAML::Node& entry) {
+    YAML::Node shape;
+    std::string kind;
+    centre_ = turn_ = Vec3::Zero();
+    reader_.each(entry, "one of sphere, box, ring, cylinder; position_mm, rotation_deg",
+                 [&](const std::string& key, const YAML::Node& value) {
+                   if (key == "position_mm") return centre_ = reader_.vector(value, position), true;
+                   if (key == "rotation_deg")
+                     return turn_ = geometry::radians_per_degree * reader_.vector(value, angle), true;
+                   if (key != "sphere" && key != "box" && key != "ring" && key != "cylinder") return false;
+                   if (!kind.empty())
+                     reader_.fail(value, "'" + kind + "' is there already: one solid, one shape");
+                   kind = key;
+                   shape = value;
+                   return true;
+                 });
+    if (kind.empty()) reader_.fail(entry, "a shape is missing: one of sphere, box, ring, cylinder");
+    edges_ = rotation(turn_);
+    return kind == "sphere" ? sphere(shape)
+           : kind == "box"  ? box(shape)
+           : kind == "ring" ? ring(shape)
+                            : cylinder(shape);
+  }
+
+ private:
+  template <std::size_t n>
+  void lengths(const YAML::Node& shape, std::array<Length, n>& wanted) {
+    std::string keys;
+    for (const auto& length : wanted) keys.append(keys.empty() ? "" : ", ").append(length.key);
+    reader_.each(shape, keys, [&](const std::string& key, const YAML::Node& value) {
+      for (auto& length : wanted)
+        if (key == length.key) return length.value = reader_.number(value, size), true;
+      return false;
+    });
+    for (const auto& length : wanted)
+      if (length.value == 0) reader_.fail(shape, std::string("'") + length.key + "' is missing");
+  }
+
+  Solid sphere(const YAML::Node& shape) {
+    SphereGauge out;
+    double diameter = 0;
+    out.centre = centre_;
+    out.shaft = -edges_.col(2);
+    reader_.each(shape, "diameter_mm, shaft_diameter_mm, shaft_length_mm",
+                 [&](const std::string& key, const YAML::Node& value) {
+                   if (key == "diameter_mm") return diameter = reader_.number(value, size), true;
+                   if (key == "shaft_diameter_mm")
+                     return out.shaft_radius = reader_.number(value, size) / 2, true;
+                   return key == "shaft_length_mm" && (out.shaft_length = reader_.number(value, size), true);
+                 });
+    if (diameter == 0) reader_.fail(shape, "'diameter_mm' is missing");
+    if ((out.shaft_radius > 0) != (out.shaft_length > 0))
+      reader_.fail(shape, "a shaft has both 'shaft_diameter_mm' and 'shaft_length_mm'");
+    out.radius = diameter / 2;
+    if (out.shaft_radius >= out.radius && out.shaft_radius > 0)
+      reader_.fail(shape["shaft_diameter_mm"], "the shaft must be thinner than the sphere");
+    return out;
+  }
+
+  Solid box(const YAML::Node& shape) {
+    CuboidGauge out;
+    bool given = false;
+    reader_.each(shape, "size_mm", [&](const std::string& key, const YAML::Node& value) {
+      return key == "size_mm" && (out.half_lengths = reader_.vector(value, size) / 2, given = true);
+    });
+    if (!given) reader_.fail(shape, "'size_mm' is missing");
+    out.centre = centre_;
+    out.edges = edges_;
+    return out;
+  }
+
+  Solid ring(const YAML::Node& shape) {
+    std::array<Length, 3> l{{{"bore_mm"}, {"outside_mm"}, {"height_mm"}}};
+    lengths(shape, l);
+    if (l[1].value <= l[0].value)
+      reader_.fail(shape["outside_mm"], "the outside diameter must exceed the bore");
+    return RingGauge{centre_, edges_.col(2), l[0].value / 2, l[1].value / 2, l[2].value / 2};
+  }
+
+  Solid cylinder(const YAML::Node& shape) {
+    std::array<Length, 2> l{{{"diameter_mm"}, {"height_mm"}}};
+    lengths(shape, l);
+    return CylinderGauge{centre_, edges_.col(2), l[0].value / 2, l[1].value / 2};
+  }
+
+  const TruthReader& reader_;
+  Vec3 centre_, turn_;
+  Mat3 edges_;
+};
+
+}  // namespace
+
+TouchProbeTruth read_probe(const TruthReader& reader, const YAML::Node& section) {
+  TouchProbeTruth out;
+  const Limits small{0, 1e4}, seed{0, 4294967295.0}, touch{1, 1e9};  // um
+  const auto whole = [&](const YAML::Node& node, Limits limits) {
+    const double value = reader.number(node, limits);
+    if (value != static_cast<double>(static_cast<std::uint32_t>(value)))
+      reader.fail(node, "expected a whole number");
+    return static_cast<std::uint32_t>(value);
+  };
+  reader.each(
+      section,
+      "ball_radius_mm, length_mm, pre_travel_um, lobing_um, lobing_phase_deg, repeatability_um, delay_ms, "
+      "seed, no_signal_from_touch, early_mm, early_from_touch",
+      [&](const std::string& key, const YAML::Node& v) {
+        if (key == "ball_radius_mm") return out.ball_radius = reader.number(v, {1e-3, 100}), true;
+        if (key == "length_mm") return out.length = reader.number(v, {0, 2000}), true;
+        if (key == "pre_travel_um") return out.pre_travel = um * reader.number(v, small), true;
+        if (key == "lobing_um") return out.lobing = um * reader.number(v, small), true;
+        if (key == "lobing_phase_deg") return out.lobing_phase = reader.number(v, angle), true;
+        if (key == "repeatability_um") return out.repeatability = um * reader.number(v, small), true;
+        if (key == "delay_ms") return out.delay = ms * reader.number(v, {0, 1000}), true;
+        if (key == "seed") return out.seed = whole(v, seed), true;
+        if (key == "no_signal_from_touch") return out.no_signal_from = whole(v, touch), true;
+        if (key == "early_mm") return out.early = reader.number(v, {1e-3, 100}), true;
+        return key == "early_from_touch" && (out.early_from = whole(v, touch), true);
+      });
+  return out;
+}
+
+std::vector<Solid> read_solids(const TruthReader& reader, const YAML::Node& section) {
+  if (!section.IsSequence()) reader.fail(section, "expected a list of solids");
+  if (section.size() > most_solids)
+    reader.fail(section, "at most " + std::to_string(most_solids) + " solids are possible");
+  std::vector<Solid> solids;
+  SolidReader one(reader);
+  for (const auto& entry : section) solids.push_back(one.read(entry));
+  return solids;
+}
+
+}  // namespace trunnion::truth

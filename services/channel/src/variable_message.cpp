@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "variable_message.hpp"
+
+namespace trunnion::channel {
+namespace {
+
+// `first` is the number of the first of `values`.
+void add(std::span<const language::Value> values, std::uint32_t first, idl::channel::Variables& out) {
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (!values[i].given) continue;
+    out.numbers.push_back(first + static_cast<std::uint32_t>(i));
+    out.values.push_back(values[i].number);
+  }
+}
+
+}  // namespace
+
+idl::channel::Variables variable_message(const language::VariableStore& variables, std::uint16_t channel) {
+  idl::channel::Variables out;
+  out.channel = channel;
+  add(variables.common, 50, out);
+  add(variables.kept, 500, out);
+  add(variables.user, 50000, out);
+  return out;
+}
+
+}  // namespace trunnion::channel

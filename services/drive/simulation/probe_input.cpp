@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "probe_input.hpp"
+
+#include <algorithm>
+
+#include "geometry/angle.hpp"
+#include "machine/gantry_pairs.hpp"
+
+namespace trunnion::drive {
+namespace {
+
+std::vector<geometry::OrientingAxis> orienting_axes(const geometry::ChainParameters& design) {
+  const auto made = geometry::Chain::make(design);
+  std::vector<geometry::OrientingAxis> axes;
+  if (const auto* chain = std::get_if<geometry::Chain>(&made))
+    for (std::size_t i = 0; i < chain->rotary_count(); ++i) axes.push_back(chain->orienting_axis(i));
+  return axes;
+}
+
+}  // namespace
+
+ProbeInput::ProbeInput(const ProbeSetup& setup)
+    : geometry_(setup.geometry),
+      orienting_(orienting_axes(setup.design)),
+      lobes_(setup.probe.lobing != 0),
+      length_(setup.probe.length),
+      probe_(setup.probe, setup.solids) {
+  columns_.fill(-1);
+  for (const auto& source : geometry_.errors().heat)
+    warms_ = warms_ || source.rise_per_speed != 0 || source.constant_rise != 0;
+}
+
+void ProbeInput::configure(const machine::Parameters& parameters,
+                           const std::vector<machine::AxisInfo>& axes) {
+  columns_.fill(-1);
+  const auto letters = machine::channel_axes(parameters, 0);
+  for (std::size_t i = 0; i < letters.index.size(); ++i)
+    columns_[letters.index[i]] = machine::column_of(axes, letters.number[i]);
+  slave_column_ = -1;
+  const auto& beam = geometry_.errors().beam;
+  if (!beam) return;
+  for (const auto& pair : machine::gantry_pairs(parameters, 0)) {
+    if (machine::column_of(axes, pair.master) != columns_[beam->axis]) continue;
+    slave_column_ = machine::column_of(axes, pair.slave);
+    slave_sign_ = pair.sign, slave_zero_ = pair.zero_deviation;
+  }
+}
+
+truth::ProbePose ProbeInput::pose(const std::vector<SimulatedAxis>& servos) const {
+  truth::MachinePose machine;
+  for (std::size_t i = 0; i < columns_.size(); ++i)
+    if (columns_[i] >= 0) machine.positions[i] = servos[static_cast<std::size_t>(columns_[i])].load();
+  machine.approach = approach_;
+  machine.tool_length = length_;
+  if (slave_column_ >= 0)
+    machine.slave_lead =
+        slave_sign_ * (servos[static_cast<std::size_t>(slave_column_)].load() - slave_zero_) -
+        machine.positions[geometry_.errors().beam->axis];
+  machine.temperatures = warm_up_.temperatures();
+  const auto tool = geometry_.pose(machine);
+  truth::ProbePose out{tool.tip, truth::Vec3::UnitX(), tool.axis};
+  // The direction of the lobes by the axes without errors: those are far below what the lobes can show.
+  if (lobes_)
+    for (std::size_t i = orienting_.size(); i-- > 0;) {
+      const auto& axis = orienting_[i];
+      const auto t = geometry::sine_cosine(machine.positions[3 + axis.angle]);
+      const auto &k = axis.direction, v = out.across;
+      out.across = t.cosine * v + t.sine * k.cross(v) + ((1 - t.cosine) * k.dot(v)) * k;
+    }
+  return out;
+}
+
+void ProbeInput::step(const SetpointRow& row, double period, const std::vector<SimulatedAxis>& servos,
+                      const std::vector<SimulatedSpindle>& spindles, EncoderRowSink& rows) {
+  truth::Temperatures speeds{};
+  for (std::size_t i = 0; i < columns_.size(); ++i) {
+    if (columns_[i] < 0) continue;
+    const auto column = static_cast<std::size_t>(columns_[i]);
+    speeds[i] = servos[column].velocity();
+    if (const double v = row.axes[column].velocity; v != 0) approach_[i] = v > 0 ? 1 : -1;
+  }
+  if (warms_) {
+    if (!spindles.empty()) speeds[truth::spindle_source] = spindles.front().speed();
+    warm_up_.step(geometry_.errors().heat, speeds, period);
+  }
+  if (!row.probe_on) {
+    if (switched_on_) probe_.switch_off();
+  } else if (!switched_on_) {
+    probe_.place(pose(servos));
+  } else if (const auto share = probe_.move(pose(servos), period)) {
+    idl::stream::SkipEdge edge;
+    edge.input = 1;
+    for (std::size_t i = 0; i < servos.size(); ++i)
+      edge.position.push_back(encoder_[i] + *share * (servos[i].encoder() - encoder_[i]));
+    rows.skip_edge(row.number + 1, edge);
+  }
+  switched_on_ = row.probe_on;
+  encoder_.resize(servos.size());
+  for (std::size_t i = 0; i < servos.size(); ++i) encoder_[i] = servos[i].encoder();
+}
+
+}  // namespace trunnion::drive
