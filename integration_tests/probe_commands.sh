@@ -50,7 +50,7 @@ grep -q 'no alarms' "$work/alarms" || fail "$(cat "$work/alarms")"
 "$trunnion" variables --domain "$domain" --json > "$work/variables.json"
 "$python" "$(dirname "$0")/check_measured_centres.py" "$trunnion" "$machine" "$work/variables.json" || fail "wrong centres"
 # The same by HTTP.
-"$python" - "http://localhost:$((21000 + domain))/api/channels/0/variables" "$work/variables.json" <<'END' || fail "HTTP"
+"$python" - "http://localhost:$((21000 + domain))/api/variables/0" "$work/variables.json" <<'END' || fail "HTTP"
 import json, sys, urllib.request
 with urllib.request.urlopen(sys.argv[1]) as answer: told = json.load(answer)
 with open(sys.argv[2]) as file: shown = json.load(file)

@@ -52,7 +52,7 @@ std::vector<Route> all_routes() {
       {"POST", "/api/alarms/reset", Operation::alarms_reset},
       {"GET", "/api/channels", Operation::channels},
       {"GET", "/api/channels/{channel}", Operation::channel},
-      {"GET", "/api/channels/{channel}/variables", Operation::variables},
+      {"GET", "/api/variables/{channel}", Operation::variables},
       {"GET", "/api/parameters", Operation::parameters},
       {"GET", "/api/parameters/{number}", Operation::parameter},
       {"PUT", "/api/parameters/{number}", Operation::set_parameter},
