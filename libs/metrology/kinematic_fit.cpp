@@ -154,16 +154,17 @@ bool independent(const MatrixXd& square) {
 }
 
 std::vector<OffsetCondition> kept_components(const ChainParameters& chain, const Unknowns& unknowns,
-                                             const MatrixXd& free) {
-  std::vector<OffsetCondition> chosen;
-  MatrixXd taken(0, free.cols());
+                                             const MatrixXd& free,
+                                             const std::vector<OffsetCondition>& given = {}) {
+  auto chosen = given;
+  MatrixXd taken = rows_of(given, unknowns) * free;
   // Next to the base of the table, next to the tool of the head.
   for (const Slot slot :
        {Slot::table_0, Slot::table_1, Slot::head_2, Slot::head_1, Slot::head_0, Slot::table_2}) {
     const auto& axis = axis_at(chain, slot);
     if (!axis) continue;
     for (int component = 0; component < 3; ++component) {
-      if (taken.rows() == free.cols()) return chosen;
+      if (taken.rows() >= free.cols()) return chosen;
       OffsetCondition condition;
       condition.coefficient[index_of(slot)] = Vec3::Unit(component);
       condition.value = (axis->offset + axis->correction)[component];
@@ -233,11 +234,12 @@ void describe(KinematicFit& fit, const Unknowns& unknowns, const MatrixXd& covar
 
 }  // namespace
 
-std::vector<OffsetCondition> free_components(const ChainParameters& chain) {
+std::vector<OffsetCondition> free_components(const ChainParameters& chain,
+                                             const std::vector<OffsetCondition>& given) {
   FitOptions options;
   const Unknowns unknowns(chain, options);
   const auto free = free_combinations(chain, unknowns);
-  return free ? kept_components(chain, unknowns, *free) : std::vector<OffsetCondition>{};
+  return free ? kept_components(chain, unknowns, *free, given) : std::vector<OffsetCondition>{};
 }
 
 std::variant<KinematicFit, FitError> fit_kinematics(const ChainParameters& start,

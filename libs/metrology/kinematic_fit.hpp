@@ -81,7 +81,9 @@ enum class FitError {
 /// keep them: of a table those next to the base first, of a head those next to the tool first. So an AC
 /// table keeps X and Z of 04c432 .. 434, a CB head Y of 04c420 .. 422 and Z of 04c417 .. 419 (the manual of
 /// HNC-8 has the same zeros).
-std::vector<OffsetCondition> free_components(const ChainParameters& chain);
+/// `given` come first; what they leave free is kept. They must be independent, or there are too few in all.
+std::vector<OffsetCondition> free_components(const ChainParameters& chain,
+                                             const std::vector<OffsetCondition>& given = {});
 
 /// Least squares over all poses: unknown are offsets and directions of all rotary axes and the place of the
 /// sphere. Gauss-Newton; the poses' covariances are weights. `tool_length`: to the centre of the ball, mm.
