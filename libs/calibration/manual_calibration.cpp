@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
+#include <stdexcept>
 
 #include "geometry/angle.hpp"
 #include "machine/yaml.hpp"
@@ -142,6 +144,38 @@ std::vector<Angles> check_poses(ManualKind kind, double alpha) {
     poses.push_back(pose);
   }
   return poses;
+}
+
+std::vector<Vec3> parse_displacements(const std::string& text, const std::string& file) {
+  std::vector<Vec3> displacements;
+  std::size_t number = 0;
+  const auto fail = [&](std::size_t column, const std::string& what) {
+    throw std::runtime_error(file + ":" + std::to_string(number) + ":" + std::to_string(column + 1) +
+                             ": error: " + what);
+  };
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find('\n', at), text.size());
+    const std::string line = text.substr(at, std::min(text.find('#', at), end) - at);
+    at = end + 1, ++number;
+    std::vector<double> values;
+    for (std::size_t i = line.find_first_not_of(" \t\r"); i != line.npos;) {
+      const std::size_t stop = std::min(line.find_first_of(" \t\r", i), line.size());
+      double value = 0;
+      const char* first = line.data() + i + (line[i] == '+' ? 1 : 0);
+      const auto [last, error] = std::from_chars(first, line.data() + stop, value);
+      if (error != std::errc() || last != line.data() + stop || !(std::abs(value) <= 100))
+        fail(i, "'" + line.substr(i, stop - i) + "' is not a displacement within -100 .. 100 mm");
+      values.push_back(value);
+      i = line.find_first_not_of(" \t\r", stop);
+    }
+    if (values.empty()) continue;
+    if (values.size() != 3) fail(0, "expected x y z in mm");
+    if (displacements.size() == 9) fail(0, "more than the nine poses of the check");
+    displacements.emplace_back(values[0], values[1], values[2]);
+  }
+  if (displacements.size() != 9)
+    fail(0, std::to_string(displacements.size()) + " displacements, the check has nine poses");
+  return displacements;
 }
 
 ChainParameters corrected(ManualKind kind, const std::vector<Vec3>& d, double alpha, ChainParameters chain) {

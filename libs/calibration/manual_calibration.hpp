@@ -49,6 +49,10 @@ ChainParameters chain_of_readings(ManualKind kind, const Readings& readings, Cha
 /// -a, -90, 0 of a table (a = `alpha` deg), 0, 45, 90, -45, -90 of a head.
 std::vector<Angles> check_poses(ManualKind kind, double alpha = 30);
 
+/// Nine lines `x y z` of the displacement at check_poses(), mm; `#` begins a comment. Throws
+/// std::runtime_error that begins with file:line:column.
+std::vector<Vec3> parse_displacements(const std::string& text, const std::string& file);
+
 /// The chain, corrected by the displacement of the ball along + axes of the workpiece frame at the nine
 /// poses, mm. First order: what remains after it is of the order of the product of errors.
 ChainParameters corrected(ManualKind kind, const std::vector<Vec3>& displacements, double alpha,

@@ -142,6 +142,24 @@ TEST(ManualReadings, EveryFaultIsOneLineWithItsPlace) {
   EXPECT_THAT(fault("arbor_diameter: 0\n"), testing::HasSubstr("0 is not within 0.001 .. 1000"));
 }
 
+TEST(ManualReadings, DisplacementsAreNineLines) {
+  const auto fault = [](const std::string& text) {
+    try {
+      parse_displacements(text, "d.txt");
+    } catch (const std::runtime_error& e) {
+      return std::string(e.what());
+    }
+    return std::string("taken");
+  };
+  std::string nine;
+  for (int i = 0; i < 9; ++i) nine += "0.01 +0.02 -3e-3 # pose\n";
+  EXPECT_EQ(fault("# x y z\n\n" + nine), "taken");
+  EXPECT_EQ(fault(nine + "0 0 0\n"), "d.txt:10:1: error: more than the nine poses of the check");
+  EXPECT_EQ(fault("0 0 0\n"), "d.txt:1:1: error: 1 displacements, the check has nine poses");
+  EXPECT_EQ(fault("0 0\n"), "d.txt:1:1: error: expected x y z in mm");
+  EXPECT_EQ(fault("0 q 0\n"), "d.txt:1:3: error: 'q' is not a displacement within -100 .. 100 mm");
+}
+
 TEST(ManualGuide, HasStepsWithReadingsForEveryKind) {
   for (const auto kind :
        {ManualKind::ac_table, ManualKind::bc_head, ManualKind::ac_head, ManualKind::hybrid}) {

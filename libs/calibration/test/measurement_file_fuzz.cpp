@@ -15,5 +15,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   testing_support::taken_or_refused("readings.yaml", [&] {
     calibration::parse_readings(text, "readings.yaml", calibration::ManualKind::ac_table);
   });
+  testing_support::taken_or_refused("d.txt", [&] { calibration::parse_displacements(text, "d.txt"); });
   return 0;
 }
