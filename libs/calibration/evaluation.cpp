@@ -10,7 +10,6 @@ namespace {
 
 using geometry::Chain;
 using metrology::FitOptions;
-using metrology::Slot;
 
 constexpr double least_known_direction = 1e-3;
 constexpr double advised_direction = 5e-5;  // A650, page 27

@@ -81,7 +81,7 @@ Readings parse_readings(const std::string& text, const std::string& file, Manual
     for (const auto& [name, about] : step.readings) known.push_back(name);
   for (const auto& [name, about] : guide.values) known.push_back(name);
   std::string all;
-  for (const auto& name : known) all += (all.empty() ? "" : ", ") + name;
+  for (const auto& name : known) all.append(all.empty() ? "" : ", ").append(name);
   const truth::TruthReader reader(file);
   Readings readings;
   const auto root = machine::parse_yaml(text, file);
@@ -231,7 +231,7 @@ Acceptance acceptance_of(ManualKind kind, const std::vector<Vec3>& d) {
       return largest_deviation(series);
     };
     acceptance.lines.push_back({name + " over C", over(0, 3), 0.02});
-    acceptance.lines.push_back({name + " over " + swivel, over(4, 8), 0.02});
+    acceptance.lines.push_back({std::string(name).append(" over ").append(swivel), over(4, 8), 0.02});
   }
   if (kind == ManualKind::ac_table) {
     acceptance.lines.push_back({"Z between +alpha and -alpha (OFFY)", std::abs((d[6] - d[5]).z()), 0.01});
