@@ -81,7 +81,10 @@ Readings parse_readings(const std::string& text, const std::string& file, Manual
     for (const auto& [name, about] : step.readings) known.push_back(name);
   for (const auto& [name, about] : guide.values) known.push_back(name);
   std::string all;
-  for (const auto& name : known) all.append(all.empty() ? "" : ", ").append(name);
+  for (const auto& name : known) {
+    if (!all.empty()) all += ", ";
+    all += name;
+  }
   const truth::TruthReader reader(file);
   Readings readings;
   const auto root = machine::parse_yaml(text, file);
@@ -93,7 +96,7 @@ Readings parse_readings(const std::string& text, const std::string& file, Manual
   for (const auto& name : known)
     if (!readings.contains(name) &&
         std::find(guide.optional.begin(), guide.optional.end(), name) == guide.optional.end())
-      reader.fail(root, name + " is missing; the readings are " + all);
+      reader.fail(root, std::string(name).append(" is missing; the readings are ").append(all));
   return readings;
 }
 
