@@ -31,6 +31,7 @@ void add_kins_command(CLI::App& app, Common& common);          // kins
 void add_truth_command(CLI::App& app, Common& common);         // truth
 void add_variables_command(CLI::App& app, Common& common);     // variables
 void add_measure_command(CLI::App& app, Common& common);       // measure ballbar, laser, rtest
+void add_calibrate_command(CLI::App& app, Common& common);     // calibrate kinematics, manual, undo
 void add_check_command(CLI::App& app, Common& common);         // check
 void add_program_commands(CLI::App& app, Common& common);      // program
 void add_plan_command(CLI::App& app, Common& common);          // plan

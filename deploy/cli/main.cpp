@@ -24,6 +24,7 @@ int main(int argc, char** argv) {
   add_truth_command(app, common);
   add_variables_command(app, common);
   add_measure_command(app, common);
+  add_calibrate_command(app, common);
   add_check_command(app, common);
   add_plan_command(app, common);
   add_plc_command(app, common);

@@ -12,7 +12,8 @@
 namespace trunnion::cli {
 namespace {
 
-constexpr std::size_t most_values = 4096;  // of ParameterRequest in idl/parameters.idl
+// Of ParameterRequest in idl/parameters.idl.
+constexpr std::size_t most_values = 4096, most_author = 64;
 
 std::string user() {
   const char* name = std::getenv("USER");
@@ -21,10 +22,11 @@ std::string user() {
 
 }  // namespace
 
-int send_parameters(const Common& common, cluster::Client& client,
-                    idl::parameters::ParameterRequest request) {
-  request.who = user();
+int send_parameters(const Common& common, cluster::Client& client, idl::parameters::ParameterRequest request,
+                    const std::string& suffix, bool silent) {
+  request.who = user().substr(0, most_author - suffix.size()) + suffix;
   const auto reply = client.parameter(std::move(request));
+  if (silent) return 0;
   if (common.json)
     std::cout
         << bus::Json{{"accepted", true}, {"revision", reply.revision}, {"pending", reply.pending}}.dump()
@@ -37,7 +39,8 @@ int send_parameters(const Common& common, cluster::Client& client,
   return 0;
 }
 
-int import_parameters(const Common& common, const std::map<std::uint32_t, machine::ParameterValue>& values) {
+int import_parameters(const Common& common, const std::map<std::uint32_t, machine::ParameterValue>& values,
+                      const std::string& suffix, bool silent) {
   if (values.size() > most_values)
     throw std::runtime_error(std::to_string(values.size()) + " parameters; one import takes " +
                              std::to_string(most_values) + " at most");
@@ -45,7 +48,7 @@ int import_parameters(const Common& common, const std::map<std::uint32_t, machin
   idl::parameters::ParameterRequest request;
   request.operation = idl::parameters::Operation::IMPORT;
   for (const auto& [number, value] : values) request.values.push_back({number, value.value, value.text});
-  return send_parameters(common, client, std::move(request));
+  return send_parameters(common, client, std::move(request), suffix, silent);
 }
 
 }  // namespace trunnion::cli

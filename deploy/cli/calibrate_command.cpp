@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+// calibrate: the vectors of the kinematics; writing and undoing them
+#include <CLI/CLI.hpp>
+#include <iostream>
+#include <memory>
+#include <sstream>
+
+#include "bus/json.hpp"
+#include "calibration/chain_change.hpp"
+#include "calibration/journal.hpp"
+#include "calibration_result.hpp"
+#include "cluster/client.hpp"
+#include "cluster/cluster.hpp"
+#include "machine/chain_parameters.hpp"
+#include "machine/kinematics.hpp"
+#include "machine/yaml.hpp"
+#include "parameter_request.hpp"
+#include "storage/file.hpp"
+
+namespace trunnion::cli {
+namespace {
+
+int undo(const Common& common) {
+  const auto running = cluster::find_cluster(common.domain);
+  const auto last =
+      calibration::last_calibration(machine::read_text(running.state_directory + "/journal.jsonl"));
+  std::map<std::uint32_t, machine::ParameterValue> values;
+  for (const auto& [number, value] : last.before) values[number] = {value, ""};
+  if (!common.json)
+    print_line("the calibration of %s by %s: %zu parameters get the values of before", last.time.c_str(),
+               last.who.c_str(), values.size());
+  return import_parameters(common, values, calibration::undone_by);
+}
+
+}  // namespace
+
+truth::Vec3 vector_option(const std::string& option, const std::string& text) {
+  std::istringstream in(text);
+  truth::Vec3 v;
+  char comma[2], more = 0;
+  if (!(in >> v[0] >> comma[0] >> v[1] >> comma[1] >> v[2]) || comma[0] != ',' || comma[1] != ',' ||
+      in >> more || !v.allFinite() || !(v.cwiseAbs().maxCoeff() <= 1e5))
+    throw std::runtime_error(option + " " + text + ": expected X,Y,Z in mm, each within -100000 .. 100000");
+  return v;
+}
+
+void add_target_options(CLI::App& command, CalibrationTarget& target) {
+  command
+      .add_option("machine", target.machine, "Name under configs/machines, or a directory with machine.yaml")
+      ->required();
+  command.add_option("--channel", target.channel, "Channel (default 0)")->check(CLI::Range(0, 9));
+  command.add_option("--set", target.set, "As of `trunnion truth`; may be repeated")->take_all();
+  command.add_option("--output", target.output, "Write the changed parameters into a file");
+  command.add_flag(
+      "--write", target.write,
+      "Set the changed parameters in the cluster that runs, all or none; active after a reset. Its "
+      "journal names the calibration and keeps the values of before: `trunnion calibrate undo`");
+}
+
+TrueMachine load_calibrated_machine(const CalibrationTarget& target, const Common& common) {
+  auto machine = load_true_machine(target.machine, target.channel, target.set);
+  if (!target.write) return machine;
+  const auto running = cluster::find_cluster(common.domain);
+  if (running.machine != machine.name)
+    throw std::runtime_error("--write: the cluster that runs is " + running.machine +
+                             ", to be calibrated is " + machine.name);
+  cluster::Client client(running.run.domain);
+  const auto set = client.newest(topics::parameter_set);
+  machine.model = machine::parameters_of(set);
+  for (const auto& pending : set.pending)
+    if (machine::is_chain_parameter(pending.number))
+      throw std::runtime_error("--write: parameter " + machine::number_text(pending.number) +
+                               " of the kinematics waits for a reset; reset the channel first");
+  auto report = std::make_unique<truth::PoseReport>(
+      truth::make_geometry(machine.truth.geometry, machine.outline, "truth.yaml"),
+      machine::make_chain(machine.model, target.channel), machine.outline);
+  report->temperatures = machine.report->temperatures;
+  report->compensation = machine.report->compensation;
+  machine.report = std::move(report);
+  return machine;
+}
+
+calibration::MeasuredMachine measured_machine(const TrueMachine& machine, std::uint16_t channel) {
+  return {machine.name, machine::chain_parameters(machine.model, channel), machine.outline, ""};
+}
+
+int write_change(const CalibrationTarget& target, const Common& common,
+                 const calibration::ChainParameters& before, const calibration::ChainParameters& after) {
+  const auto values = calibration::changed_parameters(before, after, target.channel);
+  if (!common.json)
+    for (const auto& [number, value] : values)
+      print_line("%s %s = %.9g", machine::number_text(number).c_str(),
+                 machine::Catalogue::instance().find(number)->name.c_str(), value.value);
+  if (!target.output.empty()) {
+    storage::replace_file(target.output, machine::write_parameter_text(values));
+    if (!common.json) print_line("%s: %zu parameters", target.output.c_str(), values.size());
+  }
+  std::fflush(stdout);
+  if (target.write && !values.empty()) {
+    return import_parameters(common, values, calibration::calibrated_by, common.json);
+  }
+  if (!common.json && target.output.empty())
+    print_line("nothing written: --write changes the cluster that runs, --output FILE writes parameters");
+  return 0;
+}
+
+void add_calibrate_command(CLI::App& app, Common& common) {
+  auto* calibrate = app.add_subcommand("calibrate", "Calibrate the kinematics of a five-axis machine");
+  calibrate->require_subcommand(1);
+  add_calibrate_kinematics(*calibrate, common);
+  add_calibrate_manual(*calibrate, common);
+  add_command(
+      *calibrate, common, "undo",
+      "Give the parameters that the last calibration has written into the cluster that runs the values of "
+      "before; refused when one of them was changed since. Active after a reset",
+      [&common] { return undo(common); });
+}
+
+}  // namespace trunnion::cli

@@ -1,0 +1,288 @@
+// SPDX-License-Identifier: Apache-2.0
+// calibrate kinematics: touches of a sphere over poses of the rotary axes
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <ctime>
+#include <iostream>
+#include <memory>
+
+#include "bus/json.hpp"
+#include "calibration/chain_change.hpp"
+#include "calibration/measurement_file.hpp"
+#include "calibration/protocol.hpp"
+#include "calibration/sphere_check.hpp"
+#include "calibration_result.hpp"
+#include "machine/yaml.hpp"
+#include "report/plot.hpp"
+#include "storage/file.hpp"
+#include "truth/truth_reader.hpp"
+
+namespace trunnion::cli {
+namespace {
+
+using calibration::Mode;
+using calibration::Vec3;
+
+constexpr double um = 1e3;
+
+struct KinematicsOptions {
+  CalibrationTarget target;
+  std::string inputs, mode, sphere, true_sphere, touches, save_touches, protocol, plot, date, reference;
+  std::optional<double> probe_length;
+  double repeatability = 0, pre_travel = 0, lobing = 0;  // um
+  std::uint64_t seed = 1;
+  std::size_t check = 0;
+  bool virtual_probe = false, acknowledge = false;
+};
+
+bus::Json json_of(const Vec3& v) { return bus::Json::array({v[0], v[1], v[2]}); }
+
+calibration::MeasurementInputs inputs_of(const KinematicsOptions& o,
+                                         const calibration::MeasuredMachine& machine) {
+  auto in = o.inputs.empty() ? calibration::default_inputs(machine)
+                             : calibration::parse_inputs(machine::read_text(o.inputs), o.inputs, machine);
+  if (!o.mode.empty())
+    in.mode = o.mode == "correct"        ? Mode::correct
+              : o.mode == "only_correct" ? Mode::only_correct
+                                         : Mode::measure_only;
+  if (!o.sphere.empty()) in.sphere = vector_option("--sphere", o.sphere);
+  if (o.probe_length) in.probe_length = *o.probe_length;
+  if (const auto fault = fault_of(in, machine); !fault.empty()) throw std::runtime_error(fault);
+  if (in.mode == Mode::measure_only && (o.target.write || !o.target.output.empty()))
+    throw std::runtime_error("the mode is measure_only: nothing may be written; give --mode correct");
+  if (in.mode == Mode::only_correct && o.touches.empty())
+    throw std::runtime_error("the mode is only_correct: give the stored touches with --touches FILE");
+  if (o.virtual_probe == !o.touches.empty())
+    throw std::runtime_error("give either --virtual or --touches FILE as the source of the touches");
+  return in;
+}
+
+// "2026-01-31T12:00:00", by the clock when it is not given.
+std::pair<std::string, std::string> date_of(const std::string& given) {
+  std::string text = given;
+  if (text.empty()) {
+    const auto now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
+    std::tm parts{};
+    gmtime_r(&now, &parts);
+    char buffer[40];
+    std::strftime(buffer, sizeof buffer, "%Y-%m-%dT%H:%M:%S", &parts);
+    text = buffer;
+  }
+  std::tm parts{};
+  const char* end = strptime(text.c_str(), "%Y-%m-%dT%H:%M:%S", &parts);
+  if (end == nullptr || *end != 0 || text.size() != 19)
+    throw std::runtime_error("--date " + text + ": expected YYYY-MM-DDTHH:MM:SS");
+  return {text.substr(0, 10), text.substr(11)};
+}
+
+std::optional<calibration::ReferenceMeasurement> read_reference(const KinematicsOptions& o,
+                                                                calibration::Reference mode) {
+  if (mode == calibration::Reference::without) return std::nullopt;
+  if (o.reference.empty()) throw std::runtime_error("a reference needs its file: --reference FILE");
+  if (mode == calibration::Reference::measure) return std::nullopt;
+  const truth::TruthReader reader(o.reference);
+  calibration::ReferenceMeasurement found;
+  const auto root = machine::parse_yaml(machine::read_text(o.reference), o.reference);
+  int keys = 0;
+  reader.each(root, "sphere_mm, zero_offset_mm", [&](const std::string& key, const YAML::Node& node) {
+    if (key != "sphere_mm" && key != "zero_offset_mm") return false;
+    (key == "sphere_mm" ? found.sphere : found.zero_offset) = reader.vector(node, {-1e5, 1e5});
+    ++keys;
+    return true;
+  });
+  if (keys != 2) reader.fail(root, "expected sphere_mm and zero_offset_mm");
+  return found;
+}
+
+void save_reference(const KinematicsOptions& o, const calibration::MeasurementInputs& in,
+                    const Vec3& sphere) {
+  char text[300];
+  std::snprintf(text, sizeof text, "sphere_mm: [%.9f, %.9f, %.9f]\nzero_offset_mm: [%.9f, %.9f, %.9f]\n",
+                sphere.x(), sphere.y(), sphere.z(), in.zero_offset.x(), in.zero_offset.y(),
+                in.zero_offset.z());
+  storage::replace_file(o.reference, text);
+}
+
+// Differences before and residuals after of each pose, in um.
+std::string residual_picture(const calibration::KinematicsResult& result, const std::string& title) {
+  report::Range y{0, 0};
+  for (const auto& pose : result.poses)
+    for (int i = 0; i < 3; ++i)
+      y = {std::min({y.low, um * pose.difference[i], um * pose.residual[i]}),
+           std::max({y.high, um * pose.difference[i], um * pose.residual[i]})};
+  const double margin = std::max(0.1 * y.span(), 0.1);
+  report::Plot plot(80, 70, 640, 320, {0, static_cast<double>(result.poses.size() + 1)},
+                    {y.low - margin, y.high + margin});
+  plot.labels("pose", "um");
+  constexpr const char* colours[]{"#cf222e", "#1a7f37", "#0969da"};
+  for (int i = 0; i < 3; ++i) {
+    std::vector<report::PlotPoint> before, after;
+    for (std::size_t k = 0; k < result.poses.size(); ++k) {
+      before.push_back({static_cast<double>(k + 1), um * result.poses[k].difference[i]});
+      after.push_back({static_cast<double>(k + 1), um * result.poses[k].residual[i]});
+    }
+    const std::string stroke = std::string("stroke=\"") + colours[i] + "\" fill=\"none\"";
+    plot.curve(before, stroke + " stroke-width=\"1\" stroke-dasharray=\"4 3\"");
+    plot.curve(after, stroke + " stroke-width=\"1.6\"");
+  }
+  return report::document(
+      760, 450,
+      report::text(80, 24, report::escaped(title), "font-size=\"15\" font-weight=\"600\"") +
+          report::text(80, 44, "X red, Y green, Z blue; dashed: difference before, line: residual after") +
+          plot.svg());
+}
+
+bus::Json json_of(const calibration::KinematicsResult& r, const calibration::MeasuredMachine& machine,
+                  const calibration::MeasurementInputs& in) {
+  bus::Json out = {{"machine", machine.name},
+                   {"type", metrology::to_string(metrology::kinematic_type(machine.model))},
+                   {"sphere_mm", json_of(r.sphere)},
+                   {"ball_diameter_mm", r.ball_diameter},
+                   {"touch_deviation_mm", r.touch_deviation},
+                   {"degrees_of_freedom", r.freedom},
+                   {"condition", r.condition},
+                   {"largest_change_mm", r.largest_change},
+                   {"directions_written", in.write_directions},
+                   {"tolerance_alarm", r.tolerance_alarm},
+                   {"warnings", r.warnings},
+                   {"not_observed", r.not_observed}};
+  for (const auto& pose : r.poses)
+    out["poses"].push_back({{"pose", calibration::pose_name(pose.angles, machine.model)},
+                            {"touches", pose.touches},
+                            {"centre_mm", json_of(pose.centre)},
+                            {"difference_mm", json_of(pose.difference)},
+                            {"residual_mm", json_of(pose.residual)},
+                            {"diameter_mm", pose.diameter}});
+  for (const auto& v : r.vectors)
+    out["vectors"].push_back({{"axis", v.name},
+                              {"offset_before_mm", json_of(v.before)},
+                              {"offset_after_mm", json_of(v.after)},
+                              {"offset_uncertainty_95_mm", json_of(v.expanded)},
+                              {"observed", v.observed},
+                              {"direction_ideal", json_of(v.direction_before)},
+                              {"direction_real", json_of(v.direction_after)},
+                              {"direction_uncertainty_95", json_of(v.direction_expanded)}});
+  return out;
+}
+
+bus::Json json_of(const calibration::CheckSummary& s) {
+  return {{"largest_um", json_of(Vec3(um * s.largest))}, {"root_mean_square_um", um * s.root_mean_square}};
+}
+
+// RTCP with the sphere before and after on the true machine.
+void check_rtcp(const KinematicsOptions& o, const TrueMachine& machine,
+                const calibration::MeasuredMachine& measured, const calibration::MeasurementInputs& in,
+                const calibration::KinematicsResult& result, bool json, bus::Json& out) {
+  const auto poses =
+      calibration::random_check_poses(measured, in.axes, in.sphere, in.probe_length, o.check, o.seed);
+  const auto summary = [&](const calibration::ChainParameters& model) {
+    return calibration::summary_of(
+        calibration::sphere_displacements(*machine.report, model, in.sphere, in.probe_length, poses));
+  };
+  const auto before = summary(result.before), after = summary(result.after);
+  out["rtcp_check"] = {{"poses", poses.size()}, {"before", json_of(before)}, {"after", json_of(after)}};
+  if (json) return;
+  print_line("RTCP with the sphere over %zu random poses, displacement from the initial pose:", poses.size());
+  for (const auto& [name, s] : {std::pair{"before", &before}, {"after", &after}})
+    print_line("%-7s largest X %.1f, Y %.1f, Z %.1f um; root mean square %.1f um", name, um * s->largest.x(),
+               um * s->largest.y(), um * s->largest.z(), um * s->root_mean_square);
+}
+
+int kinematics(const KinematicsOptions& o, const Common& common) {
+  const auto date = date_of(o.date);
+  const auto machine = load_calibrated_machine(o.target, common);
+  const auto measured = measured_machine(machine, o.target.channel);
+  const auto in = inputs_of(o, measured);
+  const auto reference = read_reference(o, in.reference);
+  if (o.check > 0 && !o.virtual_probe) throw std::runtime_error("--check needs the true machine: --virtual");
+  std::vector<calibration::TouchedPose> touched;
+  if (o.virtual_probe) {
+    const auto plan = calibration::plan_measurement(in, measured);
+    if (const auto* fault = std::get_if<std::string>(&plan)) throw std::runtime_error(*fault);
+    truth::TouchProbeTruth probe;
+    probe.repeatability = o.repeatability / um;
+    probe.pre_travel = o.pre_travel / um;
+    probe.lobing = o.lobing / um;
+    probe.seed = o.seed;
+    touched = calibration::touch_virtually(
+        *machine.report, in, measured, std::get<calibration::MeasurementPlan>(plan), probe,
+        o.true_sphere.empty() ? in.sphere : vector_option("--true-sphere", o.true_sphere));
+  } else {
+    touched = calibration::parse_touches(machine::read_text(o.touches), o.touches, measured.model);
+  }
+  if (!o.save_touches.empty())
+    storage::replace_file(o.save_touches, calibration::text_of(touched, measured.model));
+  const auto result = calibration::evaluate(
+      in, measured, touched, calibration::named_corrections(machine.model, o.target.channel), reference);
+  const auto text =
+      calibration::protocol_text({date.first, date.second, o.protocol.empty() ? "-" : o.protocol,
+                                  o.virtual_probe ? "virtual probe" : o.touches},
+                                 in, measured, result);
+  if (!o.protocol.empty()) storage::replace_file(o.protocol, text);
+  if (!o.plot.empty())
+    storage::replace_file(o.plot,
+                          residual_picture(result, measured.name + ": measurement of the kinematics"));
+  auto out = json_of(result, measured, in);
+  if (!common.json) std::fputs(text.c_str(), stdout);
+  if (o.check > 0) check_rtcp(o, machine, measured, in, result, common.json, out);
+  std::fflush(stdout);
+  if (in.reference == calibration::Reference::measure) save_reference(o, in, result.sphere);
+  if (!result.tolerance_alarm.empty() && in.mode != Mode::measure_only) {
+    if (in.tolerance_needs_reset)
+      throw std::runtime_error(result.tolerance_alarm + "; nothing written, reset");
+    if (!o.acknowledge)
+      throw std::runtime_error(result.tolerance_alarm +
+                               "; nothing written, --acknowledge writes in spite of it");
+  }
+  int status = 0;
+  if (in.mode != Mode::measure_only) status = write_change(o.target, common, result.before, result.after);
+  if (common.json) std::cout << bus::text_of(out) << "\n";
+  return status;
+}
+
+}  // namespace
+
+void add_calibrate_kinematics(CLI::App& calibrate, Common& common) {
+  auto options = std::make_shared<KinematicsOptions>();
+  auto& o = *options;
+  auto* command = add_command(calibrate, common, "kinematics",
+                              "Measure the rotary axes with a probe and a sphere (as CYCLE9960), compute "
+                              "offset and direction vectors with "
+                              "their uncertainty, write the offsets",
+                              [options, &common] { return kinematics(*options, common); });
+  add_target_options(*command, o.target);
+  command->add_option("--inputs", o.inputs,
+                      "YAML with inputs and settings (docs/calibration.md); without it 8 "
+                      "points of every rotary axis");
+  command->add_option("--mode", o.mode, "measure_only (default), correct, only_correct (from stored touches)")
+      ->check(CLI::IsMember({"measure_only", "correct", "only_correct"}));
+  command->add_option("--sphere", o.sphere, "Expected centre X,Y,Z of the sphere in the workpiece frame, mm");
+  command->add_option("--probe-length", o.probe_length, "Spindle face to the centre of the ball, mm")
+      ->check(CLI::Range(0.0, 1e4));
+  command->add_flag("--virtual", o.virtual_probe, "Touch with a virtual probe on the machine of truth.yaml");
+  command->add_option("--touches", o.touches, "Touches from a file in place of --virtual");
+  command->add_option("--save-touches", o.save_touches,
+                      "Keep the touches in a file, for --mode only_correct");
+  command->add_option("--true-sphere", o.true_sphere,
+                      "Where the sphere truly is, mm (default: where expected)");
+  command->add_option("--repeatability", o.repeatability, "Of the virtual probe, um (default 0)")
+      ->check(CLI::Range(0.0, 1000.0));
+  command->add_option("--pre-travel", o.pre_travel, "Of the virtual probe, um (default 0)")
+      ->check(CLI::Range(0.0, 1000.0));
+  command->add_option("--lobing", o.lobing, "Of the virtual probe, um (default 0)")
+      ->check(CLI::Range(0.0, 1000.0));
+  command->add_option("--seed", o.seed, "Of the virtual probe and of --check (default 1)");
+  command
+      ->add_option("--check", o.check,
+                   "Then hold the sphere with RTCP at this many random poses, before and after")
+      ->check(CLI::Range(2, 100000));
+  command->add_option("--protocol", o.protocol, "Write the protocol into a file, too");
+  command->add_option("--date", o.date, "Of the protocol, YYYY-MM-DDTHH:MM:SS (default: the clock, UTC)");
+  command->add_option("--plot", o.plot, "Write differences and residuals of every pose (SVG)");
+  command->add_option("--reference", o.reference,
+                      "File of the reference head: written or read as the inputs say");
+  command->add_flag("--acknowledge", o.acknowledge,
+                    "Write although a vector changes by more than its tolerance");
+}
+
+}  // namespace trunnion::cli

@@ -1,0 +1,261 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "calibration/evaluation.hpp"
+
+#include <cmath>
+#include <cstdio>
+#include <stdexcept>
+
+namespace trunnion::calibration {
+namespace {
+
+using geometry::Chain;
+using metrology::FitOptions;
+
+constexpr double least_known_direction = 1e-3;
+constexpr double advised_direction = 5e-5;  // A650, page 27
+
+template <class... Values>
+std::string line(const char* format, Values... values) {
+  char text[300];
+  std::snprintf(text, sizeof text, format, values...);
+  return text;
+}
+
+metrology::SphereFit sphere_of(const std::vector<Vec3>& tips, std::optional<double> radius,
+                               const std::string& pose) {
+  auto fit = metrology::fit_sphere(tips, radius);
+  if (const auto* error = std::get_if<metrology::SphereError>(&fit))
+    throw std::runtime_error("pose " + pose + ": " + metrology::to_string(*error));
+  return std::get<metrology::SphereFit>(fit);
+}
+
+class Evaluation {
+ public:
+  Evaluation(const MeasurementInputs& in, const MeasuredMachine& machine,
+             const std::array<bool, metrology::slot_count>& in_correction)
+      : in_(in), machine_(machine), in_correction_(in_correction), chain_(chain_of(machine.model)) {}
+
+  KinematicsResult run(const std::vector<TouchedPose>& touched,
+                       const std::optional<ReferenceMeasurement>& reference) {
+    result_.before = machine_.model;
+    centres(touched);
+    circles();
+    vectors();
+    if (in_.reference == Reference::adapt) adapt(reference);
+    judge();
+    return std::move(result_);
+  }
+
+ private:
+  static Chain chain_of(const ChainParameters& parameters) {
+    auto made = Chain::make(parameters);
+    if (!std::holds_alternative<Chain>(made)) throw std::runtime_error("the kinematic chain is refused");
+    return std::get<Chain>(std::move(made));
+  }
+
+  void centres(const std::vector<TouchedPose>& touched) {
+    if (touched.empty()) throw std::runtime_error("no pose was touched");
+    const auto initial = pose_name({}, machine_.model);
+    if (pose_name(touched.front().angles, machine_.model) != initial)
+      throw std::runtime_error("the first pose is " + pose_name(touched.front().angles, machine_.model) +
+                               "; the measurement begins at the initial pose " + initial);
+    result_.ball_diameter = in_.ball_diameter;
+    for (const auto& pose : touched) {
+      const auto name = pose_name(pose.angles, machine_.model);
+      std::vector<Vec3> tips;
+      for (const auto& position : pose.positions)
+        tips.push_back(chain_.tip_from_machine(position, pose.angles, in_.probe_length));
+      const auto free = sphere_of(tips, std::nullopt, name);
+      if (in_.calibrate_probe && result_.poses.empty())
+        result_.ball_diameter = 2 * free.radius - in_.sphere_diameter;
+      PoseResult out;
+      out.angles = pose.angles;
+      out.touches = tips.size();
+      out.diameter = 2 * free.radius - result_.ball_diameter;
+      if (!(std::abs(out.diameter - in_.sphere_diameter) <= in_.diameter_tolerance))
+        throw std::runtime_error(
+            "pose " + name +
+            line(": measured diameter of the sphere %.4f mm, given %.4f mm: the tolerance is %.4f mm",
+                 out.diameter, in_.sphere_diameter, in_.diameter_tolerance));
+      const auto fit = sphere_of(tips, (in_.sphere_diameter + result_.ball_diameter) / 2, name);
+      const double away = (fit.centre - in_.sphere).norm();
+      if (!(away <= in_.confidence_range))
+        throw std::runtime_error("pose " + name +
+                                 line(": the centre of the sphere is %.4f mm from the expected one: the "
+                                      "confidence range is %.4f mm; reset",
+                                      away, in_.confidence_range));
+      out.centre = chain_.machine_from_tip(fit.centre, pose.angles, in_.probe_length);
+      const geometry::Mat3 turn = chain_.jacobian(fit.centre, pose.angles, in_.probe_length).tip;
+      measured_.push_back({pose.angles, out.centre, turn * fit.cofactor * turn.transpose()});
+      result_.poses.push_back(out);
+    }
+  }
+
+  std::size_t row_of(const Angles& angles) const {
+    for (std::size_t i = 0; i < measured_.size(); ++i) {
+      double most = 0;
+      for (std::size_t k = 0; k < angles.size(); ++k)
+        most = std::max(most, std::abs(measured_[i].angles[k] - angles[k]));
+      if (most < 1e-6) return i;
+    }
+    throw std::runtime_error("pose " + pose_name(angles, machine_.model) + " is missing among the touches");
+  }
+
+  void circles() {
+    geometry::Mat3 directions = machine_.model.linear_direction;
+    for (int i = 0; i < 3; ++i) directions.col(i).normalize();
+    for (const auto& range : in_.axes) {
+      AxisResult axis;
+      axis.angle = range.angle;
+      std::vector<metrology::TurnedCentre> turned;
+      for (std::size_t i = 0; i < range.points; ++i) {
+        Angles angles{};
+        for (const auto& other : in_.axes) angles[other.angle] = range.other;
+        angles[range.angle] = range.start + (range.end - range.start) * static_cast<double>(i) /
+                                                static_cast<double>(range.points - 1);
+        axis.rows.push_back(row_of(angles));
+        turned.push_back({angles[range.angle], directions * measured_[axis.rows.back()].centre});
+      }
+      const auto fit = metrology::fit_axis(turned, {in_.least_triangle_angle, in_.least_swept_angle});
+      if (const auto* error = std::get_if<metrology::AxisError>(&fit)) {
+        double angle = 0;
+        for (std::size_t i = 2; i < turned.size(); ++i)
+          angle = std::max(angle, metrology::least_triangle_angle(turned[0].centre, turned[i / 2].centre,
+                                                                  turned[i].centre));
+        throw std::runtime_error(
+            std::string("axis ") + "ABCUVW"[range.angle] + ": " + metrology::to_string(*error) +
+            line(" (triangle %.2f deg, least %.6g deg; swept %.6g deg, least %.6g deg)", angle,
+                 in_.least_triangle_angle, range.end - range.start, in_.least_swept_angle));
+      }
+      axis.circle = std::get<metrology::AxisFit>(fit);
+      result_.axes.push_back(axis);
+    }
+  }
+
+  std::vector<metrology::OffsetCondition> conditions(const ChainParameters& start) const {
+    std::vector<metrology::OffsetCondition> given;
+    for (const auto& vector : metrology::root_vectors(start))
+      for (const auto& range : in_.axes) {
+        if (range.angle != vector.angle || !range.normalization) continue;
+        const int mode = *range.normalization % 10;
+        const Vec3 along = mode == 0 ? Vec3(axis_at(start, vector.slot)->direction.normalized())
+                                     : Vec3(Vec3::Unit((mode - 1) % 3));
+        metrology::OffsetCondition condition;
+        for (std::size_t s = 0; s < metrology::slot_count; ++s)
+          condition.coefficient[s] = vector.share[s] * along;
+        condition.value =
+            mode >= 1 && mode <= 3 ? range.normalized_value : along.dot(value_of(vector, start));
+        given.push_back(condition);
+      }
+    return metrology::free_components(start, given);
+  }
+
+  metrology::KinematicFit fit(const ChainParameters& start, FitOptions options, bool directions) const {
+    options.directions = directions;
+    auto found = metrology::fit_kinematics(start, measured_, in_.probe_length, options);
+    if (const auto* error = std::get_if<metrology::FitError>(&found))
+      throw std::runtime_error(metrology::to_string(*error));
+    return std::get<metrology::KinematicFit>(std::move(found));
+  }
+
+  void vectors() {
+    auto start = machine_.model;
+    FitOptions options;
+    options.into_correction = in_correction_;
+    options.tool_length_uncertainty = in_.probe_length_uncertainty;
+    std::size_t open = 0;
+    for (const auto& range : in_.axes) open += range.normalization.value_or(0) >= 10 ? 1 : 0;
+    if (open > 0 && open < in_.axes.size())
+      throw std::runtime_error("normalization: the chain is open for all axes or for none");
+    if (open > 0) start.open = true, options.into_correction.fill(true);
+    options.conditions = conditions(start);
+    const auto real = fit(start, options, true);
+    if (in_.write_directions)
+      for (const auto& axis : real.axes)
+        if (const double known = axis.direction.expanded.maxCoeff(); !(known <= least_known_direction))
+          throw std::runtime_error(
+              line("the direction of %c is known to %.6f only (95 %%), at least %.4f is needed to write it: "
+                   "a larger "
+                   "circle, more points, or directions: report",
+                   "ABCUVW"[axis.angle], known, least_known_direction));
+    const auto written = in_.write_directions ? real : fit(start, options, false);
+    result_.after = written.parameters;
+    result_.sphere = written.sphere;
+    result_.touch_deviation = written.touch_deviation;
+    result_.freedom = written.freedom;
+    result_.condition = real.condition;
+    result_.not_observed = real.not_observed;
+    for (std::size_t i = 0; i < result_.poses.size(); ++i) {
+      result_.poses[i].difference = written.differences[i];
+      result_.poses[i].residual = written.residuals[i];
+    }
+    for (const auto& vector : metrology::root_vectors(start))
+      for (std::size_t i = 0; i < written.axes.size(); ++i) {
+        if (written.axes[i].slot != vector.slot) continue;
+        const auto& before = *axis_at(result_.before, vector.slot);
+        VectorChange change;
+        change.name = "ABCUVW"[vector.angle];
+        change.slot = vector.slot;
+        change.before = before.offset + before.correction;
+        change.after = written.axes[i].offset.value;
+        change.expanded = written.axes[i].offset.expanded;
+        change.observed = written.axes[i].offset.observed;
+        change.direction_before = before.direction.normalized();
+        change.direction_after = real.axes[i].direction.value;
+        change.direction_expanded = real.axes[i].direction.expanded;
+        result_.vectors.push_back(change);
+      }
+  }
+
+  // The head's end is where the reference had the sphere: what is left over is the chain's open end.
+  void adapt(const std::optional<ReferenceMeasurement>& reference) {
+    if (!reference) throw std::runtime_error("reference adapt: no reference was measured");
+    const Vec3 offset = reference->zero_offset - in_.zero_offset;
+    if (!(offset.cwiseAbs().maxCoeff() <= 1e-6))
+      throw std::runtime_error(
+          line("reference adapt: the work offset %.4f %.4f %.4f mm is not the one of the reference, %.4f "
+               "%.4f %.4f mm",
+               in_.zero_offset.x(), in_.zero_offset.y(), in_.zero_offset.z(), reference->zero_offset.x(),
+               reference->zero_offset.y(), reference->zero_offset.z()));
+    result_.after.origin += reference->sphere - result_.sphere;
+    result_.sphere = reference->sphere;
+  }
+
+  void judge() {
+    for (const auto& change : result_.vectors) {
+      const double moved = (change.after - change.before).norm();
+      result_.largest_change = std::max(result_.largest_change, moved);
+      if (in_.vector_tolerance && moved > *in_.vector_tolerance && result_.tolerance_alarm.empty())
+        result_.tolerance_alarm = line("the offset vector of %s changes by %.4f mm: the tolerance is %.4f mm",
+                                       change.name.c_str(), moved, *in_.vector_tolerance);
+      const Vec3 beside = change.direction_after - change.direction_before;
+      if (beside.cwiseAbs().maxCoeff() > advised_direction)
+        result_.warnings.push_back(
+            line("axis %s points %.6f %.6f %.6f: more than 0.00005 beside its ideal direction; correct the "
+                 "machine "
+                 "mechanically",
+                 change.name.c_str(), change.direction_after.x(), change.direction_after.y(),
+                 change.direction_after.z()));
+    }
+    for (const auto& name : result_.not_observed)
+      result_.warnings.push_back("these poses do not show " + name + "; it stays as it is");
+  }
+
+  const MeasurementInputs& in_;
+  const MeasuredMachine& machine_;
+  const std::array<bool, metrology::slot_count>& in_correction_;
+  Chain chain_;
+  std::vector<metrology::MeasuredPose> measured_;
+  KinematicsResult result_;
+};
+
+}  // namespace
+
+KinematicsResult evaluate(const MeasurementInputs& inputs, const MeasuredMachine& machine,
+                          const std::vector<TouchedPose>& touched,
+                          const std::array<bool, metrology::slot_count>& in_correction,
+                          const std::optional<ReferenceMeasurement>& reference) {
+  return Evaluation(inputs, machine, in_correction).run(touched, reference);
+}
+
+}  // namespace trunnion::calibration

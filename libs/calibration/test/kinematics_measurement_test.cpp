@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+
+#include "calibration/chain_change.hpp"
+#include "calibration/protocol.hpp"
+#include "geometry/test/machines.hpp"
+#include "true_machine.hpp"
+
+namespace trunnion::calibration {
+namespace {
+
+const Vec3 sphere(-120, -130, -420);
+
+MeasurementInputs inputs_of(const TrueMachine& machine) {
+  auto in = default_inputs(machine.measured);
+  in.sphere = sphere;
+  in.probe_length = 150;
+  return in;
+}
+
+ChainParameters wrong(ChainParameters p) {
+  p.table_1->offset.y() += 0.2;
+  p.table_2->offset += Vec3(-0.1, 0.3, 0.15);
+  return p;
+}
+
+std::string fault(const std::function<void()>& run) {
+  try {
+    run();
+  } catch (const std::runtime_error& e) {
+    return e.what();
+  }
+  return "";
+}
+
+TEST(KinematicsMeasurement, FindsTheOffsetsOfATableWithIdealDirections) {
+  const TrueMachine machine(geometry::ac_table(), wrong(geometry::ac_table()));
+  const auto result = machine.measure(inputs_of(machine), {}, sphere);
+  for (const auto slot : {metrology::Slot::table_1, metrology::Slot::table_2})
+    EXPECT_LT((axis_at(result.after, slot)->offset - axis_at(geometry::ac_table(), slot)->offset).norm(),
+              1e-6);
+  EXPECT_EQ(result.poses[0].difference, Vec3::Zero());
+  EXPECT_NEAR(result.largest_change, Vec3(0.1, 0.3, 0.15).norm(), 1e-6);
+  EXPECT_THAT(result.warnings, testing::IsEmpty());
+  // One axis alone: the circle of C has the direction of its parameters and the distance of the sphere.
+  for (const auto& axis : result.axes)
+    if (axis.angle == 2) {
+      EXPECT_LT((axis.circle.direction + Vec3::UnitZ()).norm(), 1e-8);
+      EXPECT_NEAR(axis.circle.radius, (sphere - geometry::ac_table().table_2->offset).head<2>().norm(), 1e-6);
+    }
+}
+
+TEST(KinematicsMeasurement, CalibratingTheProbeRemovesItsPreTravel) {
+  const TrueMachine machine(geometry::ac_table(), wrong(geometry::ac_table()));
+  truth::TouchProbeTruth probe;
+  probe.pre_travel = 0.012;
+  auto in = inputs_of(machine);
+  const auto plain = machine.measure(in, probe, sphere);
+  in.calibrate_probe = true;
+  const auto calibrated = machine.measure(in, probe, sphere);
+  EXPECT_NEAR(calibrated.ball_diameter, 6 - 2 * 0.012, 1e-6);
+  EXPECT_LT((calibrated.after.table_2->offset - geometry::ac_table().table_2->offset).norm(), 1e-6);
+  // Without it the pole, which no touch opposes, puts every centre too low: a longer tool does the same.
+  EXPECT_NEAR(plain.after.table_2->offset.z() - calibrated.after.table_2->offset.z(), 0, 0.013);
+  EXPECT_GT(std::abs(plain.after.table_2->offset.z() - calibrated.after.table_2->offset.z()), 0.005);
+}
+
+TEST(KinematicsMeasurement, LimitsStopItWithOneLineAndNumbers) {
+  const TrueMachine machine(geometry::ac_table(), wrong(geometry::ac_table()));
+  auto in = inputs_of(machine);
+  in.confidence_range = 0.1;
+  EXPECT_THAT(
+      fault([&] { machine.measure(in, {}, sphere); }),
+      testing::MatchesRegex("pose A.*: the centre of the sphere is 0\\..* mm from the expected one: the "
+                            "confidence range is 0.1000 mm; reset"));
+  in = inputs_of(machine);
+  in.measuring_path = 0.05;
+  EXPECT_THAT(fault([&] { machine.measure(in, {}, sphere + Vec3(0.3, 0, 0)); }),
+              testing::HasSubstr("touches before the measuring path of 0.05 mm begins"));
+  EXPECT_THAT(fault([&] { machine.measure(in, {}, sphere - Vec3(0.3, 0, 0)); }),
+              testing::HasSubstr("pose A0 C0, touch 1: no contact within the measuring path of 0.05 mm"));
+  in = inputs_of(machine);
+  truth::TouchProbeTruth probe;
+  probe.pre_travel = 0.03;
+  EXPECT_THAT(
+      fault([&] { machine.measure(in, probe, sphere); }),
+      testing::HasSubstr(
+          "measured diameter of the sphere 24.9400 mm, given 25.0000 mm: the tolerance is 0.0500 mm"));
+  in = inputs_of(machine);
+  in.least_triangle_angle = 60;
+  in.axes[0].points = 4;
+  EXPECT_THAT(fault([&] { machine.measure(in, {}, sphere); }), testing::HasSubstr("least 60 deg"));
+}
+
+TEST(KinematicsMeasurement, AVectorBeyondItsToleranceIsAnAlarm) {
+  const TrueMachine machine(geometry::ac_table(), wrong(geometry::ac_table()));
+  auto in = inputs_of(machine);
+  in.vector_tolerance = 0.3;
+  EXPECT_THAT(
+      machine.measure(in, {}, sphere).tolerance_alarm,
+      testing::MatchesRegex("the offset vector of C changes by 0.35.. mm: the tolerance is 0.3000 mm"));
+  in.vector_tolerance = 0.4;
+  EXPECT_EQ(machine.measure(in, {}, sphere).tolerance_alarm, "");
+}
+
+TEST(KinematicsMeasurement, TheShaftOfTheSphereIsNotTouched) {
+  const TrueMachine machine(geometry::ac_table(), geometry::ac_table());
+  auto in = inputs_of(machine);
+  in.shaft = Vec3(0, -1, -1);
+  const auto plan = std::get<MeasurementPlan>(plan_measurement(in, machine.measured));
+  const auto chain = geometry::make(machine.measured.model);
+  for (const auto& pose : plan.poses) {
+    const Vec3 shaft = (chain.jacobian(sphere, pose.angles, 150).tip * *in.shaft).normalized();
+    for (const auto& direction : pose.directions)
+      // Ball centre at 15.5 mm, ball and shaft together 7 mm: sin(angle) >= 7 / 15.5 where they face.
+      EXPECT_GE(direction.dot(shaft) > 0 ? 15.5 * direction.cross(shaft).norm() : 15.5, 7)
+          << pose_name(pose.angles, machine.measured.model);
+  }
+  in.shaft = Vec3(0, 0, 1);
+  EXPECT_THAT(std::get<std::string>(plan_measurement(in, machine.measured)),
+              testing::StartsWith("pose A0 C0: the probe would meet the shaft of the sphere by 7.00 mm"));
+}
+
+TEST(KinematicsMeasurement, APoseBeyondTheTravelIsNamedBeforeAnyTouch) {
+  TrueMachine machine(geometry::ac_table(), geometry::ac_table());
+  machine.measured.outline.axes[1] = {true, -300, 300};
+  EXPECT_THAT(std::get<std::string>(plan_measurement(inputs_of(machine), machine.measured)),
+              testing::MatchesRegex("pose A.*: Y -3..\\.... mm is not within its travel -300 .. 300 mm"));
+}
+
+TEST(KinematicsMeasurement, NormalizationKeepsOrSetsTheComponentOfTheRootVector) {
+  auto real = geometry::nutating_b_head_c_table();
+  auto model = real;
+  model.head_2->offset += Vec3(0.2, 0.1, -0.3);
+  const TrueMachine machine(real, model);
+  auto in = inputs_of(machine);
+  in.sphere = Vec3(60, 80, -300);
+  in.confidence_range = 2;
+  for (auto& range : in.axes)
+    if (range.angle == 1) range.normalization = 3, range.normalized_value = -200;
+  const auto result = machine.measure(in, {}, in.sphere);
+  // The vector counts from B to the spindle: minus the offset. Slid along (0, 1, 1) until Z is -200.
+  const Vec3 vector = -result.after.head_2->offset, slid = vector + real.head_2->offset;
+  EXPECT_NEAR(vector.z(), -200, 1e-9);
+  EXPECT_LT(slid.cross(Vec3(0, 1, 1)).norm() / std::sqrt(2.0), 1e-6) << "the axis is the same";
+  for (auto& range : in.axes)
+    if (range.angle == 1) range.normalization = 1;
+  EXPECT_THAT(fault([&] { machine.measure(in, {}, in.sphere); }),
+              testing::HasSubstr("normalizations do not fix"));
+}
+
+TEST(KinematicsMeasurement, AdaptPutsAnotherHeadsEndWhereTheReferenceHadIt) {
+  auto real = geometry::cb_head(), model = real;
+  real.origin = Vec3(0.4, -0.2, 0.1);  // the other head sits elsewhere on its flange
+  const TrueMachine machine(real, model);
+  auto in = inputs_of(machine);
+  in.sphere = Vec3(60, 80, -300);
+  in.reference = Reference::adapt;
+  const auto plan = std::get<MeasurementPlan>(plan_measurement(in, machine.measured));
+  const auto touched = touch_virtually(machine.report, in, machine.measured, plan, {}, in.sphere);
+  ReferenceMeasurement reference{in.sphere, Vec3::Zero()};
+  const auto result = evaluate(in, machine.measured, touched, {}, reference);
+  EXPECT_LT((result.after.origin - real.origin).norm(), 1e-6);
+  reference.zero_offset.x() = 5;
+  EXPECT_THAT(fault([&] { evaluate(in, machine.measured, touched, {}, reference); }),
+              testing::HasSubstr("is not the one of the reference, 5.0000 0.0000 0.0000 mm"));
+  EXPECT_THAT(fault([&] { evaluate(in, machine.measured, touched, {}, std::nullopt); }),
+              testing::HasSubstr("no reference was measured"));
+}
+
+TEST(KinematicsMeasurement, ProtocolHasPosesVectorsAndTheSameBytesForTheSameInputs) {
+  const TrueMachine machine(geometry::ac_table(), wrong(geometry::ac_table()));
+  const auto in = inputs_of(machine);
+  truth::TouchProbeTruth probe;
+  probe.repeatability = 0.001;
+  const auto result = machine.measure(in, probe, sphere);
+  const ProtocolHead head{"2026-01-31", "12:00:00", "p.txt", "virtual"};
+  const auto text = protocol_text(head, in, machine.measured, result);
+  EXPECT_EQ(text, protocol_text(head, in, machine.measured, machine.measure(in, probe, sphere)));
+  for (const char* part :
+       {"Date     : 2026-01-31   Time: 12:00:00", "type P, measure only", "Rotary axis 1   : A",
+        "Difference of measure:", "C after", "A uncertainty (95 %)", "A real"})
+    EXPECT_THAT(text, testing::HasSubstr(part));
+}
+
+TEST(KinematicsMeasurement, TouchesReadFromTheirTextGiveTheSameResult) {
+  const TrueMachine machine(geometry::ac_table(), wrong(geometry::ac_table()));
+  const auto in = inputs_of(machine);
+  const auto plan = std::get<MeasurementPlan>(plan_measurement(in, machine.measured));
+  const auto touched = touch_virtually(machine.report, in, machine.measured, plan, {}, sphere);
+  const auto again = parse_touches(text_of(touched, machine.measured.model), "t", machine.measured.model);
+  ASSERT_EQ(again.size(), touched.size());
+  EXPECT_EQ(again[3].positions.size(), 10u) << "2 x (4 + 1)";
+  const auto a = evaluate(in, machine.measured, touched), b = evaluate(in, machine.measured, again);
+  EXPECT_LT((a.after.table_2->offset - b.after.table_2->offset).norm(), 2e-6) << "the text has 1e-6 mm";
+  auto less = again;
+  less.erase(less.begin() + 4);
+  EXPECT_THAT(fault([&] { evaluate(in, machine.measured, less); }),
+              testing::HasSubstr("is missing among the touches"));
+  less = again;
+  less.erase(less.begin());
+  EXPECT_THAT(fault([&] { evaluate(in, machine.measured, less); }),
+              testing::HasSubstr("begins at the initial pose A0 C0"));
+}
+
+TEST(ChainChange, OnlyChangedComponentsBecomeParameters) {
+  auto before = geometry::ac_table(), after = before;
+  after.table_1->offset.y() += 0.01;
+  after.table_2->correction.x() = 0.2;
+  after.table_2->direction = Vec3(1e-4, 0, -1);
+  const auto values = changed_parameters(before, after, 1);
+  std::string numbers;
+  for (const auto& [number, value] : values) numbers += machine::number_text(number) + " ";
+  EXPECT_EQ(numbers, "041429 041433 041960 ");
+  after.table_2->correction.x() = 2000;
+  EXPECT_THAT(fault([&] { changed_parameters(before, after, 0); }), testing::StartsWith("nothing written: "));
+}
+
+}  // namespace
+}  // namespace trunnion::calibration
