@@ -100,7 +100,9 @@ int run_check_as_asked(const Check& options) {
 }  // namespace
 
 int check_file(const std::string& program, const std::string& machine) {
-  return run_check({.program = program, .machine = machine});
+  Check check;
+  check.program = program, check.machine = machine;
+  return run_check(check);
 }
 
 void add_check_command(CLI::App& app, Common& common) {

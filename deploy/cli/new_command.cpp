@@ -27,7 +27,7 @@ using Words = std::map<std::string, std::string>;
 fs::path template_directory() {
   for (fs::path up = cluster::binary_directory(); up.has_relative_path(); up = up.parent_path())
     for (const auto* place : {"share/trunnion/templates/stage", "deploy/cli/templates/stage"})
-      if (fs::exists(up / place / "main.cpp")) return up / place;
+      if (fs::exists(up / place / "main.cpp.in")) return up / place;
   throw std::runtime_error("the templates are not here: install the package trunnion-dev");
 }
 
@@ -73,11 +73,11 @@ int new_service(const Common& common, const std::string& name, const std::string
   for (const auto& entry : fs::directory_iterator(template_directory())) {
     std::ifstream in(entry.path(), std::ios::binary);
     const std::string text{std::istreambuf_iterator<char>(in), {}};
-    const auto file = filled(entry.path().filename().string(), words);
+    const auto file = filled(entry.path().stem().string(), words);
     std::ofstream out(fs::path(directory) / file, std::ios::binary);
     out << filled(text, words);
     if (!out.flush()) throw std::runtime_error(directory + "/" + file + ": cannot be written");
-    if (entry.path().extension() == ".sh")
+    if (file.ends_with(".sh"))
       fs::permissions(fs::path(directory) / file,
                       fs::perms::owner_exec | fs::perms::group_exec | fs::perms::others_exec,
                       fs::perm_options::add);

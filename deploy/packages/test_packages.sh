@@ -92,6 +92,14 @@ for example in compensation-in-c listener-in-c listener-in-cpp; do
     > "$root/tmp/$example.log" 2>&1 || { cat "$root/tmp/$example.log"; exit 1; }
   echo "$example built against the package"
 done
+in_root bash -c 'cd /tmp && trunnion new service my-stage && cmake -S my-stage -B my-stage/build && cmake --build my-stage/build' > "$root/tmp/my-stage.log" 2>&1 ||
+  { cat "$root/tmp/my-stage.log"; exit 1; }
+# Its tests: the state, and a recording made with it, as an ordinary user and twice, so that the second run compares.
+in_root chown -R 65534:65534 /tmp/my-stage
+for run in 1 2; do
+  as_user ctest --test-dir /tmp/my-stage/build --output-on-failure > "$root/tmp/my-stage.log" 2>&1 || { cat "$root/tmp/my-stage.log"; exit 1; }
+done
+echo "my-stage: written, built against the package, its tests passed twice"
 
 echo "== purge"
 in_root bash -c 'dpkg -P $(dpkg-query -W -f "\${Package} " "trunnion*" python3-trunnion)' > "$root/tmp/purge.log" 2>&1 || { cat "$root/tmp/purge.log"; exit 1; }
