@@ -16,10 +16,10 @@ for domain in $(seq 60 2 78); do
 done
 [ -n "$done" ] || fail "$(cat "$work/log")"
 
-# The offset of A is that of its axis less that of C: 120 + 90 um. Touches of 0.5 um and inclinations that are not written leave
-# less than 2 um.
+# The offset of A is that of its axis less that of C: 120 + 90 um. The inclinations of 20 and 30 urad, 36 urad together, are not
+# written and go into the offsets with the sphere's distance from the axes, about 100 mm: 3.6 um; touches of 0.5 um come on top.
 value() { awk -v number="$1" -v nth="$2" '$1 == number && $3 == "=" && $5 == "mm" && ++n == nth { print $4 }' "$work/log"; }
-near() { awk -v a="$1" -v b="$2" 'BEGIN { d = a - b; exit !(d < 0.002 && d > -0.002) }' || fail "$3: $1, not $2: $(cat "$work/log")"; }
+near() { awk -v a="$1" -v b="$2" 'BEGIN { d = a - b; exit !(d < 0.0045 && d > -0.0045) }' || fail "$3: $1, not $2: $(cat "$work/log")"; }
 near "$(value 040433 1)" 0.21 "offset of A"
 near "$(value 040435 1)" 0.05 "X of C"
 near "$(value 040436 1)" -0.09 "Y of C"
