@@ -17,7 +17,7 @@ done
 [ -n "$done" ] || fail "$(cat "$work/log")"
 
 # The offset of A is that of its axis less that of C: 120 + 90 um. The inclinations of 20 and 30 urad, 36 urad together, are not
-# written and go into the offsets with the sphere's distance from the axes, about 100 mm: 3.6 um; touches of 0.5 um come on top.
+# written and go into the offsets with the distance of the sphere, 82 mm: 3 um; touches of 0.5 um come on top.
 value() { awk -v number="$1" -v nth="$2" '$1 == number && $3 == "=" && $5 == "mm" && ++n == nth { print $4 }' "$work/log"; }
 near() { awk -v a="$1" -v b="$2" 'BEGIN { d = a - b; exit !(d < 0.0045 && d > -0.0045) }' || fail "$3: $1, not $2: $(cat "$work/log")"; }
 near "$(value 040433 1)" 0.21 "offset of A"

@@ -28,10 +28,12 @@ TEST(Executables, AreReadAndWrittenAsArguments) {
 TEST(Executables, ThatCannotBeStartedAreOneLine) {
   EXPECT_THAT(refusal({"kinematics"}), HasSubstr("--exec kinematics: expected SERVICE=PATH"));
   EXPECT_THAT(refusal({"=/bin/true"}), HasSubstr("expected SERVICE=PATH"));
-  EXPECT_THAT(refusal({"coffee=/bin/true"}), HasSubstr("there is no service 'coffee'"));
+  EXPECT_THAT(refusal({"coffee=/bin/true"}),
+              HasSubstr("--exec coffee=/bin/true: there is no service of this name"));
   EXPECT_THAT(refusal({"drive=/nowhere"}), HasSubstr("there is no executable /nowhere"));
   EXPECT_THAT(refusal({"drive=/etc"}), HasSubstr("there is no executable /etc"));
-  EXPECT_THAT(refusal({"drive=/bin/true", "drive=/bin/false"}), HasSubstr("service 'drive' has one already"));
+  EXPECT_THAT(refusal({"drive=/bin/true", "drive=/bin/false"}),
+              HasSubstr("the service has an executable already"));
 }
 
 }  // namespace
