@@ -15,7 +15,8 @@ Executables read_executables(const std::vector<std::string>& texts) {
   Executables executables;
   for (const auto& text : texts) {
     const auto refused = [&](const std::string& reason) {
-      return std::runtime_error("--exec " + text + reason);
+      std::string line = "--exec ";
+      return std::runtime_error(line.append(text).append(reason));
     };
     const auto equals = text.find('=');
     if (equals == std::string::npos || equals == 0 || equals + 1 == text.size())
