@@ -41,7 +41,7 @@ void print_guide(ManualKind kind) {
   std::cout << "Steps (readings in mm, in a file for --readings):\n";
   std::size_t number = 0;
   for (const auto& step : guide.steps) {
-    std::cout << "  " << ++number << ". [" << step.at << "; " << step.use << "] " << step.todo << "\n";
+    std::cout << "  " << ++number << ". [" << step.at << "; " << step.use << "] " << step.action << "\n";
     for (const auto& [name, about] : step.readings) std::cout << "       " << name << ": " << about << "\n";
   }
   for (const auto& [name, about] : guide.values) std::cout << "  " << name << ": " << about << "\n";

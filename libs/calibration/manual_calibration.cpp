@@ -27,7 +27,7 @@ ManualGuide read_guide(const YAML::Node& node) {
     auto& out = guide.steps.emplace_back();
     out.at = step["at"].as<std::string>();
     out.use = step["use"].as<std::string>();
-    out.todo = step["do"].as<std::string>();
+    out.action = step["do"].as<std::string>();
     for (const auto& reading : step["read"])
       out.readings.emplace_back(reading.first.as<std::string>(), reading.second.as<std::string>());
   }

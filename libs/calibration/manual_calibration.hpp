@@ -21,7 +21,7 @@ const char* to_string(ManualKind kind);
 struct ManualStep {
   std::string at;                                             ///< positions of the rotary axes
   std::string use;                                            ///< instrument
-  std::string todo;                                           ///< what to do
+  std::string action;                                         ///< what to touch and how
   std::vector<std::pair<std::string, std::string>> readings;  ///< name and meaning
 };
 struct ManualGuide {

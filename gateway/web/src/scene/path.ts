@@ -45,7 +45,8 @@ export class PathBuffer {
   readonly drawn: Uint32Array;
   drawnSegments = 0;
   private tolerance = -1;
-  private simplified = 0;
+  /** Segments that `drawn` already covers. */
+  private reduced = 0;
   private anchor = -1;
   private end = -1;
   private direction: [number, number, number] | undefined;
@@ -103,11 +104,11 @@ export class PathBuffer {
    * Reumann and Witkam, 1974). Gives the first pair of `drawn` that has changed.
    */
   simplify(tolerance: number): number {
-    if (tolerance !== this.tolerance || this.simplified > this.segments) this.restart(tolerance);
+    if (tolerance !== this.tolerance || this.reduced > this.segments) this.restart(tolerance);
     const from = Math.max(0, this.drawnSegments - 1);
-    const pending = this.simplified > 0;
+    const pending = this.reduced > 0;
     if (pending) this.drawnSegments -= 1;
-    for (let segment = this.simplified; segment < this.segments; ++segment) {
+    for (let segment = this.reduced; segment < this.segments; ++segment) {
       const first = this.indices[2 * segment]!;
       if (first !== this.end) {
         this.emit();
@@ -117,14 +118,14 @@ export class PathBuffer {
       this.extend(first + 1, first, tolerance);
       this.end = first + 1;
     }
-    this.simplified = this.segments;
+    this.reduced = this.segments;
     if (this.segments > 0) this.emit();
     return from;
   }
 
   private restart(tolerance: number): void {
     this.tolerance = tolerance;
-    this.simplified = this.drawnSegments = 0;
+    this.reduced = this.drawnSegments = 0;
     this.anchor = this.end = -1;
     this.direction = undefined;
   }
