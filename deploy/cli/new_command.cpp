@@ -76,7 +76,12 @@ int new_service(const Common& common, const std::string& name, const std::string
     const auto file = filled(entry.path().stem().string(), words);
     std::ofstream out(fs::path(directory) / file, std::ios::binary);
     out << filled(text, words);
-    if (!out.flush()) throw std::runtime_error((fs::path(directory) / file).string() + ": cannot be written");
+    if (!out.flush()) {
+      for (const auto& earlier : written) fs::remove(fs::path(directory) / earlier);
+      fs::remove(fs::path(directory) / file);
+      throw std::runtime_error((fs::path(directory) / file).string() +
+                               ": cannot be written; the files before it were removed");
+    }
     if (file.ends_with(".sh"))
       fs::permissions(fs::path(directory) / file,
                       fs::perms::owner_exec | fs::perms::group_exec | fs::perms::others_exec,
