@@ -17,10 +17,6 @@ Answer silent(const char* who) {
   return error_answer(504, std::string("no answer from the ") + who + " service");
 }
 
-Answer refused(std::uint32_t alarm, const std::string& reason) {
-  return json_answer(409, {{"accepted", false}, {"alarm", alarm}, {"reason", reason}});
-}
-
 template <class Reply>
 std::uint32_t alarm_of(const Reply& reply) {
   if constexpr (requires { reply.alarm; })
@@ -34,7 +30,7 @@ template <class Request, class Reply, class Accepted>
 Answer answer_to(const Request& asked, const std::optional<Reply>& reply, const char* who,
                  Accepted accepted) {
   auto answer = !reply             ? silent(who)
-                : !reply->accepted ? refused(alarm_of(*reply), reply->reason)
+                : !reply->accepted ? refused_answer(alarm_of(*reply), reply->reason)
                                    : json_answer(200, accepted());
   answer.asked = {asked.client, asked.number, 1};
   return answer;
@@ -78,13 +74,17 @@ Answer error_answer(unsigned status, const std::string& text, const std::string&
   return json_answer(status, body);
 }
 
+Answer refused_answer(std::uint32_t alarm, const std::string& reason) {
+  return json_answer(409, {{"accepted", false}, {"alarm", alarm}, {"reason", reason}});
+}
+
 Answer unrouted(RouteResult result) {
   return result == RouteResult::no_method ? error_answer(405, "this path does not know this method")
                                           : error_answer(404, "no such path");
 }
 
-void Api::handle(const Match& match, const std::string& query, const std::string& body,
-                 const Respond& respond) {
+void Api::handle(const Match& match, const RequestText& request, const Respond& respond) {
+  const auto& [query, body] = std::tie(request.query, request.body);
   try {
     switch (match.operation) {
       case Operation::panel_command:
@@ -99,12 +99,34 @@ void Api::handle(const Match& match, const std::string& query, const std::string
         return;
       }
       case Operation::set_parameter:
+      case Operation::set_parameters:
+      case Operation::set_tool:
       case Operation::set_work_offset:
-        return send_parameters(match, parse_body(body), respond);
+        return send_parameters(match, parse_body(body), request, respond);
+      case Operation::remove_tool:
+        return send_parameters(match, {}, request, respond);
+      case Operation::check:
+        return check(match, body, respond);
       case Operation::remove_program:
         return remove_program(match.parts.at(0), respond);
+      case Operation::rename_program:
+        stored_.erase(match.parts.at(0));
+        return send_program(rename_request(match.parts[0], parse_body(body)), respond);
       case Operation::channel_command:
         return send_channel(match, parse_body(body), respond);
+      case Operation::session:
+        return respond(access_.session(request));
+      case Operation::login:
+        return access_.login(body, request.peer, respond);
+      case Operation::logout:
+        return respond(access_.logout(request));
+      case Operation::recordings:
+      case Operation::read_recording:
+      case Operation::recording_table:
+      case Operation::start_recording:
+      case Operation::stop_recording:
+      case Operation::remove_recording:
+        return recordings_.handle(match, request, respond);
       default:
         return respond(read(match, query));
     }
@@ -196,16 +218,40 @@ void Api::send_panel(std::string_view route, const Json& body, const Respond& re
   });
 }
 
-void Api::send_parameters(const Match& match, const Json& body, const Respond& respond) {
+std::optional<Answer> Api::parameter_refusal(const idl::parameters::ParameterRequest& asked,
+                                             const RequestText& request) const {
+  if (!request.user || request.user->role >= access::Role::builder) return {};
+  for (const auto& value : asked.values) {
+    const auto* definition = machine::Catalogue::instance().find(value.number);
+    if (definition != nullptr && definition->access == "builder")
+      return error_answer(403, "parameter " + machine::number_text(value.number) +
+                                   " needs the role builder, and " + request.user->name + " is " +
+                                   access::name_of(request.user->role));
+  }
+  return {};
+}
+
+void Api::send_parameters(const Match& match, const Json& body, const RequestText& text,
+                          const Respond& respond) {
   idl::parameters::ParameterRequest request;
   if (match.operation == Operation::set_work_offset) {
     request = work_offset_request(body);
+  } else if (match.operation == Operation::set_parameters) {
+    request = parameter_import(body);
+  } else if (match.operation != Operation::set_parameter) {
+    const auto number = path_number(match.parts.at(0), 999999);
+    if (!number || *number == 0) return respond(error_answer(404, "no tool " + match.parts[0]));
+    request = match.operation == Operation::set_tool
+                  ? tool_request(*number, body)
+                  : tool_removal(*number, query_value(text.query, "revision"));
   } else {
     const auto number = path_number(match.parts.at(0), 999999);
     const auto* definition = number ? machine::Catalogue::instance().find(*number) : nullptr;
     if (definition == nullptr) return respond(error_answer(404, "no parameter " + match.parts[0]));
     request = parameter_request(*number, definition->type == machine::ParameterType::text, body);
   }
+  if (auto refusal = parameter_refusal(request, text)) return respond(std::move(*refusal));
+  if (text.user) request.who = text.user->name;  // who is logged in, whatever the body says
   mailbox_.post([request, respond](Links& links, double now) {
     links.parameters.submit(
         request,
@@ -218,11 +264,7 @@ void Api::send_parameters(const Match& match, const Json& body, const Respond& r
   });
 }
 
-void Api::remove_program(const std::string& name, const Respond& respond) {
-  commands::check_program_name(name);
-  idl::program::ProgramRequest request{};
-  request.operation = idl::program::Operation::REMOVE;
-  request.name = name;
+void Api::send_program(const idl::program::ProgramRequest& request, const Respond& respond) {
   mailbox_.post([request, respond](Links& links, double now) {
     links.program.submit(
         request,
@@ -233,18 +275,51 @@ void Api::remove_program(const std::string& name, const Respond& respond) {
   });
 }
 
-Answer Api::page(std::string_view path) const {
+void Api::remove_program(const std::string& name, const Respond& respond) {
+  commands::check_program_name(name);
+  stored_.erase(name);
+  idl::program::ProgramRequest request{};
+  request.operation = idl::program::Operation::REMOVE;
+  request.name = name;
+  send_program(request, respond);
+}
+
+void Api::note_stored(const idl::program::ProgramEntry& entry) {
+  stored_[entry.name] = {entry.revision, std::chrono::steady_clock::now()};
+}
+
+std::uint64_t Api::stored_lately(const std::string& name) {
+  const auto old = std::chrono::steady_clock::now() - std::chrono::seconds(1);
+  std::erase_if(stored_, [&](const auto& one) { return one.second.since < old; });
+  const auto found = stored_.find(name);
+  return found == stored_.end() ? 0 : found->second.revision;
+}
+
+void Api::check(const Match& match, const std::string& text, const Respond& respond) {
+  const auto number = path_number(match.parts.at(0), 31);
+  const auto snapshot = mailbox_.newest();
+  if (!snapshot || !number || !snapshot->channels.contains(static_cast<std::uint16_t>(*number)))
+    return respond(error_answer(404, "no channel " + match.parts[0]));
+  checker_.submit({text, static_cast<std::uint16_t>(*number), snapshot, respond});
+}
+
+Answer Api::page(std::string_view path, bool gzip) const {
   const auto file = find_static(web_, path);
   if (!file) return error_answer(404, "no such file");
-  std::ifstream stream(file->path, std::ios::binary);
+  auto name = file->path;
+  // Compressed once, when the page was built.
+  gzip = gzip && std::filesystem::is_regular_file(name += ".gz");
+  std::ifstream stream(gzip ? name : file->path, std::ios::binary);
   std::string content{std::istreambuf_iterator<char>(stream), {}};
   if (!stream) return error_answer(500, "the file cannot be read");
-  return {200, std::move(content), std::string(file->type),
-          file->immutable ? "public, max-age=31536000, immutable" : "no-cache"};
+  Answer answer{200, std::move(content), std::string(file->type),
+                file->immutable ? "public, max-age=31536000, immutable" : "no-cache"};
+  if (gzip) answer.encoding = "gzip";
+  return answer;
 }
 
 Answer program_refusal(const ProgramReply& reply) {
-  return reply ? refused(reply->alarm, reply->reason) : silent("program");
+  return reply ? refused_answer(reply->alarm, reply->reason) : silent("program");
 }
 
 idl::program::ProgramRequest ProgramUpload::request(idl::program::Operation operation) {

@@ -2,12 +2,18 @@
 // The operations behind the routes, without any HTTP library.
 #pragma once
 
+#include <chrono>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <string>
 
+#include "access_control.hpp"
+#include "answer.hpp"
 #include "bus/json.hpp"
 #include "mailbox.hpp"
+#include "program_checker.hpp"
+#include "recordings.hpp"
 #include "src/router.hpp"
 
 namespace trunnion::gateway {
@@ -17,44 +23,63 @@ inline constexpr std::uint64_t largest_program = 128u << 20, largest_body = 1u <
 /// Bytes of a program in one request of the bus.
 inline constexpr std::size_t chunk_bytes = 60000;
 
-struct Answer {
-  unsigned status = 200;
-  std::string body;
-  std::string type = "application/json";
-  std::string cache = "no-store";
-  Asked asked = {};  ///< for the journal
-};
-
-/// Called once, on either thread.
-using Respond = std::function<void(Answer)>;
-
-Answer json_answer(unsigned status, const bus::Json& body);
-/// {"error": text, "field": field}; the field only when there is one.
-Answer error_answer(unsigned status, const std::string& text, const std::string& field = {});
 /// As error_answer, for a path that does not match: 404, or 405 when another method would.
 Answer unrouted(RouteResult result);
 
 class Api {
  public:
-  Api(Mailbox& mailbox, std::string contract, std::filesystem::path web)
-      : mailbox_(mailbox), contract_(std::move(contract)), web_(std::move(web)) {}
+  Api(Mailbox& mailbox, std::string contract, std::filesystem::path web, RecordingSettings recordings = {},
+      AccessSettings access = {})
+      : mailbox_(mailbox),
+        contract_(std::move(contract)),
+        web_(std::move(web)),
+        checker_(mailbox),
+        recordings_(std::move(recordings)),
+        access_(std::move(access), recordings_.worker()) {}
 
   /// Everything but the stream and the reading and writing of programs.
-  void handle(const Match& match, const std::string& query, const std::string& body, const Respond& respond);
-  /// A file of the page.
-  Answer page(std::string_view path) const;
+  void handle(const Match& match, const RequestText& request, const Respond& respond);
+  /// A file of the page; as gzip when the client permits it and the build has made one.
+  Answer page(std::string_view path, bool gzip) const;
   Mailbox& mailbox() { return mailbox_; }
+  /// Remembers for a second what an upload has stored: the list of programs comes a moment later. On the
+  /// thread of the connections only, as handle().
+  void note_stored(const idl::program::ProgramEntry& entry);
+  /// Its revision, 0 = none.
+  std::uint64_t stored_lately(const std::string& name);
+  AccessControl& access() { return access_; }
+  /// Where the source of an answer is read.
+  FileWorker& files() { return recordings_.worker(); }
+  /// Ends the threads of checks and files; to be called while the mailbox exists.
+  void stop() {
+    checker_.stop();
+    recordings_.stop();
+  }
 
  private:
   Answer read(const Match& match, const std::string& query) const;
   void send_channel(const Match& match, const bus::Json& body, const Respond& respond);
   void send_panel(std::string_view route, const bus::Json& body, const Respond& respond);
-  void send_parameters(const Match& match, const bus::Json& body, const Respond& respond);
+  void send_parameters(const Match& match, const bus::Json& body, const RequestText& request,
+                       const Respond& respond);
+  /// 403 when `asked` has a parameter that the user must not change.
+  std::optional<Answer> parameter_refusal(const idl::parameters::ParameterRequest& asked,
+                                          const RequestText& request) const;
+  void send_program(const idl::program::ProgramRequest& request, const Respond& respond);
   void remove_program(const std::string& name, const Respond& respond);
+  void check(const Match& match, const std::string& text, const Respond& respond);
 
   Mailbox& mailbox_;
   std::string contract_;
   std::filesystem::path web_;
+  ProgramChecker checker_;
+  Recordings recordings_;
+  AccessControl access_;
+  struct Stored {
+    std::uint64_t revision = 0;
+    std::chrono::steady_clock::time_point since;
+  };
+  std::map<std::string, Stored> stored_;
 };
 
 using ProgramReply = std::optional<idl::program::ProgramReply>;

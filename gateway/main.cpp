@@ -2,12 +2,43 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <ctime>
 #include <iostream>
 
+#include "cluster/cluster_files.hpp"
+#include "machine/gateway_settings.hpp"
 #include "service.hpp"
+#include "service/network.hpp"
+#include "src/rights.hpp"
 #include "standby_service.hpp"
 
 namespace {
+
+/// What the gateway starts when a recording is asked for.
+std::vector<std::string> recorder(const trunnion::service::Options& options) {
+  using namespace trunnion;
+  std::vector<std::string> arguments{cluster::binary_directory() + "/trunnion-recorder",
+                                     "--machine",
+                                     options.machine.title,
+                                     "--domain",
+                                     std::to_string(options.network.domain),
+                                     "--parent-bound"};
+  for (auto& argument : service::network_arguments(options.network)) arguments.push_back(std::move(argument));
+  return arguments;
+}
+
+trunnion::gateway::mtconnect::AgentSettings agent_settings(const trunnion::machine::MachineConfig& machine,
+                                                           const char* computer) {
+  trunnion::gateway::mtconnect::AgentSettings settings;
+  settings.machine = machine.name;
+  settings.title = machine.title;
+  settings.computer = computer;
+  settings.instance = static_cast<std::uint64_t>(std::time(nullptr));
+  settings.channels = machine.channels;
+  for (const auto& entry : machine.services)
+    if (entry.service == "channel") settings.channel_of[entry.instance] = entry.channel;
+  return settings;
+}
 
 /// False when the process is told to end before it is needed.
 bool stand_by(trunnion::service::Node& node, std::uint16_t port) {
@@ -28,6 +59,10 @@ int main(int argc, char** argv) {
   app.add_option("--address", own.address,
                  "Address to listen on; anything but 127.0.0.1 opens the machine to a network");
   app.add_option("--port", own.port, "Port to listen on (default: the one of machine.yaml)");
+  int mtconnect_port = -1;
+  app.add_option("--mtconnect-port", mtconnect_port,
+                 "Port of the MTConnect agent, 0 = none (default: mtconnect_port of machine.yaml)")
+      ->check(CLI::Range(0, 65535));
   app.add_option("--web", own.web, "Directory of the built page");
   if (const int status = service::parse_options(app, argc, argv, options); status >= 0) return status;
   try {
@@ -36,7 +71,16 @@ int main(int argc, char** argv) {
     own.host_names = options.machine.host_names;
     char computer[256] = {};
     gethostname(computer, sizeof computer - 1);
+    const auto settings = machine::load_gateway_settings(options.machine_directory);
+    own.access = {settings.auth, options.state_directory};
+    if (!settings.auth && !gateway::is_loopback(own.address))
+      throw std::runtime_error("every computer that reaches " + own.address +
+                               " could move the machine: set 'auth: on' in machine.yaml");
+    own.mtconnect_port =
+        mtconnect_port >= 0 ? static_cast<std::uint16_t>(mtconnect_port) : settings.mtconnect_port;
+    own.mtconnect = agent_settings(options.machine, computer);
     own.host_names.insert(own.host_names.end(), {computer, std::string(computer) + ".local"});
+    own.recordings = {std::filesystem::path(options.state_directory) / "recordings", recorder(options)};
     if (!stand_by(node, own.port)) return 0;
     gateway::GatewayService service(node, own);
     return node.run(service);

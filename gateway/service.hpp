@@ -7,6 +7,7 @@
 #include "api.hpp"
 #include "cluster_view.hpp"
 #include "http/server.hpp"
+#include "mtconnect/server.hpp"
 #include "service/node.hpp"
 #include "service/parameter_client.hpp"
 
@@ -17,6 +18,10 @@ struct GatewayOptions {
   std::uint16_t port = 0;
   std::filesystem::path web;            ///< the built page
   std::vector<std::string> host_names;  ///< as of Site
+  RecordingSettings recordings;
+  AccessSettings access;
+  std::uint16_t mtconnect_port = 0;  ///< 0 = no agent
+  mtconnect::AgentSettings mtconnect;
 };
 
 class GatewayService : public service::Service {
@@ -40,6 +45,7 @@ class GatewayService : public service::Service {
   Links links_;
 
   ClusterView view_;
+  std::unique_ptr<mtconnect::Server> mtconnect_;
   double published_ = 0;
   std::string where_;
 };

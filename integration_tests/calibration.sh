@@ -36,15 +36,20 @@ grep -q '"who":".* calibrate undo"' "$work/mill/state/journal.jsonl" || fail "th
 diff <(grep '^[AC] after' "$work/mill/protocol.txt") <(grep '^[AC] after' "$work/mill/again.txt") || fail "the stored touches give others"
 for number in 040433 040437; do grep -q "\"$number\"" "$work/mill/manual.yaml" || fail "$(cat "$work/mill/manual.yaml")"; done
 
+python3 -c 'import sys, xml.dom.minidom; xml.dom.minidom.parse(sys.argv[1])' "$work/mill/residuals.svg" || fail "residuals.svg is no XML"
+
 refused() {
   local expected=$1
   shift
   if "$TRUNNION" calibrate "$@" > "$work/out" 2> "$work/error"; then fail "not refused: $*"; fi
   [ "$(wc -l < "$work/error")" = 1 ] || fail "$(cat "$work/error")"
-  grep -qF "$expected" "$work/error" || fail "$*: $(cat "$work/error")"
+  grep -qF -- "$expected" "$work/error" || fail "$*: $(cat "$work/error")"
 }
+refused "give one of --virtual" kinematics "$work/mill" --virtual --on-machine
+refused "--on-machine needs --save-touches FILE" kinematics "$work/mill" --on-machine
+refused "--resume continues a measurement --on-machine" kinematics "$work/mill" --virtual --resume
 inputs=$2/calibration/inputs.yaml
-refused "give either --virtual or --touches FILE" kinematics "$work/mill"
+refused "give one of --virtual, --on-machine and --touches FILE" kinematics "$work/mill"
 refused "give --mode correct" kinematics "$work/mill" --virtual --output "$work/o.yaml"
 refused "give the stored touches with --touches" kinematics "$work/mill" --virtual --mode only_correct
 refused "the tolerance is 0.5000 mm" kinematics "$work/mill" --virtual --inputs "$inputs" --set 040437=-400.6 --output "$work/o.yaml"

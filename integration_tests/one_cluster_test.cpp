@@ -252,5 +252,16 @@ TEST_F(OneCluster, AStrayOfAnotherContractIsAnAlarmUntilItHasLeft) {
       10));
 }
 
+// Clients as `trunnion calibrate` makes them: one reads the parameters, the next runs programs. The first of
+// these ends while the services still tell it of their topics.
+TEST_F(OneCluster, ASecondClientOfOneProcessReceivesWhateverTimeTheFirstHadLived) {
+  const Cluster cluster("ac-table", Time::virtual_, "cyclonedds");
+  const std::string second = cluster::binary_directory() + "/second-client --domain " +
+                             std::to_string(cluster.running().run.domain) + " --first-lives-ms ";
+  for (const int lived : {0, 0, 4, 4, 8, 8, 12, 40, 100})
+    EXPECT_EQ(std::system((second + std::to_string(lived)).c_str()), 0)
+        << "the first lived " << lived << " ms";
+}
+
 }  // namespace
 }  // namespace trunnion::integration

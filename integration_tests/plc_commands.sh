@@ -12,7 +12,7 @@ is() { [ "$2" = "$3" ] || fail "$1: expected '$3', there is '$2'"; }
 # Every machine's programs in Structured Text, without warnings, and every test.
 for directory in "$examples/plc-tool-changer" $(ls -d "$machines"/*/plc); do
   ls "$directory"/*.st > /dev/null 2>&1 || continue
-  is "$directory" "$("$trunnion" plc check "$directory"/*.st | grep -v '^No errors' || true)" ""
+  is "$directory" "$(find "$directory/" -name "*.st" -o -name devices.yaml | sort | xargs "$trunnion" plc check | grep -v '^No errors' || true)" ""
   ! grep -lq '^TEST' "$directory"/*.st || "$trunnion" plc test "$directory" > "$work/tests" || fail "$(cat "$work/tests")"
 done
 
@@ -58,7 +58,7 @@ printf 'PROGRAM main\nVAR i, n : INT; END_VAR\nn := 1 / i;\nEND_PROGRAM\n' > fau
 refused "a fault" "fault.st:3:8: division by zero" run fault.st
 
 # The blocks of the tutorial: each is a whole unit or a part of one that step 3 begins.
-awk '/^```/ { inside = !inside; if (inside) ++n; next } inside { print > ("tutorial_" n ".st") }' "$docs/plc.md"
+awk '/^## Tutorial/ { tutorial = 1 } !tutorial { next } /^```/ { inside = !inside; if (inside) ++n; next } inside { print > ("tutorial_" n ".st") }' "$docs/plc.md"
 for n in 1 2 3; do
   "$trunnion" plc check tutorial_$n.st > out || fail "block $n of the tutorial: $(cat out)"
 done

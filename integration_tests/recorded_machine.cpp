@@ -3,10 +3,12 @@
 
 #include "cluster/swap_ticket.hpp"
 
+#include <cstring>
 #include <sstream>
 
 #include "machine/parameter_constants.hpp"
 #include "machine/services.hpp"
+#include "storage/retained_pair.hpp"
 
 namespace trunnion::integration {
 namespace {
@@ -47,6 +49,18 @@ RecordedMachine::~RecordedMachine() {
 void RecordedMachine::up() {
   cluster_ = std::make_unique<Cluster>(machine_, time_, vendor_, true, std::nullopt, file("state"));
   ASSERT_TRUE(cluster_->until([&] { return cluster_->channels.size() == channels_; })) << cluster_->told();
+}
+
+void RecordedMachine::set_counters(std::uint64_t cycle, std::uint64_t tick) {
+  auto pair = storage::RetainedPair::of_files(file("state") + "/encoders.bin", "encoders");
+  auto kept = pair.load();
+  ASSERT_EQ(kept.state, storage::KeptState::good);
+  // Of the drive's memory: a magic number, counts of axes and epochs (4 bytes each, aligned to 8), cycle,
+  // tick.
+  ASSERT_EQ(std::string(kept.content.begin(), kept.content.begin() + 4), "1NRT");
+  std::memcpy(kept.content.data() + 16, &cycle, sizeof cycle);
+  std::memcpy(kept.content.data() + 24, &tick, sizeof tick);
+  pair.open(kept.content);
 }
 
 void RecordedMachine::record(const std::string& name, const std::vector<std::string>& more) {

@@ -23,6 +23,8 @@ class RecordedMachine {
   /// As `trunnion up` and `down` on the kept state.
   void up();
   void down() { cluster_.reset(); }
+  /// After down(): the drive continues with these numbers of cycle and tick, as after a long uptime.
+  void set_counters(std::uint64_t cycle, std::uint64_t tick);
 
   /// Returns when the recording runs; `more` are options of the recorder.
   void record(const std::string& name, const std::vector<std::string>& more = {});

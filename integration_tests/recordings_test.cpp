@@ -99,6 +99,45 @@ TEST_P(Recording, AfterDownAndUpOnKeptState) {
   machine_.expect_verified("again.mcap");
 }
 
+// A counter of milliseconds passes 2^31 after 25 days and 2^32 after 50; 30 days are in between.
+TEST_P(Recording, OfAMachineWhoseCountersPassThirtyOneAndThirtyTwoBits) {
+  machine_.run_programs();
+  machine_.down();
+  machine_.up();
+  machine_.record("early.mcap");
+  machine_.run_programs();
+  machine_.stop_recording();
+  const std::set<std::string> topics{"path_frame", "kinematics_frame", "compensation_frame", "gantry_frame"};
+  verification::DiffOptions options;
+  options.topics = topics;
+  const auto early = verification::load_recording(machine_.file("early.mcap"));
+  for (const int bits : {31, 32}) {
+    SCOPED_TRACE("2^" + std::to_string(bits));
+    const auto edge = std::uint64_t{1} << bits;
+    machine_.down();
+    machine_.set_counters(edge - 300, edge - 500);
+    machine_.up();
+    const auto name = "late" + std::to_string(bits) + ".mcap";
+    machine_.record(name);
+    machine_.run_programs();
+    EXPECT_LT(machine_.cluster().feedback.first, edge + 100000);
+    EXPECT_GT(machine_.cluster().feedback.first, edge);
+    EXPECT_GT(machine_.cluster().feedback.tick, edge);
+    machine_.stop_recording();
+    machine_.expect_verified(name);
+    EXPECT_GT(machine_.cycles("channel"), 300u);
+    if (GetParam().machine == "two-channel" || GetParam().time == Time::real) continue;
+    const auto late = verification::load_recording(machine_.file(name));
+    const auto d = verification::difference(verification::aligned(early, 0, 1),
+                                            verification::aligned(late, 0, 1), options);
+    EXPECT_TRUE(d.equal()) << text_of(d, "early", "late");
+    EXPECT_GT(d.cycles, 300u);
+    for (const auto* service : {"kinematics", "channel", "drive", "plc"}) machine_.kill_service(service);
+    EXPECT_EQ(machine_.cluster().state(), RunState::IDLE) << "no program was under way";
+    machine_.run_programs();
+  }
+}
+
 TEST_P(Recording, OfAMachineThatOnlyIdledBefore) {
   machine_.cluster().until([] { return false; }, 1);
   machine_.record("idled.mcap");

@@ -157,6 +157,8 @@ TEST(Rights, EveryRightIsUsedAndNothingIsOpenedWithoutOne) {
   for (const auto& service : machine::service::all)
     EXPECT_EQ(run(here + "/trunnion swap " + service.name + more), 0) << service.name;
   ASSERT_TRUE(cluster.until([&] { return cluster.ready(); })) << cluster.told();
+  EXPECT_EQ(run(here + "/trunnion servo test current --axis X" + more), 0);
+  EXPECT_EQ(run(here + "/trunnion plc variables" + more), 0);
 
   // What a process on standby opens exists for less than a second, so the discovery may miss it; a stage that
   // was swapped may still be about to open the feedback. What was seen is kept, so such a service is swapped

@@ -46,7 +46,7 @@ run() {
   "$trunnion" export "$work/$1/recording.mcap" --csv feedback_frame > "$work/$1.csv"
 }
 run ideal
-printf 'drives:\n  X:\n    mechanics: {coulomb: 0.02, backlash_um: 10}\n    load_encoder: {resolution_um: 1}\n    feedback: load\n' \
+printf 'drives:\n  X:\n    mechanics: {coulomb: 0.02, backlash_um: 10}\n    load_encoder: {resolution_um: 1}\n' \
   > "$machine/truth.yaml"
 run first
 run second

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Writes the reference tables of docs/ from the files that define their content: parameters, alarms, G and M codes, PLC registers;
-and the alarm catalogue of the page.
+and what the page knows of alarms and codes.
 
 With --check nothing is written: differences are printed and the exit status is 1.
 """
@@ -119,7 +119,8 @@ def alarms():
     return out + table(("number", "text"), [(numbers[n], texts[n]) for n in sorted(texts, key=numbers.get)])
 
 
-def codes():
+def code_tables():
+    """Rows of the G codes, of the calls and of the M codes, and the files they are from."""
     g_path, m_path, calls = (f"libs/language/{f}" for f in ("codes.cpp", "codes.hpp", "macro_call.hpp"))
     dialect = {"iso": "ISO", "fanuc": "Fanuc", "hnc": "HNC"}
     program = lambda text: "`" + joined(text).replace("\\n", " / ") + "`"
@@ -130,19 +131,39 @@ def codes():
          entries(calls, "CallCode", r"(\d+),\s*(\d+),\s*CallKind::\w+,\s*" + TEXT + shown)]
     m = [(int(n), when, action, group, joined(text)) for n, when, action, group, text in
          entries(m_path, "MCode", r"(\d+),\s*When::(\w+),\s*MAction::(\w+),\s*MGroup::(\w+),\s*" + TEXT)]
+    return (g_path, m_path, calls), g, c, m
+
+
+def code_name(tenths): return f"G{tenths // 10}" + (f".{tenths % 10}" if tenths % 10 else "")
+
+
+def code_catalogue():
+    """What the program editor of the page knows of the codes."""
+    paths, g, c, m = code_tables()
+    rows = lambda pairs: [f"  {json.dumps(code)}: {json.dumps(about, ensure_ascii=False)}," for code, about in pairs]
+    return ["// SPDX-License-Identifier: Apache-2.0", f"// Generated from {', '.join(paths)} by tools/generate_docs.py.", "",
+            "/** Meaning of each G code that is a function of a block. */", "export const gCodes: Readonly<Record<string, string>> = {",
+            *rows((code_name(t), about) for t, _, about, *_ in g), "};", "",
+            "/** Calls of macros and cycles, each from the first to the last code. */", "export const callCodes: readonly (readonly [first: string, last: string, about: string])[] = [",
+            *(f"  [{json.dumps(code_name(a))}, {json.dumps(code_name(b))}, {json.dumps(about, ensure_ascii=False)}]," for a, b, about, *_ in c), "];", "",
+            "/** M codes that the control knows; every other one up to M999 is the PLC's. */", "export const mCodes: Readonly<Record<string, string>> = {",
+            *rows((f"M{n}", about) for n, _, _, _, about in m), "};"]
+
+
+def codes():
+    (g_path, m_path, calls), g, c, m = code_tables()
     version = re.search(r"project\(trunnion VERSION (\d+)\.(\d+)", read("CMakeLists.txt"))
     if not version: fail("CMakeLists.txt", "project(trunnion VERSION ...) is not there")
     for since in {row[4] for row in g} | {row[4] for row in c}:
         if [int(n) for n in since.split(".")] > [int(n) for n in version.groups()]:
             fail(g_path, f"a code is there since {since}, this is version {'.'.join(version.groups())}")
-    name = lambda tenths: f"G{tenths // 10}" + (f".{tenths % 10}" if tenths % 10 else "")
     out = ["# G and M codes", "", f"Generated from `{g_path}`, `{m_path}` and `{calls}` by `tools/generate_docs.py`.", "", "## G codes", "",
            "A block may contain one code of each group; a second one is an alarm. Every group except *one_block* and *exact_stop* is modal: the "
            "code stays active until another code of its group. "
            "A motion code ends a cycle. *Dialect*: ISO 6983, Fanuc or HNC-8 controls; *since*: the version of Trunnion. Each example is a program that a test runs; blocks are separated by /.", ""]
-    out += table(("code", "group", "meaning", "dialect", "since", "example"), [(name(t), *rest) for t, *rest in g])
+    out += table(("code", "group", "meaning", "dialect", "since", "example"), [(code_name(t), *rest) for t, *rest in g])
     out += ["", "## Calls", "", "Such a code is the only code of its block; see [macros.md](macros.md) for the arguments.", ""]
-    out += table(("code", "meaning", "dialect", "since", "example"), [(name(a) + (f" .. {name(b)}" if b != a else ""), *rest) for a, b, *rest in c])
+    out += table(("code", "meaning", "dialect", "since", "example"), [(code_name(a) + (f" .. {code_name(b)}" if b != a else ""), *rest) for a, b, *rest in c])
     out += ["", "## M codes", "", "*before* and *after*: the code acts before or after the motion of its block. A block may contain one M code of each group, and none "
             "twice. Every other M code up to M999 goes to the PLC before the motion, except those of parameters 010170 to 010177, which call G1007 "
             "to G1014.", ""]
@@ -204,20 +225,44 @@ def address(first, index, stride):
     return f"{kind}{int(register) + index * stride}" + (f".{bit}" if bit else "")
 
 
+def register_areas():
+    """Letter, bits, kept, number of registers and meaning of each area, from the table of the compiler."""
+    row = re.compile(r"\{'(\w)', (\d+), (true|false), (true|false), (\d+), \"(.*)\"\}")
+    return row.findall(read("libs/plc/machine/register_area.hpp"))
+
+
 def registers():
     path = "libs/plc/library/registers.yaml"
-    out = ["# PLC registers", "", f"Generated from `{path}` by `tools/generate_docs.py`.", "",
-           "The interface between the PLC program and the other services; programs use the names. A name with several registers is `name_0`, `name_1` "
-           "and so on. X: inputs, Y: outputs (bytes), F: from the NC, G: to the NC (16 bit), R: relays (bytes), B: retained through a restart (32 bit). "
-           "Free for programs: X16.., Y16.., G300.., all R and all B. The languages are described in [plc.md](plc.md).", ""]
+    out = ["# PLC registers", "", f"Generated from `{path}` and `libs/plc/machine/register_area.hpp` by `tools/generate_docs.py`.", "",
+           "## Areas", "",
+           "The areas of the manuals. Every register can be addressed as they print it: `%G2960`, `%F2636.10`, `%K15.6`, `%W50`, `%B31`. Instruction "
+           "lists and Structured Text see the same registers.", ""]
+    out += table(("area", "registers", "bits", "retained", "content"),
+                 [(f"`{a}`", f"`{a}0` .. `{a}{int(n) - 1}`", bits, "yes" if kept == "true" else "", about)
+                  for a, bits, signed, kept, n, about in register_areas()])
+    out += ["",
+            "Retained registers keep their values through a new start of the cluster. F and G are divided into blocks:", ""]
+    out += table(("block", "registers"),
+                 [("axis a, 0 .. 31", "80 * a .. 80 * a + 79, for example `G[80*2+11]` is `%G171`"),
+                  ("channel c, 0 .. 4", "2560 + 80 * c .. 2639 + 80 * c"), ("whole machine", "2960 .. 3119"),
+                  ("channel 5 .. 7, which the manuals do not have", "3120, 3200, 3280 and 79 more")])
+    out += ["", "## Registers with a function", "",
+            "This is the interface between the PLC program and the other services; programs use the names. A name with several registers is `name_0`, "
+            "`name_1` and so on. Every other register is storage of the programs, also those to which the manuals give a meaning: nothing else in "
+            "this product reads or writes it. The languages are described in [plc.md](plc.md).", ""]
     rows = []
     for r in yaml.safe_load(read(path))["registers"]:
-        count, stride = r.get("count", 1), r.get("stride", 1)
+        channels = r.get("each") == "channel"
+        count, stride = 8 if channels else r.get("count", 1), r.get("stride", 1)
         several = count > 1
-        where = f"`{r['address']}`" + (f" .. `{address(r['address'], count - 1, stride)}`" if several else "")
-        step = "" if not several else "each bit" if stride == "bit" else f"every {stride}" if stride > 1 else "each"
-        rows.append((f"`{r['name']}" + (f"_0` .. `_{count - 1}`" if several else "`"), where, step, r.get("about", "")))
-    return out + table(("name", "address", "step", "meaning"), rows)
+        last = address(r["address"], 720, 1) if channels else address(r["address"], count - 1, stride)
+        where = f"`{r['address']}`" + (f" .. `{last}`" if several else "")
+        step = "" if not several else "each channel" if channels else "each bit" if stride == "bit" else f"every {stride}" if stride > 1 else "each"
+        rows.append((f"`{r['name']}" + (f"_0` .. `_{count - 1}`" if several else "`"), where, step, r.get("unit", ""), r.get("about", "")))
+    out += table(("name", "address", "step", "unit", "meaning"), rows)
+    out += ["", "## Registers that the manuals name", ""]
+    manual = yaml.safe_load(read(path))["manuals"]
+    return out + table(("address", "meaning in the manuals", "here"), [(f"`{m['address']}`", m["about"], m["here"]) for m in manual])
 
 
 def paragraphs(lines): return [line for paragraph in lines for line in wrapped(paragraph)]
@@ -226,7 +271,7 @@ def paragraphs(lines): return [line for paragraph in lines for line in wrapped(p
 OUTPUTS = {
     "docs/parameters.md": lambda: paragraphs(parameters()), "docs/alarms.md": lambda: paragraphs(alarms()), "docs/codes.md": lambda: paragraphs(codes()),
     "docs/macros.md": lambda: paragraphs(macros()), "docs/plc-registers.md": lambda: paragraphs(registers()),
-    "gateway/web/src/alarm_catalogue.ts": alarm_catalogue,
+    "gateway/web/src/alarm_catalogue.ts": alarm_catalogue, "gateway/web/src/program/code_catalogue.ts": code_catalogue,
 }
 
 

@@ -59,17 +59,17 @@ void add_target_options(CLI::App& command, CalibrationTarget& target) {
 
 TrueMachine load_calibrated_machine(const CalibrationTarget& target, const Common& common) {
   auto machine = load_true_machine(target.machine, target.channel, target.set);
-  if (!target.write) return machine;
+  if (!target.write && !target.running) return machine;
   const auto running = cluster::find_cluster(common.domain);
   if (running.machine != machine.name)
-    throw std::runtime_error("--write: the cluster that runs is " + running.machine +
-                             ", to be calibrated is " + machine.name);
+    throw std::runtime_error("the cluster that runs is " + running.machine + ", to be calibrated is " +
+                             machine.name);
   cluster::Client client(running.run.domain);
   const auto set = client.newest(topics::parameter_set);
   machine.model = machine::parameters_of(set);
   for (const auto& pending : set.pending)
     if (machine::is_chain_parameter(pending.number))
-      throw std::runtime_error("--write: parameter " + machine::number_text(pending.number) +
+      throw std::runtime_error("parameter " + machine::number_text(pending.number) +
                                " of the kinematics waits for a reset; reset the channel first");
   auto report = std::make_unique<truth::PoseReport>(
       truth::make_geometry(machine.truth.geometry, machine.outline, "truth.yaml"),
@@ -81,7 +81,8 @@ TrueMachine load_calibrated_machine(const CalibrationTarget& target, const Commo
 }
 
 calibration::MeasuredMachine measured_machine(const TrueMachine& machine, std::uint16_t channel) {
-  return {machine.name, machine::chain_parameters(machine.model, channel), machine.outline, ""};
+  return {machine.name, machine::chain_parameters(machine.model, channel), machine.outline, "",
+          calibration::probe_and_sphere(machine.truth.probe, machine.truth.solids)};
 }
 
 int write_change(const CalibrationTarget& target, const Common& common,

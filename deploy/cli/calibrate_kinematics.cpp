@@ -11,8 +11,11 @@
 #include "calibration/measurement_file.hpp"
 #include "calibration/protocol.hpp"
 #include "calibration/sphere_check.hpp"
+#include "calibration_moves.hpp"
 #include "calibration_result.hpp"
+#include "cluster/cluster.hpp"
 #include "machine/yaml.hpp"
+#include "machine_probe.hpp"
 #include "report/plot.hpp"
 #include "storage/file.hpp"
 #include "truth/truth_reader.hpp"
@@ -28,14 +31,25 @@ constexpr double um = 1e3;
 struct KinematicsOptions {
   CalibrationTarget target;
   std::string inputs, mode, sphere, true_sphere, touches, save_touches, protocol, plot, date, reference;
-  std::optional<double> probe_length;
-  double repeatability = 0, pre_travel = 0, lobing = 0;  // um
-  std::uint64_t seed = 1;
+  std::optional<double> probe_length, repeatability, pre_travel, lobing;  // mm, um
+  std::optional<std::uint64_t> seed;
   std::size_t check = 0;
-  bool virtual_probe = false, acknowledge = false;
+  bool virtual_probe = false, resume = false, retract = false, propose = false, acknowledge = false;
 };
 
 bus::Json json_of(const Vec3& v) { return bus::Json::array({v[0], v[1], v[2]}); }
+
+void check_source(const KinematicsOptions& o) {
+  if (o.propose) return;
+  if (o.virtual_probe + o.target.running + !o.touches.empty() != 1)
+    throw std::runtime_error(
+        "give one of --virtual, --on-machine and --touches FILE as the source of the touches");
+  if (o.target.running && o.save_touches.empty())
+    throw std::runtime_error(
+        "--on-machine needs --save-touches FILE: it keeps every complete pose for --resume");
+  if (o.resume && !o.target.running)
+    throw std::runtime_error("--resume continues a measurement --on-machine");
+}
 
 calibration::MeasurementInputs inputs_of(const KinematicsOptions& o,
                                          const calibration::MeasuredMachine& machine) {
@@ -52,8 +66,6 @@ calibration::MeasurementInputs inputs_of(const KinematicsOptions& o,
     throw std::runtime_error("the mode is measure_only: nothing may be written; give --mode correct");
   if (in.mode == Mode::only_correct && o.touches.empty())
     throw std::runtime_error("the mode is only_correct: give the stored touches with --touches FILE");
-  if (o.virtual_probe == !o.touches.empty())
-    throw std::runtime_error("give either --virtual or --touches FILE as the source of the touches");
   return in;
 }
 
@@ -121,7 +133,7 @@ std::string residual_picture(const calibration::KinematicsResult& result, const 
       before.push_back({static_cast<double>(k + 1), um * result.poses[k].difference[i]});
       after.push_back({static_cast<double>(k + 1), um * result.poses[k].residual[i]});
     }
-    const std::string stroke = std::string("stroke=\"") + colours[i] + "\" fill=\"none\"";
+    const std::string stroke = std::string("stroke=\"") + colours[i] + "\"";
     plot.curve(before, stroke + " stroke-width=\"1\" stroke-dasharray=\"4 3\"");
     plot.curve(after, stroke + " stroke-width=\"1.6\"");
   }
@@ -173,8 +185,8 @@ bus::Json json_of(const calibration::CheckSummary& s) {
 void check_rtcp(const KinematicsOptions& o, const TrueMachine& machine,
                 const calibration::MeasuredMachine& measured, const calibration::MeasurementInputs& in,
                 const calibration::KinematicsResult& result, bool json, bus::Json& out) {
-  const auto poses =
-      calibration::random_check_poses(measured, in.axes, in.sphere, in.probe_length, o.check, o.seed);
+  const auto poses = calibration::random_check_poses(measured, in.axes, in.sphere, in.probe_length, o.check,
+                                                     o.seed.value_or(1));
   const auto summary = [&](const calibration::ChainParameters& model) {
     return calibration::summary_of(
         calibration::sphere_displacements(*machine.report, model, in.sphere, in.probe_length, poses));
@@ -188,25 +200,85 @@ void check_rtcp(const KinematicsOptions& o, const TrueMachine& machine,
                um * s->largest.y(), um * s->largest.z(), um * s->root_mean_square);
 }
 
+// That of truth.yaml; without one, an exact probe as the inputs have it.
+truth::TouchProbeTruth true_probe(const KinematicsOptions& o, const truth::Truth& truth,
+                                  const calibration::MeasurementInputs& in) {
+  truth::TouchProbeTruth probe;
+  probe.length = in.probe_length, probe.ball_radius = in.ball_diameter / 2;
+  if (truth.probe) probe = *truth.probe;
+  if (o.repeatability) probe.repeatability = *o.repeatability / um;
+  if (o.pre_travel) probe.pre_travel = *o.pre_travel / um;
+  if (o.lobing) probe.lobing = *o.lobing / um;
+  if (o.seed) probe.seed = *o.seed;
+  return probe;
+}
+
+// Those of truth.yaml; without a sphere among them, one where the inputs expect it.
+std::vector<truth::Solid> true_solids(const KinematicsOptions& o, const truth::Truth& truth,
+                                      const calibration::MeasurementInputs& in) {
+  auto solids = truth.solids;
+  const auto first = std::find_if(solids.begin(), solids.end(), [](const auto& solid) {
+    return std::holds_alternative<truth::SphereGauge>(solid);
+  });
+  auto& sphere = std::get<truth::SphereGauge>(
+      first == solids.end() ? solids.emplace_back(truth::SphereGauge{in.sphere, in.sphere_diameter / 2})
+                            : *first);
+  if (!o.true_sphere.empty()) sphere.centre = vector_option("--true-sphere", o.true_sphere);
+  return solids;
+}
+
+std::vector<calibration::TouchedPose> touch_on_machine(const KinematicsOptions& o, const Common& common,
+                                                       const calibration::MeasurementInputs& in,
+                                                       const calibration::MeasuredMachine& measured,
+                                                       const calibration::MeasurementPlan& plan,
+                                                       const CalibrationMoves& moves) {
+  MachineMeasurement measurement{in, measured, plan, o.target.channel, o.save_touches, {}, {}, {}};
+  if (!o.retract) {
+    measurement.way = [&moves](const auto& from, const auto& to) { return moves.way(from, to); };
+    measurement.check = [&moves, &plan](const auto& from) { return moves.check(plan, from); };
+  }
+  if (o.resume)
+    measurement.done =
+        calibration::parse_touches(machine::read_text(o.save_touches), o.save_touches, measured.model);
+  return measure_on_machine(cluster::find_cluster(common.domain).run.domain, measurement);
+}
+
+// The ranges in which the probe reaches the sphere, as a file of inputs has them.
+void propose(const CalibrationMoves& moves, const calibration::MeasuredMachine& measured) {
+  const auto in = moves.proposal();
+  const auto plan = calibration::plan_measurement(in, measured);
+  if (const auto* fault = std::get_if<std::string>(&plan)) throw std::runtime_error(*fault);
+  std::fputs("axes:\n", stdout);
+  for (const auto& range : in.axes)
+    print_line("  %c: {start_deg: %.6g, end_deg: %.6g, points: %zu, other_deg: %.6g}", "ABCUVW"[range.angle],
+               range.start, range.end, range.points, range.other);
+}
+
 int kinematics(const KinematicsOptions& o, const Common& common) {
+  check_source(o);
   const auto date = date_of(o.date);
   const auto machine = load_calibrated_machine(o.target, common);
   const auto measured = measured_machine(machine, o.target.channel);
   const auto in = inputs_of(o, measured);
+  if (o.propose) {
+    propose(CalibrationMoves(machine, o.target.machine, o.target.channel, in, measured), measured);
+    return 0;
+  }
   const auto reference = read_reference(o, in.reference);
-  if (o.check > 0 && !o.virtual_probe) throw std::runtime_error("--check needs the true machine: --virtual");
+  if (o.check > 0 && !o.touches.empty())
+    throw std::runtime_error("--check needs the true machine: --virtual or a simulated one --on-machine");
   std::vector<calibration::TouchedPose> touched;
-  if (o.virtual_probe) {
-    const auto plan = calibration::plan_measurement(in, measured);
-    if (const auto* fault = std::get_if<std::string>(&plan)) throw std::runtime_error(*fault);
-    truth::TouchProbeTruth probe;
-    probe.repeatability = o.repeatability / um;
-    probe.pre_travel = o.pre_travel / um;
-    probe.lobing = o.lobing / um;
-    probe.seed = o.seed;
-    touched = calibration::touch_virtually(
-        *machine.report, in, measured, std::get<calibration::MeasurementPlan>(plan), probe,
-        o.true_sphere.empty() ? in.sphere : vector_option("--true-sphere", o.true_sphere));
+  if (o.touches.empty()) {
+    const auto made = calibration::plan_measurement(in, measured);
+    if (const auto* fault = std::get_if<std::string>(&made)) throw std::runtime_error(*fault);
+    const auto& plan = std::get<calibration::MeasurementPlan>(made);
+    touched =
+        o.target.running
+            ? touch_on_machine(o, common, in, measured, plan,
+                               CalibrationMoves(machine, o.target.machine, o.target.channel, in, measured))
+            : calibration::touch_virtually(*machine.report, in, measured, plan,
+                                           true_probe(o, machine.truth, in),
+                                           true_solids(o, machine.truth, in));
   } else {
     touched = calibration::parse_touches(machine::read_text(o.touches), o.touches, measured.model);
   }
@@ -216,7 +288,9 @@ int kinematics(const KinematicsOptions& o, const Common& common) {
       in, measured, touched, calibration::named_corrections(machine.model, o.target.channel), reference);
   const auto text =
       calibration::protocol_text({date.first, date.second, o.protocol.empty() ? "-" : o.protocol,
-                                  o.virtual_probe ? "virtual probe" : o.touches},
+                                  o.virtual_probe    ? "virtual probe"
+                                  : o.target.running ? "probe of the machine"
+                                                     : o.touches},
                                  in, measured, result);
   if (!o.protocol.empty()) storage::replace_file(o.protocol, text);
   if (!o.plot.empty())
@@ -259,19 +333,38 @@ void add_calibrate_kinematics(CLI::App& calibrate, Common& common) {
   command->add_option("--sphere", o.sphere, "Expected centre X,Y,Z of the sphere in the workpiece frame, mm");
   command->add_option("--probe-length", o.probe_length, "Spindle face to the centre of the ball, mm")
       ->check(CLI::Range(0.0, 1e4));
-  command->add_flag("--virtual", o.virtual_probe, "Touch with a virtual probe on the machine of truth.yaml");
-  command->add_option("--touches", o.touches, "Touches from a file in place of --virtual");
+  command->add_flag("--virtual", o.virtual_probe,
+                    "Touch with the probe and the solids of truth.yaml on the machine of truth.yaml");
+  command->add_flag(
+      "--on-machine", o.target.running,
+      "Touch with the probe of the machine whose cluster runs: checks the probe, then moves from "
+      "pose to pose. Ctrl-C holds the channel. Needs --save-touches");
+  command->add_flag(
+      "--propose", o.propose,
+      "Measure nothing: print the widest ranges of the rotary axes in which the probe reaches the "
+      "sphere without a collision, as inputs");
+  command->add_flag(
+      "--retract", o.retract,
+      "With --on-machine: between the poses only Z up, turn, X and Y, Z down, without regard to "
+      "bodies (docs/collision.md)");
+  command->add_flag("--resume", o.resume,
+                    "With --on-machine: continue after the poses in the file of --save-touches");
+  command->add_option("--touches", o.touches, "Touches from a file");
   command->add_option("--save-touches", o.save_touches,
-                      "Keep the touches in a file, for --mode only_correct");
+                      "Keep the touches in a file, for --mode only_correct and --resume");
   command->add_option("--true-sphere", o.true_sphere,
-                      "Where the sphere truly is, mm (default: where expected)");
-  command->add_option("--repeatability", o.repeatability, "Of the virtual probe, um (default 0)")
+                      "Where the sphere truly is, mm, in place of that of truth.yaml");
+  command
+      ->add_option("--repeatability", o.repeatability,
+                   "Of the virtual probe, um, in place of that of truth.yaml")
       ->check(CLI::Range(0.0, 1000.0));
-  command->add_option("--pre-travel", o.pre_travel, "Of the virtual probe, um (default 0)")
+  command
+      ->add_option("--pre-travel", o.pre_travel, "Of the virtual probe, um, in place of that of truth.yaml")
       ->check(CLI::Range(0.0, 1000.0));
-  command->add_option("--lobing", o.lobing, "Of the virtual probe, um (default 0)")
+  command->add_option("--lobing", o.lobing, "Of the virtual probe, um, in place of that of truth.yaml")
       ->check(CLI::Range(0.0, 1000.0));
-  command->add_option("--seed", o.seed, "Of the virtual probe and of --check (default 1)");
+  command->add_option("--seed", o.seed,
+                      "Of the virtual probe, in place of that of truth.yaml, and of --check (default 1)");
   command
       ->add_option("--check", o.check,
                    "Then hold the sphere with RTCP at this many random poses, before and after")

@@ -21,15 +21,16 @@ struct CalibrationTarget {
   std::string machine;  ///< as the command line names it
   std::uint16_t channel = 0;
   std::vector<std::string> set;
-  std::string output;  ///< file for the changed parameters
-  bool write = false;  ///< into the cluster that runs
+  std::string output;    ///< file for the changed parameters
+  bool write = false;    ///< into the cluster that runs
+  bool running = false;  ///< the cluster that runs makes the measurement
 };
 
 /// The options of CalibrationTarget.
 void add_target_options(CLI::App& command, CalibrationTarget& target);
 
-/// The machine of the directory; with `write` the control's model is that of the cluster that runs, which
-/// must be of this machine. Throws std::runtime_error.
+/// The machine of the directory; with `write` or `running` the control's model is that of the cluster that
+/// runs, which must be of this machine. Throws std::runtime_error.
 TrueMachine load_calibrated_machine(const CalibrationTarget& target, const Common& common);
 calibration::MeasuredMachine measured_machine(const TrueMachine& machine, std::uint16_t channel);
 

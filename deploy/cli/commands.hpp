@@ -31,11 +31,16 @@ void add_kins_command(CLI::App& app, Common& common);          // kins
 void add_truth_command(CLI::App& app, Common& common);         // truth
 void add_variables_command(CLI::App& app, Common& common);     // variables
 void add_measure_command(CLI::App& app, Common& common);       // measure ballbar, laser, rtest
+void add_servo_command(CLI::App& app, Common& common);         // servo test, encoders, tune
+void add_gantry_command(CLI::App& app, Common& common);        // gantry
 void add_calibrate_command(CLI::App& app, Common& common);     // calibrate kinematics, manual, undo
+void add_collision_command(CLI::App& app, Common& common);     // collision
 void add_check_command(CLI::App& app, Common& common);         // check
 void add_program_commands(CLI::App& app, Common& common);      // program
 void add_plan_command(CLI::App& app, Common& common);          // plan
-void add_plc_command(CLI::App& app, Common& common);           // plc check, run, test
+void add_plc_command(CLI::App& app, Common& common);           // plc
+void add_plc_online_commands(CLI::App& plc, Common& common);   // plc variables, watch, force, trace
+void add_plc_load_commands(CLI::App& plc, Common& common);     // plc load, programs
 void add_recording_commands(CLI::App& app, Common& common);    // info, diff, export
 void add_verify_command(CLI::App& app, Common& common);        // verify
 void add_test_command(CLI::App& app, Common& common);          // test
@@ -43,6 +48,7 @@ void add_replay_command(CLI::App& app, Common& common);        // replay
 void add_state_commands(CLI::App& app, Common& common);        // state, backup, restore
 void add_swap_command(CLI::App& app, Common& common);          // swap
 void add_upgrade_command(CLI::App& app, Common& common);       // upgrade
+void add_user_command(CLI::App& app, Common& common);          // user
 void add_new_command(CLI::App& app, Common& common);           // new service
 void add_completion_command(CLI::App& app, Common& common);    // completion
 

@@ -24,8 +24,11 @@ int main(int argc, char** argv) {
   add_truth_command(app, common);
   add_variables_command(app, common);
   add_measure_command(app, common);
+  add_servo_command(app, common);
+  add_gantry_command(app, common);
   add_calibrate_command(app, common);
   add_check_command(app, common);
+  add_collision_command(app, common);
   add_plan_command(app, common);
   add_plc_command(app, common);
   add_program_commands(app, common);
@@ -36,6 +39,7 @@ int main(int argc, char** argv) {
   add_state_commands(app, common);
   add_swap_command(app, common);
   add_upgrade_command(app, common);
+  add_user_command(app, common);
   add_new_command(app, common);
   add_completion_command(app, common);
   try {

@@ -11,6 +11,7 @@
 #include "bus/json.hpp"
 #include "commands.hpp"
 #include "plc/compile.hpp"
+#include "plc/devices/device_file.hpp"
 #include "plc/library/register_names.hpp"
 #include "plc/syntax/token.hpp"
 #include "plc/tools/program_run.hpp"
@@ -36,7 +37,11 @@ std::string read(const std::string& path) {
 
 st::Compilation compiled(const std::vector<std::string>& files, bool functions) {
   std::vector<st::Source> sources;
-  for (const auto& path : files) sources.push_back({path, read(path)});
+  for (const auto& path : files) {
+    auto text = read(path);
+    if (path.ends_with(".yaml")) text = st::read_devices(text, path, st::interface_registers()).program;
+    sources.push_back({path, std::move(text)});
+  }
   return st::compile(sources, st::interface_registers(), functions);
 }
 
@@ -170,7 +175,8 @@ int test(const PlcOptions& options, bool json) {
   if (!std::filesystem::is_directory(options.directory))
     throw std::runtime_error(options.directory + ": is no directory");
   for (const auto& entry : std::filesystem::directory_iterator(options.directory))
-    if (entry.path().extension() == ".st") files.push_back(entry.path().string());
+    if (entry.path().extension() == ".st" || entry.path().filename() == "devices.yaml")
+      files.push_back(entry.path().string());
   std::sort(files.begin(), files.end());
   if (files.empty()) throw std::runtime_error(options.directory + ": has no .st file");
   const auto result = compiled(files, false);
@@ -199,15 +205,19 @@ int test(const PlcOptions& options, bool json) {
 
 void add_plc_command(CLI::App& app, Common& common) {
   auto options = std::make_shared<PlcOptions>();
-  auto* plc = app.add_subcommand("plc", "Check, run and test Structured Text of the PLC without a machine");
+  auto* plc = app.add_subcommand(
+      "plc",
+      "Programs of the PLC: check, run and test them without a machine; see and change those that run");
   plc->require_subcommand(1);
   auto* checks = add_command(*plc, common, "check", "Report the errors and warnings of programs",
                              [options, &common] { return check(*options, common.json); });
-  checks->add_option("files", options->files, "Structured Text, translated together")->required();
+  checks->add_option("files", options->files, "Structured Text and devices.yaml, translated together")
+      ->required();
   auto* runs =
       add_command(*plc, common, "run", "Run programs, or one program or function, and print every variable",
                   [options, &common] { return run(*options, common.json); });
-  runs->add_option("files", options->files, "Structured Text, translated together")->required();
+  runs->add_option("files", options->files, "Structured Text and devices.yaml, translated together")
+      ->required();
   runs->add_option("--call", options->call, "Program or function to run (default: every program)");
   runs->add_option("--scans", options->scans, "Number of scans (default 1)")->check(CLI::Range(1, 100000000));
   runs->add_option("--period", options->period, "Time between two scans in ms (default 10)")
@@ -221,6 +231,8 @@ void add_plc_command(CLI::App& app, Common& common) {
                             [options, &common] { return test(*options, common.json); });
   tests->add_option("directory", options->directory, "Directory with .st files, translated together")
       ->required();
+  add_plc_online_commands(*plc, common);
+  add_plc_load_commands(*plc, common);
 }
 
 }  // namespace trunnion::cli

@@ -10,21 +10,29 @@ machine=$1 domain=${2:-11} port=${3:-8080}
 cp -r "$here/../../configs/machines/ac-table" "$machine"
 cp "$here/truth.yaml" "$machine"
 
+# The parameters become active a moment after the reset.
+reset() {
+  "$trunnion" channel reset --domain "$domain"
+  for _ in $(seq 100); do
+    "$trunnion" param get 040433 040435 040436 040437 --json --domain "$domain" | grep -q '"pending": *true' || break
+    sleep 0.1
+  done
+  "$trunnion" param get 040433 040435 040436 040437 --domain "$domain"
+}
+
 echo "1. By hand: virtual dial and edge finder, check at nine poses"
 "$trunnion" calibrate manual "$machine" --virtual --place 60,40,-360 --resolution 1 --output "$machine/manual.yaml"
 
 echo "2. By probe, in a cluster that runs"
 "$trunnion" up "$machine" --domain "$domain" --port "$port" --time virtual --state "$machine/state"
 trap '"$trunnion" down --domain "$domain"' EXIT
-"$trunnion" calibrate kinematics "$machine" --virtual --inputs "$here/inputs.yaml" --repeatability 0.5 --pre-travel 8 --check 200 \
+"$trunnion" calibrate kinematics "$machine" --on-machine --inputs "$here/inputs.yaml" --check 200 \
   --save-touches "$machine/touches.txt" --protocol "$machine/protocol.txt" --plot "$machine/residuals.svg" --write --domain "$domain"
-"$trunnion" channel reset --domain "$domain"
-"$trunnion" param get 040433 040435 040436 040437 --domain "$domain"
+reset
 
 echo "3. Measured again, only to look"
 "$trunnion" calibrate kinematics "$machine" --touches "$machine/touches.txt" --inputs "$here/inputs.yaml" --mode measure_only > "$machine/again.txt"
 
 echo "4. Taken back"
 "$trunnion" calibrate undo --domain "$domain"
-"$trunnion" channel reset --domain "$domain"
-"$trunnion" param get 040433 040435 040436 040437 --domain "$domain"
+reset

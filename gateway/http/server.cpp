@@ -7,6 +7,7 @@
 #include <thread>
 #include <vector>
 
+#include "http/listen.hpp"
 #include "http/session.hpp"
 
 namespace trunnion::gateway {
@@ -17,16 +18,7 @@ using tcp = net::ip::tcp;
 struct HttpServer::Inside {
   Inside(const std::string& address, std::uint16_t port, Api& served, Site own)
       : acceptor(context), pause(context), api(served), site(std::move(own)), hub(context, served.mailbox()) {
-    const std::string where = address + ":" + std::to_string(port);
-    boost::system::error_code error;
-    const auto parsed = net::ip::make_address(address, error);
-    if (error) throw std::runtime_error("'" + address + "' is not an address");
-    const tcp::endpoint endpoint(parsed, port);
-    acceptor.open(endpoint.protocol(), error);
-    if (!error) acceptor.set_option(net::socket_base::reuse_address(true), error);
-    if (!error) acceptor.bind(endpoint, error);
-    if (!error) acceptor.listen(net::socket_base::max_listen_connections, error);
-    if (error) throw std::runtime_error("cannot listen on " + where + ": " + error.message());
+    listen_on(acceptor, address, port);
     hub.start();
     accept();
     thread = std::thread([this] { context.run(); });

@@ -7,6 +7,8 @@
 #include <boost/beast/http/read.hpp>
 #include <boost/beast/http/write.hpp>
 
+#include "http/session_parts.hpp"
+#include "src/compression.hpp"
 #include "src/requests.hpp"
 #include "src/site.hpp"
 
@@ -19,11 +21,7 @@ using std::chrono::seconds;
 
 namespace {
 
-constexpr seconds timeout{30};
 constexpr seconds first_request{5};  // who connects has something to say
-constexpr unsigned http_version = 11;
-
-std::string_view view(beast::string_view text) { return {text.data(), text.size()}; }
 
 /// Of a request of any body.
 template <class Request>
@@ -71,6 +69,7 @@ void HttpSession::on_header() {
   connection_.activity = Activity::transferring;
   const auto& request = header_->get();
   keep_alive_ = request.keep_alive();
+  gzip_ = accepts_gzip(view(request[http::field::accept_encoding]));
   const std::string target(request.target());
   const auto mark = target.find('?');
   const auto path = target.substr(0, mark);
@@ -90,9 +89,12 @@ void HttpSession::on_header() {
     return answer_and_close(error_answer(403, "a page of another site must not operate this machine"));
   if (!is_api) {
     if (request.method() != http::verb::get) return answer_and_close(unrouted(RouteResult::no_method));
-    return answer(api_.page(path));
+    return answer(api_.page(path, gzip_));
   }
   if (match_.result != RouteResult::found) return answer_and_close(unrouted(match_.result));
+  user_ =
+      api_.access().identify(view(request[http::field::cookie]), view(request[http::field::authorization]));
+  if (auto refusal = api_.access().refusal(user_, match_)) return answer_and_close(std::move(*refusal));
   if (match_.operation == Operation::write_program) return continue_then(&HttpSession::begin_upload);
   const auto length = header_->content_length();
   if (length && *length > largest_body) return too_large("the body is larger than 1 MiB");
@@ -131,7 +133,17 @@ void HttpSession::dispatch() {
   if (line_) add_body(*line_, body_->get().body());
   if (match_.operation == Operation::read_program) return begin_download();
   connection_.activity = Activity::answering;
-  api_.handle(match_, query_, body_->get().body(), [self = shared_from_this()](Answer made) {
+  const auto& request = body_->get();
+  const auto header = [&](http::field name) { return std::string(view(request[name])); };
+  const RequestText text{query_,
+                         request.body(),
+                         header(http::field::range),
+                         header(http::field::if_range),
+                         header(http::field::if_match),
+                         header(http::field::cookie),
+                         connection_.peer,
+                         user_};
+  api_.handle(match_, text, [self = shared_from_this()](Answer made) {
     net::post(self->stream_.get_executor(),
               [self, made = std::move(made)]() mutable { self->answer(std::move(made)); });
   });
@@ -140,6 +152,8 @@ void HttpSession::dispatch() {
 void HttpSession::journal(unsigned status, const Asked& asked, std::function<void()> then) {
   line_->status = static_cast<std::uint16_t>(status);
   set_asked(*line_, asked);
+  if (user_)
+    api_.access().note(user_->name, line_->method + " " + line_->target + ": " + std::to_string(status));
   // The callback of a request must be copyable, a line is not shared.
   const std::shared_ptr<JournalLine> line = std::move(line_);
   api_.mailbox().post([self = shared_from_this(), line, then = std::move(then)](Links& links, double) {
@@ -159,11 +173,13 @@ void HttpSession::answer(Answer made) {
 
 void HttpSession::send(Answer made) {
   connection_.activity = Activity::transferring;
+  if (made.source) return send_source(std::move(made));
+  if (gzip_ && made.encoding.empty() && made.body.size() >= least_compressed && is_compressible(made.type)) {
+    made.body = gzip(made.body, 1);  // the fastest: orders wait meanwhile
+    made.encoding = "gzip";
+  }
   response_ = {static_cast<http::status>(made.status), http_version};
-  response_.set(http::field::content_type, made.type);
-  response_.set(http::field::cache_control, made.cache);
-  response_.set("X-Content-Type-Options", "nosniff");
-  response_.set("Content-Security-Policy", "frame-ancestors 'self'");
+  set_fields(response_, made);
   response_.keep_alive(keep_alive_);
   response_.body() = std::move(made.body);
   response_.prepare_payload();
@@ -201,10 +217,20 @@ void HttpSession::begin_upload() {
   } catch (const BadRequest& bad) {
     return answer_and_close(error_answer(400, bad.what(), bad.field));
   }
+  condition_ = {std::string(view(header_->get()[http::field::if_match])),
+                std::string(view(header_->get()[http::field::if_none_match]))};
+  if (const auto changed = changed_program(); !changed.empty())
+    return answer_and_close(error_answer(412, changed));
   parts_.emplace(std::move(*header_));
   parts_->body_limit(largest_program);
   upload_ = std::make_unique<ProgramUpload>(api_.mailbox(), match_.parts[0]);
   upload_->begin(here(&HttpSession::upload_begun));
+}
+
+std::string HttpSession::changed_program() const {
+  const auto snapshot = api_.mailbox().newest();
+  return condition_.failed(snapshot ? snapshot->programs.get() : nullptr, match_.parts[0],
+                           api_.stored_lately(match_.parts[0]));
 }
 
 void HttpSession::upload_begun(const ProgramReply& reply) {
@@ -215,7 +241,13 @@ void HttpSession::upload_begun(const ProgramReply& reply) {
 }
 
 void HttpSession::read_part() {
-  if (parts_->is_done()) return upload_->commit(here(&HttpSession::upload_stored));
+  if (parts_->is_done()) {
+    const auto changed = changed_program();
+    if (changed.empty()) return upload_->commit(here(&HttpSession::upload_stored));
+    auto made = error_answer(412, changed);
+    made.asked = abort_upload();
+    return answer_and_close(std::move(made));
+  }
   part_.resize(chunk_bytes);
   parts_->get().body().data = part_.data();
   parts_->get().body().size = part_.size();
@@ -245,6 +277,7 @@ void HttpSession::part_stored(const ProgramReply& reply) {
 
 void HttpSession::upload_stored(const ProgramReply& reply) {
   if (!reply || !reply->accepted) return upload_refused(reply);
+  api_.note_stored(reply->entry);
   auto made = json_answer(200, {{"accepted", true}, {"program", bus::to_json(reply->entry)}});
   made.asked = upload_->asked();
   answer(std::move(made));
@@ -261,87 +294,6 @@ Asked HttpSession::abort_upload() {
   const auto asked = upload_->asked();
   upload_.reset();
   return asked;
-}
-
-// --- Download: each part is asked for when the one before has left.
-
-bool HttpSession::listed(const std::string& name) const {
-  const auto snapshot = api_.mailbox().newest();
-  if (!snapshot || !snapshot->programs) return false;
-  const auto& programs = snapshot->programs->programs;
-  return std::any_of(programs.begin(), programs.end(), [&](const auto& one) { return one.name == name; });
-}
-
-void HttpSession::begin_download() {
-  const auto& name = match_.parts.at(0);
-  try {
-    commands::check_program_name(name);
-  } catch (const BadRequest&) {
-    return answer(error_answer(404, "no program " + name));
-  }
-  download_ = std::make_unique<Download>(ProgramDownload(api_.mailbox(), name));
-  download_->source.read(0, 0, here(&HttpSession::download_part));
-}
-
-void HttpSession::download_part(const ProgramReply& reply) {
-  auto& download = *download_;
-  const bool good = reply && reply->accepted && reply->offset == download.offset;
-  if (!download.serializer) {
-    if (!good) {
-      const auto& name = download.source.name();
-      auto made = reply && !reply->accepted && !listed(name) ? error_answer(404, "no program " + name)
-                                                             : program_refusal(reply);
-      made.asked = download.source.asked();
-      return answer(std::move(made));
-    }
-    download.revision = reply->entry.revision;
-    download.size = reply->entry.size;
-    download.response.version(http_version);
-    download.response.result(http::status::ok);
-    download.response.set(http::field::content_type, "text/plain; charset=utf-8");
-    download.response.set(http::field::cache_control, "no-store");
-    download.response.set("X-Program-Revision", std::to_string(download.revision));
-    download.response.content_length(download.size);
-    download.response.keep_alive(keep_alive_);
-    download.serializer.emplace(download.response);
-  } else if (!good) {
-    // The status has gone out already: only a short body can tell that the program changed or its keeper is
-    // gone.
-    return download_broken();
-  }
-  download.part = reply->data;
-  const auto left = download.size - download.offset;
-  if (download.part.size() > left || (download.part.empty() && left > 0)) return download_broken();
-  download.offset += download.part.size();
-  add_answer(*line_, {reinterpret_cast<const char*>(download.part.data()), download.part.size()});
-  send_part();
-}
-
-void HttpSession::download_broken() {
-  journal_unanswered(download_->source.asked());
-  stream_.close();
-}
-
-void HttpSession::send_part() {
-  auto& body = download_->response.body();
-  body.data = download_->part.empty() ? nullptr : download_->part.data();
-  body.size = download_->part.size();
-  body.more = download_->offset < download_->size;
-  stream_.expires_after(timeout);
-  http::async_write(stream_, *download_->serializer,
-                    [self = shared_from_this()](beast::error_code error, std::size_t) {
-                      if (error == http::error::need_buffer) error = {};
-                      auto& download = *self->download_;
-                      const auto asked = download.source.asked();
-                      if (error) return self->journal_unanswered(asked);
-                      if (download.offset < download.size)
-                        return download.source.read(download.revision, download.offset,
-                                                    self->here(&HttpSession::download_part));
-                      self->download_.reset();
-                      self->journal(200, asked, [self] {
-                        if (self->keep_alive_) self->read_header(timeout);
-                      });
-                    });
 }
 
 }  // namespace trunnion::gateway

@@ -16,6 +16,7 @@
 #include "api.hpp"
 #include "http/stream.hpp"
 #include "src/connections.hpp"
+#include "src/precondition.hpp"
 #include "src/site.hpp"
 
 namespace trunnion::gateway {
@@ -54,6 +55,8 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
   ProgramDone here(Completion next);
 
   void begin_upload();
+  /// Empty, or why the upload's condition does not hold.
+  std::string changed_program() const;
   void upload_begun(const ProgramReply& reply);
   void read_part();
   void part_stored(const ProgramReply& reply);
@@ -69,6 +72,10 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
   void send_part();
   void download_broken();
 
+  void send_source(Answer answer);
+  void next_of_source();
+  void send_of_source(std::optional<std::string> part);
+
   boost::beast::tcp_stream stream_;
   boost::beast::flat_buffer buffer_;
   Api& api_;
@@ -82,10 +89,13 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
   boost::beast::http::response<boost::beast::http::string_body> response_;
   Match match_;
   std::string query_;
+  std::optional<access::Identity> user_;  ///< of the request under way
   bool keep_alive_ = false;
+  bool gzip_ = false;                  ///< the client permits it
   std::unique_ptr<JournalLine> line_;  ///< of the request under way, when it is one for the journal
 
   std::unique_ptr<ProgramUpload> upload_;
+  Precondition condition_;  ///< of the upload
   std::vector<std::uint8_t> part_;
 
   struct Download {
@@ -97,6 +107,15 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
     std::vector<std::uint8_t> part;
   };
   std::unique_ptr<Download> download_;
+
+  /// An answer whose body is made while it is sent.
+  struct Sending {
+    std::shared_ptr<BodySource> source;
+    boost::beast::http::response<boost::beast::http::buffer_body> response;
+    boost::optional<boost::beast::http::response_serializer<boost::beast::http::buffer_body>> serializer;
+    std::string part;
+  };
+  std::unique_ptr<Sending> sending_;
 };
 
 }  // namespace trunnion::gateway

@@ -120,7 +120,7 @@ void StreamSession::take_order(const std::string& text) {
   const auto body = member("body", bus::Json::object()).dump();
   auto line = std::make_shared<JournalLine>(begin_line(sender_, peer_, "POST", target));
   add_body(*line, body);
-  api_.handle(found, "", body, [self = shared_from_this(), order, line](Answer made) {
+  api_.handle(found, {"", body}, [self = shared_from_this(), order, line](Answer made) {
     boost::asio::post(self->socket_.get_executor(), [self, order, line, made = std::move(made)] {
       add_answer(*line, made.body);
       line->status = static_cast<std::uint16_t>(made.status);

@@ -22,6 +22,10 @@ void add(std::string& kept, std::uint64_t& size, std::uint32_t& crc, std::string
 
 bool is_journaled(Operation operation) {
   if (operation == Operation::read_program) return true;
+  if (operation == Operation::start_recording || operation == Operation::stop_recording ||
+      operation == Operation::remove_recording || operation == Operation::login ||
+      operation == Operation::logout)
+    return false;  // nothing of it is on the bus, and no password gets there
   for (const auto& route : routes())
     if (route.operation == operation) return route.method != "GET";
   return false;

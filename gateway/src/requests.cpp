@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "machine/parameters.hpp"
+
 namespace trunnion::gateway {
 
 using bus::Json;
@@ -14,7 +16,19 @@ using commands::text;
 using commands::whole;
 
 namespace {
+
 constexpr std::size_t name_bytes = 64;
+constexpr std::int64_t most_values = 4096;
+
+std::string who_of(const Json& body) {
+  return body.contains("who") ? text(body["who"], "who", name_bytes) : "hmi";
+}
+
+std::uint64_t revision_of(const Json& body) {
+  if (!body.contains("revision")) return 0;
+  return static_cast<std::uint64_t>(whole(body["revision"], "revision", 0, 1LL << 53));
+}
+
 }  // namespace
 
 Json parse_body(const std::string& body) {
@@ -62,7 +76,7 @@ idl::parameters::ParameterRequest parameter_request(std::uint32_t number_, bool 
     throw BadRequest("value", "give one of value, text or reset");
   idl::parameters::ParameterRequest request{};
   request.operation = idl::parameters::Operation::SET;
-  request.who = body.contains("who") ? text(body["who"], "who", name_bytes) : "hmi";
+  request.who = who_of(body);
   idl::parameters::Parameter parameter{};
   parameter.number = number_;
   if (body.contains("reset")) {
@@ -79,16 +93,89 @@ idl::parameters::ParameterRequest parameter_request(std::uint32_t number_, bool 
   return request;
 }
 
+idl::parameters::ParameterRequest parameter_import(const Json& body) {
+  only(body, {"values", "who"});
+  const auto& rows = required(body, "values");
+  if (!rows.is_array() || rows.empty() || rows.size() > most_values)
+    throw BadRequest("values",
+                     "values must be a list of 1 to " + std::to_string(most_values) + " parameters");
+  idl::parameters::ParameterRequest request{};
+  request.operation = idl::parameters::Operation::IMPORT;
+  request.who = who_of(body);
+  for (const auto& row : rows) {
+    if (!row.is_object()) throw BadRequest("values", "each of values must be an object");
+    only(row, {"number", "value", "text"});
+    const auto wanted = static_cast<std::uint32_t>(whole(required(row, "number"), "number", 0, 999999));
+    const auto* definition = machine::Catalogue::instance().find(wanted);
+    if (definition == nullptr) throw BadRequest("number", "no parameter " + std::to_string(wanted));
+    const bool is_text = definition->type == machine::ParameterType::text;
+    if (row.contains("value") + row.contains("text") != 1 || row.contains("text") != is_text)
+      throw BadRequest("values", "parameter " + std::to_string(wanted) + " needs " +
+                                     (is_text ? "text and no value" : "value and no text"));
+    idl::parameters::Parameter parameter{};
+    parameter.number = wanted;
+    if (is_text)
+      parameter.text = text(row["text"], "text", name_bytes);
+    else
+      parameter.value = number(row["value"], "value", -1e15, 1e15);
+    request.values.push_back(parameter);
+  }
+  return request;
+}
+
+idl::parameters::ParameterRequest tool_request(std::uint32_t number_, const Json& body) {
+  only(body, {"length", "length_wear", "radius", "radius_wear", "name", "revision", "who"});
+  idl::parameters::ParameterRequest request{};
+  request.operation = idl::parameters::Operation::SET_TOOL;
+  request.who = who_of(body);
+  request.revision = revision_of(body);
+  const auto field = [&](const char* name) { return number(required(body, name), name, -1e6, 1e6); };
+  idl::parameters::Tool tool{};
+  tool.number = number_;
+  tool.length = field("length");
+  tool.length_wear = field("length_wear");
+  tool.radius = field("radius");
+  tool.radius_wear = field("radius_wear");
+  tool.name = text(required(body, "name"), "name", name_bytes);
+  request.tools.push_back(tool);
+  return request;
+}
+
+idl::parameters::ParameterRequest tool_removal(std::uint32_t number_, const std::string& revision) {
+  idl::parameters::ParameterRequest request{};
+  request.operation = idl::parameters::Operation::REMOVE_TOOL;
+  request.who = "hmi";
+  if (!revision.empty()) {
+    const auto known = path_number(revision, 999999999);
+    if (!known) throw BadRequest("revision", "revision must be a whole number");
+    request.revision = *known;
+  }
+  idl::parameters::Tool tool{};
+  tool.number = number_;
+  request.tools.push_back(tool);
+  return request;
+}
+
+idl::program::ProgramRequest rename_request(const std::string& name, const Json& body) {
+  only(body, {"name"});
+  commands::check_program_name(name);
+  idl::program::ProgramRequest request{};
+  request.operation = idl::program::Operation::RENAME;
+  request.name = name;
+  request.new_name = text(required(body, "name"), "name", name_bytes);
+  commands::check_program_name(request.new_name);
+  return request;
+}
+
 idl::parameters::ParameterRequest work_offset_request(const Json& body) {
   only(body, {"channel", "index", "values", "revision", "who"});
   idl::parameters::ParameterRequest request{};
   request.operation = idl::parameters::Operation::SET_WORK_OFFSET;
-  request.who = body.contains("who") ? text(body["who"], "who", name_bytes) : "hmi";
+  request.who = who_of(body);
+  request.revision = revision_of(body);
   idl::parameters::WorkOffset offset{};
   offset.channel = static_cast<std::uint16_t>(whole(required(body, "channel"), "channel", 0, 31));
   offset.index = static_cast<std::uint8_t>(whole(required(body, "index"), "index", 0, 53));
-  if (body.contains("revision"))
-    request.revision = static_cast<std::uint64_t>(whole(body["revision"], "revision", 0, 1LL << 53));
   const auto& values = required(body, "values");
   if (!values.is_array() || values.size() != 9)
     throw BadRequest("values", "values must be 9 numbers: X Y Z A B C U V W");

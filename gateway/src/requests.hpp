@@ -36,7 +36,19 @@ idl::service::AlarmReset alarm_reset(const bus::Json& body);
 idl::parameters::ParameterRequest parameter_request(std::uint32_t number, bool is_text,
                                                     const bus::Json& body);
 
-/// {"channel": n, "index": 0..5, "values": [up to 9 numbers]}.
+/// {"values": [{"number": n, "value": number} or {"number": n, "text": "..."}]}, all of which the catalogue
+/// has.
+idl::parameters::ParameterRequest parameter_import(const bus::Json& body);
+
+/// {"length", "length_wear", "radius", "radius_wear": mm, "name"}; the store checks the limits.
+idl::parameters::ParameterRequest tool_request(std::uint32_t number, const bus::Json& body);
+/// `revision` as in the query; empty = any.
+idl::parameters::ParameterRequest tool_removal(std::uint32_t number, const std::string& revision);
+
+/// {"name": "..."}: the new name of the program `name`.
+idl::program::ProgramRequest rename_request(const std::string& name, const bus::Json& body);
+
+/// {"channel": n, "index": 0..53, "values": [9 numbers], "revision": n}.
 idl::parameters::ParameterRequest work_offset_request(const bus::Json& body);
 
 }  // namespace trunnion::gateway

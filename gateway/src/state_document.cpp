@@ -185,7 +185,12 @@ Json StateDocument::document(double now) {
   if (!trace_.empty() && !drive_axes_.empty()) {
     auto rows = Json::array();
     for (const auto& row : trace_.rows()) rows.push_back(rounded_row(row));
-    trace_document_ = {{"first", trace_.first()}, {"axes", drive_axes_}, {"rows", std::move(rows)}};
+    auto since = Json::array();
+    for (const auto cycle : trace_.cycles()) since.push_back(cycle - trace_.first());
+    trace_document_ = {{"first", trace_.first()},
+                       {"since", std::move(since)},
+                       {"axes", drive_axes_},
+                       {"rows", std::move(rows)}};
   }
   trace_.clear();
   if (!trace_document_.is_null()) json["trace"] = trace_document_;

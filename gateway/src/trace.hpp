@@ -21,25 +21,32 @@ class Trace {
     if (!rows_.empty() && std::equal(row.begin(), row.end(), rows_.back().begin(), rows_.back().end()))
       return;
     if (rows_.size() == most_rows) {
-      for (std::size_t i = 1; i < most_rows / 2; ++i) rows_[i] = std::move(rows_[2 * i]);
+      for (std::size_t i = 1; i < most_rows / 2; ++i) {
+        rows_[i] = std::move(rows_[2 * i]);
+        cycles_[i] = cycles_[2 * i];
+      }
       rows_.resize(most_rows / 2);
+      cycles_.resize(most_rows / 2);
       stride_ *= 2;
     }
-    if (rows_.empty()) first_ = cycle;
     rows_.emplace_back(row.begin(), row.end());
+    cycles_.push_back(cycle);
   }
   bool empty() const { return rows_.empty(); }
-  std::uint64_t first() const { return first_; }
+  std::uint64_t first() const { return cycles_.empty() ? 0 : cycles_.front(); }
+  /// Cycle of each row, ascending.
+  const std::vector<std::uint64_t>& cycles() const { return cycles_; }
   const std::vector<std::vector<double>>& rows() const { return rows_; }
   void clear() {
     rows_.clear();
+    cycles_.clear();
     stride_ = 1;
     seen_ = 0;
   }
 
  private:
   std::vector<std::vector<double>> rows_;
-  std::uint64_t first_ = 0;
+  std::vector<std::uint64_t> cycles_;
   std::uint64_t stride_ = 1, seen_ = 0;
 };
 

@@ -111,7 +111,10 @@ void FakeCluster::publish_once() {
   parameters_.revision = 1;
   const char* const letters[] = {"X", "Y", "Z", "", "A", "", "C"};
   for (std::uint32_t a = 0; a < 7; ++a)
-    if (*letters[a] != 0) parameters_.values.push_back({100000 + 1000 * a, 0, letters[a]});
+    if (*letters[a] != 0) {
+      parameters_.values.push_back({100000 + 1000 * a, 0, letters[a]});
+      if (a > 2) parameters_.values.push_back({100001 + 1000 * a, 3, ""});  // rotary
+    }
   parameter_set_.write(parameters_);
   tool_table_.write({0, 1, {{3, 112.25, 0, 5, 0, "Ball nose 10"}, {4, 98.5, -0.02, 8, 0.01, "End mill 16"}}});
   offsets_.revision = 1;

@@ -60,20 +60,11 @@ class Process {
   pid_t pid_ = -1;
 };
 
+/// The state directory is beside the directory of the page.
 inline std::vector<std::string> command_line(std::uint16_t port, const std::string& web) {
-  return {GATEWAY,
-          "--machine",
-          MACHINE,
-          "--state",
-          testing::TempDir(),
-          "--domain",
-          std::to_string(domain),
-          "--port",
-          std::to_string(port),
-          "--web",
-          web,
-          "--instance",
-          "20"};
+  return {
+      GATEWAY,  "--machine",          MACHINE, "--state", web + "_state", "--domain", std::to_string(domain),
+      "--port", std::to_string(port), "--web", web,       "--instance",   "20"};
 }
 
 class Gateway : public testing::Test {
@@ -81,6 +72,7 @@ class Gateway : public testing::Test {
   void SetUp() override {
     web_ = testing::TempDir() + "/gateway_web_" + std::to_string(getpid());
     std::filesystem::create_directories(web_);
+    std::filesystem::create_directories(state_ = web_ + "_state");
     std::ofstream(web_ + "/index.html") << "<p>the page</p>";
     process_ = std::make_unique<Process>(command_line(port_, web_), web_ + "/stderr.txt");
     stepper_ = std::thread([this] {
@@ -103,6 +95,7 @@ class Gateway : public testing::Test {
     stepper_.join();
     process_.reset();
     std::filesystem::remove_all(web_);
+    std::filesystem::remove_all(state_);
   }
 
   Response get(const std::string& target) const { return http_client::request(port_, "GET", target); }
@@ -117,7 +110,7 @@ class Gateway : public testing::Test {
   }
 
   const std::uint16_t port_ = free_port();
-  std::string web_;
+  std::string web_, state_;
   std::mutex mutex_;
   FakeCluster cluster_{{domain}};
   std::atomic<bool> stop_ = false;

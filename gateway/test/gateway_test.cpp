@@ -74,7 +74,7 @@ TEST_F(Gateway, BadInputNeverReachesTheBus) {
   EXPECT_EQ(post("/api/channels/zero/reset").status, 404);
   EXPECT_EQ(post("/api/nothing").status, 404);
   EXPECT_EQ(get("/api/channels/0/reset").status, 405);
-  EXPECT_EQ(get("/api/parameters/000002").status, 404);
+  EXPECT_EQ(get("/api/parameters/000999").status, 404);
   EXPECT_EQ(get("/api/programs/NOTHING").status, 404);
   EXPECT_EQ(get("/api/parameters?limit=many").status, 400);
   EXPECT_EQ(get("/api/stream").status, 426);

@@ -48,6 +48,16 @@ void body(const std::string& text) {
     const auto request = work_offset_request(json);
     for (const double value : request.offsets.at(0).values) require(std::isfinite(value));
   });
+  refused_or([&] {
+    const auto request = parameter_import(json);
+    require(!request.values.empty() && request.values.size() <= 4096);
+    for (const auto& one : request.values) require(std::isfinite(one.value) && one.text.size() <= 64);
+  });
+  refused_or([&] {
+    const auto tool = tool_request(1, json).tools.at(0);
+    require(std::isfinite(tool.length) && std::isfinite(tool.radius) && tool.name.size() <= 64);
+  });
+  refused_or([&] { require(rename_request("a.nc", json).new_name.size() <= 64); });
 }
 
 }  // namespace

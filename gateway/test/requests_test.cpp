@@ -68,6 +68,56 @@ TEST(Requests, AWorkOffsetHasNineNumbers) {
   EXPECT_THROW(work_offset_request({{"channel", 0}, {"index", 0}}), BadRequest);
 }
 
+TEST(Requests, SeveralParametersAreOneRequestAndEachMustFitItsType) {
+  const auto set = parameter_import(
+      {{"values", {{{"number", 100034}, {"value", 12.5}}, {{"number", 40000}, {"text", "left"}}}}});
+  EXPECT_EQ(set.operation, idl::parameters::Operation::IMPORT);
+  ASSERT_EQ(set.values.size(), 2u);
+  EXPECT_EQ(set.values[0].value, 12.5);
+  EXPECT_EQ(set.values[1].text, "left");
+  const auto refused = [](const Json& row) {
+    EXPECT_THROW(parameter_import({{"values", Json::array({row})}}), BadRequest) << row;
+  };
+  refused({{"number", 100034}, {"text", "1"}});
+  refused({{"number", 40000}, {"value", 1}});
+  refused({{"number", 100034}});
+  refused({{"number", 999}, {"value", 1}});
+  refused({{"number", 100034}, {"value", 1}, {"unit", "mm"}});
+  refused(5);
+  EXPECT_THROW(parameter_import({{"values", Json::array()}}), BadRequest);
+  EXPECT_THROW(parameter_import(Json::object()), BadRequest);
+}
+
+TEST(Requests, AToolHasAllItsFields) {
+  const Json fields = {
+      {"length", 112.25}, {"length_wear", -0.05}, {"radius", 5}, {"radius_wear", 0}, {"name", "mill"}};
+  auto body = fields;
+  body["revision"] = 7;
+  const auto set = tool_request(3, body);
+  EXPECT_EQ(set.operation, idl::parameters::Operation::SET_TOOL);
+  EXPECT_EQ(set.revision, 7u);
+  ASSERT_EQ(set.tools.size(), 1u);
+  EXPECT_EQ(set.tools[0].number, 3u);
+  EXPECT_EQ(set.tools[0].length_wear, -0.05);
+  EXPECT_EQ(set.tools[0].name, "mill");
+  for (const auto& [name, value] : fields.items()) {
+    auto incomplete = fields;
+    incomplete.erase(name);
+    EXPECT_THROW(tool_request(3, incomplete), BadRequest) << name;
+  }
+  EXPECT_EQ(tool_removal(3, "12").revision, 12u);
+  EXPECT_EQ(tool_removal(3, "").revision, 0u);
+  EXPECT_THROW(tool_removal(3, "x"), BadRequest);
+}
+
+TEST(Requests, AProgramIsRenamedToANameThatAProgramMayHave) {
+  const auto renamed = rename_request("a.nc", {{"name", "b.nc"}});
+  EXPECT_EQ(renamed.operation, idl::program::Operation::RENAME);
+  EXPECT_EQ(renamed.new_name, "b.nc");
+  EXPECT_THROW(rename_request("a.nc", {{"name", "../b.nc"}}), BadRequest);
+  EXPECT_THROW(rename_request("a.nc", Json::object()), BadRequest);
+}
+
 TEST(Requests, BodiesThatAreNoObjectsAreRefused) {
   EXPECT_TRUE(parse_body(" \r\n").empty());
   EXPECT_THROW(parse_body("{"), BadRequest);

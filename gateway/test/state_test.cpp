@@ -58,6 +58,9 @@ TEST(Trace, KeepsFewRowsEvenlySpreadHoweverManyCome) {
   EXPECT_EQ(rows.front()[0], 100);
   for (std::size_t i = 2; i < rows.size(); ++i)
     EXPECT_EQ(rows[i][0] - rows[i - 1][0], rows[1][0] - rows[0][0]);
+  ASSERT_EQ(trace.cycles().size(), rows.size());
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    EXPECT_EQ(static_cast<double>(trace.cycles()[i]), rows[i][0]) << "every row has its cycle";
 }
 
 TEST(Trace, AMachineThatStandsIsOneRow) {
@@ -67,6 +70,7 @@ TEST(Trace, AMachineThatStandsIsOneRow) {
   EXPECT_EQ(trace.rows().size(), 1u);
   trace.add(1000, {&there, 1});
   EXPECT_EQ(trace.rows().size(), 2u);
+  EXPECT_EQ(trace.cycles(), (std::vector<std::uint64_t>{0, 1000}));
 }
 
 idl::service::Alarm alarm(std::uint32_t instance, std::uint32_t number, bool active = true) {

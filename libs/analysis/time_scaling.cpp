@@ -18,6 +18,10 @@ constexpr double widest_use = 0.999;
 // Of a window this many samples are solved at once, and this share of them is kept.
 constexpr std::size_t window_samples = 1500, kept_samples = 1000;
 constexpr std::size_t standstill_samples = 4, fewest_samples = 8;
+// A speed counts as the programmed one from this share on. The best motion can leave it only near the ends of
+// such a stretch: two margins are solved there, and the outer one, which ends at an assumed b, is not used.
+constexpr double full_share = 0.998;
+constexpr std::size_t least_margin = 30, most_margin = 160;
 
 // b changes by less than this share from one sample to the next: the central differences need it.
 constexpr double steepest = 0.1;
@@ -212,6 +216,8 @@ std::vector<double> least_time_scaling(const std::vector<MotionSample>& samples,
 }
 
 void LeastTime::add(const MotionSample& sample) {
+  constant_ = sample.share >= full_share ? constant_ + 1 : 0;
+  if (add_at_constant_speed(sample)) return;
   const bool rests = !window_.empty() && sample.machine == window_.back().machine;
   resting_ = rests ? resting_ + 1 : 0;
   if (resting_ > standstill_samples) {
@@ -220,7 +226,59 @@ void LeastTime::add(const MotionSample& sample) {
     return;
   }
   window_.push_back(sample);
+  if (constant_ >= 3 * least_margin && constant_ >= 3 * margin()) {
+    margin_ = margin();
+    solve_up_to_constant_speed();
+  }
   if (window_.size() >= window_samples) solve(false);
+}
+
+// Twice what the slowest axis needs to stop, in samples.
+std::size_t LeastTime::margin() const {
+  const MotionSample &now = window_.back(), &before = window_[window_.size() - 2];
+  double longest = 0;
+  for (std::size_t i = 0; i < canonical::axis_count; ++i) {
+    const motion::AxisLimits& axis = limits_.axes[i];
+    const double v = std::abs(now.machine[i] - before.machine[i]) / cycle_;
+    longest = std::max(longest, v / axis.acceleration + 2 * std::sqrt(v / axis.jerk));
+  }
+  return std::clamp(static_cast<std::size_t>(2 * longest / cycle_), least_margin, most_margin);
+}
+
+// Keeps the newest samples of a stretch at the programmed speed: the next window begins with them.
+bool LeastTime::add_at_constant_speed(const MotionSample& sample) {
+  if (!between_windows_) return false;
+  if (constant_ == 0) {
+    between_windows_ = false;
+    known_ = window_.size() - margin_;
+    before_.assign(2, first_share);
+    return false;
+  }
+  window_.push_back(sample);
+  if (window_.size() > 3 * margin_) {
+    known_ = margin_;
+    count({}, margin_);
+    window_.erase(window_.begin(), window_.begin() + static_cast<std::ptrdiff_t>(margin_));
+  }
+  return true;
+}
+
+void LeastTime::solve_up_to_constant_speed() {
+  std::vector<double> b = before_;
+  b.resize(window_.size(), first_share);
+  b = Scaling(window_, limits_, cycle_, b, !before_.empty(), false).solve();
+  const std::size_t solved = window_.size() - 2 * margin_;
+  count(b, solved);
+  window_.erase(window_.begin(), window_.begin() + static_cast<std::ptrdiff_t>(solved));
+  before_.clear();
+  known_ = 0;
+  between_windows_ = true;
+}
+
+void LeastTime::count(const std::vector<double>& b, std::size_t samples) {
+  for (std::size_t k = 0; k < samples; ++k)
+    time_ += cycle_ * (k < known_ ? window_[k].share : 1 / std::sqrt(b[k]));
+  known_ -= std::min(known_, samples);
 }
 
 void LeastTime::solve(bool ends) {
@@ -229,8 +287,7 @@ void LeastTime::solve(bool ends) {
   std::vector<double> b = before_;
   b.resize(window_.size(), first_share);
   if (window_.size() >= fewest_samples) b = Scaling(window_, limits_, cycle_, b, continues, ends).solve();
-  const std::size_t kept = ends ? b.size() : kept_samples;
-  for (std::size_t k = 0; k < kept; ++k) time_ += cycle_ / std::sqrt(b[k]);
+  count(b, ends ? b.size() : kept_samples);
   if (ends) {
     before_.clear();
     window_.clear();
@@ -241,8 +298,14 @@ void LeastTime::solve(bool ends) {
 }
 
 double LeastTime::finish() {
-  if (window_.size() > 1) solve(true);
+  if (between_windows_) {
+    known_ = window_.size();
+    count({}, known_);
+  } else if (window_.size() > 1) {
+    solve(true);
+  }
   window_.clear();
+  between_windows_ = false;
   return time_;
 }
 

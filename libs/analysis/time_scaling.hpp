@@ -32,7 +32,8 @@ std::vector<double> least_time_scaling(const std::vector<MotionSample>& samples,
                                        double cycle);
 
 /// The same for a motion of any length in constant memory: windows that overlap. The path between two
-/// standstills is one section; the time at a standstill does not count.
+/// standstills is one section; the time at a standstill does not count. Where the motion keeps its programmed
+/// speed, only both ends are solved, as far as the axes need to stop and more: no motion is faster there.
 class LeastTime {
  public:
   LeastTime(const motion::Limits& limits, double cycle) : limits_(limits), cycle_(cycle) {}
@@ -43,6 +44,10 @@ class LeastTime {
 
  private:
   void solve(bool ends);
+  void solve_up_to_constant_speed();
+  std::size_t margin() const;
+  void count(const std::vector<double>& b, std::size_t samples);
+  bool add_at_constant_speed(const MotionSample& sample);
 
   motion::Limits limits_;
   double cycle_;
@@ -50,6 +55,10 @@ class LeastTime {
   std::vector<double> before_;  // b where the window overlaps the one before
   double time_ = 0;
   std::size_t resting_ = 0;
+  std::size_t constant_ = 0;      // samples in a row with the programmed speed
+  bool between_windows_ = false;  // the programmed speed has lasted so long that nothing is solved
+  std::size_t margin_ = 0;        // samples solved at an end of such a stretch and used
+  std::size_t known_ = 0;         // first samples of the window that have the programmed speed for certain
 };
 
 }  // namespace trunnion::analysis

@@ -5,6 +5,8 @@
 #include <cstdio>
 #include <stdexcept>
 
+#include "calibration/measured_centre.hpp"
+
 namespace trunnion::calibration {
 namespace {
 
@@ -19,14 +21,6 @@ std::string line(const char* format, Values... values) {
   char text[300];
   std::snprintf(text, sizeof text, format, values...);
   return text;
-}
-
-metrology::SphereFit sphere_of(const std::vector<Vec3>& tips, std::optional<double> radius,
-                               const std::string& pose) {
-  auto fit = metrology::fit_sphere(tips, radius);
-  if (const auto* error = std::get_if<metrology::SphereError>(&fit))
-    throw std::runtime_error("pose " + pose + ": " + metrology::to_string(*error));
-  return std::get<metrology::SphereFit>(fit);
 }
 
 class Evaluation {
@@ -61,29 +55,13 @@ class Evaluation {
                                "; the measurement begins at the initial pose " + initial);
     result_.ball_diameter = in_.ball_diameter;
     for (const auto& pose : touched) {
-      const auto name = pose_name(pose.angles, machine_.model);
-      std::vector<Vec3> tips;
-      for (const auto& position : pose.positions)
-        tips.push_back(chain_.tip_from_machine(position, pose.angles, in_.probe_length));
-      const auto free = sphere_of(tips, std::nullopt, name);
-      if (in_.calibrate_probe && result_.poses.empty())
-        result_.ball_diameter = 2 * free.radius - in_.sphere_diameter;
+      const auto found =
+          measured_centre(in_, machine_, chain_, pose, result_.poses.empty(), result_.ball_diameter);
+      const auto& fit = found.fit;
       PoseResult out;
       out.angles = pose.angles;
-      out.touches = tips.size();
-      out.diameter = 2 * free.radius - result_.ball_diameter;
-      if (!(std::abs(out.diameter - in_.sphere_diameter) <= in_.diameter_tolerance))
-        throw std::runtime_error(
-            "pose " + name +
-            line(": measured diameter of the sphere %.4f mm, given %.4f mm: the tolerance is %.4f mm",
-                 out.diameter, in_.sphere_diameter, in_.diameter_tolerance));
-      const auto fit = sphere_of(tips, (in_.sphere_diameter + result_.ball_diameter) / 2, name);
-      const double away = (fit.centre - in_.sphere).norm();
-      if (!(away <= in_.confidence_range))
-        throw std::runtime_error("pose " + name +
-                                 line(": the centre of the sphere is %.4f mm from the expected one: the "
-                                      "confidence range is %.4f mm; reset",
-                                      away, in_.confidence_range));
+      out.touches = pose.positions.size();
+      out.diameter = found.diameter;
       out.centre = chain_.machine_from_tip(fit.centre, pose.angles, in_.probe_length);
       const geometry::Mat3 turn = chain_.jacobian(fit.centre, pose.angles, in_.probe_length).tip;
       measured_.push_back({pose.angles, out.centre, turn * fit.cofactor * turn.transpose()});

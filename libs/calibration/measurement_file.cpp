@@ -98,40 +98,54 @@ class InputReader {
   }
 
   void probe(const YAML::Node& map) {
-    reader_.each(map, "length_mm, length_uncertainty_mm, ball_diameter_mm",
+    reader_.each(map, "length_mm, length_uncertainty_mm, ball_diameter_mm, on_m, off_m",
                  [&](const std::string& key, const YAML::Node& node) {
                    if (key == "length_mm") return in_.probe_length = reader_.number(node, {0, 1e4}), true;
                    if (key == "length_uncertainty_mm")
                      return in_.probe_length_uncertainty = reader_.number(node, {0, 1}), true;
                    if (key == "ball_diameter_mm")
                      return in_.ball_diameter = reader_.number(node, {0.1, 100}), true;
+                   if (key == "on_m")
+                     return in_.probe_on = static_cast<std::uint32_t>(whole(node, 0, 9999)), true;
+                   if (key == "off_m")
+                     return in_.probe_off = static_cast<std::uint32_t>(whole(node, 0, 9999)), true;
                    return false;
                  });
   }
 
   void settings(const YAML::Node& map) {
-    reader_.each(map,
-                 "touches, diameter_tolerance_mm, least_triangle_angle_deg, least_swept_angle_deg, "
-                 "rotary_feed_deg_per_min, circle_feed_mm_per_min, transformation_active",
-                 [&](const std::string& key, const YAML::Node& node) {
-                   if (key == "touches")
-                     in_.touches = reader_.choice<std::size_t>(node, {{"8", 8}, {"10", 10}});
-                   else if (key == "diameter_tolerance_mm")
-                     in_.diameter_tolerance = reader_.number(node, {0.0001, 10});
-                   else if (key == "least_triangle_angle_deg")
-                     in_.least_triangle_angle = reader_.number(node, {2, 60});
-                   else if (key == "least_swept_angle_deg")
-                     in_.least_swept_angle = reader_.number(node, {10, 180});
-                   else if (key == "rotary_feed_deg_per_min")
-                     in_.rotary_feed = reader_.number(node, {1, 1e5});
-                   else if (key == "circle_feed_mm_per_min")
-                     in_.circle_feed = reader_.number(node, {1, 1e5});
-                   else if (key == "transformation_active")
-                     in_.transformation_active = boolean(node);
-                   else
-                     return false;
-                   return true;
-                 });
+    reader_.each(
+        map,
+        "touches, diameter_tolerance_mm, least_triangle_angle_deg, least_swept_angle_deg, "
+        "rotary_feed_deg_per_min, circle_feed_mm_per_min, positioning_feed_mm_per_min, "
+        "first_touch_feed_mm_per_min, measuring_feed_mm_per_min, repeatability_mm, transformation_active",
+        [&](const std::string& key, const YAML::Node& node) {
+          if (key == "touches")
+            in_.touches = reader_.choice<std::size_t>(node, {{"8", 8}, {"10", 10}});
+          else if (key == "diameter_tolerance_mm")
+            in_.diameter_tolerance = reader_.number(node, {0.0001, 10});
+          else if (key == "least_triangle_angle_deg")
+            in_.least_triangle_angle = reader_.number(node, {2, 60});
+          else if (key == "least_swept_angle_deg")
+            in_.least_swept_angle = reader_.number(node, {10, 180});
+          else if (key == "rotary_feed_deg_per_min")
+            in_.rotary_feed = reader_.number(node, {1, 1e5});
+          else if (key == "circle_feed_mm_per_min")
+            in_.circle_feed = reader_.number(node, {1, 1e5});
+          else if (key == "positioning_feed_mm_per_min")
+            in_.positioning_feed = reader_.number(node, {1, 1e5});
+          else if (key == "first_touch_feed_mm_per_min")
+            in_.first_touch_feed = reader_.number(node, {1, 1e4});
+          else if (key == "repeatability_mm")
+            in_.repeatability = reader_.number(node, {0.0001, 1});
+          else if (key == "measuring_feed_mm_per_min")
+            in_.measuring_feed = reader_.number(node, {1, 1e4});
+          else if (key == "transformation_active")
+            in_.transformation_active = boolean(node);
+          else
+            return false;
+          return true;
+        });
   }
 
   void axes(const YAML::Node& map) {

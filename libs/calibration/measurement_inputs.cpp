@@ -58,6 +58,10 @@ std::string fault_of(const MeasurementInputs& in, const MeasuredMachine& machine
     return "transformation " + in.transformation + ": the machine has " + machine.structure;
   if (auto fault = frame_fault(machine.model.linear_direction); !fault.empty()) return fault;
   if (auto fault = plane_fault(in.plane, machine.model.tool_direction); !fault.empty()) return fault;
+  if (!(in.positioning_feed > in.first_touch_feed && in.first_touch_feed > in.measuring_feed))
+    return "feeds " + number(in.positioning_feed) + ", " + number(in.first_touch_feed) + ", " +
+           number(in.measuring_feed) + " mm/min: positioning must be faster than the first touch, and that " +
+           "faster than the measuring touch";
   if (in.axes.size() != present.size())
     return std::to_string(in.axes.size()) + " rotary axes are given, the machine has " +
            std::to_string(present.size());
@@ -97,9 +101,28 @@ std::string fault_of(const MeasurementInputs& in, const MeasuredMachine& machine
   return "";
 }
 
+std::optional<ProbeAndSphere> probe_and_sphere(const std::optional<truth::TouchProbeTruth>& probe,
+                                               const std::vector<truth::Solid>& solids) {
+  if (!probe) return std::nullopt;
+  for (const auto& solid : solids) {
+    const auto* sphere = std::get_if<truth::SphereGauge>(&solid);
+    if (sphere == nullptr) continue;
+    ProbeAndSphere out{probe->length, 2 * probe->ball_radius, sphere->centre, 2 * sphere->radius, {}, 0};
+    if (sphere->shaft_radius > 0) out.shaft = sphere->shaft, out.shaft_diameter = 2 * sphere->shaft_radius;
+    return out;
+  }
+  return std::nullopt;
+}
+
 MeasurementInputs default_inputs(const MeasuredMachine& machine) {
   MeasurementInputs in;
   in.transformation = machine.structure;
+  if (const auto& gauges = machine.gauges) {
+    in.probe_length = gauges->probe_length, in.ball_diameter = gauges->ball_diameter;
+    in.sphere = gauges->sphere, in.sphere_diameter = gauges->sphere_diameter;
+    in.shaft = gauges->shaft;
+    if (in.shaft) in.shaft_diameter = gauges->shaft_diameter;
+  }
   for (const auto angle : rotary_axes(machine.model)) {
     const auto& travel = machine.outline.axes[3 + angle];
     AxisRange range;

@@ -9,6 +9,7 @@
 
 #include "metrology/chain_vectors.hpp"
 #include "truth/machine_outline.hpp"
+#include "truth/touch_probe.hpp"
 
 namespace trunnion::calibration {
 
@@ -57,14 +58,30 @@ struct MeasurementInputs {
   Vec3 zero_offset = Vec3::Zero();         ///< mm: work offset in force; the reference needs the same
 
   // Settings.
-  std::size_t touches = 10;            ///< of a sphere: 2 x (4 + 1), or 8 = 2 x (3 + 1)
-  double diameter_tolerance = 0.05;    ///< mm, of the measured diameter of each pose
-  double least_triangle_angle = 2;     ///< deg, 2 .. 60
-  double least_swept_angle = 10;       ///< deg, 10 .. 180
-  double rotary_feed = 360;            ///< deg/min
-  double circle_feed = 1000;           ///< mm/min
+  std::size_t touches = 10;          ///< of a sphere: 2 x (4 + 1), or 8 = 2 x (3 + 1)
+  double diameter_tolerance = 0.05;  ///< mm, of the measured diameter of each pose
+  double least_triangle_angle = 2;   ///< deg, 2 .. 60
+  double least_swept_angle = 10;     ///< deg, 10 .. 180
+  double rotary_feed = 360;          ///< deg/min
+  double circle_feed = 1000;         ///< mm/min
+  /// mm/min: between touches and poses (F1), of the first touch (F2), of the second one, which counts (F3).
+  double positioning_feed = 2000, first_touch_feed = 200, measuring_feed = 50;
+  double repeatability = 0.005;  ///< mm: permitted range of five touches of one point on the machine
+  std::uint32_t probe_on = 40, probe_off = 41;  ///< M functions that switch the probe on and off
   bool transformation_active = false;  ///< it may be active; otherwise it is switched off and restored
 };
+
+/// Probe and sphere as they were set up.
+struct ProbeAndSphere {
+  double probe_length = 0, ball_diameter = 6;  ///< mm, as in MeasurementInputs
+  Vec3 sphere = Vec3::Zero();                  ///< mm, workpiece frame
+  double sphere_diameter = 25;                 ///< mm
+  std::optional<Vec3> shaft;                   ///< from the centre to the shaft
+  double shaft_diameter = 0;                   ///< mm
+};
+/// Of truth.yaml: the probe, and the first sphere of the solids. Nothing when either is missing.
+std::optional<ProbeAndSphere> probe_and_sphere(const std::optional<truth::TouchProbeTruth>& probe,
+                                               const std::vector<truth::Solid>& solids);
 
 /// The machine that is measured.
 struct MeasuredMachine {
@@ -72,6 +89,7 @@ struct MeasuredMachine {
   ChainParameters model;  ///< by which the control moves
   truth::MachineOutline outline;
   std::string structure;  ///< name of its chain
+  std::optional<ProbeAndSphere> gauges = {};
 };
 
 /// Faults of inputs that depend on the machine: one line with number and limits, "" when there is none.
@@ -80,7 +98,7 @@ std::string fault_of(const MeasurementInputs& inputs, const MeasuredMachine& mac
 
 /// Inputs for a machine without a file: 8 points of every rotary axis, every 45 degrees where it turns fully,
 /// otherwise to the same angle on both sides of 0, at most 90 degrees. The other axis is at 0; of a head the
-/// axis next to the tool at its end while the other is measured.
+/// axis next to the tool at its end while the other is measured. Probe and sphere are those of the machine.
 MeasurementInputs default_inputs(const MeasuredMachine& machine);
 
 }  // namespace trunnion::calibration

@@ -73,6 +73,12 @@ class Planner {
     return plan_;
   }
 
+  std::variant<PlannedPose, std::string> one(const Angles& angles) {
+    add(angles, in_.axes.front().touch_start);
+    if (!fault_.empty()) return fault_;
+    return plan_.poses.front();
+  }
+
  private:
   std::size_t add(const Angles& angles, double touch_start) {
     for (std::size_t i = 0; i < plan_.poses.size(); ++i)
@@ -136,6 +142,11 @@ class Planner {
 std::variant<MeasurementPlan, std::string> plan_measurement(const MeasurementInputs& inputs,
                                                             const MeasuredMachine& machine) {
   return Planner(inputs, machine).plan();
+}
+
+std::variant<PlannedPose, std::string> plan_pose(const MeasurementInputs& inputs,
+                                                 const MeasuredMachine& machine, const Angles& angles) {
+  return Planner(inputs, machine).one(angles);
 }
 
 std::string pose_name(const Angles& angles, const ChainParameters& chain) {

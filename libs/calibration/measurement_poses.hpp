@@ -30,6 +30,10 @@ struct MeasurementPlan {
 std::variant<MeasurementPlan, std::string> plan_measurement(const MeasurementInputs& inputs,
                                                             const MeasuredMachine& machine);
 
+/// One pose, with the touch angle of the first axis; the same errors.
+std::variant<PlannedPose, std::string> plan_pose(const MeasurementInputs& inputs,
+                                                 const MeasuredMachine& machine, const Angles& angles);
+
 /// "A-90 C0": the rotary axes of the machine.
 std::string pose_name(const Angles& angles, const ChainParameters& chain);
 

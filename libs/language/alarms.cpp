@@ -31,7 +31,9 @@ std::string_view word_at(std::string_view text) {
     return from;
   };
   std::size_t size = 1;
-  if (is_letter(text[0])) {
+  if (text[0] == ',' && text.size() > 1 && is_letter(text[1])) {
+    size += word_at(text.substr(1)).size();
+  } else if (is_letter(text[0])) {
     size = run(1, is_letter);
     if (size == 1) {
       const std::size_t blanks = run(1, [](char c) { return c == ' ' || c == '\t'; });

@@ -55,6 +55,10 @@ struct CallCentre {
   double value = 0;
 };
 
+/// Words behind a comma, kept as two further letters: ,C a chamfer and ,R a rounding at the end of the move.
+inline constexpr char chamfer_word = 'A' + 26, rounding_word = 'A' + 27;
+inline constexpr std::size_t word_count = 28;
+
 /// A letter except G and M occurs at most once in a block, so words are looked up by letter.
 struct Block {
   Head head = Head::none;
@@ -68,9 +72,9 @@ struct Block {
   std::uint16_t rest = 0;  ///< byte behind the word of the statement
   std::uint32_t label = 0;
   std::uint32_t program_number = 0;
-  std::uint32_t letters = 0;  ///< bit 0 = A .. bit 25 = Z; G and M are not in it
-  std::array<double, 26> values{};
-  std::array<std::uint16_t, 26> offsets{};
+  std::uint32_t letters = 0;  ///< bit 0 = A .. bit 25 = Z, then ,C and ,R; G and M are not in it
+  std::array<double, word_count> values{};
+  std::array<std::uint16_t, word_count> offsets{};
   std::array<CodeWord, max_g_codes> g{};
   std::array<CodeWord, max_m_codes> m{};
   std::array<CallCentre, max_call_centres> centres{};

@@ -233,6 +233,12 @@ std::string_view BlockExecutor::fault_detail(AlarmNumber number) {
     detail.number = number;
     std::snprintf(detail.text.data(), detail.text.size(), "that of line %u", interference().contour_line);
   }
+  if (number == AlarmNumber::corner_too_large || number == AlarmNumber::corner_chamfer_arc) {
+    const auto& corner = context_.output.corner_measures();
+    detail.number = number;
+    std::snprintf(detail.text.data(), detail.text.size(), "%.4g mm in line %u, moves %.4g and %.4g mm",
+                  corner.size, corner.line, corner.before, corner.behind);
+  }
   return number == detail.number ? std::string_view(detail.text.data()) : std::string_view{};
 }
 
@@ -244,7 +250,9 @@ Fault BlockExecutor::end_program(std::uint32_t number, std::uint32_t program, st
   const bool more = number == 0 && beginning_ == Beginning::line;
   if (context_.state.swing_due && !more) return {AlarmNumber::tilt_swing_missing, 0};
   if (const Fault fault = context_.output.push_end(number)) return fault;
-  return context_.output.drain();
+  const Fault fault = context_.output.settle();
+  if (fault) context_.output.discard();
+  return fault;
 }
 
 Fault BlockExecutor::write_work_offset(std::uint8_t index, std::size_t axis, double value,

@@ -16,15 +16,21 @@ void CommandOutput::start() {
   compensation_.reset();
   compensation_.configure(environment_.cutter_settings());
   sequence_ = 0;
-  draining_ = held_too_many_ = false;
+  corner_.reset();
+  draining_ = held_too_many_ = corner_lost_ = false;
 }
 
 void CommandOutput::discard() {
-  held_too_many_ = draining_ = false;
+  held_too_many_ = draining_ = corner_lost_ = false;
+  corner_.reset();
   queue_->clear();
 }
 
 Fault CommandOutput::check_room() {
+  if (corner_lost_) {
+    corner_lost_ = false;
+    return {AlarmNumber::corner_without_move, 0};
+  }
   if (!held_too_many_) return {};
   held_too_many_ = false;
   return {AlarmNumber::compensation_look_ahead, 0};
@@ -62,6 +68,7 @@ ModalState CommandOutput::command_modal() {
 }
 
 Command& CommandOutput::push(CommandKind kind) {
+  lose_corner();
   const bool held = compensation_.active();
   Command* place = held ? compensation_.add_at_rest() : &queue_->push();
   if (place == nullptr) {
@@ -131,6 +138,7 @@ Fault CommandOutput::move_straight_in_command_frame(CommandKind kind, const Axis
 
 // Held moves are in contour coordinates until the compensation lets go of them.
 Fault CommandOutput::move_compensated(const Command& move, const AxisValues& program) {
+  if (lose_corner()) return {};
   if (state_.modal.transformation == Transformation::rtcp) {
     for (const Axis axis : {A, B, C}) {
       if (std::abs(program[axis] - state_.program_position[axis]) > no_distance) {
@@ -139,6 +147,10 @@ Fault CommandOutput::move_compensated(const Command& move, const AxisValues& pro
     }
   }
   const AxisValues start = state_.frame().contour_from_program(state_.program_position);
+  return give(contour_move(move, program), start);
+}
+
+Command CommandOutput::contour_move(const Command& move, const AxisValues& program) {
   moves_ = true;
   Command command = move;
   command.program = program_;
@@ -147,7 +159,86 @@ Fault CommandOutput::move_compensated(const Command& move, const AxisValues& pro
   command.modal = command_modal();
   state_.position = state_.command_from_program(program);
   state_.program_position = program;
-  return {compensation_.add(command, start, state_.frame().flips(state_.modal.plane)), 0};
+  return command;
+}
+
+// In contour coordinates.
+Fault CommandOutput::give(Command command, const AxisValues& start) {
+  if (compensation_.active())
+    return {compensation_.add(command, start, state_.frame().flips(state_.modal.plane)), 0};
+  state_.to_command_frame(command);
+  command.sequence = ++sequence_;
+  queue_->push() = command;
+  return {};
+}
+
+bool CommandOutput::lose_corner() {
+  if (!corner_) return false;
+  corner_.reset();
+  return corner_lost_ = true;
+}
+
+Fault CommandOutput::move_with_corner(const Command& move, const AxisValues& program,
+                                      const std::optional<Corner>& corner) {
+  AxisValues start = state_.frame().contour_from_program(state_.program_position);
+  Command command = contour_move(move, program);
+  const PlaneAxes plane = plane_axes(command.modal.plane);
+  const Vector2 way = in_plane(command.target, plane) - in_plane(start, plane);
+  bool plain = move.kind == CommandKind::arc || length(way) > no_distance;
+  for (std::size_t axis = 0; axis < axis_count; ++axis)
+    plain = plain && (axis == plane.first || axis == plane.second ||
+                      std::abs(command.target[axis] - start[axis]) <= no_distance);
+  if (!plain) return {AlarmNumber::corner_without_move, 0};
+  if (corner_) {
+    if (const Fault fault = end_corner(command, start)) return fault;
+  }
+  const bool used_up = !(planar_piece(command, start, plane).length() > no_distance);
+  if (!corner) return used_up ? Fault{} : give(command, start);
+  corner_ = HeldCorner{command, start, *corner, compensation_.side(), state_.frame().revision()};
+  return {};
+}
+
+// `move`, from `start`, begins where the corner ends.
+Fault CommandOutput::end_corner(Command& move, AxisValues& start) {
+  HeldCorner held = *corner_;
+  corner_.reset();
+  if (held.move.modal.plane != move.modal.plane || held.frame != state_.frame().revision() ||
+      held.side != compensation_.side())
+    return {AlarmNumber::corner_without_move, 0};
+  const PlaneAxes plane = plane_axes(move.modal.plane);
+  const PlanarPiece first = planar_piece(held.move, held.start, plane),
+                    second = planar_piece(move, start, plane);
+  const CutCorner cut = cut_corner(first, second, held.corner);
+  if (cut.alarm != AlarmNumber::none) {
+    corner_measures_ = {held.move.line, held.corner.size, first.length(), second.length()};
+    return {cut.alarm, 0};
+  }
+  Command between = held.move;
+  const AxisValues corner = held.move.target;
+  const auto shape = [&](Command& command, const PlanarPiece& piece, const AxisValues& from) {
+    command.kind = piece.arc ? CommandKind::arc : CommandKind::line;
+    command.target = corner;
+    command.target[plane.first] = piece.end.u, command.target[plane.second] = piece.end.v;
+    if (!piece.arc) return;
+    command.arc = {move.modal.plane,
+                   piece.sweep < 0,
+                   {from[X], from[Y], from[Z]},
+                   std::abs(piece.sweep) * degrees_per_radian,
+                   {}};
+    command.arc.centre[plane.first] = piece.centre.u, command.arc.centre[plane.second] = piece.centre.v;
+  };
+  const AxisValues end = move.target;
+  shape(held.move, cut.first, held.start);
+  if (cut.first.length() > no_distance) {
+    if (const Fault fault = give(held.move, held.start)) return fault;
+  }
+  if (!cut.inserted) return {};
+  shape(between, cut.between, held.move.target);
+  if (const Fault fault = give(between, held.move.target)) return fault;
+  start = between.target;
+  shape(move, cut.second, start);
+  move.target = end;
+  return {};
 }
 
 Fault CommandOutput::drain() {

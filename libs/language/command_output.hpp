@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "language/command_queue.hpp"
+#include "language/corner.hpp"
 #include "language/cutter_compensation.hpp"
 #include "language/program_state.hpp"
 
@@ -58,6 +59,17 @@ class CommandOutput {
   Fault move_straight_in_command_frame(CommandKind kind, const AxisValues& command);
   /// `move` is a line, rapid or arc in contour coordinates, its end `program` in program coordinates.
   Fault move_compensated(const Command& move, const AxisValues& program);
+  /// The same in any case, with what the block asks for at its end; nothing: the end of a corner that is
+  /// held. A move that ends in a corner is held until the next one is known, which must be a line or an arc
+  /// at feed in the same plane, in the same frame and with the same compensation.
+  Fault move_with_corner(const Command& move, const AxisValues& program, const std::optional<Corner>& corner);
+  bool holds_corner() const { return corner_.has_value(); }
+  /// Line of the corner of the last alarm, its size and the lengths of its moves, mm.
+  struct CornerMeasures {
+    std::uint32_t line = 0;
+    double size = 0, before = 0, behind = 0;
+  };
+  const CornerMeasures& corner_measures() const { return corner_measures_; }
   /// Whether the axes would move to `command`, and whether linear ones would.
   bool moves_to(const AxisValues& command, bool& linear) const;
 
@@ -89,6 +101,21 @@ class CommandOutput {
   const ProgramFrame& frame_of(std::uint32_t number) const { return kept_[number % frames_kept]; }
 
  private:
+  /// A move whose end is a corner, in contour coordinates.
+  struct HeldCorner {
+    Command move;
+    AxisValues start{};
+    Corner corner;
+    CutterSide side = CutterSide::off;
+    std::uint32_t frame = 0;  // its revision
+  };
+
+  /// A move in contour coordinates from `start`, of this block.
+  Command contour_move(const Command& move, const AxisValues& program);
+  Fault give(Command command, const AxisValues& start);
+  Fault end_corner(Command& move, AxisValues& start);
+  /// The corner that is held has no move behind it: an alarm of check_room().
+  bool lose_corner();
   /// The state of a command that is made now; its frame is kept.
   ModalState command_modal();
 
@@ -96,6 +123,8 @@ class CommandOutput {
   ProgramState& state_;
   CommandQueue* queue_ = nullptr;
   CutterCompensation compensation_;
+  std::optional<HeldCorner> corner_;
+  CornerMeasures corner_measures_;
   std::array<ProgramFrame, frames_kept> kept_;  // by number, those that commands were made in
   std::uint32_t frame_number_ = 0;              // the newest of them
   std::optional<std::uint32_t> kept_revision_;  // of the frame
@@ -106,6 +135,7 @@ class CommandOutput {
   bool exact_stop_once_ = false;
   bool draining_ = false;
   bool held_too_many_ = false;  // a command found no place in the compensation
+  bool corner_lost_ = false;    // another command came where a corner needs a move
   Command scratch_;
 };
 

@@ -101,16 +101,10 @@ AlarmNumber CutterCompensation::add(const Command& move, const AxisValues& start
   Item& added = item(count_ - 1);
   added.command = move;
   const bool arc = move.kind == CommandKind::arc;
-  added.contour.arc = arc;
-  added.contour.start = in_plane(start);
-  added.contour.end = in_plane(move.target);
+  added.contour = planar_piece(move, start, axes_);
   if (!arc && length(added.contour.end - added.contour.start) < no_distance) return AlarmNumber::none;
 
   added.moves_in_plane = true;
-  if (arc) {
-    added.contour.centre = {move.arc.centre[axes_.first], move.arc.centre[axes_.second]};
-    added.contour.sweep = move.arc.sweep * radians * (move.arc.clockwise ? -1 : 1);
-  }
   const bool on = side_ != CutterSide::off;
   const bool left = (side_ == CutterSide::left) != flipped;
   added.leads = on != offset_;

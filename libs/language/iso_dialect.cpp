@@ -95,6 +95,7 @@ class BlockReader {
       done = block_.skipped = read_skip(scanner_, skip_);
       return {};
     }
+    if (c == ',') return comma_word(at);
     if (c == '%' || c == '/') return {AlarmNumber::misplaced_head, at};
     const bool broken = text::valid_utf8_prefix(line_.substr(at, 4)) == 0;
     return {broken ? AlarmNumber::not_utf8 : AlarmNumber::unknown_character, at};
@@ -149,6 +150,25 @@ class BlockReader {
     }
     const auto index = static_cast<std::size_t>(name - 'A');
     block_.letters |= Block::bit(name);
+    block_.values[index] = value.number;
+    block_.offsets[index] = at;
+    return {};
+  }
+
+  /// ,C or ,R.
+  Fault comma_word(std::uint16_t at) {
+    scanner_.advance();
+    const char name = scanner_.more() ? letter(scanner_.peek()) : '\0';
+    if (name != 'C' && name != 'R') return {AlarmNumber::unknown_character, at};
+    scanner_.advance();
+    Value value;
+    if (const Fault fault = number(at, true, value)) return fault;
+    word_is_read_ = true;
+    if (!value.given) return {};
+    const char word = name == 'C' ? chamfer_word : rounding_word;
+    if (block_.has(word)) return {AlarmNumber::letter_twice, at};
+    const auto index = static_cast<std::size_t>(word - 'A');
+    block_.letters |= Block::bit(word);
     block_.values[index] = value.number;
     block_.offsets[index] = at;
     return {};

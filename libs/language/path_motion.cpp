@@ -33,7 +33,10 @@ Fault PathMotion::move() {
   const CommandKind kind = arc                 ? CommandKind::arc
                            : modal.motion == 1 ? CommandKind::line
                                                : CommandKind::rapid;
-  if (!arc && !modal.tool_vector) return output_.move_straight({kind}, target);
+  std::optional<Corner> corner;
+  if (const Fault fault = read_corner(corner)) return fault;
+  const bool cornered = modal.motion != 0 && !modal.tool_vector && (corner || output_.holds_corner());
+  if (!arc && !modal.tool_vector && !cornered) return output_.move_straight({kind}, target);
   std::optional<Vector3> direction;
   std::uint16_t vector_at = 0;
   if (modal.tool_vector) {
@@ -42,6 +45,10 @@ Fault PathMotion::move() {
   Command made;
   if (arc) {
     if (const Fault fault = find_arc(target, at, made.arc)) return fault;
+  }
+  if (cornered) {
+    made.kind = kind;
+    return output_.move_with_corner(made, target, corner);
   }
   if (direction && !output_.compensating()) {
     made.kind = kind;
@@ -52,6 +59,20 @@ Fault PathMotion::move() {
     if (const Fault fault = vectors_.point(*direction, vector_at, target)) return fault;
   }
   return arc ? move_on_arc(made.arc, target) : output_.move_straight({kind}, target);
+}
+
+// In a rapid and with a tool vector the words have no meaning, which BlockWords reports.
+Fault PathMotion::read_corner(std::optional<Corner>& corner) {
+  if (state_.modal.motion == 0 || state_.modal.tool_vector) return {};
+  for (const char word : {chamfer_word, rounding_word}) {
+    if (!words_.has(word)) continue;
+    if (corner) return {AlarmNumber::codes_compete, words_.offset(word)};
+    const double size = words_.length(word);
+    if (size < 0) return {AlarmNumber::value_range, words_.offset(word)};
+    corner = Corner{word == chamfer_word ? Corner::Kind::chamfer : Corner::Kind::rounding, size};
+  }
+  if (corner && corner->size == 0) corner.reset();
+  return {};
 }
 
 Fault PathMotion::set_turns(const AxisValues& target, std::uint16_t at, Arc& arc) {

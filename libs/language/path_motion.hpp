@@ -20,6 +20,8 @@ class PathMotion : private BlockHandler {
   /// In contour coordinates.
   Fault find_arc(const AxisValues& target, std::uint16_t at, Arc& arc);
   Fault find_circle(const AxisValues& target, std::uint16_t& at, Arc& arc);
+  /// What the block asks for at the end of its move.
+  Fault read_corner(std::optional<Corner>& corner);
   Fault set_turns(const AxisValues& target, std::uint16_t at, Arc& arc);
   Fault move_on_arc(const Arc& arc, const AxisValues& target);
 

@@ -112,6 +112,22 @@ double cross(Vector2 a, Vector2 b) { return a.u * b.v - a.v * b.u; }
 double length(Vector2 a) { return std::hypot(a.u, a.v); }
 Vector2 left_of(Vector2 a) { return {-a.v, a.u}; }
 
+Vector2 in_plane(const AxisValues& position, PlaneAxes plane) {
+  return {position[plane.first], position[plane.second]};
+}
+
+PlanarPiece planar_piece(const Command& command, const AxisValues& start, PlaneAxes plane) {
+  PlanarPiece piece;
+  piece.arc = command.kind == CommandKind::arc;
+  piece.start = in_plane(start, plane);
+  piece.end = in_plane(command.target, plane);
+  if (!piece.arc) return piece;
+  const Arc& arc = command.arc;
+  piece.centre = {arc.centre[plane.first], arc.centre[plane.second]};
+  piece.sweep = arc.sweep * std::numbers::pi / 180 * (arc.clockwise ? -1 : 1);
+  return piece;
+}
+
 Vector2 PlanarPiece::tangent_at_start() const {
   const Vector2 d = arc ? (sweep > 0 ? 1.0 : -1.0) * left_of(start - centre) : end - start;
   return (1 / language::length(d)) * d;

@@ -5,6 +5,8 @@
 #include <array>
 #include <cstddef>
 
+#include "language/canonical.hpp"
+
 namespace trunnion::language {
 
 /// A point or a direction, mm.
@@ -40,6 +42,10 @@ struct PlanarPiece {
   /// 1/mm, > 0 to the left of the walk; 0 of a line.
   double curvature() const;
 };
+
+/// The move `command` of kind rapid, line or arc, from `start`, in the plane; radii and angles as in Command.
+PlanarPiece planar_piece(const Command& command, const AxisValues& start, PlaneAxes plane);
+Vector2 in_plane(const AxisValues& position, PlaneAxes plane);
 
 /// What is known about a meeting of two pieces that are moved to their left.
 struct Meeting {

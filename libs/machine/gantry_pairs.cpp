@@ -8,6 +8,18 @@
 
 namespace trunnion::machine {
 
+DriveSynchronization DriveSynchronization::from(const Parameters& p, std::uint32_t axis) {
+  const int first = p.integer(parameter::drive_synchronization, axis);
+  const int second = p.integer(parameter::drive_synchronization_functions, axis);
+  const auto digit = [](int word, int unit) { return word / unit % 10 != 0; };
+  DriveSynchronization s;
+  s.on = digit(first, 1), s.slave = digit(first, 10), s.torque_follow = digit(first, 100);
+  s.current_checked = !digit(first, 1000), s.inverted = digit(first, 10000);
+  s.compensates = digit(second, 1), s.common_stop = digit(second, 10);
+  s.gain = p.get(parameter::drive_synchronization_gain, axis) / 100;
+  return s;
+}
+
 std::vector<GantryPair> gantry_pairs(const Parameters& p) {
   std::vector<GantryPair> pairs;
   const auto axes = drive_axes(p);
@@ -27,12 +39,20 @@ std::vector<GantryPair> gantry_pairs(const Parameters& p) {
       throw std::runtime_error("parameter " + number_text(parameter::gantry_master.number(a)) +
                                " (gantry_master): axis " + std::to_string(slave) + " follows axis " +
                                std::to_string(master) + ", and one of them does not exist");
-    pair.sign = p.integer(parameter::gantry_mirror, a) == 1 ? -1 : 1;
+    const bool mirrored = p.integer(parameter::gantry_mirror, a) == 1;
+    pair.sign = mirrored != (p.integer(parameter::gantry_reversed, a) == 1) ? -1 : 1;
     pair.zero_deviation = p.get(parameter::gantry_zero_deviation, a);
-    pair.rate = p.get(parameter::gantry_compensation_rate, a);
-    pair.maximum = p.get(parameter::gantry_compensation_maximum, a);
-    pair.warning = p.get(parameter::synchronization_warning_limit, a);
     pair.limit = p.get(parameter::synchronization_error_limit, a);
+    pair.speed_limit = p.get(parameter::synchronization_speed_limit, a);
+    if (DriveSynchronization::from(p, a).current_checked)
+      pair.current_limit = p.get(parameter::synchronization_current_limit, a);
+    pair.master_current = p.get(parameter::rated_current, pair.master);
+    pair.slave_current = p.get(parameter::rated_current, a);
+    pair.aligns = p.integer(parameter::gantry_alignment, a) == 1;
+    pair.alignment_rate = p.get(parameter::alignment_rate, a);
+    pair.alignment_limit = p.get(parameter::alignment_maximum, a);
+    for (const double limit : {pair.limit, p.get(parameter::alignment_limit, a)})
+      if (limit > 0) pair.alignment_limit = std::min(pair.alignment_limit, limit);
     pairs.push_back(pair);
   }
   return pairs;

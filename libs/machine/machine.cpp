@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "machine/chain_section.hpp"
+#include "machine/gateway_settings.hpp"
 #include "machine/kinematics.hpp"
 #include "machine/services.hpp"
 #include "machine/yaml.hpp"
@@ -76,9 +77,10 @@ MachineConfig parse_machine(const std::string& text, const std::string& director
                             const std::string& vendor_override) {
   const std::string file = directory + "/machine.yaml";
   const auto document = parse_yaml(text, file);
-  check_keys(file, document,
-             {"name", "title", "domain", "port", "host_names", "time", "vendor", "hardware", "hal", "hosts",
-              "network", "security", "open", "swap_directories", "services", "chains"});
+  check_keys(
+      file, document,
+      {"name", "title", "domain", "port", "mtconnect_port", "auth", "host_names", "time", "vendor",
+       "hardware", "hal", "hosts", "network", "security", "open", "swap_directories", "services", "chains"});
   MachineConfig config;
   config.directory = directory;
   config.name = value<std::string>(file, document, "name", "");
@@ -90,6 +92,7 @@ MachineConfig parse_machine(const std::string& text, const std::string& director
   if (port < 1 || port > 65535)
     throw std::runtime_error(at(file, document["port"]) + "port must be 1 .. 65535");
   config.port = static_cast<std::uint16_t>(port);
+  read_gateway_settings(document, file);  // the gateway reads them itself; an error is found at the start
   for (const auto& name : document["host_names"]) config.host_names.push_back(scalar(file, name));
   const auto time = value<std::string>(file, document, "time", "real");
   if (time != "real" && time != "virtual")

@@ -56,6 +56,7 @@ struct MachineConfig {
 
   std::string parameters_file() const { return directory + "/parameters.yaml"; }
   std::string programs_directory() const { return directory + "/programs"; }
+  bool simulated() const { return hardware == Hardware::simulation; }
   std::string plc_directory() const { return directory + "/plc"; }
 };
 

@@ -22,9 +22,9 @@ namespace fs = std::filesystem;
 using storage::KeptState;
 namespace {
 
-constexpr std::array texts = {"active.yaml", "parameters.yaml", "programs.yaml", "tools.yaml",
-                              "work_offsets.yaml"};
-constexpr std::array journals = {"journal.jsonl", "swaps.jsonl"};
+constexpr std::array texts = {"active.yaml",   "parameters.yaml", "plc.programs",
+                              "programs.yaml", "tools.yaml",      "work_offsets.yaml"};
+constexpr std::array journals = {"journal.jsonl", "plc.jsonl", "swaps.jsonl"};
 struct Memory {
   const char* name;
   const char* kind;

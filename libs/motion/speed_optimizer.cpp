@@ -15,6 +15,13 @@ constexpr double to_bound = 0.98;
 constexpr double gap_share = 3e-3, row_rounding = 1.5e-3;
 // What the limits may be used by between the places of the rows, and how much more a row is tightened.
 constexpr double most_use = 1.0003, tighten_more = 1.0015;
+// What a coefficient of b may be left below the square of the programmed speed by the gap.
+constexpr double near_cap = 0.01;
+// A window that begins there needs room below its bounds.
+constexpr double room_below_cap = 2e-5;
+// The limits may be used by this much for it: a window that begins near them has little room to find its own
+// way.
+constexpr double calm_use = 0.5;
 constexpr double least_square = 1e-9;
 // The time's part of the Hessian: its exact factor.
 constexpr double time_factor = 0.75;
@@ -23,7 +30,7 @@ constexpr double time_factor = 0.75;
 
 SpeedOptimizer::SpeedOptimizer() {
   const std::size_t m = SpeedWindow::most_pieces + 2;
-  for (auto* list : {&b_, &gradient_, &step_}) list->reserve(m);
+  for (auto* list : {&b_, &gradient_, &step_, &use_}) list->reserve(m);
   hessian_.reserve(3 * m);
   sides_.reserve(SpeedWindow::most_rows + 128);
   boxes_.reserve(m);
@@ -259,18 +266,53 @@ void SpeedOptimizer::finish(bool good) {
   }
 }
 
+// An interior point ends a little below the programmed speed. Where nothing else bounds the motion, that
+// speed is kept but for room_below_cap.
+void SpeedOptimizer::keep_programmed_speed(const CellRing& cells) {
+  if (window_.drawn()) return;
+  const std::size_t n = window_.pieces(), m = n + 2;
+  const auto& caps = window_.caps();
+  // Coefficient k acts on the pieces k - 2 to k.
+  const auto near = [&](std::size_t k) {
+    return b_[k] > (1 - near_cap) * caps[k] && use_[k - 2] < calm_use && use_[k - 1] < calm_use &&
+           use_[k] < calm_use;
+  };
+  step_ = b_;  // the last step is no longer needed
+  for (std::size_t first = 2; first + 2 < m;) {
+    std::size_t end = first;
+    while (end + 2 < m && near(end) && caps[end] == caps[first]) ++end;
+    // Three coefficients hold a piece.
+    if (end >= first + 3) {
+      std::fill(b_.begin() + static_cast<std::ptrdiff_t>(first),
+                b_.begin() + static_cast<std::ptrdiff_t>(end), (1 - room_below_cap) * caps[first]);
+      bool within = true;
+      for (std::size_t k = first - 2; k < std::min(end, n) && within; ++k)
+        within = window_.use(cells, k, &b_[k]) <= calm_use;
+      if (!within)
+        std::copy(step_.begin() + static_cast<std::ptrdiff_t>(first),
+                  step_.begin() + static_cast<std::ptrdiff_t>(end),
+                  b_.begin() + static_cast<std::ptrdiff_t>(first));
+    }
+    first = std::max(end, first + 1);
+  }
+}
+
 // Tightens the rows of pieces that use more than the limits between their places.
 void SpeedOptimizer::check(const CellRing& cells) {
   bool good = true;
   const std::size_t n = window_.pieces();
+  use_.resize(n);
   for (std::size_t k = 0; k < n; ++k) {
-    const double use = window_.use(cells, k, &b_[k]);
+    const double use = use_[k] = window_.use(cells, k, &b_[k]);
     if (use <= most_use) continue;
     good = false;
     for (std::size_t r = window_.rows_from(k); r < window_.rows_from(k + 1); ++r)
       for (double& c : window_.rows()[r].c) c *= use * tighten_more;
   }
-  if (good) return finish(true);
+  if (good) {
+    keep_programmed_speed(cells);
+    return finish(true);
+  }
   if (++rounds_ > most_rounds) return finish(false);
   // From a barrier large enough to move away from the bounds.
   barrier_ = std::max(barrier_, 10 * gap_share * objective_ / static_cast<double>(count_));

@@ -46,10 +46,11 @@ class SpeedOptimizer {
   bool factorise();
   void step();
   void check(const CellRing& cells);
+  void keep_programmed_speed(const CellRing& cells);
   void finish(bool good);
 
   SpeedWindow window_;
-  std::vector<double> b_, hessian_, gradient_, step_;
+  std::vector<double> b_, hessian_, gradient_, step_, use_;
   std::vector<Side> sides_;
   std::vector<Box> boxes_;
   std::vector<double> root_, gauss_;

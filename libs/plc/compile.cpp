@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "plc/devices/device_file.hpp"
 #include "plc/library/functions.hpp"
 #include "plc/machine/verify.hpp"
 #include "plc/syntax/parser.hpp"
@@ -10,7 +11,8 @@
 namespace trunnion::st {
 namespace {
 
-constexpr std::uint16_t library_files = 1;
+constexpr std::uint16_t library_files = 2;
+constexpr std::uint32_t layout_origin = 3072;  // of the first variable, in layouts since they are kept
 
 struct Kept {
   SourceTree tree;
@@ -20,7 +22,8 @@ struct Kept {
 };
 
 void add_symbol(const Variable& variable, const std::string& prefix, std::uint32_t base,
-                std::vector<Symbol>& symbols) {
+                Compilation& compilation) {
+  if (variable.constant.is_constant) compilation.constants.push_back(prefix + variable.text);
   if (variable.type->kind == Kind::error || variable.constant.is_constant ||
       variable.section == VariableSection::in_out || variable.section == VariableSection::external ||
       variable.section == VariableSection::temporary)
@@ -29,8 +32,8 @@ void add_symbol(const Variable& variable, const std::string& prefix, std::uint32
   if (place.base == Place::Base::none) return;
   const auto offset = static_cast<std::uint32_t>(place.offset);
   const bool absolute = place.base == Place::Base::absolute;
-  symbols.push_back({prefix + variable.text, variable.type, absolute ? offset : base + offset, place.bit,
-                     absolute && offset < image_cells});
+  compilation.symbols.push_back({prefix + variable.text, variable.type, absolute ? offset : base + offset,
+                                 place.bit, absolute && offset < image_cells});
 }
 
 FunctionInterface interface_of(const Pou& pou) {
@@ -69,10 +72,11 @@ std::uint64_t Compilation::layout() const {
   };
   for (const auto& symbol : symbols) {
     if (symbol.is_register) continue;
-    add(symbol.path), add(symbol.type->name), add(std::to_string(symbol.address)),
+    add(symbol.path), add(symbol.type->name),
+        add(std::to_string(symbol.address - image_cells + layout_origin)),
         add(std::to_string(symbol.type->cells));
   }
-  add(code ? std::to_string(code->initial.size()) : "");
+  add(code ? std::to_string(code->initial.size() - image_cells + layout_origin) : "");
   return hash;
 }
 
@@ -83,6 +87,8 @@ Compilation compile(const std::vector<Source>& sources, const RegisterNames& reg
   kept->registers = registers;
   result.files.push_back("standard_blocks.st");
   parse(standard_blocks_text, 0, kept->tree, kept->diagnostics);
+  result.files.push_back("simulated_devices.st");
+  parse(simulated_devices_text, 1, kept->tree, kept->diagnostics);
   for (const auto& source : sources) {
     result.files.push_back(source.name);
     parse(source.text, static_cast<std::uint16_t>(result.files.size() - 1), kept->tree, kept->diagnostics);
@@ -93,12 +99,12 @@ Compilation compile(const std::vector<Source>& sources, const RegisterNames& reg
   result.diagnostics = kept->diagnostics.sorted();
   result.types = kept;
   if (kept->diagnostics.errors() > 0) return result;
-  for (const auto& variable : unit.globals) add_symbol(variable, "", 0, result.symbols);
+  for (const auto& variable : unit.globals) add_symbol(variable, "", 0, result);
   for (const auto* pou : unit.order) {
     const auto kind = pou->declaration->kind;
     if (kind == PouKind::program)
       for (const auto& variable : pou->variables)
-        add_symbol(variable, pou->declaration->text + ".", pou->base, result.symbols);
+        add_symbol(variable, pou->declaration->text + ".", pou->base, result);
     if (kind != PouKind::function || unit.is_library(pou->declaration->at)) continue;
     result.functions.push_back(interface_of(*pou));
     if (entries_for_functions)

@@ -43,7 +43,8 @@ struct Compilation {
   std::shared_ptr<const ByteCode> code;  ///< nothing when there are errors
   std::vector<Diagnostic> diagnostics;
   std::vector<std::string> files;
-  std::vector<Symbol> symbols;  ///< variables of programs and global ones, in the order of memory
+  std::vector<Symbol> symbols;         ///< variables of programs and global ones, in the order of memory
+  std::vector<std::string> constants;  ///< paths of constants, which have no place in memory
   std::vector<FunctionInterface> functions;
   std::shared_ptr<const void> types;  ///< owns what symbols point to
 

@@ -28,4 +28,15 @@ void taken_or_refused(const std::string& file, Read read) {
   }
 }
 
+/// The text of the std::runtime_error that `read` throws, or "taken".
+template <class Read>
+std::string refusal_of(Read read) {
+  try {
+    read();
+  } catch (const std::runtime_error& e) {
+    return e.what();
+  }
+  return "taken";
+}
+
 }  // namespace trunnion::testing_support

@@ -22,17 +22,13 @@ class DriveParser {
 
   DriveTruth read(const YAML::Node& node) {
     DriveTruth drive;
-    reader_.each(node, "mechanics, motor_encoder, load_encoder, feedback",
+    reader_.each(node, "mechanics, motor_encoder, load_encoder, fault",
                  [&](const std::string& key, const YAML::Node& v) {
                    if (key == "mechanics") return drive.mechanics = mechanics(v), true;
                    if (key == "motor_encoder") return drive.motor = encoder(v), true;
                    if (key == "load_encoder") return drive.load = encoder(v), true;
-                   return key == "feedback" &&
-                          (drive.load_feedback = reader_.choice<bool>(v, {{"motor", false}, {"load", true}}),
-                           true);
+                   return key == "fault" && (drive.fault = fault(v), true);
                  });
-    if (drive.load_feedback && !drive.load)
-      reader_.fail(node, "feedback: load, but there is no load_encoder");
     return drive;
   }
 
@@ -133,6 +129,27 @@ class DriveParser {
     if (e.kind == EncoderKind::distance_coded && e.mark_increment * 4 > e.mark_spacing)
       reader_.fail(node, "the increment of distance-coded marks must be at most a quarter of their spacing");
     return e;
+  }
+
+  DriveFaultTruth fault(const YAML::Node& node) const {
+    DriveFaultTruth f;
+    using Kind = DriveFaultKind;
+    bool kind = false, at = false;
+    reader_.each(node, "kind, at" + place_, [&](const std::string& key, const YAML::Node& v) {
+      if (key == "kind")
+        return f.kind = reader_.choice<Kind>(v, {{"power_module", Kind::power_module},
+                                                 {"overcurrent", Kind::overcurrent},
+                                                 {"overvoltage", Kind::overvoltage},
+                                                 {"following_error", Kind::following_error},
+                                                 {"overspeed", Kind::overspeed},
+                                                 {"overload", Kind::overload},
+                                                 {"locked_rotor", Kind::locked_rotor},
+                                                 {"bus", Kind::bus}}),
+               kind = true;
+      return key == "at" + place_ && (f.at = reader_.number(v, {-1e5, 1e5}), at = true);
+    });
+    if (!kind || !at) reader_.fail(node, std::string("'") + (kind ? "at" + place_ : "kind") + "' is missing");
+    return f;
   }
 
   const TruthReader& reader_;

@@ -50,11 +50,30 @@ struct EncoderTruth {
   std::int32_t lost_counts = 0;  ///< as many, of `resolution`
 };
 
+/// Alarms of a drive. At the first three it cannot control its motor any longer: emergency alarms.
+enum class DriveFaultKind : std::uint8_t {
+  power_module,
+  overcurrent,
+  overvoltage,
+  following_error,
+  overspeed,
+  overload,
+  locked_rotor,
+  bus
+};
+inline bool is_emergency(DriveFaultKind kind) { return kind <= DriveFaultKind::overvoltage; }
+
+/// For tests: the drive reports an alarm when its load passes a position.
+struct DriveFaultTruth {
+  DriveFaultKind kind = DriveFaultKind::overload;
+  double at = 0;  ///< mm or deg
+};
+
 struct DriveTruth {
   std::optional<MechanicsTruth> mechanics;
   EncoderTruth motor;
   std::optional<EncoderTruth> load;
-  bool load_feedback = false;  ///< the position loop is closed over the load's encoder
+  std::optional<DriveFaultTruth> fault;
 };
 
 }  // namespace trunnion::truth

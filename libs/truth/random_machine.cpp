@@ -30,7 +30,7 @@ std::vector<Grade> read_grades() {
       YAML::Load(grades_text), "names of grades", [&](const std::string& name, const YAML::Node& node) {
         Grade g;
         g.name = name;
-        reader.each(node, "about, linear, rotary, spindle, thermal",
+        reader.each(node, "about, linear, rotary, spindle, thermal, drive",
                     [&](const std::string& key, const YAML::Node& v) {
                       if (key == "about") return g.about = reader.text(v), true;
                       if (key == "linear")
@@ -52,6 +52,15 @@ std::vector<Grade> read_grades() {
                                            {"reversal_urad", &g.rotary.reversal_urad}});
                       if (key == "spindle")
                         return section(v, {{"inclination_urad", &g.spindle.inclination_urad}});
+                      if (key == "drive")
+                        return section(v, {{"load_share", &g.drive.load_share},
+                                           {"locked_frequency_Hz", &g.drive.locked_frequency_Hz},
+                                           {"damping_ratio", &g.drive.damping_ratio},
+                                           {"coulomb", &g.drive.coulomb},
+                                           {"breakaway_excess", &g.drive.breakaway_excess},
+                                           {"viscous_per_mm_per_s", &g.drive.viscous_per_mm_per_s},
+                                           {"backlash_um", &g.drive.backlash_um},
+                                           {"cogging", &g.drive.cogging}});
                       return key == "thermal" &&
                              section(v,
                                      {{"expansion_um_per_m_K", &g.thermal.expansion_um_per_m_K},

@@ -33,6 +33,12 @@ struct Grade {
     double expansion_um_per_m_K = 0, rise_K_per_m_per_min = 0, time_constant_s = 2400;
     double spindle_growth_um_per_K = 0, spindle_rise_K_per_1000_rpm = 0, spindle_time_constant_s = 1200;
   } thermal;
+  /// Means of the mechanics of a servo axis (random_drive.hpp); each axis has its own within about a quarter.
+  struct Drive {
+    double load_share = 0.5, locked_frequency_Hz = 120, damping_ratio = 0.05;
+    double coulomb = 0, breakaway_excess = 0, viscous_per_mm_per_s = 0;  ///< breakaway over coulomb, less one
+    double backlash_um = 0, cogging = 0;  ///< a rotary axis: at a radius of 100 mm
+  } drive;
 };
 
 /// Those of grades.yaml, in its order.

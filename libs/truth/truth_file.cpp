@@ -177,7 +177,9 @@ class TruthParser {
   void beam(const YAML::Node& node) {
     BeamTruth beam;
     bool slave = false;
-    reader_.each(node, "axis, master_foot_mm, slave_foot_mm, misalignment_um, slave_error",
+    reader_.each(node,
+                 "axis, master_foot_mm, slave_foot_mm, misalignment_um, slave_error, racking_frequency_Hz, "
+                 "racking_damping_ratio",
                  [&](const std::string& key, const YAML::Node& v) {
                    if (key == "axis") return beam.axis = axis(v, reader_.text(v)), true;
                    if (key == "master_foot_mm") return beam.master_foot = reader_.vector(v, place), true;
@@ -185,6 +187,10 @@ class TruthParser {
                      return beam.slave_foot = reader_.vector(v, place), slave = true, true;
                    if (key == "misalignment_um")
                      return beam.misalignment = um * reader_.number(v, error_limits), true;
+                   if (key == "racking_frequency_Hz")
+                     return beam.racking_frequency = reader_.number(v, {1, 300}), true;
+                   if (key == "racking_damping_ratio")
+                     return beam.racking_damping = reader_.number(v, {0, 1}), true;
                    return key == "slave_error";
                  });
     if (beam.axis > 2) reader_.fail(node, "the axis of a beam is X, Y or Z");

@@ -47,7 +47,7 @@ void TwoMass::place(double motor) {
           mechanics_.gravity * rated_torque_ / stiffness_;
 }
 
-void TwoMass::step(double torque, double dt) {
+void TwoMass::step(double torque, double dt, double load_force) {
   const int direction = (motor_speed_ > 0) - (motor_speed_ < 0);
   const double wind_up = motor_ + mechanics_.screw.value(motor_, direction) - load_;
   const double half = mechanics_.backlash / 2;
@@ -61,7 +61,7 @@ void TwoMass::step(double torque, double dt) {
   const double weight = mechanics_.gravity * rated_torque_;
   motor_speed_ += (torque + cogging() - coupling) / motor_mass_ * dt;
   // Friction is taken at the end of the step (one iteration), which is stable where it is steep.
-  const double free = load_speed_ + (coupling - weight) / load_mass_ * dt;
+  const double free = load_speed_ + (coupling - weight + load_force) / load_mass_ * dt;
   const double slope = rated_torque_ * std::max(mechanics_.coulomb, mechanics_.breakaway) / steep;
   const double damped = std::abs(free) / (1 + slope * dt / load_mass_);
   if (damped < steep)

@@ -19,7 +19,8 @@ class TwoMass {
   void place(double motor);
   /// Advances by `dt` s with `torque` of the motor as the acceleration of the nominal inertia. Symplectic: a
   /// vibration of w rad/s keeps its energy, and its frequency is off by (w dt)^2 / 24; stable for w dt < 2.
-  void step(double torque, double dt);
+  /// `load_force` acts on the load from outside, in the unit of the torque.
+  void step(double torque, double dt, double load_force = 0);
   /// The brake of the motor acts.
   void stop() { motor_speed_ = load_speed_ = 0; }
 

@@ -26,7 +26,7 @@ const std::map<std::string, std::vector<std::string>>& feature_names() {
       {"channel", {"motion", "tool tip control", "skip move", "tapping", "M", "S", "T", "refused command"}},
       {"kinematics", {"motion", "tool tip control", "tool length"}},
       {"compensation", {"motion", "backlash", "pitch error", "correction"}},
-      {"gantry", {"motion", "gantry pair", "correction"}},
+      {"gantry", {"motion", "gantry pair"}},
       {"drive", {"motion", "braking", "hold", "skip input", "spindle", "homing", "drives off"}},
       {"plc", {"function", "refused function"}},
       {"parameters", {"parameters", "tools", "offsets", "refused change"}},
@@ -64,10 +64,6 @@ class Search {
     } else if (type == bus::Fields<AxisFrame>::name && bus::decode(message.cdr, axis_)) {
       see("motion", axis_.count > 0);
       revisions_.insert(axis_.revision);
-      for (const auto& state : axis_.states)
-        see("correction", axis_.stage == idl::stream::Stage::GANTRY && state.stage == axis_.stage &&
-                              std::any_of(state.values.begin(), state.values.end(),
-                                          [](double value) { return value != 0; }));
       outputs_[{axis_.channel, axis_.epoch, axis_.first}] = {axis_.axes.size(), axis_.setpoints};
     } else if (is(message, "feedback_frame", feedback_)) {
       see("motion", feedback_.count > 0);

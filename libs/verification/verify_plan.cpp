@@ -18,7 +18,8 @@ namespace {
 const std::set<std::string>& not_compared() {
   static const std::set<std::string> handles = {
       "announcement", "service_state", "stage_progress", "channel_state", "plc_outputs",
-      "plc_image",    "plc_input_log", "alarm",          "cluster",       "variables"};
+      "plc_image",    "plc_input_log", "alarm",          "cluster",       "variables",
+      "plc_watched",  "plc_programs",  "online_reply"};
   return handles;
 }
 

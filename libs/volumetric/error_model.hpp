@@ -56,6 +56,8 @@ struct BeamErrors {
   Vec3 slave_foot = Vec3::UnitX();  ///< apart from the master's across the axis
   double misalignment = 0;          ///< mm: the slave's foot ahead of the master's at equal positions
   ErrorFunction slave_error;        ///< mm: in addition, by the position of the axis
+  double racking_frequency = 0;   ///< Hz: of one side while the other is held; 0 = no force between the sides
+  double racking_damping = 0.05;  ///< ratio of that vibration
 };
 
 /// The order of the axes from the workpiece to the tool, and which of them carry the workpiece.

@@ -67,6 +67,8 @@ void DriveService::start() {
   frame_cycles_ = stream.batch;
   node_.bus().set_depth({stream::stream_depth(stream, 1)});
   writer_.emplace(node_.bus().writer(topics::feedback_frame));
+  samples_writer_.emplace(node_.bus().writer(topics::servo_test_samples));
+  test_requests_.emplace(node_.bus().reader(topics::servo_test_request));
   outputs_.emplace(node_.bus().reader(topics::plc_outputs));
   services_.emplace(node_.bus().reader(topics::service_state));
   alarms_.emplace(node_.bus().reader(topics::alarm));
@@ -120,6 +122,7 @@ service::SnapshotAnswer DriveService::snapshot() {
   using idl::service::SnapshotKind;
   if (!core_.configured()) return {SnapshotKind::LATER, "the drive waits for parameters", ""};
   if (!applied_.empty() || core_.rows() > 0) send();
+  send_samples();
   bus::Json state = {{"core", core_.explicit_state()}};
   if (state["core"].is_null())
     return {SnapshotKind::LATER, "the hardware of the drive does not give its state", ""};
@@ -137,7 +140,7 @@ void DriveService::continue_from_snapshot() {
   have_plc_ = state.at("have_plc").get<bool>();
   snapshot::read(state.at("plc"), plc_);
   running_time_.advance(service::monotonic_seconds());
-  plc_seen_ = running_time_.now();
+  plc_seen_ = test_seen_ = running_time_.now();
 }
 
 // To start with: any set, or the one that a snapshot was made with.
@@ -189,6 +192,15 @@ void DriveService::drain() {
     core_.request(request);
     changed_ = true;
   }
+  idl::servo::TestRequest test;
+  while (test_requests_->take(test)) {
+    applied(Input::SERVO_TEST_REQUEST, identity(*test_requests_));
+    request_test(test);
+    test_seen_ = now;
+  }
+  if (auto* tester = core_.hardware().tester();
+      tester != nullptr && tester->running() && now - test_seen_ > servo_test_timeout)
+    tester->end(idl::servo::TestPhase::ENDED_BY_STOP);
   while (outputs_->take(plc_)) {
     applied(Input::PLC_OUTPUTS, identity(*outputs_));
     have_plc_ = true;
@@ -234,6 +246,23 @@ void DriveService::send() {
   changed_ = false;
 }
 
+void DriveService::request_test(const idl::servo::TestRequest& request) {
+  auto reason = core_.request_test(request);
+  if (reason.empty()) return;
+  samples_ = {};
+  samples_.client = request.client, samples_.number = request.number;
+  samples_.phase = idl::servo::TestPhase::REFUSED;
+  samples_.reason = reason.substr(0, 240);
+  samples_writer_->write(samples_);
+}
+
+void DriveService::send_samples() {
+  auto* tester = core_.hardware().tester();
+  if (tester == nullptr || !tester->ready()) return;
+  tester->fill(samples_);
+  samples_writer_->write(samples_);
+}
+
 void DriveService::run_virtual() {
   bool give_up = false;
   if (core_.waiting()) {
@@ -246,10 +275,13 @@ void DriveService::run_virtual() {
   while (core_.can_step(give_up)) {
     core_.step();
     waiting_since_ = 0;
+    send_samples();
     if (core_.rows() >= frame_cycles_) send();
     // An emergency stop is not kept waiting by a long return to the path. The periods in which the servos
     // settle are few, and a start within them would make their number a matter of time.
-    if (core_.tick() % 256 == 0 && (core_.any_active() || core_.mode() != Mode::FOLLOWING)) drain();
+    if (core_.tick() % 256 == 0 &&
+        (core_.any_active() || core_.mode() != Mode::FOLLOWING || core_.needs_time()))
+      drain();
   }
   // Nothing moves: time passes as far as the PLC asked for its timers and the spindle.
   while (!core_.any_active() && have_plc_ && core_.tick() < plc_.run_until_tick) {
@@ -270,6 +302,7 @@ void DriveService::run_real() {
   while (due()) {
     core_.step();
     next_tick_ += core_.period();
+    send_samples();
     if (core_.rows() >= frame_cycles_) send();
   }
 }
@@ -294,6 +327,7 @@ void DriveService::pump() {
     if (!unreferenced) node_.alarms().release(*event.alarm, event.part);
   }
   watch_references();
+  send_samples();
   if (changed_ || mode != core_.mode() || service::monotonic_seconds() - last_sent_ > idle_feedback) send();
 }
 

@@ -36,6 +36,8 @@ class DriveService : public service::Service {
   void run_virtual();
   void run_real();
   void send();
+  void send_samples();
+  void request_test(const idl::servo::TestRequest& request);
   void applied(idl::stream::Input input, std::uint64_t identity);
   void configure(const machine::Parameters& parameters);
 
@@ -49,13 +51,16 @@ class DriveService : public service::Service {
   std::optional<bus::Reader<idl::plc::Outputs>> outputs_;
   std::optional<bus::Reader<idl::service::ServiceState>> services_;
   std::optional<bus::Reader<idl::service::Alarm>> alarms_;
+  std::optional<bus::Reader<idl::servo::TestRequest>> test_requests_;
+  std::optional<bus::Writer<idl::servo::TestSamples>> samples_writer_;
   std::optional<bus::Writer<idl::stream::FeedbackFrame>> writer_;
   idl::stream::AxisFrame frame_;
   idl::stream::FeedbackFrame feedback_;
+  idl::servo::TestSamples samples_;
   std::vector<idl::stream::AppliedInput> applied_;  // not reported yet
   idl::plc::Outputs plc_;
   bool have_plc_ = false;
-  double plc_seen_ = 0;
+  double plc_seen_ = 0, test_seen_ = 0;
   std::uint64_t frames_in_ = 0, frames_out_ = 0, revision_ = 0;
   std::uint32_t frame_cycles_ = 4;
   double next_tick_ = 0, waiting_since_ = 0, last_sent_ = 0;

@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "service.hpp"
 
-#include <cmath>
-#include <cstdio>
-
-#include "machine/alarm_constants.hpp"
-#include "machine/parameter_constants.hpp"
+#include "stream/gantry_synchronization.hpp"
 
 namespace trunnion::gantry {
 
@@ -27,7 +23,7 @@ void GantryService::on_feedback(const idl::stream::FeedbackFrame& feedback) {
     const auto found = channels_.find(echo.channel);
     const auto* state = stream::find_state(echo.states, stream::Stage::GANTRY);
     if (found == channels_.end() || state == nullptr) continue;
-    const auto offsets = compensated_offsets(found->second.size(), state->values);
+    const auto offsets = stream::compensated_offsets(found->second.size(), state->values);
     for (std::size_t k = 0; k < offsets.size(); ++k) found->second[k].offset = offsets[k];
   }
   for (const auto& [channel, pairs] : channels_)
@@ -36,23 +32,16 @@ void GantryService::on_feedback(const idl::stream::FeedbackFrame& feedback) {
 
 void GantryService::supervise(const Supervised& supervised, const idl::stream::FeedbackFrame& feedback) {
   const auto& pair = supervised.pair;
-  if (std::max(pair.master_column, pair.slave_column) >= static_cast<int>(feedback.axis_count)) return;
-  const double error = synchronization_error(pair, feedback.position.data()) - supervised.offset;
-  const auto check = [&](const machine::AlarmDefinition& alarm, const machine::RealParameter& parameter,
-                         double limit) {
-    if (limit <= 0 || std::abs(error) <= limit) {
-      node_.alarms().release(alarm, pair.slave);
-      return;
-    }
-    if (node_.alarms().active(alarm, pair.slave)) return;
-    char text[160];
-    std::snprintf(text, sizeof text,
-                  "Axis %d is %.4f mm off its master axis %d, limit %.4f mm (parameter %s)", pair.slave,
-                  error, pair.master, limit, machine::number_text(parameter.number(pair.slave)).c_str());
-    node_.alarms().raise(alarm, pair.slave, text, feedback.first);
-  };
-  check(alarm::synchronization_warning, parameter::synchronization_warning_limit, pair.warning);
-  check(alarm::synchronization_error, parameter::synchronization_error_limit, pair.limit);
+  const bool compared = stream::is_coupled(pair, feedback);
+  const auto found =
+      stream::gantry_findings(pair, compared ? stream::gantry_difference(pair, feedback, supervised.offset)
+                                             : stream::GantryDifference{});
+  for (const auto& finding : found) {
+    if (!finding.text)
+      node_.alarms().release(*finding.alarm, pair.slave);
+    else if (!node_.alarms().active(*finding.alarm, pair.slave))
+      node_.alarms().raise(*finding.alarm, pair.slave, *finding.text, feedback.first);
+  }
 }
 
 }  // namespace trunnion::gantry

@@ -8,7 +8,7 @@
 
 namespace trunnion::gantry {
 
-/// Besides the stage: supervises the synchronization error of every pair in the drive's feedback.
+/// Besides the stage: supervises position, speed and current of every pair in the drive's feedback.
 class GantryService : public stream::StageService<idl::stream::AxisFrame> {
  public:
   explicit GantryService(service::Node& node);

@@ -3,9 +3,7 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
-#include <sstream>
 
 #include "machine/alarm_constants.hpp"
 #include "machine/parameter_constants.hpp"
@@ -24,13 +22,6 @@ constexpr double drive_timeout = 0.15;     // s for which PLC time continues by 
 constexpr double standstill_timeout =
     0.5;  // s for which a request waits for the drive's confirmation of the standstill
 
-std::string read_file(const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
-  std::ostringstream text;
-  text << in.rdbuf();
-  return text.str();
-}
-
 std::string in_directory(const std::string& directory, const char* name) {
   std::filesystem::create_directories(directory);
   return directory + "/" + name;
@@ -40,9 +31,11 @@ std::string in_directory(const std::string& directory, const char* name) {
 
 PlcService::PlcService(service::Node& node)
     : node_(node),
-      boot_(read_file(node.options().state_directory + "/cluster.boot").substr(0, 63)),
+      boot_(boot_of(node)),
       parameters_(node.bus()),
       round_writer_(node.options().state_directory + rounds_file),
+      online_(node, core_, rounds_, boot_,
+              [this](std::int64_t time) { applied(idl::stream::Input::ONLINE_REQUEST, time); }),
       feedback_(node.bus().reader(topics::feedback_frame)),
       channels_(node.bus().reader(topics::channel_state)),
       requests_(node.bus().reader(topics::auxiliary_request)),
@@ -53,8 +46,9 @@ PlcService::PlcService(service::Node& node)
       log_(node.bus().writer(topics::plc_input_log)),
       panel_(node.bus(), topics::panel_request, topics::panel_reply) {
   try {
-    for (const auto& warning : load_programs(node.options().machine.plc_directory(), core_))
-      std::cerr << warning << "\n";
+    auto programs = online_.start();
+    for (const auto& warning : programs.warnings) std::cerr << warning << "\n";
+    core_.load(std::move(programs));
   } catch (const std::runtime_error& e) {
     fault_ = e.what();
     std::cerr << fault_ << "\n";
@@ -69,10 +63,15 @@ void PlcService::load_state() {
   service::report_damage(node_.alarms(), 0, path, {found.state, "", 0, found.problem},
                          "retained registers of the PLC");
   if (const auto& kept = found.kept) {
-    if (fault_.empty() && kept->memory.program.cells > 0 && !core_.accepts(kept->memory.program))
-      std::cerr << "the variables of the PLC programs have changed: they begin with their initial values\n";
     // Only within one run of the cluster may a spindle keep turning without a new command of the program.
-    if (!boot_.empty() && kept->boot == boot_)
+    const bool same_run = !boot_.empty() && kept->boot == boot_;
+    const bool other = fault_.empty() && !core_.accepts(kept->memory.program);
+    const bool continues = other && online_.continue_from(kept->memory, same_run);
+    if (other && !continues && kept->memory.program.cells > 0)
+      std::cerr << "the variables of the PLC programs have changed: they begin with their initial values\n";
+    if (continues)
+      ;
+    else if (same_run)
       core_.restore(kept->memory);
     else
       core_.power_up(kept->memory);
@@ -81,15 +80,29 @@ void PlcService::load_state() {
   tick_ = core_.memory().tick;
 }
 
+void PlcService::programs_changed() {
+  retained_->resize(core_.memory().program.cells, boot_, core_.memory());
+  fault_.clear();
+  stopped_ = false;
+  node_.alarms().clear(alarm::plc_program, 0);
+}
+
 service::SnapshotAnswer PlcService::snapshot() {
   using idl::service::SnapshotKind;
   if (!core_.configured()) return {SnapshotKind::LATER, "the PLC waits for parameters", ""};
+  if (online_.is_loading()) return {SnapshotKind::LATER, "new PLC programs are being loaded", ""};
   const auto core = core_.snapshot();
   bus::Json state = {{"core", snapshot::written(core)}};
   if (const auto& program = core.memory.program; program.cells > 0) {
     const std::vector<std::uint64_t> values(program.values.begin(), program.values.begin() + program.cells);
-    state["variables"] = {
-        {"layout", program.layout}, {"fault", snapshot::written(program.fault)}, {"values", values}};
+    state["variables"] = {{"layout", program.layout},
+                          {"fault", snapshot::written(program.fault)},
+                          {"main", snapshot::written(program.main)},
+                          {"values", values}};
+  }
+  if (const auto* sources = online_.loaded_sources()) {
+    auto& files = state["sources"] = bus::Json::array();
+    for (const auto& file : *sources) files.push_back({{"name", file.name}, {"text", file.text}});
   }
   auto& alarms = state["active_alarms"] = bus::Json::array();
   for (const auto& [key, alarm] : active_alarms_) alarms.push_back(snapshot::written(alarm));
@@ -108,6 +121,7 @@ void PlcService::continue_from_snapshot() {
     if (found->at("layout") == program.layout && values.size() == program.cells) {
       std::copy(values.begin(), values.end(), program.values.begin());
       snapshot::read(found->at("fault"), program.fault);
+      if (const auto main = found->find("main"); main != found->end()) snapshot::read(*main, program.main);
     }
   }
   core_.adopt(core);
@@ -116,10 +130,11 @@ void PlcService::continue_from_snapshot() {
   snapshot::read(state.at("active_alarms"), alarms);
   for (const auto& alarm : alarms) active_alarms_[{alarm.instance, alarm.number, alarm.part}] = alarm;
   first_ = false;  // what is finished was published before
+  online_.forces_are_published();
 }
 
 void PlcService::configure() {
-  core_.configure(*parameters_.newest(), node_.options().virtual_time);
+  online_.each([&](PlcCore& core) { core.configure(*parameters_.newest(), node_.options().virtual_time); });
   rounds_.record(StepKind::PARAMETERS, parameters_.newest()->revision);
   period_ = parameters_.newest()->integer(parameter::interpolation_cycle) * 1e-6;
   if (node_.snapshot() == nullptr || continued_) return;
@@ -142,7 +157,7 @@ void PlcService::end_round(const std::vector<idl::plc::AuxiliaryDone>& done) {
 }
 
 void PlcService::advance(std::uint64_t tick) {
-  core_.advance(tick);
+  online_.each([&](PlcCore& core) { core.advance(tick); });
   rounds_.record(StepKind::ADVANCE, tick);
 }
 
@@ -165,7 +180,7 @@ void PlcService::take_inputs() {
   using idl::stream::Input;
   while (feedback_.take(frame_)) {
     ++frames_in_;
-    core_.set_feedback(frame_);
+    online_.each([&](PlcCore& core) { core.set_feedback(frame_); });
     rounds_.record(frame_);
     // One message at a time, so that the result does not depend on how many have arrived.
     advance(node_.options().virtual_time ? frame_.tick : std::max(frame_.tick, core_.memory().tick));
@@ -177,13 +192,13 @@ void PlcService::take_inputs() {
   idl::channel::ChannelState state;
   while (channels_.take(state)) {
     applied(Input::CHANNEL_STATE, channels_.info().source_timestamp);
-    core_.set_channel(state);
+    online_.each([&](PlcCore& core) { core.set_channel(state); });
     rounds_.record(StepKind::CHANNEL_STATE, state);
   }
   idl::channel::AuxiliaryRequest request;
   while (requests_.take(request)) {
     applied(Input::AUXILIARY_REQUEST, requests_.info().source_timestamp);
-    core_.set_request(request);
+    online_.each([&](PlcCore& core) { core.set_request(request); });
     rounds_.record(StepKind::AUXILIARY_REQUEST, request);
   }
   idl::service::Alarm alarm;
@@ -199,17 +214,18 @@ void PlcService::take_inputs() {
   const bool stops = std::any_of(active_alarms_.begin(), active_alarms_.end(), [](const auto& entry) {
     return entry.second.reaction != idl::service::Reaction::SHOW;
   });
-  core_.set_alarms(any, stops);
+  online_.each([&](PlcCore& core) { core.set_alarms(any, stops); });
   rounds_.record(StepKind::ALARMS, (any ? 1u : 0u) | (stops ? 2u : 0u));
   idl::plc::PanelRequest panel;
   while (panel_.take(panel)) {
     applied(Input::PANEL_REQUEST, panel_.info().source_timestamp);
     idl::plc::PanelReply reply;
-    reply.reason = core_.panel(panel);
+    online_.each([&](PlcCore& core) { reply.reason = core.panel(panel); });
     reply.accepted = reply.reason.empty();
     rounds_.record(StepKind::PANEL_REQUEST, panel);
     panel_.reply(panel, reply);
   }
+  online_.pump(service::monotonic_seconds());
 }
 
 /// In real time the ticks between two frames of the drive follow the clock, for at most drive_timeout.
@@ -225,6 +241,7 @@ void PlcService::pump() {
   // A state that is continued must be there before the first input.
   if (node_.snapshot() != nullptr && !continued_) return;
   take_inputs();
+  if (online_.has_taken_over()) programs_changed();
   if (!core_.configured()) return;
   const double now = service::monotonic_seconds();
   if (!core_.waits_for_standstill()) {
@@ -232,7 +249,7 @@ void PlcService::pump() {
   } else if (waiting_since_ == 0) {
     waiting_since_ = now;
   } else if (now - waiting_since_ > standstill_timeout) {
-    core_.give_up_waiting();
+    online_.each([](PlcCore& core) { core.give_up_waiting(); });
     rounds_.record(StepKind::GIVE_UP_WAITING);
   }
   advance(tick_now(now));
@@ -259,6 +276,7 @@ void PlcService::publish(double now) {
     for (const auto& done : core_.all_done()) done_.write(done);
   const auto finished = core_.take_done();
   end_round(finished);
+  online_.compare(finished);
   for (const auto& done : finished) {
     if (done.failed)
       node_.alarms().raise(
@@ -287,6 +305,7 @@ void PlcService::publish(double now) {
     else
       node_.alarms().clear(alarm::emergency_stop, 0);
   }
+  online_.publish(now);
   if (now - image_written_ >= image_period) {
     auto image = core_.image();
     last_image_.scan = image.scan;

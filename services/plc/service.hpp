@@ -5,6 +5,7 @@
 #include <optional>
 #include <tuple>
 
+#include "online_service.hpp"
 #include "plc_core.hpp"
 #include "retained_memory.hpp"
 #include "round_recorder.hpp"
@@ -29,7 +30,7 @@ class PlcService : public service::Service {
   service::SnapshotAnswer snapshot() override;
   void alarms_reset(std::uint16_t channel) override {
     if (channel != service::all_channels) return;  // the reset button is the machine's
-    core_.press_reset();
+    online_.each([](PlcCore& core) { core.press_reset(); });
     rounds_.record(StepKind::RESET_BUTTON);
   }
 
@@ -37,6 +38,7 @@ class PlcService : public service::Service {
   void load_state();
   void configure();
   void continue_from_snapshot();
+  void programs_changed();
   void begin_round();
   void end_round(const std::vector<idl::plc::AuxiliaryDone>& done);
   void advance(std::uint64_t tick);
@@ -54,6 +56,7 @@ class PlcService : public service::Service {
   RoundRecorder rounds_;
   RoundWriter round_writer_;
   bus::Bytes round_bytes_;
+  OnlineService online_;
   bus::Reader<idl::stream::FeedbackFrame> feedback_;
   bus::Reader<idl::channel::ChannelState> channels_;
   bus::Reader<idl::channel::AuxiliaryRequest> requests_;

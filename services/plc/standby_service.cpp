@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "standby_service.hpp"
 
+#include "online_service.hpp"
 #include "program_files.hpp"
 
 namespace trunnion::plc {
@@ -8,17 +9,16 @@ namespace {
 
 constexpr int most_at_once = 1000;  // rounds between two heartbeats
 
-PlcCore with_programs(const service::Node& node) {
-  PlcCore core;
-  load_programs(node.options().machine.plc_directory(), core);
-  return core;
+Programs programs_of(const service::Node& node) {
+  const auto sources = active_sources(node, boot_of(node));
+  return translate(sources.files, node.options().machine.simulated(), sources.directory);
 }
 
 }  // namespace
 
 StandbyService::StandbyService(service::Node& node)
     : parameters_(node.bus()),
-      comparison_(with_programs(node), node.options().virtual_time,
+      comparison_(programs_of(node), node.options().virtual_time,
                   [this](std::uint64_t revision) { return parameters_.find(revision); }),
       rounds_(node.options().state_directory + rounds_file) {}
 

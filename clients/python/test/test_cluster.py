@@ -50,6 +50,21 @@ class Cluster(unittest.TestCase):
         with self.assertRaisesRegex(trunnion.NotConnected, "channel 5 has not reported"):
             self.machine.channel(5)
 
+    def test_recordings_that_the_machine_keeps(self):
+        stored = self.machine.stored_recordings
+        name = stored.start("kept.mcap")
+        self.channel.run("square.nc")
+        self.assertTrue(next(one for one in stored.list() if one["name"] == name)["recording"])
+        with self.assertRaisesRegex(trunnion.Refused, "is being recorded"):
+            stored.start()
+        stored.stop(name)
+        content = stored.download(name)
+        self.assertEqual((content[:5], content[-7:-3]), (b"\x89MCAP", b"MCAP"))
+        stored.delete(name)
+        self.assertEqual(stored.list(), [])
+        with self.assertRaises(trunnion.Refused):
+            stored.download(name)
+
     def test_parameters_are_read_and_written_in_units(self):
         parameters = self.machine.parameters
         rapid = parameters[100034]

@@ -12,10 +12,10 @@ from .channel import Channel
 from .data import Alarm, ChannelState, Parameter, Program, Tool
 from .errors import Error, NotConnected, ProgramStopped, Refused, TimedOut
 from .machine import Machine, connect
-from .recordings import Recording, Recordings
+from .recordings import Recording, Recordings, StoredRecordings
 from .signals import Signals
 
 __all__ = [
     "Alarm", "Channel", "ChannelState", "Error", "Machine", "NotConnected", "Parameter", "Program", "ProgramStopped", "Recording",
-    "Recordings", "Refused", "Signals", "TimedOut", "Tool", "connect",
+    "Recordings", "Refused", "Signals", "StoredRecordings", "TimedOut", "Tool", "connect",
 ]

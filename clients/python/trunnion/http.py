@@ -17,18 +17,25 @@ _SHOWN_WITHIN = 5.0  # s
 class Http:
     """One gateway. Every request has a connection of its own, so any thread may call."""
 
-    def __init__(self, url: str, timeout: float = 10.0):
-        """url: for example http://localhost:8080; timeout: seconds to wait for an answer."""
+    def __init__(self, url: str, timeout: float = 10.0, token: str | None = None):
+        """url: for example http://localhost:8080; timeout: seconds to wait for an answer.
+
+        token: of `trunnion user token`, for a machine whose users log in.
+        """
         parts = urllib.parse.urlsplit(url if "//" in url else f"//{url}", scheme="http")
         if parts.scheme != "http" or not parts.hostname:
             raise ValueError(f"{url}: not a URL of the form http://HOST:PORT")
         self.host, self.port, self.timeout = parts.hostname, parts.port or 80, timeout
+        #: Headers of every request.
+        self.headers = {"Authorization": f"Bearer {token}"} if token else {}
 
-    def request(self, method: str, path: str, body: bytes | None = None, kind: str = "application/json") -> bytes:
+    def request(self, method: str, path: str, body: bytes | None = None, kind: str = "application/json",
+                headers: dict[str, str] | None = None) -> bytes:
         """The body of the answer. Raises Refused or NotConnected."""
+        sent = {**self.headers, **(headers or {}), **({"Content-Type": kind} if body is not None else {})}
         connection = http.client.HTTPConnection(self.host, self.port, timeout=self.timeout)
         try:
-            connection.request(method, path, body, {"Content-Type": kind} if body is not None else {})
+            connection.request(method, path, body, sent)
             answer = connection.getresponse()
             content = answer.read()
         except (OSError, http.client.HTTPException) as error:

@@ -10,7 +10,7 @@ from .channel import Channel
 from .data import Alarm, Parameter, Program, Tool, from_json
 from .errors import Error, NotConnected
 from .http import Http
-from .recordings import Recordings
+from .recordings import Recordings, StoredRecordings
 from .stream import Stream
 from .units import convert
 
@@ -109,14 +109,15 @@ class Programs:
 class Machine:
     """A connection to a gateway: `with trunnion.connect() as machine:`."""
 
-    def __init__(self, url: str, timeout: float):
-        self.http = Http(url, timeout)
+    def __init__(self, url: str, timeout: float, token: str | None = None):
+        self.http = Http(url, timeout, token)
         self.parameters = Parameters(self.http)
         self.programs = Programs(self.http)
         self.stream = Stream(self.http)
         #: Seconds of an interpolation cycle, parameter 000001.
         self.period = self.parameters[1].value_in("s")
         self.recordings = Recordings(lambda: self.stream.state)
+        self.stored_recordings = StoredRecordings(self.http)
 
     def __enter__(self) -> Machine:
         return self
@@ -176,9 +177,9 @@ class Machine:
         return [from_json(Tool, one) for one in self.http.get("/api/tools")["tools"]]
 
 
-def connect(url: str = "http://localhost:8080", timeout: float = 10.0) -> Machine:
+def connect(url: str = "http://localhost:8080", timeout: float = 10.0, token: str | None = None) -> Machine:
     """Connects to the gateway of a machine.
 
-    timeout: seconds to wait for an answer. Raises NotConnected when it does not answer.
+    timeout: seconds to wait for an answer. token: of `trunnion user token`, where users log in. Raises NotConnected when it does not answer.
     """
-    return Machine(url, timeout)
+    return Machine(url, timeout, token)

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Recordings in MCAP files.
 
-The gateway has no interface for recordings: they are made by the command `trunnion record` on a computer that is connected to
-the cluster's bus, in general the machine's own. So this needs that command, and gives files of the computer it runs on.
+Recordings: made by the command `trunnion record` on a computer that is connected to the cluster's bus, in general the machine's
+own, into files of the computer this runs on. StoredRecordings: those that the gateway makes and the machine keeps.
 """
 from __future__ import annotations
 
@@ -12,10 +12,12 @@ import shutil
 import signal
 import subprocess
 import time
+import urllib.parse
 from collections.abc import Callable
 from typing import Any
 
 from .errors import Error, TimedOut
+from .http import Http
 
 
 class Recording:
@@ -98,3 +100,37 @@ class Recordings:
 
     def _domain(self) -> int:
         return int(self._state().get("cluster", {}).get("domain", 0))
+
+
+class StoredRecordings:
+    """The recordings in the machine's state directory: `machine.stored_recordings.start()`."""
+
+    def __init__(self, http: Http):
+        self._http = http
+
+    def list(self) -> list[dict[str, Any]]:
+        """Name, size (bytes), modified (ISO 8601), etag, recording (whether it is being made), ascending by name."""
+        found: list[dict[str, Any]] = self._http.get("/api/recordings")["recordings"]
+        return found
+
+    def start(self, name: str | None = None, duration: float | None = None) -> str:
+        """Starts one and returns its name; name: with .mcap at the end, without one the time; duration: s. Raises Refused."""
+        body = {key: value for key, value in {"name": name, "duration": duration}.items() if value is not None}
+        return str(self._http.send("POST", "/api/recordings", body)["name"])
+
+    def stop(self, name: str) -> None:
+        """Ends it; its file is whole afterwards. Raises Refused."""
+        self._http.send("POST", f"{self._path(name)}/stop")
+
+    def download(self, name: str) -> bytes:
+        """The MCAP file. Raises Refused when there is none."""
+        return self._http.request("GET", self._path(name))
+
+    def delete(self, name: str) -> None:
+        """Deletes it. Raises Refused, for example while it is being made."""
+        etag = next((one["etag"] for one in self.list() if one["name"] == name), "")
+        self._http.request("DELETE", self._path(name), headers={"If-Match": etag})
+
+    @staticmethod
+    def _path(name: str) -> str:
+        return f"/api/recordings/{urllib.parse.quote(name, safe='')}"

@@ -85,7 +85,7 @@ class Frames:
 class WebSocket:
     """An open connection. receive() and send() may be called from two threads."""
 
-    def __init__(self, host: str, port: int, path: str, timeout: float):
+    def __init__(self, host: str, port: int, path: str, timeout: float, headers: dict[str, str] | None = None):
         """timeout: seconds; a silence of this length counts as a lost connection."""
         try:
             self._socket = socket.create_connection((host, port), timeout)
@@ -93,17 +93,18 @@ class WebSocket:
             raise NotConnected(f"http://{host}:{port} does not answer: {error}") from error
         self._frames = Frames()
         try:
-            self._open(host, port, path)
+            self._open(host, port, path, headers or {})
         except BaseException:
             self._socket.close()
             raise
 
-    def _open(self, host: str, port: int, path: str) -> None:
+    def _open(self, host: str, port: int, path: str, headers: dict[str, str]) -> None:
         key = base64.b64encode(os.urandom(16)).decode()
         name = f"[{host}]" if ":" in host else host
+        more = "".join(f"{header}: {value}\r\n" for header, value in headers.items())
         self._write(
             f"GET {path} HTTP/1.1\r\nHost: {name}:{port}\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n"
-            f"Sec-WebSocket-Key: {key}\r\nSec-WebSocket-Version: 13\r\n\r\n".encode()
+            f"Sec-WebSocket-Key: {key}\r\nSec-WebSocket-Version: 13\r\n{more}\r\n".encode()
         )
         head = b""
         while b"\r\n\r\n" not in head:

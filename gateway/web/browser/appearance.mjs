@@ -4,8 +4,8 @@
 import { check as judged, coveredStops, inaccessible, openPage, overflowing, shot, smallTargets } from "./harness.mjs";
 
 const languages = {
-  en: { locale: "en-GB", views: ["Operate", "3D", "Parameters", "Tools", "Diagnosis"], estop: "Emergency stop", hold: "Feed hold", start: "Cycle start" },
-  de: { locale: "de-DE", views: ["Bedienen", "3D", "Parameter", "Werkzeuge", "Diagnose"], estop: "Not-Halt", hold: "Vorschub-Halt", start: "NC-Start" },
+  en: { locale: "en-GB", views: ["Operate", "3D", "Programs", "Setup", "Parameters", "Analysis", "Diagnosis"], estop: "Emergency stop", hold: "Feed hold", start: "Cycle start" },
+  de: { locale: "de-DE", views: ["Bedienen", "3D", "Programme", "Einrichten", "Parameter", "Analyse", "Diagnose"], estop: "Not-Halt", hold: "Vorschub-Halt", start: "NC-Start" },
 };
 const sizes = [
   { size: [1280, 800], digits: 48, operates: true },
@@ -35,6 +35,13 @@ async function one(browser, url, code, { size, digits, operates }, colorScheme) 
   for (const [index, view] of views.entries()) {
     await page.getByRole("navigation").getByRole("button", { name: view, exact: true }).click();
     await page.waitForTimeout(view === "3D" ? 1500 : 500);
+    if (index === 2) {
+      await page.getByRole("button", { name: /^rtcp.nc/ }).click();
+      await page.getByRole("textbox", { name: /rtcp.nc/ }).waitFor();
+      await page.waitForTimeout(700);
+    }
+    // The work offsets are shown first; the other sizes show the other parts.
+    if (index === 3 && size !== sizes[0].size) await page.getByRole("tab").nth(size === sizes[1].size ? 1 : 2).click();
     for (const name of [estop, hold]) check(`${where} ${view}: ${name} is there`, await page.getByRole("button", { name }).isVisible());
     const covered = await coveredStops(page);
     check(`${where} ${view}: the keys that stop are free ${covered}`, covered.length === 0);
@@ -46,7 +53,7 @@ async function one(browser, url, code, { size, digits, operates }, colorScheme) 
     }
     const findings = await inaccessible(page);
     check(`${where} ${view}: axe-core ${findings}`, findings.length === 0);
-    await shot(page, `${["operate", "scene", "parameters", "tools", "diagnosis"][index]}-${size[0]}-${code}-${colorScheme}`);
+    await shot(page, `${["operate", "scene", "programs", "setup", "parameters", "analysis", "diagnosis"][index]}-${size[0]}-${code}-${colorScheme}`);
   }
   check(`${where}: no errors ${page.complaints}`, page.complaints.length === 0);
   await page.context().close();
@@ -59,8 +66,12 @@ export async function appearance(browser, url) {
   const page = await openPage(browser, url);
   await page.getByRole("combobox", { name: "Language" }).selectOption("zh");
   await page.getByRole("button", { name: "循环启动" }).waitFor();
-  const cut = await overflowing(page);
-  check(`Chinese fits ${cut}`, cut.length === 0);
+  for (const view of ["三维", "程序", "调整", "参数", "分析", "诊断", "操作"]) {
+    await page.getByRole("navigation").getByRole("button", { name: view, exact: true }).click();
+    await page.waitForTimeout(400);
+    const cut = await overflowing(page);
+    check(`Chinese fits: ${view} ${cut}`, cut.length === 0);
+  }
   await page.getByRole("combobox", { name: "颜色" }).selectOption("light");
   await page.reload();
   await page.getByRole("button", { name: "循环启动" }).waitFor();

@@ -83,7 +83,7 @@ export async function openPage(browser, url, { size = [1280, 800], locale = "en-
   page.complaints = [];
   page.on("pageerror", (error) => page.complaints.push(String(error)));
   page.on("console", (message) => {
-    if (message.type() === "error" && !/status of 4(00|09)/.test(message.text())) page.complaints.push(message.text());
+    if (message.type() === "error" && !/status of 4(00|09|12)/.test(message.text())) page.complaints.push(message.text());
   });
   if (url) {
     await page.goto(url);

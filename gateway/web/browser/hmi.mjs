@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // The page in a real browser against a real gateway. By default it starts a gateway and a fake cluster of its own;
 // with TRUNNION_URL it uses the cluster that runs there and leaves out what only the fake one can be asked.
+import { analysis } from "./analysis.mjs";
 import { appearance } from "./appearance.mjs";
 import {
   check, cleanUp, cluster, coveredStops, eventually, killGateway, launch, openPage, overflowing, screenshots, shot, startCluster,
   TRUNNION_URL,
 } from "./harness.mjs";
 import { operate } from "./operate.mjs";
+import { parameters } from "./parameters.mjs";
+import { programs } from "./programs.mjs";
 import { scene } from "./scene.mjs";
+import { setup } from "./setup.mjs";
 
 async function run(page, url) {
   const text = (selector) => page.locator(selector).first().innerText();
@@ -107,7 +111,7 @@ async function run(page, url) {
   await at("parameter-search").fill("");
   await page.waitForTimeout(400);
   await shot(page, "parameters");
-  await at("view-offsets").click();
+  await at("view-setup").click();
   if (TRUNNION_URL) {
     const table = () => fetch(`${url}api/work-offsets`).then((answer) => answer.json());
     const g55 = (body) => body.offsets.find((offset) => offset.channel === 0 && offset.index === 1)?.values[1] ?? 0;
@@ -168,6 +172,10 @@ try {
   const wanted = (part) => parts.length === 0 || parts.includes(part);
   try {
     if (TRUNNION_URL && wanted("operate")) await operate(browser, url);
+    if (TRUNNION_URL && wanted("programs")) await programs(browser, url);
+    if (TRUNNION_URL && wanted("setup")) await setup(browser, url);
+    if (TRUNNION_URL && wanted("parameters")) await parameters(browser, url);
+    if (TRUNNION_URL && wanted("analysis")) await analysis(browser, url);
     if (TRUNNION_URL && wanted("scene")) await scene(browser, url);
     if (TRUNNION_URL && wanted("appearance")) await appearance(browser, url);
     if (wanted("page")) await run(await openPage(browser, url), url);

@@ -4,7 +4,7 @@
 import { channelState, check, coveredStops, eventually, openPage, post, shot } from "./harness.mjs";
 
 const hand = { delay: 120 };  // ms a key
-const views = ["Operate", "3D", "Parameters", "Tools", "Diagnosis"];
+const views = ["Operate", "3D", "Programs", "Setup", "Parameters", "Analysis", "Diagnosis"];
 const machineX = async (url) => (await channelState(url)).machine[0];
 const close = (a, b) => Math.abs(a - b) < 0.01;
 

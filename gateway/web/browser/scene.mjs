@@ -78,7 +78,7 @@ async function many(browser, url, rows) {
       if (sent || !("changes" in message)) return socket.send(text);
       sent = true;
       const points = Array.from({ length: rows }, (_, i) => [80 * Math.cos(i / 50) * (1 - i / rows / 2), 80 * Math.sin(i / 50) * (1 - i / rows / 2), -i / 2000, 0, 0]);
-      message.changes.trace = { first: 1, axes: [0, 1, 2, 3, 4], rows: points };
+      message.changes.trace = { first: 1, since: points.map((_, i) => i), axes: [0, 1, 2, 3, 4], rows: points };
       socket.send(JSON.stringify(message));
     });
   });

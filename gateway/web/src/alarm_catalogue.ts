@@ -71,13 +71,21 @@ export const alarmCatalogue: Readonly<Record<number, { cause: string; remedy: st
     cause: "The probe was switched on and touched something on the way, or its cable is faulty",
     remedy: "Reset, jog the probe away from the contact in the opposite direction, check its stylus, then measure again",
   },
-  120: {
-    cause: "Master and slave of a gantry move apart: load, friction or a wrong offset",
-    remedy: "Check the axis mechanically before the limit is reached",
+  118: {
+    cause: "The load encoder is mounted the wrong way round, has a wrong number of pulses or has lost some; or the axis slips",
+    remedy: "Run `trunnion servo encoders` in semi-closed loop, correct sign and pulses (10a931, 10a932), then reset",
   },
   121: {
-    cause: "Master and slave of a gantry are too far apart",
-    remedy: "Check the gantry mechanically, align the slave, then reset",
+    cause: "Master and slave of a gantry are too far apart: load, friction, a lost position or a wrong reference coordinate",
+    remedy: "Check the gantry mechanically; take the slave off (slave_off), jog the master until the error is small, couple again, then reset",
+  },
+  122: {
+    cause: "One side of the gantry is blocked, or its drive is badly tuned",
+    remedy: "Check both sides mechanically, compare their servo parameters, then reset",
+  },
+  123: {
+    cause: "The drives work against each other: the sides are not square, or one moves hard",
+    remedy: "Align the slave, check both sides mechanically and the rated currents (10a940), then reset",
   },
   130: {
     cause: "An emergency stop was pressed on the machine, the page or by the PLC",
@@ -94,6 +102,10 @@ export const alarmCatalogue: Readonly<Record<number, { cause: string; remedy: st
   133: {
     cause: "The PLC service has ended or does not answer",
     remedy: "Wait for its restart, then reset; check the service in Diagnosis if it comes back",
+  },
+  134: {
+    cause: "An operator has forced inputs, outputs or variables of the PLC; the programs cannot change them",
+    remedy: "Release them with 'trunnion plc force --release' when the test is over",
   },
   140: {
     cause: "Position, work offset or tool length lead beyond the software limits (10a006, 10a007)",
@@ -182,5 +194,9 @@ export const alarmCatalogue: Readonly<Record<number, { cause: string; remedy: st
   174: {
     cause: "The axis does not settle within its window: friction, load or too small a window",
     remedy: "Check the axis and the parameters of its exact stop; reset the alarm, then press cycle start",
+  },
+  483: {
+    cause: "The drive of the other side of the gantry has stopped, and this one with it (10a943)",
+    remedy: "Remove the cause at the axis of alarm 114, then reset",
   },
 };

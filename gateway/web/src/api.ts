@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The gateway's HTTP side. An answer is never thrown: a refusal is something the operator must read.
+import type { ProgramCheck, Stored } from "./contract";
 import { text } from "./text/texts";
 
 export type { Parameter, PlcImage, ProgramEntry, Tool, WorkOffset } from "./contract";
@@ -37,9 +38,11 @@ export function answerOf<T>(status: number, body: unknown): Answer<T> {
   return { ok, status, body: body as T, reason: ok ? "" : reasonOf(status, body) };
 }
 
-async function call<T>(method: string, path: string, body?: BodyInit, type?: string): Promise<Answer<T>> {
+async function call<T>(
+  method: string, path: string, body?: BodyInit, type?: string, more: Record<string, string> = {},
+): Promise<Answer<T>> {
   try {
-    const response = await fetch(path, { method, body, headers: type ? { "Content-Type": type } : {} });
+    const response = await fetch(path, { method, body, headers: type ? { "Content-Type": type, ...more } : more });
     const parsed: unknown = await response.json().catch(() => undefined);
     return answerOf<T>(response.status, parsed);
   } catch {
@@ -48,12 +51,45 @@ async function call<T>(method: string, path: string, body?: BodyInit, type?: str
 }
 
 export const get = <T>(path: string) => call<T>("GET", path);
-export const remove = (path: string) => call("DELETE", path);
+export const remove = (path: string, headers: Record<string, string> = {}) => call("DELETE", path, undefined, undefined, headers);
 export const post = (path: string, body: object = {}) =>
   call("POST", path, JSON.stringify(body), "application/json");
 export const put = (path: string, body: object) => call("PUT", path, JSON.stringify(body), "application/json");
 export const upload = (name: string, file: Blob) =>
   call("PUT", `/api/programs/${encodeURIComponent(name)}`, file, "text/plain");
+
+/** Stores a text in place of `revision`, 0 = where no program is; status 412 when another one is stored. */
+export const storeProgram = (name: string, content: string, revision: number) =>
+  call<Stored>("PUT", `/api/programs/${encodeURIComponent(name)}`, content, "text/plain",
+    revision > 0 ? { "If-Match": `"${revision}"` } : { "If-None-Match": "*" });
+export const checkProgram = (channel: number, content: string) =>
+  call<ProgramCheck>("POST", `/api/check/${channel}`, content, "text/plain");
+
+export interface StoredText {
+  revision: number;
+  /** Null: it is not UTF-8. */
+  text: string | null;
+}
+
+/** The text of a program and its revision; nothing when it cannot be read. */
+export async function programText(name: string): Promise<StoredText | null> {
+  try {
+    const response = await fetch(`/api/programs/${encodeURIComponent(name)}`);
+    if (!response.ok) return null;
+    return { revision: Number(response.headers.get("X-Program-Revision")), text: utf8(await response.arrayBuffer()) };
+  } catch {
+    return null;
+  }
+}
+
+/** Null where the bytes are no UTF-8: they would be stored as others. */
+export function utf8(bytes: ArrayBuffer): string | null {
+  try {
+    return new TextDecoder("utf-8", { fatal: true, ignoreBOM: true }).decode(bytes);
+  } catch {
+    return null;
+  }
+}
 
 export async function programBytes(name: string): Promise<Uint8Array | null> {
   try {

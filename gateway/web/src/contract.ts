@@ -219,6 +219,8 @@ export interface PlcState {
 export interface Trace {
   /** Cycle of the first row */
   first: number;
+  /** Cycles from the first row to each row: rows that are the same as the one before are left out, and of too many only every n-th is sent */
+  since: number[];
   /** Logical axis number of each column */
   axes: number[];
   rows: number[][];
@@ -351,6 +353,96 @@ export interface PlcImage {
   g: number[];
   r: number[];
   b: number[];
+  w: number[];
+  d: number[];
+  t: number[];
+  c: number[];
+  k: number[];
+  p: number[];
+}
+
+export interface Stored {
+  accepted: true;
+  program: ProgramEntry;
+}
+
+/** Where and why the program cannot be executed. */
+export interface ProgramError {
+  /** From 1, in the text */
+  line: number;
+  /** In characters from 1; 0 = the whole line */
+  column: number;
+  /** Alarm number, docs/alarms.md */
+  number: number;
+  text: string;
+  /** Name of the subprogram that it is in; `line` is then that of the call */
+  program?: string;
+  /** Line of the subprogram */
+  program_line?: number;
+}
+
+/** Tool tip on the part: point i is reached by a move of line[i], the first one is the start. Machine coordinates less G54, rotary tables at zero. */
+export interface ProgramPath {
+  /** mm */
+  x: number[];
+  /** mm */
+  y: number[];
+  /** mm */
+  z: number[];
+  /** Line of the text */
+  line: number[];
+  /** Of rapid traverse */
+  rapid: boolean[];
+  /** False: only the first points are here */
+  whole: boolean;
+}
+
+/** What a program would do from the reference position with the active parameters, tools and offsets. */
+export interface ProgramCheck {
+  /** False: the time for a check was over before the end, and there was no error until then */
+  complete: boolean;
+  /** Executed blocks */
+  blocks: number;
+  /** Rapids, lines and arcs */
+  moves: number;
+  error?: ProgramError;
+  path: ProgramPath;
+}
+
+export interface RecordingList {
+  recordings: RecordingEntry[];
+  /** Name of the one that is being recorded; empty = none */
+  recording: string;
+  /** Bytes that are free on the disk */
+  free: number;
+}
+
+export interface RecordingEntry {
+  name: string;
+  /** Bytes */
+  size: number;
+  /** ISO 8601, UTC */
+  modified: string;
+  etag: string;
+  /** It is being recorded */
+  recording: boolean;
+}
+
+export interface RecordingAccepted {
+  accepted: boolean;
+  name: string;
+}
+
+export interface Session {
+  /** Users must log in (auth in machine.yaml) */
+  auth: boolean;
+  name: string;
+  role: "" | "operator" | "setter" | "builder" | "administrator";
+}
+
+export interface Identity {
+  name: string;
+  role: "operator" | "setter" | "builder" | "administrator";
 }
 
 /** Bodies of POST /api/channels/{channel}/..., by the last part of the path. */

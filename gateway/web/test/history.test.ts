@@ -12,12 +12,19 @@ test("a ring keeps the newest rows in order", () => {
 });
 
 const channel = { feed: 500, axes: [2, 0, 1], letters: "ZXY" } as unknown as Channel;
-const trace = (first: number, rows: number[][]) => ({ ...emptyState, trace: { first, axes: [0, 1, 2], rows } });
+const trace = (first: number, rows: number[][]) => ({ ...emptyState, trace: { first, since: rows.map((_, i) => i), axes: [0, 1, 2], rows } });
 
 test("the path is X, Y, Z by letter whatever the order of the axes, without points that did not move", () => {
   const history = new History();
   history.record(0, trace(1, [[1, 2, 3], [1, 2, 3], [4, 5, 6]]), channel);
   expect([0, 1, 2].map((column) => history.path.column(column))).toEqual([[1, 4], [2, 5], [3, 6]]);
+});
+
+test("rows that were left out count as time", () => {
+  const history = new History();
+  const rows = [[1, 0, 0], [2, 0, 0], [3, 0, 0]];
+  history.record(0, { ...emptyState, trace: { first: 10, since: [0, 1, 7], axes: [0, 1, 2], rows } }, channel);
+  expect(history.path.column(10)).toEqual([1, 1, 6]);
 });
 
 test("a trace that is still in the state is recorded once", () => {

@@ -60,6 +60,8 @@ test("cycle start: not without a program, not while running, not under an emerge
   expect(canStart(emptyState, { ...channel, program: "" })).toBe(false);
   expect(canStart(emptyState, { ...channel, state: "RUNNING" })).toBe(false);
   expect(canStart(emptyState, { ...channel, mode: "JOG" })).toBe(false);
+  expect(canStart(emptyState, { ...channel, mode: "MDI" })).toBe(false);
+  expect(canStart(emptyState, { ...channel, mode: "MDI", state: "HELD" })).toBe(true);
   expect(canStart(emptyState, { ...channel, mode: "JOG", state: "HELD" })).toBe(true);
 });
 

@@ -8,8 +8,9 @@ import { type Channel, emptyState, type MachineState } from "../src/state/model"
 const cartesian = new Chain((offset) => (({ 402: 1, 932: 1, 936: 1, 940: 1 }) as Record<number, number>)[offset] ?? 0);
 const source = { chain: cartesian, toolLength: (tool: number) => (tool === 1 ? 100 : 0), period: 0.001 };
 const channel = { feed: 0, axes: [0, 1, 2], letters: "XYZ", tool: 1 } as unknown as Channel;
+/** Every second cycle when they are twice as many as the rows. */
 const state = (first: number, executed: number, rows: number[][]) =>
-  ({ ...emptyState, drive: { executed }, trace: { first, axes: [0, 1, 2], rows } }) as unknown as MachineState;
+  ({ ...emptyState, trace: { first, since: rows.map((_, i) => i * Math.max(1, Math.floor((executed - first + 1) / rows.length))), axes: [0, 1, 2], rows } }) as unknown as MachineState;
 
 test("a point is the tip, and its speed that of the segment that leads to it", () => {
   const history = new History();

@@ -8,7 +8,7 @@ import { languages } from "../src/text/texts";
 // The compiler checks that every key is present; a text that was not translated has the English words.
 const same = new Set([
   "viewScene", "modeAUTO", "modeMDI", "modeJOG", "modeREF", "modeAuto", "modeMdi", "mdi", "plc", "classNc", "reset", "name",
-  "virtualTime", "detail", "radius", "viewParameters", "parameters", "parameter", "programmed", "sceneSpeed", "valueIn",
+  "virtualTime", "detail", "radius", "viewParameters", "parameters", "parameter", "programmed", "sceneSpeed", "valueIn", "axisUnit", "setup",
 ]);
 
 test("every text is translated and none is empty", () => {

@@ -116,5 +116,30 @@ TEST(TimeScaling, windows_take_the_time_of_the_whole) {
   EXPECT_NEAR(least_time(samples, limits), whole, 0.01 * whole);
 }
 
+// A line at 50 mm/s, three times slowed to half of it for 0.4 s by a cosine. The line itself needs no
+// slowing, so the least time is the one at the programmed speed, with ramps as above; the stretches between
+// are not solved.
+TEST(TimeScaling, stretches_at_the_programmed_speed_take_their_own_time) {
+  const double feed = 50, ramp = 0.2, slow = 0.4, whole = 6;
+  std::vector<MotionSample> samples;
+  double s = 0;
+  for (int k = -3; k <= static_cast<int>(whole / cycle) + 3; ++k) {
+    const double t = k * cycle, end = std::min(t, whole - t);
+    double share = 1;
+    if (end < ramp) share = end <= 0 ? 0 : 0.5 - 0.5 * std::cos(std::numbers::pi * end / ramp);
+    for (const double begin : {1.0, 2.6, 4.2})
+      if (t > begin && t < begin + slow)
+        share = 0.75 + 0.25 * std::cos(2 * std::numbers::pi * (t - begin) / slow);
+    s += share * feed * cycle;
+    samples.push_back({line(s), share, false});
+  }
+  const motion::Limits limits = axes(500, 3000, 60000);
+  const double least = least_time(samples, limits);
+  EXPECT_NEAR(least, s / feed + 2 * std::sqrt(feed * 0.8 / 60000), 0.008);
+  double together = 0;
+  for (const double b : least_time_scaling(samples, limits, cycle)) together += cycle / std::sqrt(b);
+  EXPECT_NEAR(least, together, 0.003);
+}
+
 }  // namespace
 }  // namespace trunnion::analysis

@@ -13,9 +13,11 @@
 #include <cstdlib>
 #include <cstring>
 #include <map>
+#include <mutex>
 #include <sstream>
 #include <stdexcept>
 #include <string_view>
+#include <tuple>
 
 #include "bus/endpoint.hpp"
 #include "bus/security.hpp"
@@ -368,23 +370,63 @@ void print_log(void*, const dds_log_data_t* data) {
                 stderr);  // and the new line
 }
 
-// The domain's threads would go on encrypting while OpenSSL, loaded with the security plugins, clears up at
-// the end of the process. What is registered later is called earlier.
-void end_before_openssl() {
-  [[maybe_unused]] static const int once = std::atexit([] { dds_delete(DDS_CYCLONEDDS_HANDLE); });
-}
+// The participants of this process. Cyclone DDS 0.10 keeps what it knows of the other processes for the
+// domain, not for the participant: when one is deleted while the others still tell it of their endpoints,
+// those messages are dropped, and no later participant of this process ever learns of these endpoints. So a
+// participant is deleted only at the end of the process, and one that nobody uses is used again.
+class Participants {
+ public:
+  dds_entity_t acquire(const NetworkSettings& network) {
+    const std::lock_guard lock(mutex_);
+    const auto key = key_of(network);
+    if (auto found = idle_.find(key); found != idle_.end()) {
+      const auto participant = found->second;
+      idle_.erase(found);
+      return participant;
+    }
+    dds_set_log_sink(print_log, nullptr);
+    dds_create_domain(network.domain, configuration(network).c_str());
+    const auto participant = dds_create_participant(network.domain, participant_qos(network).get(), nullptr);
+    if (participant < 0) fail("participant in domain " + std::to_string(network.domain), participant);
+    [[maybe_unused]] static const int once = std::atexit([] { Participants::of_this_process().end(); });
+    secured_ = secured_ || !network.security.empty();
+    return participant;
+  }
+  void release(const NetworkSettings& network, dds_entity_t participant) {
+    const std::lock_guard lock(mutex_);
+    idle_.emplace(key_of(network), participant);
+  }
+  // The others learn at once that this process ends.
+  void end() {
+    for (const auto& [key, participant] : idle_) dds_delete(participant);
+    // The threads of a secured domain would go on encrypting while OpenSSL, loaded with the security plugins,
+    // clears up: what is registered later is called earlier. A domain without security is left as it is: its
+    // end waits for a packet to itself, which never comes when the network is gone.
+    if (secured_) dds_delete(DDS_CYCLONEDDS_HANDLE);
+  }
+  static Participants& of_this_process() {
+    static auto* const all = new Participants;  // outlives every Bus, static ones too
+    return *all;
+  }
+
+ private:
+  using Key = std::tuple<std::uint32_t, std::string, std::string, bool, std::string, std::string>;
+  static Key key_of(const NetworkSettings& n) {
+    return {n.domain, n.interface_address, n.peers, n.multicast, n.security, n.identity};
+  }
+  std::mutex mutex_;
+  std::multimap<Key, dds_entity_t> idle_;
+  bool secured_ = false;
+};
 
 class CycloneBackend : public Backend {
  public:
-  explicit CycloneBackend(const NetworkSettings& network) {
-    // The domain outlives this object on purpose: a second participant in the process (tests) shares it.
-    dds_set_log_sink(print_log, nullptr);
-    dds_create_domain(network.domain, configuration(network).c_str());
-    participant_ = dds_create_participant(network.domain, participant_qos(network).get(), nullptr);
-    if (participant_ < 0) fail("participant in domain " + std::to_string(network.domain), participant_);
-    if (!network.security.empty()) end_before_openssl();
+  explicit CycloneBackend(const NetworkSettings& network)
+      : network_(network), participant_(Participants::of_this_process().acquire(network)) {}
+  ~CycloneBackend() override {
+    if (publications_ >= 0) dds_delete(publications_);
+    Participants::of_this_process().release(network_, participant_);
   }
-  ~CycloneBackend() override { dds_delete(participant_); }
   std::unique_ptr<RawWriter> writer(const TopicDescription& topic, const EndpointQos& qos) override {
     return std::make_unique<Writer>(participant_, topic, qos);
   }
@@ -428,6 +470,7 @@ class CycloneBackend : public Backend {
     dds_free(data);
   }
 
+  NetworkSettings network_;
   dds_entity_t participant_;
   dds_entity_t publications_ = -1;  // made when somebody wants to know
   std::map<dds_instance_handle_t, DiscoveredWriter> discovered_;

@@ -103,6 +103,73 @@ TEST(KinematicsMeasurement, AVectorBeyondItsToleranceIsAnAlarm) {
   EXPECT_EQ(machine.measure(in, {}, sphere).tolerance_alarm, "");
 }
 
+TEST(KinematicsMeasurement, TheNoiseOfEachTouchIsItsOwn) {
+  const TrueMachine machine(geometry::ac_table(), geometry::ac_table());
+  truth::TouchProbeTruth probe;
+  probe.pre_travel = 0.01;  // so that a pre-travel below zero, which there is not, stays out
+  probe.repeatability = 0.002;
+  auto in = inputs_of(machine);
+  in.calibrate_probe = true;
+  const auto result = machine.measure(in, probe, sphere);
+  // 16 poses of 10 touches less 3 for each centre and 5 for the fit: some 100 degrees of freedom, so the
+  // standard deviation is found within 4 / sqrt(200) = 28 %.
+  EXPECT_NEAR(result.touch_deviation, 0.002, 0.28 * 0.002);
+}
+
+TEST(KinematicsMeasurement, ProbeAndSphereAreThoseOfTheMachineUnlessTheInputsNameOthers) {
+  TrueMachine machine(geometry::ac_table(), geometry::ac_table());
+  truth::TouchProbeTruth probe;
+  probe.length = 143, probe.ball_radius = 2;
+  const truth::SphereGauge gauge{sphere, 10, Vec3(0, 0.6, -0.8), 4, 50};
+  machine.measured.gauges = probe_and_sphere(probe, {truth::CuboidGauge{}, gauge});
+  const auto in = default_inputs(machine.measured);
+  EXPECT_EQ(in.probe_length, 143);
+  EXPECT_EQ(in.ball_diameter, 4);
+  EXPECT_EQ(in.sphere, sphere);
+  EXPECT_EQ(in.sphere_diameter, 20);
+  EXPECT_EQ(*in.shaft, Vec3(0, 0.6, -0.8));
+  EXPECT_EQ(in.shaft_diameter, 8);
+  EXPECT_FALSE(probe_and_sphere(probe, {truth::CuboidGauge{}}));
+  EXPECT_FALSE(probe_and_sphere(std::nullopt, {gauge}));
+  // Where the shaft of the true sphere is not expected, a touch meets it first.
+  auto unaware = in;
+  unaware.shaft.reset();
+  const auto plan = std::get<MeasurementPlan>(plan_measurement(unaware, machine.measured));
+  const truth::SphereGauge hidden{sphere, 10, Vec3::UnitX(), 4, 50};
+  EXPECT_THAT(
+      fault([&] { touch_virtually(machine.report, unaware, machine.measured, plan, probe, {hidden}); }),
+      testing::HasSubstr("pose A0 C0, touch 1: the probe touches before the measuring path of 2 mm begins"));
+}
+
+TEST(KinematicsMeasurement, GoesOnAfterThePosesThatWereTouchedAndRefusesOthers) {
+  const TrueMachine machine(geometry::ac_table(), wrong(geometry::ac_table()));
+  const auto in = inputs_of(machine);
+  const auto plan = std::get<MeasurementPlan>(plan_measurement(in, machine.measured));
+  const auto all =
+      touch_virtually(machine.report, in, machine.measured, plan, nominal(in), sphere_at(in, sphere));
+  std::size_t calls = 0, told = 0;
+  const TouchRound again = [&](const PlannedPose& pose, const Vec3&, const std::string&) {
+    const auto& stored = *std::find_if(all.begin(), all.end(),
+                                       [&](const auto& touched) { return touched.angles == pose.angles; });
+    const auto half = static_cast<std::ptrdiff_t>(pose.directions.size());
+    const auto from = stored.positions.begin() + (calls++ % 2 == 0 ? 0 : half);
+    return std::vector<Vec3>(from, from + half);
+  };
+  std::vector<TouchedPose> done(all.begin(), all.begin() + 5);
+  const auto rest =
+      touch_poses(in, machine.measured, plan, again, done, [&](const auto& poses) { told = poses.size(); });
+  EXPECT_EQ(text_of(rest, machine.measured.model), text_of(all, machine.measured.model));
+  EXPECT_EQ(calls, 2 * (all.size() - 5));
+  EXPECT_EQ(told, all.size());
+  std::swap(done[2], done[3]);
+  EXPECT_THAT(fault([&] { touch_poses(in, machine.measured, plan, again, done); }),
+              testing::HasSubstr("is planned; start again without --resume"));
+  done.resize(2);
+  done[1].positions.pop_back();
+  EXPECT_THAT(fault([&] { touch_poses(in, machine.measured, plan, again, done); }),
+              testing::HasSubstr("has 9 touches, 10 are planned; start again without --resume"));
+}
+
 TEST(KinematicsMeasurement, TheShaftOfTheSphereIsNotTouched) {
   const TrueMachine machine(geometry::ac_table(), geometry::ac_table());
   auto in = inputs_of(machine);
@@ -157,7 +224,8 @@ TEST(KinematicsMeasurement, AdaptPutsAnotherHeadsEndWhereTheReferenceHadIt) {
   in.sphere = Vec3(60, 80, -300);
   in.reference = Reference::adapt;
   const auto plan = std::get<MeasurementPlan>(plan_measurement(in, machine.measured));
-  const auto touched = touch_virtually(machine.report, in, machine.measured, plan, {}, in.sphere);
+  const auto touched =
+      touch_virtually(machine.report, in, machine.measured, plan, nominal(in), sphere_at(in, in.sphere));
   ReferenceMeasurement reference{in.sphere, Vec3::Zero()};
   const auto result = evaluate(in, machine.measured, touched, {}, reference);
   EXPECT_LT((result.after.origin - real.origin).norm(), 1e-6);
@@ -187,7 +255,8 @@ TEST(KinematicsMeasurement, TouchesReadFromTheirTextGiveTheSameResult) {
   const TrueMachine machine(geometry::ac_table(), wrong(geometry::ac_table()));
   const auto in = inputs_of(machine);
   const auto plan = std::get<MeasurementPlan>(plan_measurement(in, machine.measured));
-  const auto touched = touch_virtually(machine.report, in, machine.measured, plan, {}, sphere);
+  const auto touched =
+      touch_virtually(machine.report, in, machine.measured, plan, nominal(in), sphere_at(in, sphere));
   const auto again = parse_touches(text_of(touched, machine.measured.model), "t", machine.measured.model);
   ASSERT_EQ(again.size(), touched.size());
   EXPECT_EQ(again[3].positions.size(), 10u) << "2 x (4 + 1)";

@@ -7,6 +7,7 @@
 #include "machine/chain_parameters.hpp"
 #include "machine/kinematics.hpp"
 #include "machine/machine.hpp"
+#include "true_machine.hpp"
 #include "truth/random_machine.hpp"
 #include "truth/truth_file.hpp"
 
@@ -51,9 +52,9 @@ TEST_P(NewMachines, TheSphereCheckIsWithin20MicrometresAfterIt) {
     truth::TouchProbeTruth probe;
     probe.repeatability = 0.0005;
     probe.seed = seed;
-    const auto result =
-        evaluate(in, measured,
-                 touch_virtually(report, in, measured, std::get<MeasurementPlan>(plan), probe, in.sphere));
+    const auto result = evaluate(in, measured,
+                                 touch_virtually(report, in, measured, std::get<MeasurementPlan>(plan),
+                                                 nominal(in, probe), sphere_at(in, in.sphere)));
     const auto poses = random_check_poses(measured, in.axes, in.sphere, in.probe_length, 200, seed);
     ASSERT_EQ(poses.size(), 200u);
     const auto check = [&](const ChainParameters& model) {

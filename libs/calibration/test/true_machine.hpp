@@ -11,6 +11,17 @@
 
 namespace trunnion::calibration {
 
+/// A probe with the nominal dimensions of the inputs.
+inline truth::TouchProbeTruth nominal(const MeasurementInputs& inputs, truth::TouchProbeTruth probe = {}) {
+  probe.length = inputs.probe_length;
+  probe.ball_radius = inputs.ball_diameter / 2;
+  return probe;
+}
+/// A sphere without a shaft.
+inline std::vector<truth::Solid> sphere_at(const MeasurementInputs& inputs, const Vec3& centre) {
+  return {truth::SphereGauge{centre, inputs.sphere_diameter / 2}};
+}
+
 struct TrueMachine {
   truth::MachineOutline outline;
   truth::PoseReport report;
@@ -40,9 +51,9 @@ struct TrueMachine {
     if (!fault.empty()) throw std::runtime_error(fault);
     const auto plan = plan_measurement(inputs, measured);
     if (const auto* refused = std::get_if<std::string>(&plan)) throw std::runtime_error(*refused);
-    return evaluate(
-        inputs, measured,
-        touch_virtually(report, inputs, measured, std::get<MeasurementPlan>(plan), probe, sphere));
+    return evaluate(inputs, measured,
+                    touch_virtually(report, inputs, measured, std::get<MeasurementPlan>(plan),
+                                    nominal(inputs, probe), sphere_at(inputs, sphere)));
   }
 };
 

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <functional>
 #include <random>
 
 #include "motion_fixture.hpp"
@@ -128,6 +130,32 @@ TEST_P(PlannedRelief, limits_hold_when_holds_end_before_the_standstill) {
   }
   EXPECT_EQ(t.position(), points.back());
   expect_limits(setpoints, points.front(), strong());
+}
+
+// 5 mm to and fro at F100. At 3000 mm/s2 and 60000 mm/s3 its 1.67 mm/s are reached in 2 sqrt(v / J) = 10.5 ms
+// at best, and the plan is made of pieces of 2.7 ms. Every cycle that is farther than 40 from a reversal has
+// the programmed speed but for 1e-5 of it.
+TEST(PlannedSpeed, a_straight_line_keeps_the_programmed_speed) {
+  Trajectory t(strong(), nullptr, cycle);
+  t.start({}, Transformation::none, 0);
+  for (std::uint32_t k = 1; k <= 6; ++k) ASSERT_TRUE(t.push(line_to({k % 2 == 1 ? 5.0 : 0.0}, 100, k)));
+  t.finish();
+  std::vector<double> x{0};
+  for (int k = 0; k < 100000; ++k) {
+    const Setpoint setpoint = t.step(1, 1, false);
+    x.push_back(setpoint.position[0]);
+    if (setpoint.at_rest) break;
+  }
+  const double programmed = 100.0 / 60 * cycle;
+  std::size_t kept = 0;
+  for (std::size_t k = 40; k + 40 < x.size(); ++k) {
+    const auto from = x.begin() + static_cast<std::ptrdiff_t>(k) - 40, to = from + 80;
+    if (!std::is_sorted(from, to) && !std::is_sorted(from, to, std::greater<>())) continue;
+    EXPECT_NEAR(std::abs(x[k] - x[k - 1]), programmed, 1.1e-5 * programmed) << "cycle " << k;
+    ++kept;
+  }
+  // Six lines of 3 s, less the reversals.
+  EXPECT_GT(kept, 6 * 2900u);
 }
 
 // A program that arrives in pieces runs to the same end within the limits; calls in the same cycles give the

@@ -1,36 +1,59 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plc/library/register_names.hpp"
 
+#include <set>
 #include <stdexcept>
 
 #include "machine/yaml.hpp"
 #include "plc/syntax/token.hpp"
 
 namespace trunnion::st {
+namespace {
 
-RegisterNames parse_register_names(const std::string& yaml, const std::string& file) {
-  RegisterNames names;
+// From the block of channel 0 to that of each channel.
+constexpr int channel_blocks[] = {0, 80, 160, 240, 320, 560, 640, 720};
+
+}  // namespace
+
+std::vector<NamedRegister> parse_register_table(const std::string& yaml, const std::string& file) {
+  std::vector<NamedRegister> table;
+  std::set<std::string> names;
   const auto document = machine::parse_yaml(yaml, file);
   for (const auto& node : document["registers"]) {
-    const auto name = upper_case(node["name"].as<std::string>());
+    const auto name = node["name"].as<std::string>();
     const auto first = parse_register(node["address"].as<std::string>(), nullptr);
     if (!first) throw std::runtime_error(machine::at(file, node["address"]) + "not an address");
-    const int count = node["count"] ? node["count"].as<int>() : 0;
+    const bool channels = node["each"] && node["each"].as<std::string>() == "channel";
+    const int count = channels ? 8 : node["count"] ? node["count"].as<int>() : 0;
     const auto stride = node["stride"] ? node["stride"].as<std::string>() : "1";
+    const auto unit = node["unit"] ? node["unit"].as<std::string>() : "";
     for (int i = 0; i < (count > 0 ? count : 1); ++i) {
       auto address = *first;
-      if (stride == "bit")
-        address.bit = static_cast<std::int8_t>(address.bit + i);
-      else
-        address.index = static_cast<std::uint16_t>(address.index + i * std::stoi(stride));
-      names.emplace(count > 0 ? name + "_" + std::to_string(i) : name, address);
+      const int step = channels ? channel_blocks[i] : stride == "bit" ? 0 : i * std::stoi(stride);
+      address.index = static_cast<std::uint16_t>(address.index + step);
+      if (stride == "bit") address.bit = static_cast<std::int8_t>(address.bit + i);
+      if (address.index >= info(address.area).count || address.bit >= info(address.area).bits)
+        throw std::runtime_error(machine::at(file, node) + "'" + name + "' leaves the image");
+      auto full = count > 0 ? name + "_" + std::to_string(i) : name;
+      if (!names.insert(upper_case(full)).second)
+        throw std::runtime_error(machine::at(file, node) + "'" + name + "' is defined twice");
+      table.push_back({std::move(full), address, unit});
     }
   }
-  return names;
+  return table;
+}
+
+const std::vector<NamedRegister>& register_table() {
+  static const auto table = parse_register_table(registers_text, "registers.yaml");
+  return table;
 }
 
 const RegisterNames& interface_registers() {
-  static const RegisterNames names = parse_register_names(registers_text, "registers.yaml");
+  static const RegisterNames names = [] {
+    RegisterNames result;
+    for (const auto& one : register_table()) result.emplace(upper_case(one.name), one.address);
+    return result;
+  }();
   return names;
 }
 

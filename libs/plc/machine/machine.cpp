@@ -28,7 +28,7 @@ std::string text_of(const Fault& fault) {
     case FaultKind::range:
       return "value " + limits() + " of the type";
     case FaultKind::budget:
-      return "more than " + std::to_string(fault.value) + " statements in one scan";
+      return "more than " + std::to_string(fault.value) + " statements in one run";
     case FaultKind::reference:
       return "a reference to no variable";
     case FaultKind::assertion:
@@ -57,6 +57,42 @@ void Machine::reset() { memory_ = code_->initial; }
 
 // The limits of frames, places in the code and tables were verified; what depends on values is checked here.
 Fault Machine::run(std::size_t entry, std::int64_t now, std::int64_t budget) {
+  return execute(entry, now, budget, 0, nullptr);
+}
+
+Fault Machine::run_part(std::size_t entry, std::int64_t now, std::int64_t budget, std::int64_t part,
+                        Progress& progress) {
+  // It may come from a file: what does not fit the code begins again.
+  const auto is_place = [&](std::uint32_t instruction, std::uint32_t base) {
+    const auto found = std::find_if(code_->routines.begin(), code_->routines.end(), [&](const Routine& r) {
+      return instruction >= r.entry && instruction < r.end;
+    });
+    return found != code_->routines.end() && std::uint64_t{base} + found->frame <= memory_.size();
+  };
+  bool fits = progress.interrupted == 0 ||
+              (is_place(progress.instruction, progress.base) && progress.depth < callers_.size() &&
+               progress.depth <= Progress::most_callers);
+  for (std::uint32_t i = 0; fits && i < progress.depth; ++i)
+    fits = is_place(progress.callers[i].instruction, progress.callers[i].base);
+  if (!fits) progress = {};
+  const auto left = budget - static_cast<std::int64_t>(progress.statements);
+  const auto now_at_most = std::clamp<std::int64_t>(part, 1, std::max<std::int64_t>(left, 1));
+  auto fault = execute(entry, now, now_at_most, left - now_at_most, &progress);
+  if (fault.kind == FaultKind::budget) fault.value = budget;
+  if (fault.kind != FaultKind::none || progress.interrupted == 0) {
+    progress = {};
+    return fault;
+  }
+  progress.statements += static_cast<std::uint64_t>(statements_);
+  if (static_cast<std::int64_t>(progress.statements) < budget) return fault;
+  fault = {FaultKind::budget, progress.instruction, budget, 0, 0};
+  progress = {};
+  return fault;
+}
+
+// After `budget` statements it is interrupted where that is possible; `reserve` more are an error.
+Fault Machine::execute(std::size_t entry, std::int64_t now, std::int64_t budget, std::int64_t reserve,
+                       Progress* progress) {
   const Instruction* const code = code_->code.data();
   const Routine* const routines = code_->routines.data();
   std::uint64_t* const memory = memory_.data();
@@ -70,11 +106,31 @@ Fault Machine::run(std::size_t entry, std::int64_t now, std::int64_t budget) {
   const auto stop = [&](FaultKind kind, std::int64_t value = 0, std::int64_t low = 0, std::int64_t high = 0) {
     fault = {kind, pc, value, low, high};
   };
+  if (progress != nullptr && progress->interrupted != 0) {
+    pc = progress->instruction, base = progress->base, depth = progress->depth;
+    m = memory + base;
+    std::copy_n(progress->callers.begin(), depth, callers_.begin());
+    progress->interrupted = 0;
+  }
+  // Before the statement at `pc`, which has not run.
+  const auto interrupt = [&] {
+    if (progress == nullptr || depth > Progress::most_callers) return false;
+    progress->interrupted = 1;
+    progress->instruction = pc, progress->base = base, progress->depth = static_cast<std::uint32_t>(depth);
+    progress->callers = {};
+    std::copy_n(callers_.begin(), depth, progress->callers.begin());
+    statements_ = budget - (left + 1);
+    last_frame_ = base;
+    return true;
+  };
   for (;; ++pc) {
     const Instruction& in = code[pc];
     switch (in.op) {
       case Op::statement:
-        if (--left < 0) stop(FaultKind::budget, budget);
+        if (--left < 0) {
+          if (interrupt()) return fault;
+          if (left < -reserve) stop(FaultKind::budget, budget + reserve);
+        }
         break;
       case Op::move:
         m[in.a] = m[in.b];
@@ -303,8 +359,9 @@ Fault Machine::run(std::size_t entry, std::int64_t now, std::int64_t budget) {
         if (m[in.b] == 0) pc = static_cast<std::uint32_t>(in.a) - 1;
         continue;
       case Op::loop:
-        if (--left < 0)
-          stop(FaultKind::budget, budget);
+        if (--left < 0 && interrupt()) return fault;
+        if (left < -reserve)
+          stop(FaultKind::budget, budget + reserve);
         else
           pc = static_cast<std::uint32_t>(in.a) - 1;
         break;

@@ -50,7 +50,8 @@ std::optional<RegisterAddress> parse_register(std::string_view text, const char*
   const auto dot = text.find('.');
   const auto index = register_number(text.substr(0, dot));
   RegisterAddress address{static_cast<Area>(found - areas.begin()), 0, -1};
-  if (!index || *index >= static_cast<int>(area_size)) return refuse("the number is outside 0 .. 511");
+  if (!index || *index >= static_cast<int>(found->count))
+    return refuse(found->count == 512 ? "the number is outside 0 .. 511" : "the number is outside 0 .. 3359");
   address.index = static_cast<std::uint16_t>(*index);
   if (dot != std::string_view::npos) {
     if (size != '\0' && size != 'X') return refuse("a bit is addressed with X: %IX0.3");

@@ -33,7 +33,7 @@ class Verifier {
     for (const auto& cells : code_.retained)
       if (!fits(cells.first, cells.count)) return "a retained variable is outside the memory";
     for (const auto& used : code_.registers)
-      if (static_cast<std::uint32_t>(used.area) >= image_areas || used.index >= area_size)
+      if (static_cast<std::size_t>(used.area) >= areas.size() || used.index >= info(used.area).count)
         return "a register is outside the image";
     for (const auto& range : code_.ranges)
       if (range.stride < 0 || range.stride > most_cells || range.low > range.high)

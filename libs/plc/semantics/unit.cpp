@@ -223,7 +223,7 @@ bool Unit::locate(Variable& variable, const VariableDeclaration& declaration) {
     variable.type = elementary(Kind::error);
     return false;
   }
-  if (declaration.initial != nullptr && info(address->area).in_image)
+  if (declaration.initial != nullptr)
     diagnostics_.error(declaration.at,
                        "'" + declaration.text + "' is a register of the machine and has no initial value");
   const auto value = register_value(*address, variable.type, declaration.location_at);
@@ -359,18 +359,9 @@ Value Unit::register_value(const RegisterAddress& address, const Type* type, Pos
                   type->name + "; it can be " + elementary(natural)->name +
                   " or another integer or bit string of this size");
   const auto form = static_cast<std::uint16_t>(area.bits + (area.is_signed ? 128 : 0));
-  if (address.index + type->cells > area_size)
+  if (address.index + type->cells > area.count)
     return refuse("the array leaves the area " + std::string(1, area.letter));
-  std::uint32_t start = address_of(address.area, 0);
-  if (!area.in_image) {
-    auto [own, is_new] = own_areas_.try_emplace(address.area, 0);
-    if (is_new) {
-      own->second = allocate(std::vector<std::uint64_t>(area_size, 0));
-      if (area.retained) code.retained.push_back({own->second, area_size});
-    }
-    start = own->second;
-  }
-  const auto first = start + address.index;
+  const auto first = address_of(address.area, address.index);
   use_register(first, type->cells, false);
   value.place = {Place::Base::absolute, static_cast<std::int32_t>(first), 0, -1, 0, 0, true, ""};
   if (is_bit)
@@ -384,9 +375,10 @@ Value Unit::register_value(const RegisterAddress& address, const Type* type, Pos
 }
 
 void Unit::finish() {
-  for (const auto& [address, written] : used_registers_)
-    code.registers.push_back(
-        {static_cast<Area>(address / area_size), static_cast<std::uint16_t>(address % area_size), written});
+  for (const auto& [address, written] : used_registers_) {
+    const auto at = register_at(address);
+    code.registers.push_back({at.area, at.index, written});
+  }
 }
 
 }  // namespace trunnion::st

@@ -130,7 +130,6 @@ class Unit {
   std::map<std::string, Variable*, std::less<>> global_names_;
   std::map<std::string, std::vector<std::pair<const Type*, const Enumerator*>>, std::less<>> enumerators_;
   std::map<std::string, std::uint32_t> string_constants_;
-  std::map<Area, std::uint32_t> own_areas_;       ///< start of an area that is not in the image
   std::map<std::uint32_t, bool> used_registers_;  ///< address -> written
   std::deque<Block> blocks_;
 };

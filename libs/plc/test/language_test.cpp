@@ -2,6 +2,8 @@
 // Statements, types, variables and units of Structured Text.
 #include <gmock/gmock.h>
 
+#include <random>
+
 #include "translated.hpp"
 
 namespace trunnion::st {
@@ -173,8 +175,58 @@ TEST(Registers, AreReadAndWrittenWithTheirWidth) {
   EXPECT_EQ(program.get("%Y4.0"), "TRUE");
   std::size_t written = 0;
   for (const auto& used : program.compilation.code->registers) written += used.written ? 1 : 0;
-  EXPECT_EQ(program.compilation.code->registers.size(), 6u);  // X0, Y3, Y4, G300, R5, B7
-  EXPECT_EQ(written, 5u);                                     // all but X0
+  EXPECT_EQ(program.compilation.code->registers.size(), 7u);  // X0, Y3, Y4, G300, R5, B7
+  EXPECT_EQ(written, 6u);                                     // all but X0
+}
+
+// However a run is divided, it computes the same, and its parts together are as long. Loops and calls are
+// interrupted too.
+TEST(Machine, ARunInPartsIsTheSameRun) {
+  const auto compiled = compile(
+      {{"t.st",
+        "FUNCTION twice : DINT VAR_INPUT v : DINT; END_VAR twice := v; twice := twice + v; END_FUNCTION\n"
+        "FUNCTION_BLOCK Sum VAR_INPUT v : DINT; END_VAR VAR_OUTPUT s : DINT; END_VAR VAR i : INT; END_VAR\n"
+        "FOR i := 1 TO 7 DO s := s + twice(v + i); END_FOR; END_FUNCTION_BLOCK\n"
+        "PROGRAM main VAR x, y, n : DINT; b : Sum; a : ARRAY[0..4] OF DINT; END_VAR\n"
+        "n := n + 1; b(v := n); x := b.s; WHILE y < n * 3 DO y := y + 1; a[y MOD 5] := x; END_WHILE;\n"
+        "x := twice(x) - y; END_PROGRAM\n"}},
+      interface_registers());
+  ASSERT_TRUE(compiled.good()) << testing::PrintToString(compiled.lines());
+  std::mt19937_64 random(9);
+  Machine whole(compiled.code), parts(compiled.code);
+  for (int run = 0; run < 200; ++run) {
+    ASSERT_EQ(whole.run(0, 0, 100000).kind, FaultKind::none);
+    Progress progress;
+    std::int64_t statements = 0;
+    int times = 0;
+    do {
+      ASSERT_EQ(parts.run_part(0, 0, 100000, 1 + static_cast<std::int64_t>(random() % 40), progress).kind,
+                FaultKind::none);
+      statements += parts.statements();
+      ++times;
+    } while (progress.interrupted != 0);
+    EXPECT_EQ(statements, whole.statements());
+    EXPECT_GT(times, 1);
+    ASSERT_TRUE(std::equal(whole.memory().begin(), whole.memory().end(), parts.memory().begin()));
+  }
+}
+
+TEST(Machine, ARunInPartsHasTheBudgetOfTheWholeRunAndRefusesAPlaceOfOtherCode) {
+  const auto compiled = compile(
+      {{"t.st", "PROGRAM main VAR n : DINT; END_VAR WHILE TRUE DO n := n + 1; END_WHILE; END_PROGRAM"}},
+      interface_registers());
+  ASSERT_TRUE(compiled.good());
+  Machine machine(compiled.code);
+  Progress progress;
+  int parts = 1;
+  Fault fault;
+  while ((fault = machine.run_part(0, 0, 1000, 50, progress)).kind == FaultKind::none) ++parts;
+  EXPECT_EQ(fault.kind, FaultKind::budget);
+  EXPECT_EQ(fault.value, 1000);
+  EXPECT_EQ(parts, 20);  // 1000 / 50
+  EXPECT_EQ(progress, Progress{});
+  progress.interrupted = 1, progress.instruction = 1u << 30;
+  EXPECT_EQ(machine.run_part(0, 0, 1000, 50, progress).kind, FaultKind::none);
 }
 
 TEST(Units, FunctionsBeginWithTheirInitialValuesAndHaveOutputs) {
@@ -243,7 +295,7 @@ TEST(Faults, NameTheirPlace) {
   Translated program("VAR i : INT := 5; a : ARRAY[0..3] OF INT; END_VAR", "i := i;\n  a[0] := 1 + a[i];");
   EXPECT_EQ(program.scan(), "t.st:4:17: index 5 is outside 0 .. 3 of the array");
   Translated runaway("VAR i : INT; END_VAR", "WHILE i < 1 DO\n  ;\nEND_WHILE;");
-  EXPECT_THAT(runaway.scan(), testing::HasSubstr("more than 1000000 statements in one scan"));
+  EXPECT_THAT(runaway.scan(), testing::HasSubstr("more than 1000000 statements in one run"));
 }
 
 TEST(Warnings, AreOfUnusedVariablesAndLostValues) {

@@ -2,12 +2,10 @@
 #include "plc/tools/program_run.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <span>
 #include <stdexcept>
 
 #include "plc/machine/arithmetic.hpp"
-#include "plc/syntax/token.hpp"
 #include "plc/tools/value_text.hpp"
 
 namespace trunnion::st {
@@ -48,110 +46,32 @@ std::string fault_line(const Compilation& compilation, const Machine& machine, c
 }
 
 ProgramRun::ProgramRun(const Compilation& compilation)
-    : compilation_(compilation), machine_(compilation.code) {}
-
-ProgramRun::Location ProgramRun::find(const std::string& path) const {
-  const auto refuse = [&](const std::string& why) -> Location {
-    throw std::runtime_error("'" + path + "': " + why);
-  };
-  if (path.starts_with('%')) {
-    const char* problem = "";
-    const auto address = parse_register(upper_case(path.substr(1)), &problem);
-    if (!address) return refuse(problem);
-    const auto& area = info(address->area);
-    if (!area.in_image) return refuse("set the variable AT this register");
-    const auto kind = address->bit >= 0 ? Kind::boolean
-                      : area.bits == 8  ? Kind::usint
-                      : area.bits == 16 ? Kind::uint_
-                                        : Kind::dint;
-    return {elementary(kind), address_of(address->area, address->index), address->bit, 0};
-  }
-  const auto upper = upper_case(path);
-  const Symbol* best = nullptr;
-  for (const auto& symbol : compilation_.symbols) {
-    const auto name = upper_case(symbol.path);
-    const bool begins = upper.starts_with(name) && (upper.size() == name.size() ||
-                                                    upper[name.size()] == '.' || upper[name.size()] == '[');
-    if (begins && (best == nullptr || symbol.path.size() > best->path.size())) best = &symbol;
-  }
-  // A name without its program when only one program has it.
-  if (best == nullptr)
-    for (const auto& symbol : compilation_.symbols) {
-      const auto dot = symbol.path.find('.');
-      if (dot == std::string::npos) continue;
-      const auto name = upper_case(symbol.path.substr(dot + 1));
-      if (!upper.starts_with(name) ||
-          (upper.size() != name.size() && upper[name.size()] != '.' && upper[name.size()] != '['))
-        continue;
-      if (best != nullptr) return refuse("several programs have it; write program.variable");
-      best = &symbol;
-    }
-  if (best == nullptr) return refuse("there is no such variable");
-  Location at{best->type, best->address, best->bit, 0};
-  auto rest = upper;
-  const auto full = upper_case(best->path);
-  rest = upper.starts_with(full) ? upper.substr(full.size()) : upper.substr(full.size() - full.find('.') - 1);
-  while (!rest.empty()) {
-    if (rest[0] == '.') {
-      const auto end = std::min(rest.find_first_of(".[", 1), rest.size());
-      const auto name = rest.substr(1, end - 1);
-      if (at.type->kind == Kind::structure) {
-        const auto* field = at.type->field(name);
-        if (field == nullptr) return refuse("there is no field '" + name + "'");
-        at.type = field->type, at.address += field->offset;
-      } else if (at.type->kind == Kind::block) {
-        const auto& pou = *at.type->block->pou;
-        const auto found = pou.names.find(name);
-        if (found == pou.names.end()) return refuse("there is no variable '" + name + "'");
-        at.type = found->second->type, at.address += static_cast<std::uint32_t>(found->second->place.offset);
-      } else {
-        return refuse(at.type->name + " has no members");
-      }
-      rest = rest.substr(end);
-    } else {
-      const auto end = rest.find(']');
-      if (at.type->kind != Kind::array || end == std::string::npos)
-        return refuse("no array, or ']' is missing");
-      const char* digits = rest.data() + 1;
-      std::int64_t stride = at.type->cells;
-      for (const auto& dimension : at.type->dimensions) {
-        std::int64_t number = 0;
-        const auto parsed = std::from_chars(digits, rest.data() + end, number);
-        if (parsed.ec != std::errc{} || number < dimension.low || number > dimension.high)
-          return refuse("the index is outside " + std::to_string(dimension.low) + " .. " +
-                        std::to_string(dimension.high));
-        stride /= dimension.high - dimension.low + 1;
-        at.address += static_cast<std::uint32_t>((number - dimension.low) * stride);
-        digits = std::min(parsed.ptr + 1, static_cast<const char*>(rest.data() + end));
-      }
-      at.type = at.type->element;
-      rest = rest.substr(end + 1);
-    }
-  }
-  return at;
-}
+    : compilation_(compilation), variables_(compilation), machine_(compilation.code) {}
 
 void ProgramRun::set(const std::string& path, const std::string& text) {
-  const auto at = find(path);
-  auto cells = machine_.memory().subspan(at.address, at.type->cells);
-  if (at.bit < 0) {
-    try {
-      set_value(*at.type, text, cells);
-    } catch (const std::runtime_error& e) {
-      throw std::runtime_error(path + ": " + e.what());
-    }
-    return;
+  const auto at = variables_.find(path);
+  std::vector<std::uint64_t> value(at.type->cells);
+  try {
+    set_value(*at.type, text, value);
+  } catch (const std::runtime_error& e) {
+    throw std::runtime_error(path + ": " + e.what());
   }
-  std::uint64_t bit = 0;
-  set_value(*at.type, text, std::span(&bit, 1));
-  cells[0] = (cells[0] & ~(std::uint64_t{1} << at.bit)) | (bit << at.bit);
+  auto cells = machine_.memory().subspan(at.address, at.type->cells);
+  if (at.bit >= 0)
+    cells[0] = (cells[0] & ~(std::uint64_t{1} << at.bit)) | (value[0] << at.bit);
+  else if (at.is_register())
+    cells[0] = static_cast<std::uint64_t>(register_number_of(at, value[0]));
+  else
+    std::copy(value.begin(), value.end(), cells.begin());
 }
 
 std::string ProgramRun::get(const std::string& path) const {
-  const auto at = find(path);
+  const auto at = variables_.find(path);
   const auto cells = machine_.memory().subspan(at.address, at.type->cells);
-  if (at.bit < 0) return value_text(*at.type, cells);
-  return (cells[0] >> at.bit) & 1u ? "TRUE" : "FALSE";
+  if (!at.is_register()) return value_text(*at.type, cells);
+  std::vector<std::uint64_t> values(cells.begin(), cells.end());
+  if (at.type->cells == 1) values[0] = value_cell(at, values[0]);
+  return value_text(*at.type, values);
 }
 
 Fault ProgramRun::scan(const std::string& entry, std::int64_t period, std::int64_t budget) {

@@ -8,6 +8,7 @@
 
 #include "plc/compile.hpp"
 #include "plc/machine/machine.hpp"
+#include "plc/tools/variables.hpp"
 
 namespace trunnion::st {
 
@@ -36,15 +37,8 @@ class ProgramRun {
   std::int64_t now() const { return now_; }
 
  private:
-  struct Location {
-    const Type* type = nullptr;
-    std::uint32_t address = 0;
-    int bit = -1;
-    std::uint16_t form = 0;
-  };
-  Location find(const std::string& path) const;
-
   const Compilation& compilation_;
+  Variables variables_;
   Machine machine_;
   std::int64_t now_ = 0;
   bool first_ = true;

@@ -17,6 +17,19 @@ MachineOutline machine() {
   return m;
 }
 
+TEST(DriveSection, AFaultHasItsKindAndPlaceAndABeamItsFrequency) {
+  const auto truth = parse_truth(
+      "drives: {Y2: {fault: {kind: overcurrent, at_mm: 300}}, C: {fault: {kind: overload, at_deg: -5}}}\n"
+      "beam: {axis: Y, slave_foot_mm: [900, 0, 0], racking_frequency_Hz: 20, racking_damping_ratio: 0.1}\n",
+      "truth.yaml", machine());
+  EXPECT_EQ(truth.drives.at("Y2").fault->kind, DriveFaultKind::overcurrent);
+  EXPECT_EQ(truth.drives.at("Y2").fault->at, 300);
+  EXPECT_TRUE(is_emergency(truth.drives.at("Y2").fault->kind));
+  EXPECT_FALSE(is_emergency(truth.drives.at("C").fault->kind));
+  EXPECT_EQ(truth.geometry.beam->racking_frequency, 20);
+  EXPECT_EQ(truth.geometry.beam->racking_damping, 0.1);
+}
+
 TEST(DriveSection, EveryValueHasItsUnit) {
   const auto drives = parse_truth(R"(
 drives:
@@ -27,7 +40,6 @@ drives:
     motor_encoder: {kind: incremental, resolution_um: 0.1, mark_spacing_mm: 10}
     load_encoder: {kind: distance_coded, resolution_um: 0.05, inverted: true, signal_period_um: 20, sine_offset: 0.01,
                    mark_spacing_mm: 20, mark_increment_mm: 0.02, first_mark_mm: -500, lost_at_mm: 30, lost_counts: 2}
-    feedback: load
   C: {mechanics: {backlash_urad: 100}, motor_encoder: {resolution_urad: 10}}
 )",
                                   "truth.yaml", machine())
@@ -41,7 +53,6 @@ drives:
   EXPECT_DOUBLE_EQ(x.load->signal_period, 0.02);
   EXPECT_TRUE(x.load->inverted);
   EXPECT_EQ(x.load->lost_counts, 2);
-  EXPECT_TRUE(x.load_feedback);
   const double degrees = 180 / std::numbers::pi;
   EXPECT_DOUBLE_EQ(drives.at("C").mechanics->backlash, 100e-6 * degrees);
   EXPECT_DOUBLE_EQ(drives.at("C").motor.resolution, 10e-6 * degrees);
@@ -50,14 +61,22 @@ drives:
 TEST(DriveSection, EveryFaultIsOneLineWithItsPlace) {
   const std::vector<std::pair<std::string, std::string>> faults{
       {"drives: {Y: {}}", "1:10: error: unknown key 'Y'; the keys are X, Y2, C"},
-      {"drives: {X: {feedback: load}}", "1:13: error: feedback: load, but there is no load_encoder"},
+      {"drives: {X: {feedback: load}}", "1:14: error: unknown key 'feedback'"},
       {"drives: {X: {mechanics: {load_share: 1}}}", "1:38: error: 1 is not within 0.02 .. 0.98"},
       {"drives: {X: {mechanics: {locked_frequency_Hz: 400}}}", "1:25: error: the resonance"},
       {"drives: {X: {mechanics: {coulomb: 0.1, breakaway: 0.05}}}",
        "1:51: error: breakaway is less than coulomb"},
       {"drives: {X: {mechanics: {backlash_urad: 3}}}", "1:26: error: unknown key 'backlash_urad'"},
       {"drives: {X: {motor_encoder: {kind: optical}}}",
-       "1:36: error: 'optical' is none of absolute, distance_coded, incremental"}};
+       "1:36: error: 'optical' is none of absolute, distance_coded, incremental"},
+      {"drives: {X: {fault: {kind: fire, at_mm: 1}}}", "1:28: error: 'fire' is none of bus"},
+      {"drives: {X: {fault: {kind: bus}}}", "1:21: error: 'at_mm' is missing"},
+      {"drives: {X: {fault: {at_mm: 3}}}", "1:21: error: 'kind' is missing"},
+      {"drives: {C: {fault: {kind: bus, at_mm: 3}}}", "1:33: error: unknown key 'at_mm'"},
+      {"beam: {axis: Y, slave_foot_mm: [9, 0, 0], racking_frequency_Hz: 301}",
+       "1:65: error: 301 is not within 1 .. 300"},
+      {"beam: {axis: Y, slave_foot_mm: [9, 0, 0], racking_damping_ratio: 2}",
+       "1:66: error: 2 is not within 0 .. 1"}};
   for (const auto& [text, expected] : faults) {
     try {
       parse_truth(text, "truth.yaml", machine());

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "outline.hpp"
+#include "testing_support/refusal.hpp"
 #include "truth/truth_file.hpp"
 
 namespace trunnion::truth {
@@ -13,12 +14,7 @@ const MachineOutline ac = outline(geometry::ac_table());
 Truth parsed(const std::string& text) { return parse_truth(text, "truth.yaml", ac); }
 
 std::string refusal(const std::string& text) {
-  try {
-    parsed(text);
-  } catch (const std::runtime_error& e) {
-    return e.what();
-  }
-  return "taken";
+  return testing_support::refusal_of([&] { parsed(text); });
 }
 
 TEST(ProbeSection, WithoutItThereIsNoProbe) {

@@ -228,8 +228,7 @@ void ChannelCore::reset() {
     path().trajectory().abort();
     return;
   }
-  // Nothing more is written: the drive keeps a snapshot in which the program runs, for whoever comes after.
-  if (link().snapshot().valid) ended_ = link().snapshot().cycle;
+  end_snapshot();
   if (states_.busy())
     stop_activity();
   else

@@ -72,10 +72,10 @@ void ChannelCore::set_programs(const idl::program::ProgramList& programs) {
 }
 
 RunningProgram ChannelCore::running_program() const {
-  if (program_under_way())
-    return {selected_.name, selected_.revision, selected_.crc32,
-            std::max<std::uint32_t>(progress_.executed.line, 1)};
   auto program = interrupted_;
+  if (program_under_way())
+    program = {selected_.name, selected_.revision, selected_.crc32,
+               std::max<std::uint32_t>(progress_.executed.line, 1)};
   program.ended = ended_;
   return program;
 }
@@ -147,11 +147,20 @@ void ChannelCore::finish(bool program_end) {
   }
   if (program_end && states_.is(Activity::program)) progress_.executed = {};
   keep_variables();
-  if (states_.is(Activity::program)) states_.forget_suspended();
+  if (states_.is(Activity::program)) {
+    states_.forget_suspended();
+    end_snapshot();
+  }
   states_.end();
   restart_.reset();
   if (reset) drop_offset();
   apply_parameters();
+}
+
+// What a program does at rest behind its last motion is written nowhere: the drive keeps a snapshot in which
+// it runs, for whoever comes after.
+void ChannelCore::end_snapshot() {
+  if (link().snapshot().valid) ended_ = link().snapshot().cycle;
 }
 
 std::optional<ChunkWanted> ChannelCore::wanted() const {

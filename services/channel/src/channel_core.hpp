@@ -175,6 +175,7 @@ class ChannelCore {
 
   // channel_core.cpp
   void stop_activity();
+  void end_snapshot();
   void finish(bool program_end);
   void keep_variables();
   void apply_parameters();
@@ -255,8 +256,8 @@ class ChannelCore {
   idl::program::ProgramEntry selected_;
   std::optional<RestartPoint> restart_;  // of the program, until it is reached
   AxisValues program_start_{};           // machine coordinates
-  std::uint64_t ended_ = 0;     // newest cycle of the drive's snapshot when a reset ended the program at rest
-  RunningProgram interrupted_;  // before this process started, by the end of the control
+  std::uint64_t ended_ = 0;              // newest cycle of the drive's snapshot when a program ended
+  RunningProgram interrupted_;           // before this process started, by the end of the control
   Mdi mdi_;
   AxisValues machine_start_{};  // of the path at rest, in machine coordinates
   PathProgress progress_;

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // How programs, lines and moves start.
+#include <algorithm>
+
 #include "channel_core.hpp"
 #include "machine/alarm_constants.hpp"
 
@@ -35,7 +37,8 @@ Answer ChannelCore::start_program(const Entry& entry) {
   program_flow_.start(program_path_.trajectory(), text, program_start_, power_on_modal(), *variables_, entry);
   restart_ = restart.sequence != 0 ? std::optional(restart) : std::nullopt;
   interrupted_ = {};
-  ended_ = 0;
+  // A drive that has lost its cycle counts anew.
+  ended_ = std::min(ended_, link().snapshot().valid ? link().snapshot().cycle : 0);
   states_.begin(Activity::program);
   return {};
 }

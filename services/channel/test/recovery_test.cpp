@@ -124,9 +124,27 @@ TEST_F(Recovery, AProgramThatWasResetAtRestIsNotContinuedByTheNextProcess) {
   load("G90\nG1 X100 Y50 F6000\nX0\nM30\n");
   ASSERT_TRUE(ask(CommandKind::CYCLE_START).accepted);
   rounds(40);
-  EXPECT_EQ(core->running_program().ended, 0u);
+  EXPECT_EQ(core->running_program().ended, kept.ended);
   begin(kept);
   EXPECT_EQ(core->run_state(), RunState::INTERRUPTED);
+}
+
+TEST_F(Recovery, AProgramThatEndsWithFunctionsAtRestIsNotContinuedByTheNextProcess) {
+  load("G90\nG1 X10 F6000\nM9\nM30\n");
+  ASSERT_TRUE(ask(CommandKind::CYCLE_START).accepted);
+  run();
+  ASSERT_EQ(core->run_state(), RunState::IDLE);
+  const auto kept = core->running_program();
+  begin(kept);
+  EXPECT_EQ(core->run_state(), RunState::IDLE) << "its last motion was in line 2, M9 and M30 come behind it";
+  // Nor is it when the next program is killed before it has moved.
+  load("G90\nM9\nG1 X30 F6000\nM30\n");
+  ASSERT_TRUE(ask(CommandKind::CYCLE_START).accepted);
+  const auto started = core->running_program();
+  EXPECT_EQ(started.line, 1u);
+  begin(started);
+  EXPECT_EQ(core->run_state(), RunState::IDLE);
+  EXPECT_EQ(core->state().restart_line, 1u) << "it is offered by its line";
 }
 
 TEST_F(Recovery, MdiFunctionsStillEndInAProgramUnderWhichTheDrivesWereSwitchedOff) {

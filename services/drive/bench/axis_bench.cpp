@@ -9,7 +9,9 @@ namespace {
 
 void period(benchmark::State& state, const truth::DriveTruth* truth) {
   SimulatedAxis axis;
-  axis.configure({}, truth);
+  ServoParameters parameters;
+  parameters.full_closed_loop = truth != nullptr && truth->load.has_value();
+  axis.configure(parameters, truth);
   axis.place(0);
   AxisSetpoint setpoint{0, 50, 0};
   while (state.KeepRunning()) {
@@ -30,7 +32,6 @@ truth::DriveTruth elastic(bool faults) {
   truth.load->kind = truth::EncoderKind::distance_coded;
   truth.load->first_mark = -1000;
   truth.load->signal_period = 0.02, truth.load->sine_offset = 0.01;
-  truth.load_feedback = true;
   return truth;
 }
 

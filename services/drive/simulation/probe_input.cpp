@@ -3,25 +3,12 @@
 
 #include <algorithm>
 
-#include "geometry/angle.hpp"
 #include "machine/gantry_pairs.hpp"
 
 namespace trunnion::drive {
-namespace {
-
-std::vector<geometry::OrientingAxis> orienting_axes(const geometry::ChainParameters& design) {
-  const auto made = geometry::Chain::make(design);
-  std::vector<geometry::OrientingAxis> axes;
-  if (const auto* chain = std::get_if<geometry::Chain>(&made))
-    for (std::size_t i = 0; i < chain->rotary_count(); ++i) axes.push_back(chain->orienting_axis(i));
-  return axes;
-}
-
-}  // namespace
-
 ProbeInput::ProbeInput(const ProbeSetup& setup)
     : geometry_(setup.geometry),
-      orienting_(orienting_axes(setup.design)),
+      orientation_(setup.design),
       lobes_(setup.probe.lobing != 0),
       length_(setup.probe.length),
       probe_(setup.probe, setup.solids) {
@@ -59,14 +46,11 @@ truth::ProbePose ProbeInput::pose(const std::vector<SimulatedAxis>& servos) cons
   machine.temperatures = warm_up_.temperatures();
   const auto tool = geometry_.pose(machine);
   truth::ProbePose out{tool.tip, truth::Vec3::UnitX(), tool.axis};
-  // The direction of the lobes by the axes without errors: those are far below what the lobes can show.
-  if (lobes_)
-    for (std::size_t i = orienting_.size(); i-- > 0;) {
-      const auto& axis = orienting_[i];
-      const auto t = geometry::sine_cosine(machine.positions[3 + axis.angle]);
-      const auto &k = axis.direction, v = out.across;
-      out.across = t.cosine * v + t.sine * k.cross(v) + ((1 - t.cosine) * k.dot(v)) * k;
-    }
+  if (lobes_) {
+    geometry::Angles degrees{};
+    std::copy(machine.positions.begin() + 3, machine.positions.end(), degrees.begin());
+    out.across = orientation_.across(degrees);
+  }
   return out;
 }
 

@@ -8,6 +8,7 @@
 #include "drive_hardware.hpp"
 #include "simulated_axis.hpp"
 #include "simulated_spindle.hpp"
+#include "truth/probe_orientation.hpp"
 #include "truth/touch_probe.hpp"
 
 namespace trunnion::drive {
@@ -43,7 +44,7 @@ class ProbeInput {
   truth::ProbePose pose(const std::vector<SimulatedAxis>& servos) const;
 
   truth::TrueGeometry geometry_;
-  std::vector<geometry::OrientingAxis> orienting_;  // from the workpiece to the tool
+  truth::ProbeOrientation orientation_;
   bool lobes_ = false, warms_ = false;
   std::array<int, truth::axis_count> columns_;  // of X Y Z A .. W; -1: none
   int slave_column_ = -1;                       // of the beam's slave, with its sign and zero

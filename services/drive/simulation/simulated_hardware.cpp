@@ -21,6 +21,16 @@ void SimulatedHardware::configure(const machine::Parameters& p, const std::vecto
     home_switches_[i].position = p.get(parameter::reference_coordinate, number);
     home_switches_[i].direction = p.integer(parameter::homing_direction, number);
   }
+  std::vector<const truth::DriveTruth*> truths(axes.size());
+  for (std::size_t i = 0; i < axes.size(); ++i)
+    if (const auto truth = truth_.find(axes[i].name); truth != truth_.end()) truths[i] = &truth->second;
+  faults_.configure(p, axes, truths);
+  links_ = GantryLink::of(p, beam_);
+  linked_.assign(axes.size(), 0);
+  for (const auto& link : links_)
+    for (std::size_t i = 0; i < axes.size(); ++i)
+      if (link.active() && link.has(i)) linked_[i] = 1;
+  test_.configure(p, axes, period);
   spindles_.resize(spindles.size());
   for (std::size_t i = 0; i < spindles.size(); ++i)
     spindles_[i].configure(p.get(parameter::maximum_acceleration, spindles[i].number), period);
@@ -39,7 +49,10 @@ void SimulatedHardware::restore(std::span<const double> positions, std::span<con
 
 bus::Json SimulatedHardware::explicit_state() const { return snapshot::written(*this); }
 
-void SimulatedHardware::continue_from(const bus::Json& state) { snapshot::read(state, *this); }
+void SimulatedHardware::continue_from(const bus::Json& state) {
+  snapshot::read(state, *this);
+  test_.continue_test();
+}
 
 void SimulatedHardware::status(DriveStatus& out) const {
   out.axes.resize(servos_.size());
@@ -52,9 +65,14 @@ void SimulatedHardware::status(DriveStatus& out) const {
     axis.velocity = servo.velocity();
     axis.torque = servo.torque();
     axis.homed = homed_[i] != 0 && servo.homed();
+    axis.encoder_difference = servo.encoder_difference();
     axis.home_switch = home_switches_[i].on;
     axis.home_latch = home_switches_[i].latch;
+    axis.marks = servo.marks(), axis.mark_latch = servo.mark_latch();
+    const auto shift = servo.scale_shift();
+    axis.scale_known = shift.has_value(), axis.scale_shift = shift.value_or(0);
   }
+  faults_.status(out.axes);
   out.spindles.resize(spindles_.size());
   for (std::size_t i = 0; i < spindles_.size(); ++i)
     out.spindles[i] = {spindles_[i].speed(), spindles_[i].angle()};
@@ -67,13 +85,38 @@ void SimulatedHardware::set_reference(std::size_t i, double shift) {
   homed_[i] = 1;
 }
 
-void SimulatedHardware::exchange(const SetpointRow& row, DriveStatus& out, EncoderRowSink& rows) {
-  for (std::size_t i = 0; i < servos_.size(); ++i) {
-    if (row.controlled)
-      servos_[i].step(row.axes[i], period_);
-    else
-      servos_[i].hold();
+void SimulatedHardware::step_axes(const SetpointRow& row) {
+  if (row.controlled && !faults_.any()) {
+    faults_.before(servos_);
+    for (std::size_t i = 0; i < servos_.size(); ++i)
+      if (linked_[i] == 0) servos_[i].step(row.axes[i], period_, test_.of(i));
+    for (auto& link : links_)
+      if (link.active()) link.step(servos_, row.axes, period_, test_);
+    faults_.after(servos_, links_);
+    return;
   }
+  if (faults_.running()) {
+    const double h = period_ / servo_substeps;
+    for (std::size_t i = 0; i < servos_.size(); ++i) {
+      if (linked_[i] != 0) continue;
+      for (int k = 0; k < servo_substeps && faults_.ways()[i] != RunOut::none; ++k)
+        servos_[i].run_out(faults_.ways()[i], h, 0);
+      if (faults_.ways()[i] == RunOut::none) servos_[i].hold();
+    }
+    for (auto& link : links_)
+      if (link.active()) link.run_out(servos_, faults_.ways(), period_);
+    faults_.settle(servos_);
+    return;
+  }
+  for (auto& servo : servos_) servo.hold();
+  for (const auto& link : links_)
+    if (link.active()) link.hold(servos_);
+}
+
+void SimulatedHardware::exchange(const SetpointRow& row, DriveStatus& out, EncoderRowSink& rows) {
+  test_.begin_period(row.moving);
+  step_axes(row);
+  test_.end_period();
   for (std::size_t i = 0; i < servos_.size(); ++i) {
     auto& home = home_switches_[i];
     const bool on = (servos_[i].load() - home.position) * home.direction > 0;

@@ -8,8 +8,11 @@
 #include <optional>
 #include <string>
 
+#include "drive_faults.hpp"
 #include "drive_hardware.hpp"
+#include "gantry_link.hpp"
 #include "probe_input.hpp"
+#include "servo_test.hpp"
 #include "simulated_axis.hpp"
 #include "simulated_spindle.hpp"
 #include "skip_inputs.hpp"
@@ -18,10 +21,12 @@ namespace trunnion::drive {
 
 class SimulatedHardware : public DriveHardware {
  public:
-  /// `truth`: the drives of truth.yaml; the other axes are ServoAxis. `probe`: its touch probe.
+  /// `truth`: the drives of truth.yaml; the other axes are ServoAxis. `probe`: its touch probe. `beam`: of
+  /// the gantry of channel 0.
   explicit SimulatedHardware(std::map<std::string, truth::DriveTruth> truth = {},
-                             const std::optional<ProbeSetup>& probe = {})
-      : truth_(std::move(truth)) {
+                             const std::optional<ProbeSetup>& probe = {},
+                             const std::optional<volumetric::BeamErrors>& beam = {})
+      : truth_(std::move(truth)), beam_(beam) {
     if (probe) probe_.emplace(*probe);
   }
 
@@ -31,9 +36,11 @@ class SimulatedHardware : public DriveHardware {
   bus::Json explicit_state() const override;
   void continue_from(const bus::Json& state) override;
   void status(DriveStatus& out) const override;
-  bool enabled() const override { return true; }
-  void reset_faults() override {}
+  bool enabled() const override { return !faults_.any(); }
+  bool running_out() const override { return faults_.running(); }
+  void reset_faults() override { faults_.reset(); }
   void set_reference(std::size_t axis, double shift) override;
+  ServoTester* tester() override { return &test_; }
   void exchange(const SetpointRow& row, DriveStatus& status, EncoderRowSink& rows) override;
 
   template <class Self, class Visit>
@@ -41,10 +48,13 @@ class SimulatedHardware : public DriveHardware {
     visit("servos", self.servos_), visit("spindles", self.spindles_);
     visit("home_switches", self.home_switches_), visit("skip_inputs", self.skip_inputs_);
     visit("homed", self.homed_);
+    if (!std::is_const_v<Self> || self.test_.running()) visit("test", self.test_);
     if (self.probe_) visit("probe", *self.probe_);
+    if (!std::is_const_v<Self> || self.faults_.any()) visit("faults", self.faults_);
   }
 
  private:
+  void step_axes(const SetpointRow& row);
   struct HomeSwitch {
     double position = 0, direction = 0;
     bool on = false;
@@ -60,8 +70,13 @@ class SimulatedHardware : public DriveHardware {
   std::vector<SimulatedAxis> servos_;
   std::vector<std::uint8_t> homed_;
   std::map<std::string, truth::DriveTruth> truth_;  // by the name of the axis
+  std::optional<volumetric::BeamErrors> beam_;
+  std::vector<GantryLink> links_;
+  std::vector<std::uint8_t> linked_;  // the axis is one of an active link
+  DriveFaults faults_;
   std::vector<SimulatedSpindle> spindles_;
   SkipInputs skip_inputs_;
+  ServoTest test_;
   std::optional<ProbeInput> probe_;
   std::vector<double> encoder_, angle_;  // of the row that is handed over
 };

@@ -104,6 +104,7 @@ void DriveCore::plan_return(const std::vector<double>& target) {
   return_periods_ = static_cast<std::uint32_t>(std::ceil(seconds / dt_));
   return_done_ = 0;
   off_path_ = false;
+  after_alignment_ = Mode::OFF;
   mode_ = Mode::RETURNING;
 }
 
@@ -115,6 +116,7 @@ void DriveCore::step_return() {
     command_[i] = return_from_[i] + s * (return_to_[i] - return_from_[i]);
   if (return_done_ < return_periods_) return;
   command_ = return_to_;
+  if (after_alignment_ != Mode::OFF) return end_alignment();
   target_ = return_to_;
   mode_ = Mode::FOLLOWING;
   rate_ = phase_ == 0 && rate_ == 1 ? 1 : 0;

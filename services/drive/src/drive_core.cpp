@@ -12,10 +12,6 @@
 namespace trunnion::drive {
 
 using idl::stream::StreamRequestKind;
-namespace {
-constexpr std::uint32_t settling = 250;  // periods after motion in virtual time, until the servos are at rest
-}  // namespace
-
 void DriveCore::configure(const machine::Parameters& p, bool virtual_time) {
   const bool first = axes_.empty();
   virtual_time_ = virtual_time;
@@ -43,11 +39,14 @@ void DriveCore::configure(const machine::Parameters& p, bool virtual_time) {
                   p.get(parameter::positive_limit, a),
                   p.get(parameter::negative_limit, a),
                   p.get(parameter::following_error_limit, a),
+                  p.get(parameter::encoder_difference_limit, a),
                   p.integer(parameter::homing_direction, a),
+                  p.integer(parameter::homing_marks, a),
                   p.get(parameter::reference_feed, a) / 60,
                   p.get(parameter::homing_creep_feed, a) / 60,
                   p.get(parameter::reference_coordinate, a)};
   }
+  slaves_.configure(p, axes_.size());
   spindle_axes_ = machine::spindles(p);
   spindles_.resize(spindle_axes_.size());
   row_.spindles.resize(spindle_axes_.size());
@@ -159,6 +158,7 @@ void DriveCore::request(const idl::stream::StreamRequest& request) {
 
 void DriveCore::start(Channel& channel, const idl::stream::StreamRequest& request) {
   leave(channel);
+  couple_slaves();
   // A start within an epoch whose start this process did not see is a message from before it was restarted.
   const bool new_epoch = request.kind == StreamRequestKind::NEW_EPOCH;
   const bool known =
@@ -166,7 +166,8 @@ void DriveCore::start(Channel& channel, const idl::stream::StreamRequest& reques
   if (!known) return;
   channel.epoch = request.epoch;
   channel.begun = true;
-  channel.active = mode_ != Mode::OFF && mode_ != Mode::BRAKING && mode_ != Mode::HOMING && all_homed();
+  channel.active =
+      mode_ != Mode::OFF && mode_ != Mode::BRAKING && mode_ != Mode::HOMING && all_homed() && all_aligned();
   channel.prefilled = false;
   const auto active =
       std::count_if(channels_.begin(), channels_.end(), [](const auto& c) { return c.second.active; });
@@ -176,8 +177,9 @@ void DriveCore::start(Channel& channel, const idl::stream::StreamRequest& reques
 
 void DriveCore::set_enables(const std::vector<std::uint8_t>& enable, bool emergency_stop) {
   bool all = !axes_.empty();
-  for (const auto& axis : axes_) all = all && axis.number < enable.size() && enable[axis.number] != 0;
+  for (const auto& axis : axes_) all = all && axis.number < enable.size() && (enable[axis.number] & 1) != 0;
   enabled_ = all && !emergency_stop;
+  demand_slaves_off(enable);
   if (enabled_) {
     switch_on();
   } else if (mode_ == Mode::HELD || (mode_ == Mode::FOLLOWING && !any_active())) {
@@ -194,6 +196,7 @@ void DriveCore::switch_on() {
   if (mode_ != Mode::OFF || control_lost_ || !hardware_->enabled()) return;
   mode_ = any_active() ? Mode::HELD : Mode::FOLLOWING;
   rate_ = any_active() ? 0 : 1;
+  align_slaves();
 }
 
 // The hardware has switched the drives off: nothing can be braked on the path any longer.
@@ -204,7 +207,13 @@ void DriveCore::lose_control() {
   if (faulty != status_.axes.end()) {
     const auto& axis = axes_[static_cast<std::size_t>(faulty - status_.axes.begin())];
     text = "The drive of axis " + axis.name + " reports a fault; the axes were switched off";
+    if (*faulty->fault_text != 0) text += std::string(" (") + faulty->fault_text + ")";
     raise(alarm::drive_fault, axis.number, text + ": remove the cause, then reset the alarms");
+    for (std::size_t i = 0; i < axes_.size(); ++i)
+      if (status_.axes[i].partner_fault)
+        raise(alarm::partner_stopped, axes_[i].number,
+              "The drive of axis " + axes_[i].name + " has stopped with that of its partner, axis " +
+                  axis.name);
   } else {
     raise(alarm::drive_fault, 0, text + ": see to its emergency stop chain, then reset the alarms");
   }
@@ -371,6 +380,7 @@ bool DriveCore::approach_needed() {
 
 void DriveCore::follow() {
   if (rate_ == 1 && phase_ == 0) {  // the ordinary case: one cycle in one period, the setpoint as it is
+    keep_distances();
     if (approach_needed()) {
       const auto start = scratch_;
       plan_return(start);
@@ -391,7 +401,7 @@ void DriveCore::follow() {
   moving = std::max(moving, stop_periods(std::min(supply().cycles, lead_ / 2)));
   reserve_ = std::min<std::uint64_t>(static_cast<std::uint64_t>(std::ceil(moving / 2)), lead_ / 2);
   if (!any_active()) {
-    settle_ = virtual_time_ ? settling : 0;
+    settle_ = virtual_time_ ? settling_periods : 0;
     reserve_ = 0, rate_ = 1, phase_ = 0;
     std::fill(velocity_.begin(), velocity_.end(), 0.0);
   }
@@ -401,6 +411,7 @@ void DriveCore::follow() {
 void DriveCore::exchange() {
   ++row_.number;
   row_.controlled = mode_ != Mode::OFF;
+  row_.moving = mode_ == Mode::FOLLOWING && any_active();
   row_.enable = row_.controlled || (enabled_ && !control_lost_);
   for (std::size_t i = 0; i < axes_.size(); ++i) {
     auto& axis = row_.axes[i];
@@ -409,6 +420,8 @@ void DriveCore::exchange() {
     axis = {command_[i], velocity, acceleration};
   }
   for (std::size_t i = 0; i < spindles_.size(); ++i) row_.spindles[i] = spindles_[i].setpoint();
+  if (testing() && (mode_ == Mode::OFF || mode_ == Mode::BRAKING || mode_ == Mode::HELD))
+    hardware_->tester()->end(idl::servo::TestPhase::ENDED_BY_STOP);
   hardware_->exchange(row_, status_, rows_);
   watch_probe();
   if (row_.controlled) {
@@ -432,6 +445,13 @@ void DriveCore::supervise() {
                     axes_[i].name.c_str(), error, l.following,
                     machine::number_text(parameter::following_error_limit.number(axes_[i].number)).c_str());
       raise(alarm::following_error, axes_[i].number, text);
+    } else if (const double difference = status_.axes[i].encoder_difference;
+               l.encoder_difference > 0 && std::abs(difference) > l.encoder_difference) {
+      std::snprintf(
+          text, sizeof text, "Axis %s: motor and load encoder differ by %.4f, limit %.4f (parameter %s)",
+          axes_[i].name.c_str(), difference, l.encoder_difference,
+          machine::number_text(parameter::encoder_difference_limit.number(axes_[i].number)).c_str());
+      raise(alarm::encoder_difference, axes_[i].number, text);
     } else if (constexpr double margin = 0.5; (command_[i] > l.positive + margin && velocity_[i] > 0) ||
                                               (command_[i] < l.negative - margin && velocity_[i] < 0)) {
       std::snprintf(text, sizeof text, "Axis %s at %.4f is beyond its travel %.4f .. %.4f",

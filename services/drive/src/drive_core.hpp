@@ -13,6 +13,7 @@
 #include "contracts/types.hpp"
 #include "drive_hardware.hpp"
 #include "executed_rows.hpp"
+#include "gantry_slaves.hpp"
 #include "homing.hpp"
 #include "machine/alarm_definition.hpp"
 #include "machine/axes.hpp"
@@ -25,6 +26,9 @@ using Mode = idl::stream::DriveMode;
 
 /// mm or deg: axes nearer than this to a point of the path need not be moved there.
 inline constexpr double on_path_distance = 1e-6;
+
+/// Periods after a motion in virtual time, until the servos are at rest.
+inline constexpr std::uint32_t settling_periods = 250;
 
 /// What must survive the process: where the axes are and which cycle is next.
 struct Memory {
@@ -86,6 +90,9 @@ class DriveCore {
   /// With the probe on, a rising edge of skip input 1 outside a skip move stops the axes and is an alarm.
   void set_probe(bool on) { row_.probe_on = on; }
 
+  /// Begins a test of servo loops, or ends one. Returns why it is refused, else an empty text.
+  std::string request_test(const idl::servo::TestRequest& request);
+
   /// True when a tick would execute, brake, return or settle; false when there is nothing to do but wait.
   /// `give_up`: the setpoints that are missing have been waited for long enough.
   bool can_step(bool give_up) const;
@@ -114,11 +121,14 @@ class DriveCore {
   const std::vector<double>& commands() const { return command_; }
   DriveHardware& hardware() { return *hardware_; }
   const DriveHardware& hardware() const { return *hardware_; }
+  /// A test of servo loops runs whose time passes at rest.
+  bool needs_time() const { return hardware_->tester() != nullptr && hardware_->tester()->needs_time(); }
 
  private:
   struct Limits {
-    double velocity, acceleration, positive, negative, following;
+    double velocity, acceleration, positive, negative, following, encoder_difference;
     int homing_direction;  // 0: none is needed
+    int homing_marks;      // 10a922
     double homing_search, homing_creep, reference;
   };
   struct Channel {
@@ -162,8 +172,10 @@ class DriveCore {
   void start(Channel& channel, const idl::stream::StreamRequest& request);
   bool all_homed();
   void home(std::uint16_t axis);
-  void reference(double shift);
+  void reference(std::size_t column, double shift);
   void step_homing();
+  bool begin_homing(std::size_t column);
+  Homing::Signals homing_signals();
   void abort_homing();
   void follow_supply();
   void begin_braking();
@@ -185,7 +197,16 @@ class DriveCore {
   void lose_control();
   void stop_at_newest_row(std::uint64_t starved);
   void supervise();
+  bool testing() const { return hardware_->tester() != nullptr && hardware_->tester()->running(); }
   void watch_probe();
+  double compensated_offset(const GantrySlave& slave) const;
+  void align_slaves();
+  void end_alignment();
+  void report_misalignment(const GantrySlave& slave, double error);
+  bool all_aligned();
+  void demand_slaves_off(const std::vector<std::uint8_t>& enable);
+  void couple_slaves();
+  void keep_distances();
   void stopped();
   double rate_step();
   void return_to_whole_cycles();
@@ -225,6 +246,23 @@ class DriveCore {
   std::uint32_t settle_ = 0;   // periods until the servos are at rest, in virtual time
   Homing homing_;
   std::size_t homing_axis_ = 0;  // column
+  struct HomingMember {
+    std::size_t column = 0;
+    double sign = 1, from = 0;  // of its motion in that of homing_axis_; position at the start
+    bool edge_taken = false, mark_taken = false;
+    double latch = 0;
+    std::uint64_t marks = 0;  // when its edge was taken
+
+    template <class Self, class Visit>
+    static void fields(Self& self, Visit&& visit) {
+      visit("column", self.column), visit("sign", self.sign), visit("from", self.from);
+      visit("edge_taken", self.edge_taken), visit("mark_taken", self.mark_taken);
+      visit("latch", self.latch), visit("marks", self.marks);
+    }
+  };
+  std::vector<HomingMember> homing_members_;  // homing_axis_ and the slaves that move with it
+  GantrySlaves slaves_;
+  Mode after_alignment_ = Mode::OFF;  // while slaves are aligned: what follows
   std::vector<double> return_from_, return_to_;
   std::uint32_t return_periods_ = 0, return_done_ = 0;
 

@@ -17,6 +17,7 @@
 #include "contracts/types.hpp"
 #include "machine/axes.hpp"
 #include "machine/parameters.hpp"
+#include "servo_tester.hpp"
 
 namespace trunnion::drive {
 
@@ -48,6 +49,7 @@ struct SetpointRow {
   bool enable = false;       ///< the drives shall be switched on; false: braked or held by the hardware
   /// The axes follow the row. When false its positions are without effect and the spindles run down.
   bool controlled = false;
+  bool moving = false;  ///< a channel has the axes
   std::vector<AxisSetpoint> axes;
   std::vector<SpindleSetpoint> spindles;
   bool probe_on = false;  ///< the touch probe is switched on
@@ -55,6 +57,7 @@ struct SetpointRow {
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
     visit("number", self.number), visit("enable", self.enable), visit("controlled", self.controlled);
+    visit("moving", self.moving);
     visit("axes", self.axes), visit("spindles", self.spindles), visit("probe_on", self.probe_on);
   }
 };
@@ -66,12 +69,21 @@ struct AxisStatus {
   /// otherwise.
   double hold_position = 0;
   double velocity = 0;
-  double torque = 0;         ///< share of the rated torque; 0 where it is not measured
-  bool enabled = true;       ///< the drive of the axis is switched on
-  bool fault = false;        ///< the drive of the axis reports an error, cleared by reset_faults()
-  bool homed = true;         ///< the position has its reference
+  double torque = 0;    ///< share of the rated torque; 0 where it is not measured
+  bool enabled = true;  ///< the drive of the axis is switched on
+  bool fault = false;   ///< the drive of the axis reports an error, cleared by reset_faults()
+  bool homed = true;    ///< the position has its reference
+  /// Of motor and load since the start, mm or deg; 0 where there is one encoder.
+  double encoder_difference = 0;
   bool home_switch = false;  ///< state of the home switch
   double home_latch = 0;     ///< position at the newest rising edge of the home switch
+  std::uint64_t marks = 0;   ///< index marks that were passed
+  double mark_latch = 0;     ///< position at the newest one
+  /// A scale with distance-coded marks: two were passed, and it reads `scale_shift` more than `position`.
+  bool scale_known = false;
+  double scale_shift = 0;
+  const char* fault_text = "";  ///< what the drive reports with `fault`
+  bool partner_fault = false;   ///< the drive has stopped because that of its gantry partner has a fault
 };
 
 struct SpindleStatus {
@@ -127,6 +139,8 @@ class DriveHardware {
 
   /// The drives of all axes are switched on and without a fault. Cyclic.
   virtual bool enabled() const = 0;
+  /// Axes come to rest although the drives are off. Cyclic.
+  virtual bool running_out() const { return false; }
   /// The operator resets alarms. Cyclic.
   virtual void reset_faults() = 0;
   /// From now on the positions of an axis are greater by `shift`, and the axis is homed. Not cyclic, at
@@ -148,6 +162,8 @@ class DriveHardware {
   /// The hardware has room for another row. Cyclic, asked before every exchange() when is_clock(). Throws
   /// std::runtime_error with one line when the hardware does not run any longer.
   virtual bool period_due() { return true; }
+  /// Null where the hardware cannot test its servo loops.
+  virtual ServoTester* tester() { return nullptr; }
   /// The process is told to end. Not cyclic.
   virtual void end() {}
 };

@@ -25,6 +25,11 @@ struct DriveState {
       visit("return_from", c.return_from_), visit("return_to", c.return_to_);
       visit("return_periods", c.return_periods_), visit("return_done", c.return_done_);
       visit("spindles", c.spindles_), visit("reported", c.reported_);
+      // Written where there is something: recordings of machines without gantries have no such state.
+      constexpr bool reads = !std::is_const_v<Core>;
+      if (reads || !c.homing_members_.empty()) visit("homing_members", c.homing_members_);
+      if (reads || !c.slaves_.empty()) visit("slaves", c.slaves_.all());
+      if (reads || c.after_alignment_ != Mode::OFF) visit("after_alignment", c.after_alignment_);
     }
   };
 };

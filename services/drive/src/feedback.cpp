@@ -19,7 +19,8 @@ void DriveCore::fill(idl::stream::FeedbackFrame& out) {
     out.velocity[i] = status_.axes[i].velocity;
     out.torque[i] = status_.axes[i].torque;
     out.position[i] = status_.axes[i].position;
-    out.enabled[i] = mode_ == Mode::OFF ? 0 : 1;
+    const auto* slave = slaves_.at(i);
+    out.enabled[i] = mode_ == Mode::OFF ? 0 : slave != nullptr && slave->off ? 3 : 1;
   }
   out.spindle_speed.resize(spindles_.size());
   for (std::size_t i = 0; i < spindles_.size(); ++i) out.spindle_speed[i] = status_.spindles[i].speed;

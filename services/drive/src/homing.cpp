@@ -32,6 +32,7 @@ double Homing::demand() const {
     case Phase::leave:
       return -settings_.direction * settings_.creep;
     case Phase::creep:
+    case Phase::mark:
       return settings_.direction * settings_.creep;
     case Phase::settle:
       break;
@@ -39,29 +40,30 @@ double Homing::demand() const {
   return 0;
 }
 
-void Homing::next_phase(const AxisStatus& axis) {
+void Homing::next_phase(const Signals& signals) {
   switch (phase_) {
     case Phase::leave_fast:
-      if (!axis.home_switch) phase_ = Phase::search;
+      if (!signals.any_switch) phase_ = Phase::search;
       break;
     case Phase::search:
-      if (axis.home_switch) phase_ = Phase::leave;
+      if (signals.all_switches) phase_ = Phase::leave;
       break;
     case Phase::leave:
-      if (!axis.home_switch) phase_ = Phase::creep;
+      if (!signals.any_switch) phase_ = Phase::creep;
       break;
     case Phase::creep:
-      if (!axis.home_switch) break;
-      latch_ = axis.home_latch;
-      phase_ = Phase::settle;
+      if (signals.all_switches) phase_ = settings_.index ? Phase::mark : Phase::settle;
+      break;
+    case Phase::mark:
+      if (signals.all_marks) phase_ = Phase::settle;
       break;
     case Phase::settle:
       break;
   }
 }
 
-double Homing::step(const AxisStatus& axis, double dt) {
-  next_phase(axis);
+double Homing::step_together(const Signals& signals, double dt) {
+  next_phase(signals);
   if (std::abs(position_ - start_) > settings_.travel) abort();
   const double change = settings_.acceleration * dt;
   velocity_ += std::clamp(demand() - velocity_, -change, change);

@@ -23,46 +23,121 @@ bool DriveCore::all_homed() {
   return false;
 }
 
+// The slaves of a master move with it, so nothing is racked; each finds its own reference.
 void DriveCore::home(std::uint16_t number) {
-  const int column = machine::column_of(axes_, number);
-  if (column < 0 || mode_ != Mode::FOLLOWING || any_active()) return;
-  homing_axis_ = static_cast<std::size_t>(column);
-  const auto& l = limits_[homing_axis_];
-  if (l.homing_direction == 0) {
-    // An absolute encoder whose position was lost gets its reference where it is.
-    if (!status_.axes[homing_axis_].homed) reference(l.reference - command_[homing_axis_]);
-    return;
+  const int found = machine::column_of(axes_, number);
+  if (found < 0 || mode_ != Mode::FOLLOWING || any_active()) return;
+  auto column = static_cast<std::size_t>(found);
+  if (const auto* slave = slaves_.at(column); slave != nullptr && !slave->off)
+    column = slave->master_column();
+  homing_axis_ = column;
+  homing_members_ = {{column, 1, command_[column]}};
+  for (auto& slave : slaves_.all()) {
+    if (slave.master_column() != column || slave.off) continue;
+    homing_members_.push_back({slave.column(), slave.pair.sign, command_[slave.column()]});
+    slave.offset_known = false;
   }
-  Homing::Settings settings;
-  settings.direction = l.homing_direction;
-  settings.search = std::min(l.homing_search, l.velocity);
-  settings.creep = std::min(l.homing_creep, l.velocity);
-  settings.acceleration = l.acceleration;
-  settings.travel = l.positive - l.negative;
-  settings.reference = l.reference;
-  homing_.start(settings, command_[homing_axis_]);
-  mode_ = Mode::HOMING;
+  if (begin_homing(column)) return;
+  // An absolute encoder whose position was lost gets its reference where it is.
+  for (const auto& member : homing_members_)
+    if (!status_.axes[member.column].homed)
+      reference(member.column, limits_[member.column].reference - command_[member.column]);
+  homing_members_.clear();
 }
 
-// The positions of the axis that is homed are greater by `shift` from now on.
-void DriveCore::reference(double shift) {
-  hardware_->set_reference(homing_axis_, shift);
+// False when no axis has to search.
+bool DriveCore::begin_homing(std::size_t column) {
+  Homing::Settings settings;
+  settings.direction = 0;
+  const auto& master = limits_[column];
+  settings.search = std::min(master.homing_search, master.velocity);
+  settings.creep = std::min(master.homing_creep, master.velocity);
+  settings.acceleration = master.acceleration;
+  settings.travel = master.positive - master.negative;
+  settings.reference = master.reference;
+  bool contrary = false;
+  for (const auto& member : homing_members_) {
+    const auto& l = limits_[member.column];
+    settings.search = std::min({settings.search, l.homing_search, l.velocity});
+    settings.creep = std::min({settings.creep, l.homing_creep, l.velocity});
+    settings.acceleration = std::min(settings.acceleration, l.acceleration);
+    if (l.homing_direction == 0) continue;
+    const double direction = l.homing_direction * member.sign;
+    contrary = contrary || (settings.direction != 0 && settings.direction != direction);
+    settings.direction = direction;
+    settings.index = settings.index || l.homing_marks == 1;
+  }
+  if (settings.direction == 0) return false;
+  if (contrary) {
+    raise(alarm::homing_failed, axes_[column].number,
+          "Axis " + axes_[column].name +
+              " and its slaves search their references in opposite directions: see to parameter "
+              "homing_direction");
+    homing_members_.clear();
+    return true;
+  }
+  homing_.start(settings, command_[column]);
+  mode_ = Mode::HOMING;
+  return true;
+}
+
+// The positions of an axis are greater by `shift` from now on.
+void DriveCore::reference(std::size_t column, double shift) {
+  hardware_->set_reference(column, shift);
   hardware_->status(status_);
-  command_[homing_axis_] += shift;
-  row_.axes[homing_axis_].position += shift;
+  command_[column] += shift;
+  row_.axes[column].position += shift;
   target_ = command_;
 }
 
+Homing::Signals DriveCore::homing_signals() {
+  Homing::Signals all{false, true, true};
+  for (auto& member : homing_members_) {
+    const auto& l = limits_[member.column];
+    const auto& axis = status_.axes[member.column];
+    if (l.homing_direction == 0) continue;
+    if (l.homing_marks == 2) {
+      all.all_switches = all.all_switches && axis.scale_known;
+      continue;
+    }
+    all.any_switch = all.any_switch || axis.home_switch;
+    all.all_switches = all.all_switches && axis.home_switch;
+    if (l.homing_marks != 1) continue;
+    if (homing_.edges_found() && member.edge_taken && !member.mark_taken && axis.marks != member.marks) {
+      member.latch = axis.mark_latch;
+      member.mark_taken = true;
+    }
+    all.all_marks = all.all_marks && member.mark_taken;
+  }
+  return all;
+}
+
 void DriveCore::step_homing() {
-  command_[homing_axis_] = homing_.step(status_.axes[homing_axis_], dt_);
+  const double position = homing_.step_together(homing_signals(), dt_);
+  const double moved = position - homing_members_.front().from;
+  for (auto& member : homing_members_) {
+    command_[member.column] = member.column == homing_axis_ ? position : member.from + member.sign * moved;
+    if (!homing_.edges_found() || member.edge_taken) continue;
+    member.edge_taken = true;
+    member.latch = status_.axes[member.column].home_latch;
+    member.marks = status_.axes[member.column].marks;
+  }
   if (homing_.state() == Homing::State::moving) return;
   if (homing_.state() == Homing::State::done) {
-    reference(homing_.shift());
+    for (const auto& member : homing_members_) {
+      const auto& l = limits_[member.column];
+      const auto& axis = status_.axes[member.column];
+      if (l.homing_direction != 0)
+        reference(member.column, l.reference + (l.homing_marks == 2 ? axis.scale_shift : -member.latch));
+      else if (!axis.homed)
+        reference(member.column, l.reference - command_[member.column]);
+    }
   } else if (enabled_) {
     raise(alarm::homing_failed, axes_[homing_axis_].number,
-          "Axis " + axes_[homing_axis_].name +
-              " has not found its home switch: see to the switch and to parameter homing_direction");
+          "Axis " + axes_[homing_axis_].name + (homing_members_.size() > 1 ? " or its slave has" : " has") +
+              " not found its home switch: see to the switch and to parameter homing_direction");
   }
+  homing_members_.clear();
   target_ = command_;
   mode_ = enabled_ ? Mode::FOLLOWING : Mode::OFF;
 }

@@ -54,7 +54,10 @@ void DriveCore::target_of(std::uint64_t cycle, std::vector<double>& out) {
       for (const auto axis : channel.axes) channel.columns.push_back(machine::column_of(axes_, axis));
     }
     for (std::size_t i = 0; i < channel.columns.size(); ++i)
-      if (channel.columns[i] >= 0) out[static_cast<std::size_t>(channel.columns[i])] = values[i];
+      if (channel.columns[i] >= 0) {
+        const auto column = static_cast<std::size_t>(channel.columns[i]);
+        out[column] = slaves_.setpoint(column, values[i]);
+      }
   }
 }
 
@@ -87,11 +90,11 @@ bool DriveCore::can_step(bool give_up) const {
     case Mode::HELD:
       return resume_ && prefilled(supply());
     case Mode::OFF:
-      return false;
+      return hardware_->running_out();
     case Mode::FOLLOWING:
       break;
   }
-  if (!any_active()) return settle_ > 0;
+  if (!any_active()) return settle_ > 0 || needs_time();
   const auto s = supply();
   return enough(s) || (give_up && reserve_ > 0);
 }

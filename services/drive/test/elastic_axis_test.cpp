@@ -15,8 +15,8 @@ namespace {
 
 // An axis with the feed-forward that the executor gives it.
 struct Axis : SimulatedAxis {
-  explicit Axis(const truth::DriveTruth* truth, double at = 0) {
-    configure({}, truth);
+  explicit Axis(const truth::DriveTruth* truth, double at = 0, const ServoParameters& parameters = {}) {
+    configure(parameters, truth);
     place(at);
     setpoint.position = command();
   }
@@ -43,6 +43,12 @@ truth::DriveTruth elastic() {
   return truth;
 }
 
+ServoParameters full_closed() {
+  ServoParameters p;
+  p.full_closed_loop = true;
+  return p;
+}
+
 TEST(ElasticAxis, WithTheMotorsEncoderTheLoadIsBackByTheBacklash) {
   auto truth = elastic();
   truth.mechanics->backlash = 0.02;
@@ -65,8 +71,7 @@ TEST(ElasticAxis, WithAScaleTheLoadArrivesInSpiteOfScrewErrorAndWeight) {
   truth.mechanics->gravity = 0.2;
   truth.load.emplace();
   Axis semi(&truth);
-  truth.load_feedback = true;
-  Axis full(&truth);
+  Axis full(&truth, 0, full_closed());
   semi.by(100, 50);
   full.by(100, 50);
   EXPECT_NEAR(full.load(), 100, 2e-4);
@@ -79,8 +84,7 @@ TEST(ElasticAxis, AScaleMountedTheWrongWayRoundRunsAway) {
   auto truth = elastic();
   truth.load.emplace();
   truth.load->inverted = true;
-  truth.load_feedback = true;
-  Axis axis(&truth, 1);
+  Axis axis(&truth, 1, full_closed());
   EXPECT_NEAR(axis.encoder(), -1, 1e-4);
   for (int i = 0; i < 300; ++i) axis.to(-1.01);
   EXPECT_GT(std::abs(axis.encoder() + 1.01), 0.1) << "the position loop drives away from its setpoint";

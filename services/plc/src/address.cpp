@@ -4,68 +4,52 @@
 #include <algorithm>
 #include <limits>
 
-#include "plc/machine/register_area.hpp"
-
 namespace trunnion::plc {
 
-int width(Area area) {
-  switch (area) {
-    case Area::f:
-    case Area::g:
-      return 16;
-    case Area::b:
-      return 32;
-    default:
-      return 8;
-  }
-}
-
 std::optional<Address> parse_address(std::string_view text) {
-  if (!text.empty() && text[0] == '%') text.remove_prefix(1);
-  if (text.empty()) return std::nullopt;
-  constexpr std::string_view areas = "XYFGRB";
-  const auto area = areas.find(text[0]);
-  if (area == std::string_view::npos) return std::nullopt;
-  text.remove_prefix(1);
-  const auto dot = text.find('.');
-  const auto index = st::register_number(text.substr(0, dot));
-  Address address{static_cast<Area>(area), 0, -1};
-  if (!index || *index >= static_cast<int>(register_count)) return std::nullopt;
-  address.index = static_cast<std::uint16_t>(*index);
-  if (dot != std::string_view::npos) {
-    const auto bit = st::register_number(text.substr(dot + 1));
-    if (!bit || *bit >= width(address.area)) return std::nullopt;
-    address.bit = static_cast<std::int8_t>(*bit);
-  }
-  return address;
-}
-
-std::int32_t load(const Registers& registers, Address a) {
-  std::uint32_t value = 0;
-  switch (a.area) {
-    case Area::x:
-      value = registers.x[a.index];
-      break;
-    case Area::y:
-      value = registers.y[a.index];
-      break;
-    case Area::r:
-      value = registers.r[a.index];
-      break;
-    case Area::f:
-      value = registers.f[a.index];
-      break;
-    case Area::g:
-      value = registers.g[a.index];
-      break;
-    case Area::b:
-      value = static_cast<std::uint32_t>(registers.b[a.index]);
-      break;
-  }
-  return a.is_bit() ? static_cast<std::int32_t>((value >> a.bit) & 1u) : static_cast<std::int32_t>(value);
+  const bool percent = text.starts_with('%');
+  if (percent) text.remove_prefix(1);
+  // Not the names of the standard. Without percent sign T1 or D2 may be a name of the program.
+  const std::string_view letters = percent ? "XYFGRBWDTCKP" : "XYFGRB";
+  if (text.empty() || letters.find(text[0]) == std::string_view::npos) return std::nullopt;
+  const auto found = st::parse_register(text, nullptr);
+  if (!found) return std::nullopt;
+  return Address{found->area, found->index, found->bit};
 }
 
 namespace {
+
+// The register in the array of its area; each has its own type of number.
+template <class Image, class Use>
+auto with_register(Image& registers, Address a, Use use) {
+  switch (a.area) {
+    case Area::x:
+      return use(registers.x[a.index]);
+    case Area::y:
+      return use(registers.y[a.index]);
+    case Area::f:
+      return use(registers.f[a.index]);
+    case Area::g:
+      return use(registers.g[a.index]);
+    case Area::r:
+      return use(registers.r[a.index]);
+    case Area::b:
+      return use(registers.b[a.index]);
+    case Area::w:
+      return use(registers.w[a.index]);
+    case Area::d:
+      return use(registers.d[a.index]);
+    case Area::t:
+      return use(registers.t[a.index]);
+    case Area::c:
+      return use(registers.c[a.index]);
+    case Area::k:
+      return use(registers.k[a.index]);
+    case Area::p:
+      break;
+  }
+  return use(registers.p[a.index]);
+}
 
 template <class T>
 void put(T& target, Address a, std::int64_t value) {
@@ -81,21 +65,13 @@ void put(T& target, Address a, std::int64_t value) {
 
 }  // namespace
 
+std::int32_t load(const Registers& registers, Address a) {
+  const auto value = with_register(registers, a, [](auto cell) { return static_cast<std::uint32_t>(cell); });
+  return a.is_bit() ? static_cast<std::int32_t>((value >> a.bit) & 1u) : static_cast<std::int32_t>(value);
+}
+
 void store(Registers& registers, Address a, std::int64_t value) {
-  switch (a.area) {
-    case Area::x:
-      return put(registers.x[a.index], a, value);
-    case Area::y:
-      return put(registers.y[a.index], a, value);
-    case Area::r:
-      return put(registers.r[a.index], a, value);
-    case Area::f:
-      return put(registers.f[a.index], a, value);
-    case Area::g:
-      return put(registers.g[a.index], a, value);
-    case Area::b:
-      return put(registers.b[a.index], a, value);
-  }
+  with_register(registers, a, [&](auto& cell) { put(cell, a, value); });
 }
 
 }  // namespace trunnion::plc

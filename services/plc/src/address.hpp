@@ -6,10 +6,11 @@
 #include <string_view>
 
 #include "memory.hpp"
+#include "plc/machine/register_area.hpp"
 
 namespace trunnion::plc {
 
-enum class Area : std::uint8_t { x, y, f, g, r, b };
+using st::Area;
 
 struct Address {
   Area area = Area::x;
@@ -20,11 +21,11 @@ struct Address {
 };
 
 /// Bits of one register of the area: 8, 16 or 32.
-int width(Area area);
+inline int width(Area area) { return st::info(area).bits; }
 /// X0.3, %G5, B7.31; nothing when it is no address or outside the image.
 std::optional<Address> parse_address(std::string_view text);
 
-/// 0 or 1 of a bit, else the register's value.
+/// 0 or 1 of a bit, else the register's value; of one without sign below 2^16.
 std::int32_t load(const Registers& registers, Address address);
 /// A word saturates at the limits of its register.
 void store(Registers& registers, Address address, std::int64_t value);

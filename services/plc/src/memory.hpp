@@ -8,26 +8,29 @@
 #include <type_traits>
 
 #include "contracts/types.hpp"
+#include "plc/machine/machine.hpp"
 
 namespace trunnion::plc {
 
 using idl::channel::AuxiliaryKind;
 
-inline constexpr std::size_t register_count = 512;  ///< of each area
+inline constexpr std::size_t register_count = 512, block_register_count = 3360;
 inline constexpr std::size_t channel_count = 8, spindle_count = 8;
 inline constexpr std::size_t timer_count = 256, counter_count = 256, edge_count = 512;
 
-/// The register image; idl/plc.idl defines the areas.
+/// The register image; idl/plc.idl defines the areas, libs/plc/machine/register_area.hpp their sizes.
 struct Registers {
-  std::array<std::uint8_t, register_count> x{}, y{}, r{};
-  std::array<std::uint16_t, register_count> f{}, g{};
-  std::array<std::int32_t, register_count> b{};
+  std::array<std::uint8_t, register_count> x{}, y{}, r{}, k{};
+  std::array<std::uint16_t, block_register_count> f{}, g{};
+  std::array<std::uint16_t, register_count> w{};
+  std::array<std::int32_t, register_count> b{}, d{}, t{}, c{}, p{};
   bool operator==(const Registers&) const = default;
 
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
     visit("x", self.x), visit("y", self.y), visit("r", self.r), visit("f", self.f), visit("g", self.g);
-    visit("b", self.b);
+    visit("b", self.b), visit("w", self.w), visit("d", self.d), visit("t", self.t), visit("c", self.c);
+    visit("k", self.k), visit("p", self.p);
   }
 };
 
@@ -108,11 +111,42 @@ struct ProgramVariables {
   Fault fault;
   std::uint32_t cells = 0;  ///< of `values` that are used
   std::uint32_t reserved = 0;
+  st::Progress main;  ///< of the main task, which is spread over scans
   std::array<std::uint64_t, program_cells> values{};
 
   bool operator==(const ProgramVariables& other) const {
     return layout == other.layout && identity == other.identity && fault == other.fault &&
-           cells == other.cells && std::equal(values.begin(), values.begin() + cells, other.values.begin());
+           cells == other.cells && main == other.main &&
+           std::equal(values.begin(), values.begin() + cells, other.values.begin());
+  }
+};
+
+inline constexpr std::size_t most_forces = 64;
+
+/// A register, a bit of one or an elementary variable that keeps a value whatever the programs write.
+struct Force {
+  std::uint32_t cell = 0;  ///< of the memory of the programs: below st::image_cells a register
+  std::int32_t bit = -1;   ///< of a register
+  std::uint64_t value = 0;
+  std::uint32_t permanent = 0;  ///< 1: also after a new start of the cluster
+  std::uint32_t reserved = 0;
+  bool operator==(const Force&) const = default;
+
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    visit("cell", self.cell), visit("bit", self.bit), visit("value", self.value);
+    visit("permanent", self.permanent);
+  }
+};
+
+/// In the order in which they were made; one place is forced once.
+struct Forces {
+  std::array<Force, most_forces> values{};
+  std::uint32_t count = 0, reserved = 0;
+
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    visit("values", self.values), visit("count", self.count);
   }
 };
 
@@ -125,7 +159,8 @@ struct Memory {
   std::uint64_t tick = 0;                               ///< drive tick that belongs to now_us
   std::array<double, spindle_count> spindle_command{};  ///< 1/min, signed
   std::array<std::uint64_t, spindle_count>
-      spindle_since{};       ///< PLC time in ms of the last change of the command
+      spindle_since{};  ///< PLC time in ms of the last change of the command
+  Forces forces;
   ProgramVariables program;  ///< the last member: files without such programs end before it. Not in `fields`
 
   template <class Self, class Visit>
@@ -133,6 +168,7 @@ struct Memory {
     visit("registers", self.registers), visit("blocks", self.blocks), visit("handshakes", self.handshakes);
     visit("now_us", self.now_us), visit("scans", self.scans), visit("tick", self.tick);
     visit("spindle_command", self.spindle_command), visit("spindle_since", self.spindle_since);
+    visit("forces", self.forces);
   }
 };
 static_assert(std::is_trivially_copyable_v<Memory>);

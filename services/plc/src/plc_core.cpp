@@ -30,6 +30,7 @@ PlcCore::PlcCore() {
   axes_enable_ = name("axes_enable");
   for (std::size_t i = 0; i < axis_inhibit_.size(); ++i)
     axis_inhibit_[i] = interface_address("axis_inhibit", i);
+  for (std::size_t i = 0; i < slave_off_.size(); ++i) slave_off_[i] = interface_address("slave_off", i);
   for (std::size_t i = 0; i < coolant_.size(); ++i) coolant_[i] = interface_address("coolant", i);
   for (std::size_t c = 0; c < channel_count; ++c) {
     const auto of = [c](const char* text) { return interface_address(text, c); };
@@ -55,9 +56,14 @@ PlcCore::PlcCore() {
 void PlcCore::configure(const machine::Parameters& parameters, bool virtual_time) {
   virtual_time_ = virtual_time;
   axis_exists_.assign(32, 0);
-  for (const auto& axis : machine::drive_axes(parameters)) axis_exists_[axis.number] = 1;
+  axis_names_.clear();
+  for (const auto& axis : machine::drive_axes(parameters)) {
+    axis_exists_[axis.number] = 1;
+    axis_names_.push_back(axis.name);
+  }
   spindles_ = std::min(machine::spindles(parameters).size(), spindle_count);
   period_us_ = static_cast<std::uint64_t>(parameters.integer(parameter::interpolation_cycle));
+  main_part_ = parameters.integer(parameter::plc2_statements);
   view_.changed = true;
 }
 
@@ -70,18 +76,42 @@ void PlcCore::load(Program fast, Program main, StructuredText structured) {
   view_.changed = true;
 }
 
+void PlcCore::load(Programs programs) {
+  set_position_switches(std::move(programs.switches));
+  load(std::move(programs.fast), std::move(programs.main), std::move(programs.structured));
+}
+
+void PlcCore::set_position_switches(std::vector<st::PositionSwitch> switches) {
+  switches_ = std::move(switches);
+}
+
+void PlcCore::actuate_switches(const std::vector<double>& position) {
+  for (const auto& one : switches_)
+    for (std::size_t i = 0; i < std::min(axis_names_.size(), position.size()); ++i)
+      if (axis_names_[i] == one.axis)
+        input({Area::x, one.input.index, one.input.bit}, position[i] >= one.low && position[i] <= one.high);
+}
+
 void PlcCore::restore(const Memory& memory) {
   memory_ = memory;
-  if (loaded_) structured_.restore(memory_.program);
+  if (!loaded_) return;
+  if (!structured_.fits(memory_.program)) drop_forces_of_variables();
+  structured_.restore(memory_.program);
 }
 
 void PlcCore::power_up(const Memory& memory) {
-  memory_.registers.b = memory.registers.b;
+  auto& kept = memory_.registers;
+  kept.b = memory.registers.b, kept.c = memory.registers.c;
+  kept.k = memory.registers.k, kept.p = memory.registers.p;
+  for (std::uint32_t i = 0; i < memory.forces.count; ++i)
+    if (memory.forces.values[i].permanent != 0) force(memory.forces.values[i]);
   // Programs with an error lose nothing: the corrected ones find their variables.
-  if (loaded_)
-    structured_.power_up(memory.program, memory_.program);
-  else
+  if (!loaded_) {
     memory_.program = memory.program;
+    return;
+  }
+  if (!structured_.fits(memory.program)) drop_forces_of_variables();
+  structured_.power_up(memory.program, memory_.program);
 }
 
 void PlcCore::adopt(const Snapshot& snapshot) {
@@ -162,6 +192,7 @@ void PlcCore::set_feedback(const idl::stream::FeedbackFrame& frame) {
                                                           [](std::uint8_t on) { return on != 0; }));
   for (std::size_t s = 0; s < std::min(spindles_, spindles); ++s)
     input(spindle_symbols_[s].actual, std::llround(std::abs(view_.spindle_actual[s])));
+  actuate_switches(frame.position);
   check_spindles();
 }
 
@@ -266,22 +297,27 @@ void PlcCore::finish() {
 void PlcCore::scan(bool main, bool present) {
   auto& r = memory_.registers;
   set_strobes(present);
+  apply_forces();
+  if (structured_.has(TaskName::simulation)) run_task(TaskName::simulation, {});
   run_task(TaskName::fast, fast_);
   if (main) run_task(TaskName::main, main_);
   check_spindles();
   finish();
-  if (main) {
+  if (main && !continues_main()) {  // the main task has read them
     store(r, reset_button_, 0);
     for (const auto& s : channel_symbols_) store(r, s.reset, 0);
   }
+  apply_forces();
+  if (trace_ != nullptr) trace_->after_scan(memory_);
 }
 
 void PlcCore::run_task(TaskName task, const Program& program) {
   if (has_program_fault()) return;
   if (structured_.has(task))
-    structured_.run(task, memory_.registers, memory_.program, memory_.scans);
+    structured_.run(task, memory_.registers, memory_.program, memory_.scans, main_part_);
   else
     execute(program, memory_.registers, memory_.blocks, memory_.scans);
+  apply_forces();
 }
 
 void PlcCore::settle() {
@@ -302,7 +338,7 @@ void PlcCore::advance(std::uint64_t tick) {
   if (now - memory_.scans > most_catch_up) memory_.scans = now - most_catch_up;
   while (memory_.scans < now) {
     ++memory_.scans;
-    scan(memory_.scans % main_period == 0, false);
+    scan(memory_.scans % main_period == 0 || continues_main(), false);
   }
   if (view_.changed || timer_due(memory_.blocks, now) || structured_.timer_due(now)) settle();
   view_.changed = false;
@@ -310,6 +346,7 @@ void PlcCore::advance(std::uint64_t tick) {
 
 Registers PlcCore::rescanned() const {
   PlcCore copy = *this;
+  copy.set_trace(nullptr);
   if (loaded_ && configured()) copy.settle();
   return copy.memory_.registers;
 }
@@ -330,6 +367,9 @@ idl::plc::Outputs PlcCore::outputs() const {
   for (std::size_t a = 0; a < outputs.axis_enable.size(); ++a)
     if (!enable || (a < axis_inhibit_.size() && plc::load(r, axis_inhibit_[a]) != 0))
       outputs.axis_enable[a] = 0;
+  constexpr std::uint8_t slave_is_off = 2;
+  for (std::size_t a = 0; a < std::min(outputs.axis_enable.size(), slave_off_.size()); ++a)
+    if (plc::load(r, slave_off_[a]) != 0) outputs.axis_enable[a] |= slave_is_off;
   for (const auto address : coolant_)
     outputs.coolant.push_back(!outputs.emergency_stop && plc::load(r, address) != 0 ? 1 : 0);
   bool spindle_moves = false;
@@ -343,6 +383,7 @@ idl::plc::Outputs PlcCore::outputs() const {
     auto until = next_timer_end(memory_.blocks, memory_.scans);
     if (const auto end = structured_.next_timer_end(memory_.scans))
       until = std::min(until.value_or(*end), *end);
+    if (continues_main()) until = std::min(until.value_or(~std::uint64_t{0}), memory_.scans + 1);
     if (spindle_moves) until = std::min(until.value_or(~std::uint64_t{0}), memory_.scans + main_period);
     if (until) outputs.run_until_tick += (*until * 1000 - memory_.now_us + period_us_ - 1) / period_us_;
   }
@@ -359,6 +400,12 @@ idl::plc::Image PlcCore::image() const {
   image.g.assign(r.g.begin(), r.g.end());
   image.r.assign(r.r.begin(), r.r.end());
   image.b.assign(r.b.begin(), r.b.end());
+  image.w.assign(r.w.begin(), r.w.end());
+  image.d.assign(r.d.begin(), r.d.end());
+  image.t.assign(r.t.begin(), r.t.end());
+  image.c.assign(r.c.begin(), r.c.end());
+  image.k.assign(r.k.begin(), r.k.end());
+  image.p.assign(r.p.begin(), r.p.end());
   return image;
 }
 

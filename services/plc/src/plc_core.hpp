@@ -9,7 +9,8 @@
 #include "contracts/types.hpp"
 #include "execution.hpp"
 #include "machine/parameters.hpp"
-#include "structured_text.hpp"
+#include "programs.hpp"
+#include "scan_trace.hpp"
 #include "symbols.hpp"
 
 namespace trunnion::plc {
@@ -18,8 +19,6 @@ inline constexpr std::uint64_t main_period = 10;  ///< ms of the main task; the 
 inline constexpr std::uint64_t most_catch_up =
     200;                                  ///< scans at once; older ones are skipped, timers stay correct
 inline constexpr int most_settling = 16;  ///< scans at the same time until the image is stable
-
-/// Panel requests, as in idl/plc.idl.
 
 class PlcCore {
  public:
@@ -30,10 +29,18 @@ class PlcCore {
   bool configured() const { return period_us_ > 0; }
   /// No programs: the outputs are safe (emergency stop).
   void load(Program fast, Program main, StructuredText structured = {});
+  void load(Programs programs);
+  /// Between two scans: `next` runs from now on, with the values of the variables that `change` moves, with
+  /// all registers, and with the forces whose variable is kept. Afterwards `next` has what ran before. A
+  /// fault is forgotten.
+  void take_over(Programs& next, const st::Changeover& change);
+  /// Of the axes of configure(); others have no effect.
+  void set_position_switches(std::vector<st::PositionSwitch> switches);
   /// After a restart of the process in a running cluster: everything as it was.
   /// After load().
   void restore(const Memory& memory);
-  /// After a restart of the cluster: only the kept registers B and RETAIN variables. After load().
+  /// After a restart of the cluster: only retained registers, RETAIN variables and permanent forces. After
+  /// load().
   void power_up(const Memory& memory);
   const Memory& memory() const { return memory_; }
   /// Valid after take_done() has returned the finished functions.
@@ -60,6 +67,15 @@ class PlcCore {
   void give_up_waiting();
   bool waits_for_standstill() const;
 
+  /// Keeps a value whatever the programs write: before and after each task of every scan. False when
+  /// most_forces others are forced already.
+  bool force(const Force& force);
+  /// False when it is not forced.
+  bool release(std::uint32_t cell, int bit);
+  void release_all();
+  /// Is told of every scan from now on; null for none. It must outlive its use.
+  void set_trace(ScanTrace* trace) { trace_ = trace; }
+
   /// Scans up to the drive's tick, then until the image is stable.
   void advance(std::uint64_t tick);
   idl::plc::Outputs outputs() const;
@@ -82,7 +98,11 @@ class PlcCore {
   void input(Address address, std::int64_t value);
   void scan(bool main, bool present);
   void run_task(TaskName task, const Program& program);
+  bool continues_main() const { return memory_.program.main.interrupted != 0; }
   void settle();
+  void apply_forces();
+  void drop_forces_of_variables();
+  void actuate_switches(const std::vector<double>& position);
   void set_strobes(bool present);
   void check_spindles();
   void finish();
@@ -97,15 +117,19 @@ class PlcCore {
   Address emergency_button_, reset_button_, drive_present_, drives_on_, alarm_active_, alarm_stops_,
       probe_contact_;
   Address emergency_stop_, feed_hold_, axes_enable_, probe_on_;
-  std::array<Address, 16> axis_inhibit_;
+  std::array<Address, 16> axis_inhibit_, slave_off_;
   std::array<Address, 8> coolant_;
 
   std::vector<std::uint8_t> axis_exists_;
+  std::vector<std::string> axis_names_;  ///< in the order of the drive's feedback
+  std::vector<st::PositionSwitch> switches_;
   std::size_t spindles_ = 0;
   std::uint64_t period_us_ = 0;
+  std::int64_t main_part_ = StructuredText::most_statements;  ///< statements of the main task in one scan
   Memory memory_;
   View view_;
   ProgramVariables settling_;  ///< before the scan
+  ScanTrace* trace_ = nullptr;
   std::vector<idl::plc::AuxiliaryDone> done_;
 };
 

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <bit>
 #include <cstddef>
 #include <cstring>
 #include <vector>
@@ -14,9 +15,33 @@
 namespace trunnion::plc {
 namespace {
 
-// The file of the version before: two slots in one file, written in turn.
-// It ended before the variables of Structured Text.
-constexpr std::size_t old_memory = offsetof(Memory, program);
+// What files of versions before kept in place of `Registers`; `Forces` followed nothing.
+struct OldRegisters {
+  std::uint8_t x[512], y[512], r[512];
+  std::uint16_t f[512], g[512];
+  std::int32_t b[512];
+};
+constexpr std::size_t behind_registers = offsetof(Memory, forces) - offsetof(Memory, blocks);
+constexpr std::size_t old_memory = sizeof(OldRegisters) + behind_registers;
+constexpr std::size_t variables_header = offsetof(ProgramVariables, main);
+
+// The memory of a version before; `bytes` ends before the variables of Structured Text or behind them.
+// Inputs and outputs are not taken: other registers have their places.
+Memory of_old(const unsigned char* bytes, std::size_t size) {
+  Memory memory;
+  OldRegisters registers;
+  std::memcpy(&registers, bytes, sizeof registers);
+  std::copy(std::begin(registers.b), std::end(registers.b), memory.registers.b.begin());
+  std::memcpy(reinterpret_cast<unsigned char*>(&memory) + offsetof(Memory, blocks), bytes + sizeof registers,
+              behind_registers);
+  if (size < old_memory + variables_header) return memory;
+  std::memcpy(static_cast<void*>(&memory.program), bytes + old_memory, variables_header);
+  std::memcpy(memory.program.values.data(), bytes + old_memory + variables_header,
+              std::min(size - old_memory - variables_header, sizeof memory.program.values));
+  return memory;
+}
+
+// The oldest file: two slots in one file, written in turn.
 struct Slot {
   std::uint64_t sequence;
   std::uint64_t checksum;
@@ -39,13 +64,24 @@ std::uint64_t checksum_of(const Slot& slot) {
   return hash;
 }
 
-// Bytes of the content with so many cells of variables.
-std::size_t size_with(std::size_t cells) {
-  constexpr auto boot = sizeof(Slot::boot);
-  return boot + (cells == 0 ? old_memory : sizeof(Memory) - (program_cells - cells) * sizeof(std::uint64_t));
+// Cells for which a file has room: few changes of the programs change its size.
+std::size_t room_for(std::size_t cells) {
+  if (cells == 0) return 0;
+  return std::min(std::bit_ceil(std::max<std::size_t>(cells, 256)), program_cells);
 }
 
-std::string text_of(const char (&boot)[64]) { return {boot, strnlen(boot, sizeof boot)}; }
+// Bytes of the content with room for so many cells of variables.
+std::size_t size_with(std::size_t wanted) {
+  const auto cells = room_for(wanted);
+  constexpr auto before = offsetof(RetainedMemory::Content, memory);
+  return before + (cells == 0 ? offsetof(Memory, program)
+                              : sizeof(Memory) - (program_cells - cells) * sizeof(std::uint64_t));
+}
+
+template <std::size_t n>
+std::string text_of(const char (&boot)[n]) {
+  return {boot, strnlen(boot, n)};
+}
 
 }  // namespace
 
@@ -65,9 +101,7 @@ std::optional<RetainedMemory::Kept> RetainedMemory::of_format_0() const {
     if (newest == nullptr || slot.sequence > newest->sequence) newest = &slot;
   }
   if (newest == nullptr) return std::nullopt;
-  Kept kept{text_of(newest->boot), {}};
-  std::memcpy(static_cast<void*>(&kept.memory), newest->memory, old_memory);
-  return kept;
+  return Kept{"", of_old(newest->memory, old_memory)};
 }
 
 RetainedMemory::Found RetainedMemory::load() const {
@@ -79,20 +113,49 @@ RetainedMemory::Found RetainedMemory::load() const {
       found = other;
   Found result{found.state, std::nullopt, found.problem};
   const auto size = found.content.size();
-  if (size < size_with(0) || size > sizeof(Content)) return result;
+  constexpr auto before = offsetof(Content, memory);
+  if (size < before + old_memory || size > sizeof(Content)) return result;
   Content content{};
-  std::memcpy(static_cast<void*>(&content), found.content.data(), size);
+  std::memcpy(static_cast<void*>(&content), found.content.data(), before);
   auto& program = content.memory.program;
+  if (content.layout == 0) {  // of a version before: its outputs do not continue
+    content.memory = of_old(found.content.data() + before, size - before);
+    if (program.cells > program_cells ||
+        (program.cells > 0 && size != before + old_memory + variables_header + program.cells * 8))
+      program = {};
+    result.kept = Kept{"", content.memory};
+    return result;
+  }
+  if (content.layout != Content::own_layout || size < size_with(0)) return result;
+  std::memcpy(static_cast<void*>(&content), found.content.data(), size);
   if (program.cells > program_cells || size != size_with(program.cells)) program = {};
   result.kept = Kept{text_of(content.boot), content.memory};
   return result;
 }
 
-void RetainedMemory::save(const std::string& boot, const Memory& memory) {
+std::span<const std::uint8_t> RetainedMemory::fill(const std::string& boot, const Memory& memory) {
   std::memset(content_.boot, 0, sizeof content_.boot);
   std::memcpy(content_.boot, boot.data(), std::min(boot.size(), sizeof content_.boot - 1));
-  std::memcpy(static_cast<void*>(&content_.memory), &memory, size_ - sizeof content_.boot);
-  const std::span bytes(reinterpret_cast<const std::uint8_t*>(&content_), size_);
+  content_.layout = Content::own_layout;
+  std::memcpy(static_cast<void*>(&content_.memory), &memory, size_ - offsetof(Content, memory));
+  return {reinterpret_cast<const std::uint8_t*>(&content_), size_};
+}
+
+void RetainedMemory::resize(std::size_t cells, const std::string& boot, const Memory& memory) {
+  if (size_with(cells) == size_) return;
+  size_ = size_with(cells);
+  const auto bytes = fill(boot, memory);
+  const auto next = path() + ".next";
+  for (const auto* suffix : {"", storage::previous_suffix}) unlink((next + suffix).c_str());
+  storage::RetainedPair(next, "plc", size_).open(bytes);
+  for (const auto* suffix : {storage::previous_suffix, ""})
+    storage::rename_over(next + suffix, path() + suffix);
+  files_ = storage::RetainedPair(path(), "plc", size_);
+  files_.open(bytes);
+}
+
+void RetainedMemory::save(const std::string& boot, const Memory& memory) {
+  const auto bytes = fill(boot, memory);
   if (files_.is_open()) {
     files_.save(bytes);
     return;
@@ -100,6 +163,9 @@ void RetainedMemory::save(const std::string& boot, const Memory& memory) {
   // Files of another size are put aside like damaged ones; what they kept was read.
   const bool other_size = load().state == storage::KeptState::good && files_.load().content.empty();
   files_.open(bytes);
+  // Of a process that ended while it changed the size.
+  for (const auto* suffix : {".next", ".next.new", ".next.previous", ".next.previous.new"})
+    unlink((path() + suffix).c_str());
   if (!other_size) return;
   for (const auto* suffix : {"", storage::previous_suffix})
     unlink((path() + suffix + storage::damaged_suffix).c_str());

@@ -38,6 +38,12 @@ Changes changes(const Registers& before, const Registers& after) {
   compare(Area::g, before.g, after.g, result);
   compare(Area::r, before.r, after.r, result);
   compare(Area::b, before.b, after.b, result);
+  compare(Area::w, before.w, after.w, result);
+  compare(Area::d, before.d, after.d, result);
+  compare(Area::t, before.t, after.t, result);
+  compare(Area::c, before.c, after.c, result);
+  compare(Area::k, before.k, after.k, result);
+  compare(Area::p, before.p, after.p, result);
   return result;
 }
 
@@ -63,6 +69,7 @@ std::uint64_t state_digest(const Snapshot& snapshot) {
   digest.add(m.spindle_since);
   const auto& program = m.program;
   digest.add(program.layout), digest.add(program.fault), digest.add(program.cells);
+  digest.add(program.main);
   for (std::uint32_t i = 0; i < program.cells; ++i) digest.add(program.values[i]);
   const auto& view = snapshot.view;
   for (const auto& channel : view.channels)

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cstring>
 
+#include "force_request.hpp"
+
 namespace trunnion::plc {
 namespace {
 
@@ -93,6 +95,9 @@ bool StandbyComparison::repeat(const Step& step) {
     case StepKind::GIVE_UP_WAITING:
       core_.give_up_waiting();
       return true;
+    case StepKind::ONLINE_REQUEST:
+      return with_sample<idl::plc::OnlineRequest>(
+          step, [&](const auto& s) { change_forces(s, variables_, core_); });
     case StepKind::ADVANCE:
       core_.advance(step.value);
       return true;

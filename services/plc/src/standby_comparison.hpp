@@ -20,6 +20,10 @@ class StandbyComparison {
   /// `core` has its programs loaded.
   StandbyComparison(PlcCore core, bool virtual_time, FindParameters find)
       : core_(std::move(core)), virtual_time_(virtual_time), find_(std::move(find)) {}
+  StandbyComparison(Programs programs, bool virtual_time, FindParameters find)
+      : variables_(programs.variables), virtual_time_(virtual_time), find_(std::move(find)) {
+    core_.load(std::move(programs));
+  }
 
   enum class Outcome : std::uint8_t {
     equal,    ///< or nothing to compare: rounds of an older generation
@@ -45,6 +49,7 @@ class StandbyComparison {
   Outcome differ(std::uint64_t tick, const std::string& what);
   Outcome differ(std::uint64_t tick, const Registers& before, const Changes& running, const Changes& own);
 
+  st::Variables variables_;
   PlcCore core_;
   bool virtual_time_;
   FindParameters find_;

@@ -11,10 +11,7 @@ namespace {
 
 constexpr std::int64_t millisecond = 1000000;  // ns
 
-Address address_of(const st::UsedRegister& used) { return {static_cast<Area>(used.area), used.index, -1}; }
-
-static_assert(static_cast<int>(st::Area::x) == static_cast<int>(Area::x) &&
-              static_cast<int>(st::Area::b) == static_cast<int>(Area::b) && st::area_size == register_count);
+Address address_of(const st::UsedRegister& used) { return {used.area, used.index, -1}; }
 
 }  // namespace
 
@@ -58,6 +55,7 @@ void StructuredText::restore(ProgramVariables& variables) {
   if (!machine_) return;
   if (variables.identity != identity_) {
     variables.fault = {};
+    variables.main = {};
     variables.identity = identity_;
   }
   take(variables);
@@ -73,14 +71,23 @@ void StructuredText::power_up(const ProgramVariables& kept, ProgramVariables& va
   take(variables);
 }
 
-void StructuredText::run(TaskName task, Registers& registers, ProgramVariables& variables,
-                         std::uint64_t now) {
+void StructuredText::put(std::uint32_t cell, std::uint64_t value, ProgramVariables& variables) {
+  if (!machine_ || cell < st::image_cells || cell >= machine_->memory().size()) return;
+  machine_->memory()[cell] = value;
+  variables.values[cell - st::image_cells] = value;
+}
+
+void StructuredText::run(TaskName task, Registers& registers, ProgramVariables& variables, std::uint64_t now,
+                         std::int64_t part) {
   auto memory = machine_->memory();
   for (const auto& used : programs_.code->registers)
     memory[st::address_of(used.area, used.index)] =
         static_cast<std::uint64_t>(std::int64_t{load(registers, address_of(used))});
-  const auto fault = machine_->run(*programs_.entries[static_cast<std::size_t>(task)],
-                                   static_cast<std::int64_t>(now) * millisecond, most_statements);
+  const auto entry = *programs_.entries[static_cast<std::size_t>(task)];
+  const auto time = static_cast<std::int64_t>(now) * millisecond;
+  const auto fault = task == TaskName::main
+                         ? machine_->run_part(entry, time, most_statements, part, variables.main)
+                         : machine_->run(entry, time, most_statements);
   for (const auto& used : programs_.code->registers)
     if (used.written)
       store(registers, address_of(used),
@@ -116,7 +123,7 @@ std::string StructuredText::fault_text(const ProgramVariables& variables) const 
   const auto& files = programs_.code->files;
   return (at.file < files.size() ? files[at.file] : std::string("?")) + ":" + std::to_string(at.line) + ":" +
          std::to_string(at.column) + ": error: " + st::text_of(fault) + " in the " +
-         (kept.task == 0 ? "fast" : "main") +
+         std::array{"fast", "main", "simulation"}.at(std::min<std::size_t>(kept.task, 2)) +
          " task; the outputs are in the safe state. Correct the program or its "
          "inputs, then reset the alarms";
 }

@@ -13,13 +13,15 @@
 
 namespace trunnion::plc {
 
-enum class TaskName : std::uint32_t { fast, main };
+/// `simulation` is what the machine does between its outputs and its inputs; it runs before the other tasks
+/// of a scan.
+enum class TaskName : std::uint32_t { fast, main, simulation };
 
 /// What the PLC runs: of each task an instruction list or a program in Structured Text.
 struct StructuredPrograms {
   std::shared_ptr<const st::ByteCode> code;
   std::uint64_t layout = 0;                           ///< st::Compilation::layout
-  std::array<std::optional<std::size_t>, 2> entries;  ///< of code, by TaskName
+  std::array<std::optional<std::size_t>, 3> entries;  ///< of code, by TaskName
 };
 
 class StructuredText {
@@ -43,8 +45,12 @@ class StructuredText {
   void power_up(const ProgramVariables& kept, ProgramVariables& variables);
   /// Whether the variables are those of these programs.
   bool fits(const ProgramVariables& variables) const;
+  /// Puts a value into a cell of the memory, that of a variable, also into `variables`.
+  void put(std::uint32_t cell, std::uint64_t value, ProgramVariables& variables);
   /// One run on the registers, `now` in ms; a fault is left in `variables`.
-  void run(TaskName task, Registers& registers, ProgramVariables& variables, std::uint64_t now);
+  /// Of the main task at most `part` statements: variables.main says whether and where it continues.
+  void run(TaskName task, Registers& registers, ProgramVariables& variables, std::uint64_t now,
+           std::int64_t part = most_statements);
   /// In ms, as of the instruction list.
   std::optional<std::uint64_t> next_timer_end(std::uint64_t now) const;
   bool timer_due(std::uint64_t now) const;

@@ -13,8 +13,6 @@ using Symbols = std::map<std::string, Address, std::less<>>;
 
 /// The interface that is compiled in from registers.yaml.
 const Symbols& interface_symbols();
-/// Throws std::runtime_error with file:line:column.
-Symbols parse_symbols(const std::string& yaml, const std::string& file);
 /// Address of an interface register; throws std::out_of_range for a name that registers.yaml does not have.
 Address interface_address(const std::string& name);
 Address interface_address(const std::string& name, std::size_t index);

@@ -354,6 +354,20 @@ TEST(Panel, ForcesInputBytesWithinTheirBounds) {
   EXPECT_EQ(bench.core.panel(force(0, 256)), "value 256 is outside 0 .. 255");
 }
 
+TEST(Panel, TheKeyOfAGantryTakesItsSlaveOffInJogAndInAnEmergencyStop) {
+  Bench bench("gantry-cb-head");
+  idl::channel::ChannelState state;
+  state.mode = idl::channel::Mode::JOG;
+  bench.core.set_channel(state);
+  EXPECT_EQ(bench.core.panel(force(16, 64)), "");  // X16.6
+  for (int i = 0; i < 20; ++i) bench.core.advance(++bench.tick);
+  EXPECT_EQ(bench.core.outputs().axis_enable[2], 3) << "bit 0: enabled, bit 1: off its master";
+  EXPECT_EQ(bench.core.outputs().axis_enable[0], 1);
+  bench.core.panel({.kind = PanelRequestKind::PRESS_EMERGENCY_STOP});
+  bench.step();
+  EXPECT_EQ(bench.core.outputs().axis_enable[2], 2);
+}
+
 TEST(Restart, AProcessThatComesBackGoesOnWhereItWas) {
   Bench bench;
   bench.request(S, 0, 500);

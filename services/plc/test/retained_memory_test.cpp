@@ -4,6 +4,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <cstddef>
 #include <filesystem>
 #include <fstream>
 #include <random>
@@ -37,6 +38,76 @@ TEST(RetainedMemory, GivesBackTheNewestWithItsStartOfTheCluster) {
   const auto& kept = found.kept;
   EXPECT_EQ(kept->boot, "boot");
   EXPECT_EQ(kept->memory.registers.b[5], 3);
+}
+
+// A file of version 0.3 and before: 64 bytes of the start, registers X Y R F G B of 512 each (5632 bytes),
+// what follows them up to the forces, then the variables of Structured Text without the progress of the main
+// task.
+TEST(RetainedMemory, TakesRetainedRegistersAndVariablesOfAnOlderVersion) {
+  const auto path = temporary("older");
+  Memory memory;
+  memory.scans = 4711;
+  memory.program.layout = 5, memory.program.cells = 3;
+  memory.program.values[2] = 33;
+  const auto* bytes = reinterpret_cast<const std::uint8_t*>(&memory);
+  std::vector<std::uint8_t> old(64, 0);
+  old[0] = 'b';
+  std::vector<std::uint8_t> registers(5632, 0);
+  registers[0] = 255;                          // X0
+  registers[3 * 512 + 2 * 1024 + 4 * 7] = 77;  // B7
+  old.insert(old.end(), registers.begin(), registers.end());
+  old.insert(old.end(), bytes + offsetof(Memory, blocks), bytes + offsetof(Memory, forces));
+  const auto* program = reinterpret_cast<const std::uint8_t*>(&memory.program);
+  old.insert(old.end(), program, program + offsetof(ProgramVariables, main));
+  const auto* values = reinterpret_cast<const std::uint8_t*>(memory.program.values.data());
+  old.insert(old.end(), values, values + 3 * 8);
+  storage::RetainedPair(path, "plc", old.size()).open(old);
+
+  RetainedMemory retained(path, 3);
+  const auto found = retained.load();
+  ASSERT_TRUE(found.kept) << found.problem;
+  EXPECT_EQ(found.kept->boot, "") << "its outputs do not continue";
+  EXPECT_EQ(found.kept->memory.registers.b[7], 77);
+  EXPECT_EQ(found.kept->memory.registers.x[0], 0);
+  EXPECT_EQ(found.kept->memory.scans, 4711u);
+  EXPECT_EQ(found.kept->memory.program.layout, 5u);
+  EXPECT_EQ(found.kept->memory.program.values[2], 33u);
+  EXPECT_EQ(found.kept->memory.forces.count, 0u);
+  retained.save("boot", found.kept->memory);
+  EXPECT_EQ(RetainedMemory(path, 3).load().kept->memory.program.values[2], 33u);
+}
+
+// Programs with more variables: whenever it is killed, one of the two memories is there.
+TEST(RetainedMemory, AKillWhileTheSizeChangesLosesNothing) {
+  std::mt19937 random(5);
+  int resized = 0;
+  for (int round = 0; round < 30; ++round) {
+    const auto path = temporary("resized");
+    Memory memory;
+    memory.program.cells = 10;
+    memory.registers.b[1] = 5;
+    {
+      RetainedMemory before(path, 10);
+      before.save("boot", memory);
+    }
+    const pid_t writer = fork();
+    if (writer == 0) {
+      RetainedMemory retained(path, 10);
+      retained.save("boot", memory);
+      for (std::uint32_t cells = 2000;; cells = cells == 10 ? 2000 : 10) {
+        memory.program.cells = cells;
+        retained.resize(cells, "boot", memory);
+      }
+    }
+    usleep(300 + random() % 3000);
+    kill(writer, SIGKILL);
+    waitpid(writer, nullptr, 0);
+    const auto found = RetainedMemory(path, 10).load();
+    ASSERT_TRUE(found.kept) << "round " << round << " " << found.problem;
+    EXPECT_EQ(found.kept->memory.registers.b[1], 5);
+    resized += found.kept->memory.program.cells == 2000 ? 1 : 0;
+  }
+  EXPECT_GT(resized, 0);
 }
 
 // Every damage of either file: the registers of the save before, and a text that names the file. The two

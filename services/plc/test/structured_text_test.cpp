@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <filesystem>
+#include <fstream>
 #include <random>
 
 #include "machine/parameters.hpp"
@@ -19,7 +20,11 @@ namespace {
 
 machine::Parameters parameters() {
   machine::Parameters p;
-  p.values[100000] = {0, "X"}, p.values[110000] = {0, "S"}, p.values[110001] = {10, ""};
+  p.values[100000] = {0, "X"};
+  for (const std::uint32_t spindle : {0u, 1u}) {
+    p.values[110000 + 1000 * spindle] = {0, "S"};
+    p.values[110001 + 1000 * spindle] = {10, ""};
+  }
   return p;
 }
 
@@ -40,30 +45,38 @@ PlcCore core_of(const std::string& source) {
   return core;
 }
 
-PlcCore machine_core(const std::string& machine) {
+PlcCore core_of_directory(const std::string& directory, const machine::Parameters& p = parameters()) {
   PlcCore core;
-  core.configure(parameters(), true);
-  EXPECT_TRUE(load_programs(std::string(TRUNNION_MACHINES) + "/" + machine + "/plc", core).empty());
+  core.configure(p, true);
+  EXPECT_TRUE(load_programs(directory, core).empty()) << directory;
   return core;
 }
 
-// gantry-cb-head has in Instruction List what ac-table has in Structured Text. Whatever happens to both, in
-// the same order at the same ticks, every register, every output and every finished function is the same.
-TEST(StructuredText, TheLogicOfTheAcTableIsThatOfTheInstructionList) {
+// The variables of a program: their addresses are its own.
+bool is_free_for_programs(const std::string& name) {
+  return name.starts_with("R") || name.starts_with("W") || name.starts_with("G30") || name.starts_with("G31");
+}
+
+// Whatever happens to both, in the same order at the same ticks, every register of the interface, every
+// output and every finished function is the same.
+void expect_same_logic(const std::string& list_directory, const std::string& machine, unsigned channels) {
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
     std::mt19937_64 random(seed);
-    auto list = machine_core("gantry-cb-head"), text = machine_core("ac-table");
+    auto list = core_of_directory(std::string(TRUNNION_INSTRUCTION_LISTS) + "/" + list_directory),
+         text = core_of_directory(std::string(TRUNNION_MACHINES) + "/" + machine + "/plc");
     std::uint64_t tick = 1000;
     std::uint32_t number = 0;
-    double speed = 0;
+    std::vector<double> speed(channels, 0);
+    std::size_t finished = 0;
     const auto both = [&](auto&& act) { act(list), act(text); };
     for (int step = 0; step < 400; ++step) {
       const auto choice = random() % 100;
+      const auto channel = static_cast<std::uint16_t>(random() % channels);
       if (choice < 25) {
         using enum AuxiliaryKind;
         constexpr std::uint32_t codes[] = {0, 2, 3, 4, 5, 6, 7, 8, 9, 30, 99, 65535};
         const auto kind = random() % 4;
-        idl::channel::AuxiliaryRequest request{0,
+        idl::channel::AuxiliaryRequest request{channel,
                                                ++number,
                                                kind == 0   ? S
                                                : kind == 1 ? T
@@ -83,6 +96,7 @@ TEST(StructuredText, TheLogicOfTheAcTableIsThatOfTheInstructionList) {
         both([&](PlcCore& core) { EXPECT_EQ(core.panel(panel), ""); });
       } else if (choice < 50) {
         idl::channel::ChannelState state;
+        state.channel = channel;
         state.spindle_override = static_cast<double>(random() % 151) / 100;
         state.reset_count = static_cast<std::uint32_t>(step / 50);
         both([&](PlcCore& core) { core.set_channel(state); });
@@ -91,21 +105,35 @@ TEST(StructuredText, TheLogicOfTheAcTableIsThatOfTheInstructionList) {
         both([&](PlcCore& core) { core.set_alarms(any, false); });
       } else {
         tick += random() % 40;
-        const auto target = list.outputs().spindle_speed.at(0);
-        speed = random() % 3 == 0 ? target : speed + (target - speed) / 2;
+        for (unsigned i = 0; i < channels; ++i) {
+          const auto target = list.outputs().spindle_speed.at(i);
+          speed[i] = random() % 3 == 0 ? target : speed[i] + (target - speed[i]) / 2;
+        }
         idl::stream::FeedbackFrame frame;
-        frame.first = 10, frame.tick = tick, frame.spindle_speed = {speed}, frame.enabled = {1};
-        frame.channels.resize(1);
+        frame.first = 10, frame.tick = tick, frame.spindle_speed = speed, frame.enabled = {1};
+        frame.channels.resize(channels);
+        for (unsigned i = 0; i < channels; ++i) frame.channels[i].channel = static_cast<std::uint16_t>(i);
         both([&](PlcCore& core) { core.set_feedback(frame); });
       }
       both([&](PlcCore& core) { core.advance(tick); });
       ASSERT_EQ(text.outputs(), list.outputs()) << "seed " << seed << " step " << step;
-      const auto differing = changes(list.memory().registers, text.memory().registers);
-      ASSERT_TRUE(differing.empty()) << register_name(differing.at(0)) << ", seed " << seed << " step "
-                                     << step;
-      ASSERT_EQ(text.take_done(), list.take_done()) << "seed " << seed << " step " << step;
+      for (const auto& index : changes(list.memory().registers, text.memory().registers))
+        ASSERT_TRUE(is_free_for_programs(register_name(index)))
+            << register_name(index) << ", seed " << seed << " step " << step;
+      const auto done = list.take_done();
+      ASSERT_EQ(text.take_done(), done) << "seed " << seed << " step " << step;
+      finished += done.size();
     }
+    EXPECT_GT(finished, 20u) << "seed " << seed;
   }
+}
+
+TEST(StructuredText, TheLogicOfTheAcTableIsThatOfTheInstructionList) {
+  expect_same_logic("one_channel", "ac-table", 1);
+}
+
+TEST(StructuredText, TheLogicOfTwoChannelsIsThatOfTheInstructionList) {
+  expect_same_logic("two_channels", "two-channel", 2);
 }
 
 TEST(StructuredText, TimersOfVariablesRequestExactlyTheirTime) {
@@ -124,6 +152,70 @@ TEST(StructuredText, TimersOfVariablesRequestExactlyTheirTime) {
   core.advance(170);
   EXPECT_EQ(core.image().y[16], 1);
   EXPECT_EQ(core.outputs().run_until_tick, 170u);
+}
+
+class DeviceDirectory {
+ public:
+  DeviceDirectory() {
+    std::filesystem::create_directory(path_);
+    write("fast.st", "PROGRAM fast\nEND_PROGRAM\n");
+    write("main.st", "PROGRAM main\n%Y17.0 := %X16.0;\n%Y17.1 := NOT %X16.0;\nEND_PROGRAM\n");
+    write("devices.yaml",
+          "door:\n  actuator: {extend: Y17.0, retract: Y17.1, travel_s: 1.5, extended: X17.0, retracted: "
+          "X17.1}\n"
+          "park:\n  position_switch: {axis: X, from: -10, to: -5, on: X17.2}\n");
+  }
+  ~DeviceDirectory() { std::filesystem::remove_all(path_); }
+  const std::string& path() const { return path_; }
+
+ private:
+  void write(const std::string& name, const std::string& text) { std::ofstream(path_ + "/" + name) << text; }
+  std::string path_ =
+      (std::filesystem::temp_directory_path() / ("plc-devices-" + std::to_string(getpid()))).string();
+};
+
+// The command changes at tick 100. Virtual time is asked to pass up to 1500 ms later, when the door is open.
+TEST(SimulatedDevices, AnActuatorRequestsTheTimeOfItsTravelAndIsPartOfTheState) {
+  const DeviceDirectory directory;
+  auto core = core_of_directory(directory.path(), without_spindle());
+  core.advance(100);
+  EXPECT_EQ(core.image().x[17] & 3, 2) << "closed";
+  idl::plc::PanelRequest panel;
+  panel.kind = idl::plc::PanelRequestKind::FORCE_INPUT;
+  panel.address = 16, panel.value = 1;
+  core.panel(panel);
+  core.advance(100);
+  EXPECT_EQ(core.outputs().run_until_tick, 1600u);
+  core.advance(700);
+  auto other = core_of_directory(directory.path(), without_spindle());
+  other.adopt(core.snapshot());
+  for (auto* one : {&core, &other}) {
+    one->advance(1599);
+    EXPECT_EQ(one->image().x[17] & 3, 0) << "on its way";
+    one->advance(1600);
+    EXPECT_EQ(one->image().x[17] & 3, 1) << "open";
+  }
+}
+
+TEST(SimulatedDevices, APositionSwitchFollowsTheFeedbackOfItsAxis) {
+  const DeviceDirectory directory;
+  auto core = core_of_directory(directory.path());
+  for (const auto& [x, on] :
+       std::vector<std::pair<double, bool>>{{-10.001, false}, {-10, true}, {-5, true}, {-4.9, false}}) {
+    idl::stream::FeedbackFrame frame;
+    frame.position = {x};
+    core.set_feedback(frame);
+    EXPECT_EQ((core.image().x[17] & 4) != 0, on) << x;
+  }
+}
+
+TEST(SimulatedDevices, WithOtherHardwareTheyDoNotRun) {
+  const DeviceDirectory directory;
+  PlcCore core;
+  core.configure(parameters(), true);
+  EXPECT_TRUE(load_programs(directory.path(), core, false).empty());
+  core.advance(100);
+  EXPECT_EQ(core.image().x[17], 0);
 }
 
 constexpr const char* counting =
@@ -193,9 +285,10 @@ TEST(StructuredText, AFaultStopsBothTasksSafelyUntilAReset) {
 TEST(StructuredText, AProgramWithoutEndIsStoppedWithItsPlace) {
   auto core =
       core_of("PROGRAM main\nVAR n : DINT; END_VAR\nWHILE TRUE DO\n  n := n + 1;\nEND_WHILE;\nEND_PROGRAM\n");
-  core.advance(10);
+  // 100,000 statements, 200 in a scan of 1 ms.
+  for (std::uint64_t tick = 10; tick <= 520; tick += 10) core.advance(tick);
   EXPECT_TRUE(core.emergency_stop());
-  EXPECT_NE(core.program_fault().find("more than 100000 statements in one scan in the main task"),
+  EXPECT_NE(core.program_fault().find("more than 100000 statements in one run in the main task"),
             std::string::npos)
       << core.program_fault();
   EXPECT_EQ(core.program_fault().substr(0, 8), "main.st:");

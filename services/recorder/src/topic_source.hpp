@@ -35,7 +35,10 @@ class TopicSource {
   std::uint64_t overwritten() const;
 
   const bus::TopicEntry& entry() const { return *entry_; }
-  bool is_stream() const { return entry_->qos == bus::QosKind::frame; }
+  /// Setpoint batches or feedback. Samples of servo tests have the same QoS, and no writer without a drive.
+  bool is_stream() const {
+    return entry_->qos == bus::QosKind::frame && entry_->type.starts_with("trunnion::stream::");
+  }
   bool is_feedback() const;
 
  private:

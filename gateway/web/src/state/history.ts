@@ -70,16 +70,13 @@ export class History {
       const number = channel.axes[channel.letters.indexOf(letter)];
       return number === undefined ? -1 : trace.axes.indexOf(number);
     });
-    // The gateway sends every n-th cycle, n a power of two, from the first one on.
-    const cycles = Math.max(1, (state.drive?.executed ?? 0) - trace.first + 1);
-    const step = 2 ** Math.round(Math.log2(Math.max(1, cycles / Math.max(1, trace.rows.length))));
     trace.rows.forEach((row, index) => {
       const point = columns.map((column) => (column < 0 ? 0 : (row[column] ?? 0)));
       const last = this.path.length - 1;
       const moved = last < 0 || point.some((value, axis) => Math.abs(value - this.path.at(last, axis)) > 1e-3);
       if (!moved) return;
-      const cycle = trace.first + index * step;
-      this.path.push([...point, channel.tool, cycle > this.lastCycle ? cycle - this.lastCycle : step, this.gap ? 1 : 0]);
+      const cycle = trace.first + (trace.since[index] ?? 0);
+      this.path.push([...point, channel.tool, cycle > this.lastCycle ? cycle - this.lastCycle : 1, this.gap ? 1 : 0]);
       this.lastCycle = cycle;
       this.gap = false;
     });

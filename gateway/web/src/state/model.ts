@@ -128,5 +128,6 @@ export function canStart(state: MachineState, channel: ChannelState): boolean {
   if (channel.axes.some((number) => state.axes[String(number)]?.enabled === false)) return false;
   if (channel.suspended && channel.mode !== "AUTO") return false;
   if (channel.state === "HELD" || channel.state === "WAITING" || channel.state === "INTERRUPTED") return true;
-  return channel.state === "IDLE" && (channel.mode === "AUTO" ? channel.program !== "" : channel.mode === "MDI");
+  // Idle in MDI there is nothing to start: Execute sends a line.
+  return channel.state === "IDLE" && channel.mode === "AUTO" && channel.program !== "";
 }

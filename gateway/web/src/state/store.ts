@@ -14,7 +14,7 @@ export const machine = computed(() => stream.value.state);
 /** connecting: never heard of the gateway; lost: what is shown is old. */
 export const connection = signal<"connecting" | "live" | "lost">("connecting");
 
-export type ViewName = "operate" | "scene" | "parameters" | "offsets" | "diagnosis";
+export type ViewName = "operate" | "scene" | "programs" | "setup" | "parameters" | "analysis" | "diagnosis";
 export const view = signal<ViewName>("operate");
 
 const chosenChannel = signal<number | null>(null);

@@ -51,8 +51,14 @@ function Services() {
   );
 }
 
-const areas = ["x", "y", "f", "g", "r", "b"] as const;
+const areas = ["x", "y", "f", "g", "r", "b", "w", "d", "t", "c", "k", "p"] as const;
 const wordsPerPage = 64;
+
+// First register of the page that shows this one.
+function pageOf(register: number, count: number): number {
+  const wanted = Math.min(Math.max(0, Math.floor(register) || 0), Math.max(0, count - 1));
+  return wanted - (wanted % wordsPerPage);
+}
 
 function Plc() {
   const area = useSignal<(typeof areas)[number]>("x");
@@ -76,7 +82,7 @@ function Plc() {
     };
   }, []);
   const values = image.value?.[area.value] ?? [];
-  const bits = area.value === "x" || area.value === "y" || area.value === "r";
+  const bits = area.value === "x" || area.value === "y" || area.value === "r" || area.value === "k";
   const t = text.value;
   return (
     <section class="plc" aria-label={t.plcRegisters}>
@@ -90,6 +96,8 @@ function Plc() {
           ))}
         </div>
         <div class="end">
+          <input type="number" class="digits" aria-label={t.showRegister} min={0} max={Math.max(0, values.length - 1)} value={start.value}
+            onChange={(event) => { start.value = pageOf(event.currentTarget.valueAsNumber, values.length); }} />
           <button aria-label={t.earlierRegisters} disabled={start.value === 0} onClick={() => (start.value -= wordsPerPage)}>‹</button>
           <span class="dim digits">{start.value}…{Math.min(values.length, start.value + wordsPerPage) - 1}</span>
           <button aria-label={t.laterRegisters} disabled={start.value + wordsPerPage >= values.length} onClick={() => (start.value += wordsPerPage)}>›</button>

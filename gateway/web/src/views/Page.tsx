@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 import { useEffect } from "preact/hooks";
 import { channel, command, connection, holdAll, machine, notice, view } from "../state/store";
+import { askSession, mustLogIn, session } from "../state/session";
 import { text } from "../text/texts";
 import { Attention } from "./Attention";
 import { Controls } from "./Controls";
 import { Diagnosis } from "./Diagnosis";
 import { Header } from "./Header";
 import { Jog } from "./Jog";
+import { Later } from "./Later";
+import { Login } from "./Login";
 import { Mdi } from "./Mdi";
-import { Offsets } from "./Offsets";
-import { Parameters } from "./Parameters";
 import { Positions } from "./Positions";
 import { ProgramPanel } from "./ProgramPanel";
 import { Question } from "./Question";
@@ -76,11 +77,24 @@ function ConnectionLost() {
   );
 }
 
-/** There Escape empties the field. */
-const isSearch = (target: EventTarget | null) => target instanceof HTMLInputElement && target.type === "search";
+const loadPrograms = () => import("./Programs").then(({ Programs }) => Programs);
+const loadSetup = () => import("./Setup").then(({ Setup }) => Setup);
+const loadParameters = () => import("./Parameters").then(({ Parameters }) => Parameters);
+const loadAnalysis = () => import("./Analysis").then(({ Analysis }) => Analysis);
+
+/** There Escape empties the field, or closes the editor's search. */
+const isSearch = (target: EventTarget | null) =>
+  target instanceof HTMLInputElement && (target.type === "search" || target.closest(".cm-panel") !== null);
 const isText = (target: EventTarget | null) => target instanceof HTMLTextAreaElement;
 
 export function Page() {
+  const live = connection.value === "live";
+  useEffect(() => {
+    if (live && session.peek()) return;
+    void askSession();
+    const timer = setInterval(() => void askSession(), 2000);
+    return () => clearInterval(timer);
+  }, [live]);
   useEffect(() => {
     const onKey = (event: KeyboardEvent) => {
       if (event.altKey && viewOfKey[event.key]) {
@@ -103,12 +117,14 @@ export function Page() {
       <Rail />
       {view.value === "operate" && <Operate />}
       {view.value === "scene" && <SceneView />}
-      {view.value === "parameters" && <Parameters />}
-      {view.value === "offsets" && <Offsets />}
+      {view.value === "programs" && <Later load={loadPrograms} />}
+      {view.value === "setup" && <Later load={loadSetup} />}
+      {view.value === "parameters" && <Later load={loadParameters} />}
+      {view.value === "analysis" && <Later load={loadAnalysis} />}
       {view.value === "diagnosis" && <Diagnosis />}
       <Notice />
       <Question />
-      <ConnectionLost />
+      {mustLogIn() ? <Login /> : <ConnectionLost />}
     </div>
   );
 }

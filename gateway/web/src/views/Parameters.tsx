@@ -1,169 +1,171 @@
 // SPDX-License-Identifier: Apache-2.0
 import { useSignal } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
-import { get, type Parameter, put } from "../api";
+import { get, type Parameter, utf8 } from "../api";
 import { limits, title, unit } from "../format";
+import { compareWithDefaults, compareWithFile, parseParameters, sixDigits, writeParameters } from "../state/parameter_file";
 import { machine, tell } from "../state/store";
-import { text, type Texts } from "../text/texts";
+import { text } from "../text/texts";
+import { allParameters, type Comparison, ParameterComparison } from "./ParameterComparison";
+import { ParameterEditor } from "./ParameterEditor";
+import { type Branch, ParameterTree } from "./ParameterTree";
+import { UndoKey } from "./UndoKey";
 
-const classes: [string, keyof Texts & `class${string}`][] = [
-  ["", "classAll"],
-  ["nc", "classNc"],
-  ["user", "classMachine"],
-  ["channel", "classChannel"],
-  ["axis", "classAxis"],
-  ["compensation", "classCompensation"],
-  ["table", "classTables"],
-];
+/** Rows that are drawn; more are found by a search. */
+const mostRows = 400;
 
-const sixDigits = (number: number) => String(number).padStart(6, "0");
+function download(name: string, content: string): void {
+  const link = document.createElement("a");
+  link.href = URL.createObjectURL(new Blob([content], { type: "application/yaml" }));
+  link.download = name;
+  link.click();
+  URL.revokeObjectURL(link.href);
+}
 
-function Editor({ parameter, done }: { parameter: Parameter; done: () => void }) {
-  const entered = useSignal(String(parameter.value));
-  const refused = useSignal("");
-  const stored = useRef(parameter.value);
-  useEffect(() => {
-    // Only a value that changed meanwhile replaces what is being typed.
-    if (stored.current === parameter.value) return;
-    stored.current = parameter.value;
-    entered.value = String(parameter.value);
-    refused.value = "";
-  }, [parameter.value]);
+function Rows({ found, chosen, choose }: { found: Parameter[]; chosen: number | null; choose: (number: number) => void }) {
   const t = text.value;
-  const isText = typeof parameter.value === "string";
-  const save = async () => {
-    const number = Number(entered.value.replace(",", "."));
-    if (!isText && (entered.value.trim() === "" || !Number.isFinite(number))) {
-      refused.value = t.notANumber;
-      return;
-    }
-    const answer = await put(`/api/parameters/${sixDigits(parameter.number)}`, isText ? { text: entered.value } : { value: number });
-    refused.value = answer.reason;
-    if (!answer.ok) return;
-    tell(t.stored(`${sixDigits(parameter.number)} ${title(parameter.name)}`), false);
-    done();
-  };
   return (
-    <section class="editor" aria-label={t.parameter}>
-      <h2>{sixDigits(parameter.number)}</h2>
-      <h3>{title(parameter.name)}</h3>
-      <p>{parameter.help}</p>
-      <form
-        onSubmit={(event) => {
-          event.preventDefault();
-          void save();
-        }}
-      >
-        <label for="parameter-value">{t.value} {parameter.unit && <span class="dim">{t.valueIn(unit(parameter.unit, t.or))}</span>}</label>
-        <input
-          id="parameter-value"
-          data-test="parameter-value"
-          class="digits"
-          value={entered.value}
-          autocomplete="off"
-          inputMode={isText ? "text" : "decimal"}
-          aria-invalid={refused.value !== ""}
-          onInput={(event) => (entered.value = event.currentTarget.value)}
-        />
-        <button type="submit" class="primary" data-test="parameter-save">{t.store}</button>
-      </form>
-      {refused.value && <p class="refusal" role="alert" data-test="parameter-refusal">{refused.value}</p>}
-      <dl>
-        <dt>{t.limits}</dt>
-        <dd class="digits">{limits(parameter.minimum, parameter.maximum) || "–"}</dd>
-        <dt>{t.defaultValue}</dt>
-        <dd class="digits">{parameter.default ?? "–"}</dd>
-        <dt>{t.takesEffect}</dt>
-        <dd>{parameter.activation}</dd>
-        <dt>{t.access}</dt>
-        <dd>{parameter.access}</dd>
-      </dl>
-      {parameter.pending && <p class="tag warn">{t.waitsFor(String(parameter.pending_value), parameter.activation.toLowerCase())}</p>}
-    </section>
+    <table>
+      <thead>
+        <tr><th>{t.number}</th><th>{t.name}</th><th class="right">{t.value}</th><th>{t.unit}</th><th>{t.limits}</th><th>{t.effect}</th></tr>
+      </thead>
+      <tbody>
+        {found.map((parameter) => (
+          <tr
+            key={parameter.number}
+            tabIndex={0}
+            aria-selected={parameter.number === chosen}
+            data-parameter={sixDigits(parameter.number)}
+            onClick={() => choose(parameter.number)}
+            onFocus={() => choose(parameter.number)}
+          >
+            <td class="digits">{sixDigits(parameter.number)}</td>
+            <td>{title(parameter.name)}</td>
+            <td class={`right digits ${parameter.value === parameter.default ? "" : "changed"}`}>{parameter.value}</td>
+            <td class="dim">{unit(parameter.unit, t.or)}</td>
+            <td class="dim digits">{limits(parameter.minimum, parameter.maximum)}</td>
+            <td>{parameter.activation}{parameter.pending && <span class="tag warn">{t.waits(String(parameter.pending_value))}</span>}</td>
+          </tr>
+        ))}
+      </tbody>
+    </table>
   );
 }
 
 export function Parameters() {
   const search = useSignal("");
-  const group = useSignal("");
+  const branch = useSignal<Branch>({ group: "", unit: null });
   const found = useSignal<Parameter[]>([]);
   const total = useSignal(0);
   const problem = useSignal("");
   const chosen = useSignal<number | null>(null);
+  const edited = useSignal<Parameter | null>(null);
+  const comparison = useSignal<Comparison | null>(null);
+  const file = useRef<HTMLInputElement>(null);
   const { parameters: revision, pending } = machine.value.revisions;
+  const t = text.value;
+
   const load = async () => {
-    const query = new URLSearchParams({ limit: "400" });
-    if (group.value) query.set("class", group.value);
+    const { group, unit: thousands } = branch.value;
+    // A unit is a part of its class, and only the whole class can be asked for.
+    const query = new URLSearchParams({ limit: String(thousands === null ? mostRows : 20000) });
+    if (group) query.set("class", group);
     if (search.value.trim()) query.set("search", search.value.trim());
     const answer = await get<{ parameters: Parameter[]; total: number }>(`/api/parameters?${query.toString()}`);
     problem.value = answer.reason;
     if (!answer.ok || !answer.body) return;
-    found.value = answer.body.parameters;
-    total.value = answer.body.total;
+    const wanted = answer.body.parameters.filter(({ number }) => thousands === null || Math.floor(number / 1000) === thousands);
+    found.value = wanted.slice(0, mostRows);
+    total.value = thousands === null ? answer.body.total : wanted.length;
   };
   useEffect(() => {
     const timer = setTimeout(() => void load(), 120);
     return () => clearTimeout(timer);
-  }, [search.value, group.value, revision, pending]);
-  const t = text.value;
-  const current = found.value.find((parameter) => parameter.number === chosen.value);
+  }, [search.value, branch.value, revision, pending]);
+  useEffect(() => {
+    const number = chosen.value;
+    if (number === null) return;
+    void get<Parameter>(`/api/parameters/${sixDigits(number)}`).then((answer) => {
+      if (answer.body && chosen.peek() === number) edited.value = answer.body;
+    });
+  }, [chosen.value, revision, pending]);
+
+  const compareDefaults = async () => {
+    const all = await allParameters();
+    if (all) comparison.value = { what: t.theDefaults, rows: compareWithDefaults(all), bad: [], takeable: false };
+  };
+  const compareFile = async (chosenFile: File) => {
+    const content = utf8(await chosenFile.arrayBuffer());
+    if (content === null) return tell(t.notText(chosenFile.name), true);
+    const all = await allParameters();
+    if (!all) return;
+    const read = parseParameters(content);
+    comparison.value = { what: chosenFile.name, rows: compareWithFile(all, read), bad: read.bad, takeable: true };
+  };
+  const exportAll = async () => {
+    const all = await allParameters();
+    if (all) download(`${machine.peek().cluster?.machine || "machine"}.parameters.yaml`, writeParameters(all, false));
+  };
+  /** A comparison is that of the moment; what was stored since is compared anew. */
+  const again = async () => {
+    comparison.value = null;
+    await load();
+  };
+
   return (
     <main class="parameters">
-      <section class="list" aria-label={t.parameters}>
-        <div class="title">
-          <h2>{t.parameters}</h2>
-          <input
-            type="search"
-            autofocus
-            data-test="parameter-search"
-            placeholder={t.numberOrName}
-            aria-label={t.numberOrName}
-            value={search.value}
-            onInput={(event) => (search.value = event.currentTarget.value)}
-          />
-          <div class="segments" role="group" aria-label={t.parameterClass}>
-            {classes.map(([value, title]) => (
-              <button key={value} aria-pressed={group.value === value} onClick={() => (group.value = value)}>
-                {t[title] as string}
-              </button>
-            ))}
-          </div>
-          <span class="dim end">
-            {found.value.length < total.value ? t.shownOf(found.value.length, total.value) : total.value}
-            {pending ? ` · ${t.pending(pending)}` : ""}
-          </span>
-        </div>
-        <div class="scroll">
-          <table>
-            <thead>
-              <tr><th>{t.number}</th><th>{t.name}</th><th class="right">{t.value}</th><th>{t.unit}</th><th>{t.limits}</th><th>{t.effect}</th></tr>
-            </thead>
-            <tbody>
-              {found.value.map((parameter) => (
-                <tr
-                  key={parameter.number}
-                  tabIndex={0}
-                  aria-selected={parameter.number === chosen.value}
-                  data-parameter={sixDigits(parameter.number)}
-                  onClick={() => (chosen.value = parameter.number)}
-                  onFocus={() => (chosen.value = parameter.number)}
-                >
-                  <td class="digits">{sixDigits(parameter.number)}</td>
-                  <td>{title(parameter.name)}</td>
-                  <td class={`right digits ${parameter.value === parameter.default ? "" : "changed"}`}>{parameter.value}</td>
-                  <td class="dim">{unit(parameter.unit, t.or)}</td>
-                  <td class="dim digits">{limits(parameter.minimum, parameter.maximum)}</td>
-                  <td>{parameter.activation}{parameter.pending && <span class="tag warn">{t.waits(String(parameter.pending_value))}</span>}</td>
-                </tr>
-              ))}
-            </tbody>
-          </table>
-          {problem.value && <p class="refusal">{problem.value}</p>}
-          {!problem.value && found.value.length === 0 && <p class="dim">{t.nothingFound}</p>}
-        </div>
+      <section class="setup-keys" aria-label={t.parameterFiles}>
+        <button aria-pressed={comparison.value?.what === t.theDefaults} onClick={() => void compareDefaults()}>{t.compareDefaults}</button>
+        <button onClick={() => file.current?.click()}>{t.importFile}</button>
+        <input
+          ref={file}
+          type="file"
+          hidden
+          aria-label={t.importFile}
+          onChange={(event) => {
+            const first = event.currentTarget.files?.[0];
+            event.currentTarget.value = "";
+            if (first) void compareFile(first);
+          }}
+        />
+        <button title={t.exportAbout} onClick={() => void exportAll()}>{t.exportFile}</button>
+        <UndoKey />
       </section>
-      {current ? (
-        <Editor key={current.number} parameter={current} done={() => void load()} />
+      <ParameterTree
+        chosen={branch.value}
+        choose={(next) => {
+          branch.value = next;
+          comparison.value = null;
+        }}
+      />
+      {comparison.value ? (
+        <ParameterComparison comparison={comparison.value} choose={(number) => (chosen.value = number)} done={() => void again()} close={() => (comparison.value = null)} />
+      ) : (
+        <section class="list" aria-label={t.parameters}>
+          <div class="title">
+            <input
+              type="search"
+              autofocus
+              data-test="parameter-search"
+              placeholder={t.numberNameHelp}
+              aria-label={t.numberNameHelp}
+              value={search.value}
+              onInput={(event) => (search.value = event.currentTarget.value)}
+            />
+            <span class="dim end">
+              {found.value.length < total.value ? t.shownOf(found.value.length, total.value) : total.value}
+              {pending ? ` · ${t.pending(pending)}` : ""}
+            </span>
+          </div>
+          <div class="scroll">
+            <Rows found={found.value} chosen={chosen.value} choose={(number) => (chosen.value = number)} />
+            {problem.value && <p class="refusal">{problem.value}</p>}
+            {!problem.value && found.value.length === 0 && <p class="dim">{t.nothingFound}</p>}
+          </div>
+        </section>
+      )}
+      {edited.value ? (
+        <ParameterEditor key={edited.value.number} parameter={edited.value} done={() => void load()} />
       ) : (
         <section class="editor dim">{t.chooseParameter}</section>
       )}

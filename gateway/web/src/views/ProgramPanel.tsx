@@ -1,25 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 import { signal, useSignal, useSignalEffect } from "@preact/signals";
-import { useEffect, useRef } from "preact/hooks";
-import { get, programBytes, type ProgramEntry, remove, upload } from "../api";
+import { useEffect } from "preact/hooks";
+import { programBytes } from "../api";
 import { bytes } from "../format";
 import { ProgramText } from "../program/lines";
 import { reminders } from "../state/functions";
 import { failingLine } from "../state/model";
-import { channel, command, machine, tell } from "../state/store";
+import { programs, refreshPrograms, removeProgram } from "../state/programs";
+import { channel, command, machine } from "../state/store";
 import { text as texts } from "../text/texts";
 import { ProgramView } from "./ProgramView";
-import { ask } from "./Question";
+import { Upload } from "./Upload";
 
-const programs = signal<ProgramEntry[]>([]);
 const text = signal<ProgramText | null>(null);
 const loaded = signal("");
 const loading = signal(false);
-
-async function refreshList(): Promise<void> {
-  const answer = await get<{ programs: ProgramEntry[] }>("/api/programs");
-  if (answer.ok && answer.body) programs.value = answer.body.programs;
-}
 
 /** Fetches the text once per program and revision. */
 async function load(name: string, revision: number): Promise<void> {
@@ -34,28 +29,6 @@ async function load(name: string, revision: number): Promise<void> {
   loading.value = false;
   if (content) text.value = new ProgramText(content);
   else loaded.value = "";
-}
-
-async function uploadFile(file: File): Promise<void> {
-  await refreshList();
-  const same = programs.peek().find((entry) => entry.name === file.name);
-  const t = texts.peek();
-  if (same) ask(t.replaceQuestion(file.name, same.revision), t.replaceKey, () => void store(file));
-  else await store(file);
-}
-
-async function store(file: File): Promise<void> {
-  const t = texts.peek();
-  tell(t.uploading(file.name, bytes(file.size)), false);
-  const answer = await upload(file.name, file);
-  tell(answer.ok ? t.stored(file.name) : `${t.uploadOf(file.name)}: ${answer.reason}`, !answer.ok);
-  await refreshList();
-}
-
-async function removeProgram(name: string): Promise<void> {
-  const answer = await remove(`/api/programs/${encodeURIComponent(name)}`);
-  if (!answer.ok) tell(`${texts.peek().deleteProgram(name)}: ${answer.reason}`, true);
-  await refreshList();
 }
 
 function Library({ close }: { close: () => void }) {
@@ -90,7 +63,7 @@ function Library({ close }: { close: () => void }) {
             <button
               aria-label={t.deleteProgram(entry.name)}
               disabled={entry.name === chosen}
-              onClick={() => ask(t.deleteQuestion(entry.name), t.deleteKey, () => void removeProgram(entry.name))}
+              onClick={() => removeProgram(entry.name)}
             >
               ✕
             </button>
@@ -104,10 +77,9 @@ function Library({ close }: { close: () => void }) {
 
 export function ProgramPanel() {
   const open = useSignal(false);
-  const file = useRef<HTMLInputElement>(null);
   const one = channel.value;
   const listRevision = machine.value.revisions.programs;
-  useEffect(() => void refreshList(), [listRevision]);
+  useEffect(() => void refreshPrograms(), [listRevision]);
   useSignalEffect(() => {
     const now = channel.value;
     if (now) void load(now.program, now.program_revision);
@@ -125,18 +97,7 @@ export function ProgramPanel() {
           <button aria-expanded={open.value} onClick={() => (open.value = !open.value)}>
             {open.value ? t.backToText : t.selectProgram}
           </button>
-          <button onClick={() => file.current?.click()}>{t.upload}</button>
-          <input
-            ref={file}
-            type="file"
-            hidden
-            aria-label={t.upload}
-            onChange={(event) => {
-              const chosen = event.currentTarget.files?.[0];
-              if (chosen) void uploadFile(chosen);
-              event.currentTarget.value = "";
-            }}
-          />
+          <Upload />
         </div>
       </div>
       {(one.detail || reminders(one, t).length > 0) && (

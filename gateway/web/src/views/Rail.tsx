@@ -3,12 +3,15 @@
 import { language, theme, type Theme, themes } from "../state/preferences";
 import { view, type ViewName } from "../state/store";
 import { type Language, languages, text, type Texts } from "../text/texts";
+import { WhoIsThere } from "./Login";
 
 const views: [ViewName, keyof Texts & `view${string}`][] = [
   ["operate", "viewOperate"],
   ["scene", "viewScene"],
+  ["programs", "viewPrograms"],
+  ["setup", "viewSetup"],
   ["parameters", "viewParameters"],
-  ["offsets", "viewOffsets"],
+  ["analysis", "viewAnalysis"],
   ["diagnosis", "viewDiagnosis"],
 ];
 
@@ -33,6 +36,7 @@ export function Rail() {
         </button>
       ))}
       <div class="choices">
+        <WhoIsThere />
         <select
           aria-label={t.language}
           title={t.language}

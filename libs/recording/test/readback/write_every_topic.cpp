@@ -122,6 +122,11 @@ int main(int argc, char** argv) {
   all.add(topics::plc_input_log);
   all.add(topics::panel_request);
   all.add(topics::panel_reply);
+  all.add(topics::online_request);
+  all.add(topics::online_reply);
+  all.add(topics::plc_watched);
+  all.add(topics::plc_forces);
+  all.add(topics::plc_programs);
   all.add(topics::parameter_set);
   all.add(topics::tool_table);
   all.add(topics::work_offsets);
@@ -142,5 +147,7 @@ int main(int argc, char** argv) {
   all.add(topics::launcher_identity);
   all.add(topics::promotion);
   all.add(topics::operator_request);
+  all.add(topics::servo_test_request);
+  all.add(topics::servo_test_samples);
   return all.finish(argv[2]) ? 0 : 1;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "truth/truth_reader.hpp"
+#include "machine/yaml_reader.hpp"
 
 #include <charconv>
 #include <cmath>
@@ -9,24 +9,24 @@
 
 #include "machine/yaml.hpp"
 
-namespace trunnion::truth {
+namespace trunnion::machine {
 
-void TruthReader::fail(const YAML::Node& node, const std::string& text) const {
-  throw std::runtime_error(machine::at(file_, node) + text);
+void YamlReader::fail(const YAML::Node& node, const std::string& text) const {
+  throw std::runtime_error(at(file_, node) + text);
 }
 
-void TruthReader::each(const YAML::Node& map, const std::string& keys, const Visit& visit) const {
+void YamlReader::each(const YAML::Node& map, const std::string& keys, const Visit& visit) const {
   if (!map.IsMap()) fail(map, "expected 'key: value' with the keys " + keys);
   std::set<std::string> seen;
   for (const auto& entry : map) {
-    const auto key = machine::scalar(file_, entry.first);
+    const auto key = scalar(file_, entry.first);
     if (!seen.insert(key).second) fail(entry.first, "'" + key + "' is there twice");
     if (!visit(key, entry.second))
       fail(entry.first, std::string("unknown key '").append(key).append("'; the keys are ").append(keys));
   }
 }
 
-double TruthReader::number(const YAML::Node& node, Limits limits) const {
+double YamlReader::number(const YAML::Node& node, Limits limits) const {
   const auto word = text(node);
   double value = 0;
   const char* last = word.data() + word.size();
@@ -42,7 +42,7 @@ double TruthReader::number(const YAML::Node& node, Limits limits) const {
   return value;
 }
 
-std::vector<double> TruthReader::numbers(const YAML::Node& node, std::size_t most, Limits limits) const {
+std::vector<double> YamlReader::numbers(const YAML::Node& node, std::size_t most, Limits limits) const {
   if (!node.IsSequence() || node.size() == 0 || node.size() > most)
     fail(node, "expected a list of 1 .. " + std::to_string(most) + " numbers");
   std::vector<double> values;
@@ -50,11 +50,11 @@ std::vector<double> TruthReader::numbers(const YAML::Node& node, std::size_t mos
   return values;
 }
 
-geometry::Vec3 TruthReader::vector(const YAML::Node& node, Limits limits) const {
+geometry::Vec3 YamlReader::vector(const YAML::Node& node, Limits limits) const {
   if (!node.IsSequence() || node.size() != 3) fail(node, "expected [x, y, z]");
   return {number(node[0], limits), number(node[1], limits), number(node[2], limits)};
 }
 
-std::string TruthReader::text(const YAML::Node& node) const { return machine::scalar(file_, node); }
+std::string YamlReader::text(const YAML::Node& node) const { return scalar(file_, node); }
 
-}  // namespace trunnion::truth
+}  // namespace trunnion::machine

@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: Apache-2.0
+// servo: tests of the drives of a running cluster, their tuning
+#include <CLI/CLI.hpp>
+#include <iostream>
+#include <memory>
+
+#include "commands.hpp"
+#include "servo_tests.hpp"
+#include "storage/file.hpp"
+
+namespace trunnion::cli {
+namespace {
+
+struct ServoOptions : TestOptions {
+  std::string machine, plot;
+  std::uint16_t channel = 0;
+  double amplitude_um = 20;
+  bool write = false;
+};
+
+void print(const char* format, auto... values) {
+  char line[240];
+  std::snprintf(line, sizeof line, format, values...);
+  std::cout << line << std::endl;
+}
+
+std::string limits(const TestFigure& f) {
+  char text[80] = "";
+  if (f.least && f.most)
+    std::snprintf(text, sizeof text, "limits %g .. %g", *f.least, *f.most);
+  else if (f.most)
+    std::snprintf(text, sizeof text, "limit %g", *f.most);
+  else if (f.least)
+    std::snprintf(text, sizeof text, "at least %g", *f.least);
+  return text;
+}
+
+bus::Json json_of(const TestFigure& f) {
+  bus::Json j = {{"name", f.name}, {"value", f.value}, {"unit", f.unit}};
+  if (f.least) j["least"] = *f.least;
+  if (f.most) j["most"] = *f.most;
+  if (f.least || f.most) j["reached"] = f.reached();
+  return j;
+}
+
+bus::Json json_of(const std::vector<servo_analysis::ServoSettings::Value>& values) {
+  bus::Json all = bus::Json::array();
+  for (const auto& v : values)
+    all.push_back({{"parameter", machine::number_text(v.number)}, {"value", v.value}});
+  return all;
+}
+
+// Values that differ from those of the machine.
+std::vector<servo_analysis::ServoSettings::Value> changes(
+    const ServoSession& session, std::vector<servo_analysis::ServoSettings::Value> values) {
+  std::erase_if(values, [&](const auto& v) { return session.parameters().at(v.number) == v.value; });
+  return values;
+}
+
+void propose(const ServoSession& session, const std::vector<servo_analysis::ServoSettings::Value>& values) {
+  for (const auto& v : values)
+    print("%s %-26s %10.5g -> %10.5g", machine::number_text(v.number).c_str(),
+          machine::Catalogue::instance().find(v.number)->name.c_str(), session.parameters().at(v.number),
+          v.value);
+}
+
+int run_test(const ServoOptions& o, const Common& common,
+             TestReport (*test)(ServoSession&, const TestOptions&)) {
+  ServoSession session(o.machine, common.domain, o.channel);
+  const auto report = test(session, o);
+  if (!o.plot.empty()) storage::replace_file(o.plot, report.picture);
+  if (o.write && !report.proposal.empty()) session.write(report.proposal, "servo " + report.test);
+  if (common.json) {
+    bus::Json out = {{"machine", session.machine()},
+                     {"test", report.test},
+                     {"axes", o.axes},
+                     {"reached", report.reached()}};
+    for (const auto& f : report.figures) out["figures"].push_back(json_of(f));
+    out["notes"] = report.notes;
+    out["proposal"] = json_of(report.proposal);
+    if (!report.details.is_null()) out["details"] = report.details;
+    std::cout << bus::text_of(out) << "\n";
+    return report.reached() ? 0 : 1;
+  }
+  for (const auto& f : report.figures)
+    print("%-34s %12.4f %-20s %-20s %s", f.name.c_str(), f.value, f.unit.c_str(), limits(f).c_str(),
+          f.least || f.most ? f.reached() ? "pass" : "FAIL" : "");
+  for (const auto& note : report.notes) std::cout << note << "\n";
+  propose(session, report.proposal);
+  if (!report.proposal.empty())
+    print(o.write ? "written; a change of encoders acts after a restart"
+                  : "nothing written: --write sets the parameters");
+  if (!o.plot.empty()) print("%s", o.plot.c_str());
+  return report.reached() ? 0 : 1;
+}
+
+int tune(const ServoOptions& o, const Common& common) {
+  ServoSession session(o.machine, common.domain, o.channel);
+  std::vector<const SessionAxis*> axes;
+  for (const auto& letter : o.axes)
+    if (letter == "all")
+      for (const auto& a : session.axes()) axes.push_back(&a);
+    else
+      axes.push_back(&session.axis(letter));
+  std::vector<servo_analysis::ServoSettings::Value> values;
+  bus::Json out = {{"machine", session.machine()}, {"amplitude_um", o.amplitude_um}};
+  bool reached = true;
+  for (const auto* a : axes) {
+    const auto* partner = partner_of(session, *a);
+    auto task = tuning_task(session, *a, partner, o.amplitude_um / 1000);
+    if (!task.circles) partner = nullptr;
+    if (!common.json)
+      task.progress = [&](const std::string& line) { print("%c  %s", a->letter, line.c_str()); };
+    SessionAxisUnderTest axis(session, *a, partner);
+    const auto result = servo_analysis::tune_axis(axis, task);
+    const auto changed = changes(session, result.settings.values(a->number));
+    values.insert(values.end(), changed.begin(), changed.end());
+    reached = reached && result.reached();
+    bus::Json entry = {{"axis", std::string(1, a->letter)},
+                       {"reached", result.reached()},
+                       {"critical_speed_gain", result.critical_speed_gain},
+                       {"critical_position_gain", result.critical_position_gain},
+                       {"inertia", result.inertia},
+                       {"coulomb", result.coulomb},
+                       {"largest_vibration_um", result.largest_vibration * 1e3},
+                       {"motions", result.motions}};
+    for (const auto& f : result.figures)
+      entry["figures"].push_back({{"name", f.name},
+                                  {"value", f.value},
+                                  {"limit", f.limit},
+                                  {"unit", f.unit},
+                                  {"reached", f.reached()}});
+    out["axes"].push_back(entry);
+    if (!common.json)
+      print("%c  %s; largest vibration %.2f um of %g um", a->letter,
+            result.reached() ? "every limit is reached" : "NOT every limit is reached",
+            result.largest_vibration * 1e3, o.amplitude_um);
+  }
+  out["proposal"] = json_of(values);
+  out["reached"] = reached;
+  // What does not reach the limits is shown and not written.
+  const bool write = o.write && reached && !values.empty();
+  if (write) session.write(values, "servo tune");
+  out["written"] = write;
+  if (common.json) {
+    std::cout << bus::text_of(out) << "\n";
+  } else {
+    propose(session, values);
+    print(write                 ? "written in one activation"
+          : o.write && !reached ? "nothing written: a limit is not reached"
+                                : "nothing written: --write sets the parameters");
+  }
+  return reached ? 0 : 1;
+}
+
+void add_common(CLI::App* command, ServoOptions& o) {
+  command->add_option("machine", o.machine,
+                      "Name under configs/machines or a directory: a cluster of its own in virtual "
+                      "time; without it the cluster that runs");
+  command->add_option("--axis", o.axes, "Letter of the axis; may be repeated, `all` for tune")
+      ->required()
+      ->allow_extra_args(false);
+  command->add_option("--channel", o.channel, "Channel (default 0)")->check(CLI::Range(0, 9));
+}
+
+}  // namespace
+
+void add_servo_command(CLI::App& app, Common& common) {
+  auto* servo = app.add_subcommand("servo", "Test and tune the drives of a running cluster");
+  servo->require_subcommand(1);
+  auto* tests =
+      servo->add_subcommand("test", "Servo tests with the limits of the manual; 1 when one is not reached");
+  tests->require_subcommand(1);
+  struct Row {
+    const char *name, *about;
+    TestReport (*run)(ServoSession&, const TestOptions&);
+  };
+  static constexpr Row rows[] = {
+      {"position", "Following error to and fro at 1000 mm/min", &test_position},
+      {"speed", "Ripple of the speed and peaks of the acceleration at 3000 mm/min", &test_speed},
+      {"current", "Time constant of the current loop by a step of the torque at rest", &test_current},
+      {"overshoot",
+       "Overshoot of the speed at the end of an acceleration at 100, 200, 500, 1000 and 3000 mm/min",
+       &test_overshoot},
+      {"roundness", "Circle of two axes: roundness, servo mismatch, quadrant jumps", &test_roundness},
+      {"rtcp", "A rotary axis turns under RTCP: mismatch of linear and rotary axes", &test_rtcp},
+      {"frequency", "Frequency response of speed or position loop by a chirp, margins", &test_frequency},
+      {"friction", "Coulomb, viscous and Stribeck friction, weight, inertia", &test_friction}};
+  const auto add = [&](CLI::App& parent, const Row& row) {
+    auto o = std::make_shared<ServoOptions>();
+    auto* command = add_command(parent, common, row.name, row.about,
+                                [o, &common, run = row.run] { return run_test(*o, common, run); });
+    add_common(command, *o);
+    command->add_option("--feed", o->feed, "mm/min or deg/min (default: that of the manual)")
+        ->check(CLI::Range(0.1, 1e6));
+    command->add_option("--plot", o->plot, "Write the picture (SVG)");
+    const std::string name = row.name;
+    if (name == "roundness")
+      command->add_option("--radius", o->radius, "mm (default 100)")->check(CLI::Range(1.0, 1e4));
+    if (name == "frequency") {
+      command->add_option("--loop", o->loop, "speed (default) or position")
+          ->check(CLI::IsMember({"speed", "position"}));
+      command->add_option("--from", o->from, "Hz (default 1)")->check(CLI::Range(1.0, 3000.0));
+      command->add_option("--to", o->to, "Hz (default 300)")->check(CLI::Range(2.0, 3500.0));
+      command
+          ->add_option("--amplitude", o->amplitude,
+                       "Of the chirp, mm/min or deg/min (default 30 % of the feed)")
+          ->check(CLI::Range(0.1, 1e5));
+    }
+    if (name == "current")
+      command->add_option("--amplitude", o->amplitude, "Of the step, share of the rated torque (default 0.1)")
+          ->check(CLI::Range(0.01, 0.5));
+    if (name == "rtcp") {
+      command->add_option("--tool", o->tool, "H (default 1)")->check(CLI::Range(1, 999));
+      command->add_option("--start", o->start, "deg (default 0)");
+      command->add_option("--end", o->end, "deg (default 360)");
+    }
+    return std::pair{command, o};
+  };
+  for (const auto& row : rows) add(*tests, row);
+  const auto [encoders, encoder_options] = add(
+      *servo, {"encoders",
+               "Compare motor and load encoder over one revolution, before the loop is closed over the load",
+               &test_encoders});
+  encoders->add_flag("--write", encoder_options->write, "Set sign and pulses of the load encoder");
+  auto o = std::make_shared<ServoOptions>();
+  auto* command = add_command(
+      *servo, common, "tune",
+      "Find the critical gains, keep 80 %, feed-forward and friction compensation; a proposal, or with "
+      "--write the parameters of the machine",
+      [o, &common] { return tune(*o, common); });
+  add_common(command, *o);
+  command
+      ->add_option("--amplitude", o->amplitude_um,
+                   "No vibration may be larger, um (default 20; of a rotary axis mdeg)")
+      ->check(CLI::Range(1.0, 1000.0));
+  command->add_flag("--write", o->write,
+                    "Write the parameters in one activation when every limit is reached");
+}
+
+}  // namespace trunnion::cli

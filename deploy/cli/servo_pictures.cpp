@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "servo_pictures.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "geometry/angle.hpp"
+
+namespace trunnion::cli {
+namespace {
+
+constexpr const char* colours[] = {"#0969da", "#cf222e", "#1a7f37", "#9a6700", "#8250df"};
+constexpr std::size_t most_points = 4000;
+constexpr const char* title_style = "font-size=\"15\" font-weight=\"600\"";
+
+std::string style(std::size_t i) {
+  return std::string("stroke=\"") + colours[i % std::size(colours)] + "\" stroke-width=\"1.3\"";
+}
+
+report::Range widened(report::Range r) {
+  const double margin = std::max({0.05 * r.span(), 1e-9, 1e-6 * std::abs(r.high)});
+  return {r.low - margin, r.high + margin};
+}
+
+std::vector<report::PlotPoint> thinned(const std::vector<report::PlotPoint>& points) {
+  const std::size_t step = points.size() / most_points + 1;
+  std::vector<report::PlotPoint> out;
+  for (std::size_t i = 0; i < points.size(); i += step) out.push_back(points[i]);
+  return out;
+}
+
+std::string diagram(double top, double height, const std::string& x, const std::string& y,
+                    const std::vector<PictureCurve>& curves) {
+  report::Range rx{1e300, -1e300}, ry = rx;
+  for (const auto& c : curves)
+    for (const auto& p : c.points) {
+      rx = {std::min(rx.low, p.x), std::max(rx.high, p.x)};
+      ry = {std::min(ry.low, p.y), std::max(ry.high, p.y)};
+    }
+  if (rx.low > rx.high) rx = ry = {0, 1};
+  report::Plot plot(80, top, 640, height, widened(rx), widened(ry));
+  plot.labels(x, y);
+  std::string legend;
+  for (std::size_t i = 0; i < curves.size(); ++i) {
+    plot.curve(thinned(curves[i].points), style(i));
+    legend += report::text(90 + 130.0 * static_cast<double>(i), top - 6, report::escaped(curves[i].name),
+                           std::string("fill=\"") + colours[i % std::size(colours)] + "\"");
+  }
+  return plot.svg() + legend;
+}
+
+}  // namespace
+
+PictureCurve over_time(const std::string& name, const std::vector<double>& values, double interval,
+                       double unit) {
+  PictureCurve c{name, {}};
+  for (std::size_t i = 0; i < values.size(); ++i)
+    c.points.push_back({static_cast<double>(i) * interval, values[i] * unit});
+  return c;
+}
+
+std::string curves_picture(const std::string& title, const std::string& x, const std::string& y,
+                           const std::vector<PictureCurve>& curves) {
+  return report::document(
+      760, 450, report::text(80, 24, report::escaped(title), title_style) + diagram(60, 330, x, y, curves));
+}
+
+std::string bode_picture(const std::string& title, const servo_analysis::Response& closed,
+                         const servo_analysis::Response& open) {
+  const auto magnitude = [](const std::string& name, const servo_analysis::Response& r) {
+    PictureCurve c{name, {}};
+    for (const auto& p : r) c.points.push_back({std::log10(p.frequency), 20 * std::log10(std::abs(p.value))});
+    return c;
+  };
+  const auto phase = [](const std::string& name, const servo_analysis::Response& r) {
+    PictureCurve c{name, {}};
+    double before = 0;
+    for (const auto& p : r) {
+      double angle = std::arg(p.value) * 180 / std::numbers::pi;
+      if (!c.points.empty()) angle -= 360 * std::round((angle - before) / 360);
+      c.points.push_back({std::log10(p.frequency), before = angle});
+    }
+    return c;
+  };
+  const char* x = "log10 of the frequency in Hz";
+  return report::document(
+      760, 640,
+      report::text(80, 24, report::escaped(title), title_style) +
+          diagram(60, 230, x, "dB", {magnitude("closed loop", closed), magnitude("open loop", open)}) +
+          diagram(350, 230, x, "deg", {phase("closed loop", closed), phase("open loop", open)}));
+}
+
+std::string roundness_picture(const std::string& title, const servo_analysis::RoundnessFigures& figures) {
+  double largest = 1e-9;
+  for (const auto& p : figures.points) largest = std::max(largest, std::abs(p.deviation));
+  const double division = report::round_down(largest * 1e3), magnification = 0.33 / largest;
+  report::Plot plot(40, 60, 460, 460, {-1.45, 1.45}, {-1.45, 1.45});
+  const auto add = [&](auto&& radius_at, const char* stroke) {
+    std::vector<report::PlotPoint> points;
+    const std::size_t step = figures.points.size() / most_points + 1;
+    for (std::size_t i = 0; i < figures.points.size(); i += step) {
+      const auto [s, c] = geometry::sine_cosine(figures.points[i].angle);
+      const double r = radius_at(figures.points[i]);
+      points.push_back({r * c, r * s});
+    }
+    plot.curve(points, stroke);
+  };
+  for (int k = -3; k <= 3; ++k)
+    add([&](const auto&) { return 1 + 1e-3 * division * k * magnification; }, "stroke=\"#afb8c1\"");
+  add([&](const auto& p) { return 1 + magnification * p.deviation; }, style(1).c_str());
+  char line[120];
+  std::snprintf(line, sizeof line, "%g um for each circle of the grid; quadrants at 0, 90, 180, 270 deg",
+                division);
+  return report::document(
+      540, 560,
+      report::text(40, 24, report::escaped(title), title_style) + report::text(40, 42, line) + plot.svg());
+}
+
+}  // namespace trunnion::cli

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+// Servo tests on a running cluster: programs that move axes, excitation and samples of the drive.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "cluster/client.hpp"
+#include "cluster/cluster.hpp"
+#include "machine/parameters.hpp"
+#include "servo_analysis/axis_tuning.hpp"
+#include "session_cluster.hpp"
+
+namespace trunnion::cli {
+
+struct SessionAxis {
+  char letter = 0;
+  std::uint16_t number = 0;  ///< logical
+  bool turns = false;
+  double place = 0;          ///< machine coordinate at the start, mm or deg
+  double low = 0, high = 0;  ///< travel
+  double highest_feed = 0;   ///< mm/min or deg/min
+  double acceleration = 0;   ///< mm/s2 or deg/s2
+  /// `distance` signed: towards the farther end of the travel. Throws std::runtime_error when there is not
+  /// enough.
+  double into_travel(double distance) const;
+};
+
+struct SessionResult {
+  idl::servo::TestPhase phase = idl::servo::TestPhase::COMPLETED;
+  double vibration = 0;                           ///< mm or deg
+  std::vector<servo_analysis::AxisTrace> traces;  ///< by the axes of the request
+};
+
+/// Takes the channel of a machine at rest. When it ends, however that is, the drive's test has ended, the
+/// channel has its mode and its selected program again, and nothing is left in the program store. Ctrl-C, an
+/// alarm and a hold end a test with std::runtime_error.
+class ServoSession {
+ public:
+  /// `machine` empty: the cluster that runs; else a cluster of this machine in virtual time, which ends with
+  /// the session.
+  ServoSession(const std::string& machine, std::optional<std::uint32_t> domain, std::uint16_t channel);
+  ~ServoSession();
+  ServoSession(const ServoSession&) = delete;
+  ServoSession& operator=(const ServoSession&) = delete;
+
+  /// Throws std::runtime_error when the channel has no such axis.
+  const SessionAxis& axis(const std::string& letter) const;
+  const std::vector<SessionAxis>& axes() const { return axes_; }
+  const machine::Parameters& parameters() const { return parameters_; }
+  const std::string& machine() const { return cluster_->running().machine; }
+
+  /// Runs the program while the test runs; without a program until the test has ended by itself.
+  SessionResult run(idl::servo::TestRequest request, const std::string& program);
+  /// Runs a program alone.
+  void move(const std::string& program);
+  /// Writes values in one activation, with `who` in the journal, and activates them by a reset.
+  void write(const std::vector<servo_analysis::ServoSettings::Value>& values, const std::string& who);
+
+ private:
+  void take_axes();
+  idl::channel::ChannelState state();
+  void start_program(const std::string& program);
+  void await_end(SessionResult* result);
+  void begin_test(const idl::servo::TestRequest& request);
+  bool take_samples(SessionResult& result);
+  void end_test(SessionResult* result);
+  void check();
+  void renew();
+
+  std::optional<SessionCluster> cluster_;
+  std::unique_ptr<cluster::Client> client_;
+  std::unique_ptr<bus::Writer<idl::servo::TestRequest>> requests_;
+  std::unique_ptr<bus::Reader<idl::servo::TestSamples>> samples_;
+  std::unique_ptr<bus::Reader<idl::channel::ChannelState>> states_;
+  std::unique_ptr<bus::Reader<idl::service::Alarm>> alarms_;
+  std::unique_ptr<bus::Reader<idl::program::ProgramList>> programs_;
+  std::string program_;                 // the text that is selected
+  std::uint64_t program_revision_ = 0;  // of the test's program in the store
+  std::uint16_t channel_;
+  std::uint64_t client_id_, number_ = 0, expected_ = 0;
+  idl::servo::TestRequest request_;
+  double renewed_ = 0;
+  bool testing_ = false, moving_ = false, uploaded_ = false;
+  idl::channel::ChannelState before_;
+  machine::Parameters parameters_;
+  std::vector<SessionAxis> axes_;
+};
+
+/// One axis of a session, for figures and tuning.
+class SessionAxisUnderTest : public servo_analysis::AxisUnderTest {
+ public:
+  /// `partner`: for circles; null: none.
+  SessionAxisUnderTest(ServoSession& session, const SessionAxis& axis, const SessionAxis* partner)
+      : session_(session), axis_(axis), partner_(partner) {}
+  servo_analysis::MotionResult move(const servo_analysis::ServoSettings& trial,
+                                    const servo_analysis::ServoSettings& fallback, double vibration_limit,
+                                    const servo_analysis::TestMotion& motion) override;
+
+ private:
+  ServoSession& session_;
+  const SessionAxis& axis_;
+  const SessionAxis* partner_;
+};
+
+/// Blocks of a circle of both axes from the place of the first one, which reverses there: two turns.
+std::string circle_program(const SessionAxis& first, const SessionAxis& second, double radius, double feed);
+/// `strokes` strokes to and fro from the place of the axis.
+std::string to_and_fro_program(const SessionAxis& axis, double distance, double feed, int strokes);
+
+}  // namespace trunnion::cli

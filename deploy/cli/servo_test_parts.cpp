@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "servo_test_parts.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace trunnion::cli {
+
+using idl::servo::TestRequest;
+using servo_analysis::AxisTrace;
+using servo_analysis::per_minute;
+
+const SessionAxis& only_axis(const ServoSession& session, const TestOptions& o) {
+  if (o.axes.size() != 1) throw std::runtime_error("this test is of one axis: --axis X");
+  return session.axis(o.axes.front());
+}
+
+std::string length_unit(const SessionAxis& a) { return a.turns ? "deg" : "mm"; }
+std::string speed_unit(const SessionAxis& a) { return a.turns ? "deg/min" : "mm/min"; }
+
+TestRequest samples_of(const std::vector<std::uint16_t>& axes, std::uint16_t decimation) {
+  TestRequest r;
+  r.axes = axes;
+  r.in_motion = true;
+  r.duration = longest_test;
+  r.decimation = decimation;
+  return r;
+}
+
+// To and fro with 0.5 s at constant speed where the travel permits.
+AxisTrace stroke(ServoSession& session, const SessionAxis& a, double feed, int strokes) {
+  const double v = feed / per_minute;
+  const double space = std::max(a.high - a.place, a.place - a.low);
+  const double distance = std::min(space, std::max(0.5, v * 0.6 + v * v / a.acceleration));
+  auto result =
+      session.run(samples_of({a.number}, 2), to_and_fro_program(a, a.into_travel(distance), feed, strokes));
+  if (result.traces.empty()) throw std::runtime_error("the drive gave no samples of the motion");
+  return std::move(result.traces[0]);
+}
+
+servo_analysis::MotionFigures moved_figures(const AxisTrace& trace) {
+  const auto f = servo_analysis::motion_figures(trace);
+  if (f.phases == 0)
+    throw std::runtime_error("the axis was not at constant speed: it needs more travel, or a lower feed");
+  return f;
+}
+
+double feed_of(const SessionAxis& a, const TestOptions& o, double standard) {
+  const double feed = o.feed.value_or(standard);
+  if (!(feed > 0) || feed > a.highest_feed) {
+    char text[120];
+    std::snprintf(text, sizeof text, "feed %g: axis %c moves with up to %g %s", feed, a.letter,
+                  a.highest_feed, speed_unit(a).c_str());
+    throw std::runtime_error(text);
+  }
+  return feed;
+}
+
+std::string picture_title(const ServoSession& s, const SessionAxis& a, const char* what) {
+  return s.machine() + ", axis " + a.letter + ": " + what;
+}
+
+std::vector<double> difference(const std::vector<double>& a, const std::vector<double>& b) {
+  std::vector<double> d(a.size());
+  for (std::size_t i = 0; i < a.size(); ++i) d[i] = a[i] - b[i];
+  return d;
+}
+
+}  // namespace trunnion::cli

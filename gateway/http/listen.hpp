@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <boost/asio/ip/tcp.hpp>
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+
+namespace trunnion::gateway {
+
+/// Opens, binds and listens. Throws std::runtime_error with the reason in one line: no address, or in use.
+inline void listen_on(boost::asio::ip::tcp::acceptor& acceptor, const std::string& address,
+                      std::uint16_t port) {
+  namespace net = boost::asio;
+  boost::system::error_code error;
+  const auto parsed = net::ip::make_address(address, error);
+  if (error) throw std::runtime_error("'" + address + "' is not an address");
+  const net::ip::tcp::endpoint endpoint(parsed, port);
+  acceptor.open(endpoint.protocol(), error);
+  if (!error) acceptor.set_option(net::socket_base::reuse_address(true), error);
+  if (!error) acceptor.bind(endpoint, error);
+  if (!error) acceptor.listen(net::socket_base::max_listen_connections, error);
+  if (error)
+    throw std::runtime_error("cannot listen on " + address + ":" + std::to_string(port) + ": " +
+                             error.message());
+}
+
+}  // namespace trunnion::gateway

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+// Checks of program texts on a thread of its own, so that none delays an order.
+#pragma once
+
+#include <atomic>
+#include <condition_variable>
+#include <deque>
+#include <mutex>
+#include <thread>
+
+#include "answer.hpp"
+#include "mailbox.hpp"
+
+namespace trunnion::gateway {
+
+class ProgramChecker {
+ public:
+  /// Seconds after which a check ends without a result of the rest.
+  static constexpr double longest = 2;
+  /// Checks that may wait.
+  static constexpr std::size_t most_waiting = 4;
+
+  struct Job {
+    std::string text;
+    std::uint16_t channel = 0;
+    std::shared_ptr<const Snapshot> snapshot;
+    Respond respond;
+  };
+
+  explicit ProgramChecker(Mailbox& mailbox) : mailbox_(mailbox) {}
+  ~ProgramChecker() { stop(); }
+  /// Answers later; at once with 503 when too many wait.
+  void submit(Job job);
+  /// Drops what waits and ends what is under way.
+  void stop();
+
+ private:
+  void work();
+  Answer run(const Job& job);
+
+  Mailbox& mailbox_;
+  std::mutex mutex_;
+  std::condition_variable wake_;
+  std::deque<Job> jobs_;
+  std::atomic<bool> stopping_ = false;
+  std::thread thread_;  ///< begun with the first check
+};
+
+}  // namespace trunnion::gateway

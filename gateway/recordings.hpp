@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+// The recordings of the machine over HTTP: list, read, delete, start and stop.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "answer.hpp"
+#include "cluster/child_process.hpp"
+#include "file_worker.hpp"
+#include "src/recording_files.hpp"
+#include "src/router.hpp"
+
+namespace trunnion::gateway {
+
+struct RecordingSettings {
+  std::filesystem::path directory;
+  /// The recorder and its arguments, without what the request says: file, duration, topics.
+  std::vector<std::string> recorder;
+};
+
+class Recordings {
+ public:
+  explicit Recordings(RecordingSettings settings) : settings_(std::move(settings)) {}
+  ~Recordings() { stop(); }
+  /// Operations on recordings; answers later, on the thread of the files.
+  void handle(const Match& match, const RequestText& request, const Respond& respond);
+  FileWorker& worker() { return worker_; }
+  /// Ends a recording under way: its file is whole.
+  void stop();
+
+ private:
+  Answer answer(const Match& match, const RequestText& request);
+  Answer list();
+  Answer start(const std::string& body);
+  Answer end(const std::string& name);
+  Answer remove(const RecordingFile& file, const std::string& if_match);
+  Answer read(const RecordingFile& file, const RequestText& request) const;
+  Answer table(const RecordingFile& file) const;
+  /// Of the recording under way, empty = none.
+  std::string running();
+
+  const RecordingSettings settings_;
+  // Only the thread of the files uses what follows; it also is the parent whose end ends the recorder.
+  std::string name_;
+  cluster::ChildProcess recorder_;
+  FileWorker worker_;  ///< the last member: its thread ends before the others are destroyed
+};
+
+}  // namespace trunnion::gateway

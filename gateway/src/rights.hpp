@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which role an operation needs.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "access/role.hpp"
+#include "src/router.hpp"
+
+namespace trunnion::gateway {
+
+/// Least role of who may do it; nothing: everybody, also without a login. Emergency stop, feed hold and the
+/// end of a jog are everybody's.
+std::optional<access::Role> needed_role(const Match& match);
+
+/// Value of `name` in the header Cookie; empty when it is not there.
+std::string cookie_value(std::string_view header, std::string_view name);
+
+/// What follows "Bearer " in the header Authorization; empty when there is none.
+std::string bearer_token(std::string_view header);
+
+/// Whether an address to listen on is reached from this computer alone.
+bool is_loopback(const std::string& address);
+
+}  // namespace trunnion::gateway

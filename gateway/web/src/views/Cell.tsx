@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+// Numbers that are typed into tables.
+import { useSignal } from "@preact/signals";
+import type { Answer } from "../api";
+import { millimetres } from "../format";
+import { tell } from "../state/store";
+import { text } from "../text/texts";
+
+/** Every digit that is stored: what is shown is rounded, what is edited is not. */
+const exactly = (value: number) => String(value);
+
+/** A number as it is typed, with comma or point; nothing when it is none. */
+export function typedNumber(typed: string): number | undefined {
+  const number = Number(typed.trim().replace(",", ".").replace("\u2212", "-"));
+  return typed.trim() === "" || !Number.isFinite(number) ? undefined : number;
+}
+
+interface Props {
+  value: number;
+  label: string;
+  store: (value: number) => Promise<Answer>;
+}
+
+/**
+ * A number that is sent when it is entered, and comes back to what is stored when it is refused. While it is being
+ * edited nothing else changes it, and nothing is sent when it is left as it was.
+ */
+export function Cell({ value, label, store }: Props) {
+  const draft = useSignal<string | null>(null);
+  const commit = async () => {
+    const typed = draft.value;
+    if (typed === null || typed === exactly(value)) {
+      draft.value = null;
+      return;
+    }
+    const entered = typedNumber(typed);
+    if (entered === undefined) tell(`${label}: ${text.peek().notANumber}`, true);
+    else if (entered !== value) {
+      const answer = await store(entered);
+      if (!answer.ok) tell(`${label}: ${answer.reason}`, true);
+    }
+    draft.value = null;
+  };
+  return (
+    <input
+      class="cell digits"
+      aria-label={label}
+      value={draft.value ?? millimetres(value)}
+      inputMode="decimal"
+      onFocus={(event) => {
+        const input = event.currentTarget;
+        input.value = exactly(value);
+        input.select();  // at once: what is typed from here on must not be selected again
+        draft.value = input.value;
+      }}
+      onInput={(event) => {
+        draft.value = event.currentTarget.value;
+      }}
+      onKeyDown={(event) => {
+        if (event.key === "Enter") event.currentTarget.blur();
+        if (event.key === "Escape") {
+          event.stopPropagation();
+          draft.value = null;
+          event.currentTarget.blur();
+        }
+      }}
+      onBlur={() => void commit()}
+    />
+  );
+}

@@ -1,0 +1,57 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# gantry_commands.sh TRUNNION MACHINES PYTHON: the command gantry on a cluster whose slave is 0.15 mm from its place: both
+# sides, the error, the limit, Auto Offset as a proposal and written, a second run, machines without a gantry.
+set -euo pipefail
+trunnion=$1 python=$3
+work=$(mktemp -d)
+domain=
+cleanup() {
+  [ -z "$domain" ] || "$trunnion" down --domain "$domain" > /dev/null 2>&1 || true
+  rm -rf "$work"
+}
+trap cleanup EXIT
+fail() { echo "$*" >&2; exit 1; }
+cp -rL "$2/gantry-cb-head" "$work/m"
+# The slave belongs 0.15 mm farther than it is, the limit is 0.1 mm, and nothing aligns it.
+cat >> "$work/m/parameters.yaml" <<'END'
+"102129": 0.15
+END
+sed -i 's/^"102062": 1/"102062": 0/; s/^"102107": 0.2/"102107": 0.1/' "$work/m/parameters.yaml"
+up() { "$trunnion" up "$work/m" --domain "$1" --port $((23100 + $1)) --time virtual --state "$work/state" > "$work/up" 2>&1; }
+for d in $(seq 60 79); do
+  if up "$d"; then domain=$d; break; fi
+  grep -q "domain $d" "$work/up" || break
+done
+[ -n "$domain" ] || fail "$(cat "$work/up")"
+gantry() { "$trunnion" gantry --domain "$domain" "$@"; }
+
+gantry > "$work/shown"
+grep -q '^Y (axis 1) with its slave Y2 (axis 2): coupled' "$work/shown" || fail "$(cat "$work/shown")"
+grep -q 'synchronization error  *-0.1500 mm  *limit 0.1000 (parameter 102107)  EXCEEDED' "$work/shown" || fail "$(cat "$work/shown")"
+grep -q 'difference of speeds .* not supervised (parameter 102108)' "$work/shown" || fail "$(cat "$work/shown")"
+grep -q 'Auto Offset: parameter 102129 of axis 2 would be set to 0.000000 mm (now 0.150000)' "$work/shown" || fail "$(cat "$work/shown")"
+"$trunnion" param get 102129 --domain "$domain" | grep -q '= 0.15' || fail "a proposal has written"
+"$trunnion" alarms --domain "$domain" > "$work/alarms" || true
+grep -q 'Slave axis 2 is off its master axis 1 by -0.1500 mm, limit 0.1000 mm (parameter 102107)' "$work/alarms" || fail "$(cat "$work/alarms")"
+
+gantry --json --write > "$work/json"
+"$python" - "$work/json" <<'END'
+import json, sys
+shown = json.load(open(sys.argv[1]))
+(pair,) = shown["gantries"]
+assert shown["written"] is True, shown
+assert abs(pair["synchronization_error"]["value"] + 0.15) < 1e-4 and pair["synchronization_error"]["exceeded"], pair
+assert pair["synchronization_error"]["unit"] == "mm" and pair["synchronization_error"]["parameter"] == "102107", pair
+assert pair["auto_offset"]["parameter"] == "102129" and abs(pair["auto_offset"]["proposal_mm"]) < 1e-4, pair
+assert pair["alignment"]["on"] is False and pair["state"] == "coupled", pair
+END
+"$trunnion" down --domain "$domain" > /dev/null
+up "$domain" || fail "$(cat "$work/up")"
+gantry > "$work/shown"
+grep -q 'synchronization error  *-*0.0000 mm' "$work/shown" || fail "after the restart: $(cat "$work/shown")"
+gantry --json --write | "$python" -c 'import json, sys; assert json.load(sys.stdin)["written"] is False' || fail "a second writing"
+
+# A machine of its own; and one without a gantry.
+"$trunnion" gantry "$2/gantry-cb-head" | grep -q 'alignment on: errors up to 0.2000 mm' || fail "a cluster of its own"
+"$trunnion" gantry "$2/ac-table" | grep -q 'ac-table has no gantry' || fail "a machine without a gantry"

@@ -1,0 +1,136 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# plc_online_commands.sh TRUNNION MACHINES PYTHON: the commands plc variables, watch, force, trace and load on a cluster in
+# virtual time, and the recording of all this verified.
+set -euo pipefail
+trunnion=$1 python=$3
+work=$(mktemp -d)
+domain=
+cleanup() {
+  [ -z "$domain" ] || "$trunnion" down --domain "$domain" > /dev/null 2>&1 || true
+  rm -rf "$work"
+}
+trap cleanup EXIT
+fail() { echo "$*" >&2; exit 1; }
+is() { [ "$2" = "$3" ] || fail "$1: expected '$3', there is '$2'"; }
+cp -r "$2/ac-table" "$work/m"
+rm -rf "$work/m/recordings"
+sed -i "/gateway/d" "$work/m/machine.yaml"
+cat > "$work/m/plc/counter.st" <<'END'
+FUNCTION_BLOCK Counter
+VAR_INPUT step : UDINT; END_VAR
+VAR_OUTPUT n : UDINT; END_VAR
+VAR RETAIN hours : UDINT := 5; END_VAR
+VAR timer : TON; END_VAR
+n := n + step;
+IF hours > 1000 THEN n := 0; END_IF;
+timer(IN := coolant_0, PT := T#1h);
+END_FUNCTION_BLOCK
+END
+sed -i 's/^  stop_latch AT %R0.0 : BOOL;/  stop_latch AT %R0.0 : BOOL;\n  counter : Counter;/; s/^feed_hold := feed_hold_button;/feed_hold := feed_hold_button;\nIF channel_running_0 THEN counter(step := 1); END_IF;/' "$work/m/plc/fast.st"
+for d in $(seq 60 79); do
+  if "$trunnion" up "$work/m" --domain "$d" --port $((23000 + d)) --time virtual --state "$work/state" > "$work/up" 2>&1; then domain=$d; break; fi
+  grep -q "domain $d" "$work/up" || break
+done
+[ -n "$domain" ] || fail "$(cat "$work/up")"
+plc() { "$trunnion" plc "$@" --domain "$domain"; }
+mdi() { "$trunnion" mdi "$1" --domain "$domain" > /dev/null; }
+refused() {  # SENTENCE COMMAND...
+  local sentence=$1
+  shift
+  ! plc "$@" > "$work/out" 2> "$work/error" || fail "$*: it works"
+  [ "$(wc -l < "$work/error")" = 1 ] || fail "$*: $(cat "$work/error")"
+  grep -qF -- "$sentence" "$work/error" || fail "$*: $(cat "$work/error")"
+}
+
+plc variables > "$work/variables"
+grep -q '^    .timer$' "$work/variables" && grep -q '^      .ET : TIME$' "$work/variables" || fail "$(cat "$work/variables")"
+plc variables fast.counter.h --json | grep -q '"path":"fast.counter.hours","type":"UDINT","retained":true' || fail "$(plc variables fast.counter.h --json)"
+is watch "$(plc watch fast.counter.hours spindle_override_0 fast.counter.timer.PT --count 1)" \
+  "fast.counter.hours = 5  spindle_override_0 = 100 %  fast.counter.timer.PT = T#0ms"
+refused "'fast.none': there is no such variable" watch fast.none --count 1
+
+plc force coolant_0=TRUE fast.counter.hours=9 --list > "$work/forces"
+is forces "$(cat "$work/forces")" "$(printf '%%G2968.0 = TRUE\nfast.counter.hours = 9')"
+"$trunnion" alarms --domain "$domain" > "$work/alarms" || true
+grep -q "2 of the PLC's values are forced" "$work/alarms" || fail "$(cat "$work/alarms")"
+mdi "M9"
+is mark "$(plc watch coolant_0 fast.counter.hours --count 1)" "coolant_0 = TRUE (forced)  fast.counter.hours = 9 (forced)"
+refused "'fast.counter.hours': 'x' is no UDINT: write a whole number 0 .. 4294967295" force fast.counter.hours=x
+refused "'main.no_code': it is a constant" force main.no_code=1
+pid=$("$trunnion" status --domain "$domain" --json | "$python" -c 'import json, sys
+text = json.load(sys.stdin)
+print(next(s["pid"] for s in text["services"] if s["service"] == "plc"))')
+kill -KILL "$pid"
+for _ in $(seq 100); do plc force --list > "$work/forces" 2> /dev/null && break; sleep 0.1; done
+is "forces after a kill" "$(wc -l < "$work/forces")" 2
+plc force --release
+is released "$(plc force --list)" "Nothing is forced"
+"$trunnion" alarms --reset --domain "$domain" > /dev/null || true
+"$trunnion" channel reset --domain "$domain" > /dev/null || true
+
+# From here on everything is recorded.
+"$trunnion" record "$work/r.mcap" --domain "$domain" > "$work/record" 2>&1 &
+recorder=$!
+for _ in $(seq 100); do [ -s "$work/r.mcap" ] && break; sleep 0.1; done
+mdi "G53 G1 X1 F3000"
+plc force feed_hold=TRUE
+"$trunnion" mdi "G53 G1 X2 F3000" --domain "$domain" > /dev/null 2>&1 &
+held=$!
+sleep 1
+plc force --release feed_hold
+"$trunnion" channel start --domain "$domain" > /dev/null 2>&1 || true
+wait $held || true
+
+# Every scan: the counter of the program rises by one from row to row.
+n=$(plc watch fast.counter.n --count 1 | sed 's/.* = //')
+plc trace fast.counter.n coolant_0 --scans 300 --when "fast.counter.n>$((n + 20))" --output "$work/trace.csv" &
+trace=$!
+sleep 0.5
+mdi "G53 G1 X30 F3000"
+wait $trace || fail "the trace"
+"$python" - "$work/trace.csv" "$n" <<'END' || fail "$(head -5 "$work/trace.csv")"
+import csv, sys
+rows = list(csv.reader(open(sys.argv[1])))
+assert rows[0] == ["time_ms", "tick", "fast.counter.n", "coolant_0"]
+n = [int(row[2]) for row in rows[1:]]
+first = int(sys.argv[2]) + 21
+assert n == list(range(first, first + 300)), n[:10]
+END
+
+# Programs with an error change nothing; others keep what can be kept, and are undone.
+cp -r "$work/m/plc" "$work/next"
+echo 'PROGRAM wrong lamp := 1; END_PROGRAM' > "$work/next/wrong.st"
+! plc load "$work/next" > "$work/out" 2>&1 || fail "programs with an error run"
+grep -q "^wrong.st:1:15: error: there is no variable 'lamp'" "$work/out" || fail "$(cat "$work/out")"
+rm "$work/next/wrong.st"
+sed -i 's/VAR timer : TON; END_VAR/VAR timer : TON; extra : INT; END_VAR/; s/^n := n + step;/n := n + step; extra := extra + 1;/' "$work/next/counter.st"
+before=$(plc watch fast.counter.n --count 1)
+plc load "$work/next" --dry-run > "$work/out"
+is "dry run" "$(cat "$work/out")" "fast.counter.extra (INT) is new: it begins with its initial value"
+plc programs | grep -q "machine's directory; 0 online changes" || fail "$(plc programs)"
+plc load "$work/next" > "$work/out" || fail "$(cat "$work/out")"
+grep -q "^The new programs run; .* 0 differences$" "$work/out" || fail "$(cat "$work/out")"
+is "kept" "$(plc watch fast.counter.n --count 1)" "$before"
+mdi "G53 G1 X20 F3000"
+mdi "M8"
+mdi "M9"
+plc watch fast.counter.extra --count 1 | grep -q ' = [1-9]' || fail "the new program does not run"
+sed -i 's/^ready_lamp := NOT stop_latch;/ready_lamp := stop_latch;/' "$work/next/fast.st"
+! plc load "$work/next" > "$work/out" 2>&1 || fail "a difference is not found"
+grep -q "register Y0: 1 and 0" "$work/out" || fail "$(cat "$work/out")"
+plc load "$work/next" --accept-differences > /dev/null
+is lamp "$(plc watch ready_lamp --count 1)" "ready_lamp = FALSE"
+plc load --undo --accept-differences > /dev/null
+is "lamp again" "$(plc watch ready_lamp --count 1)" "ready_lamp = TRUE"
+mdi "G53 G1 X10 F3000"
+
+kill -INT $recorder
+wait $recorder || fail "$(cat "$work/record")"
+"$trunnion" verify --service plc --recording "$work/r.mcap" --machine "$work/m" > "$work/verify" 2>&1 || fail "$(cat "$work/verify")"
+is "lines of the journal" "$("$python" -c 'import json, sys
+print(*[json.loads(line)["what"] for line in open(sys.argv[1])])' "$work/state/plc.jsonl")" "force release force release load load load"
+"$trunnion" state check --state "$work/state" > "$work/out" 2>&1 || fail "$(cat "$work/out")"
+grep -q "plc.programs" "$work/out" || fail "$(cat "$work/out")"
+"$trunnion" down --domain "$domain" > /dev/null
+domain=

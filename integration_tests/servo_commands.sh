@@ -1,0 +1,117 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# servo_commands.sh TRUNNION MACHINES PYTHON: the command servo on a cluster whose X has a weak transmission and a scale that
+# is mounted the wrong way round: encoders, tests, tuning, abort by Ctrl-C and by kill, writing.
+set -euo pipefail
+trunnion=$1 python=$3
+work=$(mktemp -d)
+domain=
+cleanup() {
+  [ -z "$domain" ] || "$trunnion" down --domain "$domain" > /dev/null 2>&1 || true
+  rm -rf "$work"
+}
+trap cleanup EXIT
+fail() { echo "$*" >&2; exit 1; }
+cp -r "$2/ac-table" "$work/m"
+cat > "$work/m/truth.yaml" <<'END'
+drives:
+  X:
+    mechanics: {load_share: 0.5, locked_frequency_Hz: 80, damping_ratio: 0.04, coulomb: 0.04, breakaway: 0.06, backlash_um: 3,
+                cogging: 0.004}
+    load_encoder: {resolution_um: 0.1, inverted: true}
+END
+# Bad gains, and pulses of the scale that are half of the right ones: 10 mm a revolution, 0.1 um a pulse.
+cat >> "$work/m/parameters.yaml" <<'END'
+"100900": 15
+"100901": 150
+"100902": 40
+"100932": 50000
+END
+for d in $(seq 60 79); do
+  if "$trunnion" up "$work/m" --domain "$d" --port $((23000 + d)) --time virtual --state "$work/state" > "$work/up" 2>&1; then domain=$d; break; fi
+  grep -q "domain $d" "$work/up" || break
+done
+[ -n "$domain" ] || fail "$(cat "$work/up")"
+servo() { "$trunnion" servo "$@" --domain "$domain"; }
+value() { "$trunnion" param get "$1" --domain "$domain"; }
+program() { "$trunnion" program list --domain "$domain"; }
+
+# The scale counts backwards and twice as far: both are found before the loop is closed over it, and written.
+! servo encoders --axis X > "$work/encoders" || fail "the wrong scale passes"
+grep -q '^load over motor  *-\(2\.00\|1\.999\)' "$work/encoders" || fail "$(cat "$work/encoders")"
+servo encoders --axis X --write > /dev/null || true
+"$trunnion" param set 100930 1 --domain "$domain" > /dev/null
+"$trunnion" down --domain "$domain" > /dev/null
+"$trunnion" up "$work/m" --domain "$domain" --port $((23000 + domain)) --time virtual --state "$work/state" > "$work/up" 2>&1 || fail "$(cat "$work/up")"
+# 10 mm of 0.1 um, within 20 of 100000 pulses.
+for expected in '100930 full_closed_loop = 1' '100931 load_encoder_reversed = 1' '100932 load_encoder_pulses = \(9999[0-9]\|999[89][0-9]\|1000[012][0-9]\)'; do
+  value "${expected%% *}" | grep -q "^$expected" || fail "expected $expected: $(value "${expected%% *}")"
+done
+"$trunnion" mdi "G53 G1 X5 F1000" --domain "$domain" > /dev/null || fail "the cured axis does not move in full closed loop"
+program > "$work/programs"
+
+# Ctrl-C in the middle: the parameters are those of before, nothing is left, the channel is free.
+"$trunnion" servo tune --axis X --write --domain "$domain" > "$work/interrupted" 2>&1 &
+pid=$!
+for _ in $(seq 200); do grep -q 'position gain' "$work/interrupted" && break; sleep 0.02; done
+kill -INT $pid
+! wait $pid || fail "an interrupted tuning ends well"
+value 100901 | grep -q '100901 speed_gain = 150.0 ' || fail "interrupted: $(value 100901)"
+program | cmp - "$work/programs" || fail "the tuning leaves a program"
+servo test position --axis X > "$work/position" || fail "after an interruption: $(cat "$work/position")"
+
+# Killed: the drive ends the test of a client that is gone; the next one works.
+"$trunnion" servo tune --axis X --domain "$domain" > "$work/killed" 2>&1 &
+pid=$!
+for _ in $(seq 200); do grep -q 'speed gain' "$work/killed" && break; sleep 0.02; done
+kill -KILL $pid
+wait $pid 2> /dev/null || true
+sleep 6
+"$trunnion" channel reset --domain "$domain" > /dev/null
+value 100901 | grep -q '100901 speed_gain = 150.0 ' || fail "killed: $(value 100901)"
+
+# A proposal changes nothing; written it does, in one activation.
+servo tune --axis X > "$work/proposal" || fail "$(cat "$work/proposal")"
+grep -q 'nothing written' "$work/proposal" || fail "$(cat "$work/proposal")"
+value 100901 | grep -q '100901 speed_gain = 150.0 ' || fail "the proposal was written"
+servo tune --axis X --write --json > "$work/tuned.json" || fail "$(cat "$work/tuned.json")"
+"$python" - "$work/tuned.json" <<'END' || fail "$(cat "$work/tuned.json")"
+import json, sys
+tuned = json.load(open(sys.argv[1]))
+axis = tuned["axes"][0]
+assert tuned["reached"] and tuned["written"], "every limit is reached and written"
+assert axis["largest_vibration_um"] <= tuned["amplitude_um"], "no vibration beyond the amplitude"
+assert len(axis["figures"]) == 8 and all(f["reached"] for f in axis["figures"])
+END
+grep -o '"parameter":"[0-9]*","value":[-0-9.e]*' "$work/tuned.json" | sed 's/"parameter":"//; s/","value":/ /' > "$work/values"
+[ -s "$work/values" ] || fail "nothing was proposed"
+while read -r number expected; do
+  found=$(value "$number" | sed 's/^[^=]*= \([^ ]*\).*/\1/')
+  "$python" -c 'import sys; a, b = map(float, sys.argv[1:]); sys.exit(abs(a - b) > 1e-4 * abs(b) + 1e-9)' "$found" "$expected" ||
+    fail "$number is $found, tuned was $expected"
+done < "$work/values"
+
+# Every test with its report; the limits of the manual are reached.
+for test in "position --axis X" "speed --axis X" "overshoot --axis X" "current --axis X" "friction --axis X" \
+  "frequency --axis Y" "frequency --axis X --loop position --feed 600" "roundness --axis Y --axis Z --radius 50"; do
+  # shellcheck disable=SC2086
+  servo test $test --json --plot "$work/plot.svg" > "$work/test.json" || fail "$test: $(cat "$work/test.json")"
+  "$python" -c 'import json, sys, xml.dom.minidom as x; assert json.load(open(sys.argv[1]))["reached"]; x.parse(sys.argv[2])' \
+    "$work/test.json" "$work/plot.svg" || fail "$test: $(cat "$work/test.json")"
+done
+"$trunnion" mdi "G53 G1 X60 F3000" --domain "$domain" > /dev/null
+servo test rtcp --axis C --json > "$work/rtcp.json" || true
+"$python" -c 'import json, sys; assert len(json.load(open(sys.argv[1]))["figures"]) == 6' "$work/rtcp.json" || fail "$(cat "$work/rtcp.json")"
+
+# Bad input is one line.
+one_line() {
+  local expected=$1
+  shift
+  ! "$trunnion" servo "$@" --domain "$domain" > "$work/out" 2> "$work/error" || fail "$*: it works"
+  [ "$(wc -l < "$work/error")" = 1 ] && grep -q "$expected" "$work/error" || fail "$*: $(cat "$work/error")"
+}
+one_line 'axes XYZAC' test position --axis Q
+one_line 'moves with up to' test position --axis X --feed 900000
+one_line 'two axes' test roundness --axis X
+one_line 'no space\|cannot move' test roundness --axis X --axis Y --radius 5000
+one_line 'is 1: compare the encoders in semi-closed loop' encoders --axis X

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+// What only the gateway reads of machine.yaml.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace YAML {
+class Node;
+}
+
+namespace trunnion::machine {
+
+struct GatewaySettings {
+  std::uint16_t mtconnect_port = 5000;  ///< of the MTConnect agent; 0 = none
+  bool auth = false;                    ///< users log in
+};
+
+/// `document` is that of machine.yaml in `file`. Throws std::runtime_error with file:line:column.
+GatewaySettings read_gateway_settings(const YAML::Node& document, const std::string& file);
+/// Of machine.yaml in `directory`. Throws std::runtime_error.
+GatewaySettings load_gateway_settings(const std::string& directory);
+
+}  // namespace trunnion::machine

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "machine/gateway_settings.hpp"
+
+#include <gtest/gtest.h>
+
+#include "machine/yaml.hpp"
+
+namespace trunnion::machine {
+namespace {
+
+GatewaySettings read(const std::string& text) {
+  return read_gateway_settings(parse_yaml(text, "machine.yaml"), "machine.yaml");
+}
+
+TEST(GatewaySettings, TheMtconnectAgentHasPort5000UnlessAnotherIsNamed) {
+  EXPECT_EQ(read("name: mill").mtconnect_port, 5000);
+  EXPECT_EQ(read("mtconnect_port: 5001").mtconnect_port, 5001);
+  EXPECT_EQ(read("mtconnect_port: 0").mtconnect_port, 0) << "no agent";
+}
+
+TEST(GatewaySettings, UsersLogInWhenAuthIsOn) {
+  EXPECT_FALSE(read("name: mill").auth);
+  EXPECT_TRUE(read("auth: on").auth);
+  EXPECT_FALSE(read("auth: off").auth);
+  EXPECT_THROW(read("auth: perhaps"), std::runtime_error);
+}
+
+TEST(GatewaySettings, APortOutOfRangeIsNamedWithItsPlace) {
+  for (const char* text : {"name: mill\nmtconnect_port: 65536", "name: mill\nmtconnect_port: -1",
+                           "name: mill\nmtconnect_port: on", "name: mill\nmtconnect_port: [5000]"}) {
+    try {
+      read(text);
+      ADD_FAILURE() << text;
+    } catch (const std::runtime_error& error) {
+      EXPECT_EQ(std::string(error.what()).substr(0, 23), "machine.yaml:2:17: erro") << error.what();
+    }
+  }
+}
+
+}  // namespace
+}  // namespace trunnion::machine

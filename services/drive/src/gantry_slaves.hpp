@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where the slaves of gantries are beside their masters: the distance that stays, and slaves that are taken
+// off.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "machine/gantry_pairs.hpp"
+
+namespace trunnion::drive {
+
+struct GantrySlave {
+  machine::GantryPair pair;
+  std::uint16_t channel = 0;          ///< of the master
+  std::size_t place = 0, places = 0;  ///< among the pairs of that channel
+  double offset = 0;  ///< mm, added to the setpoints of the slave: a misalignment that is not corrected
+  bool offset_known = false;               ///< since the drives were switched on
+  bool refused = false;                    ///< out of tolerance when they were switched on
+  bool off_demanded = false, off = false;  ///< taken off its master
+  double held = 0;                         ///< mm, where it stays while it is off
+
+  std::size_t master_column() const { return static_cast<std::size_t>(pair.master_column); }
+  std::size_t column() const { return static_cast<std::size_t>(pair.slave_column); }
+
+  template <class Self, class Visit>
+  static void fields(Self& self, Visit&& visit) {
+    visit("offset", self.offset), visit("offset_known", self.offset_known);
+    visit("refused", self.refused), visit("off_demanded", self.off_demanded);
+    visit("off", self.off), visit("held", self.held);
+  }
+};
+
+class GantrySlaves {
+ public:
+  /// Slaves keep their state when the parameters change. Without valid pairs there are none: the gantry stage
+  /// reports the error.
+  void configure(const machine::Parameters& parameters, std::size_t columns);
+  bool empty() const { return slaves_.empty(); }
+  std::vector<GantrySlave>& all() { return slaves_; }
+  const std::vector<GantrySlave>& all() const { return slaves_; }
+  /// Of the axis in `column`, or null when it is no slave.
+  const GantrySlave* at(std::size_t column) const {
+    return slaves_.empty() || by_column_[column] < 0 ? nullptr
+                                                     : &slaves_[static_cast<std::size_t>(by_column_[column])];
+  }
+  /// The setpoint of an axis whose frame has `value`.
+  double setpoint(std::size_t column, double value) const {
+    const auto* slave = at(column);
+    if (slave == nullptr) return value;
+    return slave->off ? slave->held : value + slave->offset;
+  }
+
+ private:
+  std::vector<GantrySlave> slaves_;
+  std::vector<int> by_column_;
+};
+
+}  // namespace trunnion::drive
