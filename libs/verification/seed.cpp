@@ -79,17 +79,17 @@ std::vector<const StoredMessage*> Seed::needed_to_start(const StoredRecording& r
   return needed;
 }
 
-std::optional<Seed> find_seed(const StoredRecording& recording, std::uint32_t instance) {
+std::vector<Seed> find_seeds(const StoredRecording& recording, std::uint32_t instance) {
   // Everything from the first request on is in the recording; a state from before may be one that others
   // have asked for.
   std::uint64_t begin = forever;
   for (const auto& message : recording.messages)
     if (message.topic->handle == "snapshot_request") begin = std::min(begin, message.time);
-  if (begin == forever) return std::nullopt;
+  if (begin == forever) return {};
 
   const auto lives = processes_of(recording, instance);
   std::map<std::int32_t, snapshot::Assembly> assemblies;
-  std::optional<Seed> best;
+  std::vector<Seed> seeds;
   std::string why;
   std::uint64_t end = 0;
   for (const auto& message : recording.messages) end = std::max(end, message.time);
@@ -98,22 +98,23 @@ std::optional<Seed> find_seed(const StoredRecording& recording, std::uint32_t in
   for (const auto& message : recording.messages) {
     if (message.topic->handle != "service_snapshot" || !bus::decode(message.cdr, part)) continue;
     if (part.instance != instance || part.time < begin) continue;
-    if (part.kind == SnapshotKind::NOT_NEEDED) return std::nullopt;
+    if (part.kind == SnapshotKind::NOT_NEEDED) return {};
     if (part.kind == SnapshotKind::LATER) {
       why = part.detail;
       continue;
     }
     auto whole = assemblies[part.pid].add(part);
     if (!whole) continue;
-    auto seed = seed_of(std::move(*whole), lives);
-    seed.refused = why;
-    if (!best || length(seed) > length(*best)) best = std::move(seed);
+    seeds.push_back(seed_of(std::move(*whole), lives));
+    seeds.back().refused = why;
   }
-  if (!best)
+  if (seeds.empty())
     throw std::runtime_error(
         "it cannot be verified: the recording has no state of the service to start from" +
         (why.empty() ? "" : "; " + why));
-  return best;
+  std::stable_sort(seeds.begin(), seeds.end(),
+                   [&](const Seed& a, const Seed& b) { return length(a) > length(b); });
+  return seeds;
 }
 
 }  // namespace trunnion::verification

@@ -4,7 +4,6 @@
 
 #include <cstdint>
 #include <map>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,9 +29,9 @@ struct Seed {
                                                     bool older_parameters) const;
 };
 
-/// Of the process `instance` the snapshot after which it lived longest in the recording. None when the
-/// recording was made without snapshots, or the service needs none. Throws std::runtime_error with one line
-/// when the service could not give its state during the whole recording.
-std::optional<Seed> find_seed(const StoredRecording& recording, std::uint32_t instance);
+/// The snapshots of `instance`, first those after which its process lived longest in the recording. None when
+/// the recording was made without snapshots, or the service needs none. Throws std::runtime_error with one
+/// line when the service could not give its state during the whole recording.
+std::vector<Seed> find_seeds(const StoredRecording& recording, std::uint32_t instance);
 
 }  // namespace trunnion::verification

@@ -16,6 +16,11 @@ namespace {
 
 using idl::stream::Input;
 
+// A setpoint batch that took effect is not in the recording.
+struct MissingInput : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
 class TickPlan {
  public:
   TickPlan(const StoredRecording& recording, const std::string& service, VerifyPlan& plan)
@@ -114,11 +119,21 @@ class TickPlan {
     } else if (stamp.input == Input::PLC_OUTPUTS && stamp_index + 1 < stamps_.size()) {
       message = stand_in(*topic, stamp.identity, stamps_[stamp_index + 1].tick);
     }
+    if (message == nullptr && is_setpoint_after_seed(*topic, stamp.identity))
+      throw MissingInput("it cannot be verified: the " + service_ + " executed a message of " +
+                         topic->handle + " at tick " + std::to_string(stamp.tick) +
+                         " that the recording does not have. Begin the recording before the motion");
     // What it said of itself, or what was before the recording began.
     if (message == nullptr) return;
     if (!placed_.insert(message).second) return;
     due_.push_back({stamp.tick, is_cyclic(*topic) ? cyclic_after : order, message, message->time,
                     stamp.input != Input::PARAMETER_SET});
+  }
+
+  bool is_setpoint_after_seed(const bus::TopicEntry& topic, std::uint64_t time) const {
+    if (!plan_.seed || topic.handle != "gantry_frame") return false;
+    const auto taken = plan_.seed->taken.find(&topic);
+    return taken == plan_.seed->taken.end() || time > taken->second;
   }
 
   // Outputs of the PLC that newer ones have overwritten before the recorder was there: as the newer ones, but
@@ -206,8 +221,19 @@ class TickPlan {
 
 bool says_when(const std::string& service) { return service == "drive" || service == "plc"; }
 
-void plan_by_tick(const StoredRecording& recording, const std::string& service, VerifyPlan& plan) {
-  TickPlan(recording, service, plan).make();
+void plan_by_tick(const StoredRecording& recording, const std::string& service,
+                  const std::vector<Seed>& seeds, VerifyPlan& plan) {
+  if (seeds.empty()) return TickPlan(recording, service, plan).make();
+  const auto empty = plan;
+  for (const auto& seed : seeds) {
+    plan = empty;
+    plan.seed = seed;
+    try {
+      return TickPlan(recording, service, plan).make();
+    } catch (const MissingInput&) {
+      if (&seed == &seeds.back()) throw;
+    }
+  }
 }
 
 }  // namespace trunnion::verification

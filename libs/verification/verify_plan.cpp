@@ -188,11 +188,13 @@ VerifyPlan plan_verification(const StoredRecording& recording, const std::string
     if (says_when(service) && !plan.virtual_time)
       throw std::runtime_error("service " + service +
                                " cannot be verified: in real time its periods follow the clock");
-    plan.seed = find_seed(recording, plan.instance);
-    if (says_when(service))
-      plan_by_tick(recording, service, plan);
-    else
+    const auto seeds = find_seeds(recording, plan.instance);
+    if (says_when(service)) {
+      plan_by_tick(recording, service, seeds, plan);
+    } else {
+      if (!seeds.empty()) plan.seed = seeds.front();
       OrderedPlan(recording, service, channel, plan).make();
+    }
   }
   if (service == "channel" && has_several_channels(recording)) plan.ignored.insert("auxiliary_request.cycle");
   if (plan.expected.empty())

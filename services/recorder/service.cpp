@@ -36,6 +36,8 @@ constexpr double cluster_seconds = 5.0;  // the same when a launcher publishes t
 // thousand batches.
 constexpr auto pause = std::chrono::milliseconds(20);
 constexpr double snapshot_seconds = 1.0;  // waiting time for the states of the services
+constexpr int most_requests = 5;          // of the first states
+constexpr auto request_pause = std::chrono::milliseconds(20);
 // After the start of a part: what was written into the part before has been taken by then.
 constexpr double part_pause = 0.05;
 constexpr int priority = 10;  // the recorder can wait, the stream cannot
@@ -89,6 +91,11 @@ class Sources {
     for (std::size_t i = 0; i < topics_.size(); ++i)
       if (topics_[i].is_feedback() && sequences_[i] == 0) return false;
     return true;
+  }
+  bool left_out_are_taken(const SnapshotRequests& snapshots) const {
+    return std::all_of(topics_.begin(), topics_.end(), [&](const TopicSource& topic) {
+      return topic.left_out() == 0 || snapshots.has_taken(topic.entry().description.name, topic.left_out());
+    });
   }
   std::uint64_t overwritten() const {
     std::uint64_t sum = 0;
@@ -228,14 +235,20 @@ std::set<std::uint32_t> wait_for_writers(bus::Bus& bus, Sources& sources, Messag
   return listed;
 }
 
-// The recording can be verified from these states on.
+// The recording can be verified from these states on. A service that has not taken a setpoint which was
+// written before the recording began is asked again: it takes this setpoint after the state it gave. Of
+// replicas it takes the setpoints of one, so this may never come true.
 void take_snapshots(bus::Bus& bus, Sources& sources, MessageQueue& queue, SnapshotRequests& snapshots,
                     const std::set<std::uint32_t>& services) {
-  snapshots.ask();
   const double until = service::monotonic_seconds() + snapshot_seconds;
-  while (stop_requested == 0 && !snapshots.answered_by(services) && service::monotonic_seconds() < until) {
-    sources.drain(queue);
-    bus.signal().wait(0.002);
+  for (int asked = 0; asked < most_requests; ++asked) {
+    snapshots.ask();
+    while (stop_requested == 0 && !snapshots.answered_by(services) && service::monotonic_seconds() < until) {
+      sources.drain(queue);
+      bus.signal().wait(0.002);
+    }
+    if (stop_requested != 0 || sources.left_out_are_taken(snapshots)) return;
+    std::this_thread::sleep_for(request_pause);
   }
 }
 

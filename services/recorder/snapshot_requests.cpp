@@ -20,6 +20,7 @@ SnapshotRequests::SnapshotRequests(bus::Bus& bus)
 void SnapshotRequests::ask() {
   ++request_.number;
   answered_.clear();
+  taken_.clear();
   asked_ = static_cast<std::uint64_t>(bus::source_time());
   requests_.write(request_);
   next_ = 0;
@@ -37,10 +38,20 @@ void SnapshotRequests::run(double now) {
 }
 
 bool SnapshotRequests::answered_by(const std::set<std::uint32_t>& instances) {
-  while (snapshots_.take(snapshot_))
-    if (snapshot_.time >= asked_ && snapshot_.part + 1 == snapshot_.parts)
-      answered_.insert(snapshot_.instance);
+  while (snapshots_.take(snapshot_)) {
+    if (snapshot_.time < asked_) continue;
+    for (const auto& input : snapshot_.taken) {
+      const auto [at, news] = taken_.try_emplace(input.topic, input.time);
+      if (!news) at->second = std::min(at->second, input.time);
+    }
+    if (snapshot_.part + 1 == snapshot_.parts) answered_.insert(snapshot_.instance);
+  }
   return std::includes(answered_.begin(), answered_.end(), instances.begin(), instances.end());
+}
+
+bool SnapshotRequests::has_taken(const std::string& topic, std::int64_t newest) const {
+  const auto found = taken_.find(topic);
+  return found == taken_.end() || static_cast<std::int64_t>(found->second) >= newest;
 }
 
 }  // namespace trunnion::recorder

@@ -2,7 +2,9 @@
 // Asks the services for the states from which a recording can be verified.
 #pragma once
 
+#include <map>
 #include <set>
+#include <string>
 
 #include "bus/bus.hpp"
 #include "contracts/topics.hpp"
@@ -22,6 +24,9 @@ class SnapshotRequests {
   void run(double now);
   /// All of `instances` have answered the newest request.
   bool answered_by(const std::set<std::uint32_t>& instances);
+  /// Who answered the newest request and reads `topic` has taken the message of source time `newest`. Until
+  /// then its state lacks a message that is not in the recording either.
+  bool has_taken(const std::string& topic, std::int64_t newest) const;
 
  private:
   bus::Writer<idl::service::SnapshotRequest> requests_;
@@ -33,6 +38,7 @@ class SnapshotRequests {
   std::uint64_t asked_ = 0;  // source time of the newest request
   double next_ = 0;          // 0: none is planned
   std::set<std::uint32_t> answered_;
+  std::map<std::string, std::uint64_t> taken_;  // by topic, the least of the newest answers
 };
 
 }  // namespace trunnion::recorder

@@ -275,6 +275,54 @@ TEST(TickPlan, GivesTheDriveItsInputsAtTheTicksAtWhichTheyTookEffect) {
   EXPECT_EQ(plan.expected.size(), 2u);
 }
 
+// A recorder that came while the frame of time 10 was on its way to the drive.
+TEST(TickPlan, AStateBehindWhichASetpointIsMissingIsPassedOver) {
+  using idl::stream::Input;
+  StoredRecording recording;
+  const auto frame = [](std::uint64_t first) {
+    idl::stream::AxisFrame f;
+    f.first = first, f.count = 8;
+    return f;
+  };
+  const auto state = [](std::uint64_t time, std::uint64_t taken) {
+    idl::service::ServiceSnapshot head;
+    head.instance = 1, head.pid = 100, head.number = time, head.time = time;
+    head.kind = idl::service::SnapshotKind::GIVEN;
+    head.taken = {{topics::gantry_frame.name, taken}};
+    return snapshot::parts_of(head, "{}").front();
+  };
+  idl::service::Cluster cluster;
+  cluster.virtual_time = true;
+  cluster.services.resize(1);
+  cluster.services[0].instance = 1, cluster.services[0].service = "drive";
+  auto first = feedback_frame(0, 8), second = feedback_frame(8, 8);
+  first.tick = 8, second.tick = 16;
+  first.applied = {{Input::GANTRY_FRAME, 0, 10}};
+  second.applied = {{Input::GANTRY_FRAME, 8, 30}};
+  recording.messages = {parameters(1, 1),
+                        stored(topics::cluster, cluster, 2),
+                        stored(topics::snapshot_request, {1, 1}, 12),
+                        stored(topics::service_snapshot, state(15, 9), 16),
+                        stored(topics::feedback_frame, first, 20),
+                        stored(topics::gantry_frame, frame(8), 30)};
+  try {
+    plan_verification(recording, "drive", 0);
+    FAIL();
+  } catch (const std::runtime_error& error) {
+    EXPECT_STREQ(
+        error.what(),
+        "it cannot be verified: the drive executed a message of gantry_frame at tick 0 that the recording "
+        "does not have. Begin the recording before the motion");
+  }
+  recording.messages.push_back(stored(topics::service_snapshot, state(25, 10), 26));
+  recording.messages.push_back(stored(topics::feedback_frame, second, 40));
+  const auto plan = plan_verification(recording, "drive", 0);
+  ASSERT_TRUE(plan.seed);
+  EXPECT_EQ(plan.seed->time, 25u);
+  EXPECT_EQ(plan.cycles, 8u);
+  EXPECT_EQ(plan.expected.size(), 1u);
+}
+
 TEST(TickPlan, OutputsOfThePlcThatWereOverwrittenBeforeTheRecordingAreStoodInForByTheNextOnes) {
   using idl::stream::Input;
   // The outputs of time 10 let time go on to tick 12; the recorder came when those of time 20 had replaced

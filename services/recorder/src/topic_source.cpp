@@ -59,7 +59,14 @@ bool TopicSource::take(bus::Bytes& cdr, bus::SampleInfo& info) {
 bool TopicSource::take_from_memory(bus::Bytes& cdr, bus::SampleInfo& info) {
   for (auto& [address, history] : histories_)
     while (history.reader->take(cdr, info))
-      if (has_past() || (began_ != 0 && info.source_timestamp >= began_)) return true;
+      if (recorded(info, true)) return true;
+  return false;
+}
+
+// `from_begin`: what was written before does not count.
+bool TopicSource::recorded(const bus::SampleInfo& info, bool from_begin) {
+  if (has_past() || (began_ != 0 && (!from_begin || info.source_timestamp >= began_))) return true;
+  left_out_ = std::max(left_out_, info.source_timestamp);
   return false;
 }
 
@@ -68,7 +75,7 @@ bool TopicSource::take_by_dds(bus::Bytes& cdr, bus::SampleInfo& info) {
   const auto in_memory = [&](const auto& entry) { return entry.second.writer == info.writer; };
   while (reader_->take(cdr, info)) {
     if (std::any_of(histories_.begin(), histories_.end(), in_memory)) continue;
-    if (has_past() || (began_ != 0 && (!reader_came_late_ || info.source_timestamp >= began_))) return true;
+    if (recorded(info, reader_came_late_)) return true;
   }
   return false;
 }

@@ -26,6 +26,8 @@ class TopicSource {
   /// be only a thousand batches for each stage. The feedback contains the machine's position and the inputs
   /// of the drive.
   void begin(std::int64_t now) { began_ = now; }
+  /// Source time stamp of the newest message that was left out; 0 = none. A reader may not have it yet.
+  std::int64_t left_out() const { return left_out_; }
 
   /// The next message to be recorded; false when there is none yet.
   bool take(bus::Bytes& cdr, bus::SampleInfo& info);
@@ -52,6 +54,7 @@ class TopicSource {
   void close_ended();
   bool take_from_memory(bus::Bytes& cdr, bus::SampleInfo& info);
   bool take_by_dds(bus::Bytes& cdr, bus::SampleInfo& info);
+  bool recorded(const bus::SampleInfo& info, bool from_begin);
 
   bus::Backend* backend_;
   const bus::TopicEntry* entry_;
@@ -60,6 +63,7 @@ class TopicSource {
   std::unique_ptr<bus::RawReader> reader_;
   bool reader_needed_ = false, reader_came_late_ = false;
   std::int64_t began_ = 0;         // 0 = not yet
+  std::int64_t left_out_ = 0;
   std::uint64_t overwritten_ = 0;  // of histories that have ended
 };
 

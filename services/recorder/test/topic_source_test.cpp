@@ -130,7 +130,9 @@ TEST_F(Frames, SetpointsOfBeforeTheBeginningAreLeftOutAndFeedbackIsNot) {
   feedback.begin(100);
   write(3, 100);
   EXPECT_EQ(taken(topic), Numbers{3});
+  EXPECT_EQ(topic.left_out(), 92) << "a service may not have it yet";
   EXPECT_EQ(taken(feedback), (Numbers{2, 3}));
+  EXPECT_EQ(feedback.left_out(), 0);
 }
 
 TEST_F(Frames, AWriterThatDiscoveryLosesForAWhileIsReadOnAndNothingOfItIsTakenTwice) {
