@@ -38,8 +38,7 @@ ClusterView::ClusterView(bus::Bus& bus)
       parameters_(bus.reader(topics::parameter_set)),
       tools_(bus.reader(topics::tool_table)),
       offsets_(bus.reader(topics::work_offsets)),
-      programs_(bus.reader(topics::program_list)),
-      document_(topics::contract_hash) {}
+      programs_(bus.reader(topics::program_list)) {}
 
 void ClusterView::drain(double now) {
   idl::service::Announcement announcement;

@@ -2,6 +2,7 @@
 // Services of a running cluster are replaced by others; a program on the machine notices nothing.
 #include <nlohmann/json.hpp>
 
+#include "bus/contract.hpp"
 #include "cluster/swap_ticket.hpp"
 #include "cluster_harness.hpp"
 #include "machine/services.hpp"
@@ -93,7 +94,7 @@ TEST_F(Swapping, StagesAreSwappedInMotionAndNoBitChanges) {
         const auto line = last_line(cluster);
         EXPECT_EQ(line["service"], stage);
         EXPECT_EQ(line["new"]["vendor"], vendor);
-        EXPECT_EQ(line["new"]["contract"], topics::contract_hash);
+        EXPECT_EQ(line["new"]["contract"], bus::contract_of(stage));
         EXPECT_EQ(line["old"]["crc32"], line["new"]["crc32"]) << "the same executable";
         EXPECT_EQ(line["cycle"], reply.cycle);
       }

@@ -15,11 +15,24 @@ ADDRESS = "127.0.0.1"  # a cluster without `network` in machine.yaml
 KEPT = {"state": 1, "event": 64, "history": 16}  # samples per key; batches: all
 
 
-def contract_header(text):
+def contract_of(service, topics, wire_types):
+    """What libs/bus/contract.cpp computes."""
+    lines = sorted(f"{t['name']} {wire_types[t['handle']]} {t['qos']}\n" for t in topics
+                   if {service, "all"} & {*t["writers"], *t["readers"]})
+    hash = 0xcbf29ce484222325
+    for byte in "".join(lines).encode(): hash = (hash ^ byte) * 0x100000001b3 % 2**64
+    return f"{hash:016x}"
+
+
+def contract_header(text, topics):
+    handles = re.findall(r'Topic<[^>]+> (\w+)\{"([^"]+)", "([^"]+)"', text)
+    wire_types = {handle: wire_type for handle, _, wire_type in handles}
+    services = sorted({name for t in topics for name in (*t["writers"], *t["readers"])} - {"all"})
     lines = ["/* Generated from idl/ by tools/generate_sdk.py. */", "#ifndef TRUNNION_CONTRACT_H", "#define TRUNNION_CONTRACT_H",
              f'#define TRUNNION_CONTRACT "{re.search(r"contract_hash = .(.+?).;", text).group(1)}"',
              f'#define TRUNNION_STANDBY_SUFFIX "{re.search(r"standby_suffix = .(.+?).;", text).group(1)}"']
-    for handle, topic, wire_type in re.findall(r'Topic<[^>]+> (\w+)\{"([^"]+)", "([^"]+)"', text):
+    lines += [f'#define TRUNNION_CONTRACT_{name.upper()} "{contract_of(name, topics, wire_types)}"' for name in services]
+    for handle, topic, wire_type in handles:
         lines += [f'#define TRUNNION_TOPIC_{handle.upper()} "{topic}"', f'#define TRUNNION_TYPE_{handle.upper()} "{wire_type}"']
     return "\n".join(lines + ["#endif", ""])
 
@@ -107,7 +120,7 @@ def main():
     with open(args.topics) as f: topics = yaml.safe_load(f)["topics"]
     with open(args.handles) as f: handles = f.read()
     os.makedirs(args.out, exist_ok=True)
-    for name, text in (("contract.h", contract_header(handles)), ("cyclonedds.xml", cyclonedds_settings()),
+    for name, text in (("contract.h", contract_header(handles, topics)), ("cyclonedds.xml", cyclonedds_settings()),
                        ("fastdds.xml", fastdds_profiles(topics))):
         with open(os.path.join(args.out, name), "w") as f: f.write(text)
 

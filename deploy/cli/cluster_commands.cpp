@@ -6,6 +6,7 @@
 #include <iostream>
 #include <memory>
 
+#include "bus/contract.hpp"
 #include "bus/json.hpp"
 #include "cluster/client.hpp"
 #include "cluster/cluster.hpp"
@@ -145,9 +146,10 @@ int status(const Common& common) {
     row["frames_lost"] = s != state.end() ? s->second.frames_lost : 0;
     row["in_step"] = s != state.end() && s->second.pid == service.pid && s->second.in_step;
     row["replica_state"] = replica_state(service, row["in_step"].get<bool>(), alarm);
-    row["contract_matches"] = a != announced.end() && a->second.contract == topics::contract_hash;
-    if (a != announced.end() && a->second.contract != topics::contract_hash)
-      row["state"] = "CONTRACT " + a->second.contract + ", expected " + topics::contract_hash;
+    const auto contract = bus::contract_of(service.service);
+    row["contract_matches"] = a != announced.end() && a->second.contract == contract;
+    if (a != announced.end() && a->second.contract != contract)
+      row["state"] = "CONTRACT " + a->second.contract + ", expected " + contract;
     add_place(row, config, service.instance);
     services.push_back(row);
   }

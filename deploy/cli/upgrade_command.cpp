@@ -12,6 +12,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "bus/contract.hpp"
 #include "bus/json.hpp"
 #include "cluster/child_process.hpp"
 #include "cluster/client.hpp"
@@ -38,7 +39,7 @@ struct Replacement {
   SwapReply reply;
 };
 
-// Version and contract of an executable, as it says itself.
+// Version of an executable and contract of its service, as it says itself.
 std::string version_of(const std::string& executable) {
   cluster::ChildOptions options;
   options.arguments = {executable, "--version"};
@@ -98,10 +99,11 @@ std::vector<Replacement> plan(const cluster::RunningCluster& cluster, const mach
       throw std::runtime_error(executable + ": there is no such executable; nothing was replaced");
     if (!said.contains(executable)) said[executable] = version_of(executable);
     next.version = said[executable];
-    if (said[executable].find(std::string("contract ") + topics::contract_hash) == std::string::npos)
+    const auto contract = bus::contract_of(service.service);
+    if (said[executable].find("contract " + contract) == std::string::npos)
       throw std::runtime_error(executable + " is " +
                                (said[executable].empty() ? "of an unknown version" : said[executable]) +
-                               ", this cluster runs with contract " + topics::contract_hash +
+                               ", this cluster runs with contract " + contract +
                                ": stop it and start it with the other build; nothing was replaced");
     std::error_code gone;
     next.running = fs::read_symlink("/proc/" + std::to_string(service.pid) + "/exe", gone).string();

@@ -4,20 +4,21 @@
 #include <algorithm>
 #include <utility>
 
-#include "contracts/topics.hpp"
+#include "bus/contract.hpp"
 #include "machine/alarm_constants.hpp"
 
 namespace trunnion::launcher {
 
 void ForeignServices::announced(const idl::service::Announcement& announcement, const bus::WriterId& writer) {
-  if (announcement.contract == topics::contract_hash) {
+  const auto ours = bus::contract_of(announcement.service);
+  if (announcement.contract == ours) {
     mismatches_.erase(announcement.instance);
     return;
   }
   mismatches_[announcement.instance] = {
       "Service " + announcement.service + " (" + announcement.version + ", process " +
           std::to_string(announcement.pid) + " on host " + announcement.host + ") was built with contract " +
-          announcement.contract + ", this cluster with " + topics::contract_hash,
+          announcement.contract + " of its topics, this cluster with " + ours,
       writer};
 }
 

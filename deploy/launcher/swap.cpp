@@ -7,6 +7,7 @@
 #include <csignal>
 #include <cstdio>
 
+#include "bus/contract.hpp"
 #include "bus/registry.hpp"
 #include "cluster/child_process.hpp"
 #include "service/node.hpp"
@@ -145,7 +146,7 @@ SwapView Swap::view(double now) {
   view.old_runs = old_.pid != 0;
   if (const auto announced = announced_.find(fresh_.entry.instance); announced != announced_.end()) {
     view.announced = true;
-    view.contract_matches = announced->second.contract == topics::contract_hash;
+    view.contract_matches = announced->second.contract == bus::contract_of(old_.entry.service);
   }
   view.standby = fresh_.standby;
   view.lifecycle = fresh_.lifecycle;
@@ -196,7 +197,7 @@ std::string Swap::reason(SwapFailure failure) const {
       return fresh + " ended: " + cluster::last_line(fresh_.log);
     case SwapFailure::other_contract:
       return fresh + " was built with contract " + announced_.at(fresh_.entry.instance).contract +
-             ", this cluster with " + topics::contract_hash;
+             " of its topics, this cluster with " + bus::contract_of(old_.entry.service);
     case SwapFailure::did_not_join:
       return fresh + " did not reach the state of the running one" + detail;
     case SwapFailure::nothing_to_compare:

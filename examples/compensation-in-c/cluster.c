@@ -126,7 +126,7 @@ void cluster_announce(const struct cluster *c, const struct options *o) {
   strcpy(a.vendor, "cyclonedds");
   gethostname(a.host, sizeof a.host - 1);
   a.pid = getpid();
-  strcpy(a.contract, TRUNNION_CONTRACT);
+  strcpy(a.contract, TRUNNION_CONTRACT_COMPENSATION);
   strcpy(a.version, "c-example-1");
   dds_write(c->announcement, &a);
 }

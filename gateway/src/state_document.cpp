@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/state_document.hpp"
+#include "bus/contract.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -24,6 +25,7 @@ void StateDocument::apply(const idl::service::Announcement& announcement) {
   auto& known = services_[announcement.instance];
   known.announcement = announcement;
   known.announced = true;
+  known.contract_matches = announcement.contract == bus::contract_of(announcement.service);
 }
 
 void StateDocument::apply(const idl::service::ServiceState& state, double now) {
@@ -98,7 +100,6 @@ Json StateDocument::services(double now) const {
     const auto& state = known.state;
     const auto& announcement = known.announcement;
     const bool alive = known.beating && now - known.heard < heartbeat_timeout;
-    const bool same = !known.announced || announcement.contract == contract_;
     auto& entry = json[std::to_string(instance)] = Json::object();
     // The newest of what is known: its heartbeat, else its announcement, else what the launcher expects.
     const auto newest = [&](const auto& beat, const auto& announced, const auto& planned) {
@@ -120,7 +121,7 @@ Json StateDocument::services(double now) const {
     entry["expected"] = wanted != nullptr;
     entry["restarts"] = plan.restarts;
     entry["contract"] = announcement.contract;
-    entry["contract_match"] = same;
+    entry["contract_match"] = known.contract_matches;
   };
   for (const auto& [instance, known] : services_) {
     const auto wanted = expected.find(instance);

@@ -19,8 +19,6 @@ inline constexpr double heartbeat_timeout = 1.2;
 /// `now` is in monotonic seconds, `time` an ISO 8601 instant; both only for display.
 class StateDocument {
  public:
-  explicit StateDocument(std::string contract_hash) : contract_(std::move(contract_hash)) {}
-
   void apply(const idl::service::Announcement& announcement);
   void apply(const idl::service::ServiceState& state, double now);
   void apply(const idl::service::Alarm& alarm, double now, const std::string& time);
@@ -44,6 +42,7 @@ class StateDocument {
     idl::service::ServiceState state;
     double heard = 0;
     bool announced = false, beating = false;
+    bool contract_matches = true;
   };
   struct Raised {
     idl::service::Alarm alarm;
@@ -54,7 +53,6 @@ class StateDocument {
   bus::Json alarms() const;
   bus::Json axes();
 
-  std::string contract_;
   std::map<std::uint32_t, Known> services_;
   std::map<std::tuple<std::uint32_t, std::uint32_t, std::uint32_t>, Raised> alarms_;
   std::map<std::uint16_t, idl::channel::ChannelState> channels_;

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "bus/contract.hpp"
 #include "storage/crc32.hpp"
 
 namespace trunnion::gateway {
@@ -65,7 +66,7 @@ FakeCluster::FakeCluster(const bus::NetworkSettings& network)
 
 void FakeCluster::publish_once() {
   announcement_.write(
-      {channel_instance, "channel", "cyclonedds", "localhost", getpid(), topics::contract_hash, "0"});
+      {channel_instance, "channel", "cyclonedds", "localhost", getpid(), bus::contract_of("channel"), "0"});
   beat_.instance = channel_instance;
   beat_.service = "channel";
   beat_.vendor = "cyclonedds";

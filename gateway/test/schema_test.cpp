@@ -74,7 +74,7 @@ idl::channel::ChannelState channel() {
 
 /// Everything the stream can carry.
 Json whole_document() {
-  StateDocument document("hash");
+  StateDocument document;
   idl::service::Cluster cluster;
   cluster.services.resize(1);
   cluster.services[0].instance = 9;

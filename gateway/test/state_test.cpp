@@ -3,6 +3,7 @@
 
 #include <random>
 
+#include "bus/contract.hpp"
 #include "src/merge_patch.hpp"
 #include "src/snapshot.hpp"
 #include "src/state_document.hpp"
@@ -92,7 +93,7 @@ idl::service::ServiceState beat(std::uint32_t instance, std::int32_t pid) {
 }
 
 TEST(StateDocument, AnAlarmKeepsTheTimeItWasFirstSeenAndGoesWhenItIsOver) {
-  StateDocument document("hash");
+  StateDocument document;
   document.apply(alarm(3, 110), 0, "2026-01-01T00:00:00Z");
   document.apply(alarm(3, 110), 1, "2026-01-01T00:00:01Z");
   auto json = document.document(1);
@@ -103,7 +104,7 @@ TEST(StateDocument, AnAlarmKeepsTheTimeItWasFirstSeenAndGoesWhenItIsOver) {
 }
 
 TEST(StateDocument, AServiceIsSilentWithoutHeartbeatAndAbsentWhenExpectedButNeverHeard) {
-  StateDocument document("hash");
+  StateDocument document;
   document.apply(beat(4, 100), 10.0);
   idl::service::Cluster cluster{};
   idl::service::ClusterService expected{};
@@ -124,7 +125,7 @@ TEST(StateDocument, AServiceIsSilentWithoutHeartbeatAndAbsentWhenExpectedButNeve
 }
 
 TEST(StateDocument, TheAlarmsOfADeadProcessGoWhenItsSuccessorBeats) {
-  StateDocument document("hash");
+  StateDocument document;
   document.apply(beat(4, 100), 10.0);
   document.apply(alarm(4, 1), 9.0, "t");
   document.apply(alarm(5, 1), 9.0, "t");
@@ -137,14 +138,14 @@ TEST(StateDocument, TheAlarmsOfADeadProcessGoWhenItsSuccessorBeats) {
 }
 
 TEST(StateDocument, AnotherContractIsShown) {
-  StateDocument document("ours");
+  StateDocument document;
   idl::service::Announcement announcement{};
   announcement.instance = 1;
   announcement.service = "drive";
   announcement.contract = "theirs";
   document.apply(announcement);
   EXPECT_EQ(document.document(0)["services"]["1"]["contract_match"], false);
-  announcement.contract = "ours";
+  announcement.contract = bus::contract_of("drive");
   document.apply(announcement);
   EXPECT_EQ(document.document(0)["services"]["1"]["contract_match"], true);
 }
@@ -160,7 +161,7 @@ idl::stream::FeedbackFrame feedback() {
 }
 
 TEST(StateDocument, ColumnsOfTheFeedbackGoToTheLogicalAxesOfTheDrive) {
-  StateDocument document("hash");
+  StateDocument document;
   document.set_drive_axes({0, 5});
   document.apply(feedback());
   auto json = document.document(0);
@@ -176,7 +177,7 @@ TEST(StateDocument, ColumnsOfTheFeedbackGoToTheLogicalAxesOfTheDrive) {
 }
 
 TEST(StateDocument, AFrameWithFewerNumbersThanItSaysIsReadAsFarAsItGoes) {
-  StateDocument document("hash");
+  StateDocument document;
   document.set_drive_axes({0, 1, 2});
   auto frame = feedback();
   frame.count = 60;

@@ -12,6 +12,7 @@
 #include <ctime>
 #include <filesystem>
 
+#include "bus/contract.hpp"
 #include "machine/services.hpp"
 #include "trunnion/version.hpp"
 
@@ -93,7 +94,7 @@ Node::Node(Options options)
 
 void Node::announce() {
   announcement_.write({options_.instance, options_.service, bus::to_string(options_.vendor), host_name(),
-                       getpid(), topics::contract_hash, version});
+                       getpid(), bus::contract_of(options_.service), version});
 }
 
 void Node::take_promotion() {

@@ -4,14 +4,15 @@
 #include <CLI/CLI.hpp>
 #include <iostream>
 
-#include "contracts/topics.hpp"
+#include "bus/contract.hpp"
 #include "service/network.hpp"
 #include "trunnion/version.hpp"
 
 namespace trunnion::service {
 
 void add_options(CLI::App& app, Options& options) {
-  app.set_version_flag("--version", options.service + " " + version + ", contract " + topics::contract_hash);
+  app.set_version_flag("--version",
+                       options.service + " " + version + ", contract " + bus::contract_of(options.service));
   app.add_option("--machine", options.machine_directory, "Directory with machine.yaml")->required();
   app.add_option("--state", options.state_directory, "Directory for what must survive a restart")->required();
   app.add_option("--instance", options.instance, "Number of this process in the cluster");

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "bus/codec.hpp"
+#include "bus/contract.hpp"
 #include "contracts/topics.hpp"
 #include "machine/axes.hpp"
 
@@ -157,7 +158,8 @@ Json ShownState::services() const {
     entry["expected"] = planned != plan_.services.end();
     entry["restarts"] = planned != plan_.services.end() ? planned->restarts : 0;
     entry["contract"] = announcement.contract;
-    entry["contract_match"] = said == announced_.end() || announcement.contract == topics::contract_hash;
+    entry["contract_match"] =
+        said == announced_.end() || announcement.contract == bus::contract_of(announcement.service);
     json[std::to_string(instance)] = std::move(entry);
   }
   return json;

@@ -110,12 +110,24 @@ class Scratch:
         if done.returncode != expect: sys.exit(f"{' '.join(command)}: status {done.returncode}\n{done.stdout}{done.stderr}")
 
 
+def contracts(s):
+    """The contract of every service, as contract.h of the SDK names it."""
+    out, idl = "build/contracts", [os.path.join("idl", name) for name in sorted(os.listdir(s.path("idl"))) if name.endswith(".idl")]
+    s.run(sys.executable, "tools/generate_contracts.py", "--topics", "idl/topics.yaml", "--out", out, *idl)
+    s.run(sys.executable, "tools/generate_sdk.py", "--topics", "idl/topics.yaml", "--handles", f"{out}/topics.hpp", "--out", out)
+    return dict(re.findall(r'#define TRUNNION_CONTRACT_(\w+) "(\w+)"', s.read(f"{out}/contract.h")))
+
+
 def add_topic(s):
+    before = contracts(s)
     s.follow("A topic")
     s.write("idl/thermal.idl", "module trunnion {\n  module thermal {\n    @final struct SpindleGrowth {\n      @key uint16 axis;\n"
             "      double growth;                     // mm\n    };\n  };\n};\n")
     s.edit("idl/topics.yaml", r"\Z", '  - {handle: spindle_growth, name: trunnion/thermal/spindle_growth/1, type: "trunnion::thermal::SpindleGrowth", '
            "qos: state, writers: [thermal], readers: [gateway], about: growth of the spindle}\n")
+    after = contracts(s)
+    changed = [name for name in before if after[name] != before[name]]
+    if changed != ["GATEWAY"]: sys.exit(f"the topic is the gateway's, and it changed the contracts of {changed}")
 
 
 def add_parameter(s):

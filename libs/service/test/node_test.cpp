@@ -5,6 +5,7 @@
 
 #include <csignal>
 
+#include "bus/contract.hpp"
 #include "machine/alarm_constants.hpp"
 #include "testing_support/eventually.hpp"
 #include "trunnion/version.hpp"
@@ -93,7 +94,7 @@ TEST(Node, AnnouncesItsContractAndTheVersionOfTheProject) {
   ASSERT_TRUE(eventually([&] { return reader.take(announcement); }));
   EXPECT_EQ(announcement.service, "drive");
   EXPECT_EQ(announcement.instance, 3u);
-  EXPECT_EQ(announcement.contract, topics::contract_hash);
+  EXPECT_EQ(announcement.contract, bus::contract_of("drive"));
   EXPECT_EQ(announcement.version, version);
 }
 
