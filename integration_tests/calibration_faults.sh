@@ -4,8 +4,7 @@
 # ends in one line with phase and cause, no parameter changes, and the measurement continues after the last complete pose.
 set -euo pipefail
 trunnion=$1
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
+. "$(dirname "$0")/cluster.sh"
 fail() { echo "$*" >&2; cat "$work/error" >&2; exit 1; }
 machine=$work/mill
 cp -r "$3/ac-table" "$machine"
@@ -17,18 +16,11 @@ axes:
   C: {start_deg: 0, end_deg: 240, points: 3, other_deg: 0}
 END
 
-down() { "$trunnion" down --domain "$domain" > "$work/down" 2>&1 || true; }
 # up LINE: a cluster whose truth has this instead of the probe of the example.
 up() {
   sed "s/^probe: .*/$1/" "$2/calibration/truth.yaml" > "$machine/truth.yaml"
   rm -rf "$work/state"
-  for domain in $(seq 60 2 78); do
-    if "$trunnion" up "$machine" --domain "$domain" --port $((23000 + domain)) --time virtual --state "$work/state" \
-      > "$work/log" 2>&1; then trap 'down; rm -rf "$work"' EXIT; return; fi
-    grep -q "domain $domain" "$work/log" || break
-  done
-  cat "$work/log" >&2
-  exit 1
+  start_cluster "$machine"
 }
 measure() { "$trunnion" calibrate kinematics "$machine" --on-machine --inputs "$inputs" --save-touches "$work/touches" --write \
   --domain "$domain" "$@" > "$work/out" 2> "$work/error"; }
@@ -71,36 +63,36 @@ up "probe: {$probe, no_signal_from_touch: 4}" "$2"
 before=$(values)
 if measure; then fail "not stopped"; fi
 stopped 'repeatability of the probe: alarm 1501: .*no contact of the probe' 0
-down
+stop_cluster
 
 echo "A probe that repeats badly"
 up "probe: {$probe, repeatability_um: 20}" "$2"
 if measure; then fail "not stopped"; fi
 stopped 'repeatability of the probe: 5 touches of one point differ by .* um, 5.00 um is permitted' 0
-down
+stop_cluster
 
 echo "No signal in the second pose: 10 + 20 contacts, then 3"
 up "probe: {$probe, no_signal_from_touch: 34}" "$2"
 if measure; then fail "not stopped"; fi
 stopped 'pose A-60 C0: alarm 1501: .*no contact of the probe' 1
-down
+stop_cluster
 
 echo "An early signal in the second pose"
 up "probe: {$probe, early_mm: 0.5, early_from_touch: 31}" "$2"
 if measure; then fail "not stopped"; fi
 stopped 'pose A-60 C0: measured diameter of the sphere 25.99.. mm, given 25.0000 mm' 1
-down
+stop_cluster
 
 echo "A body in the way: found before anything moves, and without regard to bodies a contact outside a skip move"
 up "probe: {$probe}" "$2"
 echo '  - {box: {size_mm: [20, 20, 20]}, position_mm: [60, 40, -300]}' >> "$machine/truth.yaml"
-down
-"$trunnion" up "$machine" --domain "$domain" --port $((23000 + domain)) --time virtual --state "$work/state" > "$work/log" 2>&1 || fail up
+stop_cluster
+start_cluster "$machine"
 if measure; then fail "not stopped"; fi
 stopped "plan: pose A0 C0: 'box 2' and 'probe' overlap by .* over the sphere" 0
 if measure --retract; then fail "not stopped"; fi
 stopped 'repeatability of the probe: alarm 117: .*outside a skip move' 0
-down
+stop_cluster
 
 up "probe: {$probe}" "$2"
 # background POSES: measures until so many poses are complete.

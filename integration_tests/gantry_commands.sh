@@ -4,26 +4,14 @@
 # sides, the error, the limit, Auto Offset as a proposal and written, a second run, machines without a gantry.
 set -euo pipefail
 trunnion=$1 python=$3
-work=$(mktemp -d)
-domain=
-cleanup() {
-  [ -z "$domain" ] || "$trunnion" down --domain "$domain" > /dev/null 2>&1 || true
-  rm -rf "$work"
-}
-trap cleanup EXIT
-fail() { echo "$*" >&2; exit 1; }
+. "$(dirname "$0")/cluster.sh"
 cp -rL "$2/gantry-cb-head" "$work/m"
 # The slave belongs 0.15 mm farther than it is, the limit is 0.1 mm, and nothing aligns it.
 cat >> "$work/m/parameters.yaml" <<'END'
 "102129": 0.15
 END
 sed -i 's/^"102062": 1/"102062": 0/; s/^"102107": 0.2/"102107": 0.1/' "$work/m/parameters.yaml"
-up() { "$trunnion" up "$work/m" --domain "$1" --port $((23100 + $1)) --time virtual --state "$work/state" > "$work/up" 2>&1; }
-for d in $(seq 60 79); do
-  if up "$d"; then domain=$d; break; fi
-  grep -q "domain $d" "$work/up" || break
-done
-[ -n "$domain" ] || fail "$(cat "$work/up")"
+start_cluster "$work/m"
 gantry() { "$trunnion" gantry --domain "$domain" "$@"; }
 
 gantry > "$work/shown"
@@ -46,8 +34,8 @@ assert pair["synchronization_error"]["unit"] == "mm" and pair["synchronization_e
 assert pair["auto_offset"]["parameter"] == "102129" and abs(pair["auto_offset"]["proposal_mm"]) < 1e-4, pair
 assert pair["alignment"]["on"] is False and pair["state"] == "coupled", pair
 END
-"$trunnion" down --domain "$domain" > /dev/null
-up "$domain" || fail "$(cat "$work/up")"
+stop_cluster
+start_cluster "$work/m"
 gantry > "$work/shown"
 grep -q 'synchronization error  *-*0.0000 mm' "$work/shown" || fail "after the restart: $(cat "$work/shown")"
 gantry --json --write | "$python" -c 'import json, sys; assert json.load(sys.stdin)["written"] is False' || fail "a second writing"

@@ -4,14 +4,7 @@
 # virtual time, and the recording of all this verified.
 set -euo pipefail
 trunnion=$1 python=$3
-work=$(mktemp -d)
-domain=
-cleanup() {
-  [ -z "$domain" ] || "$trunnion" down --domain "$domain" > /dev/null 2>&1 || true
-  rm -rf "$work"
-}
-trap cleanup EXIT
-fail() { echo "$*" >&2; exit 1; }
+. "$(dirname "$0")/cluster.sh"
 is() { [ "$2" = "$3" ] || fail "$1: expected '$3', there is '$2'"; }
 cp -r "$2/ac-table" "$work/m"
 rm -rf "$work/m/recordings"
@@ -28,11 +21,7 @@ timer(IN := coolant_0, PT := T#1h);
 END_FUNCTION_BLOCK
 END
 sed -i 's/^  stop_latch AT %R0.0 : BOOL;/  stop_latch AT %R0.0 : BOOL;\n  counter : Counter;/; s/^feed_hold := feed_hold_button;/feed_hold := feed_hold_button;\nIF channel_running_0 THEN counter(step := 1); END_IF;/' "$work/m/plc/fast.st"
-for d in $(seq 60 79); do
-  if "$trunnion" up "$work/m" --domain "$d" --port $((23000 + d)) --time virtual --state "$work/state" > "$work/up" 2>&1; then domain=$d; break; fi
-  grep -q "domain $d" "$work/up" || break
-done
-[ -n "$domain" ] || fail "$(cat "$work/up")"
+start_cluster "$work/m"
 plc() { "$trunnion" plc "$@" --domain "$domain"; }
 mdi() { "$trunnion" mdi "$1" --domain "$domain" > /dev/null; }
 refused() {  # SENTENCE COMMAND...
@@ -132,5 +121,4 @@ is "lines of the journal" "$("$python" -c 'import json, sys
 print(*[json.loads(line)["what"] for line in open(sys.argv[1])])' "$work/state/plc.jsonl")" "force release force release load load load"
 "$trunnion" state check --state "$work/state" > "$work/out" 2>&1 || fail "$(cat "$work/out")"
 grep -q "plc.programs" "$work/out" || fail "$(cat "$work/out")"
-"$trunnion" down --domain "$domain" > /dev/null
-domain=
+stop_cluster

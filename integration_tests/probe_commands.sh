@@ -4,23 +4,14 @@
 # machine whose table is beside its place; they are those of the true axes. A recorded measurement is verified.
 set -euo pipefail
 trunnion=$1 python=$4
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-fail() { echo "$*" >&2; exit 1; }
+. "$(dirname "$0")/cluster.sh"
 machine=$work/m
 cp -r "$2/ac-table" "$machine"
 cp "$3"/probe-sphere/*.nc "$3"/calibration/programs/*.nc "$machine/programs"
 sed 's/, repeatability_um: 0.3//; s/lobing_um: 0.5, //' "$3/probe-sphere/truth.yaml" > "$machine/truth.yaml"
 echo 'axes: {C: {XOC_um: 40, YOC_um: -25}, A: {ZOA_um: 30, YOA_um: 15}}' >> "$machine/truth.yaml"
 
-done=
-for domain in $(seq 61 2 79); do
-  if "$trunnion" up "$machine" --domain "$domain" --port $((21000 + domain)) --time virtual --state "$work/state" \
-    > "$work/log" 2>&1; then done=1; break; fi
-  grep -q "domain $domain" "$work/log" || break
-done
-[ -n "$done" ] || fail "$(cat "$work/log")"
-trap '"$trunnion" down --domain "$domain" > "$work/down" 2>&1; rm -rf "$work"' EXIT
+start_cluster "$machine"
 "$trunnion" channel mode auto --domain "$domain"
 
 # run PROGRAM: to its end, or the alarm that has ended it.
@@ -50,7 +41,7 @@ grep -q 'no alarms' "$work/alarms" || fail "$(cat "$work/alarms")"
 "$trunnion" variables --domain "$domain" --json > "$work/variables.json"
 "$python" "$(dirname "$0")/check_measured_centres.py" "$trunnion" "$machine" "$work/variables.json" || fail "wrong centres"
 # The same by HTTP.
-"$python" - "http://localhost:$((21000 + domain))/api/variables/0" "$work/variables.json" <<'END' || fail "HTTP"
+"$python" - "http://localhost:$port/api/variables/0" "$work/variables.json" <<'END' || fail "HTTP"
 import json, sys, urllib.request
 with urllib.request.urlopen(sys.argv[1]) as answer: told = json.load(answer)
 with open(sys.argv[2]) as file: shown = json.load(file)

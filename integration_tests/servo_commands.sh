@@ -4,14 +4,7 @@
 # is mounted the wrong way round: encoders, tests, tuning, abort by Ctrl-C and by kill, writing.
 set -euo pipefail
 trunnion=$1 python=$3
-work=$(mktemp -d)
-domain=
-cleanup() {
-  [ -z "$domain" ] || "$trunnion" down --domain "$domain" > /dev/null 2>&1 || true
-  rm -rf "$work"
-}
-trap cleanup EXIT
-fail() { echo "$*" >&2; exit 1; }
+. "$(dirname "$0")/cluster.sh"
 cp -r "$2/ac-table" "$work/m"
 cat > "$work/m/truth.yaml" <<'END'
 drives:
@@ -27,11 +20,7 @@ cat >> "$work/m/parameters.yaml" <<'END'
 "100902": 40
 "100932": 50000
 END
-for d in $(seq 60 79); do
-  if "$trunnion" up "$work/m" --domain "$d" --port $((23000 + d)) --time virtual --state "$work/state" > "$work/up" 2>&1; then domain=$d; break; fi
-  grep -q "domain $d" "$work/up" || break
-done
-[ -n "$domain" ] || fail "$(cat "$work/up")"
+start_cluster "$work/m"
 servo() { "$trunnion" servo "$@" --domain "$domain"; }
 value() { "$trunnion" param get "$1" --domain "$domain"; }
 program() { "$trunnion" program list --domain "$domain"; }
@@ -41,8 +30,8 @@ program() { "$trunnion" program list --domain "$domain"; }
 grep -q '^load over motor  *-\(2\.00\|1\.999\)' "$work/encoders" || fail "$(cat "$work/encoders")"
 servo encoders --axis X --write > /dev/null || true
 "$trunnion" param set 100930 1 --domain "$domain" > /dev/null
-"$trunnion" down --domain "$domain" > /dev/null
-"$trunnion" up "$work/m" --domain "$domain" --port $((23000 + domain)) --time virtual --state "$work/state" > "$work/up" 2>&1 || fail "$(cat "$work/up")"
+stop_cluster
+start_cluster "$work/m"
 # 10 mm of 0.1 um, within 20 of 100000 pulses.
 for expected in '100930 full_closed_loop = 1' '100931 load_encoder_reversed = 1' '100932 load_encoder_pulses = \(9999[0-9]\|999[89][0-9]\|1000[012][0-9]\)'; do
   value "${expected%% *}" | grep -q "^$expected" || fail "expected $expected: $(value "${expected%% *}")"

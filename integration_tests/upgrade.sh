@@ -5,9 +5,7 @@
 set -euo pipefail
 trunnion=$1 machines=$2
 built=$(dirname "$trunnion")
-work=$(mktemp -d)
-domain=
-trap '[ -z "$domain" ] || "$trunnion" down --domain "$domain" > /dev/null; rm -rf "$work"' EXIT
+. "$(dirname "$0")/cluster.sh"
 fail() { echo "$1"; cat "$work/said"; exit 1; }
 refused() { # TEXT COMMAND...
   local text=$1 status=0
@@ -42,12 +40,7 @@ rm "$work/partial/trunnion-plc"
 printf '#!/bin/sh\ncase "$1" in --version) exec %s/trunnion-channel --version;; esac\necho "no licence for this machine"\nexit 1\n' \
   "$built" > "$work/faulty/trunnion-channel"
 
-for number in $(seq 81 99); do
-  "$trunnion" up "$work/machine" --time virtual --state "$work/state" --domain "$number" --port $((20000 + $$ % 20000)) \
-    > "$work/said" 2>&1 && domain=$number && break
-  grep -q "domain $number is in use" "$work/said" || fail "up"
-done
-[ -n "$domain" ] || fail "no domain is free"
+start_cluster "$work/machine"
 here=(--domain "$domain")
 "$trunnion" mdi "G0 X10 Y5" "${here[@]}" > "$work/said" || fail "mdi"
 

@@ -32,6 +32,8 @@ CLI::App* add_command(CLI::App& app, Common& common, const std::string& name, co
 namespace {
 
 int up(const Common& common, cluster::UpOptions options, const std::string& time) {
+  if (common.domain && options.own_domain)
+    throw std::runtime_error("--domain and --free-domain exclude each other: give one of them");
   options.domain = common.domain;
   if (!time.empty()) options.virtual_time = time == "virtual";
   const auto cluster = cluster::start_cluster(options);
@@ -206,6 +208,8 @@ void add_cluster_commands(CLI::App& app, Common& common) {
   command->add_option("--time", *time, "real or virtual, instead of machine.yaml's")
       ->check(CLI::IsMember({"real", "virtual"}));
   command->add_option("--exec", *executables, exec_help);
+  command->add_flag("--free-domain", options->own_domain,
+                    "Take a DDS domain that no cluster of this computer uses, 80 .. 99, and a free port");
   command->add_option("--port", *port, "Port of the gateway")->check(CLI::Range(1, 65535));
   command->add_option("--state", options->state_directory,
                       "Directory for what must survive (default: under ~/.local/state/trunnion)");

@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cluster/cluster.hpp"
 
+#include <arpa/inet.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
 #include <csignal>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -111,6 +116,19 @@ void write_info(const RunningCluster& cluster) {
 
 namespace {
 
+// Nobody listens on it now. Another program may take it before the gateway does, which says so then.
+std::uint16_t free_port() {
+  const int socket = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  socklen_t size = sizeof address;
+  const bool found = socket >= 0 && bind(socket, reinterpret_cast<sockaddr*>(&address), size) == 0 &&
+                     getsockname(socket, reinterpret_cast<sockaddr*>(&address), &size) == 0;
+  if (socket >= 0) close(socket);
+  if (!found) throw std::runtime_error("no TCP port is free: " + std::string(std::strerror(errno)));
+  return ntohs(address.sin_port);
+}
+
 // The directory that free_domain() has made, unless the start is refused.
 class Reservation {
  public:
@@ -147,7 +165,7 @@ RunningCluster start_cluster(const UpOptions& up) {
   cluster.virtual_time = up.virtual_time.value_or(config.virtual_time);
   Reservation reservation(cluster.run, up.own_domain);
   check_hardware(config, cluster.virtual_time);
-  cluster.port = up.with_gateway ? up.port.value_or(config.port) : std::uint16_t{0};
+  if (up.with_gateway) cluster.port = up.port.value_or(up.own_domain ? free_port() : config.port);
   cluster.state_directory = up.state_directory.empty()          ? default_state_directory(config.name)
                             : up.state_directory == "temporary" ? cluster.run.path() + "/state"
                                                                 : fs::absolute(up.state_directory).string();

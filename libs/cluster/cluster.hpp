@@ -18,8 +18,8 @@ struct UpOptions {
   std::string vendor;           ///< empty, fastdds, cyclonedds or mixed
   std::string state_directory;  ///< empty: the default one; "temporary": inside the run directory
   std::optional<std::uint32_t> domain;
-  bool own_domain = false;  ///< take a free one
-  std::optional<std::uint16_t> port;
+  bool own_domain = false;            ///< take a free one
+  std::optional<std::uint16_t> port;  ///< absent: a free one with own_domain, else that of machine.yaml
   std::optional<bool> virtual_time;
   bool with_gateway = true;
   Executables executables;  ///< in the place of those beside the command
