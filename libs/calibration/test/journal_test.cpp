@@ -5,6 +5,8 @@
 
 #include <stdexcept>
 
+#include "testing_support/refusal.hpp"
+
 namespace trunnion::calibration {
 namespace {
 
@@ -15,12 +17,7 @@ std::string entry(const char* time, const char* who, int number, double before, 
 }
 
 std::string fault(const std::string& journal) {
-  try {
-    last_calibration(journal);
-  } catch (const std::runtime_error& e) {
-    return e.what();
-  }
-  return "";
+  return testing_support::refusal_of([&] { last_calibration(journal); });
 }
 
 TEST(Journal, TheLastCalibrationHasWhatItReplaced) {

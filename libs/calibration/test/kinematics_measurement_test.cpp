@@ -4,6 +4,7 @@
 #include "calibration/chain_change.hpp"
 #include "calibration/protocol.hpp"
 #include "geometry/test/machines.hpp"
+#include "testing_support/refusal.hpp"
 #include "true_machine.hpp"
 
 namespace trunnion::calibration {
@@ -25,12 +26,7 @@ ChainParameters wrong(ChainParameters p) {
 }
 
 std::string fault(const std::function<void()>& run) {
-  try {
-    run();
-  } catch (const std::runtime_error& e) {
-    return e.what();
-  }
-  return "";
+  return testing_support::refusal_of([&] { run(); });
 }
 
 TEST(KinematicsMeasurement, FindsTheOffsetsOfATableWithIdealDirections) {

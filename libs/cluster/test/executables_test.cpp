@@ -4,18 +4,15 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "testing_support/refusal.hpp"
+
 namespace trunnion::cluster {
 namespace {
 
 using testing::HasSubstr;
 
 std::string refusal(const std::vector<std::string>& texts) {
-  try {
-    read_executables(texts);
-  } catch (const std::runtime_error& e) {
-    return e.what();
-  }
-  return "";
+  return testing_support::refusal_of([&] { read_executables(texts); });
 }
 
 TEST(Executables, AreReadAndWrittenAsArguments) {

@@ -2,6 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "testing_support/refusal.hpp"
+
 #include "ac_machine.hpp"
 
 namespace trunnion::identification {
@@ -15,12 +17,7 @@ const truth::MachineOutline& outline() {
 }
 
 std::string refusal(const std::string& text) {
-  try {
-    parse_plan(text, "plan.yaml", outline());
-  } catch (const std::runtime_error& e) {
-    return e.what();
-  }
-  return "";
+  return testing_support::refusal_of([&] { parse_plan(text, "plan.yaml", outline()); });
 }
 
 TEST(MeasurementPlan, ReadsItsKeys) {

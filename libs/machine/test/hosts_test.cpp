@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "machine/machine.hpp"
+#include "testing_support/refusal.hpp"
 
 namespace trunnion::machine {
 namespace {
@@ -24,12 +25,7 @@ std::string services(
 }
 
 std::string error_of(const std::string& yaml) {
-  try {
-    parse_machine(yaml, "m");
-  } catch (const std::runtime_error& e) {
-    return e.what();
-  }
-  return "";
+  return testing_support::refusal_of([&] { parse_machine(yaml, "m"); });
 }
 
 TEST(Hosts, AServiceRunsOnItsHostACopyOnItsOwnAndTheRestOnTheFirst) {
@@ -54,7 +50,7 @@ TEST(Hosts, NeedSecurityOrTheStatementThatTheNetworkIsOpen) {
       error_of(text),
       "m/machine.yaml:3:3: error: every computer in the network of these hosts could move the machine: add "
       "'security: on' (docs/security.md), or 'open: true' when the network is yours alone");
-  EXPECT_EQ(error_of(text + "security: on\n"), "");
+  EXPECT_EQ(error_of(text + "security: on\n"), "taken");
 }
 
 TEST(Hosts, DirectoriesForSwapsAreAbsoluteOrBesideTheMachine) {

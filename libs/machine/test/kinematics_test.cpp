@@ -9,6 +9,7 @@
 #include "machine/chain_section.hpp"
 #include "machine/machine.hpp"
 #include "machine/yaml.hpp"
+#include "testing_support/refusal.hpp"
 
 namespace trunnion::machine {
 namespace {
@@ -230,12 +231,7 @@ TEST(Chains, a_correction_counts_as_an_offset_in_open_and_closed_chains) {
 }
 
 std::string chains_error(const std::string& text) {
-  try {
-    read_chain_parameters(parse_yaml(text, "m"), "m");
-  } catch (const std::runtime_error& e) {
-    return e.what();
-  }
-  return "";
+  return testing_support::refusal_of([&] { read_chain_parameters(parse_yaml(text, "m"), "m"); });
 }
 
 TEST(Chains, errors_name_line_and_column) {

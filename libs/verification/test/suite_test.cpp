@@ -6,6 +6,8 @@
 
 #include <fstream>
 
+#include "testing_support/refusal.hpp"
+
 namespace trunnion::verification {
 namespace {
 
@@ -17,12 +19,7 @@ std::vector<VerifiedProcess> two_channels(const SuiteEntry&) {
 }
 
 std::string error_of(const std::string& text) {
-  try {
-    tests_of(parse_suite(text, "dir/suite.yaml"), two_channels);
-  } catch (const std::runtime_error& e) {
-    return e.what();
-  }
-  return "";
+  return testing_support::refusal_of([&] { tests_of(parse_suite(text, "dir/suite.yaml"), two_channels); });
 }
 
 TEST(Suite, PathsCountFromItsFileAndWhatItSaysBecomesTheArgumentsOfVerify) {
