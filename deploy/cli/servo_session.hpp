@@ -51,6 +51,7 @@ class ServoSession {
   const std::vector<SessionAxis>& axes() const { return axes_; }
   const machine::Parameters& parameters() const { return parameters_; }
   const std::string& machine() const { return cluster_->running().machine; }
+  const std::string& machine_directory() const { return cluster_->running().machine_directory; }
 
   /// Runs the program while the test runs; without a program until the test has ended by itself.
   SessionResult run(idl::servo::TestRequest request, const std::string& program);
