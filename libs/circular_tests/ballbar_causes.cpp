@@ -35,16 +35,21 @@ Row closed_forms(double angle, int sense, double radius) {
 
 double from_reversal(double angle) { return angle - 90 * std::round(angle / 90); }
 
-// The farthest of the readings' rests behind each reversal.
-std::array<double, 4> spikes(Readings readings, const Eigen::VectorXd& rests, Eigen::Index first, int sense) {
+// The farthest of the readings from the causes behind each reversal. A reading between the places before and
+// behind the lost motion is on its way, and no spike.
+std::array<double, 4> spikes(Readings readings, const Eigen::VectorXd& x, double radius, int sense) {
   std::array<double, 4> found{};
-  for (std::size_t i = 0; i < readings.size(); ++i) {
-    const double past = sense * from_reversal(readings[i].angle);
+  for (const auto& reading : readings) {
+    const double past = sense * from_reversal(reading.angle);
     if (past < 0 || past > spike_zone) continue;
-    const auto quadrant = static_cast<long long>(std::round(readings[i].angle / 90)) & 3;
-    auto& spike = found[static_cast<std::size_t>(quadrant)];
-    const double rest = rests[first + static_cast<Eigen::Index>(i)];
-    if (std::abs(rest) > std::abs(spike)) spike = rest;
+    const auto quadrant =
+        static_cast<std::size_t>(static_cast<long long>(std::round(reading.angle / 90)) & 3);
+    const Row row = closed_forms(reading.angle, sense, radius);
+    const auto axis = quadrant % 2 == 0 ? back_first : back_second;
+    const double behind = reading.deviation - row * x, before = behind + 2 * row[axis] * x[axis];
+    if ((behind > 0) != (before > 0)) continue;
+    const double rest = std::abs(behind) < std::abs(before) ? behind : before;
+    if (std::abs(rest) > std::abs(found[quadrant])) found[quadrant] = rest;
   }
   return found;
 }
@@ -75,8 +80,8 @@ BallbarCauses ballbar_causes(Readings ccw, Readings cw, double radius) {
   causes.lag_mismatch = x[lag];
   causes.reversal_first = x[back_first], causes.reversal_second = x[back_second];
   const Eigen::VectorXd rests = values - rows * x;
-  causes.spike_ccw = spikes(ccw, rests, 0, 1);
-  causes.spike_cw = spikes(cw, rests, static_cast<Eigen::Index>(ccw.size()), -1);
+  causes.spike_ccw = spikes(ccw, x, radius, 1);
+  causes.spike_cw = spikes(cw, x, radius, -1);
   if (rests.size() > 0) causes.rest = rests.norm() / std::sqrt(static_cast<double>(rests.size()));
   return causes;
 }

@@ -24,7 +24,8 @@ struct BallbarCauses {
   double reversal_first = 0, reversal_second = 0;  ///< lost motion, mm: above zero where the axis lags
   double lag_mismatch = 0;  ///< mm: speed times (1 / Kv of the first axis less 1 / Kv of the second)
   /// Reversal spikes at 0, 90, 180, 270 deg, mm, positive outwards: the farthest deviation from the causes
-  /// above within the reversal and `spike_zone` behind it. At 0 and 180 deg the first axis reverses.
+  /// above within the reversal and `spike_zone` behind it, beyond the lost motion. At 0 and 180 deg the first
+  /// axis reverses.
   std::array<double, 4> spike_ccw{}, spike_cw{};
   double rest = 0;  ///< mm: root mean square of what the causes above do not explain
 };
