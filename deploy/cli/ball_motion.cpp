@@ -18,7 +18,7 @@ constexpr std::uint16_t turn_decimation = 4, stop_decimation = 40;  // 2 kHz, 20
 constexpr double positioning_feed = 3000;                           // mm/min or deg/min
 constexpr double still = 1e-6;                                      // deg between two samples
 constexpr double rest_time = 0.2, mean_time = 0.1;                  // s
-constexpr double near_ball = 1;        // mm: more than compensations move an axis
+constexpr double near_ball = 1;  // mm: more than compensations move an axis
 constexpr double share_of_travel = 0.9;
 constexpr double moves = 0.02;  // of the largest speed of an axis: slower axes have no servo to identify
 
@@ -49,7 +49,8 @@ BallTest::BallTest(ServoSession& session, const BallOptions& options)
   if (axis_ == std::string_view::npos || axis_ < 3 || !model_.turns(axis_ - 3))
     throw std::runtime_error("--axis " + options_.axis + ": no rotary axis of the transformation");
   for (const auto& a : session_.axes())
-    if (const auto index = letters.find(a.letter); index > 2 && index < letters.size()) held_[index - 3] = a.place;
+    if (const auto index = letters.find(a.letter); index > 2 && index < letters.size())
+      held_[index - 3] = a.place;
   for (const auto& word : options_.hold) {
     const auto index = word.empty() ? std::string_view::npos : letters.find(word[0]);
     std::size_t used = 0;
@@ -99,8 +100,8 @@ void BallTest::find_circle() {
     for (int k = 0; k < 7; ++k) places.push_back({start_ + range * k / 6, place_at(start_ + range * k / 6)});
     const auto fit = metrology::fit_axis(places);
     if (const auto* error = std::get_if<metrology::AxisError>(&fit))
-      throw std::runtime_error("--axis " + options_.axis + ": the ball has no circle about the axis: " +
-                               metrology::to_string(*error));
+      throw std::runtime_error("--axis " + options_.axis +
+                               ": the ball has no circle about the axis: " + metrology::to_string(*error));
     const auto& found = std::get<metrology::AxisFit>(fit);
     direction_ = found.direction, centre_ = found.centre, radius_ = found.radius;
   };
@@ -118,8 +119,9 @@ void BallTest::find_circle() {
   } else if (direction) {
     // Beside an axis along the tool, above an axis across it.
     const Vec3 tool = model_.tool_direction(), across = tool - *direction * direction->dot(tool);
-    ball_ = across.norm() > 0.5 ? Vec3(point + across.normalized() * options_.radius)
-                                : Vec3(point + perpendicular(*direction) * options_.radius + tool * options_.height);
+    ball_ = across.norm() > 0.5
+                ? Vec3(point + across.normalized() * options_.radius)
+                : Vec3(point + perpendicular(*direction) * options_.radius + tool * options_.height);
   } else {
     Vec3 here = Vec3::Zero();
     for (const auto& a : session_.axes())
@@ -136,9 +138,10 @@ void BallTest::check_travel(double start) const {
     for (int i = 0; i < 3; ++i) {
       const auto& a = session_.axis(std::string(1, static_cast<char>('X' + i)));
       if (place[i] >= a.low && place[i] <= a.high) continue;
-      throw std::runtime_error(text("axis %c would go to %.3f mm at %c%.1f, its travel is %.3f .. %.3f: choose "
-                                    "--ball, --radius, --start or --sweep",
-                                    a.letter, place[i], options_.axis[0], angle, a.low, a.high));
+      throw std::runtime_error(
+          text("axis %c would go to %.3f mm at %c%.1f, its travel is %.3f .. %.3f: choose "
+               "--ball, --radius, --start or --sweep",
+               a.letter, place[i], options_.axis[0], angle, a.low, a.high));
     }
   }
 }
@@ -151,8 +154,8 @@ std::string BallTest::opening(double start) const {
   for (const auto& a : session_.axes())
     if (const auto index = letters.find(a.letter); index > 2 && index < letters.size())
       program += text(" %c%.6f", a.letter, angles[index - 3]);
-  program += text(" F%g\nG53 G1 X%.6f Y%.6f Z%.6f F%g\nG43.4 H%u\nG4 P500\n", positioning_feed, place[0], place[1],
-                  place[2], positioning_feed, options_.tool);
+  program += text(" F%g\nG53 G1 X%.6f Y%.6f Z%.6f F%g\nG43.4 H%u\nG4 P500\n", positioning_feed, place[0],
+                  place[1], place[2], positioning_feed, options_.tool);
   return program;
 }
 
@@ -188,7 +191,8 @@ BallMotion BallTest::run(double feed, double start) {
 // The linear axes have put the tip into the ball: tool tip control has begun.
 bool BallTest::at_ball(const ChannelMotion& motion, const BallSample& sample, std::size_t i) {
   for (std::size_t k = 0; k < 3; ++k)
-    if (std::abs(motion.commanded(k, i) - sample.place[static_cast<Eigen::Index>(k)]) > near_ball) return false;
+    if (std::abs(motion.commanded(k, i) - sample.place[static_cast<Eigen::Index>(k)]) > near_ball)
+      return false;
   return true;
 }
 
@@ -307,14 +311,14 @@ std::vector<BallSample> BallTest::stop(std::size_t stops, double start) {
                        (samples[i].place - samples[i - 1].place).norm() > 0;
     const double wanted = sweep_ * static_cast<double>(means.size()) / static_cast<double>(stops);
     const double at = samples[i].angles[axis_ - 3] - start - wanted;
-    quiet = moves || std::abs(at - 360 * std::round(at / 360)) > 1e-3 ||
-                    !at_ball(motion, samples[i], i)
+    quiet = moves || std::abs(at - 360 * std::round(at / 360)) > 1e-3 || !at_ball(motion, samples[i], i)
                 ? 0
                 : quiet + 1;
     if (quiet < rest) continue;
     BallSample sample = samples[i];
     sample.deviation.setZero();
-    for (std::size_t k = i + 1 - mean; k <= i; ++k) sample.deviation += samples[k].deviation / static_cast<double>(mean);
+    for (std::size_t k = i + 1 - mean; k <= i; ++k)
+      sample.deviation += samples[k].deviation / static_cast<double>(mean);
     sample.turned = wanted;
     means.push_back(sample);
     quiet = 0;

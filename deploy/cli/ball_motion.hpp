@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A ball in a fixed place of the workpiece that the control holds at the tip (RTCP) while a rotary axis turns,
-// and three displacement sensors that read the tip's deviation from it.
+// A ball in a fixed place of the workpiece that the control holds at the tip (RTCP) while a rotary axis
+// turns, and three displacement sensors that read the tip's deviation from it.
 #pragma once
 
 #include <optional>
@@ -26,11 +26,11 @@ struct BallOptions {
 
 /// What the sensors read at one sample, or in the mean of one stop.
 struct BallSample {
-  geometry::Angles angles{};              ///< deg, as commanded
-  double turned = 0;                      ///< deg: of the axis since sample 0 of the motion, without jumps at 360
-  Vec3 place = Vec3::Zero();              ///< mm: X Y Z that puts the tip of the model into the ball
-  Vec3 deviation = Vec3::Zero();          ///< mm: of the tip from the ball, along X Y Z, by the sensors
-  Vec3 following = Vec3::Zero();          ///< mm: the part of it that the model of the servos predicts
+  geometry::Angles angles{};      ///< deg, as commanded
+  double turned = 0;              ///< deg: of the axis since sample 0 of the motion, without jumps at 360
+  Vec3 place = Vec3::Zero();      ///< mm: X Y Z that puts the tip of the model into the ball
+  Vec3 deviation = Vec3::Zero();  ///< mm: of the tip from the ball, along X Y Z, by the sensors
+  Vec3 following = Vec3::Zero();  ///< mm: the part of it that the model of the servos predicts
 };
 
 struct ServoOfAxis {
@@ -62,14 +62,14 @@ class BallTest {
   /// `stops` stops at equal angles of the turn from `start`, each the mean of 0.1 s.
   std::vector<BallSample> stop(std::size_t stops, double start);
 
-  std::size_t axis() const { return axis_; }       ///< 3 .. 8
-  const Vec3& ball() const { return ball_; }       ///< mm, workpiece frame
+  std::size_t axis() const { return axis_; }  ///< 3 .. 8
+  const Vec3& ball() const { return ball_; }  ///< mm, workpiece frame
   double tool_length() const { return tool_length_; }
   double start() const { return start_; }
   double sweep() const { return sweep_; }
-  double radius() const { return radius_; }        ///< mm: of the ball's circle
+  double radius() const { return radius_; }             ///< mm: of the ball's circle
   const Vec3& direction() const { return direction_; }  ///< of the axis, unit vector, machine X Y Z
-  const Vec3& centre() const { return centre_; }   ///< mm: of the circle, machine X Y Z
+  const Vec3& centre() const { return centre_; }        ///< mm: of the circle, machine X Y Z
   const geometry::Chain& model() const { return model_; }
   const TrueMachine& machine() const { return machine_; }
 

@@ -6,6 +6,7 @@
 #include <memory>
 #include <sstream>
 
+#include "ball_commands.hpp"
 #include "bus/json.hpp"
 #include "circle_command.hpp"
 #include "circle_report.hpp"
@@ -178,6 +179,7 @@ void add_measure_command(CLI::App& app, Common& common) {
   measure->require_subcommand(1);
   add_geometry_command(*measure, common);
   add_circle_command(*measure, common);
+  add_ball_commands(*measure, common);
   auto options = std::make_shared<MeasureOptions>();
   auto* bar = add(*measure, common, "ballbar",
                   "Circular test by ISO 230-4 of the geometry alone: both circles and what they say", options,
@@ -200,7 +202,8 @@ void add_measure_command(CLI::App& app, Common& common) {
   beam->add_option("--plot", options->plot, "Write the deviations (SVG)");
   auto* nest =
       add(*measure, common, "rtest",
-          "A rotary axis turns while the control keeps the tip at a place of the workpiece (RTCP): angle, "
+          "The geometry alone: a rotary axis turns while the control keeps the tip at a place of the workpiece "
+          "(RTCP), from stop to stop; in motion: r-test. Angle, "
           "three sensors, deviation x y z",
           options, &rtest);
   nest->add_option("--axis", options->axis, "Rotary axis (default C)");

@@ -132,6 +132,12 @@ const SessionAxis& ServoSession::axis(const std::string& letter) const {
                            known);
 }
 
+double ServoSession::tool_length(std::uint32_t number) {
+  for (const auto& tool : client_->newest(topics::tool_table).tools)
+    if (tool.number == number) return tool.length + tool.length_wear;
+  throw std::runtime_error("--tool " + std::to_string(number) + ": the tool table has no such tool");
+}
+
 // The drive ends a test whose client is gone.
 void ServoSession::renew() {
   if (!testing_ || service::monotonic_seconds() - renewed_ < 0.5) return;

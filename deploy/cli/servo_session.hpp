@@ -53,6 +53,9 @@ class ServoSession {
   const std::string& machine() const { return cluster_->running().machine; }
   const std::string& machine_directory() const { return cluster_->running().machine_directory; }
 
+  /// Length of tool `number` with its wear, mm. Throws std::runtime_error when there is no such tool.
+  double tool_length(std::uint32_t number);
+
   /// Runs the program while the test runs; without a program until the test has ended by itself.
   SessionResult run(idl::servo::TestRequest request, const std::string& program);
   /// Runs a program alone.
