@@ -170,6 +170,12 @@ std::string BallTest::closing() const {
   return program + text(" F%g\nM30\n", positioning_feed);
 }
 
+ChannelMotion BallTest::sampled(const std::string& program, std::uint16_t decimation) {
+  auto motion = run_sampled(session_, program, "XYZ" + options_.axis, decimation);
+  std::copy(held_.begin(), held_.end(), motion.resting.begin() + 3);
+  return motion;
+}
+
 BallMotion BallTest::run(double feed, double start) {
   check_travel(start);
   const auto& axis = session_.axis(options_.axis);
@@ -180,7 +186,7 @@ BallMotion BallTest::run(double feed, double start) {
   const char letter = axis.letter;
   auto program = opening(start);
   program += text("G1 %c%.6f F%.6f\nG4 P500\nG1 %c%.6f\n", letter, start + sweep_, turning, letter, start);
-  const auto motion = run_sampled(session_, program + closing(), turn_decimation, false);
+  const auto motion = sampled(program + closing(), turn_decimation);
   BallMotion result;
   const auto samples = read(motion, &result.servos);
   result.there = cut(samples, motion.interval, sweep_ > 0 ? 1 : -1);
@@ -300,7 +306,7 @@ std::vector<BallSample> BallTest::stop(std::size_t stops, double start) {
   for (std::size_t k = 0; k < stops; ++k)
     program += text("G1 %c%.6f F%g\nG4 P400\n", letter,
                     start + sweep_ * static_cast<double>(k) / static_cast<double>(stops), positioning_feed);
-  const auto motion = run_sampled(session_, program + closing(), stop_decimation, false);
+  const auto motion = sampled(program + closing(), stop_decimation);
   const auto samples = read(motion, nullptr);
   const auto mean = static_cast<std::size_t>(mean_time / motion.interval);
   const auto rest = static_cast<std::size_t>(rest_time / motion.interval);

@@ -80,6 +80,7 @@ class BallTest {
   void check_travel(double start) const;
   std::string opening(double start) const;
   std::string closing() const;
+  ChannelMotion sampled(const std::string& program, std::uint16_t decimation);
   static bool at_ball(const ChannelMotion& motion, const BallSample& sample, std::size_t i);
   std::vector<BallSample> read(const ChannelMotion& motion, std::vector<ServoOfAxis>* servos);
   BallTurn cut(const std::vector<BallSample>& samples, double interval, int sense) const;

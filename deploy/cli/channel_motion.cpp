@@ -20,20 +20,26 @@ constexpr double least_motion = 1e-7;
 
 }  // namespace
 
-ChannelMotion run_sampled(ServoSession& session, const std::string& program, std::uint16_t decimation,
-                          bool in_motion) {
+ChannelMotion run_sampled(ServoSession& session, const std::string& program, const std::string& sampled,
+                          std::uint16_t decimation) {
   std::vector<std::uint16_t> numbers;
   ChannelMotion motion;
   for (const auto& axis : session.axes()) {
     const auto index = letters.find(axis.letter);
     if (index == std::string_view::npos) continue;
     motion.resting[index] = axis.place;
-    if (numbers.size() < 8) numbers.push_back(axis.number);
+    if (sampled.find(axis.letter) != std::string::npos) numbers.push_back(axis.number);
   }
-  auto request = samples_of(numbers, decimation);
-  request.in_motion = in_motion;
-  auto result = session.run(request, program);
-  if (result.traces.size() != numbers.size())
+  SessionResult result;
+  for (int attempt = 0;; ++attempt) {
+    try {
+      result = session.run(samples_of(numbers, static_cast<std::uint16_t>(decimation << attempt)), program);
+      break;
+    } catch (const SamplesLost&) {
+      if (attempt == 3) throw;
+    }
+  }
+  if (result.traces.size() != numbers.size() || result.traces.front().size() < 2)
     throw std::runtime_error("the drive gave no samples of the motion");
   motion.interval = result.traces.front().interval;
   motion.count = result.traces.front().size();

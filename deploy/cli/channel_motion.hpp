@@ -29,10 +29,11 @@ struct ChannelMotion {
   }
 };
 
-/// Runs `program` and samples all axes of the channel (at most 8) every `decimation` periods of the speed
-/// loop. With `in_motion` not while the channel moves no axis.
-ChannelMotion run_sampled(ServoSession& session, const std::string& program, std::uint16_t decimation,
-                          bool in_motion = true);
+/// Runs `program` and samples the axes `sampled` (letters) every `decimation` periods of the speed loop while
+/// the channel moves; the other axes rest where they are. When this computer loses samples, the program runs
+/// again with half the rate, down to an eighth: the interval of the result says which.
+ChannelMotion run_sampled(ServoSession& session, const std::string& program, const std::string& sampled,
+                          std::uint16_t decimation);
 
 /// From the path (commanded, in machine coordinates, without compensation) and the feedback of a recording,
 /// one sample for each cycle that has both. `parameters`: those of the recording. Throws std::runtime_error.

@@ -193,7 +193,7 @@ int measure_circle(const CircleOptions& o, const Common& common) {
     ServoSession session(o.machine, common.domain, o.channel);
     const auto centre = centre_of(o, session);
     check(o, session, centre);
-    motion = run_sampled(session, circle_program(o, session, centre), decimation);
+    motion = run_sampled(session, circle_program(o, session, centre), "XYZ", decimation);
     circle = {
         {centre[static_cast<Eigen::Index>(plane.first)], centre[static_cast<Eigen::Index>(plane.second)]},
         o.radius};

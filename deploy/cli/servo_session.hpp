@@ -28,9 +28,15 @@ struct SessionAxis {
   double into_travel(double distance) const;
 };
 
+/// The computer did not take the drive's samples in time; the motion has ended.
+struct SamplesLost : std::runtime_error {
+  SamplesLost() : std::runtime_error("samples of the drive were lost: this computer is too slow") {}
+};
+
 struct SessionResult {
   idl::servo::TestPhase phase = idl::servo::TestPhase::COMPLETED;
   double vibration = 0;                           ///< mm or deg
+  bool lost = false;                              ///< samples are missing
   std::vector<servo_analysis::AxisTrace> traces;  ///< by the axes of the request
 };
 
@@ -56,7 +62,8 @@ class ServoSession {
   /// Length of tool `number` with its wear, mm. Throws std::runtime_error when there is no such tool.
   double tool_length(std::uint32_t number);
 
-  /// Runs the program while the test runs; without a program until the test has ended by itself.
+  /// Runs the program while the test runs; without a program until the test has ended by itself. Throws
+  /// SamplesLost.
   SessionResult run(idl::servo::TestRequest request, const std::string& program);
   /// Runs a program alone.
   void move(const std::string& program);
