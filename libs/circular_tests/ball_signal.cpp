@@ -16,9 +16,10 @@ namespace trunnion::circular_tests {
 namespace {
 
 constexpr std::size_t places_of_turn = 8192;
-constexpr double whole_turn = 2;          // deg that a turn may lack
-constexpr double least_variance = 1e-14;  // mm2: readings without noise
-constexpr double speed_share = 1e-3;      // of w: its standard deviation in a second
+constexpr double whole_turn = 2;  // deg that a turn may lack
+constexpr double least_variance =
+    1e-8;                             // mm2: of 0.1 um, so that a spike of the servo does not turn the error
+constexpr double speed_share = 1e-3;  // of w: its standard deviation in a second
 constexpr double stands_out = 5;
 
 }  // namespace
@@ -36,7 +37,7 @@ std::array<double, 2> RotatingErrorFilter::next(double x, double y) {
     state_ << x, y, settings_.speed;
     covariance_.setZero();
     covariance_(0, 0) = settings_.variance_x, covariance_(1, 1) = settings_.variance_y;
-    covariance_(2, 2) = std::pow(0.01 * settings_.speed, 2);
+    covariance_(2, 2) = std::pow(1e-3 * settings_.speed, 2);
     return {x, y};
   }
   const double turn = state_[2] * dt, c = std::cos(turn), s = std::sin(turn);
