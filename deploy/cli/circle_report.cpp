@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "circle_report.hpp"
 
+#include <algorithm>
 #include <cstdio>
 #include <iostream>
 
@@ -96,6 +97,9 @@ bus::Json json_of(const CircleReport& r) {
           {"least_squares_um", {f.squares_ccw * um, f.squares_cw * um, f.squares_both * um}},
           {"hysteresis_um", f.hysteresis * um},
           {"hysteresis_at_deg", f.hysteresis_angle},
+          {"radial_um",
+           {std::min(f.radial_least_ccw, f.radial_least_cw) * um,
+            std::max(f.radial_largest_ccw, f.radial_largest_cw) * um}},
           {"radial_ccw_um", {f.radial_least_ccw * um, f.radial_largest_ccw * um}},
           {"radial_cw_um", {f.radial_least_cw * um, f.radial_largest_cw * um}},
           {"mean_radial_um", f.mean_radial * um},

@@ -13,7 +13,7 @@ namespace {
 constexpr int cells = 8, steps = 5;  // steps of a curve in each cell
 constexpr double side = 300, left = 85, gap = 90, top = 60,
                  longest_error = 0.08;     // pixels; share of the travel
-constexpr std::size_t most_points = 3600;  // that are drawn of a circle
+constexpr std::size_t most_points = 1440;  // that are drawn of a circle
 constexpr const char* ideal_style = "stroke=\"#afb8c1\" stroke-width=\"1\"";
 constexpr const char* true_style = "stroke=\"#cf222e\" stroke-width=\"1.3\"";
 constexpr const char* second_style = "stroke=\"#0969da\" stroke-width=\"1.3\"";
