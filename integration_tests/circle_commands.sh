@@ -72,7 +72,7 @@ for row in rows:
     for k in (0, 1):
         near(f"dynamic less static at {row['feed_mm_per_min']}", row["difference_um"][k], expected, 0.12 * expected)
         assert row["cleaned_um"][k] < 0.2 * expected, row
-# The axis that moves first along the circle is the worse one: it starts along Y at 0 deg and along X a quarter before.
+# A quarter of a turn before, the ball starts along X and not along Y: the roles of both are exchanged.
 fast = {row["start_deg"]: row["difference_um"] for row in rows if row["feed_mm_per_min"] == 7000}
 assert (fast[0][0] > fast[0][1]) != (fast[-90][0] > fast[-90][1]), fast
 END

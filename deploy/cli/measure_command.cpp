@@ -200,12 +200,12 @@ void add_measure_command(CLI::App& app, Common& common) {
   beam->add_option("--points", options->points, "Targets (default 11)")->check(CLI::Range(2, 10000));
   beam->add_option("--runs", options->runs, "Runs up and down (default 5)")->check(CLI::Range(2, 1000));
   beam->add_option("--plot", options->plot, "Write the deviations (SVG)");
-  auto* nest =
-      add(*measure, common, "rtest",
-          "The geometry alone: a rotary axis turns while the control keeps the tip at a place of the workpiece "
-          "(RTCP), from stop to stop; in motion: r-test. Angle, "
-          "three sensors, deviation x y z",
-          options, &rtest);
+  auto* nest = add(
+      *measure, common, "rtest",
+      "The geometry alone: a rotary axis turns while the control keeps the tip at a place of the workpiece "
+      "(RTCP), from stop to stop; in motion: r-test. Angle, "
+      "three sensors, deviation x y z",
+      options, &rtest);
   nest->add_option("--axis", options->axis, "Rotary axis (default C)");
   nest->add_option("--from", options->from, "deg (default: the travel, at most a turn)");
   nest->add_option("--to", options->to, "deg");
