@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// measure: the instruments on a machine with errors, without a cluster
+// measure: the instruments on a machine with errors
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <iostream>
 #include <memory>
 #include <sstream>
 
+#include "ball_commands.hpp"
 #include "bus/json.hpp"
+#include "circle_command.hpp"
+#include "circle_report.hpp"
 #include "commands.hpp"
 #include "geometry_command.hpp"
 #include "storage/file.hpp"
@@ -27,29 +30,8 @@ struct MeasureOptions {
   std::vector<std::string> set;
 };
 
-truth::Vec3 vector_of(const std::string& option, const std::string& text) {
-  std::istringstream in(text);
-  truth::Vec3 v;
-  char comma[2], more = 0;
-  if (!(in >> v[0] >> comma[0] >> v[1] >> comma[1] >> v[2]) || comma[0] != ',' || comma[1] != ',' ||
-      in >> more || !v.allFinite() || !(v.cwiseAbs().maxCoeff() <= 1e6))
-    throw std::runtime_error(option + " " + text + ": expected X,Y,Z in mm");
-  return v;
-}
-
-bus::Json json_of(const truth::Vec3& v, double unit) {
+bus::Json json_of_vector(const truth::Vec3& v, double unit) {
   return bus::Json::array({v[0] * unit, v[1] * unit, v[2] * unit});
-}
-
-truth::InstrumentTruth instrument(const TrueMachine& machine, const std::string& name) {
-  const auto found = machine.truth.instruments.find(name);
-  return found == machine.truth.instruments.end() ? truth::InstrumentTruth{} : found->second;
-}
-
-void print(const char* name, double value, const char* unit) {
-  char line[120];
-  std::snprintf(line, sizeof line, "%-34s %10.3f %s", name, value, unit);
-  std::cout << line << "\n";
 }
 
 void write_plot(const std::string& path, const std::string& svg, bool json) {
@@ -68,48 +50,21 @@ TrueMachine machine_of(const MeasureOptions& o) {
 int ballbar(const MeasureOptions& o, bool json) {
   const auto machine = machine_of(o);
   truth::BallbarPath path;
-  path.centre = vector_of("--at", o.at);
+  path.centre = coordinates("--at", o.at);
   path.radius = o.radius;
   path.first = o.plane[0] == 'X' ? 0 : 1;
   path.second = o.plane[1] == 'Y' ? 1 : 2;
   if (o.points > 0) path.points = o.points;
   const auto m = truth::measure_ballbar(*machine.report, path, instrument(machine, "ballbar"));
-  const auto& r = m.result;
+  const auto r = circle_report(o.plane, path.radius, m.ccw, m.cw);
   write_plot(o.plot, ballbar_picture(m, machine.name + ", plane " + o.plane), json);
   if (json) {
-    const auto readings = [](const auto& list) {
-      bus::Json all = bus::Json::array();
-      for (const auto& reading : list) all.push_back({reading.angle, reading.deviation * um});
-      return all;
-    };
-    std::cout << bus::text_of({{"machine", machine.name},
-                               {"plane", o.plane},
-                               {"radius_mm", path.radius},
-                               {"circular_ccw_um", r.circular_ccw * um},
-                               {"circular_cw_um", r.circular_cw * um},
-                               {"bidirectional_um", r.bidirectional * um},
-                               {"radial_um", {r.radial_minimum * um, r.radial_maximum * um}},
-                               {"centre_um", json_of(r.centre, um)},
-                               {"radius_um", r.radius * um},
-                               {"squareness_urad", r.squareness * urad},
-                               {"scale_mismatch_um_per_m", r.scale_mismatch * urad},
-                               {"reversal_um", {r.reversal_first * um, r.reversal_second * um}},
-                               {"lag_mismatch_um", r.lag_mismatch * um},
-                               {"ccw", readings(m.ccw)},
-                               {"cw", readings(m.cw)}})
-              << "\n";
+    auto out = json_of(r);
+    out["machine"] = machine.name, out["ccw"] = json_of(m.ccw), out["cw"] = json_of(m.cw);
+    std::cout << bus::text_of(out) << "\n";
     return 0;
   }
-  const std::string first(1, o.plane[0]), second(1, o.plane[1]);
-  print("circular deviation G, ccw", r.circular_ccw * um, "um");
-  print("circular deviation G, cw", r.circular_cw * um, "um");
-  print("bidirectional G(b)", r.bidirectional * um, "um");
-  print("radial deviation F, least", r.radial_minimum * um, "um");
-  print("radial deviation F, largest", r.radial_maximum * um, "um");
-  print("squareness", r.squareness * urad, "urad (above zero: more than 90 degrees)");
-  print(("scale " + first + " less " + second).c_str(), r.scale_mismatch * urad, "um/m");
-  print(("lost motion " + first).c_str(), r.reversal_first * um, "um");
-  print(("lost motion " + second).c_str(), r.reversal_second * um, "um");
+  print(r);
   return 0;
 }
 
@@ -132,7 +87,7 @@ int laser(const MeasureOptions& o, bool json) {
   plan.from = given ? o.from : travel.low + 0.05 * (travel.high - travel.low);
   plan.to = given ? o.to : travel.high - 0.05 * (travel.high - travel.low);
   if (!(plan.to > plan.from)) throw std::runtime_error("--from must be below --to");
-  plan.others = vector_of("--at", o.at);
+  plan.others = coordinates("--at", o.at);
   if (o.points > 0) plan.targets = o.points;
   plan.runs = o.runs;
   const auto m =
@@ -167,7 +122,7 @@ int laser(const MeasureOptions& o, bool json) {
     std::snprintf(line, sizeof line, "%12.4f %10.3f %10.3f %s", target.position, up, down, name);
     std::cout << line << "\n";
   }
-  for (const auto& [figure, value] : figures) print(figure, value * unit, name);
+  for (const auto& [figure, value] : figures) print_figure(figure, value * unit, name);
   return 0;
 }
 
@@ -182,13 +137,13 @@ int rtest(const MeasureOptions& o, bool json) {
                to = given ? o.to : std::min(travel.high, 180.0);
   const auto readings =
       truth::measure_nest(*machine.report, 3 + index, from, to, o.points > 0 ? o.points : 13,
-                          vector_of("--at", o.at), instrument(machine, "rtest"));
+                          coordinates("--at", o.at), instrument(machine, "rtest"));
   bus::Json out = bus::Json::array();
   for (const auto& r : readings) {
     if (json) {
       out.push_back({{"angle_deg", r.angle},
                      {"sensors_um", {r.sensors[0] * um, r.sensors[1] * um, r.sensors[2] * um}},
-                     {"deviation_um", json_of(r.deviation, um)}});
+                     {"deviation_um", json_of_vector(r.deviation, um)}});
       continue;
     }
     char line[160];
@@ -219,12 +174,16 @@ CLI::App* add(CLI::App& app, Common& common, const std::string& name, const std:
 }  // namespace
 
 void add_measure_command(CLI::App& app, Common& common) {
-  auto* measure = app.add_subcommand("measure", "Measure a machine that has a truth.yaml, without a cluster");
+  auto* measure =
+      app.add_subcommand("measure", "Measure a machine that has a truth.yaml: by its geometry, or in motion");
   measure->require_subcommand(1);
   add_geometry_command(*measure, common);
+  add_circle_command(*measure, common);
+  add_ball_commands(*measure, common);
   auto options = std::make_shared<MeasureOptions>();
-  auto* bar = add(*measure, common, "ballbar", "Circular test by ISO 230-4: both circles and what they say",
-                  options, &ballbar);
+  auto* bar = add(*measure, common, "ballbar",
+                  "Circular test by ISO 230-4 of the geometry alone: both circles and what they say", options,
+                  &ballbar);
   bar->add_option("--plane", options->plane, "XY (default), XZ or YZ")
       ->check(CLI::IsMember({"XY", "XZ", "YZ"}));
   bar->add_option("--radius", options->radius, "mm (default 100)")->check(CLI::Range(1.0, 1e4));
@@ -241,11 +200,12 @@ void add_measure_command(CLI::App& app, Common& common) {
   beam->add_option("--points", options->points, "Targets (default 11)")->check(CLI::Range(2, 10000));
   beam->add_option("--runs", options->runs, "Runs up and down (default 5)")->check(CLI::Range(2, 1000));
   beam->add_option("--plot", options->plot, "Write the deviations (SVG)");
-  auto* nest =
-      add(*measure, common, "rtest",
-          "A rotary axis turns while the control keeps the tip at a place of the workpiece (RTCP): angle, "
-          "three sensors, deviation x y z",
-          options, &rtest);
+  auto* nest = add(
+      *measure, common, "rtest",
+      "The geometry alone: a rotary axis turns while the control keeps the tip at a place of the workpiece "
+      "(RTCP), from stop to stop; in motion: r-test. Angle, "
+      "three sensors, deviation x y z",
+      options, &rtest);
   nest->add_option("--axis", options->axis, "Rotary axis (default C)");
   nest->add_option("--from", options->from, "deg (default: the travel, at most a turn)");
   nest->add_option("--to", options->to, "deg");

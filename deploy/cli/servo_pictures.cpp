@@ -66,6 +66,14 @@ std::string curves_picture(const std::string& title, const std::string& x, const
       760, 450, report::text(80, 24, report::escaped(title), title_style) + diagram(60, 330, x, y, curves));
 }
 
+std::string stacked_picture(const std::string& title, const std::vector<PictureDiagram>& diagrams) {
+  constexpr double height = 220, pitch = 290;
+  std::string content = report::text(80, 24, title, title_style);
+  double top = 60;
+  for (const auto& d : diagrams) content += diagram(top, height, d.x, d.y, d.curves), top += pitch;
+  return report::document(760, top, content);
+}
+
 std::string bode_picture(const std::string& title, const servo_analysis::Response& closed,
                          const servo_analysis::Response& open) {
   const auto magnitude = [](const std::string& name, const servo_analysis::Response& r) {

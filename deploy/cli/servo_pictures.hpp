@@ -20,6 +20,12 @@ struct PictureCurve {
 /// One diagram with a legend; at most 4000 points of each curve are drawn.
 std::string curves_picture(const std::string& title, const std::string& x, const std::string& y,
                            const std::vector<PictureCurve>& curves);
+struct PictureDiagram {
+  std::string x, y;  ///< labels
+  std::vector<PictureCurve> curves;
+};
+/// Several diagrams below each other.
+std::string stacked_picture(const std::string& title, const std::vector<PictureDiagram>& diagrams);
 /// Magnitude in dB and phase over the logarithm of the frequency.
 std::string bode_picture(const std::string& title, const servo_analysis::Response& closed,
                          const servo_analysis::Response& open);

@@ -132,6 +132,12 @@ const SessionAxis& ServoSession::axis(const std::string& letter) const {
                            known);
 }
 
+double ServoSession::tool_length(std::uint32_t number) {
+  for (const auto& tool : client_->newest(topics::tool_table).tools)
+    if (tool.number == number) return tool.length + tool.length_wear;
+  throw std::runtime_error("--tool " + std::to_string(number) + ": the tool table has no such tool");
+}
+
 // The drive ends a test whose client is gone.
 void ServoSession::renew() {
   if (!testing_ || service::monotonic_seconds() - renewed_ < 0.5) return;
@@ -225,8 +231,7 @@ bool ServoSession::take_samples(SessionResult& result) {
       testing_ = false;
       throw std::runtime_error("the drive refuses the test: " + s.reason);
     }
-    if (s.first != expected_)
-      throw std::runtime_error("samples of the drive were lost: this computer is too slow");
+    if (s.first != expected_) result.lost = true, expected_ = s.first;
     if (result.phase != TestPhase::ENDED_BY_VIBRATION) result.phase = s.phase;
     result.vibration = std::max(result.vibration, s.vibration);
     const std::size_t n = s.axes.size();
@@ -279,6 +284,7 @@ SessionResult ServoSession::run(idl::servo::TestRequest request, const std::stri
       client_->bus().signal().wait(0.01);
     }
     testing_ = false;
+    if (result.lost) throw SamplesLost();
     return result;
   }
   // The drive has it before the axes move: its first answer has come.
@@ -292,6 +298,7 @@ SessionResult ServoSession::run(idl::servo::TestRequest request, const std::stri
   end_test(&result);
   if (result.phase == TestPhase::ENDED_BY_STOP)
     throw std::runtime_error("the drive has ended the test: the axes were stopped");
+  if (result.lost) throw SamplesLost();
   return result;
 }
 

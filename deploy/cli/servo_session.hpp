@@ -28,9 +28,15 @@ struct SessionAxis {
   double into_travel(double distance) const;
 };
 
+/// The computer did not take the drive's samples in time; the motion has ended.
+struct SamplesLost : std::runtime_error {
+  SamplesLost() : std::runtime_error("samples of the drive were lost: this computer is too slow") {}
+};
+
 struct SessionResult {
   idl::servo::TestPhase phase = idl::servo::TestPhase::COMPLETED;
   double vibration = 0;                           ///< mm or deg
+  bool lost = false;                              ///< samples are missing
   std::vector<servo_analysis::AxisTrace> traces;  ///< by the axes of the request
 };
 
@@ -51,8 +57,13 @@ class ServoSession {
   const std::vector<SessionAxis>& axes() const { return axes_; }
   const machine::Parameters& parameters() const { return parameters_; }
   const std::string& machine() const { return cluster_->running().machine; }
+  const std::string& machine_directory() const { return cluster_->running().machine_directory; }
 
-  /// Runs the program while the test runs; without a program until the test has ended by itself.
+  /// Length of tool `number` with its wear, mm. Throws std::runtime_error when there is no such tool.
+  double tool_length(std::uint32_t number);
+
+  /// Runs the program while the test runs; without a program until the test has ended by itself. Throws
+  /// SamplesLost.
   SessionResult run(idl::servo::TestRequest request, const std::string& program);
   /// Runs a program alone.
   void move(const std::string& program);

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <sstream>
 #include <stdexcept>
 
 #include "machine/kinematics.hpp"
@@ -74,6 +75,21 @@ TrueMachine load_true_machine(const std::string& name, std::uint16_t channel,
         std::make_shared<volumetric::VolumetricCompensation>(*std::move(compensation));
   machine.model = std::move(model);
   return machine;
+}
+
+truth::InstrumentTruth instrument(const TrueMachine& machine, const std::string& name) {
+  const auto found = machine.truth.instruments.find(name);
+  return found == machine.truth.instruments.end() ? truth::InstrumentTruth{} : found->second;
+}
+
+truth::Vec3 coordinates(const std::string& option, const std::string& text) {
+  std::istringstream in(text);
+  truth::Vec3 v;
+  char comma[2], more = 0;
+  if (!(in >> v[0] >> comma[0] >> v[1] >> comma[1] >> v[2]) || comma[0] != ',' || comma[1] != ',' ||
+      in >> more || !v.allFinite() || !(v.cwiseAbs().maxCoeff() <= 1e6))
+    throw std::runtime_error(option + " " + text + ": expected X,Y,Z in mm");
+  return v;
 }
 
 }  // namespace trunnion::cli

@@ -25,4 +25,10 @@ struct TrueMachine {
 TrueMachine load_true_machine(const std::string& machine, std::uint16_t channel,
                               const std::vector<std::string>& settings);
 
+/// The instrument of this name in truth.yaml; without an entry an exact one.
+truth::InstrumentTruth instrument(const TrueMachine& machine, const std::string& name);
+
+/// X,Y,Z in mm. Throws std::runtime_error that names the option.
+truth::Vec3 coordinates(const std::string& option, const std::string& text);
+
 }  // namespace trunnion::cli

@@ -12,7 +12,8 @@ namespace {
 
 constexpr int cells = 8, steps = 5;  // steps of a curve in each cell
 constexpr double side = 300, left = 85, gap = 90, top = 60,
-                 longest_error = 0.08;  // pixels; share of the travel
+                 longest_error = 0.08;     // pixels; share of the travel
+constexpr std::size_t most_points = 1440;  // that are drawn of a circle
 constexpr const char* ideal_style = "stroke=\"#afb8c1\" stroke-width=\"1\"";
 constexpr const char* true_style = "stroke=\"#cf222e\" stroke-width=\"1.3\"";
 constexpr const char* second_style = "stroke=\"#0969da\" stroke-width=\"1.3\"";
@@ -112,9 +113,10 @@ std::string ballbar_picture(const truth::BallbarMeasurement& measured, const std
     plot.curve(points, style);
   };
   for (int k = -3; k <= 3; ++k) circle(1 + 1e-3 * division * k * magnification, ideal_style);
-  const auto trace = [&](const std::vector<truth::BallbarReading>& readings, const char* style) {
+  const auto trace = [&](const std::vector<circular_tests::RadialReading>& readings, const char* style) {
     std::vector<report::PlotPoint> points;
-    for (const auto& reading : readings) {
+    for (std::size_t i = 0; i < readings.size(); i += readings.size() / most_points + 1) {
+      const auto& reading = readings[i];
       const auto [s, c] = geometry::sine_cosine(reading.angle);
       const double radius = 1 + magnification * reading.deviation;
       points.push_back({radius * c, radius * s});

@@ -58,7 +58,6 @@ BallbarMeasurement measure_ballbar(const PoseReport& report, const BallbarPath& 
       if (sense * angle > 0) readings.push_back({angle, instrument.read(ballbar_deviation(path, tip))});
     }
   }
-  measured.result = evaluate_ballbar(path, measured.ccw, measured.cw);
   return measured;
 }
 

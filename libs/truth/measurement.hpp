@@ -6,6 +6,7 @@
 #include <array>
 #include <vector>
 
+#include "circular_tests/circular_figures.hpp"
 #include "truth/ballbar.hpp"
 #include "truth/instrument.hpp"
 #include "truth/pose_report.hpp"
@@ -14,8 +15,7 @@
 namespace trunnion::truth {
 
 struct BallbarMeasurement {
-  std::vector<BallbarReading> ccw, cw;
-  BallbarResult result;
+  std::vector<circular_tests::RadialReading> ccw, cw;
 };
 
 /// Both circles with the rotary axes at zero, each after a quarter turn of overrun.

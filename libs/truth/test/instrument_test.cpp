@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "circular_tests/ballbar_causes.hpp"
 #include "outline.hpp"
 #include "truth/ballbar.hpp"
 #include "truth/position_accuracy.hpp"
@@ -19,12 +20,17 @@ TrueGeometry geometry_of(const std::string& text) {
   return make_geometry(parse_truth(text, "truth.yaml", ac).geometry, ac, "truth.yaml");
 }
 
+struct Ballbar {
+  circular_tests::CircularFigures figures;
+  circular_tests::BallbarCauses causes;
+};
+
 // Both circles in the plane XY; a lag of each axis in seconds at `speed` mm/s.
-BallbarResult ballbar(const TrueGeometry& geometry, double lag_x = 0, double lag_y = 0, double speed = 0) {
+Ballbar ballbar(const TrueGeometry& geometry, double lag_x = 0, double lag_y = 0, double speed = 0) {
   BallbarPath path;
   path.centre = {20, -30, -100};
   path.radius = 150;
-  std::vector<BallbarReading> readings[2];
+  std::vector<circular_tests::RadialReading> readings[2];
   for (const int sense : {1, -1})
     for (std::size_t i = 0; i < path.points; ++i) {
       const double angle = sense * 360.0 * (static_cast<double>(i) + 0.5) / static_cast<double>(path.points);
@@ -38,39 +44,40 @@ BallbarResult ballbar(const TrueGeometry& geometry, double lag_x = 0, double lag
       pose.approach[1] = sense * std::cos(at(angle)) > 0 ? 1 : -1;
       readings[sense < 0].push_back({angle, ballbar_deviation(path, geometry.pose(pose).tip)});
     }
-  return evaluate_ballbar(path, readings[0], readings[1]);
+  return {circular_tests::circular_figures(readings[0], readings[1], path.radius),
+          circular_tests::ballbar_causes(readings[0], readings[1], path.radius)};
 }
 
 TEST(Ballbar, FindsAKnownSquarenessWithinTwoPercent) {
   const auto found = ballbar(geometry_of("axes: {Y: {C0Y_urad: 40}}\n"));
-  EXPECT_NEAR(found.squareness, 40e-6, 0.02 * 40e-6);
+  EXPECT_NEAR(found.causes.squareness, 40e-6, 0.02 * 40e-6);
   // dr = -R g sin cos: from -R g / 2 to R g / 2, 6 um.
-  EXPECT_NEAR(found.circular_ccw, 150 * 40e-6, 0.02 * 150 * 40e-6);
-  EXPECT_NEAR(found.reversal_first, 0, 1e-5);
-  EXPECT_NEAR(found.scale_mismatch, 0, 1e-7);
+  EXPECT_NEAR(found.figures.deviation_ccw, 150 * 40e-6, 0.02 * 150 * 40e-6);
+  EXPECT_NEAR(found.causes.reversal_first, 0, 1e-5);
+  EXPECT_NEAR(found.causes.scale_mismatch, 0, 1e-7);
 }
 
 TEST(Ballbar, FindsAKnownLostMotionOfEachAxisWithinTwoPercent) {
   const auto found =
       ballbar(geometry_of("axes: {X: {EXX: [{reversal_um: -8}]}, Y: {EYY: [{reversal_um: -3}]}}\n"));
-  EXPECT_NEAR(found.reversal_first, 8e-3, 0.02 * 8e-3);
-  EXPECT_NEAR(found.reversal_second, 3e-3, 0.02 * 3e-3);
-  EXPECT_NEAR(found.squareness, 0, 1e-7);
+  EXPECT_NEAR(found.causes.reversal_first, 8e-3, 0.02 * 8e-3);
+  EXPECT_NEAR(found.causes.reversal_second, 3e-3, 0.02 * 3e-3);
+  EXPECT_NEAR(found.causes.squareness, 0, 1e-7);
 }
 
 TEST(Ballbar, FindsAKnownMismatchOfTheGainsWithinTwoPercentAndKeepsItApartFromSquareness) {
   // Kv 50 1/s against 40 1/s at 50 mm/s: 50 * (1/50 - 1/40) = -0.25 mm.
   const auto found = ballbar(geometry_of("axes: {Y: {C0Y_urad: 40}}\n"), 1 / 50.0, 1 / 40.0, 50);
-  EXPECT_NEAR(found.lag_mismatch, -0.25, 0.02 * 0.25);
-  EXPECT_NEAR(found.squareness, 40e-6, 0.02 * 40e-6);
+  EXPECT_NEAR(found.causes.lag_mismatch, -0.25, 0.02 * 0.25);
+  EXPECT_NEAR(found.causes.squareness, 40e-6, 0.02 * 40e-6);
 }
 
 TEST(Ballbar, FindsAKnownMismatchOfTheScalesAndTheCentre) {
   const auto found = ballbar(geometry_of("axes: {X: {EXX: [{polynomial_um: [5, 20], unit_mm: 1000}]}}\n"));
-  EXPECT_NEAR(found.scale_mismatch, 20e-6, 0.02 * 20e-6);
+  EXPECT_NEAR(found.causes.scale_mismatch, 20e-6, 0.02 * 20e-6);
   // 5 um and 20 um/m * 0.02 m at the centre.
-  EXPECT_NEAR(found.centre.x(), 5.4e-3, 1e-4);
-  EXPECT_NEAR(found.circular_ccw, 150 * 20e-6, 0.03 * 150 * 20e-6);
+  EXPECT_NEAR(found.causes.centre_first, 5.4e-3, 1e-4);
+  EXPECT_NEAR(found.figures.deviation_ccw, 150 * 20e-6, 0.03 * 150 * 20e-6);
 }
 
 TEST(Laser, ReadsPositionStraightnessAndAngleOfAnAxis) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "circular_tests/ballbar_causes.hpp"
 #include "simulated_hardware.hpp"
 #include "snapshot/fields.hpp"
 #include "truth/ballbar.hpp"
@@ -104,11 +105,11 @@ TEST(ElasticAxis, AnIncrementalEncoderHasNoReferenceUntilItIsGivenOne) {
 }
 
 // A circle of both axes at constant speed after a run-up, seen by a ballbar.
-truth::BallbarResult ballbar(SimulatedAxis& x, SimulatedAxis& y, double radius, double speed) {
+circular_tests::BallbarCauses ballbar(SimulatedAxis& x, SimulatedAxis& y, double radius, double speed) {
   truth::BallbarPath path;
   path.centre = {-radius, 0, 0};
   path.radius = radius;
-  std::vector<truth::BallbarReading> circles[2];
+  std::vector<circular_tests::RadialReading> circles[2];
   const double turn = 2 * std::numbers::pi * radius / speed;  // s
   path.points = static_cast<std::size_t>(std::round(turn * 1000));
   AxisSetpoint sx, sy;
@@ -132,7 +133,7 @@ truth::BallbarResult ballbar(SimulatedAxis& x, SimulatedAxis& y, double radius, 
           {angle * 180 / std::numbers::pi, truth::ballbar_deviation(path, {x.load(), y.load(), 0})});
     }
   }
-  return truth::evaluate_ballbar(path, circles[0], circles[1]);
+  return circular_tests::ballbar_causes(circles[0], circles[1], path.radius);
 }
 
 TEST(Ballbar, SeesTheMismatchOfTheGainsOfTwoServoAxes) {

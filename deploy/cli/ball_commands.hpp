@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "commands.hpp"
+
+namespace trunnion::cli {
+
+/// `k-test` and `r-test` of `measure`.
+void add_ball_commands(CLI::App& measure, Common& common);
+
+}  // namespace trunnion::cli

@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "commands.hpp"
+
+namespace trunnion::cli {
+
+/// `circle` of `measure`.
+void add_circle_command(CLI::App& measure, Common& common);
+
+}  // namespace trunnion::cli
