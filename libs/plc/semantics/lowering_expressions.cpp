@@ -64,6 +64,7 @@ Value Lowering::expression(const Expression& e, const Type* expected) {
       const char* problem = "";
       const auto address = parse_register(e.name, &problem);
       if (!address) return failed(e.at, "'" + e.text + "': " + problem);
+      unit_.warn_moved(*address, e.at);
       return unit_.register_value(*address, nullptr, e.at);
     }
     case Expression::Kind::member:

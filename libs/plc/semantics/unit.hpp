@@ -80,6 +80,8 @@ class Unit {
   const RegisterNames& registers() const { return registers_; }
   /// The place of a register, with its type.
   Value register_value(const RegisterAddress& address, const Type* type, Position at);
+  /// Warns, once for each, of an address that had a function in another version.
+  void warn_moved(const RegisterAddress& address, Position at);
   void use_register(std::uint32_t address, std::uint32_t count, bool written);
   std::uint32_t allocate(const std::vector<std::uint64_t>& initial);
   std::uint32_t string_constant(const std::string& text);
@@ -112,6 +114,7 @@ class Unit {
   void declare_variable(Pou& pou, const VariableBlock& block, const VariableDeclaration& declaration);
   void translate(Pou& pou);
   bool locate(Variable& variable, const VariableDeclaration& declaration);
+  void retain(const RegisterAddress& first, std::uint32_t count, Position at);
   void warn_unused(const Pou& pou);
   void list_cells(const Expression& list, const Type& type, Pou* context, std::vector<std::uint64_t>& cells);
   void structure_cells(const Expression& list, const Type& type, Pou* context,
@@ -130,7 +133,8 @@ class Unit {
   std::map<std::string, Variable*, std::less<>> global_names_;
   std::map<std::string, std::vector<std::pair<const Type*, const Enumerator*>>, std::less<>> enumerators_;
   std::map<std::string, std::uint32_t> string_constants_;
-  std::map<std::uint32_t, bool> used_registers_;  ///< address -> written
+  std::set<std::pair<std::uint32_t, int>> moved_;  ///< address and bit, warned of
+  std::map<std::uint32_t, bool> used_registers_;   ///< address -> written
   std::deque<Block> blocks_;
 };
 

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+// Whatever the text: it is translated or refused with a place; what is translated passes the verification and
+// ends.
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+
+#include "plc/compile.hpp"
+#include "plc/library/register_names.hpp"
+#include "plc/machine/machine.hpp"
+#include "plc/machine/verify.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace trunnion::st;
+  const auto result =
+      compile({{"f.xml", std::string(reinterpret_cast<const char*>(data), size)}}, interface_registers());
+  if (!result.good()) {
+    bool error = false;
+    for (const auto& diagnostic : result.diagnostics) error = error || diagnostic.severity == Severity::error;
+    if (!error) std::abort();
+    return 0;
+  }
+  if (!verify(*result.code).empty()) std::abort();
+  Machine machine(result.code);
+  for (std::size_t entry = 0; entry < result.code->entries.size() && entry < 4; ++entry)
+    for (std::int64_t now = 0; now < 2; ++now) machine.run(entry, now * 100000000, 2000);
+  return 0;
+}
