@@ -82,7 +82,8 @@ class Lowering {
   Value string_function(const std::string& name, const std::vector<Value>& values, const Expression& e);
   Value math_function(MathFunction function, const std::vector<Value>& values, const Expression& e);
   Value test_function(const std::string& name, const std::vector<Value>& values, const Expression& e);
-  Value string_result(StringFunction function, std::span<const std::int32_t> arguments, std::uint32_t length);
+  Value string_result(StringFunction function, std::span<const std::int32_t> arguments, std::uint32_t length,
+                      bool wide = false);
 
   // statements
   void statement(const Statement& s);

@@ -66,7 +66,7 @@ class Unit {
   /// The type of a specification; reports errors and returns the type `error`.
   const Type* type_of(const TypeSpec& spec, Pou* context);
   const Type* named_type(const std::string& upper);
-  const Type* string_type(std::uint32_t length);
+  const Type* string_type(std::uint32_t length, bool wide = false);
   /// The value of a constant expression, converted to the type; false when it is none, which is reported.
   bool constant(const Expression& expression, const Type& type, Pou* context, Value& value);
   /// Cells of an initial value.
@@ -129,7 +129,7 @@ class Unit {
   std::map<std::string, const Type*, std::less<>> named_;
   std::map<std::string, const TypeDeclaration*, std::less<>> declared_;
   std::set<std::string> in_progress_;
-  std::map<std::uint32_t, const Type*> strings_;
+  std::map<std::pair<std::uint32_t, bool>, const Type*> strings_;
   std::map<std::string, Variable*, std::less<>> global_names_;
   std::map<std::string, std::vector<std::pair<const Type*, const Enumerator*>>, std::less<>> enumerators_;
   std::map<std::string, std::uint32_t> string_constants_;

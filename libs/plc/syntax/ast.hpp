@@ -26,7 +26,7 @@ struct Expression {
     integer,    ///< text: digits, base
     real,       ///< text
     boolean,    ///< text: "1" or "0"
-    string,     ///< text
+    string,     ///< text; base 16: WSTRING
     time,       ///< name: prefix, text
     name,       ///< text, name
     direct,     ///< name: address without percent sign

@@ -89,11 +89,7 @@ class Parser : public StatementParser {
       expect_word("OF", "before the type of the elements");
       spec->element = type_spec();
     } else if (is_word("STRING") || is_word("WSTRING")) {
-      if (is_word("WSTRING")) {
-        diagnostics_.error(now().at, "WSTRING is not available: use STRING, whose bytes may be UTF-8");
-        throw Abandoned{};
-      }
-      take();
+      spec->name = take().upper;
       spec->kind = TypeSpec::Kind::string;
       if (accept_symbol("[")) {
         spec->length = expression();
