@@ -12,7 +12,6 @@ namespace trunnion::plc {
 ModbusLink::Connection::Connection(std::vector<st::ModbusBlock> inputs, std::vector<st::ModbusBlock> outputs)
     : input_blocks(std::move(inputs)), output_blocks(std::move(outputs)) {
   for (const auto& block : output_blocks) values_.emplace_back(block.count);
-  put_losses(input_blocks, given_);
 }
 
 void ModbusLink::Connection::start() {

@@ -23,7 +23,8 @@ using st::ModbusTable;
 constexpr std::size_t most_clients = 8;
 constexpr int poll_period = 50;                 // ms until the end of the thread is seen
 constexpr std::uint32_t byte_timeout = 100000;  // us that the rest of a request may take
-constexpr double retry_period = 1;              // s between two attempts to listen
+constexpr double retry_period = 0.5;            // s between two attempts to listen
+constexpr int silent_attempts = 3;
 
 struct FreeContext {
   void operator()(modbus_t* context) const { modbus_free(context); }
@@ -57,10 +58,13 @@ class ServerConnection : public ModbusLink::Connection {
 
  private:
   void run(const std::stop_token& stop) override {
-    while (!stop.stop_requested()) {
+    for (int attempts = 0; !stop.stop_requested();) {
       if (!listens() && !listen()) {
-        lost("Modbus: nothing can be received at " + server_.host + ", port " + std::to_string(server_.port) +
-             ": " + modbus_strerror(errno) + ". Correct host and port of the server in modbus.yaml");
+        // In a swap the process before holds the port for a moment.
+        if (++attempts > silent_attempts)
+          lost("Modbus: nothing can be received at " + server_.host + ", port " +
+               std::to_string(server_.port) + ": " + modbus_strerror(errno) +
+               ". Correct host and port of the server in modbus.yaml");
         if (!wait(stop, retry_period)) return;
         continue;
       }
@@ -139,7 +143,7 @@ class ServerConnection : public ModbusLink::Connection {
     if (const int exception = check(query.data(), length, writes); exception != 0)
       return modbus_reply_exception(context_.get(), query.data(), static_cast<unsigned>(exception)) >= 0;
     if (modbus_reply(context_.get(), query.data(), length, mapping_.get()) < 0) return false;
-    if (writes) take();
+    if (writes) take(query.data());
     return true;
   }
 
@@ -205,14 +209,24 @@ class ServerConnection : public ModbusLink::Connection {
     }
   }
 
-  void take() {
+  // Only what was written: after a restart the other inputs stay as they were.
+  void take(const std::uint8_t* query) {
+    const int function = query[7];
+    const bool several = function == 15 || function == 16 || function == 23;
+    const auto* data = query + (function == 23 ? 12 : 8);
+    const auto table = function == 5 || function == 15 ? ModbusTable::coils : ModbusTable::holding_registers;
+    const std::uint32_t first = word_at(data), end = first + (several ? word_at(data + 2) : 1u);
     NetworkInputs inputs;
     for (const auto& block : input_blocks) {
-      std::vector<std::uint16_t> values(block.count);
-      for (std::size_t i = 0; i < values.size(); ++i)
-        values[i] = block.table == ModbusTable::coils ? mapping_->tab_bits[block.address + i]
-                                                      : mapping_->tab_registers[block.address + i];
-      put_block(block, values, inputs);
+      const auto from = std::max<std::uint32_t>(first, block.address);
+      const auto to = std::min<std::uint32_t>(end, block.address + block.count);
+      if (block.table != table || from >= to) continue;
+      std::vector<std::uint16_t> values;
+      for (auto i = from; i < to; ++i)
+        values.push_back(table == ModbusTable::coils ? mapping_->tab_bits[i] : mapping_->tab_registers[i]);
+      auto part = block;
+      part.first = st::place_of(block, from - block.address);
+      put_block(part, values, inputs);
     }
     give(inputs);
     written_ = Clock::now();

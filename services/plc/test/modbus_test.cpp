@@ -100,7 +100,7 @@ TEST(ModbusDevice, WithoutConnectionTheInputsAreThoseForThatCaseAndComeBack) {
   EXPECT_TRUE(plc.until([&] { return plc.link.problem(0).empty() && plc.registers.x[32] == 1; }));
 }
 
-TEST(ModbusDevice, BeforeTheFirstAnswerTheInputsAreThoseWithoutConnection) {
+TEST(ModbusDevice, WhatNeverAnswersHasTheInputsWithoutConnection) {
   Linked plc(device_file(free_port()));
   EXPECT_TRUE(plc.until([&] { return (plc.registers.x[40] | plc.registers.x[41] << 8) == 4660; }));
 }
@@ -197,6 +197,23 @@ TEST(ModbusServer, WhatIsNotServedIsRefusedWithTheExceptionOfTheStandard) {
   EXPECT_EQ(other.ask({15, 0, 10, 0, 12, 1, 0x05}), (Bytes{0x8f, 3})) << "12 bits are two bytes";
   EXPECT_EQ(other.ask({16, 0, 1, 0, 2, 4, 0, 0, 0, 0}), (Bytes{0x90, 2}));
   EXPECT_EQ(other.ask({2, 0, 100, 0, 8}), (Bytes{2, 1, 0}));
+}
+
+// So that a PLC that was restarted keeps what the other device does not write again.
+TEST(ModbusServer, OnlyWhatIsWrittenChanges) {
+  const int port = free_port();
+  Linked plc(server_file(port));
+  plc.registers.x[60] = 0x55, plc.registers.x[61] = 0x05, plc.registers.x[64] = 7, plc.registers.x[66] = 8;
+  Asking other(port);
+  ASSERT_EQ(other.ask({5, 0, 11, 0xff, 0}).size(), 5u);
+  ASSERT_EQ(other.ask({6, 0, 1, 0x12, 0x34}).size(), 5u);
+  ASSERT_TRUE(plc.until([&] { return plc.registers.x[66] == 0x34; }));
+  EXPECT_EQ(plc.registers.x[60], 0x57);
+  EXPECT_EQ(plc.registers.x[61], 0x05);
+  EXPECT_EQ(plc.registers.x[64], 7);
+  EXPECT_EQ(plc.registers.x[67], 0x12);
+  ASSERT_EQ(other.ask({15, 0, 17, 0, 3, 1, 0x01}).size(), 5u);
+  EXPECT_TRUE(plc.until([&] { return plc.registers.x[60] == 0xd7 && plc.registers.x[61] == 0x04; }));
 }
 
 TEST(ModbusServer, SilenceIsALossWhenATimeIsGiven) {
