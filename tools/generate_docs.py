@@ -241,7 +241,8 @@ def registers():
                  [(f"`{a}`", f"`{a}0` .. `{a}{int(n) - 1}`", bits, "yes" if kept == "true" else "", about)
                   for a, bits, signed, kept, n, about in register_areas()])
     out += ["",
-            "Retained registers keep their values through a new start of the cluster. F and G are divided into blocks:", ""]
+            "Retained registers keep their values through a new start of the cluster, and so do registers of R, W, D and T that a program declares in "
+            "`VAR RETAIN` ([plc.md](plc.md#registers)). F and G are divided into blocks:", ""]
     out += table(("block", "registers"),
                  [("axis a, 0 .. 31", "80 * a .. 80 * a + 79, for example `G[80*2+11]` is `%G171`"),
                   ("channel c, 0 .. 4", "2560 + 80 * c .. 2639 + 80 * c"), ("whole machine", "2960 .. 3119"),

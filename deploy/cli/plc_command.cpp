@@ -12,6 +12,7 @@
 #include "commands.hpp"
 #include "plc/compile.hpp"
 #include "plc/devices/device_file.hpp"
+#include "plc/devices/modbus_file.hpp"
 #include "plc/library/register_names.hpp"
 #include "plc/syntax/token.hpp"
 #include "plc/tools/program_run.hpp"
@@ -39,6 +40,10 @@ st::Compilation compiled(const std::vector<std::string>& files, bool functions) 
   std::vector<st::Source> sources;
   for (const auto& path : files) {
     auto text = read(path);
+    if (std::filesystem::path(path).filename() == "modbus.yaml") {
+      st::read_modbus(text, path);
+      continue;
+    }
     if (path.ends_with(".yaml")) text = st::read_devices(text, path, st::interface_registers()).program;
     sources.push_back({path, std::move(text)});
   }
@@ -175,7 +180,8 @@ int test(const PlcOptions& options, bool json) {
   if (!std::filesystem::is_directory(options.directory))
     throw std::runtime_error(options.directory + ": is no directory");
   for (const auto& entry : std::filesystem::directory_iterator(options.directory))
-    if (entry.path().extension() == ".st" || entry.path().filename() == "devices.yaml")
+    if (entry.path().extension() == ".st" || entry.path().extension() == ".xml" ||
+        entry.path().filename() == "devices.yaml")
       files.push_back(entry.path().string());
   std::sort(files.begin(), files.end());
   if (files.empty()) throw std::runtime_error(options.directory + ": has no .st file");
@@ -211,12 +217,15 @@ void add_plc_command(CLI::App& app, Common& common) {
   plc->require_subcommand(1);
   auto* checks = add_command(*plc, common, "check", "Report the errors and warnings of programs",
                              [options, &common] { return check(*options, common.json); });
-  checks->add_option("files", options->files, "Structured Text and devices.yaml, translated together")
+  checks
+      ->add_option("files", options->files,
+                   "Structured Text, PLCopen XML and devices.yaml, translated together")
       ->required();
   auto* runs =
       add_command(*plc, common, "run", "Run programs, or one program or function, and print every variable",
                   [options, &common] { return run(*options, common.json); });
-  runs->add_option("files", options->files, "Structured Text and devices.yaml, translated together")
+  runs->add_option("files", options->files,
+                   "Structured Text, PLCopen XML and devices.yaml, translated together")
       ->required();
   runs->add_option("--call", options->call, "Program or function to run (default: every program)");
   runs->add_option("--scans", options->scans, "Number of scans (default 1)")->check(CLI::Range(1, 100000000));

@@ -11,6 +11,7 @@
 #include <thread>
 
 #include "bus/json.hpp"
+#include "plc/compile.hpp"
 #include "plc_session.hpp"
 
 namespace trunnion::cli {
@@ -35,9 +36,7 @@ std::vector<Source> sources_of(const std::string& directory) {
   std::vector<Source> sources;
   for (const auto& entry : std::filesystem::directory_iterator(directory)) {
     const auto name = entry.path().filename().string();
-    if (!(name.ends_with(".st") && !name.ends_with("_test.st")) && name != "fast.il" && name != "main.il" &&
-        name != "devices.yaml")
-      continue;
+    if (!st::is_compiled(name) && name != "fast.il" && name != "main.il" && name != "devices.yaml") continue;
     std::ifstream file(entry.path(), std::ios::binary);
     std::ostringstream text;
     text << file.rdbuf();
@@ -203,7 +202,7 @@ void add_plc_load_commands(CLI::App& plc, Common& common) {
                   "Load programs into the PLC that runs, after a comparison; says before what is not kept",
                   [options, &common] { return run(common, *options); });
   loads->add_option("directory", options->directory,
-                    "Directory with .st files, fast.il, main.il, devices.yaml");
+                    "Directory with .st and .xml files, fast.il, main.il, devices.yaml");
   loads->add_flag("--dry-run", options->dry_run, "Only translate them and say what is not kept");
   loads->add_flag("--undo", options->undo, "Load those again that ran before the last load");
   loads->add_flag("--accept-differences", options->accept_differences,

@@ -2,10 +2,12 @@
 #include "plc/compile.hpp"
 
 #include <algorithm>
+#include <tuple>
 
 #include "plc/devices/device_file.hpp"
 #include "plc/library/functions.hpp"
 #include "plc/machine/verify.hpp"
+#include "plc/plcopen/import.hpp"
 #include "plc/syntax/parser.hpp"
 
 namespace trunnion::st {
@@ -34,6 +36,18 @@ void add_symbol(const Variable& variable, const std::string& prefix, std::uint32
   const bool absolute = place.base == Place::Base::absolute;
   compilation.symbols.push_back({prefix + variable.text, variable.type, absolute ? offset : base + offset,
                                  place.bit, absolute && offset < image_cells});
+}
+
+/// Appends the element of a diagram to each message at it.
+void name_elements(const std::vector<plcopen::ElementPlace>& places, std::vector<Diagnostic>& diagnostics) {
+  for (auto& diagnostic : diagnostics) {
+    const plcopen::ElementPlace* found = nullptr;
+    for (const auto& place : places)
+      if (place.at.file == diagnostic.at.file &&
+          std::tuple(place.at.line, place.at.column) <= std::tuple(diagnostic.at.line, diagnostic.at.column))
+        found = &place;
+    if (found != nullptr && !found->text.empty()) diagnostic.text += " (" + found->text + ")";
+  }
 }
 
 FunctionInterface interface_of(const Pou& pou) {
@@ -80,6 +94,10 @@ std::uint64_t Compilation::layout() const {
   return hash;
 }
 
+bool is_compiled(const std::string& name) {
+  return (name.ends_with(".st") && !name.ends_with("_test.st")) || plcopen::is_plcopen(name);
+}
+
 Compilation compile(const std::vector<Source>& sources, const RegisterNames& registers,
                     bool entries_for_functions) {
   Compilation result;
@@ -89,14 +107,20 @@ Compilation compile(const std::vector<Source>& sources, const RegisterNames& reg
   parse(standard_blocks_text, 0, kept->tree, kept->diagnostics);
   result.files.push_back("simulated_devices.st");
   parse(simulated_devices_text, 1, kept->tree, kept->diagnostics);
+  std::vector<plcopen::ElementPlace> places;
   for (const auto& source : sources) {
     result.files.push_back(source.name);
-    parse(source.text, static_cast<std::uint16_t>(result.files.size() - 1), kept->tree, kept->diagnostics);
+    const auto file = static_cast<std::uint16_t>(result.files.size() - 1);
+    if (plcopen::is_plcopen(source.name))
+      plcopen::import_document(source.text, file, kept->tree, kept->diagnostics, places);
+    else
+      parse(source.text, file, kept->tree, kept->diagnostics);
   }
   auto& unit = kept->unit.emplace(kept->tree, kept->diagnostics, kept->registers, library_files);
   // What could not be read is missing, so names are not checked then.
   if (kept->diagnostics.errors() == 0) unit.run();
   result.diagnostics = kept->diagnostics.sorted();
+  name_elements(places, result.diagnostics);
   result.types = kept;
   if (kept->diagnostics.errors() > 0) return result;
   for (const auto& variable : unit.globals) add_symbol(variable, "", 0, result);

@@ -55,6 +55,9 @@ struct Compilation {
   std::uint64_t layout() const;
 };
 
+/// Whether a file of a directory with PLC programs is compiled: .st except *_test.st, and .xml.
+bool is_compiled(const std::string& name);
+
 /// All sources together; `registers` are names of registers that a program may use without declaration. For
 /// the call of a function alone, `entries_for_functions` adds an entry per function.
 Compilation compile(const std::vector<Source>& sources, const RegisterNames& registers,

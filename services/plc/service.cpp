@@ -44,7 +44,9 @@ PlcService::PlcService(service::Node& node)
       done_(node.bus().writer(topics::auxiliary_done)),
       image_(node.bus().writer(topics::plc_image)),
       log_(node.bus().writer(topics::plc_input_log)),
-      panel_(node.bus(), topics::panel_request, topics::panel_reply) {
+      resets_(node.bus().writer(topics::alarm_reset)),
+      panel_(node.bus(), topics::panel_request, topics::panel_reply),
+      modbus_(node) {
   try {
     auto programs = online_.start();
     for (const auto& warning : programs.warnings) std::cerr << warning << "\n";
@@ -255,6 +257,7 @@ void PlcService::pump() {
   advance(tick_now(now));
   publish_inputs(now);
   retained_->save(boot_, core_.memory());
+  modbus_.pump(core_, now);
   publish(now);
 }
 
@@ -288,6 +291,7 @@ void PlcService::publish(double now) {
     node_.alarms().release(alarm::auxiliary_refused, done.channel);
     done_.write(done);
   }
+  reset_alarms();
   first_ = false;
   if (fault_.empty()) {
     if (core_.has_program_fault() != stopped_) {
@@ -313,6 +317,16 @@ void PlcService::publish(double now) {
     last_image_ = std::move(image);
     image_written_ = now;
   }
+}
+
+// At the rising edge. In a verification the recording has the reset already.
+void PlcService::reset_alarms() {
+  const bool now = core_.external_reset();
+  if (now && !external_reset_ && !first_ && node_.snapshot() == nullptr) {
+    reset_sent_ = service::monotonic_seconds();
+    resets_.write({client_, ++resets_sent_, service::all_channels});
+  }
+  external_reset_ = now;
 }
 
 service::Health PlcService::health() const {

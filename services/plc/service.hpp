@@ -5,6 +5,7 @@
 #include <optional>
 #include <tuple>
 
+#include "modbus_service.hpp"
 #include "online_service.hpp"
 #include "plc_core.hpp"
 #include "retained_memory.hpp"
@@ -30,6 +31,8 @@ class PlcService : public service::Service {
   service::SnapshotAnswer snapshot() override;
   void alarms_reset(std::uint16_t channel) override {
     if (channel != service::all_channels) return;  // the reset button is the machine's
+    // The programs have asked for it: the button is not pressed once more.
+    if (std::exchange(reset_sent_, -10) > service::monotonic_seconds() - 1) return;
     online_.each([](PlcCore& core) { core.press_reset(); });
     rounds_.record(StepKind::RESET_BUTTON);
   }
@@ -47,6 +50,7 @@ class PlcService : public service::Service {
   void publish(double now);
   void applied(idl::stream::Input input, std::int64_t source_time);
   void publish_inputs(double now);
+  void reset_alarms();
 
   service::Node& node_;
   std::optional<RetainedMemory> retained_;
@@ -65,7 +69,9 @@ class PlcService : public service::Service {
   bus::Writer<idl::plc::AuxiliaryDone> done_;
   bus::Writer<idl::plc::Image> image_;
   bus::Writer<idl::stream::InputLog> log_;
+  bus::Writer<idl::service::AlarmReset> resets_;
   service::RequestServer<idl::plc::PanelRequest, idl::plc::PanelReply> panel_;
+  ModbusService modbus_;
 
   std::map<std::tuple<std::uint32_t, std::uint32_t, std::uint32_t>, idl::service::Alarm> active_alarms_;
   idl::stream::FeedbackFrame frame_;
@@ -75,6 +81,9 @@ class PlcService : public service::Service {
   std::uint64_t tick_ = 0, frames_in_ = 0, frames_out_ = 0;
   double tick_seen_ = 0, period_ = 0.001, outputs_written_ = 0, image_written_ = 0, log_written_ = 0,
          waiting_since_ = 0;
+  std::uint64_t client_ = service::make_client_id(), resets_sent_ = 0;
+  double reset_sent_ = -10;      ///< s
+  bool external_reset_ = false;  ///< of the last round
   bool first_ = true, continued_ = false, stopped_ = false;
 };
 

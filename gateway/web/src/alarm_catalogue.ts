@@ -107,6 +107,10 @@ export const alarmCatalogue: Readonly<Record<number, { cause: string; remedy: st
     cause: "An operator has forced inputs, outputs or variables of the PLC; the programs cannot change them",
     remedy: "Release them with 'trunnion plc force --release' when the test is over",
   },
+  135: {
+    cause: "The device is off, its cable or address is wrong, or it refuses a request; its inputs have their values for the loss of the connection",
+    remedy: "Check the device, its cable and the address in modbus.yaml; when it answers again, reset",
+  },
   140: {
     cause: "Position, work offset or tool length lead beyond the software limits (10a006, 10a007)",
     remedy: "Compare position and limits in the text; correct the program, the work offset or the tool length",

@@ -47,14 +47,14 @@ constexpr std::array rows = std::to_array<FunctionRow>({
     {"LIMIT", selection, 3, 3, "MN IN MX", "IN, but at least MN and at most MX"},
     {"MUX", selection, 2, many, "", "argument number K of those behind it, from 0; the last one beyond"},
     {"MOVE", move, 1, 1, "IN", "the value"},
-    {"LEN", string, 1, 1, "IN", "bytes of the string"},
-    {"LEFT", string, 2, 2, "IN L", "the first L bytes"},
-    {"RIGHT", string, 2, 2, "IN L", "the last L bytes"},
-    {"MID", string, 3, 3, "IN L P", "L bytes from position P"},
+    {"LEN", string, 1, 1, "IN", "length of the string, in bytes or, of WSTRING, characters"},
+    {"LEFT", string, 2, 2, "IN L", "the first L"},
+    {"RIGHT", string, 2, 2, "IN L", "the last L"},
+    {"MID", string, 3, 3, "IN L P", "L from position P"},
     {"CONCAT", string, 2, many, "", "the strings one after the other"},
     {"INSERT", string, 3, 3, "IN1 IN2 P", "IN2 inserted into IN1 behind position P"},
-    {"DELETE", string, 3, 3, "IN L P", "IN without L bytes from position P"},
-    {"REPLACE", string, 4, 4, "IN1 IN2 L P", "IN1 with L bytes from position P replaced by IN2"},
+    {"DELETE", string, 3, 3, "IN L P", "IN without L from position P"},
+    {"REPLACE", string, 4, 4, "IN1 IN2 L P", "IN1 with L from position P replaced by IN2"},
     {"FIND", string, 2, 2, "IN1 IN2", "position of IN2 in IN1, 0 when it is not there"},
     {"ADD_TIME", time, 2, 2, "IN1 IN2", "sum of two TIME"},
     {"ADD_TOD_TIME", time, 2, 2, "IN1 IN2", "TIME_OF_DAY and TIME"},
@@ -92,7 +92,7 @@ bool is_standard_function(const std::string& upper) {
     return true;
   const auto at = upper.find("_TO_");
   const auto is_type = [](const std::string& name) {
-    return name == "STRING" || elementary(name) != nullptr;
+    return name == "STRING" || name == "WSTRING" || elementary(name) != nullptr;
   };
   if (upper.rfind("TO_", 0) == 0) return is_type(upper.substr(3));
   return at != std::string::npos && is_type(upper.substr(0, at)) && is_type(upper.substr(at + 4));

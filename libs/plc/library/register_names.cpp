@@ -37,7 +37,14 @@ std::vector<NamedRegister> parse_register_table(const std::string& yaml, const s
       auto full = count > 0 ? name + "_" + std::to_string(i) : name;
       if (!names.insert(upper_case(full)).second)
         throw std::runtime_error(machine::at(file, node) + "'" + name + "' is defined twice");
-      table.push_back({std::move(full), address, unit});
+      std::optional<RegisterAddress> before;
+      if (node["before"]) {
+        before = parse_register(node["before"].as<std::string>(), nullptr);
+        if (!before) throw std::runtime_error(machine::at(file, node["before"]) + "not an address");
+        before->index = static_cast<std::uint16_t>(before->index + (channels ? 16 * i : step));
+        if (stride == "bit") before->bit = static_cast<std::int8_t>(before->bit + i);
+      }
+      table.push_back({std::move(full), address, unit, before});
     }
   }
   return table;
@@ -46,6 +53,25 @@ std::vector<NamedRegister> parse_register_table(const std::string& yaml, const s
 const std::vector<NamedRegister>& register_table() {
   static const auto table = parse_register_table(registers_text, "registers.yaml");
   return table;
+}
+
+std::string moved_register(const RegisterAddress& address) {
+  const auto meets = [&](const RegisterAddress& other) {
+    return other.area == address.area && other.index == address.index &&
+           (other.bit < 0 || address.bit < 0 || other.bit == address.bit);
+  };
+  const auto text = [](const RegisterAddress& at) {
+    return std::string("%") + info(at.area).letter + std::to_string(at.index) +
+           (at.bit >= 0 ? "." + std::to_string(at.bit) : "");
+  };
+  const NamedRegister* moved = nullptr;
+  for (const auto& one : register_table()) {
+    if (meets(one.address)) return "";
+    if (moved == nullptr && one.before && meets(*one.before)) moved = &one;
+  }
+  if (moved == nullptr) return "";
+  return text(address) + " was " + moved->name +
+         " in versions up to 0.3; nothing reads or writes it now: use the name, or " + text(moved->address);
 }
 
 const RegisterNames& interface_registers() {

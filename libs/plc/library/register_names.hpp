@@ -2,6 +2,7 @@
 // The names of the interface registers (registers.yaml).
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,13 +13,17 @@ namespace trunnion::st {
 struct NamedRegister {
   std::string name;  ///< as written
   RegisterAddress address;
-  std::string unit;  ///< of display
+  std::string unit;                       ///< of display
+  std::optional<RegisterAddress> before;  ///< where it was in versions up to 0.3
 };
 
 /// Every register of the table, one by one. Throws std::runtime_error with file:line:column.
 std::vector<NamedRegister> parse_register_table(const std::string& yaml, const std::string& file);
 /// The interface that is compiled in.
 const std::vector<NamedRegister>& register_table();
+/// What a program loses that still uses the address of a version before 0.4, for a warning; empty when the
+/// address has a function now or never had one.
+std::string moved_register(const RegisterAddress& address);
 /// The same for Structured Text.
 const RegisterNames& interface_registers();
 

@@ -71,6 +71,7 @@ struct ByteCode {
   // Not needed to run:
   std::vector<LineEntry> lines;  ///< ascending
   std::vector<std::string> files;
+  std::vector<RegisterAddress> retained_registers;  ///< of VAR RETAIN with AT
 
   Position place_of(std::uint32_t instruction) const;
   /// Identifies the code with its tables.

@@ -102,6 +102,7 @@ enum class StringFunction : std::uint16_t {
   insert,
   erase,
   replace,
+  to_wide,     ///< any bytes to characters of WSTRING
   from_int,    ///< value
   from_uint,   ///< value
   from_real,   ///< bits of REAL
@@ -123,8 +124,16 @@ int arguments(StringFunction function);
 inline bool makes_string(StringFunction function) { return function < StringFunction::length; }
 
 inline constexpr int longest_string = 1000;  ///< bytes
+/// Characters of WSTRING, which are kept in UTF-8, each of at most three bytes.
+inline constexpr int longest_wide_string = longest_string / 3;
+/// With a StringFunction in `n`: lengths and positions count characters.
+inline constexpr std::uint16_t wide_flag = 0x100;
 /// Cells of a string: its length, then its bytes.
 constexpr std::uint32_t string_cells(std::uint32_t length) { return 1 + (length + 7) / 8; }
+
+constexpr std::uint16_t string_code(StringFunction function, bool wide) {
+  return static_cast<std::uint16_t>(static_cast<std::uint16_t>(function) | (wide ? wide_flag : 0));
+}
 
 const char* name_of(Op op);
 

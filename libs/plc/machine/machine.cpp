@@ -413,13 +413,14 @@ Fault Machine::execute(std::size_t entry, std::int64_t now, std::int64_t budget,
         continue;
       case Op::string_make:
         left -= 4;
-        if (!make_string(static_cast<StringFunction>(in.n), memory_, m[in.a],
-                         static_cast<std::uint32_t>(in.c), m + in.b))
+        if (!make_string(static_cast<StringFunction>(in.n & ~wide_flag), (in.n & wide_flag) != 0, memory_,
+                         m[in.a], static_cast<std::uint32_t>(in.c), m + in.b))
           stop(FaultKind::reference);
         break;
       case Op::string_query:
         left -= 4;
-        if (!query_string(static_cast<StringFunction>(in.n), memory_, m + in.b, m[in.a]))
+        if (!query_string(static_cast<StringFunction>(in.n & ~wide_flag), (in.n & wide_flag) != 0, memory_,
+                          m + in.b, m[in.a]))
           stop(FaultKind::reference);
         break;
       case Op::assert_:

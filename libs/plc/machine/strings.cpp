@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "plc/machine/arithmetic.hpp"
+#include "text/utf8.hpp"
 
 namespace trunnion::st {
 namespace {
@@ -41,17 +42,45 @@ class Buffer {
   std::size_t size_ = 0;
 };
 
-/// From position `from` (1 is the first) `count` bytes, as far as there are.
-Text part(Text text, std::int64_t from, std::int64_t count) {
-  if (count <= 0 || from > static_cast<std::int64_t>(text.size())) return {};
-  if (from < 1) from = 1;
-  return text.substr(static_cast<std::size_t>(from - 1), static_cast<std::size_t>(count));
-}
+/// What positions of a text mean.
+class Parts {
+ public:
+  explicit Parts(bool wide) : wide_(wide) {}
+  std::int64_t size(Text text) const {
+    return static_cast<std::int64_t>(wide_ ? characters(text) : text.size());
+  }
+  /// From position `from` (1 is the first) `count` bytes or characters, as far as there are.
+  Text part(Text text, std::int64_t from, std::int64_t count) const {
+    if (count <= 0 || from > size(text)) return {};
+    if (from < 1) from = 1;
+    const auto behind = text.substr(bytes(text, from - 1));
+    return behind.substr(0, bytes(behind, count));
+  }
+  Text before(Text text, std::int64_t position) const { return part(text, 1, position - 1); }
+  Text behind(Text text, std::int64_t position) const {
+    return part(text, std::max<std::int64_t>(position, 0) + 1, longest_string);
+  }
 
-Text before(Text text, std::int64_t position) { return part(text, 1, position - 1); }
+ private:
+  std::size_t bytes(Text text, std::int64_t count) const {
+    const auto number = static_cast<std::size_t>(count);
+    return wide_ ? bytes_of_characters(text, number) : std::min(number, text.size());
+  }
+  bool wide_;
+};
 
-Text behind(Text text, std::int64_t position) {
-  return part(text, std::max<std::int64_t>(position, 0) + 1, longest_string);
+/// What is no character of WSTRING becomes '?', each byte of it.
+void add_wide(Buffer& buffer, Text text) {
+  while (!text.empty()) {
+    const auto good = std::min(text::valid_utf8_prefix(text), text.size());
+    std::size_t end = 0;
+    while (end < good && static_cast<unsigned char>(text[end]) < 0xf0) ++end;
+    buffer.add(text.substr(0, end));
+    text.remove_prefix(end);
+    if (text.empty()) return;
+    buffer.add("?");
+    text.remove_prefix(1);
+  }
 }
 
 void add_time(Buffer& buffer, std::int64_t ns) {
@@ -120,13 +149,32 @@ int arguments(StringFunction function) {
   }
 }
 
-bool make_string(StringFunction function, std::span<std::uint64_t> memory, std::uint64_t result,
+std::size_t bytes_of_characters(std::string_view text, std::size_t count) {
+  std::size_t i = 0;
+  for (; i < text.size(); ++i)
+    if ((static_cast<unsigned char>(text[i]) & 0xc0u) != 0x80u && count-- == 0) break;
+  return i;
+}
+
+std::size_t characters(std::string_view text) {
+  return static_cast<std::size_t>(std::count_if(
+      text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xc0u) != 0x80u; }));
+}
+
+bool is_wide_text(std::string_view text) {
+  return text::valid_utf8_prefix(text) == text.size() &&
+         std::none_of(text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) >= 0xf0; });
+}
+
+bool make_string(StringFunction function, bool wide, std::span<std::uint64_t> memory, std::uint64_t result,
                  std::uint32_t limit, const std::uint64_t* arg) {
   using enum StringFunction;
-  if (result >= memory.size() || result + string_cells(limit) > memory.size()) return false;
+  const auto room = wide ? 3 * limit : limit;  // bytes
+  const Parts parts(wide);
+  if (result >= memory.size() || result + string_cells(room) > memory.size()) return false;
   Buffer buffer;
   Text first, second;
-  const bool from_text = function <= replace;
+  const bool from_text = function <= to_wide;
   if (from_text && !read(memory, arg[0], first)) return false;
   if ((function == concat || function == insert || function == replace) && !read(memory, arg[1], second))
     return false;
@@ -137,31 +185,35 @@ bool make_string(StringFunction function, std::span<std::uint64_t> memory, std::
     case copy:
       buffer.add(first);
       break;
+    case to_wide:
+      add_wide(buffer, first);
+      break;
     case concat:
       buffer.add(first), buffer.add(second);
       break;
     case left:
-      buffer.add(part(first, 1, number_at(1)));
+      buffer.add(parts.part(first, 1, number_at(1)));
       break;
     case right: {
-      const auto count = std::clamp<std::int64_t>(number_at(1), 0, static_cast<std::int64_t>(first.size()));
-      buffer.add(first.substr(first.size() - static_cast<std::size_t>(count)));
+      const auto size = parts.size(first);
+      buffer.add(parts.behind(first, size - std::clamp<std::int64_t>(number_at(1), 0, size)));
       break;
     }
     case mid:  // MID(IN, L, P)
-      buffer.add(part(first, number_at(2), number_at(1)));
+      buffer.add(parts.part(first, number_at(2), number_at(1)));
       break;
     case insert:  // INSERT(IN1, IN2, P): behind position P
-      buffer.add(part(first, 1, number_at(2))), buffer.add(second), buffer.add(behind(first, number_at(2)));
+      buffer.add(parts.part(first, 1, number_at(2))), buffer.add(second);
+      buffer.add(parts.behind(first, number_at(2)));
       break;
     case erase:  // DELETE(IN, L, P)
-      buffer.add(before(first, number_at(2)));
-      buffer.add(behind(
+      buffer.add(parts.before(first, number_at(2)));
+      buffer.add(parts.behind(
           first, std::max<std::int64_t>(number_at(2), 1) - 1 + std::max<std::int64_t>(number_at(1), 0)));
       break;
     case replace:  // REPLACE(IN1, IN2, L, P)
-      buffer.add(before(first, number_at(3))), buffer.add(second);
-      buffer.add(behind(
+      buffer.add(parts.before(first, number_at(3))), buffer.add(second);
+      buffer.add(parts.behind(
           first, std::max<std::int64_t>(number_at(3), 1) - 1 + std::max<std::int64_t>(number_at(2), 0)));
       break;
     case from_int:
@@ -185,28 +237,29 @@ bool make_string(StringFunction function, std::span<std::uint64_t> memory, std::
     default:
       return false;
   }
-  const auto text = buffer.text().substr(0, limit);
+  auto text = buffer.text();
+  text = text.substr(0, std::min<std::size_t>(wide ? bytes_of_characters(text, limit) : limit, room));
   auto* cells = memory.data() + result;
   // The unused bytes are zero, so that equal strings are equal cells.
-  std::fill_n(cells, string_cells(limit), 0);
+  std::fill_n(cells, string_cells(room), 0);
   cells[0] = text.size();
   std::memcpy(cells + 1, text.data(), text.size());
   return true;
 }
 
-bool query_string(StringFunction function, std::span<const std::uint64_t> memory, const std::uint64_t* arg,
-                  std::uint64_t& result) {
+bool query_string(StringFunction function, bool wide, std::span<const std::uint64_t> memory,
+                  const std::uint64_t* arg, std::uint64_t& result) {
   using enum StringFunction;
   Text first, second;
   if (!read(memory, arg[0], first)) return false;
   if ((function == find || function == compare) && !read(memory, arg[1], second)) return false;
   switch (function) {
     case length:
-      result = first.size();
+      result = wide ? characters(first) : first.size();
       return true;
     case find: {
       const auto at = second.empty() ? Text::npos : first.find(second);
-      result = at == Text::npos ? 0 : at + 1;
+      result = at == Text::npos ? 0 : (wide ? characters(first.substr(0, at)) : at) + 1;
       return true;
     }
     case compare: {

@@ -124,12 +124,15 @@ class Verifier {
         return in.b >= 0 && static_cast<std::uint32_t>(in.b) < r.frame;
       case Op::string_make:
       case Op::string_query: {
-        if (in.n >= static_cast<unsigned>(StringFunction::count)) return false;
-        const auto function = static_cast<StringFunction>(in.n);
+        const bool wide = (in.n & wide_flag) != 0;
+        const auto number = static_cast<std::uint16_t>(in.n & ~wide_flag);
+        if (number >= static_cast<unsigned>(StringFunction::count)) return false;
+        const auto function = static_cast<StringFunction>(number);
         return makes_string(function) == (in.op == Op::string_make) &&
                static_cast<std::uint32_t>(in.b) + static_cast<std::uint32_t>(arguments(function)) <=
                    r.frame &&
-               (in.op != Op::string_make || (in.c >= 0 && in.c <= longest_string));
+               (in.op != Op::string_make ||
+                (in.c >= 0 && in.c <= (wide ? longest_wide_string : longest_string)));
       }
       default:
         return true;

@@ -44,6 +44,11 @@ class Emitter {
     code_[instruction].a = static_cast<std::int32_t>(here());
     last_target_ = here();
   }
+  /// Jumps lead here.
+  void target() { last_target_ = here(); }
+  void set_jump(std::size_t instruction, std::size_t target) {
+    code_[instruction].a = static_cast<std::int32_t>(target);
+  }
   void jump_to_here(const std::vector<std::size_t>& instructions) {
     for (const auto i : instructions) jump_to_here(i);
   }

@@ -2,6 +2,7 @@
 // Checks the body of one program organization unit and translates it into instructions.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <span>
 
@@ -81,7 +82,8 @@ class Lowering {
   Value string_function(const std::string& name, const std::vector<Value>& values, const Expression& e);
   Value math_function(MathFunction function, const std::vector<Value>& values, const Expression& e);
   Value test_function(const std::string& name, const std::vector<Value>& values, const Expression& e);
-  Value string_result(StringFunction function, std::span<const std::int32_t> arguments, std::uint32_t length);
+  Value string_result(StringFunction function, std::span<const std::int32_t> arguments, std::uint32_t length,
+                      bool wide = false);
 
   // statements
   void statement(const Statement& s);
@@ -93,6 +95,9 @@ class Lowering {
   void for_statement(const Statement& s);
   void while_statement(const Statement& s);
   void repeat_statement(const Statement& s);
+  void define(const Statement& s);
+  void label(const Statement& s);
+  void finish_jumps();
   std::int32_t condition(const Expression& e, const char* what);
   bool in_test() const;
 
@@ -105,6 +110,14 @@ class Lowering {
   Emitter emit_;
   std::vector<Loop> loops_;
   std::vector<std::size_t> returns_;
+  std::map<std::string, Value, std::less<>> defined_;  ///< intermediate values of diagrams
+  std::map<std::string, std::size_t, std::less<>> labels_;
+  struct Jump {
+    std::size_t instruction;
+    std::string label, text;
+    Position at;
+  };
+  std::vector<Jump> jumps_;
 };
 
 }  // namespace trunnion::st

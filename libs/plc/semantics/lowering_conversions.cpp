@@ -45,7 +45,7 @@ std::optional<Value> Lowering::conversion(const Expression& e, const std::string
   auto value = expression(*e.arguments[0].value, from);
   if (value.is_error()) return value;
   if (from != nullptr) {
-    value = from->kind == Kind::string && value.type->kind == Kind::string
+    value = from->kind == Kind::string && value.type->kind == Kind::string && from->wide == value.type->wide
                 ? value
                 : converted(value, *from, e.arguments[0].at);
     if (value.is_error()) return value;
@@ -67,7 +67,13 @@ Value Lowering::converted_to(const Value& value, const Type& to, bool truncate, 
   if (from == Kind::integer_literal) return converted(value, to, at);
   if (from == Kind::string) {
     const bool number = is_integer(to.kind) || (is_bits(to.kind) && to.kind != Kind::boolean);
-    if (to.kind == Kind::string) return value;
+    if (to.kind == Kind::string) {
+      if (to.wide == value.type->wide) return value;
+      // WSTRING is kept in UTF-8, of which a character has up to three bytes.
+      const std::int32_t argument[] = {address(value)};
+      return string_result(to.wide ? StringFunction::to_wide : StringFunction::copy, argument,
+                           to.wide ? value.type->length : 3 * value.type->length, to.wide);
+    }
     if (!number && !is_real(to.kind) && to.kind != Kind::boolean) return undefined();
     const auto first = emit_.temporary();
     emit_.add(Op::move, first, address(value));
@@ -90,7 +96,7 @@ Value Lowering::converted_to(const Value& value, const Type& to, bool truncate, 
                           : is_signed(from)     ? StringFunction::from_int
                                                 : StringFunction::from_uint;
     const std::int32_t argument[] = {cell(value)};
-    return string_result(function, argument, 40);
+    return string_result(function, argument, 40, to.wide);
   }
   if (!is_elementary(to.kind)) return undefined();
   const auto* type = to.kind == Kind::enumeration || to.ranged ? &to : elementary(to.kind);

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "plc/machine/arithmetic.hpp"
+#include "plc/machine/strings.hpp"
 #include "plc/semantics/lowering.hpp"
 
 namespace trunnion::st {
@@ -51,7 +52,13 @@ Value Lowering::expression(const Expression& e, const Type* expected) {
       if (e.text.size() > longest_string)
         return failed(e.at, "a string has at most " + std::to_string(longest_string) + " bytes");
       Value value;
-      value.type = unit_.string_type(std::max<std::uint32_t>(1, static_cast<std::uint32_t>(e.text.size())));
+      const bool wide = e.base == 16;
+      if (wide && !is_wide_text(e.text))
+        return failed(e.at, "a WSTRING has characters of at most 16 bits, in UTF-8");
+      const auto length = wide ? characters(e.text) : e.text.size();
+      if (wide && length > longest_wide_string)
+        return failed(e.at, "a WSTRING has at most " + std::to_string(longest_wide_string) + " characters");
+      value.type = unit_.string_type(std::max<std::uint32_t>(1, static_cast<std::uint32_t>(length)), wide);
       value.is_constant = true;
       value.text = e.text;
       return value;
@@ -64,6 +71,7 @@ Value Lowering::expression(const Expression& e, const Type* expected) {
       const char* problem = "";
       const auto address = parse_register(e.name, &problem);
       if (!address) return failed(e.at, "'" + e.text + "': " + problem);
+      unit_.warn_moved(*address, e.at);
       return unit_.register_value(*address, nullptr, e.at);
     }
     case Expression::Kind::member:
@@ -373,7 +381,8 @@ Value Lowering::time_arithmetic(const std::string& op, const Value& left, const 
 
 Value Lowering::comparison(const std::string& op, Value left, Value right, Position at) {
   const auto* boolean = elementary(Kind::boolean);
-  if (left.type->kind == Kind::string && right.type->kind == Kind::string)
+  if (left.type->kind == Kind::string && right.type->kind == Kind::string &&
+      left.type->wide == right.type->wide)
     return string_comparison(op, left, right);
   const bool elementary_values = (is_elementary(left.type->kind) || is_literal(left)) &&
                                  (is_elementary(right.type->kind) || is_literal(right));

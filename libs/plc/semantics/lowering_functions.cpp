@@ -231,7 +231,8 @@ Value Lowering::selection(const std::string& name, const Expression& e, std::vec
       continue;
     }
     const auto* common = is_literal(value) ? type : common_type(*type, *value.type);
-    if (common == nullptr && type->kind == Kind::string && value.type->kind == Kind::string)
+    if (common == nullptr && type->kind == Kind::string && value.type->kind == Kind::string &&
+        type->wide == value.type->wide)
       common = type->length >= value.type->length ? type : value.type;
     if (common == nullptr)
       return failed(e.at, name + " needs values of one type, not " + type->name + " and " + value.type->name);
@@ -290,13 +291,14 @@ Value Lowering::selection(const std::string& name, const Expression& e, std::vec
 }
 
 Value Lowering::string_result(StringFunction function, std::span<const std::int32_t> arguments,
-                              std::uint32_t length) {
+                              std::uint32_t length, bool wide) {
   const auto first = emit_.temporary(static_cast<std::uint32_t>(arguments.size()));
   for (std::size_t i = 0; i < arguments.size(); ++i)
     emit_.add(Op::move, first + static_cast<std::int32_t>(i), arguments[i]);
-  auto result = temporary(unit_.string_type(std::clamp<std::uint32_t>(length, 1, longest_string)));
+  const std::uint32_t longest = wide ? longest_wide_string : longest_string;
+  auto result = temporary(unit_.string_type(std::clamp<std::uint32_t>(length, 1, longest), wide));
   emit_.add(Op::string_make, address(result.place), first, static_cast<std::int32_t>(result.type->length),
-            static_cast<std::uint16_t>(function));
+            string_code(function, wide));
   return result;
 }
 
@@ -317,22 +319,26 @@ Value Lowering::string_function(const std::string& name, const std::vector<Value
     if (is_string ? kind != Kind::string : !is_integer(kind) && kind != Kind::integer_literal)
       return failed(e.at, "argument " + std::to_string(i + 1) + " of " + name + " is " +
                               (is_string ? "a string" : "an integer") + ", not " + values[i].type->name);
+    if (is_string && values[i].type->wide != values[0].type->wide)
+      return failed(e.at,
+                    name + " is for STRING or for WSTRING, not for both; convert with STRING_TO_WSTRING");
     if (is_string) length += values[i].type->length;
     cells.push_back(is_string ? address(values[i]) : cell(values[i], *elementary(Kind::lint)));
   }
+  const bool wide = values[0].type->wide;
   if (function == StringFunction::length || function == StringFunction::find) {
     const auto first = emit_.temporary(static_cast<std::uint32_t>(cells.size()));
     for (std::size_t i = 0; i < cells.size(); ++i)
       emit_.add(Op::move, first + static_cast<std::int32_t>(i), cells[i]);
     auto result = temporary(elementary(Kind::int_));
-    emit_.add(Op::string_query, result.place.offset, first, 0, static_cast<std::uint16_t>(function));
+    emit_.add(Op::string_query, result.place.offset, first, 0, string_code(function, wide));
     return result;
   }
-  if (function != StringFunction::concat) return string_result(function, cells, length);
+  if (function != StringFunction::concat) return string_result(function, cells, length, wide);
   Value joined = values[0];
   for (std::size_t i = 1; i < values.size(); ++i) {
     const std::int32_t pair[] = {address(joined), cells[i]};
-    joined = string_result(function, pair, joined.type->length + values[i].type->length);
+    joined = string_result(function, pair, joined.type->length + values[i].type->length, wide);
   }
   return joined;
 }

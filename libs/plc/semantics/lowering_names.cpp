@@ -71,6 +71,7 @@ Value Lowering::variable_value(Variable& variable) {
 }
 
 Value Lowering::name(const Expression& e, const Type* expected) {
+  if (const auto found = defined_.find(e.name); found != defined_.end()) return found->second;
   if (pou_ != nullptr)
     if (const auto found = pou_->names.find(e.name); found != pou_->names.end())
       return variable_value(*found->second);

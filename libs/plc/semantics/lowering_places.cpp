@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "plc/machine/arithmetic.hpp"
+#include "plc/machine/strings.hpp"
 #include "plc/semantics/lowering.hpp"
 
 namespace trunnion::st {
@@ -205,7 +206,7 @@ void Lowering::copy(const Value& target, const Value& value) {
   const auto from = address(value);
   if (target.type->kind == Kind::string && (value.is_constant || value.type->length != target.type->length))
     emit_.add(Op::string_make, to, from, static_cast<std::int32_t>(target.type->length),
-              static_cast<std::uint16_t>(StringFunction::copy));
+              string_code(StringFunction::copy, target.type->wide));
   else
     emit_.add(Op::copy_block, to, from, static_cast<std::int32_t>(target.type->cells));
 }
@@ -278,9 +279,13 @@ Value Lowering::converted(Value value, const Type& to, Position at) {
       result.text.clear();
       return result;
     }
-    if (to.kind == Kind::string && value.is_constant && value.text.size() > to.length)
-      unit_.diagnostics().warning(at, "the string has " + std::to_string(value.text.size()) + " bytes, " +
-                                          to.name + " keeps " + std::to_string(to.length));
+    if (to.kind == Kind::string && value.is_constant) {
+      const auto length = to.wide ? characters(value.text) : value.text.size();
+      if (length > to.length)
+        unit_.diagnostics().warning(at, "the string has " + std::to_string(length) +
+                                            (to.wide ? " characters, " : " bytes, ") + to.name + " keeps " +
+                                            std::to_string(to.length));
+    }
     return value;
   }
   const auto& from_name = value.type->name;
@@ -288,6 +293,8 @@ Value Lowering::converted(Value value, const Type& to, Position at) {
                      (from == Kind::integer_literal || from == Kind::real_literal ? "a number" : from_name);
   const bool numbers = from < Kind::string && to.kind < Kind::string;
   if (numbers) text += "; convert with " + elementary(from)->name + "_TO_" + elementary(to.kind)->name;
+  if (from == Kind::string && to.kind == Kind::string)
+    text += to.wide ? "; convert with STRING_TO_WSTRING" : "; convert with WSTRING_TO_STRING";
   if (from == Kind::real_literal && (is_integer(to.kind) || is_bits(to.kind)))
     text = "expected a whole number (" + to.name + "), found a number with a decimal point";
   else if ((from == Kind::integer_literal || from == Kind::real_literal) && is_duration(to.kind))

@@ -8,6 +8,7 @@ namespace trunnion::st {
 
 void Lowering::body(const Statements& statements) {
   for (const auto& s : statements) statement(*s);
+  finish_jumps();
   emit_.jump_to_here(returns_);
   returns_.clear();
   emit_.place(pou_->declaration->end);
@@ -59,8 +60,58 @@ void Lowering::statement(const Statement& s) {
     case return_:
       returns_.push_back(emit_.add(Op::jump));
       break;
+    case Statement::Kind::define:
+      this->define(s);
+      return;  // its place stays taken
+    case jump:
+      jumps_.push_back({emit_.add(Op::loop), s.target->name, s.target->text, s.at});
+      break;
+    case Statement::Kind::label:
+      this->label(s);
+      break;
   }
   emit_.release(mark);
+}
+
+void Lowering::define(const Statement& s) {
+  std::optional<std::size_t> skip;
+  if (s.to) skip = emit_.add(Op::jump_if_not, 0, condition(*s.to, "EN"));
+  auto& result = defined_[s.target->name];
+  const auto value = expression(*s.value);
+  result = value;
+  if (value.is_error()) return;
+  if (value.type->kind == Kind::none || value.type->kind == Kind::block) {
+    result = failed(s.value->at, "the block has no result");
+    return;
+  }
+  if (value.is_constant && !skip) return;
+  auto type = value.type;
+  if (type->kind == Kind::integer_literal) type = elementary(Kind::lint);
+  if (type->kind == Kind::real_literal) type = elementary(Kind::lreal);
+  result = temporary(type);
+  result.place.writable = true;
+  store(result, converted(value, *type, s.value->at));
+  result.place.writable = false;
+  if (!skip) return;
+  const auto end = emit_.add(Op::jump);
+  emit_.jump_to_here(*skip);
+  for (std::uint32_t i = 0; i < type->cells; ++i)
+    emit_.constant(result.place.offset + static_cast<std::int32_t>(i), type->initial[i]);
+  emit_.jump_to_here(end);
+}
+
+void Lowering::label(const Statement& s) {
+  emit_.target();
+  if (!labels_.emplace(s.target->name, emit_.here()).second)
+    failed(s.at, "the label '" + s.target->text + "' is there twice");
+}
+
+void Lowering::finish_jumps() {
+  for (const auto& jump : jumps_)
+    if (const auto found = labels_.find(jump.label); found != labels_.end())
+      emit_.set_jump(jump.instruction, found->second);
+    else
+      failed(jump.at, "there is no label '" + jump.text + "'");
 }
 
 void Lowering::assign(const Statement& s) {

@@ -160,7 +160,7 @@ bool same_type(const Type& a, const Type& b) {
   if (&a == &b) return true;
   if (a.kind != b.kind) return false;
   if (a.kind < Kind::string) return true;
-  if (a.kind == Kind::string) return a.length == b.length;
+  if (a.kind == Kind::string) return a.length == b.length && a.wide == b.wide;
   if (a.kind == Kind::array) {
     const auto equal = [](const Dimension& x, const Dimension& y) {
       return x.low == y.low && x.high == y.high;
@@ -183,7 +183,7 @@ bool same_type(const Type& a, const Type& b) {
 
 bool widens(const Type& from, const Type& to) {
   if (same_type(from, to)) return true;
-  if (from.kind == Kind::string && to.kind == Kind::string) return true;
+  if (from.kind == Kind::string && to.kind == Kind::string) return from.wide == to.wide;
   return from.kind < Kind::string && to.kind < Kind::string && reaches(from.kind, to.kind);
 }
 

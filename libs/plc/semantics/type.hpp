@@ -67,7 +67,8 @@ struct Type {
   std::uint32_t cells = 1;
   bool ranged = false;  ///< a subrange of an integer type
   std::int64_t low = 0, high = 0;
-  std::uint32_t length = 0;           ///< of a string, bytes
+  std::uint32_t length = 0;           ///< of a string, bytes; of WSTRING characters
+  bool wide = false;                  ///< WSTRING
   std::vector<Dimension> dimensions;  ///< of an array
   const Type* element = nullptr;
   std::vector<Field> fields;  ///< of a structure

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "plc/library/functions.hpp"
+#include "plc/library/register_names.hpp"
 #include "plc/semantics/lowering.hpp"
 
 namespace trunnion::st {
@@ -226,10 +227,21 @@ bool Unit::locate(Variable& variable, const VariableDeclaration& declaration) {
   if (declaration.initial != nullptr)
     diagnostics_.error(declaration.at,
                        "'" + declaration.text + "' is a register of the machine and has no initial value");
+  warn_moved(*address, declaration.location_at);
   const auto value = register_value(*address, variable.type, declaration.location_at);
   if (value.is_error()) variable.type = value.type;
   variable.place = value.place;
+  if (variable.retain && !value.is_error()) retain(*address, variable.type->cells, declaration.location_at);
   return true;
+}
+
+void Unit::retain(const RegisterAddress& first, std::uint32_t count, Position at) {
+  const auto& area = info(first.area);
+  if (first.area <= Area::g)
+    diagnostics_.error(at, "RETAIN is not for this area: keep the value in R, W, D, B or in a variable");
+  else if (!area.retained)
+    for (std::uint32_t i = 0; i < count; ++i)
+      code.retained_registers.push_back({first.area, static_cast<std::uint16_t>(first.index + i), first.bit});
 }
 
 void Unit::declare_variables(Pou& pou) {
@@ -329,6 +341,11 @@ std::int32_t Unit::range_entry(Range range) {
   if (found != code.ranges.end()) return static_cast<std::int32_t>(found - code.ranges.begin());
   code.ranges.push_back(range);
   return static_cast<std::int32_t>(code.ranges.size() - 1);
+}
+
+void Unit::warn_moved(const RegisterAddress& address, Position at) {
+  if (!moved_.emplace(address_of(address.area, address.index), address.bit).second) return;
+  if (const auto text = moved_register(address); !text.empty()) diagnostics_.warning(at, text);
 }
 
 void Unit::use_register(std::uint32_t address, std::uint32_t count, bool written) {

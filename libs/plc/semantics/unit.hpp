@@ -66,7 +66,7 @@ class Unit {
   /// The type of a specification; reports errors and returns the type `error`.
   const Type* type_of(const TypeSpec& spec, Pou* context);
   const Type* named_type(const std::string& upper);
-  const Type* string_type(std::uint32_t length);
+  const Type* string_type(std::uint32_t length, bool wide = false);
   /// The value of a constant expression, converted to the type; false when it is none, which is reported.
   bool constant(const Expression& expression, const Type& type, Pou* context, Value& value);
   /// Cells of an initial value.
@@ -80,6 +80,8 @@ class Unit {
   const RegisterNames& registers() const { return registers_; }
   /// The place of a register, with its type.
   Value register_value(const RegisterAddress& address, const Type* type, Position at);
+  /// Warns, once for each, of an address that had a function in another version.
+  void warn_moved(const RegisterAddress& address, Position at);
   void use_register(std::uint32_t address, std::uint32_t count, bool written);
   std::uint32_t allocate(const std::vector<std::uint64_t>& initial);
   std::uint32_t string_constant(const std::string& text);
@@ -112,6 +114,7 @@ class Unit {
   void declare_variable(Pou& pou, const VariableBlock& block, const VariableDeclaration& declaration);
   void translate(Pou& pou);
   bool locate(Variable& variable, const VariableDeclaration& declaration);
+  void retain(const RegisterAddress& first, std::uint32_t count, Position at);
   void warn_unused(const Pou& pou);
   void list_cells(const Expression& list, const Type& type, Pou* context, std::vector<std::uint64_t>& cells);
   void structure_cells(const Expression& list, const Type& type, Pou* context,
@@ -126,11 +129,12 @@ class Unit {
   std::map<std::string, const Type*, std::less<>> named_;
   std::map<std::string, const TypeDeclaration*, std::less<>> declared_;
   std::set<std::string> in_progress_;
-  std::map<std::uint32_t, const Type*> strings_;
+  std::map<std::pair<std::uint32_t, bool>, const Type*> strings_;
   std::map<std::string, Variable*, std::less<>> global_names_;
   std::map<std::string, std::vector<std::pair<const Type*, const Enumerator*>>, std::less<>> enumerators_;
   std::map<std::string, std::uint32_t> string_constants_;
-  std::map<std::uint32_t, bool> used_registers_;  ///< address -> written
+  std::set<std::pair<std::uint32_t, int>> moved_;  ///< address and bit, warned of
+  std::map<std::uint32_t, bool> used_registers_;   ///< address -> written
   std::deque<Block> blocks_;
 };
 

@@ -2,6 +2,7 @@
 // Types and initial values.
 #include <algorithm>
 
+#include "plc/machine/strings.hpp"
 #include "plc/semantics/lowering.hpp"
 #include "plc/semantics/unit.hpp"
 
@@ -28,7 +29,7 @@ void Unit::build_types() {
 
 const Type* Unit::named_type(const std::string& upper) {
   if (const auto* type = elementary(upper)) return type;
-  if (upper == "STRING") return string_type(default_string);
+  if (upper == "STRING" || upper == "WSTRING") return string_type(default_string, upper == "WSTRING");
   if (const auto found = named_.find(upper); found != named_.end()) return found->second;
   const auto declared = declared_.find(upper);
   if (declared == declared_.end()) return nullptr;
@@ -48,14 +49,15 @@ const Type* Unit::named_type(const std::string& upper) {
   return named_[upper] = type;
 }
 
-const Type* Unit::string_type(std::uint32_t length) {
-  auto& known = strings_[length];
+const Type* Unit::string_type(std::uint32_t length, bool wide) {
+  auto& known = strings_[{length, wide}];
   if (known == nullptr) {
     auto& type = types_.emplace_back();
     type.kind = Kind::string;
-    type.name = "STRING[" + std::to_string(length) + "]";
+    type.name = (wide ? "WSTRING[" : "STRING[") + std::to_string(length) + "]";
     type.length = length;
-    type.cells = string_cells(length);
+    type.wide = wide;
+    type.cells = string_cells(wide ? 3 * length : length);
     type.initial.assign(type.cells, 0);
     known = &type;
   }
@@ -73,15 +75,18 @@ const Type* Unit::build(const TypeSpec& spec, const std::string& name, Pou* cont
     case TypeSpec::Kind::array:
       return array(spec, context);
     case TypeSpec::Kind::string: {
-      if (!spec.length) return string_type(default_string);
+      const bool wide = spec.name == "WSTRING";
+      const auto longest = wide ? longest_wide_string : longest_string;
+      if (!spec.length) return string_type(default_string, wide);
       Value length;
       if (!constant(*spec.length, *elementary(Kind::dint), context, length)) return elementary(Kind::error);
-      if (length.integer < 1 || length.integer > longest_string) {
-        diagnostics_.error(spec.at, "the length of a string is 1 .. " + std::to_string(longest_string) +
-                                        ", not " + std::to_string(length.integer));
+      if (length.integer < 1 || length.integer > longest) {
+        diagnostics_.error(spec.at, std::string("the length of a ") + (wide ? "WSTRING" : "string") +
+                                        " is 1 .. " + std::to_string(longest) + ", not " +
+                                        std::to_string(length.integer));
         return elementary(Kind::error);
       }
-      return string_type(static_cast<std::uint32_t>(length.integer));
+      return string_type(static_cast<std::uint32_t>(length.integer), wide);
     }
     case TypeSpec::Kind::named:
       break;
@@ -256,7 +261,8 @@ std::vector<std::uint64_t> Unit::initial_cells(const Expression* initial, const 
     } else if (constant(*initial, type, context, value)) {
       if (type.kind != Kind::string) return {constant_cell(value, type)};
       cells.assign(type.cells, 0);
-      const auto text = value.text.substr(0, type.length);
+      const auto text =
+          value.text.substr(0, type.wide ? bytes_of_characters(value.text, type.length) : type.length);
       cells[0] = text.size();
       std::copy(text.begin(), text.end(), reinterpret_cast<char*>(cells.data() + 1));
       return cells;

@@ -26,7 +26,7 @@ struct Expression {
     integer,    ///< text: digits, base
     real,       ///< text
     boolean,    ///< text: "1" or "0"
-    string,     ///< text
+    string,     ///< text; base 16: WSTRING
     time,       ///< name: prefix, text
     name,       ///< text, name
     direct,     ///< name: address without percent sign
@@ -58,7 +58,22 @@ struct CaseLabel {
 };
 
 struct Statement {
-  enum class Kind { assign, call, if_, case_, for_, while_, repeat, exit, continue_, return_ };
+  enum class Kind {
+    assign,
+    call,
+    if_,
+    case_,
+    for_,
+    while_,
+    repeat,
+    exit,
+    continue_,
+    return_,
+    // of diagrams only:
+    define,  ///< `target` names an intermediate value, `value`; with `to` only when that is TRUE, else 0
+    jump,    ///< to the label `target`
+    label,
+  };
   struct Branch {
     ExpressionPtr condition;        ///< of IF, ELSIF; none: ELSE
     std::vector<CaseLabel> labels;  ///< of CASE

@@ -71,6 +71,7 @@ ExpressionPtr ExpressionParser::primary() {
       take();
       auto node = make(Expression::Kind::string, token.at);
       node->text = token.text;
+      node->base = token.base;
       return node;
     }
     case TokenKind::time: {

@@ -129,8 +129,7 @@ class Lexer {
       while (digit_value(at()) < 16 || (at() == '_' && digit_value(at(1)) < 16)) {
         if (at() != '_') {
           if (digit_value(at()) >= token.base)
-            diagnostics_.error(here(), std::string("the digit '") + at() + "' does not exist in base " +
-                                           std::to_string(token.base));
+            wrong_digit(token.base);
           else
             token.text += at();
         }
@@ -158,16 +157,25 @@ class Lexer {
     tokens_.push_back(std::move(token));
   }
 
+  void wrong_digit(int base) {
+    std::string text = "the digit '";
+    text += at();
+    diagnostics_.error(here(), text.append("' does not exist in base ").append(std::to_string(base)));
+  }
+
   void missing_digits(const Token& token) {
     diagnostics_.error(token.at, "digits are missing behind " + std::to_string(token.base) + "#");
   }
 
   void string(char quote) {
-    Token token{TokenKind::string, "", "", 10, here()};
+    Token token{TokenKind::string, "", "", quote == '"' ? 16 : 10, here()};
     ++i_;
     while (i_ < source_.size() && at() != quote && at() != '\n') {
       if (at() == '$') {
-        token.text += escape();
+        if (quote == '"' && has_code())
+          token.text += code();
+        else
+          token.text += escape();
       } else {
         token.text += at();
         ++i_;
@@ -178,6 +186,22 @@ class Lexer {
     else
       ++i_;
     tokens_.push_back(std::move(token));
+  }
+
+  // Four hexadecimal digits.
+  bool has_code() const {
+    for (std::size_t i = 1; i <= 4; ++i)
+      if (digit_value(at(i)) >= 16) return false;
+    return true;
+  }
+  std::string code() {
+    unsigned value = 0;
+    ++i_;
+    for (int i = 0; i < 4; ++i, ++i_) value = value * 16 + static_cast<unsigned>(digit_value(at()));
+    const auto byte = [](unsigned bits) { return static_cast<char>(static_cast<unsigned char>(bits)); };
+    if (value < 0x80) return {byte(value)};
+    if (value < 0x800) return {byte(0xc0 | value >> 6), byte(0x80 | (value & 0x3f))};
+    return {byte(0xe0 | value >> 12), byte(0x80 | (value >> 6 & 0x3f)), byte(0x80 | (value & 0x3f))};
   }
 
   char escape() {

@@ -89,11 +89,7 @@ class Parser : public StatementParser {
       expect_word("OF", "before the type of the elements");
       spec->element = type_spec();
     } else if (is_word("STRING") || is_word("WSTRING")) {
-      if (is_word("WSTRING")) {
-        diagnostics_.error(now().at, "WSTRING is not available: use STRING, whose bytes may be UTF-8");
-        throw Abandoned{};
-      }
-      take();
+      spec->name = take().upper;
       spec->kind = TypeSpec::Kind::string;
       if (accept_symbol("[")) {
         spec->length = expression();
@@ -244,6 +240,28 @@ class Parser : public StatementParser {
 };
 
 }  // namespace
+
+void parse(std::vector<Token> tokens, SourceTree& tree, Diagnostics& diagnostics) {
+  Parser(std::move(tokens), tree, diagnostics).run();
+}
+
+bool is_expression(std::vector<Token> tokens, Position at, Diagnostics& diagnostics) {
+  class One : public ExpressionParser {
+   public:
+    using ExpressionParser::ExpressionParser;
+    bool run() {
+      try {
+        expression();
+        if (now().kind == TokenKind::end) return true;
+        fail("one value or variable");
+      } catch (const Abandoned&) {
+        return false;
+      }
+    }
+  };
+  tokens.push_back({TokenKind::end, "the end", "", 10, tokens.empty() ? at : tokens.back().at});
+  return One(std::move(tokens), diagnostics).run();
+}
 
 void parse(std::string_view source, std::uint16_t file, SourceTree& tree, Diagnostics& diagnostics) {
   Parser(tokenize(source, file, diagnostics), tree, diagnostics).run();

@@ -13,6 +13,12 @@ namespace trunnion::st {
 /// Adds what the source declares to `tree`. After an error it continues behind the statement or declaration.
 void parse(std::string_view source, std::uint16_t file, SourceTree& tree, Diagnostics& diagnostics);
 
+/// The same for words that were made otherwise; the last one is `end`.
+void parse(std::vector<Token> tokens, SourceTree& tree, Diagnostics& diagnostics);
+/// Whether the words, without `end`, are one expression; what is wrong is reported, at `at` when there are
+/// none.
+bool is_expression(std::vector<Token> tokens, Position at, Diagnostics& diagnostics);
+
 /// What the parts of the parser share: the words, and what to do at an error.
 class TokenReader {
  public:
@@ -94,6 +100,7 @@ class StatementParser : public ExpressionParser {
 
  private:
   std::unique_ptr<Statement> statement();
+  bool diagram_statement(Statement& s);
   void if_statement(Statement& s);
   void case_statement(Statement& s);
   void for_statement(Statement& s);

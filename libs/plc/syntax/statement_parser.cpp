@@ -57,7 +57,9 @@ std::unique_ptr<Statement> StatementParser::statement() {
   auto& s = *result;
   s.at = now().at;
   using enum Statement::Kind;
-  if (accept_word("IF")) {
+  if (diagram_statement(s)) {
+    // of a diagram
+  } else if (accept_word("IF")) {
     if_statement(s);
   } else if (accept_word("CASE")) {
     case_statement(s);
@@ -103,6 +105,20 @@ std::unique_ptr<Statement> StatementParser::statement() {
   }
   expect_symbol(";", "at the end of the statement");
   return result;
+}
+
+// The lexer makes none of these symbols.
+bool StatementParser::diagram_statement(Statement& s) {
+  using enum Statement::Kind;
+  const bool defines = accept_symbol("@define"), jumps = !defines && accept_symbol("@jump");
+  if (!defines && !jumps && !accept_symbol("@label")) return false;
+  s.kind = defines ? define : jumps ? jump : label;
+  s.target = designator();
+  if (!defines) return true;
+  expect_symbol(":=", "behind the name of the value");
+  s.value = expression();
+  if (accept_symbol("@when")) s.to = expression();
+  return true;
 }
 
 void StatementParser::if_statement(Statement& s) {

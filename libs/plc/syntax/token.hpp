@@ -25,7 +25,7 @@ struct Token {
   TokenKind kind = TokenKind::end;
   std::string text;
   std::string upper;  ///< of identifiers: in capitals, as names do not distinguish case
-  int base = 10;
+  int base = 10;      ///< of an integer; 16 of a string in double quotes, which is WSTRING
   Position at;
 };
 

@@ -35,7 +35,7 @@ std::string string_text(std::span<const std::uint64_t> cells) {
 std::string duration_text(std::int64_t ns, bool is_long) {
   std::uint64_t memory[12] = {};
   const auto argument = static_cast<std::uint64_t>(ns);
-  make_string(StringFunction::from_time, memory, 0, 80, &argument);
+  make_string(StringFunction::from_time, false, memory, 0, 80, &argument);
   const auto text = string_text(memory);
   return is_long ? "L" + text : text;
 }
@@ -83,7 +83,7 @@ std::string value_text(const Type& type, std::span<const std::uint64_t> cells) {
     case Kind::dt:
       return "DT#" + date_text(value) + "-" + clock_text(value % day_ns);
     case Kind::string:
-      return "'" + string_text(cells) + "'";
+      return type.wide ? "\"" + string_text(cells) + "\"" : "'" + string_text(cells) + "'";
     case Kind::enumeration:
       for (const auto& enumerator : type.enumerators)
         if (enumerator.value == value) return enumerator.text;
@@ -164,9 +164,12 @@ void set_value(const Type& type, const std::string& text, std::span<std::uint64_
     cells[0] = static_cast<std::uint64_t>(enumerator->value);
   } else if (type.kind == Kind::string) {
     auto content = text;
-    if (content.size() >= 2 && content.front() == '\'' && content.back() == '\'')
+    const char quote = type.wide ? '"' : '\'';
+    if (content.size() >= 2 && content.front() == quote && content.back() == quote)
       content = content.substr(1, content.size() - 2);
-    if (content.size() > type.length) refuse("it has " + std::to_string(type.length) + " bytes at most");
+    if (type.wide && !is_wide_text(content)) refuse("it has characters of at most 16 bits, in UTF-8");
+    if ((type.wide ? characters(content) : content.size()) > type.length)
+      refuse("it has " + std::to_string(type.length) + (type.wide ? " characters" : " bytes") + " at most");
     std::fill(cells.begin(), cells.end(), 0);
     cells[0] = content.size();
     std::copy(content.begin(), content.end(), reinterpret_cast<char*>(cells.data() + 1));

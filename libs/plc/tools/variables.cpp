@@ -102,11 +102,17 @@ Variables::Variables(const Compilation& compilation)
     : symbols_(compilation.symbols),
       constants_(compilation.constants),
       retained_(compilation.code->retained),
+      retained_registers_(compilation.code->retained_registers),
       types_(compilation.types) {}
 
 Location Variables::with_retention(Location at) const {
   if (at.is_register()) {
-    at.retained = info(register_at(at.address).area).retained;
+    const auto address = register_at(at.address);
+    at.retained = info(address.area).retained ||
+                  std::any_of(retained_registers_.begin(), retained_registers_.end(), [&](const auto& kept) {
+                    return kept.area == address.area && kept.index == address.index &&
+                           (kept.bit < 0 || kept.bit == at.bit);
+                  });
     if (const auto* named = named_register(at.address, at.bit)) at.unit = named->unit;
   } else {
     at.retained = std::any_of(retained_.begin(), retained_.end(), [&](const Cells& cells) {

@@ -56,6 +56,7 @@ class Variables {
   std::vector<Symbol> symbols_;
   std::vector<std::string> constants_;
   std::vector<Cells> retained_;
+  std::vector<RegisterAddress> retained_registers_;
   std::shared_ptr<const void> types_;
 };
 

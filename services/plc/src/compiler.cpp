@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <limits>
 #include <optional>
+#include <set>
+
+#include "plc/library/register_names.hpp"
 
 namespace trunnion::plc {
 namespace {
@@ -75,8 +78,12 @@ const std::map<std::string_view, Mnemonic> mnemonics = {
 class Parser {
  public:
   Parser(std::string_view source, const std::string& file, const Symbols& symbols,
-         std::map<std::pair<char, int>, std::string>& instances)
-      : file_(file), symbols_(symbols), instances_(instances), tokens_(tokenize(source, file)) {}
+         std::map<std::pair<char, int>, std::string>& instances, std::vector<std::string>& warnings)
+      : file_(file),
+        symbols_(symbols),
+        instances_(instances),
+        warnings_(warnings),
+        tokens_(tokenize(source, file)) {}
 
   Program run() {
     while (at_ < tokens_.size()) {
@@ -137,6 +144,8 @@ class Parser {
 
   void declarations() {
     const Token start = next();
+    const bool retain = is_word("RETAIN");
+    if (retain) ++at_;
     end_of_line();
     while (!is_word("END_VAR")) {
       if (peek().kind == TokenKind::end_of_line) {
@@ -153,16 +162,31 @@ class Parser {
       const Token where = next();
       const auto address = where.kind == TokenKind::word ? parse_address(where.text) : std::nullopt;
       if (!address) fail(where, "'" + std::string(where.text) + "' is not an address");
+      warn_moved(*address, where);
       expect(":");
       const Token type = next();
       if (type.text != (address->is_bit() ? "BOOL" : "INT"))
         fail(type, address->is_bit() ? "a bit is BOOL" : "a register is INT");
       if (symbols_.find(name.text) != symbols_.end() || !names_.emplace(name.text, *address).second)
         fail(name, "'" + std::string(name.text) + "' is defined already");
+      if (retain) keep(*address, where);
       end_of_line();
     }
     ++at_;
     end_of_line();
+  }
+
+  void warn_moved(const Address& address, const Token& token) {
+    const auto text = st::moved_register({address.area, address.index, address.bit});
+    if (text.empty() || !moved_.insert(std::string(token.text)).second) return;
+    warnings_.push_back(file_ + ":" + std::to_string(token.line) + ":" + std::to_string(token.column) +
+                        ": warning: " + text);
+  }
+
+  void keep(const Address& address, const Token& where) {
+    const auto& area = st::info(address.area);
+    if (address.area <= Area::g) fail(where, "RETAIN is not for this area: keep the value in R, W, D or B");
+    if (!area.retained) program_.retained.push_back(address);
   }
 
   Operand operand() {
@@ -180,7 +204,7 @@ class Parser {
     else if (const auto symbol = symbols_.find(token.text); symbol != symbols_.end())
       result.address = symbol->second;
     else if (const auto address = parse_address(token.text))
-      result.address = *address;
+      warn_moved(result.address = *address, token);
     else
       fail(token, "'" + std::string(token.text) + "' is neither an address nor a name");
     return result;
@@ -356,6 +380,8 @@ class Parser {
   const std::string& file_;
   const Symbols& symbols_;
   std::map<std::pair<char, int>, std::string>& instances_;
+  std::vector<std::string>& warnings_;
+  std::set<std::string> moved_;  ///< warned of
   std::vector<Token> tokens_;
   std::size_t at_ = 0;
   Program program_;
@@ -370,7 +396,7 @@ class Parser {
 }  // namespace
 
 Program Compiler::compile(std::string_view source, const std::string& file) {
-  return Parser(source, file, symbols_, instances_).run();
+  return Parser(source, file, symbols_, instances_, warnings_).run();
 }
 
 }  // namespace trunnion::plc

@@ -19,10 +19,13 @@ class Compiler {
   explicit Compiler(const Symbols& symbols) : symbols_(symbols) {}
   /// Throws CompileError with file:line:column.
   Program compile(std::string_view source, const std::string& file);
+  /// Of everything that was compiled: file:line:column: warning: ...
+  const std::vector<std::string>& warnings() const { return warnings_; }
 
  private:
   const Symbols& symbols_;
   std::map<std::pair<char, int>, std::string> instances_;  ///< kind and number -> place of the first use
+  std::vector<std::string> warnings_;
 };
 
 }  // namespace trunnion::plc

@@ -28,6 +28,9 @@ PlcCore::PlcCore() {
   probe_contact_ = name("probe_contact"), probe_on_ = name("probe_on");
   emergency_stop_ = name("emergency_stop"), feed_hold_ = name("feed_hold"),
   axes_enable_ = name("axes_enable");
+  external_reset_ = name("external_reset");
+  for (std::size_t i = 0; i < milling_tool_.size(); ++i)
+    milling_tool_[i] = interface_address("milling_tool", i);
   for (std::size_t i = 0; i < axis_inhibit_.size(); ++i)
     axis_inhibit_[i] = interface_address("axis_inhibit", i);
   for (std::size_t i = 0; i < slave_off_.size(); ++i) slave_off_[i] = interface_address("slave_off", i);
@@ -103,6 +106,11 @@ void PlcCore::power_up(const Memory& memory) {
   auto& kept = memory_.registers;
   kept.b = memory.registers.b, kept.c = memory.registers.c;
   kept.k = memory.registers.k, kept.p = memory.registers.p;
+  const auto keep = [&](Address address) { store(kept, address, plc::load(memory.registers, address)); };
+  for (const auto* list : {&fast_, &main_})
+    for (const auto address : list->retained) keep(address);
+  for (const auto& address : structured_.retained_registers())
+    keep({address.area, address.index, address.bit});
   for (std::uint32_t i = 0; i < memory.forces.count; ++i)
     if (memory.forces.values[i].permanent != 0) force(memory.forces.values[i]);
   // Programs with an error lose nothing: the corrected ones find their variables.
@@ -150,6 +158,7 @@ void PlcCore::set_channel(const idl::channel::ChannelState& state) {
   input(s.rapid_override, percent(state.rapid_override));
   input(s.spindle_override, percent(state.spindle_override));
   input(s.tool, state.tool);
+  if (state.channel < milling_tool_.size()) input(milling_tool_[state.channel], state.tool);
   auto& view = view_.channels[state.channel];
   if (view.seen && state.reset_count > view.resets) input(s.reset, 1);
   view.seen = true;
@@ -353,6 +362,10 @@ Registers PlcCore::rescanned() const {
 
 bool PlcCore::emergency_stop() const {
   return !loaded_ || has_program_fault() || plc::load(memory_.registers, emergency_stop_) != 0;
+}
+
+bool PlcCore::external_reset() const {
+  return loaded_ && !has_program_fault() && plc::load(memory_.registers, external_reset_) != 0;
 }
 
 idl::plc::Outputs PlcCore::outputs() const {

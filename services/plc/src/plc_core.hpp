@@ -85,6 +85,8 @@ class PlcCore {
   /// Every finished function: for a restarted process, whose publications are lost.
   std::vector<idl::plc::AuxiliaryDone> all_done() const;
   bool emergency_stop() const;
+  /// The programs ask for a reset of all alarms.
+  bool external_reset() const;
 
  private:
   struct ChannelSymbols {
@@ -116,7 +118,8 @@ class PlcCore {
   std::array<SpindleSymbols, spindle_count> spindle_symbols_;
   Address emergency_button_, reset_button_, drive_present_, drives_on_, alarm_active_, alarm_stops_,
       probe_contact_;
-  Address emergency_stop_, feed_hold_, axes_enable_, probe_on_;
+  Address emergency_stop_, feed_hold_, axes_enable_, probe_on_, external_reset_;
+  std::array<Address, 2> milling_tool_;
   std::array<Address, 16> axis_inhibit_, slave_off_;
   std::array<Address, 8> coolant_;
 

@@ -63,6 +63,7 @@ inline constexpr int deepest_nesting = 16;
 
 struct Program {
   std::vector<Instruction> instructions;
+  std::vector<Address> retained;  ///< of VAR RETAIN
 };
 
 }  // namespace trunnion::plc

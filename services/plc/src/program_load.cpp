@@ -20,7 +20,8 @@ void ProgramLoad::begin() {
 std::string ProgramLoad::write(const std::string& name, std::string_view data) {
   if (phase_ != Phase::WRITING) return "no load has begun, or its sources are complete; begin a load";
   if (!is_source(name) || name.find('/') != std::string::npos)
-    return "'" + name + "': sources are .st files (not *_test.st), fast.il, main.il and devices.yaml";
+    return "'" + name +
+           "': sources are .st files (not *_test.st), .xml files, fast.il, main.il and devices.yaml";
   auto found =
       std::find_if(files_.begin(), files_.end(), [&](const auto& file) { return file.name == name; });
   if (found == files_.end()) {

@@ -31,8 +31,7 @@ void sort(SourceFiles& files) {
 }  // namespace
 
 bool is_source(const std::string& name) {
-  return (name.ends_with(".st") && !name.ends_with("_test.st")) || name == "fast.il" || name == "main.il" ||
-         name == "devices.yaml";
+  return st::is_compiled(name) || name == "fast.il" || name == "main.il" || name == "devices.yaml";
 }
 
 std::uint32_t crc32_of(SourceFiles files) {
@@ -50,7 +49,7 @@ Programs translate(SourceFiles files, bool simulated, const std::string& directo
   StructuredPrograms structured;
   std::vector<st::Source> sources;
   for (auto& file : files)
-    if (file.name.ends_with(".st")) sources.push_back({path(file.name), file.text});
+    if (st::is_compiled(file.name)) sources.push_back({path(file.name), file.text});
   if (const auto* file = find(files, "devices.yaml"); simulated && file != nullptr) {
     auto devices = st::read_devices(file->text, path(file->name), st::interface_registers());
     sources.push_back({path(file->name), std::move(devices.program)});
@@ -75,12 +74,13 @@ Programs translate(SourceFiles files, bool simulated, const std::string& directo
     const auto* list = find(files, name);
     if (list != nullptr && structured.entries[i])
       throw std::runtime_error(path(name) + ": error: PROGRAM " + names[i] +
-                               " of the .st files is this task too; keep one of them");
+                               " of the .st and .xml files is this task too; keep one of them");
     if (list == nullptr && !structured.entries[i])
-      throw std::runtime_error(path(name) + ": error: cannot be opened, and no .st file has PROGRAM " +
-                               names[i]);
+      throw std::runtime_error(path(name) +
+                               ": error: cannot be opened, and no .st or .xml file has PROGRAM " + names[i]);
     if (list != nullptr) *lists[i] = compiler.compile(list->text, path(name));
   }
+  for (const auto& warning : compiler.warnings()) programs.warnings.push_back(warning);
   for (std::size_t e = 0; simulated && structured.code && e < structured.code->entries.size(); ++e)
     if (structured.code->entries[e].name == "SIMULATION")
       structured.entries[static_cast<std::size_t>(TaskName::simulation)] = e;

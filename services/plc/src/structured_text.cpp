@@ -71,6 +71,11 @@ void StructuredText::power_up(const ProgramVariables& kept, ProgramVariables& va
   take(variables);
 }
 
+std::span<const st::RegisterAddress> StructuredText::retained_registers() const {
+  if (!machine_) return {};
+  return programs_.code->retained_registers;
+}
+
 void StructuredText::put(std::uint32_t cell, std::uint64_t value, ProgramVariables& variables) {
   if (!machine_ || cell < st::image_cells || cell >= machine_->memory().size()) return;
   machine_->memory()[cell] = value;

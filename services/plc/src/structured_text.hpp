@@ -43,6 +43,8 @@ class StructuredText {
   void restore(ProgramVariables& variables);
   /// After a new start of the cluster: RETAIN variables of `kept` when its layout is the same.
   void power_up(const ProgramVariables& kept, ProgramVariables& variables);
+  /// Registers that the programs keep besides the retained areas.
+  std::span<const st::RegisterAddress> retained_registers() const;
   /// Whether the variables are those of these programs.
   bool fits(const ProgramVariables& variables) const;
   /// Puts a value into a cell of the memory, that of a variable, also into `variables`.

@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "plc/plcopen/instruction_list.hpp"
+
+#include <algorithm>
+#include <map>
+
+#include "plc/syntax/parser.hpp"
+
+namespace trunnion::st::plcopen {
+namespace {
+
+/// Instructions that combine the current result with an operand, and how Structured Text writes them.
+const std::map<std::string_view, const char*> operators = {
+    {"AND", "AND"}, {"&", "AND"}, {"OR", "OR"}, {"XOR", "XOR"}, {"ADD", "+"},
+    {"SUB", "-"},   {"MUL", "*"}, {"DIV", "/"}, {"MOD", "MOD"}, {"GT", ">"},
+    {"GE", ">="},   {"EQ", "="},  {"NE", "<>"}, {"LE", "<="},   {"LT", "<"}};
+
+class List {
+ public:
+  List(Document& document, Node body) : document_(document), body_(body), words_(document.content(body)) {}
+
+  Tokens run() {
+    while (next_ < words_.size() && good_) line();
+    if (good_ && !open_.empty()) fail(open_.back().at, "the parenthesis is not closed");
+    return std::move(result_);
+  }
+
+ private:
+  struct Open {
+    Tokens before;
+    std::string op;
+    bool inverts;
+    Position at;
+  };
+
+  void fail(Position at, const std::string& text) {
+    document_.diagnostics().error(at, text);
+    good_ = false;
+  }
+  Tokens words(std::string_view text, Position at) {
+    auto tokens = document_.words(text, body_);
+    for (auto& token : tokens) token.at = at;
+    return tokens;
+  }
+  void write(std::string_view text, Position at) { append(result_, words(text, at)); }
+  void write(Tokens tokens) { append(result_, std::move(tokens)); }
+  static Token own(const char* text, TokenKind kind, Position at) { return {kind, text, text, 10, at}; }
+
+  void line() {
+    const auto first = words_[next_];
+    auto last = next_;
+    while (last < words_.size() && words_[last].at.line == first.at.line) ++last;
+    Tokens line(words_.begin() + static_cast<std::ptrdiff_t>(next_),
+                words_.begin() + static_cast<std::ptrdiff_t>(last));
+    next_ = last;
+    if (line.size() > 1 && line[1].text == ":" && line[1].kind == TokenKind::symbol) {
+      result_.push_back(own("@label", TokenKind::symbol, line[0].at));
+      result_.push_back(line[0]);
+      write(";", line[0].at);
+      current_.clear();
+      line.erase(line.begin(), line.begin() + 2);
+    }
+    if (!line.empty()) instruction(std::move(line));
+  }
+
+  bool has_result(Position at) {
+    if (!current_.empty()) return true;
+    fail(at, "there is no current result: LD comes first");
+    return false;
+  }
+
+  void instruction(Tokens line) {
+    const auto first = line[0];
+    auto op = first.kind == TokenKind::identifier ? first.upper : first.text;
+    line.erase(line.begin());
+    if (op == ")") return close(first.at);
+    if (op == "JMP" || op == "JMPC" || op == "JMPCN" || op == "RET" || op == "RETC" || op == "RETCN")
+      return jump(op, line, first.at);
+    if (op == "CAL" || op == "CALC" || op == "CALCN") return call(op, std::move(line), first.at);
+    if (op == "NOT" && line.empty()) {
+      if (has_result(first.at)) combine("NOT (", {}, ")", first.at);
+      return;
+    }
+    if (op == "LD" || op == "LDN") {
+      if (!expression(line, first.at)) return;
+      current_.clear();
+      combine(op == "LDN" ? "NOT (" : "(", std::move(line), ")", first.at);
+      return;
+    }
+    if (!has_result(first.at)) return;
+    if (op == "ST" || op == "STN" || op == "S" || op == "R") return store(op, line, first.at);
+    bool inverts = false;
+    if (!operators.contains(op) && op.ends_with("N") && operators.contains(op.substr(0, op.size() - 1)))
+      inverts = true, op.pop_back();
+    if (!operators.contains(op)) return fail(first.at, "unknown instruction '" + first.text + "'");
+    if (!line.empty() && line[0].text == "(" && line[0].kind == TokenKind::symbol) {
+      // The operator waits for the result of the parenthesis.
+      open_.push_back({std::move(current_), op, inverts, first.at});
+      current_.clear();
+      line.erase(line.begin());
+      if (!line.empty() && line.back().text == ")" && balanced(line) < 0) {
+        line.pop_back();
+        if (!expression(line, first.at)) return;
+        current_ = std::move(line);
+        return close(first.at);
+      }
+      if (line.empty()) return;
+      if (!expression(line, first.at)) return;
+      current_ = std::move(line);
+      return;
+    }
+    if (!expression(line, first.at)) return;
+    apply(op, inverts, std::move(line), first.at);
+  }
+
+  static int balanced(const Tokens& line) {
+    int depth = 0;
+    for (const auto& token : line)
+      if (token.kind == TokenKind::symbol) depth += token.text == "(" ? 1 : token.text == ")" ? -1 : 0;
+    return depth;
+  }
+
+  bool expression(const Tokens& words, Position at) {
+    if (words.empty())
+      fail(at, "the operand is missing");
+    else if (!is_expression(words, at, document_.diagnostics()))
+      good_ = false;
+    return good_;
+  }
+
+  /// The current result becomes begin, it, more, end.
+  void combine(const char* begin, Tokens more, const char* end, Position at) {
+    auto result = words(begin, at);
+    append(result, std::move(current_));
+    append(result, std::move(more));
+    append(result, words(end, at));
+    current_ = std::move(result);
+  }
+
+  void apply(const std::string& op, bool inverts, Tokens operand, Position at) {
+    keep(at);
+    auto right = words(operators.at(op), at);
+    append(right, words(inverts ? "NOT (" : "(", at));
+    append(right, std::move(operand));
+    append(right, words(")", at));
+    append(current_, std::move(right));
+    keep(at);
+  }
+
+  /// The current result as a value of its own: later instructions may change what it was read from.
+  void keep(Position at) {
+    if (current_.size() == 1 && current_[0].text.starts_with("@")) return;
+    const auto name = "@" + std::to_string(++values_);
+    Token value{TokenKind::identifier, name, name, 10, at};
+    result_.push_back(own("@define", TokenKind::symbol, at));
+    result_.push_back(value);
+    write(":=", at);
+    write(std::move(current_));
+    write(";", at);
+    current_ = {value};
+  }
+
+  void close(Position at) {
+    if (open_.empty()) return fail(at, "there is no open parenthesis");
+    if (!has_result(at)) return;
+    auto inner = std::move(current_);
+    auto outer = std::move(open_.back());
+    open_.pop_back();
+    current_ = std::move(outer.before);
+    apply(outer.op, outer.inverts, std::move(inner), at);
+  }
+
+  void store(const std::string& op, const Tokens& target, Position at) {
+    if (!expression(target, at)) return;
+    keep(at);
+    if (op == "S" || op == "R") {
+      write("IF", at);
+      write(current_);
+      write("THEN", at);
+      write(target);
+      write(op == "S" ? ":= TRUE; END_IF;" : ":= FALSE; END_IF;", at);
+      return;
+    }
+    write(target);
+    write(op == "STN" ? ":= NOT (" : ":= (", at);
+    write(current_);
+    write(");", at);
+  }
+
+  /// IF the current result THEN, or nothing of an instruction without condition.
+  bool condition(const std::string& op, const char* plain, Position at) {
+    if (op == plain) return true;
+    if (!has_result(at)) return false;
+    keep(at);
+    write(op.ends_with("N") ? "IF NOT" : "IF", at);
+    write(current_);
+    write("THEN", at);
+    return true;
+  }
+
+  void jump(const std::string& op, const Tokens& label, Position at) {
+    const bool returns = op.starts_with("RET");
+    const char* plain = returns ? "RET" : "JMP";
+    if (!returns && (label.size() != 1 || label[0].kind != TokenKind::identifier))
+      return fail(at, "a label follows " + op);
+    if (!condition(op, plain, at)) return;
+    if (returns) {
+      write("RETURN;", at);
+    } else {
+      result_.push_back(own("@jump", TokenKind::symbol, at));
+      write(label);
+      write(";", at);
+    }
+    if (op != plain) write("END_IF;", at);
+  }
+
+  void call(const std::string& op, Tokens instance, Position at) {
+    if (instance.size() == 1) append(instance, words("()", at));
+    if (!expression(instance, at) || !condition(op, "CAL", at)) return;
+    write(std::move(instance));
+    write(";", at);
+    if (op != "CAL") write("END_IF;", at);
+  }
+
+  Document& document_;
+  Node body_;
+  Tokens words_, result_, current_;
+  std::vector<Open> open_;
+  std::size_t next_ = 0, values_ = 0;
+  bool good_ = true;
+};
+
+}  // namespace
+
+Tokens list_statements(Document& document, Node body) { return List(document, body).run(); }
+
+}  // namespace trunnion::st::plcopen

@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: Apache-2.0
+// Other devices ask the PLC over Modbus TCP.
+#include <poll.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <chrono>
+#include <cmath>
+#include <memory>
+
+#include "modbus_connection.hpp"
+#include "modbus_protocol.hpp"
+
+namespace trunnion::plc {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using st::ModbusTable;
+
+constexpr std::size_t most_clients = 8;
+constexpr int poll_period = 50;                 // ms until the end of the thread is seen
+constexpr std::uint32_t byte_timeout = 100000;  // us that the rest of a request may take
+constexpr double retry_period = 0.5;            // s between two attempts to listen
+constexpr int silent_attempts = 3;
+
+struct FreeContext {
+  void operator()(modbus_t* context) const { modbus_free(context); }
+};
+struct FreeMapping {
+  void operator()(modbus_mapping_t* mapping) const { modbus_mapping_free(mapping); }
+};
+
+std::uint16_t word_at(const std::uint8_t* bytes) {
+  return static_cast<std::uint16_t>(bytes[0] << 8 | bytes[1]);
+}
+
+class ServerConnection : public ModbusLink::Connection {
+ public:
+  explicit ServerConnection(const st::ModbusServer& server)
+      : Connection(server.inputs, server.outputs), server_(server) {
+    for (const auto* list : {&input_blocks, &output_blocks})
+      for (const auto& block : *list) {
+        auto& covered = covered_[static_cast<std::size_t>(block.table)];
+        covered.resize(std::max<std::size_t>(covered.size(), block.address + block.count), false);
+        std::fill_n(covered.begin() + block.address, block.count, true);
+      }
+    const auto size = [&](ModbusTable table) {
+      return static_cast<int>(covered_[static_cast<std::size_t>(table)].size());
+    };
+    mapping_.reset(modbus_mapping_new(size(ModbusTable::coils), size(ModbusTable::discrete_inputs),
+                                      size(ModbusTable::holding_registers),
+                                      size(ModbusTable::input_registers)));
+  }
+  ~ServerConnection() override { close_all(); }
+
+ private:
+  void run(const std::stop_token& stop) override {
+    for (int attempts = 0; !stop.stop_requested();) {
+      if (!listens() && !listen()) {
+        // In a swap the process before holds the port for a moment.
+        if (++attempts > silent_attempts)
+          lost("Modbus: nothing can be received at " + server_.host + ", port " +
+               std::to_string(server_.port) + ": " + modbus_strerror(errno) +
+               ". Correct host and port of the server in modbus.yaml");
+        if (!wait(stop, retry_period)) return;
+        continue;
+      }
+      serve();
+      const auto silence = std::chrono::duration<double>(Clock::now() - written_).count();
+      if (server_.timeout > 0 && silence > server_.timeout) {
+        put_losses_into_tables();
+        lost("Modbus: no other device has written for " +
+             std::to_string(std::lround(server_.timeout * 1000)) + " ms. The inputs " +
+             registers_text(input_blocks) +
+             " have their values for this case. Check the device that writes and its cable, then reset");
+      } else {
+        works();
+      }
+    }
+  }
+
+  // So that a later write of some elements does not bring back old values of others.
+  void put_losses_into_tables() {
+    for (const auto& block : input_blocks)
+      for (std::uint32_t i = 0; block.at_loss && i < block.count; ++i)
+        if (block.table == ModbusTable::coils)
+          mapping_->tab_bits[block.address + i] = static_cast<std::uint8_t>(*block.at_loss);
+        else
+          mapping_->tab_registers[block.address + i] = *block.at_loss;
+  }
+
+  bool listens() const { return !sockets_.empty(); }
+  bool listen() {
+    context_.reset(modbus_new_tcp_pi(server_.host.c_str(), std::to_string(server_.port).c_str()));
+    if (!context_ || !mapping_) return false;
+    put_losses_into_tables();
+    modbus_set_byte_timeout(context_.get(), 0, byte_timeout);
+    modbus_set_indication_timeout(context_.get(), 0, byte_timeout);
+    // Also the pause behind a request that is refused.
+    modbus_set_response_timeout(context_.get(), 0, 1000);
+    const int socket = modbus_tcp_pi_listen(context_.get(), static_cast<int>(most_clients));
+    if (socket < 0) return false;
+    sockets_.push_back({socket, POLLIN, 0});
+    written_ = Clock::now();
+    return true;
+  }
+
+  void close_all() {
+    for (const auto& one : sockets_) close(one.fd);
+    sockets_.clear();
+  }
+
+  void serve() {
+    if (poll(sockets_.data(), sockets_.size(), poll_period) <= 0) return;
+    std::vector<pollfd> kept = {sockets_[0]};
+    for (std::size_t i = 1; i < sockets_.size(); ++i)
+      if (sockets_[i].revents == 0 || answer(sockets_[i].fd))
+        kept.push_back(sockets_[i]);
+      else
+        close(sockets_[i].fd);
+    if (sockets_[0].revents != 0) {
+      const int client = accept4(sockets_[0].fd, nullptr, nullptr, SOCK_CLOEXEC);
+      if (client >= 0 && kept.size() <= most_clients)
+        kept.push_back({client, POLLIN, 0});
+      else if (client >= 0)
+        close(client);
+    }
+    sockets_ = std::move(kept);
+  }
+
+  // False when the connection has ended, or sends what is no Modbus.
+  bool answer(int socket) {
+    std::array<std::uint8_t, MODBUS_TCP_MAX_ADU_LENGTH> query{};
+    modbus_set_socket(context_.get(), socket);
+    const int length = modbus_receive(context_.get(), query.data());
+    if (length == 0) return true;
+    if (length < 8 || word_at(&query[2]) != 0 || word_at(&query[4]) + 6 != length) return false;
+    refresh();
+    bool writes = false;
+    if (const int exception = check(query.data(), length, writes); exception != 0)
+      return modbus_reply_exception(context_.get(), query.data(), static_cast<unsigned>(exception)) >= 0;
+    if (modbus_reply(context_.get(), query.data(), length, mapping_.get()) < 0) return false;
+    if (writes) take(query.data());
+    return true;
+  }
+
+  bool covers(ModbusTable table, int address, int count) const {
+    const auto& covered = covered_[static_cast<std::size_t>(table)];
+    if (address < 0 || count < 1 || static_cast<std::size_t>(address + count) > covered.size()) return false;
+    return std::all_of(covered.begin() + address, covered.begin() + address + count,
+                       [](bool one) { return one; });
+  }
+
+  /// The exception with which the request is refused, or 0. MODBUS Application Protocol V1.1b3, 6.
+  int check(const std::uint8_t* query, int length, bool& writes) const {
+    const auto* data = query + 8;
+    const int bytes = length - 8, function = query[7];
+    const auto word = [&](int i) { return bytes >= 2 * i + 2 ? word_at(data + 2 * i) : -1; };
+    const auto is_good = [&](ModbusTable table, int address, int count) {
+      return count >= 1 && covers(table, address, count) ? 0 : int{MODBUS_EXCEPTION_ILLEGAL_DATA_ADDRESS};
+    };
+    writes = function == 5 || function == 6 || function == 15 || function == 16 || function == 22 ||
+             function == 23;
+    switch (function) {
+      case 1:
+        return is_good(ModbusTable::coils, word(0), word(1));
+      case 2:
+        return is_good(ModbusTable::discrete_inputs, word(0), word(1));
+      case 3:
+        return is_good(ModbusTable::holding_registers, word(0), word(1));
+      case 4:
+        return is_good(ModbusTable::input_registers, word(0), word(1));
+      case 5:
+        return is_good(ModbusTable::coils, word(0), 1);
+      case 6:
+      case 22:
+        return is_good(ModbusTable::holding_registers, word(0), 1);
+      case 15:
+        if (bytes < 5 || data[4] != (word(1) + 7) / 8 || bytes != 5 + data[4])
+          return MODBUS_EXCEPTION_ILLEGAL_DATA_VALUE;
+        return is_good(ModbusTable::coils, word(0), word(1));
+      case 16:
+        if (bytes < 5 || data[4] != 2 * word(1) || bytes != 5 + data[4])
+          return MODBUS_EXCEPTION_ILLEGAL_DATA_VALUE;
+        return is_good(ModbusTable::holding_registers, word(0), word(1));
+      case 23:
+        if (bytes < 9 || data[8] != 2 * word(3) || bytes != 9 + data[8])
+          return MODBUS_EXCEPTION_ILLEGAL_DATA_VALUE;
+        if (const int first = is_good(ModbusTable::holding_registers, word(0), word(1)); first != 0)
+          return first;
+        return is_good(ModbusTable::holding_registers, word(2), word(3));
+      default:
+        return MODBUS_EXCEPTION_ILLEGAL_FUNCTION;
+    }
+  }
+
+  void refresh() {
+    const auto values = outputs();
+    for (std::size_t b = 0; b < values.size(); ++b) {
+      const auto& block = output_blocks[b];
+      for (std::size_t i = 0; i < values[b].size(); ++i)
+        if (block.table == ModbusTable::discrete_inputs)
+          mapping_->tab_input_bits[block.address + i] = static_cast<std::uint8_t>(values[b][i]);
+        else
+          mapping_->tab_input_registers[block.address + i] = values[b][i];
+    }
+  }
+
+  // Only what was written: after a restart the other inputs stay as they were.
+  void take(const std::uint8_t* query) {
+    const int function = query[7];
+    const bool several = function == 15 || function == 16 || function == 23;
+    const auto* data = query + (function == 23 ? 12 : 8);
+    const auto table = function == 5 || function == 15 ? ModbusTable::coils : ModbusTable::holding_registers;
+    const std::uint32_t first = word_at(data), end = first + (several ? word_at(data + 2) : 1u);
+    NetworkInputs inputs;
+    for (const auto& block : input_blocks) {
+      const auto from = std::max<std::uint32_t>(first, block.address);
+      const auto to = std::min<std::uint32_t>(end, block.address + block.count);
+      if (block.table != table || from >= to) continue;
+      std::vector<std::uint16_t> values;
+      for (auto i = from; i < to; ++i)
+        values.push_back(table == ModbusTable::coils ? mapping_->tab_bits[i] : mapping_->tab_registers[i]);
+      auto part = block;
+      part.first = st::place_of(block, from - block.address);
+      put_block(part, values, inputs);
+    }
+    give(inputs);
+    written_ = Clock::now();
+  }
+
+  const st::ModbusServer server_;
+  std::array<std::vector<bool>, 4> covered_;  ///< of each table
+  std::unique_ptr<modbus_mapping_t, FreeMapping> mapping_;
+  std::unique_ptr<modbus_t, FreeContext> context_;
+  std::vector<pollfd> sockets_;  ///< the first one listens
+  Clock::time_point written_;
+};
+
+}  // namespace
+
+std::unique_ptr<ModbusLink::Connection> modbus_server(const st::ModbusServer& server) {
+  return std::make_unique<ServerConnection>(server);
+}
+
+}  // namespace trunnion::plc
