@@ -92,9 +92,11 @@ Answer OperatingControl::handle(const Match& match, const RequestText& request) 
   } else if (action == "hand_over" || action == "refuse") {
     const auto asking = right_.asking(now);
     if (action == "refuse" ? !right_.refuse(station.key, now) : !right_.hand_over(station.key, now))
-      return problem_answer(409, "only who holds the right to operate can do this, and when another one asks");
-    note(station, (action == "refuse" ? "keeps the right to operate from " : "hands the right to operate to ") +
-                      (asking ? asking->name : ""));
+      return problem_answer(409,
+                            "only who holds the right to operate can do this, and when another one asks");
+    note(station,
+         (action == "refuse" ? "keeps the right to operate from " : "hands the right to operate to ") +
+             (asking ? asking->name : ""));
   } else if (action == "release") {
     right_.release(station.key);
     note(station, "gives the right to operate back");

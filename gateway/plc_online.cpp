@@ -178,8 +178,8 @@ void PlcOnline::answer_variables(const std::string& query, const Respond& respon
       if (!path.starts_with(prefix) || path.find(search) == std::string::npos) continue;
       if (total++ >= offset && shown.size() < limit) shown.push_back(one);
     }
-    respond(
-        json_answer(200, {{"total", total}, {"offset", offset}, {"variables", ShownVariables(shown).json()}}));
+    respond(json_answer(200,
+                        {{"total", total}, {"offset", offset}, {"variables", ShownVariables(shown).json()}}));
   });
 }
 
@@ -228,12 +228,10 @@ void PlcOnline::answer_source(const std::string& name, const std::string& query,
   const auto set = query_value(query, "set");
   if (!set.empty() && set != "active" && set != "previous")
     throw BadRequest("set", "set must be active or previous");
-  const auto wanted =
-      set == "previous" ? idl::plc::ProgramSet::PREVIOUS : idl::plc::ProgramSet::ACTIVE;
+  const auto wanted = set == "previous" ? idl::plc::ProgramSet::PREVIOUS : idl::plc::ProgramSet::ACTIVE;
   with_sources(wanted, respond, [name, respond](const auto& files) {
     const auto found = std::ranges::find(*files, name, &PlcSource::name);
-    if (found == files->end())
-      return respond(problem_answer(404, "the PLC runs no file " + name));
+    if (found == files->end()) return respond(problem_answer(404, "the PLC runs no file " + name));
     Answer answer{200, found->text};
     answer.type = "text/plain; charset=utf-8";
     respond(std::move(answer));

@@ -7,9 +7,8 @@ namespace trunnion::gateway {
 
 GatewayService::GatewayService(service::Node& node, const GatewayOptions& options)
     : mailbox_([&node] { node.bus().signal().notify(); }), links_(node.bus()), view_(node.bus()) {
-  api_ =
-      std::make_unique<Api>(mailbox_, topics::contract_hash, options.web, options.recordings, options.access,
-                            options.one_operates);
+  api_ = std::make_unique<Api>(mailbox_, topics::contract_hash, options.web, options.recordings,
+                               options.access, options.one_operates);
   server_ = std::make_unique<HttpServer>(options.address, options.port, *api_, Site(options.host_names),
                                          options.command_socket);
   where_ = "http://" + options.address + ":" + std::to_string(options.port);

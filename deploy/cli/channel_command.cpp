@@ -145,7 +145,7 @@ void add_channel_command(CLI::App& app, Common& common) {
   command->add_option("--channel", options->channel, "Channel number");
   command->add_option("--from-line", options->from_line,
                       "With start: search this line, report what will happen, and wait for another start");
-  command->add_flag("--take-over", options->take_over, cluster::take_over_help);
+  command->add_flag("--take-right", options->take_over, cluster::take_right_help);
   command->footer(list_of_commands());
 }
 

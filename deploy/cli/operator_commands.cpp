@@ -109,7 +109,8 @@ int alarms(const Common& common, bool reset, bool take_over) {
 int panel(const Common& common, idl::plc::PanelRequestKind kind, bool take_over) {
   const auto cluster = cluster::find_cluster(common.domain);
   std::optional<cluster::OperatingStation> station;
-  if (kind != idl::plc::PanelRequestKind::PRESS_EMERGENCY_STOP) station.emplace(cluster.run.domain, take_over);
+  if (kind != idl::plc::PanelRequestKind::PRESS_EMERGENCY_STOP)
+    station.emplace(cluster.run.domain, take_over);
   cluster::Client(cluster.run.domain).panel(kind);
   if (common.json) std::cout << bus::Json{{"accepted", true}}.dump() << "\n";
   return 0;
@@ -119,20 +120,20 @@ int panel(const Common& common, idl::plc::PanelRequestKind kind, bool take_over)
 
 void add_operator_commands(CLI::App& app, Common& common) {
   auto line = std::make_shared<Line>();
-  auto* command =
-      add_command(app, common, "mdi", "Run one line, e.g. trunnion mdi \"G0 X10\", and print where the axes are",
-                  [&common, line] { return mdi(common, *line); });
+  auto* command = add_command(app, common, "mdi",
+                              "Run one line, e.g. trunnion mdi \"G0 X10\", and print where the axes are",
+                              [&common, line] { return mdi(common, *line); });
   command->add_option("line", line->text, "The line")->required();
   command->add_option("--channel", line->channel, "Channel number");
   command->add_option("--timeout", line->timeout, "Seconds to wait for its end");
-  command->add_flag("--take-over", line->take_over, cluster::take_over_help);
+  command->add_flag("--take-right", line->take_over, cluster::take_right_help);
 
   auto reset = std::make_shared<bool>(false);
   auto take_over = std::make_shared<bool>(false);
   command = add_command(app, common, "alarms", "List the active alarms",
                         [&common, reset, take_over] { return alarms(common, *reset, *take_over); });
   command->add_flag("--reset", *reset, "Clear those whose cause is gone first");
-  command->add_flag("--take-over", *take_over, cluster::take_over_help);
+  command->add_flag("--take-right", *take_over, cluster::take_right_help);
 
   auto what = std::make_shared<std::string>();
   command = add_command(
@@ -141,7 +142,7 @@ void add_operator_commands(CLI::App& app, Common& common) {
       [&common, what, take_over] {
         return panel(common, commands::find_panel_word(*what)->kind, *take_over);
       });
-  command->add_flag("--take-over", *take_over, cluster::take_over_help);
+  command->add_flag("--take-right", *take_over, cluster::take_right_help);
   std::vector<std::string> words;
   for (const auto& row : commands::panel_commands()) words.emplace_back(row.word);
   command->add_option("what", *what, "What to do")->required()->check(CLI::IsMember(words));

@@ -8,7 +8,6 @@
 
 #include "bus/json.hpp"
 #include "cluster/cluster.hpp"
-#include "cluster/operating_station.hpp"
 
 namespace trunnion::cli {
 namespace {
@@ -26,7 +25,6 @@ std::string user() {
 int send_parameters(const Common& common, cluster::Client& client, idl::parameters::ParameterRequest request,
                     const std::string& suffix, bool silent) {
   request.who = user().substr(0, most_author - suffix.size()) + suffix;
-  const cluster::OperatingStation station(cluster::find_cluster(common.domain).run.domain, false);
   const auto reply = client.parameter(std::move(request));
   if (silent) return 0;
   if (common.json)

@@ -208,7 +208,7 @@ void add_plc_load_commands(CLI::App& plc, Common& common) {
                     "Directory with .st files, fast.il, main.il, devices.yaml");
   loads->add_flag("--dry-run", options->dry_run, "Only translate them and say what is not kept");
   loads->add_flag("--undo", options->undo, "Load those again that ran before the last load");
-  loads->add_flag("--take-over", options->take_over, cluster::take_over_help);
+  loads->add_flag("--take-right", options->take_over, cluster::take_right_help);
   loads->add_flag("--accept-differences", options->accept_differences,
                   "Load them although they do something else than the running ones");
   loads->add_option("--compare", options->seconds, "Seconds of machine time to compare (default 1)")

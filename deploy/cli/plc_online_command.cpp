@@ -267,7 +267,7 @@ void add_plc_online_commands(CLI::App& plc, Common& common) {
   forces->add_option("values", options->paths, "PATH=VALUE; with --release: PATH, none for all");
   forces->add_flag("--permanent", options->permanent, "Also after the next start of the cluster");
   forces->add_flag("--release", options->release, "End the forces");
-  forces->add_flag("--take-over", options->take_over, cluster::take_over_help);
+  forces->add_flag("--take-right", options->take_over, cluster::take_right_help);
   forces->add_flag("--list", options->list, "Print what is forced");
   auto* traces = add_command(plc, common, "trace",
                              "Record variables of the PLC after each scan, as CSV or JSON", bind(trace));

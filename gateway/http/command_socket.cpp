@@ -55,28 +55,28 @@ void CommandSocket::accept() {
         if (command->holds) operating_.release(command->station);
         commands_.erase(command);
       };
-      net::async_read_until(
-          command->socket, net::dynamic_buffer(command->incoming, longest_line), '\n',
-          [this, command, end](const boost::system::error_code& failed, std::size_t) {
-            const auto line = bus::Json::parse(command->incoming, nullptr, false);
-            if (failed || !line.is_object()) return end();
-            const auto name = line.contains("name") && line["name"].is_string()
-                                  ? line["name"].get<std::string>().substr(0, 64)
-                                  : std::string("command line");
-            command->station = {"command " + std::to_string(++count_), name, true};
-            const auto holder =
-                operating_.take_for_command(command->station, line.value("take_over", bus::Json(false)) == true);
-            command->holds = holder.empty();
-            command->outgoing = bus::text_of({{"holder", holder}}) + "\n";
-            net::async_write(command->socket, net::buffer(command->outgoing),
-                             [command, end](const boost::system::error_code& broken, std::size_t) {
-                               if (broken) return end();
-                               command->incoming.assign(1, '\0');
-                               command->socket.async_read_some(
-                                   net::buffer(command->incoming),
-                                   [end](const boost::system::error_code&, std::size_t) { end(); });
-                             });
-          });
+      net::async_read_until(command->socket, net::dynamic_buffer(command->incoming, longest_line), '\n',
+                            [this, command, end](const boost::system::error_code& failed, std::size_t) {
+                              const auto line = bus::Json::parse(command->incoming, nullptr, false);
+                              if (failed || !line.is_object()) return end();
+                              const auto name = line.contains("name") && line["name"].is_string()
+                                                    ? line["name"].get<std::string>().substr(0, 64)
+                                                    : std::string("command line");
+                              command->station = {"command " + std::to_string(++count_), name, true};
+                              const auto holder = operating_.take_for_command(
+                                  command->station, line.value("take_over", bus::Json(false)) == true);
+                              command->holds = holder.empty();
+                              command->outgoing = bus::text_of({{"holder", holder}}) + "\n";
+                              net::async_write(
+                                  command->socket, net::buffer(command->outgoing),
+                                  [command, end](const boost::system::error_code& broken, std::size_t) {
+                                    if (broken) return end();
+                                    command->incoming.assign(1, '\0');
+                                    command->socket.async_read_some(
+                                        net::buffer(command->incoming),
+                                        [end](const boost::system::error_code&, std::size_t) { end(); });
+                                  });
+                            });
     }
     accept();
   });

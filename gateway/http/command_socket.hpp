@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The socket by which the command line holds the right to operate: a file of the run directory, which only the
-// user of the cluster can reach. A command sends one line {"name": "...", "take_over": false}, reads one line
+// The socket by which the command line holds the right to operate: a file of the run directory, which only
+// the user of the cluster can reach. A command sends one line {"name": "...", "take_over": false}, reads one
+// line
 // {"holder": "..."} (empty: it operates), and holds the right until it closes the connection.
 #pragma once
 

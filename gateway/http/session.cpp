@@ -98,7 +98,8 @@ void HttpSession::on_header() {
       api_.access().identify(view(request[http::field::cookie]), view(request[http::field::authorization]),
                              prolongs_session(match_.operation));
   if (auto refusal = api_.access().refusal(user_, match_)) return answer_and_close(std::move(*refusal));
-  const auto station = api_.operating().station_of(view(request[http::field::cookie]), connection_.peer, user_);
+  const auto station =
+      api_.operating().station_of(view(request[http::field::cookie]), connection_.peer, user_);
   if (auto refusal = api_.operating().refusal(station, match_)) return answer_and_close(std::move(*refusal));
   if (match_.operation == Operation::write_program) return continue_then(&HttpSession::begin_upload);
   const auto length = header_->content_length();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A WebSocket that carries the values of variables of the PLC. The client sends {"paths": [...]}, also again with
-// others; it gets {"variables": [...]} or {"problem": {...}}, then {"scan", "tick", "values", "forced"} whenever
-// something has changed.
+// A WebSocket that carries the values of variables of the PLC. The client sends {"paths": [...]}, also again
+// with others; it gets {"variables": [...]} or {"problem": {...}}, then {"scan", "tick", "values", "forced"}
+// whenever something has changed.
 #pragma once
 
 #include <boost/beast/core/flat_buffer.hpp>

@@ -70,9 +70,8 @@ OnlineRequest trace_request(const Json& body) {
   only(body, {"paths", "scans", "when"});
   auto request = request_for(OnlineAction::START_TRACE);
   add_paths(body, request);
-  request.scans = body.contains("scans")
-                      ? static_cast<std::uint32_t>(whole(body["scans"], "scans", 1, 1000000))
-                      : 1000;
+  request.scans =
+      body.contains("scans") ? static_cast<std::uint32_t>(whole(body["scans"], "scans", 1, 1000000)) : 1000;
   if (!body.contains("when")) return request;
   const auto& when = body["when"];
   if (!when.is_object()) throw BadRequest("when", "when must have path, is and value");
@@ -84,8 +83,8 @@ OnlineRequest trace_request(const Json& body) {
       {">", TraceCondition::GREATER},
       {"changed", TraceCondition::CHANGED}};
   const auto is = text(required(when, "is"), "is", 8);
-  const auto* found =
-      std::ranges::find(conditions, std::string_view(is), &std::pair<std::string_view, TraceCondition>::first);
+  const auto* found = std::ranges::find(conditions, std::string_view(is),
+                                        &std::pair<std::string_view, TraceCondition>::first);
   if (found == std::end(conditions)) throw BadRequest("is", "is must be =, <>, <, > or changed");
   request.condition = found->second;
   request.condition_path = text(required(when, "path"), "path", path_bytes);

@@ -13,8 +13,8 @@ struct PlcSource {
   std::string name, text;
 };
 
-/// {"values": [{"path": "main.n", "value": "5"}], "permanent": false}; the value is a literal of the language.
-/// Throws BadRequest, as the others do.
+/// {"values": [{"path": "main.n", "value": "5"}], "permanent": false}; the value is a literal of the
+/// language. Throws BadRequest, as the others do.
 idl::plc::OnlineRequest force_request(const bus::Json& body);
 /// {"paths": ["main.n"]}; without paths everything that is forced.
 idl::plc::OnlineRequest release_request(const bus::Json& body);

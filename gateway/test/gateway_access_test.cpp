@@ -152,7 +152,8 @@ TEST_F(GatewayAccess, OneStationOperatesAndHandsOverWithConsentOrToASetter) {
   EXPECT_EQ(ask("POST", "/api/channels/0/reset", json::object(), ann).status, 409);
   EXPECT_TRUE(change("take", sam)["mine"]) << "a setter needs no consent";
   EXPECT_EQ(ask("DELETE", "/api/session", json::object(), sam).status, 200);
-  EXPECT_EQ(ask("POST", "/api/channels/0/reset", json::object(), ann).status, 200) << "a logout gives it back";
+  EXPECT_EQ(ask("POST", "/api/channels/0/reset", json::object(), ann).status, 200)
+      << "a logout gives it back";
   EXPECT_EQ(ask("GET", "/api/operating-right").status, 401);
   EXPECT_TRUE(eventually([&] {
     return journal().find("\"what\":\"hands the right to operate to bob (127.0.0.1)\"") != std::string::npos;

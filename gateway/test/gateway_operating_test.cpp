@@ -35,7 +35,8 @@ class GatewayOperating : public Gateway {
     EXPECT_THAT(cookie, HasSubstr("; HttpOnly"));
     return "Cookie: " + cookie.substr(0, cookie.find(';')) + "\r\n";
   }
-  Response ask(const std::string& target, const std::string& browser, const json& body = json::object()) const {
+  Response ask(const std::string& target, const std::string& browser,
+               const json& body = json::object()) const {
     return http_client::request(port_, "POST", target, body.dump(), browser);
   }
   json right(const std::string& browser) const {
@@ -58,14 +59,16 @@ TEST_F(GatewayOperating, TheFirstOrderTakesTheRightAndStopsStayEverybodys) {
   const auto refused = ask("/api/channels/0/single-block", other, {{"on", true}});
   EXPECT_EQ(refused.status, 409);
   EXPECT_EQ(json::parse(refused.body)["accepted"], false);
-  EXPECT_THAT(refused.body, HasSubstr(right(one)["holder"]["name"].get<std::string>() + " operates this machine"));
+  EXPECT_THAT(refused.body,
+              HasSubstr(right(one)["holder"]["name"].get<std::string>() + " operates this machine"));
   EXPECT_EQ(http_client::request(port_, "PUT", "/api/tools/3", "{}", other).status, 409);
   EXPECT_EQ(post("/api/panel/release").status, 409) << "a program without a cookie is a station of its own";
   for (const char* stop :
        {"/api/panel/emergency-stop", "/api/channels/0/feed-hold", "/api/channels/0/jog-stop"}) {
-    EXPECT_EQ(ask(stop, other, stop == std::string("/api/channels/0/jog-stop") ? json{{"axis", 0}} : json::object())
-                  .status,
-              200)
+    EXPECT_EQ(
+        ask(stop, other, stop == std::string("/api/channels/0/jog-stop") ? json{{"axis", 0}} : json::object())
+            .status,
+        200)
         << stop;
     EXPECT_TRUE(right(one)["mine"]) << "who stops does not take the right";
   }
@@ -76,8 +79,7 @@ TEST_F(GatewayOperating, TheFirstOrderTakesTheRightAndStopsStayEverybodys) {
 TEST_F(GatewayOperating, TheRightIsShownAndGivenBack) {
   const auto one = browser(), other = browser();
   http_client::WebSocketClient stream(port_, "/api/stream");
-  EXPECT_EQ(json::parse(stream.next().value_or("{}"))["state"]["operating"],
-            json::object());
+  EXPECT_EQ(json::parse(stream.next().value_or("{}"))["state"]["operating"], json::object());
   change("take", one);
   const auto number = right(one)["number"];
   EXPECT_TRUE(eventually([&] {
@@ -109,7 +111,8 @@ TEST_F(GatewayOperating, TheCommandLineIsAStationAsLongAsItRuns) {
     const cluster::OperatingStation command(domain, false);
     ADD_FAILURE() << "the browser operates";
   } catch (const std::runtime_error& error) {
-    EXPECT_THAT(error.what(), HasSubstr("operates this machine; --take-over takes the right to operate over"));
+    EXPECT_THAT(error.what(),
+                HasSubstr("operates this machine; --take-right takes the right to operate over"));
   }
   const cluster::OperatingStation command(domain, true);
   EXPECT_EQ(ask("/api/alarms/reset", one).status, 409);

@@ -59,9 +59,9 @@ TEST(Rights, OrdersToTheMachineNeedTheRightToOperateAndStopsAndFilesDoNot) {
     EXPECT_TRUE(needs("POST", path)) << path;
   for (const char* path : {"/api/tools/3", "/api/work-offsets", "/api/parameters/11", "/api/parameters"})
     EXPECT_TRUE(needs("PUT", path)) << path;
-  for (const char* path : {"/api/panel/emergency-stop", "/api/channels/0/feed-hold", "/api/channels/0/jog-stop",
-                           "/api/session", "/api/operating-right", "/api/recordings", "/api/check/0",
-                           "/api/plc/trace"})
+  for (const char* path :
+       {"/api/panel/emergency-stop", "/api/channels/0/feed-hold", "/api/channels/0/jog-stop", "/api/session",
+        "/api/operating-right", "/api/recordings", "/api/check/0", "/api/plc/trace"})
     EXPECT_FALSE(needs("POST", path)) << path;
   EXPECT_FALSE(needs("PUT", "/api/programs/A"));
   for (const auto& route : routes())

@@ -6,7 +6,8 @@
 namespace trunnion::access {
 
 ShownStation shown(const Station& station) {
-  return {static_cast<std::uint32_t>(std::stoul(digest(station.key).substr(0, 7), nullptr, 16)), station.name};
+  return {static_cast<std::uint32_t>(std::stoul(digest(station.key).substr(0, 7), nullptr, 16)),
+          station.name};
 }
 
 std::optional<ShownStation> OperatingRight::current(const std::optional<Present>& one, double now) {

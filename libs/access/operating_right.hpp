@@ -11,8 +11,8 @@ namespace trunnion::access {
 
 /// A browser, a program with a token, or the command line.
 struct Station {
-  std::string key;    ///< secret of the station, or what identifies it
-  std::string name;   ///< for people
+  std::string key;             ///< secret of the station, or what identifies it
+  std::string name;            ///< for people
   bool may_take_over = false;  ///< also when the holder has not agreed
 };
 

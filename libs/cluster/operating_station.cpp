@@ -25,7 +25,8 @@ std::string user_name() {
 
 std::string exchange(int socket, const std::string& line) {
   std::string answer;
-  if (::send(socket, line.data(), line.size(), MSG_NOSIGNAL) != static_cast<ssize_t>(line.size())) return answer;
+  if (::send(socket, line.data(), line.size(), MSG_NOSIGNAL) != static_cast<ssize_t>(line.size()))
+    return answer;
   char part[256];
   while (answer.find('\n') == std::string::npos) {
     const auto count = ::recv(socket, part, sizeof part, 0);
@@ -37,7 +38,9 @@ std::string exchange(int socket, const std::string& line) {
 
 }  // namespace
 
-std::string operating_socket(std::uint32_t domain) { return RunDirectory{domain}.path() + "/operating.socket"; }
+std::string operating_socket(std::uint32_t domain) {
+  return RunDirectory{domain}.path() + "/operating.socket";
+}
 
 OperatingStation::OperatingStation(std::uint32_t domain, bool take_over) {
   sockaddr_un address{};
@@ -59,7 +62,7 @@ OperatingStation::OperatingStation(std::uint32_t domain, bool take_over) {
   if (holder.empty()) return;
   ::close(socket_);
   socket_ = -1;
-  throw std::runtime_error(holder + " operates this machine; --take-over takes the right to operate over");
+  throw std::runtime_error(holder + " operates this machine; --take-right takes the right to operate over");
 }
 
 OperatingStation::~OperatingStation() {

@@ -10,8 +10,8 @@ namespace trunnion::cluster {
 /// Where the gateway of a cluster whose machine one station operates listens for commands.
 std::string operating_socket(std::uint32_t domain);
 
-inline constexpr const char* take_over_help =
-    "Take the right to operate over from another station, when one station operates (operating_right)";
+inline constexpr const char* take_right_help =
+    "Take the right to operate from another station (operating_right in machine.yaml)";
 
 class OperatingStation {
  public:

@@ -1,35 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "machine/gateway_settings.hpp"
 
-#include <filesystem>
 #include <stdexcept>
 
 #include "machine/yaml.hpp"
 
 namespace trunnion::machine {
-namespace {
-
-void read_tls(const YAML::Node& node, const std::string& file, GatewaySettings& settings) {
-  const char* expected = "tls must be 'auto', 'off', or 'certificate' and 'key', two PEM files";
-  if (node.IsScalar() && (node.Scalar() == "auto" || node.Scalar() == "off")) {
-    settings.tls = node.Scalar() == "auto";
-    return;
-  }
-  if (!node.IsMap() || node.size() != 2) throw std::runtime_error(at(file, node) + expected);
-  const auto directory = std::filesystem::absolute(file).parent_path();
-  const auto path = [&](const char* name) {
-    const auto member = node[name];
-    if (!member || !member.IsScalar() || member.Scalar().empty())
-      throw std::runtime_error(at(file, node) + expected);
-    return (directory / member.Scalar()).lexically_normal().string();
-  };
-  settings.tls = true;
-  settings.certificate = path("certificate");
-  settings.key = path("key");
-}
-
-}  // namespace
-
 GatewaySettings read_gateway_settings(const YAML::Node& document, const std::string& file) {
   GatewaySettings settings;
   if (const auto node = document["mtconnect_port"]) {
@@ -66,7 +42,6 @@ GatewaySettings read_gateway_settings(const YAML::Node& document, const std::str
       throw std::runtime_error(at(file, node) + "operating_right must be 'one' or 'any'");
     settings.one_operates = text == "one";
   }
-  if (const auto node = document["tls"]) read_tls(node, file, settings);
   return settings;
 }
 

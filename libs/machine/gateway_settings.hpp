@@ -16,9 +16,6 @@ struct GatewaySettings {
   bool auth = false;                    ///< users log in
   double session_idle = 1800;           ///< s without a request after which a session ends
   bool one_operates = false;            ///< one station at a time; by default when users log in
-  bool tls = false;                     ///< HTTPS instead of HTTP
-  /// PEM files, absolute; empty with `tls`: those that `trunnion certificate` makes.
-  std::string certificate, key;
 };
 
 /// `document` is that of machine.yaml in `file`. Throws std::runtime_error with file:line:column.

@@ -3,8 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <filesystem>
-
 #include "machine/yaml.hpp"
 
 namespace trunnion::machine {
@@ -31,8 +29,8 @@ TEST(GatewaySettings, ASessionEndsAfterHalfAnHourUnlessMinutesAreGiven) {
   EXPECT_EQ(read("auth: on").session_idle, 1800);
   EXPECT_EQ(read("session_idle_minutes: 5").session_idle, 300);
   EXPECT_EQ(read("session_idle_minutes: 0.05").session_idle, 3);
-  for (const char* text : {"session_idle_minutes: 0", "session_idle_minutes: 721", "session_idle_minutes: .nan",
-                           "session_idle_minutes: long"})
+  for (const char* text : {"session_idle_minutes: 0", "session_idle_minutes: 721",
+                           "session_idle_minutes: .nan", "session_idle_minutes: long"})
     EXPECT_THROW(read(text), std::runtime_error) << text;
 }
 
@@ -43,21 +41,6 @@ TEST(GatewaySettings, OneStationOperatesWhenUsersLogInUnlessTheMachineSaysOtherw
   EXPECT_TRUE(read("operating_right: one").one_operates);
   EXPECT_THROW(read("operating_right: two"), std::runtime_error);
   EXPECT_THROW(read("operating_right: [one]"), std::runtime_error);
-}
-
-TEST(GatewaySettings, FilesOfTlsAreBesideTheMachine) {
-  EXPECT_FALSE(read("name: mill").tls);
-  EXPECT_FALSE(read("tls: off").tls);
-  const auto automatic = read("tls: auto");
-  EXPECT_TRUE(automatic.tls);
-  EXPECT_EQ(automatic.certificate, "");
-  const auto own = read("tls: {certificate: tls/mill.pem, key: /etc/mill.key}");
-  EXPECT_TRUE(own.tls);
-  EXPECT_EQ(own.certificate, (std::filesystem::current_path() / "tls/mill.pem").string());
-  EXPECT_EQ(own.key, "/etc/mill.key");
-  for (const char* text : {"tls: perhaps", "tls: {certificate: a}", "tls: {certificate: a, key: [b]}",
-                           "tls: {certificate: a, key: ''}", "tls: [a, b]"})
-    EXPECT_THROW(read(text), std::runtime_error) << text;
 }
 
 TEST(GatewaySettings, APortOutOfRangeIsNamedWithItsPlace) {

@@ -27,13 +27,8 @@ TEST(ShownVariables, EachKindIsALiteralOfTheLanguage) {
                               variable("main.name", "STRING[8]", ValueKind::STRING_VALUE, 2), state});
   EXPECT_EQ(shown.cells(), 7u) << "one each, and two of the string";
   // "ab" is two bytes: its length, then 'a' (97) lowest and 'b' (98) next.
-  const std::vector<std::uint64_t> cells = {1,
-                                            static_cast<std::uint64_t>(-5),
-                                            std::bit_cast<std::uint64_t>(1.5),
-                                            1500000000,
-                                            2,
-                                            97 + 98 * 256,
-                                            3};
+  const std::vector<std::uint64_t> cells = {
+      1, static_cast<std::uint64_t>(-5), std::bit_cast<std::uint64_t>(1.5), 1500000000, 2, 97 + 98 * 256, 3};
   EXPECT_EQ(shown.texts(cells),
             (std::vector<std::string>{"TRUE", "-5", "1.5", "T#1s500ms", "'ab'", "moving"}));
 }
@@ -41,10 +36,9 @@ TEST(ShownVariables, EachKindIsALiteralOfTheLanguage) {
 TEST(ShownVariables, JsonHasUnitAndNamesOnlyWhereThereAreSome) {
   auto state = variable("main.state", "State", ValueKind::ENUMERATED_VALUE);
   state.names = {{"idle", 0}}, state.retained = true;
-  EXPECT_EQ(json_of(state), bus::Json({{"path", "main.state"},
-                                       {"type", "State"},
-                                       {"retained", true},
-                                       {"names", {{"idle", 0}}}}));
+  EXPECT_EQ(
+      json_of(state),
+      bus::Json({{"path", "main.state"}, {"type", "State"}, {"retained", true}, {"names", {{"idle", 0}}}}));
   auto speed = variable("%G300", "UINT", ValueKind::UNSIGNED_VALUE);
   speed.unit = "rpm";
   EXPECT_EQ(json_of(speed),

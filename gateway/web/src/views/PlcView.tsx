@@ -138,7 +138,7 @@ function Watched({ live, forces }: { live: ReadonlyMap<string, Live>; forces: Pl
           <tbody>
             {rows.map((path) => {
               const one = live.get(path);
-              const is = forced.has(path.toUpperCase());
+              const is = forced.has(path.toUpperCase()) || (one?.forced ?? false);
               return (
                 <tr key={path} class={is ? "forced" : ""}>
                   <td>{path} <span class="dim">{one?.variable.type}</span></td>
@@ -190,7 +190,7 @@ function VariableList({ variables }: { variables: PlcVariable[] }) {
       </div>
       <div class="scroll" tabIndex={0} role="region" aria-label={t.plcVariables}>
         {shown.map(({ path, type }) => (
-          <button key={path} class="choose" aria-pressed={chosen.value.includes(path)} aria-label={t.plcWatch(path)} onClick={() => toggle(path)}>
+          <button key={path} class="choose" aria-pressed={chosen.value.includes(path)} aria-label={t.plcWatch(type ? `${path} ${type}` : path)} onClick={() => toggle(path)}>
             <b>{path}</b> <span class="dim">{type}</span>
           </button>
         ))}
