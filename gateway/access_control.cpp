@@ -40,7 +40,7 @@ const std::string& hash_of_nobody() {
 }  // namespace
 
 AccessControl::AccessControl(AccessSettings settings, FileWorker& worker)
-    : settings_(std::move(settings)), worker_(worker) {
+    : settings_(std::move(settings)), worker_(worker), sessions_(settings_.session_idle) {
   if (!on()) return;
   hash_of_nobody();  // made now, so that the first unknown name takes no longer than others
   const auto& directory = settings_.state_directory;
@@ -85,7 +85,7 @@ void AccessControl::refresh(double now) {
 }
 
 std::optional<access::Identity> AccessControl::identify(std::string_view cookies,
-                                                        std::string_view authorization) {
+                                                        std::string_view authorization, bool prolongs) {
   if (!on()) return {};
   const auto secret = cookie_value(cookies, cookie);
   const auto token = bearer_token(authorization);
@@ -98,7 +98,7 @@ std::optional<access::Identity> AccessControl::identify(std::string_view cookies
     if (found == nullptr) return {};
     return access::Identity{found->name, found->role};
   }
-  return sessions_.find(secret, now);
+  return prolongs ? sessions_.find(secret, now) : sessions_.look(secret, now);
 }
 
 std::optional<Answer> AccessControl::refusal(const std::optional<access::Identity>& who,

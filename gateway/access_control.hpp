@@ -20,6 +20,7 @@ namespace trunnion::gateway {
 struct AccessSettings {
   bool on = false;
   std::string state_directory;
+  double session_idle = access::Sessions::longest_idle;  ///< s
 };
 
 class AccessControl {
@@ -31,8 +32,10 @@ class AccessControl {
   AccessControl(AccessSettings settings, FileWorker& worker);
 
   bool on() const { return settings_.on; }
-  /// Who sends a request with these values of the headers Cookie and Authorization.
-  std::optional<access::Identity> identify(std::string_view cookies, std::string_view authorization);
+  /// Who sends a request with these values of the headers Cookie and Authorization. Only what a person does
+  /// `prolongs` a session, not what a page asks by itself.
+  std::optional<access::Identity> identify(std::string_view cookies, std::string_view authorization,
+                                           bool prolongs = true);
   /// 401 or 403 when `who` must not do it.
   std::optional<Answer> refusal(const std::optional<access::Identity>& who, const Match& match) const;
 

@@ -43,6 +43,8 @@ using Respond = std::function<void(Answer)>;
 Answer json_answer(unsigned status, const bus::Json& body);
 /// {"error": text, "field": field}; the field only when there is one.
 Answer error_answer(unsigned status, const std::string& text, const std::string& field = {});
+/// As "application/problem+json" (RFC 9457): {"type", "title", "status", "detail", "field"}.
+Answer problem_answer(unsigned status, const std::string& detail, const std::string& field = {});
 
 /// 409 with the number of an alarm, 0 = none, and the reason.
 Answer refused_answer(std::uint32_t alarm, const std::string& reason);

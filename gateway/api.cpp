@@ -74,6 +74,23 @@ Answer error_answer(unsigned status, const std::string& text, const std::string&
   return json_answer(status, body);
 }
 
+Answer problem_answer(unsigned status, const std::string& detail, const std::string& field) {
+  static const std::map<unsigned, const char*> titles = {{400, "Bad Request"},
+                                                         {404, "Not Found"},
+                                                         {409, "Conflict"},
+                                                         {503, "Service Unavailable"},
+                                                         {504, "Gateway Timeout"}};
+  const auto title = titles.find(status);
+  Json body = {{"type", "about:blank"},
+               {"title", title == titles.end() ? "Error" : title->second},
+               {"status", status},
+               {"detail", detail}};
+  if (!field.empty()) body["field"] = field;
+  auto answer = json_answer(status, body);
+  answer.type = "application/problem+json";
+  return answer;
+}
+
 Answer refused_answer(std::uint32_t alarm, const std::string& reason) {
   return json_answer(409, {{"accepted", false}, {"alarm", alarm}, {"reason", reason}});
 }
@@ -119,7 +136,26 @@ void Api::handle(const Match& match, const RequestText& request, const Respond& 
       case Operation::login:
         return access_.login(body, request.peer, respond);
       case Operation::logout:
+        operating_.release(operating_.station_of(request.cookies, request.peer, request.user));
         return respond(access_.logout(request));
+      case Operation::operating_right:
+      case Operation::change_operating_right:
+        return respond(operating_.handle(match, request));
+      case Operation::plc_programs:
+      case Operation::plc_source:
+      case Operation::plc_variables:
+      case Operation::plc_forces:
+      case Operation::plc_force:
+      case Operation::plc_release:
+      case Operation::plc_start_trace:
+      case Operation::plc_trace:
+      case Operation::plc_end_trace:
+      case Operation::plc_begin_load:
+      case Operation::plc_load:
+      case Operation::plc_compare:
+      case Operation::plc_take_over:
+      case Operation::plc_end_load:
+        return plc_.handle(match, request, respond);
       case Operation::recordings:
       case Operation::read_recording:
       case Operation::recording_table:

@@ -12,6 +12,8 @@
 #include "answer.hpp"
 #include "bus/json.hpp"
 #include "mailbox.hpp"
+#include "operating_control.hpp"
+#include "plc_online.hpp"
 #include "program_checker.hpp"
 #include "recordings.hpp"
 #include "src/router.hpp"
@@ -29,13 +31,15 @@ Answer unrouted(RouteResult result);
 class Api {
  public:
   Api(Mailbox& mailbox, std::string contract, std::filesystem::path web, RecordingSettings recordings = {},
-      AccessSettings access = {})
+      AccessSettings access = {}, bool one_operates = false)
       : mailbox_(mailbox),
         contract_(std::move(contract)),
         web_(std::move(web)),
         checker_(mailbox),
         recordings_(std::move(recordings)),
-        access_(std::move(access), recordings_.worker()) {}
+        access_(std::move(access), recordings_.worker()),
+        operating_(one_operates, access_),
+        plc_(mailbox) {}
 
   /// Everything but the stream and the reading and writing of programs.
   void handle(const Match& match, const RequestText& request, const Respond& respond);
@@ -48,6 +52,7 @@ class Api {
   /// Its revision, 0 = none.
   std::uint64_t stored_lately(const std::string& name);
   AccessControl& access() { return access_; }
+  OperatingControl& operating() { return operating_; }
   /// Where the source of an answer is read.
   FileWorker& files() { return recordings_.worker(); }
   /// Ends the threads of checks and files; to be called while the mailbox exists.
@@ -75,6 +80,8 @@ class Api {
   ProgramChecker checker_;
   Recordings recordings_;
   AccessControl access_;
+  OperatingControl operating_;
+  PlcOnline plc_;
   struct Stored {
     std::uint64_t revision = 0;
     std::chrono::steady_clock::time_point since;

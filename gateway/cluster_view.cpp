@@ -35,6 +35,9 @@ ClusterView::ClusterView(bus::Bus& bus)
       outputs_(bus.reader(topics::plc_outputs)),
       image_(bus.reader(topics::plc_image)),
       variables_(bus.reader(topics::variables)),
+      forces_(bus.reader(topics::plc_forces)),
+      plc_programs_(bus.reader(topics::plc_programs)),
+      watched_(bus.reader(topics::plc_watched)),
       parameters_(bus.reader(topics::parameter_set)),
       tools_(bus.reader(topics::tool_table)),
       offsets_(bus.reader(topics::work_offsets)),
@@ -62,6 +65,11 @@ void ClusterView::drain(double now) {
   idl::plc::Outputs outputs;
   if (outputs_.take_newest(outputs)) document_.apply(outputs);
   keep_newest(image_, next_.image);
+  keep_newest(forces_, next_.plc_forces);
+  keep_newest(plc_programs_, next_.plc_programs);
+  idl::plc::Watched watched;
+  while (watched_.take(watched))
+    next_.plc_watched[watched.slot] = std::make_shared<const idl::plc::Watched>(watched);
   idl::channel::Variables variables;
   while (variables_.take(variables))
     next_.variables[variables.channel] = std::make_shared<const idl::channel::Variables>(variables);
@@ -75,9 +83,10 @@ void ClusterView::drain(double now) {
   if (keep_newest(programs_, next_.programs)) document_.set_revision("programs", next_.programs->revision);
 }
 
-std::shared_ptr<const Snapshot> ClusterView::snapshot(double now) {
+std::shared_ptr<const Snapshot> ClusterView::snapshot(double now, const bus::Json& operating) {
   ++next_.sequence;
   next_.document = document_.document(now);
+  if (!operating.is_null()) next_.document["operating"] = operating;
   return std::make_shared<const Snapshot>(next_);
 }
 

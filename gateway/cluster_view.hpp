@@ -15,8 +15,9 @@ class ClusterView {
   explicit ClusterView(bus::Bus& bus);
   /// Takes what has come. `now` in monotonic seconds.
   void drain(double now);
-  /// Everything as it is now; peaks and the trace start afresh with it.
-  std::shared_ptr<const Snapshot> snapshot(double now);
+  /// Everything as it is now; peaks and the trace start afresh with it. `operating` is that of
+  /// OperatingControl.
+  std::shared_ptr<const Snapshot> snapshot(double now, const bus::Json& operating = nullptr);
   std::uint64_t frames() const { return frames_; }
   /// Of the parameters, 0 = none yet.
   std::uint64_t revision() const { return next_.parameters ? next_.parameters->revision : 0; }
@@ -31,6 +32,9 @@ class ClusterView {
   bus::Reader<idl::plc::Outputs> outputs_;
   bus::Reader<idl::plc::Image> image_;
   bus::Reader<idl::channel::Variables> variables_;
+  bus::Reader<idl::plc::Forces> forces_;
+  bus::Reader<idl::plc::Programs> plc_programs_;
+  bus::Reader<idl::plc::Watched> watched_;
   bus::Reader<idl::parameters::ParameterSet> parameters_;
   bus::Reader<idl::parameters::ToolTable> tools_;
   bus::Reader<idl::parameters::WorkOffsets> offsets_;

@@ -8,6 +8,7 @@ Links::Links(bus::Bus& bus)
       panel(bus, topics::panel_request, topics::panel_reply),
       parameters(bus, topics::parameter_request, topics::parameter_reply),
       program(bus, topics::program_request, topics::program_reply),
+      online(bus, topics::online_request, topics::online_reply),
       alarm_resets(bus),
       journal(bus) {}
 
@@ -16,9 +17,12 @@ void Links::pump(double now) {
   panel.pump(now);
   parameters.pump(now);
   program.pump(now);
+  online.pump(now);
 }
 
-bool Links::busy() const { return channel.busy() || panel.busy() || parameters.busy() || program.busy(); }
+bool Links::busy() const {
+  return channel.busy() || panel.busy() || parameters.busy() || program.busy() || online.busy();
+}
 
 void Mailbox::post(Job job) {
   {

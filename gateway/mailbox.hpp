@@ -57,6 +57,7 @@ struct Links {
   RequestLanes<idl::plc::PanelRequest, idl::plc::PanelReply> panel;
   RequestLanes<idl::parameters::ParameterRequest, idl::parameters::ParameterReply> parameters;
   RequestLanes<idl::program::ProgramRequest, idl::program::ProgramReply> program;
+  RequestLanes<idl::plc::OnlineRequest, idl::plc::OnlineReply> online;
   AlarmResets alarm_resets;
   Journal journal;
 };

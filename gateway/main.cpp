@@ -6,6 +6,7 @@
 #include <iostream>
 
 #include "cluster/cluster_files.hpp"
+#include "cluster/operating_station.hpp"
 #include "machine/gateway_settings.hpp"
 #include "service.hpp"
 #include "service/network.hpp"
@@ -72,10 +73,12 @@ int main(int argc, char** argv) {
     char computer[256] = {};
     gethostname(computer, sizeof computer - 1);
     const auto settings = machine::load_gateway_settings(options.machine_directory);
-    own.access = {settings.auth, options.state_directory};
+    own.access = {settings.auth, options.state_directory, settings.session_idle};
     if (!settings.auth && !gateway::is_loopback(own.address))
       throw std::runtime_error("every computer that reaches " + own.address +
                                " could move the machine: set 'auth: on' in machine.yaml");
+    own.one_operates = settings.one_operates;
+    own.command_socket = cluster::operating_socket(options.network.domain);
     own.mtconnect_port =
         mtconnect_port >= 0 ? static_cast<std::uint16_t>(mtconnect_port) : settings.mtconnect_port;
     own.mtconnect = agent_settings(options.machine, computer);

@@ -7,9 +7,10 @@ namespace trunnion::gateway {
 
 GatewayService::GatewayService(service::Node& node, const GatewayOptions& options)
     : mailbox_([&node] { node.bus().signal().notify(); }), links_(node.bus()), view_(node.bus()) {
-  api_ =
-      std::make_unique<Api>(mailbox_, topics::contract_hash, options.web, options.recordings, options.access);
-  server_ = std::make_unique<HttpServer>(options.address, options.port, *api_, Site(options.host_names));
+  api_ = std::make_unique<Api>(mailbox_, topics::contract_hash, options.web, options.recordings,
+                               options.access, options.one_operates);
+  server_ = std::make_unique<HttpServer>(options.address, options.port, *api_, Site(options.host_names),
+                                         options.command_socket);
   where_ = "http://" + options.address + ":" + std::to_string(options.port);
   if (options.mtconnect_port == 0) return;
   try {
@@ -40,7 +41,7 @@ service::Health GatewayService::health() const {
 }
 
 void GatewayService::publish(double now) {
-  mailbox_.publish(view_.snapshot(now));
+  mailbox_.publish(view_.snapshot(now, api_->operating().document()));
   published_ = now;
 }
 

@@ -20,6 +20,8 @@ struct GatewayOptions {
   std::vector<std::string> host_names;  ///< as of Site
   RecordingSettings recordings;
   AccessSettings access;
+  bool one_operates = false;         ///< one station at a time
+  std::string command_socket;        ///< as of CommandSocket
   std::uint16_t mtconnect_port = 0;  ///< 0 = no agent
   mtconnect::AgentSettings mtconnect;
 };

@@ -13,6 +13,7 @@ constexpr double poll_period = 0.1;  // s
 // What depends neither on the time of the sample nor on what was before this process started.
 Json comparable(Json document) {
   document.erase("trace");
+  document.erase("operating");
   if (document.contains("axes"))
     for (auto& axis : document["axes"]) axis.erase("following_peak");
   if (document.contains("alarms"))

@@ -130,7 +130,7 @@ def ts_type(schema):
         if "properties" in schema: return "{ " + " ".join(ts_members(schema, "")) + " }" if schema["properties"] else "Record<string, never>"
         extra = schema.get("additionalProperties")
         return f"Record<string, {ts_type(extra)}>" if isinstance(extra, dict) else "object"
-    return {"integer": "number", "number": "number", "string": "string", "boolean": "boolean"}[kind]
+    return {"integer": "number", "number": "number", "string": "string", "boolean": "boolean", "null": "null"}[kind]
 
 
 def ts_members(schema, indent):

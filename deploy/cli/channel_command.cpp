@@ -7,12 +7,14 @@
 #include <cstdio>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <random>
 #include <thread>
 
 #include "bus/json.hpp"
 #include "cluster/client.hpp"
 #include "cluster/cluster.hpp"
+#include "cluster/operating_station.hpp"
 #include "commands.hpp"
 #include "commands/channel_request.hpp"
 
@@ -27,6 +29,7 @@ struct Options {
   std::vector<std::string> arguments;
   std::uint16_t channel = 0;
   std::uint32_t from_line = 0;
+  bool take_over = false;
 };
 
 // Of the axes, in the order of their indices.
@@ -101,6 +104,10 @@ int run(const Common& common, const Options& options) {
   const auto cluster = cluster::find_cluster(common.domain);
   cluster::Client client(cluster.run.domain);
   auto request = request_of(client, options);
+  // Stops are everybody's.
+  std::optional<cluster::OperatingStation> station;
+  if (request.command != CommandKind::FEED_HOLD && request.command != CommandKind::JOG_STOP)
+    station.emplace(cluster.run.domain, options.take_over);
   const bool jogs_until_released = request.command == CommandKind::JOG_AXIS && request.increment == 0;
   if (jogs_until_released && request.press == 0) request.press = std::random_device{}() | 1u;
   client.channel(request);
@@ -138,6 +145,7 @@ void add_channel_command(CLI::App& app, Common& common) {
   command->add_option("--channel", options->channel, "Channel number");
   command->add_option("--from-line", options->from_line,
                       "With start: search this line, report what will happen, and wait for another start");
+  command->add_flag("--take-right", options->take_over, cluster::take_right_help);
   command->footer(list_of_commands());
 }
 

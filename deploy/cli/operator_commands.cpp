@@ -6,10 +6,12 @@
 #include <cstdio>
 #include <iostream>
 #include <memory>
+#include <optional>
 
 #include "bus/json.hpp"
 #include "cluster/client.hpp"
 #include "cluster/cluster.hpp"
+#include "cluster/operating_station.hpp"
 #include "commands.hpp"
 #include "commands/command_table.hpp"
 
@@ -52,12 +54,20 @@ void wait_until_idle(cluster::Client& client, std::uint16_t channel, double time
                            " s");
 }
 
-int mdi(const Common& common, const std::string& line, std::uint16_t channel, double timeout) {
+struct Line {
+  std::string text;
+  std::uint16_t channel = 0;
+  double timeout = 60;  // s
+  bool take_over = false;
+};
+
+int mdi(const Common& common, const Line& line) {
   const auto cluster = cluster::find_cluster(common.domain);
+  const cluster::OperatingStation station(cluster.run.domain, line.take_over);
   cluster::Client client(cluster.run.domain);
-  client.set_mode(channel, Mode::MDI);
-  client.mdi(channel, line);
-  wait_until_idle(client, channel, timeout);
+  client.set_mode(line.channel, Mode::MDI);
+  client.mdi(line.channel, line.text);
+  wait_until_idle(client, line.channel, line.timeout);
   const auto state = client.newest(topics::channel_state);
   if (common.json) {
     std::cout << bus::text_of(bus::to_json(state)) << "\n";
@@ -69,8 +79,10 @@ int mdi(const Common& common, const std::string& line, std::uint16_t channel, do
   return 0;
 }
 
-int alarms(const Common& common, bool reset) {
+int alarms(const Common& common, bool reset, bool take_over) {
   const auto cluster = cluster::find_cluster(common.domain);
+  std::optional<cluster::OperatingStation> station;
+  if (reset) station.emplace(cluster.run.domain, take_over);
   cluster::Client client(cluster.run.domain);
   if (reset) client.reset_alarms();
   auto reader = client.bus().reader(topics::alarm);
@@ -94,8 +106,11 @@ int alarms(const Common& common, bool reset) {
   return 0;
 }
 
-int panel(const Common& common, idl::plc::PanelRequestKind kind) {
+int panel(const Common& common, idl::plc::PanelRequestKind kind, bool take_over) {
   const auto cluster = cluster::find_cluster(common.domain);
+  std::optional<cluster::OperatingStation> station;
+  if (kind != idl::plc::PanelRequestKind::PRESS_EMERGENCY_STOP)
+    station.emplace(cluster.run.domain, take_over);
   cluster::Client(cluster.run.domain).panel(kind);
   if (common.json) std::cout << bus::Json{{"accepted", true}}.dump() << "\n";
   return 0;
@@ -104,26 +119,30 @@ int panel(const Common& common, idl::plc::PanelRequestKind kind) {
 }  // namespace
 
 void add_operator_commands(CLI::App& app, Common& common) {
-  auto line = std::make_shared<std::string>();
-  auto channel = std::make_shared<std::uint16_t>(std::uint16_t{0});
-  auto timeout = std::make_shared<double>(60);
-  auto* command = add_command(
-      app, common, "mdi", "Run one line, e.g. trunnion mdi \"G0 X10\", and print where the axes are",
-      [&common, line, channel, timeout] { return mdi(common, *line, *channel, *timeout); });
-  command->add_option("line", *line, "The line")->required();
-  command->add_option("--channel", *channel, "Channel number");
-  command->add_option("--timeout", *timeout, "Seconds to wait for its end");
+  auto line = std::make_shared<Line>();
+  auto* command = add_command(app, common, "mdi",
+                              "Run one line, e.g. trunnion mdi \"G0 X10\", and print where the axes are",
+                              [&common, line] { return mdi(common, *line); });
+  command->add_option("line", line->text, "The line")->required();
+  command->add_option("--channel", line->channel, "Channel number");
+  command->add_option("--timeout", line->timeout, "Seconds to wait for its end");
+  command->add_flag("--take-right", line->take_over, cluster::take_right_help);
 
   auto reset = std::make_shared<bool>(false);
+  auto take_over = std::make_shared<bool>(false);
   command = add_command(app, common, "alarms", "List the active alarms",
-                        [&common, reset] { return alarms(common, *reset); });
+                        [&common, reset, take_over] { return alarms(common, *reset, *take_over); });
   command->add_flag("--reset", *reset, "Clear those whose cause is gone first");
+  command->add_flag("--take-right", *take_over, cluster::take_right_help);
 
   auto what = std::make_shared<std::string>();
   command = add_command(
       app, common, "estop",
       "Press or release the emergency stop of the operator panel (no substitute for a hard-wired one)",
-      [&common, what] { return panel(common, commands::find_panel_word(*what)->kind); });
+      [&common, what, take_over] {
+        return panel(common, commands::find_panel_word(*what)->kind, *take_over);
+      });
+  command->add_flag("--take-right", *take_over, cluster::take_right_help);
   std::vector<std::string> words;
   for (const auto& row : commands::panel_commands()) words.emplace_back(row.word);
   command->add_option("what", *what, "What to do")->required()->check(CLI::IsMember(words));

@@ -9,6 +9,7 @@
 #include "bus/json.hpp"
 #include "cluster/client.hpp"
 #include "cluster/cluster.hpp"
+#include "cluster/operating_station.hpp"
 #include "commands.hpp"
 #include "machine/parameters.hpp"
 #include "parameter_request.hpp"
@@ -156,10 +157,18 @@ void add_parameter_commands(CLI::App& app, Common& common) {
               [&common, numbers] { return get(common, *numbers); })
       ->add_option("number", *numbers, "Six digits")
       ->required();
+  auto take_right = std::make_shared<bool>(false);
+  const auto operating = [&common, take_right](auto act) {
+    return [&common, take_right, act] {
+      const cluster::OperatingStation station(cluster::find_cluster(common.domain).run.domain, *take_right);
+      return act();
+    };
+  };
   auto* command = add_command(*param, common, "set", "Change a value",
-                              [&common, text] { return set(common, text->first, text->second); });
+                              operating([&common, text] { return set(common, text->first, text->second); }));
   command->add_option("number", text->first, "Six digits")->required();
   command->add_option("value", text->second, "New value")->required();
+  command->add_flag("--take-right", *take_right, cluster::take_right_help);
   add_command(*param, common, "list", "Values that differ from the defaults", [&common, text] {
     return list(common, text->first);
   })->add_option("filter", text->first, "Start of the number or part of the name");
@@ -167,10 +176,10 @@ void add_parameter_commands(CLI::App& app, Common& common) {
               [&common, text] { return save(common, text->first); })
       ->add_option("file", text->first, "File, - for standard output")
       ->required();
-  add_command(*param, common, "import", "Set every value of a YAML file, all or none",
-              [&common, text] { return load(common, text->first); })
-      ->add_option("file", text->first, "File")
-      ->required();
+  command = add_command(*param, common, "import", "Set every value of a YAML file, all or none",
+                        operating([&common, text] { return load(common, text->first); }));
+  command->add_option("file", text->first, "File")->required();
+  command->add_flag("--take-right", *take_right, cluster::take_right_help);
 }
 
 }  // namespace trunnion::cli

@@ -11,6 +11,7 @@
 #include <thread>
 
 #include "bus/json.hpp"
+#include "cluster/operating_station.hpp"
 #include "plc/compile.hpp"
 #include "plc_session.hpp"
 
@@ -21,7 +22,7 @@ using idl::plc::LoadPhase;
 
 struct Options {
   std::string directory;
-  bool dry_run = false, undo = false, accept_differences = false;
+  bool dry_run = false, undo = false, accept_differences = false, take_over = false;
   double seconds = 1;
 };
 struct Source {
@@ -149,6 +150,7 @@ Outcome load(const Common& common, PlcSession& session, const Options& options) 
   outcome.compared = reply.compared, outcome.differences = reply.differences;
   if (!common.json) print(outcome, false, told);
   OnlineRequest request;
+  const cluster::OperatingStation station(session.domain(), options.take_over);
   request.action = OnlineAction::TAKE_OVER;
   request.accept_differences = options.accept_differences;
   try {
@@ -205,6 +207,7 @@ void add_plc_load_commands(CLI::App& plc, Common& common) {
                     "Directory with .st and .xml files, fast.il, main.il, devices.yaml");
   loads->add_flag("--dry-run", options->dry_run, "Only translate them and say what is not kept");
   loads->add_flag("--undo", options->undo, "Load those again that ran before the last load");
+  loads->add_flag("--take-right", options->take_over, cluster::take_right_help);
   loads->add_flag("--accept-differences", options->accept_differences,
                   "Load them although they do something else than the running ones");
   loads->add_option("--compare", options->seconds, "Seconds of machine time to compare (default 1)")

@@ -9,6 +9,7 @@
 #include <memory>
 
 #include "bus/json.hpp"
+#include "cluster/operating_station.hpp"
 #include "plc_session.hpp"
 
 namespace trunnion::cli {
@@ -19,21 +20,10 @@ struct Options {
   std::string when, output;
   std::uint32_t scans = 1000;
   std::uint64_t count = 0;
-  bool permanent = false, release = false, list = false;
+  bool permanent = false, release = false, list = false, take_over = false;
 };
 
 std::atomic<bool> interrupted{false};
-
-bus::Json json_of(const idl::plc::VariableInfo& info) {
-  bus::Json json = {{"path", info.path}, {"type", info.type}};
-  if (!info.unit.empty()) json["unit"] = info.unit;
-  json["retained"] = info.retained;
-  if (!info.names.empty()) {
-    auto& names = json["names"] = bus::Json::object();
-    for (const auto& name : info.names) names[name.name] = name.value;
-  }
-  return json;
-}
 
 int variables(const Common& common, const Options& options) {
   PlcSession session(common);
@@ -49,9 +39,7 @@ int variables(const Common& common, const Options& options) {
     all.insert(all.end(), reply.variables.begin(), reply.variables.end());
   }
   if (common.json) {
-    auto list = bus::Json::array();
-    for (const auto& info : all) list.push_back(json_of(info));
-    std::cout << bus::text_of(list) << "\n";
+    std::cout << bus::text_of(ShownVariables(all).json()) << "\n";
     return 0;
   }
   std::vector<std::string> above;
@@ -158,7 +146,10 @@ int force(const Common& common, const Options& options) {
     request.paths.push_back(text.substr(0, at));
     request.values.push_back(text.substr(at + 1));
   }
-  if (options.release || !options.paths.empty()) session.call(request);
+  if (options.release || !options.paths.empty()) {
+    const cluster::OperatingStation station(session.domain(), options.take_over);
+    session.call(request);
+  }
   return options.list ? list_forces(common, session) : 0;
 }
 
@@ -192,8 +183,7 @@ void write_trace(const Common& common, std::ostream& out, const ShownVariables& 
                  const std::vector<std::uint64_t>& cells) {
   const auto width = shown.cells() + 2;
   if (common.json) {
-    bus::Json json = {{"variables", bus::Json::array()}, {"rows", bus::Json::array()}};
-    for (std::size_t i = 0; i < shown.size(); ++i) json["variables"].push_back(json_of(shown.info(i)));
+    bus::Json json = {{"variables", shown.json()}, {"rows", bus::Json::array()}};
     for (std::size_t at = 0; at < cells.size(); at += width)
       json["rows"].push_back({{"time_ms", cells[at]},
                               {"tick", cells[at + 1]},
@@ -277,6 +267,7 @@ void add_plc_online_commands(CLI::App& plc, Common& common) {
   forces->add_option("values", options->paths, "PATH=VALUE; with --release: PATH, none for all");
   forces->add_flag("--permanent", options->permanent, "Also after the next start of the cluster");
   forces->add_flag("--release", options->release, "End the forces");
+  forces->add_flag("--take-right", options->take_over, cluster::take_right_help);
   forces->add_flag("--list", options->list, "Print what is forced");
   auto* traces = add_command(plc, common, "trace",
                              "Record variables of the PLC after each scan, as CSV or JSON", bind(trace));

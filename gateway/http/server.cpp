@@ -7,6 +7,7 @@
 #include <thread>
 #include <vector>
 
+#include "http/command_socket.hpp"
 #include "http/listen.hpp"
 #include "http/session.hpp"
 
@@ -16,8 +17,14 @@ namespace net = boost::asio;
 using tcp = net::ip::tcp;
 
 struct HttpServer::Inside {
-  Inside(const std::string& address, std::uint16_t port, Api& served, Site own)
-      : acceptor(context), pause(context), api(served), site(std::move(own)), hub(context, served.mailbox()) {
+  Inside(const std::string& address, std::uint16_t port, Api& served, Site own,
+         const std::string& command_socket)
+      : acceptor(context),
+        pause(context),
+        api(served),
+        site(std::move(own)),
+        hub(context, served.mailbox()),
+        commands(context, command_socket, served.operating()) {
     listen_on(acceptor, address, port);
     hub.start();
     accept();
@@ -70,11 +77,13 @@ struct HttpServer::Inside {
   Api& api;
   const Site site;
   StreamHub hub;
+  CommandSocket commands;
   std::thread thread;
 };
 
-HttpServer::HttpServer(const std::string& address, std::uint16_t port, Api& api, Site site)
-    : inside_(std::make_unique<Inside>(address, port, api, std::move(site))) {}
+HttpServer::HttpServer(const std::string& address, std::uint16_t port, Api& api, Site site,
+                       const std::string& command_socket)
+    : inside_(std::make_unique<Inside>(address, port, api, std::move(site), command_socket)) {}
 
 HttpServer::~HttpServer() { stop(); }
 

@@ -14,7 +14,9 @@ namespace trunnion::gateway {
 class HttpServer {
  public:
   /// Listens at once. Throws std::runtime_error saying address, port and reason.
-  HttpServer(const std::string& address, std::uint16_t port, Api& api, Site site = Site());
+  /// `command_socket` as of CommandSocket, empty = none.
+  HttpServer(const std::string& address, std::uint16_t port, Api& api, Site site = Site(),
+             const std::string& command_socket = {});
   ~HttpServer();
   /// Ends the thread; nothing is answered afterwards. Answers may still be handed to sessions until it is
   /// destroyed.

@@ -8,8 +8,10 @@
 #include <boost/beast/http/write.hpp>
 
 #include "http/session_parts.hpp"
+#include "http/watch.hpp"
 #include "src/compression.hpp"
 #include "src/requests.hpp"
+#include "src/rights.hpp"
 #include "src/site.hpp"
 
 namespace trunnion::gateway {
@@ -93,8 +95,12 @@ void HttpSession::on_header() {
   }
   if (match_.result != RouteResult::found) return answer_and_close(unrouted(match_.result));
   user_ =
-      api_.access().identify(view(request[http::field::cookie]), view(request[http::field::authorization]));
+      api_.access().identify(view(request[http::field::cookie]), view(request[http::field::authorization]),
+                             prolongs_session(match_.operation));
   if (auto refusal = api_.access().refusal(user_, match_)) return answer_and_close(std::move(*refusal));
+  const auto station =
+      api_.operating().station_of(view(request[http::field::cookie]), connection_.peer, user_);
+  if (auto refusal = api_.operating().refusal(station, match_)) return answer_and_close(std::move(*refusal));
   if (match_.operation == Operation::write_program) return continue_then(&HttpSession::begin_upload);
   const auto length = header_->content_length();
   if (length && *length > largest_body) return too_large("the body is larger than 1 MiB");
@@ -122,12 +128,17 @@ void HttpSession::read_body() {
 }
 
 void HttpSession::dispatch() {
-  if (match_.operation == Operation::stream) {
+  if (match_.operation == Operation::stream || match_.operation == Operation::plc_watch) {
     if (!beast::websocket::is_upgrade(body_->get()))
       return answer(error_answer(426, "this path speaks WebSocket only"));
     if (hub_.full()) return answer(error_answer(503, "too many clients of the stream"));
-    std::make_shared<StreamSession>(std::move(stream_), hub_, api_, sender(body_->get()), connection_.peer)
-        ->accept(body_->get());
+    const auto& headers = body_->get();
+    Visitor visitor{sender(headers), connection_.peer, std::string(view(headers[http::field::cookie])),
+                    std::string(view(headers[http::field::authorization]))};
+    if (match_.operation == Operation::plc_watch)
+      std::make_shared<WatchSession>(std::move(stream_), hub_, api_, std::move(visitor))->accept(headers);
+    else
+      std::make_shared<StreamSession>(std::move(stream_), hub_, api_, std::move(visitor))->accept(headers);
     return;
   }
   if (line_) add_body(*line_, body_->get().body());
@@ -162,8 +173,20 @@ void HttpSession::journal(unsigned status, const Asked& asked, std::function<voi
   });
 }
 
+void HttpSession::note_plc(unsigned status) {
+  constexpr std::size_t noted = 300;  // bytes of the body: which values
+  const auto& request = body_->get();
+  auto text = std::string(view(request.method_string())) + " " + std::string(view(request.target()));
+  text.append(" ").append(request.body(), 0, noted).append(": ").append(std::to_string(status));
+  api_.access().note(user_->name, text);
+}
+
 void HttpSession::answer(Answer made) {
-  if (!line_) return send(std::move(made));
+  if (!line_) {
+    if (user_ && is_of_plc_programs(match_.operation) && body_ && body_->get().method() != http::verb::get)
+      note_plc(made.status);
+    return send(std::move(made));
+  }
   add_answer(*line_, made.body);
   const auto status = made.status;
   const auto asked = made.asked;

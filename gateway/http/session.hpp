@@ -45,6 +45,8 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
   void continue_then(void (HttpSession::*next)());
   void read_body();
   void dispatch();
+  /// An order to the programs of the PLC, in the journal of the users.
+  void note_plc(unsigned status);
   /// Writes the line of the journal first when the request has one.
   void answer(Answer answer);
   void send(Answer answer);

@@ -32,6 +32,10 @@ void StreamHub::start() {
   timer_.async_wait([this](const boost::system::error_code& error) {
     if (error) return;
     tick();
+    if (++ticks_ % (1000 / period.count()) == 0) {
+      const auto all = viewers_;
+      for (const auto& viewer : all) viewer->each_second();
+    }
     start();
   });
 }
@@ -41,19 +45,19 @@ void StreamHub::tick() {
   if (!snapshot || snapshot == newest_) return;
   newest_ = std::move(snapshot);
   cache_.clear();
-  const auto all = sessions_;
-  for (const auto& session : all) session->offer();
+  const auto all = viewers_;
+  for (const auto& viewer : all) viewer->offer(newest_);
 }
 
-void StreamHub::join(const std::shared_ptr<StreamSession>& session) {
+void StreamHub::join(const std::shared_ptr<Viewer>& viewer) {
   tick();  // a new client begins with what is known now
-  sessions_.insert(session);
-  count_ = sessions_.size();
+  viewers_.insert(viewer);
+  count_ = viewers_.size();
 }
 
-void StreamHub::leave(const std::shared_ptr<StreamSession>& session) {
-  sessions_.erase(session);
-  count_ = sessions_.size();
+void StreamHub::leave(const std::shared_ptr<Viewer>& viewer) {
+  viewers_.erase(viewer);
+  count_ = viewers_.size();
 }
 
 std::shared_ptr<const std::string> StreamHub::message(const std::shared_ptr<const Snapshot>& from,
@@ -105,6 +109,12 @@ void StreamSession::read() {
   });
 }
 
+void StreamSession::each_second() {
+  const auto user = api_.access().identify(visitor_.cookies, visitor_.authorization, false);
+  if (api_.access().on() && !user) return close();
+  api_.operating().present(api_.operating().station_of(visitor_.cookies, visitor_.peer, user));
+}
+
 void StreamSession::take_order(const std::string& text) {
   const auto order = bus::Json::parse(text, nullptr, false);
   if (!order.is_object() || !order.contains("order")) return;
@@ -117,8 +127,11 @@ void StreamSession::take_order(const std::string& text) {
   if (found.result != RouteResult::found || !commands::is_by_stream(found.command))
     return answer_order(order,
                         error_answer(404, "only " + commands::routes_by_stream() + " come by the stream"));
+  const auto user = api_.access().identify(visitor_.cookies, visitor_.authorization, false);
+  const auto station = api_.operating().station_of(visitor_.cookies, visitor_.peer, user);
+  if (const auto refusal = api_.operating().refusal(station, found)) return answer_order(order, *refusal);
   const auto body = member("body", bus::Json::object()).dump();
-  auto line = std::make_shared<JournalLine>(begin_line(sender_, peer_, "POST", target));
+  auto line = std::make_shared<JournalLine>(begin_line(visitor_.sender, visitor_.peer, "POST", target));
   add_body(*line, body);
   api_.handle(found, {"", body}, [self = shared_from_this(), order, line](Answer made) {
     boost::asio::post(self->socket_.get_executor(), [self, order, line, made = std::move(made)] {

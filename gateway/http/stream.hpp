@@ -16,19 +16,18 @@
 #include <set>
 
 #include "api.hpp"
+#include "http/viewer.hpp"
 
 namespace trunnion::gateway {
-
-class StreamSession;
 
 /// Looks at the mailbox 20 times a second and hands what is new to every client that is ready for it.
 class StreamHub {
  public:
   StreamHub(boost::asio::io_context& context, Mailbox& mailbox) : timer_(context), mailbox_(mailbox) {}
   void start();
-  void join(const std::shared_ptr<StreamSession>& session);
-  void leave(const std::shared_ptr<StreamSession>& session);
-  bool full() const { return sessions_.size() >= 32; }
+  void join(const std::shared_ptr<Viewer>& viewer);
+  void leave(const std::shared_ptr<Viewer>& viewer);
+  bool full() const { return viewers_.size() >= 32; }
   std::size_t size() const { return count_; }
   const std::shared_ptr<const Snapshot>& newest() const { return newest_; }
   /// Text of the message that brings a client from `from` (null: from nothing) to the newest state. Empty
@@ -41,21 +40,24 @@ class StreamHub {
   Mailbox& mailbox_;
   std::shared_ptr<const Snapshot> newest_;
   std::map<std::uint64_t, std::shared_ptr<const std::string>> cache_;  ///< by the sequence it starts from
-  std::set<std::shared_ptr<StreamSession>> sessions_;
+  std::set<std::shared_ptr<Viewer>> viewers_;
   std::atomic<std::size_t> count_{0};
+  int ticks_ = 0;
 };
 
-class StreamSession : public std::enable_shared_from_this<StreamSession> {
+class StreamSession : public Viewer, public std::enable_shared_from_this<StreamSession> {
  public:
-  StreamSession(boost::beast::tcp_stream&& stream, StreamHub& hub, Api& api, idl::gateway::Sender sender,
-                std::string peer)
-      : socket_(std::move(stream)), hub_(hub), api_(api), sender_(sender), peer_(std::move(peer)) {}
+  StreamSession(boost::beast::tcp_stream&& stream, StreamHub& hub, Api& api, Visitor visitor)
+      : socket_(std::move(stream)), hub_(hub), api_(api), visitor_(std::move(visitor)) {}
   void accept(const boost::beast::http::request<boost::beast::http::string_body>& request);
   /// Sends what is new, unless the message before is still under way.
-  void offer();
+  void offer(const std::shared_ptr<const Snapshot>&) override { offer(); }
+  /// Closes the stream when the session of its visitor is over.
+  void each_second() override;
 
  private:
   void read();
+  void offer();
   /// An order to stop, which needs no new connection: {"order": number, "path": a stop's, "body": {...}}.
   void take_order(const std::string& text);
   void answer_order(const bus::Json& order, const Answer& made);
@@ -64,8 +66,7 @@ class StreamSession : public std::enable_shared_from_this<StreamSession> {
   boost::beast::websocket::stream<boost::beast::tcp_stream> socket_;
   StreamHub& hub_;
   Api& api_;
-  idl::gateway::Sender sender_;
-  std::string peer_;
+  const Visitor visitor_;
   boost::beast::flat_buffer incoming_;
   std::deque<std::shared_ptr<const std::string>> answers_;  ///< to orders, before the next state
   std::shared_ptr<const Snapshot> sent_;

@@ -20,11 +20,16 @@ void add(std::string& kept, std::uint64_t& size, std::uint32_t& crc, std::string
 
 }  // namespace
 
+bool is_of_plc_programs(Operation operation) {
+  return operation >= Operation::plc_programs && operation <= Operation::plc_end_load;
+}
+
 bool is_journaled(Operation operation) {
   if (operation == Operation::read_program) return true;
   if (operation == Operation::start_recording || operation == Operation::stop_recording ||
       operation == Operation::remove_recording || operation == Operation::login ||
-      operation == Operation::logout)
+      operation == Operation::logout || operation == Operation::change_operating_right ||
+      is_of_plc_programs(operation))
     return false;  // nothing of it is on the bus, and no password gets there
   for (const auto& route : routes())
     if (route.operation == operation) return route.method != "GET";

@@ -19,8 +19,11 @@ struct Asked {
   std::uint32_t requests = 0;
 };
 
-/// Whether requests of this operation are kept: all that make the gateway write to the bus. Those that only
-/// read what it knows are not.
+/// Forces and loads are in the journal of the PLC, and its other requests change nothing.
+bool is_of_plc_programs(Operation operation);
+
+/// Whether requests of this operation are kept: all that make the gateway write to the bus, those to the
+/// programs of the PLC excepted. Those that only read what it knows are not.
 bool is_journaled(Operation operation);
 
 /// A line without body and answer. `address` and `target` are cut off at their bounds.

@@ -18,6 +18,13 @@ std::optional<Role> needed_role(const Match& match) {
     case Operation::channel_command:
       if (match.command == "feed-hold" || match.command == "jog-stop") return {};
       return Role::machine_operator;
+    case Operation::plc_force:
+    case Operation::plc_release:
+    case Operation::plc_begin_load:
+    case Operation::plc_compare:
+    case Operation::plc_take_over:
+    case Operation::plc_end_load:
+      return Role::builder;
     case Operation::set_parameter:  // those of access builder need more
     case Operation::set_parameters:
     case Operation::set_tool:
@@ -30,6 +37,43 @@ std::optional<Role> needed_role(const Match& match) {
       return Role::setter;
     default:
       return Role::machine_operator;
+  }
+}
+
+bool needs_operating_right(const Match& match) {
+  switch (match.operation) {
+    case Operation::panel_command:
+    case Operation::channel_command:
+      return needed_role(match).has_value();  // who may stop needs no login either
+    case Operation::alarms_reset:
+    case Operation::set_parameter:
+    case Operation::set_parameters:
+    case Operation::set_tool:
+    case Operation::remove_tool:
+    case Operation::set_work_offset:
+    case Operation::plc_force:
+    case Operation::plc_release:
+    case Operation::plc_take_over:
+      return true;
+    default:
+      return false;
+  }
+}
+
+bool prolongs_session(Operation operation) {
+  switch (operation) {
+    case Operation::session:
+    case Operation::stream:
+    case Operation::operating_right:
+    case Operation::plc_watch:
+    case Operation::plc_forces:
+    case Operation::plc_load:
+    case Operation::plc_trace:
+    case Operation::plc_image:
+    case Operation::variables:
+      return false;
+    default:
+      return true;
   }
 }
 

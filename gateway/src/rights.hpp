@@ -14,6 +14,13 @@ namespace trunnion::gateway {
 /// end of a jog are everybody's.
 std::optional<access::Role> needed_role(const Match& match);
 
+/// Whether the operation changes what the machine does, so that only the station that operates may order it.
+/// Stops are everybody's; programs may be stored from elsewhere.
+bool needs_operating_right(const Match& match);
+
+/// Whether the operation shows that somebody is there: not what an open page asks by itself.
+bool prolongs_session(Operation operation);
+
 /// Value of `name` in the header Cookie; empty when it is not there.
 std::string cookie_value(std::string_view header, std::string_view name);
 

@@ -41,6 +41,23 @@ enum class Operation {
   start_recording,
   stop_recording,
   remove_recording,
+  operating_right,
+  change_operating_right,
+  plc_programs,
+  plc_source,
+  plc_variables,
+  plc_forces,
+  plc_force,
+  plc_release,
+  plc_watch,
+  plc_start_trace,
+  plc_trace,
+  plc_end_trace,
+  plc_begin_load,
+  plc_load,
+  plc_compare,
+  plc_take_over,
+  plc_end_load,
   channel_command,  ///< one of commands::channel_commands()
   panel_command,    ///< one of commands::panel_commands()
   alarms_reset

@@ -21,6 +21,9 @@ struct Snapshot {
   std::shared_ptr<const idl::program::ProgramList> programs;
   std::shared_ptr<const idl::plc::Image> image;
   std::map<std::uint16_t, std::shared_ptr<const idl::channel::Variables>> variables;  ///< by channel
+  std::shared_ptr<const idl::plc::Forces> plc_forces;
+  std::shared_ptr<const idl::plc::Programs> plc_programs;
+  std::map<std::uint8_t, std::shared_ptr<const idl::plc::Watched>> plc_watched;  ///< by slot
 };
 
 /// Answers of the GET operations, as the OpenAPI document describes them. Null when the service has not

@@ -32,6 +32,9 @@ class GatewayAccess : public testing::Test {
     users.users.push_back({name, role, access::hash_password("password of " + name)});
     access::save_users(state(), users);
   }
+  void set(const std::string& line) const {
+    std::ofstream(scratch_ + "/machine/machine.yaml", std::ios::app) << line << "\n";
+  }
   void start() {
     auto arguments = command_line(port_, scratch_ + "/web");
     arguments[2] = scratch_ + "/machine";
@@ -97,6 +100,7 @@ TEST_F(GatewayAccess, ASessionMayDoWhatItsRoleSaysUntilItsEnd) {
   add("ann", Role::machine_operator);
   add("sam", Role::setter);
   add("bo", Role::builder);
+  set("operating_right: any");
   start();
   const auto ann = session("ann"), sam = session("sam"), bo = session("bo");
   EXPECT_EQ(ask("POST", "/api/channels/0/cycle-start", json::object(), ann).status, 200);
@@ -125,6 +129,51 @@ TEST_F(GatewayAccess, ASessionMayDoWhatItsRoleSaysUntilItsEnd) {
            journal().find("\"what\":\"logout\",\"who\":\"ann\"") != std::string::npos;
   })) << journal();
   EXPECT_EQ(journal().find("password of"), std::string::npos);
+}
+
+TEST_F(GatewayAccess, OneStationOperatesAndHandsOverWithConsentOrToASetter) {
+  add("ann", Role::machine_operator);
+  add("bob", Role::machine_operator);
+  add("sam", Role::setter);
+  start();
+  const auto ann = session("ann"), bob = session("bob"), sam = session("sam");
+  const auto change = [&](const char* action, const std::string& who) {
+    return json::parse(ask("POST", "/api/operating-right", {{"action", action}}, who).body);
+  };
+  EXPECT_EQ(ask("POST", "/api/channels/0/cycle-start", json::object(), ann).status, 200);
+  const auto refused = ask("POST", "/api/channels/0/reset", json::object(), bob);
+  EXPECT_EQ(refused.status, 409);
+  EXPECT_THAT(refused.body, HasSubstr("ann (127.0.0.1) operates this machine"));
+  EXPECT_EQ(ask("POST", "/api/channels/0/feed-hold", json::object(), bob).status, 200);
+  const auto asked = change("take", bob);
+  EXPECT_FALSE(asked["mine"]);
+  EXPECT_EQ(asked["asking"]["name"], "bob (127.0.0.1)");
+  EXPECT_TRUE(change("hand_over", ann)["holder"]["name"] == "bob (127.0.0.1)");
+  EXPECT_EQ(ask("POST", "/api/channels/0/reset", json::object(), ann).status, 409);
+  EXPECT_TRUE(change("take", sam)["mine"]) << "a setter needs no consent";
+  EXPECT_EQ(ask("DELETE", "/api/session", json::object(), sam).status, 200);
+  EXPECT_EQ(ask("POST", "/api/channels/0/reset", json::object(), ann).status, 200)
+      << "a logout gives it back";
+  EXPECT_EQ(ask("GET", "/api/operating-right").status, 401);
+  EXPECT_TRUE(eventually([&] {
+    return journal().find("\"what\":\"hands the right to operate to bob (127.0.0.1)\"") != std::string::npos;
+  })) << journal();
+}
+
+TEST_F(GatewayAccess, ASessionEndsWithItsStreamAlthoughThePageGoesOnAsking) {
+  add("ann", Role::machine_operator);
+  set("session_idle_minutes: 0.05");  // 3 s
+  start();
+  const auto ann = session("ann");
+  EXPECT_EQ(ask("GET", "/api/status", {}, ann).status, 200);
+  const auto until = std::chrono::steady_clock::now() + std::chrono::seconds(6);
+  int status = 200;
+  while (status == 200 && std::chrono::steady_clock::now() < until) {
+    status = ask("GET", "/api/plc/image", {}, ann).status;
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  }
+  EXPECT_EQ(status, 401);
+  EXPECT_EQ(ask("GET", "/api/status", {}, ann).status, 401);
 }
 
 TEST_F(GatewayAccess, AUserWhoIsRemovedIsOutWithinSeconds) {

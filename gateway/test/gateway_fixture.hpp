@@ -74,7 +74,9 @@ class Gateway : public testing::Test {
     std::filesystem::create_directories(web_);
     std::filesystem::create_directories(state_ = web_ + "_state");
     std::ofstream(web_ + "/index.html") << "<p>the page</p>";
-    process_ = std::make_unique<Process>(command_line(port_, web_), web_ + "/stderr.txt");
+    auto arguments = command_line(port_, web_);
+    arguments[2] = machine_directory_;
+    process_ = std::make_unique<Process>(arguments, web_ + "/stderr.txt");
     stepper_ = std::thread([this] {
       while (!stop_) {
         {
@@ -110,7 +112,7 @@ class Gateway : public testing::Test {
   }
 
   const std::uint16_t port_ = free_port();
-  std::string web_, state_;
+  std::string web_, state_, machine_directory_ = MACHINE;
   std::mutex mutex_;
   FakeCluster cluster_{{domain}};
   std::atomic<bool> stop_ = false;

@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <string>
 
+#include "src/plc_requests.hpp"
 #include "src/requests.hpp"
 #include "src/router.hpp"
 
@@ -57,6 +58,14 @@ void body(const std::string& text) {
     const auto tool = tool_request(1, json).tools.at(0);
     require(std::isfinite(tool.length) && std::isfinite(tool.radius) && tool.name.size() <= 64);
   });
+  refused_or([&] {
+    const auto request = force_request(json);
+    require(!request.paths.empty() && request.paths.size() == request.values.size());
+  });
+  refused_or([&] { release_request(json); });
+  refused_or([&] { require(!watch_request(json).paths.empty()); });
+  refused_or([&] { require(trace_request(json).scans >= 1); });
+  refused_or([&] { require(load_requests(load_files(json)).size() >= 3); });
   refused_or([&] { require(rename_request("a.nc", json).new_name.size() <= 64); });
 }
 

@@ -47,6 +47,45 @@ TEST(Rights, OperatorsRunTheMachineAndSettersChangeWhatItWorksWith) {
   EXPECT_EQ(role_for("DELETE", "/api/recordings/a.mcap"), Role::setter);
 }
 
+TEST(Rights, OrdersToTheMachineNeedTheRightToOperateAndStopsAndFilesDoNot) {
+  const auto needs = [](std::string_view method, std::string_view path) {
+    const auto found = match(method, path);
+    EXPECT_EQ(found.result, RouteResult::found) << path;
+    return needs_operating_right(found);
+  };
+  for (const char* path : {"/api/channels/0/cycle-start", "/api/channels/0/jog", "/api/channels/0/jog-renew",
+                           "/api/channels/0/mdi", "/api/panel/release", "/api/alarms/reset", "/api/plc/force",
+                           "/api/plc/release", "/api/plc/load/take-over"})
+    EXPECT_TRUE(needs("POST", path)) << path;
+  for (const char* path : {"/api/tools/3", "/api/work-offsets", "/api/parameters/11", "/api/parameters"})
+    EXPECT_TRUE(needs("PUT", path)) << path;
+  for (const char* path :
+       {"/api/panel/emergency-stop", "/api/channels/0/feed-hold", "/api/channels/0/jog-stop", "/api/session",
+        "/api/operating-right", "/api/recordings", "/api/check/0", "/api/plc/trace"})
+    EXPECT_FALSE(needs("POST", path)) << path;
+  EXPECT_FALSE(needs("PUT", "/api/programs/A"));
+  for (const auto& route : routes())
+    if (route.method == "GET") {
+      Match found;
+      found.operation = route.operation;
+      EXPECT_FALSE(needs_operating_right(found)) << route.pattern;
+    }
+}
+
+TEST(Rights, TheMachineBuilderChangesWhatThePlcDoes) {
+  for (const char* path : {"/api/plc/force", "/api/plc/release", "/api/plc/load", "/api/plc/load/take-over"})
+    EXPECT_EQ(role_for("POST", path), Role::builder) << path;
+  EXPECT_EQ(role_for("GET", "/api/plc/variables"), Role::machine_operator);
+  EXPECT_EQ(role_for("GET", "/api/plc/watch"), Role::machine_operator);
+}
+
+TEST(Rights, WhatAPageAsksByItselfDoesNotProlongASession) {
+  for (const char* path : {"/api/session", "/api/stream", "/api/plc/image", "/api/operating-right"})
+    EXPECT_FALSE(prolongs_session(match("GET", path).operation)) << path;
+  EXPECT_TRUE(prolongs_session(match("POST", "/api/channels/0/mdi").operation));
+  EXPECT_TRUE(prolongs_session(match("GET", "/api/programs").operation));
+}
+
 TEST(Rights, ACookieIsFoundByItsWholeName) {
   EXPECT_EQ(cookie_value("trunnion_session=abc", "trunnion_session"), "abc");
   EXPECT_EQ(cookie_value("a=1; trunnion_session=x=y; b=2", "trunnion_session"), "x=y");

@@ -26,6 +26,7 @@ bool is_type(const std::string& type, const Json& value) {
   if (type == "string") return value.is_string();
   if (type == "boolean") return value.is_boolean();
   if (type == "array") return value.is_array();
+  if (type == "null") return value.is_null();
   return value.is_object();
 }
 
@@ -34,6 +35,15 @@ bool is_type(const std::string& type, const Json& value) {
 void compare(const Json& schema, const Json& value, const std::string& at, std::vector<std::string>& wrong) {
   if (schema.contains("$ref"))
     return compare(api()[Json::json_pointer(schema["$ref"].get<std::string>().substr(1))], value, at, wrong);
+  if (schema.contains("oneOf")) {
+    for (const auto& choice : schema["oneOf"]) {
+      std::vector<std::string> off;
+      compare(choice, value, at, off);
+      if (off.empty()) return;
+    }
+    wrong.push_back(at + ": " + value.dump() + " is none of the choices");
+    return;
+  }
   if (schema.contains("enum") &&
       std::find(schema["enum"].begin(), schema["enum"].end(), value) == schema["enum"].end())
     wrong.push_back(at + ": " + value.dump() + " is not one of " + schema["enum"].dump());
@@ -99,7 +109,9 @@ Json whole_document() {
   document.apply(frame);
   for (const char* what : {"parameters", "pending", "tools", "work_offsets", "programs"})
     document.set_revision(what, 3);
-  return document.document(1);
+  auto whole = document.document(1);
+  whole["operating"] = {{"holder", {{"number", 7}, {"name", "ann"}}}};
+  return whole;
 }
 
 TEST(Schema, TheStreamCarriesWhatIsDescribed) {

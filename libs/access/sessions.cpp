@@ -8,9 +8,7 @@
 namespace trunnion::access {
 
 void Sessions::begin(const std::string& secret, Identity identity, double now) {
-  std::erase_if(sessions_, [&](const auto& one) {
-    return now - one.second.used > longest_idle || now - one.second.began > longest;
-  });
+  std::erase_if(sessions_, [&](const auto& one) { return is_over(one.second, now); });
   if (sessions_.size() >= most)
     sessions_.erase(std::ranges::min_element(sessions_, {}, [](const auto& one) { return one.second.used; }));
   sessions_[digest(secret)] = {std::move(identity), now, now};
@@ -20,12 +18,18 @@ std::optional<Identity> Sessions::find(std::string_view secret, double now) {
   const auto found = sessions_.find(digest(secret));
   if (found == sessions_.end()) return {};
   auto& session = found->second;
-  if (now - session.used > longest_idle || now - session.began > longest) {
+  if (is_over(session, now)) {
     sessions_.erase(found);
     return {};
   }
   session.used = now;
   return session.identity;
+}
+
+std::optional<Identity> Sessions::look(std::string_view secret, double now) const {
+  const auto found = sessions_.find(digest(secret));
+  if (found == sessions_.end() || is_over(found->second, now)) return {};
+  return found->second.identity;
 }
 
 void Sessions::end(std::string_view secret) { sessions_.erase(digest(secret)); }

@@ -6,7 +6,6 @@
 #include "machine/yaml.hpp"
 
 namespace trunnion::machine {
-
 GatewaySettings read_gateway_settings(const YAML::Node& document, const std::string& file) {
   GatewaySettings settings;
   if (const auto node = document["mtconnect_port"]) {
@@ -25,6 +24,23 @@ GatewaySettings read_gateway_settings(const YAML::Node& document, const std::str
     } catch (const YAML::Exception&) {
       throw std::runtime_error(at(file, node) + "auth must be 'on' or 'off'");
     }
+  }
+  if (const auto node = document["session_idle_minutes"]) {
+    double minutes = 0;
+    try {
+      minutes = node.as<double>();
+    } catch (const YAML::Exception&) {
+    }
+    if (!(minutes >= 0.05 && minutes <= 720))
+      throw std::runtime_error(at(file, node) + "session_idle_minutes must be 0.05 .. 720");
+    settings.session_idle = minutes * 60;
+  }
+  settings.one_operates = settings.auth;
+  if (const auto node = document["operating_right"]) {
+    const auto text = node.IsScalar() ? node.Scalar() : std::string();
+    if (text != "one" && text != "any")
+      throw std::runtime_error(at(file, node) + "operating_right must be 'one' or 'any'");
+    settings.one_operates = text == "one";
   }
   return settings;
 }

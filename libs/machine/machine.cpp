@@ -77,10 +77,27 @@ MachineConfig parse_machine(const std::string& text, const std::string& director
                             const std::string& vendor_override) {
   const std::string file = directory + "/machine.yaml";
   const auto document = parse_yaml(text, file);
-  check_keys(
-      file, document,
-      {"name", "title", "domain", "port", "mtconnect_port", "auth", "host_names", "time", "vendor",
-       "hardware", "hal", "hosts", "network", "security", "open", "swap_directories", "services", "chains"});
+  check_keys(file, document,
+             {"name",
+              "title",
+              "domain",
+              "port",
+              "mtconnect_port",
+              "auth",
+              "session_idle_minutes",
+              "operating_right",
+              "host_names",
+              "time",
+              "vendor",
+              "hardware",
+              "hal",
+              "hosts",
+              "network",
+              "security",
+              "open",
+              "swap_directories",
+              "services",
+              "chains"});
   MachineConfig config;
   config.directory = directory;
   config.name = value<std::string>(file, document, "name", "");

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the tests of the page share: the cluster, the browser, and what must hold of every view.
 import { spawn } from "node:child_process";
-import { mkdirSync, mkdtempSync, rmSync } from "node:fs";
+import { appendFileSync, cpSync, mkdirSync, mkdtempSync, rmSync } from "node:fs";
 import { createRequire } from "node:module";
 import { createServer } from "node:net";
 import { tmpdir } from "node:os";
@@ -14,6 +14,8 @@ export const { TRUNNION_URL } = process.env;
 export const screenshots = process.env.SCREENSHOTS ?? join(tmpdir(), "trunnion-screenshots");
 mkdirSync(screenshots, { recursive: true });
 const scratch = mkdtempSync(join(tmpdir(), "trunnion-browser-"));
+/** The state directory of the gateway. */
+export const state = join(scratch, "state");
 const children = [];
 /** The requests that have arrived at the fake cluster. */
 export let cluster = "";
@@ -48,13 +50,18 @@ export function check(what, condition) {
   console.log(`ok   ${what}`);
 }
 
-export async function startCluster() {
+/** `settings` are further lines of machine.yaml; `ready` is a path that answers when the gateway does. */
+export async function startCluster({ settings = "", ready = "api/channels/0" } = {}) {
   const port = await freePort();
+  const machine = join(scratch, "machine");
+  cpSync(MACHINE, machine, { recursive: true });
+  appendFileSync(join(machine, "machine.yaml"), settings);
+  mkdirSync(state);
   start(FAKE_CLUSTER, ["51"]).stdout.on("data", (text) => (cluster += text));
-  const gateway = ["--machine", MACHINE, "--state", scratch, "--domain", "51", "--web", WEB, "--port", String(port)];
+  const gateway = ["--machine", machine, "--state", state, "--domain", "51", "--web", WEB, "--port", String(port)];
   start(GATEWAY, [...gateway, "--instance", "20"]);
   const url = `http://127.0.0.1:${port}/`;
-  await eventually("the gateway answers", () => fetch(`${url}api/channels/0`).then((r) => r.ok, () => false));
+  await eventually("the gateway answers", () => fetch(`${url}${ready}`).then((r) => r.ok, () => false));
   return url;
 }
 

@@ -9,6 +9,7 @@ import {
 } from "./harness.mjs";
 import { operate } from "./operate.mjs";
 import { parameters } from "./parameters.mjs";
+import { plc } from "./plc.mjs";
 import { programs } from "./programs.mjs";
 import { scene } from "./scene.mjs";
 import { setup } from "./setup.mjs";
@@ -176,6 +177,7 @@ try {
     if (TRUNNION_URL && wanted("setup")) await setup(browser, url);
     if (TRUNNION_URL && wanted("parameters")) await parameters(browser, url);
     if (TRUNNION_URL && wanted("analysis")) await analysis(browser, url);
+    if (TRUNNION_URL && wanted("plc")) await plc(browser, url);
     if (TRUNNION_URL && wanted("scene")) await scene(browser, url);
     if (TRUNNION_URL && wanted("appearance")) await appearance(browser, url);
     if (wanted("page")) await run(await openPage(browser, url), url);

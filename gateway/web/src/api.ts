@@ -16,13 +16,15 @@ export interface Answer<T = unknown> {
 interface Refusal {
   reason?: string;
   error?: string;
+  /** Of problem details (RFC 9457). */
+  detail?: string;
   field?: string;
   alarm?: number;
 }
 
 function reasonOf(status: number, body: unknown): string {
   const refusal = (body ?? {}) as Refusal;
-  const reason = refusal.reason || refusal.error || text.peek().gatewayAnswered(status);
+  const reason = refusal.reason || refusal.detail || refusal.error || text.peek().gatewayAnswered(status);
   return refusal.alarm ? `${reason} (${text.peek().alarmNumber(refusal.alarm)})` : reason;
 }
 
@@ -38,12 +40,19 @@ export function answerOf<T>(status: number, body: unknown): Answer<T> {
   return { ok, status, body: body as T, reason: ok ? "" : reasonOf(status, body) };
 }
 
+/** Called when the gateway says that nobody is logged in. */
+let onUnknown = (): void => undefined;
+export function whenUnknown(act: () => void): void {
+  onUnknown = act;
+}
+
 async function call<T>(
   method: string, path: string, body?: BodyInit, type?: string, more: Record<string, string> = {},
 ): Promise<Answer<T>> {
   try {
     const response = await fetch(path, { method, body, headers: type ? { "Content-Type": type, ...more } : more });
     const parsed: unknown = await response.json().catch(() => undefined);
+    if (response.status === 401) onUnknown();
     return answerOf<T>(response.status, parsed);
   } catch {
     return { ok: false, status: 0, body: undefined, reason: text.peek().noConnection };

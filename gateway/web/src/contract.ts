@@ -246,6 +246,7 @@ export interface MachineState {
   plc?: PlcState;
   trace?: Trace;
   revisions: Revisions;
+  operating?: Operating;
 }
 
 export interface Parameter {
@@ -443,6 +444,117 @@ export interface Session {
 export interface Identity {
   name: string;
   role: "operator" | "setter" | "builder" | "administrator";
+}
+
+/** Problem details (RFC 9457). */
+export interface Problem {
+  /** about:blank */
+  type: string;
+  /** Of the status */
+  title: string;
+  status: number;
+  /** What happened, and why */
+  detail: string;
+  /** Of the request, when one is wrong */
+  field?: string;
+}
+
+/** A browser, a program or the command line. */
+export interface OperatingStation {
+  /** The same for the same station */
+  number: number;
+  name: string;
+}
+
+/** Which station operates, and which one asks for the right; absent where there is none. */
+export interface Operating {
+  holder?: OperatingStation;
+  asking?: OperatingStation;
+}
+
+export interface OperatingRight {
+  /** One station operates; otherwise every one does */
+  one: boolean;
+  /** Of the station that asks */
+  number: number;
+  /** Without the consent of the holder */
+  may_take_over: boolean;
+  mine: boolean;
+  holder: OperatingStation | null;
+  asking: OperatingStation | null;
+}
+
+/** A variable of the PLC's programs, or a register. */
+export interface PlcVariable {
+  /** main.n, main.list[2], %G300 */
+  path: string;
+  type: string;
+  unit?: string;
+  retained: boolean;
+  /** Values of an enumeration */
+  names?: Record<string, number>;
+}
+
+export interface PlcVariableList {
+  /** That match */
+  total: number;
+  offset: number;
+  variables: PlcVariable[];
+}
+
+export interface PlcForcedValue {
+  path: string;
+  type: string;
+  /** a literal of the language */
+  value: string;
+  /** also after the next start of the cluster */
+  permanent: boolean;
+}
+
+export interface PlcForces {
+  values: PlcForcedValue[];
+}
+
+export type PlcLoadPhase = "NO_LOAD" | "WRITING" | "COMPILING" | "WITH_ERRORS" | "COMPILED" | "COMPARING";
+
+export interface PlcPrograms {
+  /** Of the sources */
+  crc32: number;
+  /** They are those of the machine's directory */
+  delivered: boolean;
+  /** Online changes since the delivered ones were loaded */
+  changes: number;
+  phase: PlcLoadPhase;
+  files: { name: string; bytes: number; }[];
+}
+
+export interface PlcTraceRow {
+  /** Of the PLC, since its start */
+  time_ms: number;
+  /** Of the drive */
+  tick: number;
+  /** Literals of the language */
+  values: string[];
+}
+
+export interface PlcTraceRows {
+  /** Number of the first row */
+  from: number;
+  total: number;
+  /** No row is to come */
+  complete: boolean;
+  variables: PlcVariable[];
+  rows: PlcTraceRow[];
+}
+
+export interface PlcLoad {
+  phase: PlcLoadPhase;
+  /** Scans */
+  compared: number;
+  /** Registers and variables that have differed */
+  differences: number;
+  /** Errors, warnings, what is not kept, what differs */
+  messages: string[];
 }
 
 /** Bodies of POST /api/channels/{channel}/..., by the last part of the path. */

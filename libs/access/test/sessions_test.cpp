@@ -17,6 +17,15 @@ TEST(Sessions, EndWhenNothingIsAskedForHalfAnHour) {
   EXPECT_FALSE(sessions.find("", 0));
 }
 
+TEST(Sessions, ALookDoesNotProlongThem) {
+  Sessions sessions(60);
+  sessions.begin("secret", {"ann"}, 0);
+  EXPECT_TRUE(sessions.look("secret", 50));
+  EXPECT_TRUE(sessions.look("secret", 60));
+  EXPECT_FALSE(sessions.look("secret", 61));
+  EXPECT_FALSE(sessions.look("another", 0));
+}
+
 TEST(Sessions, EndAfterTwelveHours) {
   Sessions sessions;
   sessions.begin("secret", {"ann"}, 0);

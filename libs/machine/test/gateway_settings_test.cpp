@@ -25,6 +25,24 @@ TEST(GatewaySettings, UsersLogInWhenAuthIsOn) {
   EXPECT_THROW(read("auth: perhaps"), std::runtime_error);
 }
 
+TEST(GatewaySettings, ASessionEndsAfterHalfAnHourUnlessMinutesAreGiven) {
+  EXPECT_EQ(read("auth: on").session_idle, 1800);
+  EXPECT_EQ(read("session_idle_minutes: 5").session_idle, 300);
+  EXPECT_EQ(read("session_idle_minutes: 0.05").session_idle, 3);
+  for (const char* text : {"session_idle_minutes: 0", "session_idle_minutes: 721",
+                           "session_idle_minutes: .nan", "session_idle_minutes: long"})
+    EXPECT_THROW(read(text), std::runtime_error) << text;
+}
+
+TEST(GatewaySettings, OneStationOperatesWhenUsersLogInUnlessTheMachineSaysOtherwise) {
+  EXPECT_FALSE(read("name: mill").one_operates);
+  EXPECT_TRUE(read("auth: on").one_operates);
+  EXPECT_FALSE(read("auth: on\noperating_right: any").one_operates);
+  EXPECT_TRUE(read("operating_right: one").one_operates);
+  EXPECT_THROW(read("operating_right: two"), std::runtime_error);
+  EXPECT_THROW(read("operating_right: [one]"), std::runtime_error);
+}
+
 TEST(GatewaySettings, APortOutOfRangeIsNamedWithItsPlace) {
   for (const char* text : {"name: mill\nmtconnect_port: 65536", "name: mill\nmtconnect_port: -1",
                            "name: mill\nmtconnect_port: on", "name: mill\nmtconnect_port: [5000]"}) {

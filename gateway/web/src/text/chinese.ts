@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import { chineseAccess } from "./chinese_access";
 import { chineseAnalysis } from "./chinese_analysis";
+import { chinesePlc } from "./chinese_plc";
 import type { Texts } from "./texts";
 
 export const chinese: Texts = {
@@ -388,6 +389,7 @@ export const chinese: Texts = {
 
   ...chineseAccess,
   ...chineseAnalysis,
+  ...chinesePlc,
   services: "服务",
   aliveOf: (alive, total) => `${alive} / ${total} 在线`,
   service: "服务",

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import { englishAccess } from "./english_access";
 import { englishAnalysis } from "./english_analysis";
+import { englishPlc } from "./english_plc";
 // Every text of the page, in English. It defines the keys; the other languages have the same ones (texts.ts).
 export const english = {
   // The page as a whole
@@ -402,6 +403,7 @@ export const english = {
 
   ...englishAccess,
   ...englishAnalysis,
+  ...englishPlc,
 
   // Diagnosis
   services: "Services",

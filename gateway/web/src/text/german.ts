@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import { germanAccess } from "./german_access";
 import { germanAnalysis } from "./german_analysis";
+import { germanPlc } from "./german_plc";
 import type { Texts } from "./texts";
 
 export const german: Texts = {
@@ -388,6 +389,7 @@ export const german: Texts = {
 
   ...germanAccess,
   ...germanAnalysis,
+  ...germanPlc,
   services: "Dienste",
   aliveOf: (alive, total) => `${alive} von ${total} aktiv`,
   service: "Dienst",

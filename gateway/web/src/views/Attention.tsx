@@ -7,6 +7,7 @@ import { holdingAlarms, type RecoveryStep, recoverySteps, sortedAlarms } from ".
 import { channelList, channelName, channels, machine, request, tell } from "../state/store";
 import { text } from "../text/texts";
 import { AlarmList } from "./Alarms";
+import { lacking } from "./Guard";
 
 const timeOut = 3000;
 
@@ -43,7 +44,7 @@ function Recovery({ steps }: { steps: RecoveryStep[] }) {
       <button
         class="primary"
         data-test="recover"
-        disabled={busy.value}
+        disabled={busy.value || lacking("operator") !== ""}
         onClick={() => {
           busy.value = true;
           void recover().finally(() => (busy.value = false));

@@ -5,6 +5,7 @@ import type { Answer } from "../api";
 import { millimetres } from "../format";
 import { tell } from "../state/store";
 import { text } from "../text/texts";
+import { lacking } from "./Guard";
 
 /** Every digit that is stored: what is shown is rounded, what is edited is not. */
 const exactly = (value: number) => String(value);
@@ -45,6 +46,8 @@ export function Cell({ value, label, store }: Props) {
     <input
       class="cell digits"
       aria-label={label}
+      disabled={lacking("setter") !== ""}
+      title={lacking("setter") || undefined}
       value={draft.value ?? millimetres(value)}
       inputMode="decimal"
       onFocus={(event) => {

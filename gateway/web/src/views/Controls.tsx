@@ -2,6 +2,7 @@
 import { type Mode, canStart } from "../state/model";
 import { channel, channelList, channelName, command, machine, stop } from "../state/store";
 import { text, type Texts } from "../text/texts";
+import { Guard } from "./Guard";
 import { onPress } from "./press";
 
 const modes: [Mode, keyof Texts & `mode${string}`][] = [
@@ -67,28 +68,32 @@ export function Controls() {
   const t = text.value;
   return (
     <section class={`controls ${channelList.value.length > 1 ? "several" : ""}`} aria-label={t.operation}>
-      <div class="modes segments" role="group" aria-label={t.mode}>
-        {modes.map(([mode, title]) => (
-          <button
-            key={mode}
-            aria-pressed={one.mode === mode}
-            data-test={`mode-${mode}`}
-            onClick={() => void command(t.mode, "mode", { mode })}
-          >
-            {t[title] as string}
-          </button>
-        ))}
-      </div>
+      <Guard needs="operator">
+        <div class="modes segments" role="group" aria-label={t.mode}>
+          {modes.map(([mode, title]) => (
+            <button
+              key={mode}
+              aria-pressed={one.mode === mode}
+              data-test={`mode-${mode}`}
+              onClick={() => void command(t.mode, "mode", { mode })}
+            >
+              {t[title] as string}
+            </button>
+          ))}
+        </div>
+      </Guard>
       <div class="keys">
-        <button
-          class="start"
-          data-test="cycle-start"
-          title="Ctrl+Enter"
-          aria-disabled={!canStart(machine.value, one)}
-          onClick={() => void command(t.cycleStart, "cycle-start", {})}
-        >
-          {t.cycleStart}
-        </button>
+        <Guard needs="operator">
+          <button
+            class="start"
+            data-test="cycle-start"
+            title="Ctrl+Enter"
+            aria-disabled={!canStart(machine.value, one)}
+            onClick={() => void command(t.cycleStart, "cycle-start", {})}
+          >
+            {t.cycleStart}
+          </button>
+        </Guard>
         {channelList.value.length > 1 && (
           <button
             class="hold"
@@ -98,27 +103,31 @@ export function Controls() {
             {t.holdChannel(channelName(one))}
           </button>
         )}
-        <button data-test="reset" onClick={() => void command(t.reset, "reset", {})}>{t.reset}</button>
-        <button
-          class="toggle"
-          aria-pressed={one.single_block}
-          onClick={() => void command(t.singleBlock, "single-block", { on: !one.single_block })}
-        >
-          {t.singleBlock}
-        </button>
-        <button
-          class="toggle"
-          aria-pressed={one.optional_stop}
-          onClick={() => void command(t.optionalStop, "optional-stop", { on: !one.optional_stop })}
-        >
-          {t.optionalStop}
-        </button>
+        <Guard needs="operator">
+          <button data-test="reset" onClick={() => void command(t.reset, "reset", {})}>{t.reset}</button>
+          <button
+            class="toggle"
+            aria-pressed={one.single_block}
+            onClick={() => void command(t.singleBlock, "single-block", { on: !one.single_block })}
+          >
+            {t.singleBlock}
+          </button>
+          <button
+            class="toggle"
+            aria-pressed={one.optional_stop}
+            onClick={() => void command(t.optionalStop, "optional-stop", { on: !one.optional_stop })}
+          >
+            {t.optionalStop}
+          </button>
+        </Guard>
       </div>
-      <div class="overrides">
-        <Override kind="feed" minimum={0} maximum={1.5} value={one.feed_override} />
-        <Override kind="rapid" minimum={0} maximum={1} value={one.rapid_override} />
-        <Override kind="spindle" minimum={0.5} maximum={1.5} value={one.spindle_override} />
-      </div>
+      <Guard needs="operator">
+        <div class="overrides">
+          <Override kind="feed" minimum={0} maximum={1.5} value={one.feed_override} />
+          <Override kind="rapid" minimum={0} maximum={1} value={one.rapid_override} />
+          <Override kind="spindle" minimum={0.5} maximum={1.5} value={one.spindle_override} />
+        </div>
+      </Guard>
     </section>
   );
 }

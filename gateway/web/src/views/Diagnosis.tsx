@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-import { useSignal } from "@preact/signals";
+import { signal, useSignal } from "@preact/signals";
 import { useEffect } from "preact/hooks";
 import { get, type PlcImage } from "../api";
 import { compact, duration } from "../format";
@@ -8,6 +8,7 @@ import { historySeconds } from "../state/history";
 import { machine } from "../state/store";
 import { text } from "../text/texts";
 import { Alarms } from "./Alarms";
+import { Later } from "./Later";
 import { Plots } from "./Plots";
 
 function Services() {
@@ -60,6 +61,10 @@ function pageOf(register: number, count: number): number {
   return wanted - (wanted % wordsPerPage);
 }
 
+const showsPrograms = signal(false);
+const loadPlc = () =>
+  import("./PlcView").then(({ PlcView }) => () => <PlcView close={() => (showsPrograms.value = false)} />);
+
 function Plc() {
   const area = useSignal<(typeof areas)[number]>("x");
   const start = useSignal(0);
@@ -88,6 +93,7 @@ function Plc() {
     <section class="plc" aria-label={t.plcRegisters}>
       <div class="title">
         <h2>{t.plc}</h2>
+        <button onClick={() => (showsPrograms.value = true)}>{t.plcPrograms}</button>
         <div class="segments" role="group" aria-label={t.plcArea}>
           {areas.map((name) => (
             <button key={name} aria-pressed={area.value === name} onClick={() => { area.value = name; start.value = 0; }}>
@@ -122,6 +128,7 @@ function Plc() {
 export function Diagnosis() {
   const drive = machine.value.drive;
   const t = text.value;
+  if (showsPrograms.value) return <Later load={loadPlc} />;
   return (
     <main class="diagnosis">
       <Services />

@@ -15,6 +15,7 @@ import { programs, refreshPrograms, removeProgram } from "../state/programs";
 import { channel, channelNumber, command, tell } from "../state/store";
 import { text } from "../text/texts";
 import { PathPreview } from "./PathPreview";
+import { lacking, lackingToStore } from "./Guard";
 import { ask } from "./Question";
 
 export interface OpenProgram {
@@ -216,7 +217,7 @@ export function EditorPane({ program, drafts, changed }: Props) {
           {newest && newest.revision !== program.revision && <span class="tag bad">{t.revisionIsStored(newest.revision)}</span>}
         </div>
         <div class="title tools">
-          <button class="primary" title="Ctrl+S" disabled={!dirty.value} onClick={save}>{t.save}</button>
+          <button class="primary" title="Ctrl+S" disabled={!dirty.value || lackingToStore() !== ""} onClick={save}>{t.save}</button>
           <button disabled={!dirty.value && newest?.revision === program.revision} onClick={discard}>{t.discard}</button>
           <button title="Ctrl+F" onClick={() => editor.current?.find()}>{t.find}</button>
           <select
@@ -251,14 +252,14 @@ export function EditorPane({ program, drafts, changed }: Props) {
           />
           <button onClick={download}>{t.download}</button>
           <button
-            disabled={program.revision === 0 || dirty.value || !channel.value}
+            disabled={program.revision === 0 || dirty.value || !channel.value || lacking("operator") !== ""}
             title={t.selectAbout}
             onClick={() => void command(t.select, "select", { program: name })}
           >
             {t.selectKey}
           </button>
-          <button disabled={program.revision === 0 || dirty.value} aria-expanded={renaming.value} onClick={() => (renaming.value = !renaming.value)}>{t.rename}</button>
-          <button disabled={program.revision === 0 || selected} onClick={() => removeProgram(name, () => { drafts.drop(name); changed(null); })}>{t.deleteKey}</button>
+          <button disabled={program.revision === 0 || dirty.value || lackingToStore() !== ""} aria-expanded={renaming.value} onClick={() => (renaming.value = !renaming.value)}>{t.rename}</button>
+          <button disabled={program.revision === 0 || selected || lackingToStore() !== ""} onClick={() => removeProgram(name, () => { drafts.drop(name); changed(null); })}>{t.deleteKey}</button>
         </div>
         {renaming.value && (
           <Rename

@@ -5,6 +5,7 @@ import { allLocks, levelsWith, locksWith, offsets, skipLevels, skips } from "../
 import { axisRows } from "../state/model";
 import { channel, command, machine } from "../state/store";
 import { text } from "../text/texts";
+import { Guard } from "./Guard";
 
 const increments = [0.001, 0.01, 0.1, 1];
 const line = signal("");
@@ -116,60 +117,62 @@ export function Functions() {
   const t = text.value;
   return (
     <div class="functions">
-      <h3>{t.startFromLine}</h3>
-      <FromLine offered={one.restart_line} />
-      <h3>{t.program}</h3>
-      <div class="row">
-        <Switch title={t.dryRun} about={t.dryRunAbout} route="dry-run" on={one.dry_run} />
-        <Switch title={t.auxiliaryLock} about={t.auxiliaryLockAbout} route="auxiliary-lock" on={one.auxiliary_lock} />
-        <Switch title={t.retrace} about={t.retraceAbout} route="retrace" on={one.retracing} />
-      </div>
-      <div class="row">
-        <span class="name">{t.axisLock}</span>
-        <div class="segments small" role="group" aria-label={t.axisLock}>
-          <button data-test="lock-all" aria-label={t.lockAllAxes} onClick={() => void command(t.axisLock, "axis-lock", { axes: allLocks(one) })}>
-            {t.lockAll}
-          </button>
-          {[...one.letters].map((letter, i) => (
-            <button
-              key={letter}
-              aria-pressed={one.locked[i] === 1}
-              data-test={`lock-${letter}`}
-              aria-label={t.lockAxis(letter)}
-              onClick={() => void command(t.axisLock, "axis-lock", { axes: locksWith(one, i) })}
-            >
-              {letter}
-            </button>
-          ))}
+      <Guard needs="operator">
+        <h3>{t.startFromLine}</h3>
+        <FromLine offered={one.restart_line} />
+        <h3>{t.program}</h3>
+        <div class="row">
+          <Switch title={t.dryRun} about={t.dryRunAbout} route="dry-run" on={one.dry_run} />
+          <Switch title={t.auxiliaryLock} about={t.auxiliaryLockAbout} route="auxiliary-lock" on={one.auxiliary_lock} />
+          <Switch title={t.retrace} about={t.retraceAbout} route="retrace" on={one.retracing} />
         </div>
-      </div>
-      <div class="row">
-        <span class="name">{t.blockSkip}</span>
-        <div class="segments small" role="group" aria-label={t.blockSkipLevels}>
-          {skipLevels.map((level) => (
-            <button
-              key={level}
-              aria-pressed={skips(one, level)}
-              data-test={`skip-${level}`}
-              aria-label={t.skipLevel(level)}
-              onClick={() => void command(t.blockSkip, "block-skip", { levels: levelsWith(one, level) })}
-            >
-              {level}
+        <div class="row">
+          <span class="name">{t.axisLock}</span>
+          <div class="segments small" role="group" aria-label={t.axisLock}>
+            <button data-test="lock-all" aria-label={t.lockAllAxes} onClick={() => void command(t.axisLock, "axis-lock", { axes: allLocks(one) })}>
+              {t.lockAll}
             </button>
-          ))}
+            {[...one.letters].map((letter, i) => (
+              <button
+                key={letter}
+                aria-pressed={one.locked[i] === 1}
+                data-test={`lock-${letter}`}
+                aria-label={t.lockAxis(letter)}
+                onClick={() => void command(t.axisLock, "axis-lock", { axes: locksWith(one, i) })}
+              >
+                {letter}
+              </button>
+            ))}
+          </div>
         </div>
-      </div>
-      <h3>{t.handwheel}</h3>
-      <Handwheel />
-      <div class="row">
-        <Switch
-          title={t.handwheelOffset}
-          about={t.handwheelOffsetAbout}
-          route="handwheel-offset"
-          on={one.handwheel_offset_on}
-        />
-        <span class="digits">{offset.join("  ")}</span>
-      </div>
+        <div class="row">
+          <span class="name">{t.blockSkip}</span>
+          <div class="segments small" role="group" aria-label={t.blockSkipLevels}>
+            {skipLevels.map((level) => (
+              <button
+                key={level}
+                aria-pressed={skips(one, level)}
+                data-test={`skip-${level}`}
+                aria-label={t.skipLevel(level)}
+                onClick={() => void command(t.blockSkip, "block-skip", { levels: levelsWith(one, level) })}
+              >
+                {level}
+              </button>
+            ))}
+          </div>
+        </div>
+        <h3>{t.handwheel}</h3>
+        <Handwheel />
+        <div class="row">
+          <Switch
+            title={t.handwheelOffset}
+            about={t.handwheelOffsetAbout}
+            route="handwheel-offset"
+            on={one.handwheel_offset_on}
+          />
+          <span class="digits">{offset.join("  ")}</span>
+        </div>
+      </Guard>
     </div>
   );
 }

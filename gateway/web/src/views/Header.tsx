@@ -5,6 +5,7 @@ import { duration } from "../format";
 import { cyclePeriod } from "../state/cycle_period";
 import { channel, channelList, channelName, channelNumber, channels, chooseChannel, holdAll, machine, runTime, stop } from "../state/store";
 import { text } from "../text/texts";
+import { Operator } from "./OperatingRight";
 import { onPress } from "./press";
 
 const pressEmergencyStop = () => void stop(text.peek().emergencyStop, "/api/panel/emergency-stop");
@@ -62,6 +63,7 @@ export function Header() {
         <span class={`tag ${cluster?.ready ? "good" : "warn"}`} data-test="cluster">
           {cluster ? (cluster.ready ? t.clusterReady : t.clusterNotReady) : t.noCluster}
         </span>
+        <Operator />
         {cluster?.virtual_time && <span class="tag note">{t.virtualTime}</span>}
       </div>
       <ChannelTabs />

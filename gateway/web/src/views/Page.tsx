@@ -1,16 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 import { useEffect } from "preact/hooks";
+import { askOperating } from "../state/operating";
 import { channel, command, connection, holdAll, machine, notice, view } from "../state/store";
 import { askSession, mustLogIn, session } from "../state/session";
 import { text } from "../text/texts";
 import { Attention } from "./Attention";
 import { Controls } from "./Controls";
 import { Diagnosis } from "./Diagnosis";
+import { Guard } from "./Guard";
 import { Header } from "./Header";
 import { Jog } from "./Jog";
 import { Later } from "./Later";
 import { Login } from "./Login";
 import { Mdi } from "./Mdi";
+import { OperatingQuestion } from "./OperatingRight";
 import { Positions } from "./Positions";
 import { ProgramPanel } from "./ProgramPanel";
 import { Question } from "./Question";
@@ -37,12 +40,12 @@ function Operate() {
       </div>
       <div class="column">
         <ProgramPanel />
-        <Mdi />
+        <Guard needs="operator"><Mdi /></Guard>
       </div>
       <SidePanel />
       <div class="panel">
         <Controls />
-        <Jog />
+        <Guard needs="operator"><Jog /></Guard>
       </div>
     </main>
   );
@@ -95,6 +98,10 @@ export function Page() {
     const timer = setInterval(() => void askSession(), 2000);
     return () => clearInterval(timer);
   }, [live]);
+  const name = session.value?.name;
+  useEffect(() => {
+    if (live) void askOperating();
+  }, [live, name]);
   useEffect(() => {
     const onKey = (event: KeyboardEvent) => {
       if (event.altKey && viewOfKey[event.key]) {
@@ -124,6 +131,7 @@ export function Page() {
       {view.value === "diagnosis" && <Diagnosis />}
       <Notice />
       <Question />
+      <OperatingQuestion />
       {mustLogIn() ? <Login /> : <ConnectionLost />}
     </div>
   );

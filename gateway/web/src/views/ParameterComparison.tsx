@@ -8,6 +8,7 @@ import { type ComparedRow, importBodies, type ParameterFile, sixDigits, storedVa
 import { tell } from "../state/store";
 import { changedSince, remember } from "../state/undo";
 import { text, type Texts } from "../text/texts";
+import { lacking } from "./Guard";
 import { ask } from "./Question";
 
 export interface Comparison {
@@ -92,7 +93,7 @@ export function ParameterComparison({ comparison, choose, done, close }: Props) 
         <h2>{t.comparedWithSet(what)}</h2>
         <span class="dim" data-test="compared">{t.comparedCounts(count, rejected)}</span>
         <div class="end">
-          {comparison.takeable && <button class="primary" disabled={count === 0 || busy.value} onClick={take}>{t.takeOver(count)}</button>}
+          {comparison.takeable && <button class="primary" disabled={count === 0 || busy.value || lacking("setter") !== ""} onClick={take}>{t.takeOver(count)}</button>}
           <button onClick={close}>{t.endComparison}</button>
         </div>
       </div>

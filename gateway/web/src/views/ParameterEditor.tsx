@@ -10,6 +10,7 @@ import { tell } from "../state/store";
 import { changedSince, remember } from "../state/undo";
 import { text } from "../text/texts";
 import { typedNumber } from "./Cell";
+import { Guard, GuardNote } from "./Guard";
 
 const pathOf = (number: number) => `/api/parameters/${sixDigits(number)}`;
 const bodyOf = (value: number | string) => (typeof value === "string" ? { text: value } : { value });
@@ -52,6 +53,7 @@ export function ParameterEditor({ parameter, done }: { parameter: Parameter; don
   }, [parameter.value, parameter.pending_value]);
   const t = text.value;
   const isText = typeof parameter.value === "string";
+  const needs = parameter.access === "builder" ? "builder" : "setter";
   const send = async (body: Parameters<typeof change>[1]) => {
     const answer = await change(parameter, body);
     refused.value = answer.reason;
@@ -70,25 +72,28 @@ export function ParameterEditor({ parameter, done }: { parameter: Parameter; don
       <h2>{sixDigits(parameter.number)}</h2>
       <h3>{title(parameter.name)}</h3>
       <p>{parameter.help}</p>
-      <form
-        onSubmit={(event) => {
-          event.preventDefault();
-          save();
-        }}
-      >
-        <label for="parameter-value">{t.value} {parameter.unit && <span class="dim">{t.valueIn(unit(parameter.unit, t.or))}</span>}</label>
-        <input
-          id="parameter-value"
-          data-test="parameter-value"
-          class="digits"
-          value={entered.value}
-          autocomplete="off"
-          inputMode={isText ? "text" : "decimal"}
-          aria-invalid={refused.value !== ""}
-          onInput={(event) => (entered.value = event.currentTarget.value)}
-        />
-        <button type="submit" class="primary" data-test="parameter-save">{t.store}</button>
-      </form>
+      <GuardNote needs={needs} />
+      <Guard needs={needs}>
+        <form
+          onSubmit={(event) => {
+            event.preventDefault();
+            save();
+          }}
+        >
+          <label for="parameter-value">{t.value} {parameter.unit && <span class="dim">{t.valueIn(unit(parameter.unit, t.or))}</span>}</label>
+          <input
+            id="parameter-value"
+            data-test="parameter-value"
+            class="digits"
+            value={entered.value}
+            autocomplete="off"
+            inputMode={isText ? "text" : "decimal"}
+            aria-invalid={refused.value !== ""}
+            onInput={(event) => (entered.value = event.currentTarget.value)}
+          />
+          <button type="submit" class="primary" data-test="parameter-save">{t.store}</button>
+        </form>
+      </Guard>
       {refused.value && <p class="refusal" role="alert" data-test="parameter-refusal">{refused.value}</p>}
       <dl>
         <dt>{t.activeValue}</dt>
@@ -103,7 +108,9 @@ export function ParameterEditor({ parameter, done }: { parameter: Parameter; don
         <dd>{parameter.access}</dd>
       </dl>
       {parameter.pending && <p class="tag warn">{t.waitsFor(String(parameter.pending_value), parameter.activation.toLowerCase())}</p>}
-      <button title={t.machineDefaultAbout} onClick={() => void send({ reset: true })}>{t.machineDefault}</button>
+      <Guard needs={needs}>
+        <button title={t.machineDefaultAbout} onClick={() => void send({ reset: true })}>{t.machineDefault}</button>
+      </Guard>
     </section>
   );
 }

@@ -6,6 +6,7 @@ import { limits, title, unit } from "../format";
 import { compareWithDefaults, compareWithFile, parseParameters, sixDigits, writeParameters } from "../state/parameter_file";
 import { machine, tell } from "../state/store";
 import { text } from "../text/texts";
+import { GuardNote } from "./Guard";
 import { allParameters, type Comparison, ParameterComparison } from "./ParameterComparison";
 import { ParameterEditor } from "./ParameterEditor";
 import { type Branch, ParameterTree } from "./ParameterTree";
@@ -130,6 +131,7 @@ export function Parameters() {
         />
         <button title={t.exportAbout} onClick={() => void exportAll()}>{t.exportFile}</button>
         <UndoKey />
+        <GuardNote needs="setter" />
       </section>
       <ParameterTree
         chosen={branch.value}

@@ -12,6 +12,7 @@ import { changedSince, remember } from "../state/undo";
 import { hindrances } from "../state/work_zero";
 import { text } from "../text/texts";
 import { Cell } from "./Cell";
+import { Guard } from "./Guard";
 
 /** Stored values, which may still wait for a reset, by number. */
 const values = signal<Map<number, { value: number; pending: boolean }>>(new Map());
@@ -142,7 +143,7 @@ export function Planes() {
           })}
         </div>
       </section>
-      <PlaneForm one={one} />
+      <Guard needs="setter"><PlaneForm one={one} /></Guard>
     </>
   );
 }

@@ -9,6 +9,7 @@ import { failingLine } from "../state/model";
 import { programs, refreshPrograms, removeProgram } from "../state/programs";
 import { channel, command, machine } from "../state/store";
 import { text as texts } from "../text/texts";
+import { lacking, lackingToStore } from "./Guard";
 import { ProgramView } from "./ProgramView";
 import { Upload } from "./Upload";
 
@@ -50,6 +51,7 @@ function Library({ close }: { close: () => void }) {
           <li key={entry.name} aria-current={entry.name === chosen}>
             <button
               class="choose"
+              disabled={lacking("operator") !== ""}
               onClick={() => {
                 void command(t.select, "select", { program: entry.name });
                 close();
@@ -62,7 +64,7 @@ function Library({ close }: { close: () => void }) {
             </button>
             <button
               aria-label={t.deleteProgram(entry.name)}
-              disabled={entry.name === chosen}
+              disabled={entry.name === chosen || lackingToStore() !== ""}
               onClick={() => removeProgram(entry.name)}
             >
               ✕

@@ -10,6 +10,7 @@ import { programs, refreshPrograms } from "../state/programs";
 import { machine, tell } from "../state/store";
 import { text } from "../text/texts";
 import { EditorPane, type OpenProgram } from "./EditorPane";
+import { lackingToStore, Note } from "./Guard";
 import { Upload } from "./Upload";
 
 /** Larger texts are for a computer with a disk, not for a page. */
@@ -95,9 +96,10 @@ function ProgramList() {
         />
       </div>
       <div class="title">
-        <button aria-expanded={creating.value} onClick={() => (creating.value = !creating.value)}>{t.newProgram}</button>
+        <button aria-expanded={creating.value} disabled={lackingToStore() !== ""} onClick={() => (creating.value = !creating.value)}>{t.newProgram}</button>
         <Upload />
       </div>
+      <Note why={lackingToStore()} />
       {creating.value && <NewProgram done={() => (creating.value = false)} />}
       <div class="scroll" tabIndex={0} role="region" aria-label={t.storedPrograms}>
         {folders(all).map((folder) => (

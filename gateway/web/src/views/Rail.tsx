@@ -4,6 +4,7 @@ import { language, theme, type Theme, themes } from "../state/preferences";
 import { view, type ViewName } from "../state/store";
 import { type Language, languages, text, type Texts } from "../text/texts";
 import { WhoIsThere } from "./Login";
+import { OperatingKey } from "./OperatingRight";
 
 const views: [ViewName, keyof Texts & `view${string}`][] = [
   ["operate", "viewOperate"],
@@ -36,6 +37,7 @@ export function Rail() {
         </button>
       ))}
       <div class="choices">
+        <OperatingKey />
         <WhoIsThere />
         <select
           aria-label={t.language}

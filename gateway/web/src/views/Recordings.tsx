@@ -7,6 +7,7 @@ import { get, post, remove } from "../api";
 import type { RecordingEntry, RecordingList } from "../contract";
 import { tell } from "../state/store";
 import { text } from "../text/texts";
+import { lackingToStore } from "./Guard";
 import { ask } from "./Question";
 
 const list = signal<RecordingList | null>(null);
@@ -72,7 +73,8 @@ export function Recordings({ opened, compared }: { opened: (source: Source) => v
                   {compared && <button aria-label={`${t.compareShort} ${one.name}`} onClick={() => compared(source(one))}>{t.compareShort}</button>}
                   <a class="key" href={path(one.name)} download={one.name} aria-label={`${t.download} ${one.name}`}>{t.download}</a>
                   <button
-                    disabled={one.recording}
+                    disabled={one.recording || lackingToStore() !== ""}
+                    title={lackingToStore() || undefined}
                     aria-label={`${t.deleteRecording} ${one.name}`}
                     onClick={() => ask(t.deleteRecordingQuestion(one.name), t.deleteRecording, () => void order(remove(path(one.name), { "If-Match": one.etag })))}
                   >

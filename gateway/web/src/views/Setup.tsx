@@ -2,6 +2,7 @@
 // What is set before a part is made: tools, work offsets and tilted planes, with an undo of the changes of this page.
 import { signal } from "@preact/signals";
 import { text } from "../text/texts";
+import { GuardNote } from "./Guard";
 import { Planes } from "./Planes";
 import { Tools } from "./Tools";
 import { UndoKey } from "./UndoKey";
@@ -20,6 +21,7 @@ export function Setup() {
           ))}
         </div>
         <UndoKey />
+        <GuardNote needs="setter" />
       </section>
       {shown.value === "offsets" ? <WorkOffsets /> : shown.value === "tools" ? <Tools /> : <Planes />}
     </main>

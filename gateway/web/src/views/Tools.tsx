@@ -9,6 +9,7 @@ import { channel, machine, tell } from "../state/store";
 import { changedSince, remember } from "../state/undo";
 import { text } from "../text/texts";
 import { Cell, typedNumber } from "./Cell";
+import { Guard, lacking } from "./Guard";
 import { ask } from "./Question";
 
 const table = signal<ToolTable>({ set: 0, revision: 0, tools: [] });
@@ -90,6 +91,7 @@ function NameCell({ tool }: { tool: Tool }) {
     <input
       class="name-cell"
       aria-label={label}
+      disabled={lacking("setter") !== ""}
       value={draft.value ?? tool.name}
       maxLength={64}
       onInput={(event) => (draft.value = event.currentTarget.value)}
@@ -165,7 +167,7 @@ export function Tools() {
         <div class="title">
           <h2>{t.tools}</h2>
           <span class="dim">{t.toolsAbout}</span>
-          <div class="end"><NewTool /></div>
+          <div class="end"><Guard needs="setter"><NewTool /></Guard></div>
         </div>
         <div class="scroll">
           <table>
@@ -193,7 +195,7 @@ export function Tools() {
           {table.value.tools.length === 0 && <p class="dim">{t.noTools}</p>}
         </div>
       </section>
-      {one ? <Wear key={one.number} tool={one} /> : <section class="side-form dim" aria-label={t.tools}>{t.chooseTool}</section>}
+      {one ? <Guard needs="setter"><Wear key={one.number} tool={one} /></Guard> : <section class="side-form dim" aria-label={t.tools}>{t.chooseTool}</section>}
     </>
   );
 }

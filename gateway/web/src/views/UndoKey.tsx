@@ -3,6 +3,7 @@ import { useSignal } from "@preact/signals";
 import { tell } from "../state/store";
 import { changes, undoLast } from "../state/undo";
 import { text } from "../text/texts";
+import { lacking } from "./Guard";
 
 /** The key that takes the last change of this page back. */
 export function UndoKey() {
@@ -12,7 +13,7 @@ export function UndoKey() {
   return (
     <button
       class="undo"
-      disabled={!last || busy.value}
+      disabled={!last || busy.value || lacking("setter") !== ""}
       title={last?.what}
       onClick={() => {
         busy.value = true;

@@ -2,6 +2,7 @@
 import { useRef } from "preact/hooks";
 import { uploadFile } from "../state/programs";
 import { text } from "../text/texts";
+import { lackingToStore } from "./Guard";
 
 /** A button that stores a chosen file as a program; a name that exists is asked about. */
 export function Upload() {
@@ -9,7 +10,7 @@ export function Upload() {
   const t = text.value;
   return (
     <>
-      <button onClick={() => file.current?.click()}>{t.upload}</button>
+      <button disabled={lackingToStore() !== ""} title={lackingToStore() || undefined} onClick={() => file.current?.click()}>{t.upload}</button>
       <input
         ref={file}
         type="file"

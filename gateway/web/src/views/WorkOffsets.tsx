@@ -11,6 +11,7 @@ import { changedSince, remember } from "../state/undo";
 import { axisLetters, hindrances, offsetCount, offsetFor, offsetName } from "../state/work_zero";
 import { text } from "../text/texts";
 import { Cell, typedNumber } from "./Cell";
+import { Guard } from "./Guard";
 
 const table = signal<Table>({ set: 0, revision: 0, offsets: [] });
 const chosen = signal(0);
@@ -164,7 +165,7 @@ export function WorkOffsets() {
           </table>
         </div>
       </section>
-      <FromPosition one={one} />
+      <Guard needs="setter"><FromPosition one={one} /></Guard>
     </>
   );
 }

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// A WebSocket client: who it is, and what the hub tells it.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "contracts/types.hpp"
+#include "src/snapshot.hpp"
+
+namespace trunnion::gateway {
+
+/// Who opened a stream.
+struct Visitor {
+  idl::gateway::Sender sender;
+  std::string peer;                    ///< address
+  std::string cookies, authorization;  ///< headers
+};
+
+class Viewer {
+ public:
+  virtual ~Viewer() = default;
+  /// There is something new.
+  virtual void offer(const std::shared_ptr<const Snapshot>& newest) = 0;
+  /// Once a second.
+  virtual void each_second() = 0;
+};
+
+}  // namespace trunnion::gateway

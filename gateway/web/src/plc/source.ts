@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which variables a line of Structured Text names, so that their values can be shown beside it.
+
+export interface SourceLine {
+  text: string;
+  /** Names as written, without those in comments and strings, each once. */
+  names: string[];
+  /** Of the unit around it: a program or function block, empty outside. */
+  unit: string;
+  kind: "PROGRAM" | "FUNCTION_BLOCK" | "";
+}
+
+const nameOf = /%[A-Za-z]+\d+(?:\.\d+)?|[A-Za-z_]\w*(?:\[[\w, ]*\])?(?:\.[A-Za-z_]\w*(?:\[[\w, ]*\])?)*/g;
+const comment = /\(\*[\s\S]*?\*\)|\/\*[\s\S]*?\*\/|\/\/[^\n]*|'(?:\$.|[^'\n])*'/g;
+
+/** Comments and strings become blanks of the same length, so that lines stay lines. */
+const blanked = (source: string) => source.replace(comment, (text) => text.replace(/[^\n]/g, " "));
+
+export function sourceLines(source: string): SourceLine[] {
+  const lines = source.split("\n");
+  const code = blanked(source).split("\n");
+  let unit = "";
+  let kind: SourceLine["kind"] = "";
+  return lines.map((text, index) => {
+    const line = code[index] ?? "";
+    const begins = /^\s*(PROGRAM|FUNCTION_BLOCK|FUNCTION|TEST)\s+(\w*)/i.exec(line);
+    if (begins) {
+      const word = begins[1]!.toUpperCase();
+      kind = word === "PROGRAM" || word === "FUNCTION_BLOCK" ? word : "";
+      unit = kind === "" ? "" : begins[2]!;
+    }
+    const names = begins ? [] : [...new Set(line.match(nameOf) ?? [])];
+    const found = { text, names, unit, kind };
+    if (/^\s*END_(PROGRAM|FUNCTION_BLOCK|FUNCTION|TEST)\b/i.test(line)) [unit, kind] = ["", ""];
+    return found;
+  });
+}
+
+/** Paths of the variables of the PLC, found whatever the case. */
+export class Paths {
+  private readonly byName = new Map<string, string>();
+  constructor(paths: readonly string[]) {
+    for (const path of paths) this.byName.set(path.toUpperCase(), path);
+  }
+
+  /** Of a name within `prefix`, which is the program or an instance of a function block; else as it is. */
+  find(name: string, prefix: string): string | undefined {
+    const upper = name.replaceAll(" ", "").toUpperCase();
+    return this.byName.get(`${prefix.toUpperCase()}.${upper}`) ?? this.byName.get(upper) ?? (upper.startsWith("%") ? upper : undefined);
+  }
+
+  /** Instances of a function block: what has every one of `names`, which the block declares. */
+  instances(names: readonly string[]): string[] {
+    const first = names[0]?.toUpperCase();
+    if (first === undefined) return [];
+    const within = (prefix: string, name: string) =>
+      this.byName.has(`${prefix}.${name}`) || [...this.byName.keys()].some((path) => path.startsWith(`${prefix}.${name}.`) || path.startsWith(`${prefix}.${name}[`));
+    const prefixes = new Set<string>();
+    for (const [upper, path] of this.byName) {
+      const at = upper.endsWith(`.${first}`) ? upper.length - first.length - 1 : -1;
+      if (at > 0 && names.every((name) => within(upper.slice(0, at), name.toUpperCase()))) prefixes.add(path.slice(0, at));
+    }
+    return [...prefixes].sort();
+  }
+}
+
+/** Names that a function block declares as elementary variables, without those of a place (AT) and of functions within. */
+export function declared(source: string, block: string): string[] {
+  const code = blanked(source);
+  const body = new RegExp(`FUNCTION_BLOCK\\s+${block}\\b([\\s\\S]*?)END_FUNCTION_BLOCK`, "i").exec(code)?.[1] ?? "";
+  const names: string[] = [];
+  for (const section of body.matchAll(/\bVAR(?:_INPUT|_OUTPUT)?\b(?!\s+CONSTANT)([\s\S]*?)END_VAR/gi))
+    for (const line of section[1]!.matchAll(/([\w, \n]+?)\s*:\s*(?:BOOL|[SDLU]{0,2}INT|L?REAL|[DL]?WORD|BYTE|L?TIME|STRING)\b/gi))
+      for (const name of line[1]!.split(",")) if (/^\s*\w+\s*$/.test(name)) names.push(name.trim());
+  return names.filter((name) => !/^(RETAIN)$/i.test(name));
+}
