@@ -6,6 +6,7 @@
 #include "machine/yaml.hpp"
 
 namespace trunnion::machine {
+
 GatewaySettings read_gateway_settings(const YAML::Node& document, const std::string& file) {
   GatewaySettings settings;
   if (const auto node = document["mtconnect_port"]) {

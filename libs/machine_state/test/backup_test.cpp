@@ -66,13 +66,16 @@ TEST_F(BackupTest, ADamagedBackupIsRefusedAndTheStateStays) {
     damaged[random() % damaged.size()] ^= static_cast<char>(1u << random() % 8);
     // The padding of a tar archive has no checksum: a bit of it may differ, but then nothing else does.
     const auto why = refusal(damaged);
-    if (why == "accepted") EXPECT_EQ(read_backup(damaged).files, files);
+    if (why == "accepted") {
+      EXPECT_EQ(read_backup(damaged).files, files);
+    }
     refused += why != "accepted" ? 1 : 0;
   }
   EXPECT_GT(refused, 50);
   for (std::size_t size = 0; size < bytes.size(); size += 512)
-    if (refusal(bytes.substr(0, size)) == "accepted")
+    if (refusal(bytes.substr(0, size)) == "accepted") {
       EXPECT_EQ(read_backup(bytes.substr(0, size)).files, files) << "only padding is missing";
+    }
   EXPECT_NE(refusal(bytes.substr(0, bytes.size() / 2)), "accepted");
   auto wrong = taken();
   wrong.files["tools.yaml"] = "no kept text, and a previous generation beside it";

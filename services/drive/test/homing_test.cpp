@@ -18,8 +18,8 @@ namespace {
 // another 0.1 mm on the way back.
 struct Axis {
   Axis(double edge, std::size_t delay) : switch_edge(edge), queue(delay, 0.0) {}
-  void follow(double setpoint) {
-    queue.push_back(setpoint);
+  void follow(double commanded) {
+    queue.push_back(commanded);
     const double before = status.position;
     status.position = queue.front();
     queue.pop_front();
