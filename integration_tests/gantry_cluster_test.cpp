@@ -26,7 +26,8 @@ class Bridge : public Cluster {
         client().bus(), topics::panel_request, topics::panel_reply);
     const auto reply =
         panel.call({.kind = PanelRequestKind::FORCE_INPUT, .address = 16, .value = on ? 64u : 0u}, 5);
-    ASSERT_TRUE(reply && reply->accepted);
+    ASSERT_TRUE(reply) << "the PLC does not answer; " << told();
+    ASSERT_TRUE(reply->accepted) << reply->reason;
     ASSERT_TRUE(until([&] { return is_off() == on; })) << told();
     if (on) reset();  // nothing supervises a slave that is off
   }

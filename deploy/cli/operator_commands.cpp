@@ -21,14 +21,15 @@ namespace {
 using idl::channel::Mode;
 using idl::channel::RunState;
 
-// Waits until the channel is idle again and its axes have settled; an alarm of the channel on the way is the
-// reason of the failure.
+// Waits until the channel is idle again or was stopped by an alarm, and its axes have settled; an alarm of the
+// channel on the way is the reason of the failure.
 void wait_until_idle(cluster::Client& client, std::uint16_t channel, double timeout) {
   auto reader = client.bus().reader(topics::channel_state);
   auto alarms = client.bus().reader(topics::alarm);
   const double until = service::monotonic_seconds() + timeout;
   std::string alarm;
-  int idle = 0;  // states in a row
+  int ended = 0;  // states in a row
+  bool interrupted = false;
   std::vector<double> before;
   constexpr double settled = 1e-4;  // mm or deg between two states
   while (service::monotonic_seconds() < until) {
@@ -41,11 +42,13 @@ void wait_until_idle(cluster::Client& client, std::uint16_t channel, double time
       if (state.channel != channel) continue;
       const bool stands = std::equal(before.begin(), before.end(), state.machine.begin(), state.machine.end(),
                                      [](double p, double q) { return std::abs(p - q) < settled; });
-      idle = state.state == RunState::IDLE && stands ? idle + 1 : 0;
+      interrupted = state.state == RunState::INTERRUPTED;
+      ended = (interrupted || state.state == RunState::IDLE) && stands ? ended + 1 : 0;
       before = state.machine;
     }
-    if (idle >= 3) {
+    if (ended >= 3) {
       if (!alarm.empty()) throw std::runtime_error("alarm " + alarm);
+      if (interrupted) throw std::runtime_error("the line was interrupted: see 'trunnion alarms', then reset");
       return;
     }
     std::this_thread::sleep_for(std::chrono::milliseconds(5));

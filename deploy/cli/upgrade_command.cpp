@@ -49,6 +49,13 @@ std::string version_of(const std::string& executable) {
   return said;
 }
 
+std::string other_contract(const std::string& executable, const std::string& said,
+                           const std::string& contract) {
+  return executable + " is " + (said.empty() ? "of an unknown version" : said) +
+         ", this cluster runs with contract " + contract +
+         ": stop it and start it with the other build; nothing was replaced";
+}
+
 void require_rest(cluster::Client& client, const machine::MachineConfig& config) {
   auto states = client.bus().reader(topics::channel_state);
   std::map<std::uint16_t, idl::channel::ChannelState> newest;
@@ -101,10 +108,7 @@ std::vector<Replacement> plan(const cluster::RunningCluster& cluster, const mach
     next.version = said[executable];
     const auto contract = bus::contract_of(service.service);
     if (said[executable].find("contract " + contract) == std::string::npos)
-      throw std::runtime_error(executable + " is " +
-                               (said[executable].empty() ? "of an unknown version" : said[executable]) +
-                               ", this cluster runs with contract " + contract +
-                               ": stop it and start it with the other build; nothing was replaced");
+      throw std::runtime_error(other_contract(executable, said[executable], contract));
     std::error_code gone;
     next.running = fs::read_symlink("/proc/" + std::to_string(service.pid) + "/exe", gone).string();
     all.push_back(std::move(next));

@@ -50,7 +50,15 @@ class Access(unittest.TestCase):
             with self.assertRaisesRegex(trunnion.Refused, "needs the role builder"):
                 machine.parameters.set(10, 0.01)
         with trunnion.connect(URL, token=self.tokens["builder"]) as machine:
-            machine.parameters.set(10, 0.01)
+            machine.parameters.set(10, 0.01)  # the setter's connection has given the right to operate back
+            with trunnion.connect(URL, token=self.tokens["operator"]) as other:
+                with self.assertRaisesRegex(trunnion.Refused, "builder .*operates this machine and has been asked"):
+                    other.take_right()
+            with trunnion.connect(URL, token=self.tokens["setter"]) as other:
+                with self.assertRaisesRegex(trunnion.Refused, "builder .*operates this machine"):
+                    other.parameters.set(11, 0.1)
+                other.take_right()
+                other.parameters.set(11, 0.1)
         self.assertIn('"builder"', (self.state / "journal.jsonl").read_text(encoding="utf-8"))
 
     def test_the_command_refuses_what_would_lock_everyone_out(self):

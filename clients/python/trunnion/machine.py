@@ -2,13 +2,14 @@
 """A machine: parameters, programs, alarms, tools, and its channels."""
 from __future__ import annotations
 
+import contextlib
 import json
 import urllib.parse
 from typing import Any
 
 from .channel import Channel
 from .data import Alarm, Parameter, Program, Tool, from_json
-from .errors import Error, NotConnected
+from .errors import Error, NotConnected, Refused
 from .http import Http
 from .recordings import Recordings, StoredRecordings
 from .stream import Stream
@@ -126,7 +127,10 @@ class Machine:
         self.close()
 
     def close(self) -> None:
-        """Ends the connection; the machine is not affected."""
+        """Ends the connection and gives the right to operate back; the machine is not affected."""
+        if "operating" in self.stream.state:
+            with contextlib.suppress(Error):
+                self.http.send("POST", "/api/operating-right", {"action": "release"})
         self.stream.close()
 
     @property
@@ -170,6 +174,12 @@ class Machine:
         """Releases the emergency stop of the panel; alarms and channels are reset separately."""
         self.http.send("POST", "/api/panel/release")
         self.http.send("POST", "/api/panel/reset")
+
+    def take_right(self) -> None:
+        """Takes the right to operate over. Raises Refused when its holder has to agree: a token below the role setter."""
+        answer = self.http.send("POST", "/api/operating-right", {"action": "take"})
+        if answer["one"] and not answer["mine"]:
+            raise Refused(f"{answer['holder']['name']} operates this machine and has been asked", 409, 0)
 
     @property
     def tools(self) -> list[Tool]:

@@ -62,7 +62,7 @@ class TopicSource {
   std::map<std::string, History> histories_;  // by address
   std::unique_ptr<bus::RawReader> reader_;
   bool reader_needed_ = false, reader_came_late_ = false;
-  std::int64_t began_ = 0;         // 0 = not yet
+  std::int64_t began_ = 0;  // 0 = not yet
   std::int64_t left_out_ = 0;
   std::uint64_t overwritten_ = 0;  // of histories that have ended
 };
