@@ -128,8 +128,8 @@ class Machine:
 
     def close(self) -> None:
         """Ends the connection and gives the right to operate back; the machine is not affected."""
-        if "operating" in self.stream.state:
-            with contextlib.suppress(Error):
+        with contextlib.suppress(Error):  # the gateway may be gone
+            if "operating" in self.stream.state:
                 self.http.send("POST", "/api/operating-right", {"action": "release"})
         self.stream.close()
 
