@@ -21,8 +21,8 @@ namespace {
 using idl::channel::Mode;
 using idl::channel::RunState;
 
-// Waits until the channel is idle again or was stopped by an alarm, and its axes have settled; an alarm of the
-// channel on the way is the reason of the failure.
+// Waits until the channel is idle again or was stopped by an alarm, and its axes have settled; an alarm of
+// the channel on the way is the reason of the failure.
 void wait_until_idle(cluster::Client& client, std::uint16_t channel, double timeout) {
   auto reader = client.bus().reader(topics::channel_state);
   auto alarms = client.bus().reader(topics::alarm);
@@ -48,7 +48,8 @@ void wait_until_idle(cluster::Client& client, std::uint16_t channel, double time
     }
     if (ended >= 3) {
       if (!alarm.empty()) throw std::runtime_error("alarm " + alarm);
-      if (interrupted) throw std::runtime_error("the line was interrupted: see 'trunnion alarms', then reset");
+      if (interrupted)
+        throw std::runtime_error("the line was interrupted: see 'trunnion alarms', then reset");
       return;
     }
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
