@@ -175,7 +175,8 @@ TEST(Security, PermissionsAreThoseOfTheTopics) {
   EXPECT_EQ(who_may(directory, "publish", "trunnion/service/swap_request/1"), Names{"deploy"})
       << "it carries the path of an executable";
   EXPECT_EQ(who_may(directory, "publish", "trunnion/channel/request/1"), (Names{"deploy", "gateway"}));
-  EXPECT_EQ(who_may(directory, "publish", "trunnion/service/alarm_reset/1"), (Names{"deploy", "gateway", "plc"}))
+  EXPECT_EQ(who_may(directory, "publish", "trunnion/service/alarm_reset/1"),
+            (Names{"deploy", "gateway", "plc"}))
       << "G2960.3 of the PLC is an external reset";
   EXPECT_EQ(who_may(directory, "publish", "trunnion/service/alarm/1").count("recorder"), 0u)
       << "all who take part in the machine, not who looks on";
