@@ -149,3 +149,24 @@ export async function inaccessible(page) {
       .map(({ id, nodes }) => `${id}: ${nodes.map((node) => `${node.target} (${node.any?.[0]?.message ?? ""})`).slice(0, 4).join("; ")}`);
   });
 }
+
+/** Starts the cluster of the test, or takes that of TRUNNION_URL, calls `test(browser, url)` and ends the process. */
+export async function runTest(test, settings) {
+  let browser;
+  let status = 1;
+  try {
+    const url = TRUNNION_URL ?? (await startCluster(settings));
+    browser = await launch();
+    await test(browser, url);
+    console.log(`screenshots in ${screenshots}`);
+    status = 0;
+  } catch (error) {
+    console.error(error);
+    const pages = browser?.contexts().flatMap((context) => context.pages()) ?? [];
+    if (pages.length > 0) await shot(pages[pages.length - 1], "failure").catch(() => {});
+  } finally {
+    await browser?.close();
+    cleanUp();
+  }
+  process.exit(status);
+}

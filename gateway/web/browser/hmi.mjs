@@ -4,8 +4,7 @@
 import { analysis } from "./analysis.mjs";
 import { appearance } from "./appearance.mjs";
 import {
-  check, cleanUp, cluster, coveredStops, eventually, killGateway, launch, openPage, overflowing, screenshots, shot, startCluster,
-  TRUNNION_URL,
+  check, cluster, coveredStops, eventually, killGateway, openPage, overflowing, runTest, shot, TRUNNION_URL,
 } from "./harness.mjs";
 import { operate } from "./operate.mjs";
 import { parameters } from "./parameters.mjs";
@@ -164,34 +163,16 @@ async function run(page, url) {
   }
 }
 
-let browser;
-let status = 1;
-try {
-  const url = TRUNNION_URL ?? (await startCluster());
-  browser = await launch();
+await runTest(async (browser, url) => {
   const parts = process.argv.slice(2);
   const wanted = (part) => parts.length === 0 || parts.includes(part);
-  try {
-    if (TRUNNION_URL && wanted("operate")) await operate(browser, url);
-    if (TRUNNION_URL && wanted("programs")) await programs(browser, url);
-    if (TRUNNION_URL && wanted("setup")) await setup(browser, url);
-    if (TRUNNION_URL && wanted("parameters")) await parameters(browser, url);
-    if (TRUNNION_URL && wanted("analysis")) await analysis(browser, url);
-    if (TRUNNION_URL && wanted("plc")) await plc(browser, url);
-    if (TRUNNION_URL && wanted("scene")) await scene(browser, url);
-    if (TRUNNION_URL && wanted("appearance")) await appearance(browser, url);
-    if (wanted("page")) await run(await openPage(browser, url), url);
-  } catch (error) {
-    const pages = browser.contexts().flatMap((context) => context.pages());
-    if (pages[0]) await shot(pages[pages.length - 1], "failure");
-    throw error;
-  }
-  console.log(`screenshots in ${screenshots}`);
-  status = 0;
-} catch (error) {
-  console.error(error);
-} finally {
-  await browser?.close();
-  cleanUp();
-}
-process.exit(status);
+  if (TRUNNION_URL && wanted("operate")) await operate(browser, url);
+  if (TRUNNION_URL && wanted("programs")) await programs(browser, url);
+  if (TRUNNION_URL && wanted("setup")) await setup(browser, url);
+  if (TRUNNION_URL && wanted("parameters")) await parameters(browser, url);
+  if (TRUNNION_URL && wanted("analysis")) await analysis(browser, url);
+  if (TRUNNION_URL && wanted("plc")) await plc(browser, url);
+  if (TRUNNION_URL && wanted("scene")) await scene(browser, url);
+  if (TRUNNION_URL && wanted("appearance")) await appearance(browser, url);
+  if (wanted("page")) await run(await openPage(browser, url), url);
+});

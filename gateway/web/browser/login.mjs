@@ -4,7 +4,7 @@
 import { execFileSync } from "node:child_process";
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
-import { check, cleanUp, cluster, coveredStops, eventually, inaccessible, launch, openPage, screenshots, shot, startCluster, state } from "./harness.mjs";
+import { check, cluster, coveredStops, eventually, inaccessible, openPage, runTest, shot, state } from "./harness.mjs";
 
 const hand = { delay: 120 };  // ms a key
 const idle = 12;  // s, as in the settings below
@@ -146,35 +146,17 @@ async function inChinese(browser, url) {
   await page.context().close();
 }
 
-let browser;
-let status = 1;
-try {
-  const url = await startCluster({ settings: `auth: on\nsession_idle_minutes: ${idle / 60}\n`, ready: "api/openapi.json" });
+await runTest(async (browser, url) => {
   addUser("ann", "operator");
   addUser("sam", "setter");
-  browser = await launch();
-  try {
-    const page = await openPage(browser, undefined);
-    await visitor(page, url, english);
-    await first(page, english);
-    await operator(page, english);
-    await setter(page, english);
-    await timeOut(page, english);
-    // A browser logs every refused request: those before the login and after the end of a session.
-    const others = page.complaints.filter((text) => !/401|WebSocket/.test(text));
-    check(`the page has no errors ${others}`, others.length === 0);
-    await inChinese(browser, url);
-  } catch (error) {
-    const pages = browser.contexts().flatMap((context) => context.pages());
-    if (pages[0]) await shot(pages[pages.length - 1], "failure");
-    throw error;
-  }
-  console.log(`screenshots in ${screenshots}`);
-  status = 0;
-} catch (error) {
-  console.error(error);
-} finally {
-  await browser?.close();
-  cleanUp();
-}
-process.exit(status);
+  const page = await openPage(browser, undefined);
+  await visitor(page, url, english);
+  await first(page, english);
+  await operator(page, english);
+  await setter(page, english);
+  await timeOut(page, english);
+  // A browser logs every refused request: those before the login and after the end of a session.
+  const others = page.complaints.filter((text) => !/401|WebSocket/.test(text));
+  check(`the page has no errors ${others}`, others.length === 0);
+  await inChinese(browser, url);
+}, { settings: `auth: on\nsession_idle_minutes: ${idle / 60}\n`, ready: "api/openapi.json" });

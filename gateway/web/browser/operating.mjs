@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // One station operates: two browsers at a machine without users.
-import { check, cleanUp, coveredStops, eventually, inaccessible, launch, openPage, overflowing, screenshots, shot, startCluster } from "./harness.mjs";
+import { check, coveredStops, eventually, inaccessible, openPage, overflowing, runTest, shot } from "./harness.mjs";
 
 const operator = (page) => page.locator("[data-test=operator]").innerText();
 const name = (page) => page.locator("[data-test=operator]");
@@ -59,24 +59,4 @@ async function twoBrowsers(browser, url) {
   await one.context().close();
 }
 
-let browser;
-let status = 1;
-try {
-  const url = await startCluster({ settings: "operating_right: one\n" });
-  browser = await launch();
-  try {
-    await twoBrowsers(browser, url);
-  } catch (error) {
-    const pages = browser.contexts().flatMap((context) => context.pages());
-    if (pages[0]) await shot(pages[pages.length - 1], "failure");
-    throw error;
-  }
-  console.log(`screenshots in ${screenshots}`);
-  status = 0;
-} catch (error) {
-  console.error(error);
-} finally {
-  await browser?.close();
-  cleanUp();
-}
-process.exit(status);
+await runTest(twoBrowsers, { settings: "operating_right: one\n" });
