@@ -224,7 +224,7 @@ std::string write_parameter_text(const std::map<std::uint32_t, ParameterValue>& 
     if (definition == nullptr) continue;
     out << '"' << number_text(number) << "\": ";
     if (definition->type == ParameterType::text)
-      out << YAML::Dump(YAML::Node(value.text));
+      out << scalar_text(value.text);
     else
       out << value.value;
     out << "  # " << definition->name << (definition->unit.empty() ? "" : ", " + unit_of(number, values))

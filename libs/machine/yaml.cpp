@@ -2,7 +2,9 @@
 #include "machine/yaml.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <sstream>
 #include <stdexcept>
 
@@ -35,6 +37,15 @@ YAML::Node parse_yaml(const std::string& text, const std::string& file) {
   } catch (const YAML::Exception& e) {
     throw std::runtime_error(position(file, e.mark) + e.msg);
   }
+}
+
+std::string scalar_text(const std::string& text) {
+  const bool word = !text.empty() && std::isalpha(static_cast<unsigned char>(text[0])) != 0 &&
+                    !YAML::IsNullString(text) && std::all_of(text.begin(), text.end(), [](unsigned char c) {
+                      return c < 128 && (std::isalnum(c) != 0 || c == '_');
+                    });
+  // A JSON string is a quoted YAML scalar. The emitter of yaml-cpp replaces Unicode's noncharacters.
+  return word ? text : nlohmann::json(text).dump();
 }
 
 std::string read_text(const std::string& path) {

@@ -14,6 +14,9 @@ std::string at(const std::string& file, const YAML::Node& node);
 std::string scalar(const std::string& file, const YAML::Node& node);
 /// Throws std::runtime_error with file:line:column.
 YAML::Node parse_yaml(const std::string& text, const std::string& file);
+/// `text` (UTF-8) as one scalar that reads back the same: plain when it is a word of letters, digits and '_',
+/// else quoted.
+std::string scalar_text(const std::string& text);
 /// A whole file. Throws std::runtime_error naming it.
 std::string read_text(const std::string& path);
 

@@ -51,12 +51,6 @@ YAML::Node list_of(const std::string& text, const std::string& file, const char*
 
 }  // namespace
 
-std::string quoted(const std::string& text) {
-  YAML::Emitter out;
-  out << YAML::DoubleQuoted << text;
-  return out.c_str();
-}
-
 std::string check_tool(const idl::parameters::Tool& tool) {
   const auto who = "tool " + std::to_string(tool.number);
   if (tool.number < 1 || tool.number > largest_tool)
@@ -129,7 +123,7 @@ std::string write_tools(const Tools& tools, std::uint64_t revision) {
   for (const auto& [number, tool] : tools)
     out << "  - {number: " << number << ", length: " << tool.length << ", length_wear: " << tool.length_wear
         << ", radius: " << tool.radius << ", radius_wear: " << tool.radius_wear
-        << ", name: " << quoted(tool.name) << "}\n";
+        << ", name: " << machine::scalar_text(tool.name) << "}\n";
   return out.str();
 }
 

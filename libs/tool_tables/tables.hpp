@@ -14,9 +14,6 @@ using Tools = std::map<std::uint32_t, idl::parameters::Tool>;
 /// By channel and index (0 = G54 .. 5 = G59).
 using Offsets = std::map<std::pair<std::uint16_t, std::uint8_t>, idl::parameters::WorkOffset>;
 
-/// As a quoted YAML scalar.
-std::string quoted(const std::string& text);
-
 /// Empty, or one line that names the tool, the field and its limits.
 std::string check_tool(const idl::parameters::Tool& tool);
 /// Most work offsets of a channel: G54 .. G59 are 0 .. 5, G54.1 P1 .. P48 are 6 .. 53.

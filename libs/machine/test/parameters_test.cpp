@@ -102,6 +102,12 @@ TEST(Catalogue, ATextThatCouldNotBeReadBackIsRefused) {
 TEST(ParameterFile, WrittenTextReadsBackTheSame) {
   std::map<std::uint32_t, ParameterValue> values{{100000, {0, "X: \"1\" # no"}}, {100900, {0.1 + 60, ""}}};
   EXPECT_EQ(read_parameter_file(file_with(write_parameter_text(values))), values);
+  // What a plain scalar would turn into something else, and noncharacters (U+FFFF, U+FFFFF).
+  for (const auto* text : {"X", "null", "yes", "", "~", "1", " a ", "a\n\tb", "\x01\x7f",
+                           "\xc2\x85\xef\xbb\xbf", "\xef\xbf\xbf", "\xf3\xbf\xbf\xbf"}) {
+    values = {{100000, {0, text}}};
+    EXPECT_EQ(read_parameter_file(file_with(write_parameter_text(values))), values) << text;
+  }
 }
 
 TEST(Alarms, NumbersAndNamesAreUnique) {

@@ -5,7 +5,6 @@
 #include <stdexcept>
 
 #include "machine/yaml.hpp"
-#include "tool_tables/tables.hpp"
 
 namespace trunnion::parameters {
 
@@ -29,7 +28,7 @@ ActiveSet read_active(const std::string& text, const std::string& file) {
 std::string write_active(const ActiveSet& active) {
   std::ostringstream out;
   out << "# Kept by the parameters service: what is active since the start of the cluster named by 'boot'.\n"
-      << "boot: " << tool_tables::quoted(active.boot) << "\nrevision: " << active.revision
+      << "boot: " << machine::scalar_text(active.boot) << "\nrevision: " << active.revision
       << "\nprevious: " << active.previous << "\nresets: {";
   const char* separator = "";
   for (const auto& [channel, count] : active.resets) {
