@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "canonical/axes.hpp"
 #include "geometry/angle.hpp"
 #include "machine/kinematics.hpp"
 #include "metrology/axis_of_rotation.hpp"
@@ -13,7 +14,7 @@
 namespace trunnion::cli {
 namespace {
 
-constexpr std::string_view letters = "XYZABCUVW";
+using canonical::axis_letters;
 constexpr std::uint16_t turn_decimation = 4, stop_decimation = 40;  // 2 kHz, 200 Hz
 constexpr double positioning_feed = 3000;                           // mm/min or deg/min
 constexpr double still = 1e-6;                                      // deg between two samples
@@ -45,14 +46,14 @@ BallTest::BallTest(ServoSession& session, const BallOptions& options)
       machine_(load_true_machine(session.machine_directory(), options.channel, {})),
       model_(chain_of(session, options.channel)) {
   const auto& axis = session_.axis(options_.axis);
-  axis_ = letters.find(axis.letter);
+  axis_ = axis_letters.find(axis.letter);
   if (axis_ == std::string_view::npos || axis_ < 3 || !model_.turns(axis_ - 3))
     throw std::runtime_error("--axis " + options_.axis + ": no rotary axis of the transformation");
   for (const auto& a : session_.axes())
-    if (const auto index = letters.find(a.letter); index > 2 && index < letters.size())
+    if (const auto index = axis_letters.find(a.letter); index > 2 && index < axis_letters.size())
       held_[index - 3] = a.place;
   for (const auto& word : options_.hold) {
-    const auto index = word.empty() ? std::string_view::npos : letters.find(word[0]);
+    const auto index = word.empty() ? std::string_view::npos : axis_letters.find(word[0]);
     std::size_t used = 0;
     double value = 0;
     try {
@@ -152,7 +153,7 @@ std::string BallTest::opening(double start) const {
   const Vec3 place = place_at(start);
   std::string program = "G17 G90 G94\nG53 G1";
   for (const auto& a : session_.axes())
-    if (const auto index = letters.find(a.letter); index > 2 && index < letters.size())
+    if (const auto index = axis_letters.find(a.letter); index > 2 && index < axis_letters.size())
       program += text(" %c%.6f", a.letter, angles[index - 3]);
   program += text(" F%g\nG53 G1 X%.6f Y%.6f Z%.6f F%g\nG43.4 H%u\nG4 P500\n", positioning_feed, place[0],
                   place[1], place[2], positioning_feed, options_.tool);
@@ -165,7 +166,7 @@ std::string BallTest::closing() const {
     if (a.letter >= 'X' && a.letter <= 'Z') program += text(" %c%.6f", a.letter, a.place);
   program += text(" F%g\nG53 G1", positioning_feed);
   for (const auto& a : session_.axes())
-    if (const auto index = letters.find(a.letter); index > 2 && index < letters.size())
+    if (const auto index = axis_letters.find(a.letter); index > 2 && index < axis_letters.size())
       program += text(" %c%.6f", a.letter, a.place);
   return program + text(" F%g\nM30\n", positioning_feed);
 }
@@ -217,7 +218,7 @@ std::vector<BallSample> BallTest::read(const ChannelMotion& motion, std::vector<
     for (std::size_t axis = 0; axis < truth::axis_count; ++axis) {
       const auto& trace = motion.traces[axis];
       if (trace.size() == 0 || speeds[axis] < moves * fastest) continue;
-      ServoOfAxis servo{letters[axis], servo_analysis::fit_servo_response(trace), 0};
+      ServoOfAxis servo{axis_letters[axis], servo_analysis::fit_servo_response(trace), 0};
       predicted[axis] = servo_analysis::predicted_positions(servo.response, trace.setpoint, trace.interval);
       for (std::size_t i = 0; i < trace.size(); ++i)
         servo.prediction_error += std::pow(predicted[axis][i] - trace.feedback[i], 2);

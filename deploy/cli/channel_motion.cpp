@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "canonical/axes.hpp"
 #include "geometry/types.hpp"
 #include "machine/axes.hpp"
 #include "machine/kinematics.hpp"
@@ -14,7 +15,7 @@
 namespace trunnion::cli {
 namespace {
 
-constexpr std::string_view letters = "XYZABCUVW";
+using canonical::axis_letters;
 // mm or deg: commanded motions that are shorter have no direction.
 constexpr double least_motion = 1e-7;
 
@@ -25,7 +26,7 @@ ChannelMotion run_sampled(ServoSession& session, const std::string& program, con
   std::vector<std::uint16_t> numbers;
   ChannelMotion motion;
   for (const auto& axis : session.axes()) {
-    const auto index = letters.find(axis.letter);
+    const auto index = axis_letters.find(axis.letter);
     if (index == std::string_view::npos) continue;
     motion.resting[index] = axis.place;
     if (sampled.find(axis.letter) != std::string::npos) numbers.push_back(axis.number);
@@ -45,7 +46,8 @@ ChannelMotion run_sampled(ServoSession& session, const std::string& program, con
   motion.count = result.traces.front().size();
   for (std::size_t k = 0; k < numbers.size(); ++k)
     for (const auto& axis : session.axes())
-      if (axis.number == numbers[k]) motion.traces[letters.find(axis.letter)] = std::move(result.traces[k]);
+      if (axis.number == numbers[k])
+        motion.traces[axis_letters.find(axis.letter)] = std::move(result.traces[k]);
   return motion;
 }
 

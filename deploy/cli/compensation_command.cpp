@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "bus/json.hpp"
+#include "canonical/axes.hpp"
 #include "cluster/cluster.hpp"
 #include "commands.hpp"
 #include "error_tables/table_parameters.hpp"
@@ -87,7 +88,8 @@ int show_tables(const TableOptions& options, const Common& common) {
     std::cout << line << "\n";
   }
   for (const auto& one : tables.squareness) {
-    const std::string name = {"XYZABCUVW"[one.moving], '_', "XYZABCUVW"[one.compensated]};
+    const std::string name = {canonical::axis_letters[one.moving], '_',
+                              canonical::axis_letters[one.compensated]};
     all.push_back(
         {{"kind", "squareness"}, {"table", name}, {"angle", one.angle * 1e3}, {"unit", "0.001 deg"}});
     if (common.json) continue;

@@ -5,6 +5,8 @@
 #include <functional>
 #include <stdexcept>
 
+#include "canonical/axes.hpp"
+
 namespace trunnion::cli {
 namespace {
 
@@ -203,7 +205,7 @@ calibration::AxisPosition ProgramRunner::position() {
   const auto& state = readers_->state;
   calibration::AxisPosition position{};
   for (std::size_t i = 0; i < std::min(state.letters.size(), state.machine.size()); ++i) {
-    const auto axis = std::string_view("XYZABCUVW").find(state.letters[i]);
+    const auto axis = canonical::axis_letters.find(state.letters[i]);
     if (axis != std::string_view::npos) position[axis] = state.machine[i];
   }
   return position;

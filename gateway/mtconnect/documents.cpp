@@ -103,7 +103,7 @@ void add_device(pugi::xml_node parent, const Device& device, std::vector<pugi::x
   }
 }
 
-std::string number(double value) {
+std::string number_text(double value) {
   char text[40];
   std::snprintf(text, sizeof text, "%.6g", value);
   return text;
@@ -218,7 +218,7 @@ std::string assets_document(const AgentHeader& header, const Device& device,
       auto one = measurements.append_child(name);
       set(one, "code", code);
       set(one, "units", "MILLIMETER");
-      set_text(one, number(value));
+      set_text(one, number_text(value));
     };
     measure("CuttingDiameterMax", "DC", tool.diameter);
     measure("FunctionalLength", "LF", tool.length);

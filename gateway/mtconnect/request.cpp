@@ -32,7 +32,7 @@ std::int64_t within(const std::string& name, const std::string& text, std::int64
   return value;
 }
 
-std::vector<std::string> split(std::string_view text, char separator) {
+std::vector<std::string> parts_of(std::string_view text, char separator) {
   std::vector<std::string> parts;
   for (;;) {
     const auto end = text.find(separator);
@@ -45,7 +45,7 @@ std::vector<std::string> split(std::string_view text, char separator) {
 std::map<std::string, std::string> parameters_of(std::string_view query) {
   std::map<std::string, std::string> parameters;
   if (query.empty()) return parameters;
-  for (const auto& pair : split(query, '&')) {
+  for (const auto& pair : parts_of(query, '&')) {
     const auto equals = pair.find('=');
     std::string value;
     if (equals == std::string::npos || equals == 0 ||
@@ -64,7 +64,7 @@ Request parse_request(std::string_view method, std::string_view target, const st
   if (method != "GET")
     throw RequestError(405, "UNSUPPORTED", "this agent only answers GET, not " + std::string(method));
   const auto mark = target.find('?');
-  const auto given = split(target.substr(0, mark), '/');
+  const auto given = parts_of(target.substr(0, mark), '/');
   std::vector<std::string> parts;
   for (const auto& one : given) {
     std::string decoded;
@@ -96,7 +96,7 @@ Request parse_request(std::string_view method, std::string_view target, const st
                  : word == "sample"  ? Kind::sample
                                      : Kind::assets;
   if (!parts.empty())
-    for (const auto& id : split(parts.front(), ';'))
+    for (const auto& id : parts_of(parts.front(), ';'))
       if (!id.empty()) request.assets.push_back(id);
   const auto size = static_cast<std::int64_t>(buffer_size);
   const auto query = mark == std::string_view::npos ? std::string_view() : target.substr(mark + 1);

@@ -17,7 +17,7 @@ using idl::plc::OnlineRequest;
 namespace {
 
 // Bounds of plc.idl.
-constexpr std::size_t path_bytes = 240, most_paths = 256, file_bytes = 120, part_bytes = 30000;
+constexpr std::size_t path_bytes = 240, most_paths = 256, file_bytes = 120, load_part_bytes = 30000;
 
 const Json& list_of(const Json& body, const char* name) {
   const auto& list = required(body, name);
@@ -111,7 +111,7 @@ std::vector<OnlineRequest> load_requests(const std::vector<PlcSource>& files) {
   for (const auto& file : files) {
     std::size_t at = 0;
     do {
-      const auto part = std::string_view(file.text).substr(at, part_bytes);
+      const auto part = std::string_view(file.text).substr(at, load_part_bytes);
       auto write = request_for(OnlineAction::WRITE_SOURCE);
       write.file = file.name;
       write.data.assign(part.begin(), part.end());

@@ -7,7 +7,7 @@
 namespace trunnion::analysis {
 namespace {
 
-constexpr std::size_t window_samples = 20000;
+constexpr std::size_t bound_samples = 20000;
 
 struct Rates {
   AxisValues first{}, second{};
@@ -35,7 +35,7 @@ double acceleration_bound(const std::vector<PathSample>& path, const motion::Lim
 
 void AccelerationBound::add(const PathSample& sample) {
   window_.push_back(sample);
-  if (window_.size() >= window_samples) sweep(false);
+  if (window_.size() >= bound_samples) sweep(false);
 }
 
 void AccelerationBound::slow(double speed) {

@@ -11,7 +11,7 @@ namespace {
 
 using truth::Limits;
 
-constexpr std::string_view letters = "ABCUVW";
+constexpr std::string_view rotary_letters = "ABCUVW";
 constexpr Limits place{-1e5, 1e5}, any_angle{-1e6, 1e6};
 
 class InputReader {
@@ -152,8 +152,8 @@ class InputReader {
     const auto defaults = in_.axes;
     in_.axes.clear();
     reader_.each(map, "A, B, C, U, V, W", [&](const std::string& key, const YAML::Node& node) {
-      const auto letter = key.size() == 1 ? letters.find(key[0]) : letters.npos;
-      if (letter == letters.npos) return false;
+      const auto letter = key.size() == 1 ? rotary_letters.find(key[0]) : rotary_letters.npos;
+      if (letter == rotary_letters.npos) return false;
       AxisRange range;
       for (const auto& known : defaults)
         if (known.angle == letter) range = known;

@@ -6,19 +6,20 @@
 #include <cstdio>
 #include <stdexcept>
 
+#include "canonical/axes.hpp"
 #include "geometry/angle.hpp"
 
 namespace trunnion::calibration {
 namespace {
 
 constexpr std::uint32_t first_variable = 52150, serial_variable = 52999;
-constexpr std::string_view letters = "XYZABCUVW";
+using canonical::axis_letters;
 constexpr double arc_step = 10;        // deg: an arc around the sphere is a polygon
 constexpr double shaft_clearance = 1;  // mm
 constexpr double second_retract = 1;   // mm, between first and second touch
 
 template <class... Values>
-std::string line(const char* format, Values... values) {
+std::string words(const char* format, Values... values) {
   char text[300];
   std::snprintf(text, sizeof text, format, values...);
   return text;
@@ -34,9 +35,9 @@ class Writer {
 
   void begin(const std::string& title, const Way& way) {
     text_ += "(" + title + ")\n";
-    text_ += line("#%u=0\n", serial_variable);
+    text_ += words("#%u=0\n", serial_variable);
     text_ += "G21 G17 G90 G94 G40 G80 G49 G54 G61\n";
-    text_ += line("M%u\n", in_.probe_on);
+    text_ += words("M%u\n", in_.probe_on);
     for (std::size_t i = 0; i < way.size(); ++i) {
       // A way that turns and does not move is given the feed of the rotary axes.
       const bool turns = i > 0 && std::equal(way[i].begin(), way[i].begin() + 3, way[i - 1].begin());
@@ -44,30 +45,30 @@ class Writer {
     }
   }
   std::string end(std::uint32_t serial) {
-    text_ += line("#%u=%u\n", serial_variable, serial);
-    text_ += line("M%u\nM30\n", in_.probe_off);
+    text_ += words("#%u=%u\n", serial_variable, serial);
+    text_ += words("M%u\nM30\n", in_.probe_off);
     return std::move(text_);
   }
 
   // Straight to X, Y, Z.
   void go(const Vec3& linear, double feed) {
-    text_ += line("G53 G1 X%.6f Y%.6f Z%.6f F%.3f\n", linear.x(), linear.y(), linear.z(), feed);
+    text_ += words("G53 G1 X%.6f Y%.6f Z%.6f F%.3f\n", linear.x(), linear.y(), linear.z(), feed);
   }
   void go(const AxisPosition& position, double feed) {
     text_ += "G53 G1";
     for (std::size_t i = 0; i < position.size(); ++i)
-      if (present_[i]) text_ += line(" %c%.6f", letters[i], position[i]);
-    text_ += line(" F%.3f\n", feed);
+      if (present_[i]) text_ += words(" %c%.6f", axis_letters[i], position[i]);
+    text_ += words(" F%.3f\n", feed);
   }
 
   // From the end of the measuring path against `direction`; the result is touch `number`.
   void touch(const Vec3& direction, std::size_t number) {
-    text_ += line("G65 P9801 X%.9f Y%.9f Z%.9f D%.6f J%.3f K%.3f R%.6f\n", -direction.x(), -direction.y(),
-                  -direction.z(), 2 * in_.measuring_path, in_.first_touch_feed, in_.measuring_feed,
-                  std::min(second_retract, in_.measuring_path / 2));
+    text_ += words("G65 P9801 X%.9f Y%.9f Z%.9f D%.6f J%.3f K%.3f R%.6f\n", -direction.x(), -direction.y(),
+                   -direction.z(), 2 * in_.measuring_path, in_.first_touch_feed, in_.measuring_feed,
+                   std::min(second_retract, in_.measuring_path / 2));
     for (unsigned i = 0; i < 3; ++i)
-      text_ += line("#%u=#%u-#%u+#%u\n", first_variable + 3 * static_cast<unsigned>(number) + i, 141 + i,
-                    5041 + i, 5021 + i);
+      text_ += words("#%u=#%u-#%u+#%u\n", first_variable + 3 * static_cast<unsigned>(number) + i, 141 + i,
+                     5041 + i, 5021 + i);
   }
 
  private:
@@ -206,7 +207,7 @@ std::vector<Vec3> measured_positions(const MacroVariables& variables, std::size_
       const auto number = first_variable + 3 * static_cast<std::uint32_t>(i) + k;
       const auto found = variables.find(number);
       if (found == variables.end())
-        throw std::runtime_error(line("macro variable #%u is vacant: touch %zu is missing", number, i + 1));
+        throw std::runtime_error(words("macro variable #%u is vacant: touch %zu is missing", number, i + 1));
       position[k] = found->second;
     }
   }

@@ -4,19 +4,21 @@
 #include <cstdio>
 #include <stdexcept>
 
+#include "canonical/axes.hpp"
+
 #include "calibration/touches.hpp"
 
 namespace trunnion::calibration {
 namespace {
 
-constexpr std::string_view letters = "XYZABCUVW";
+using canonical::axis_letters;
 constexpr std::size_t most_lines = 1000;
 constexpr double most = 1e6;
 
 class LineReader {
  public:
   LineReader(const std::string& file, const ChainParameters& chain) : file_(file) {
-    for (const auto& vector : metrology::root_vectors(chain)) rotary_ += letters[3 + vector.angle];
+    for (const auto& vector : metrology::root_vectors(chain)) rotary_ += axis_letters[3 + vector.angle];
   }
 
   // False for an empty line.
@@ -31,8 +33,8 @@ class LineReader {
         ++i;
         continue;
       }
-      const auto axis = letters.find(line[i]);
-      if (axis == letters.npos || (axis > 2 && rotary_.find(line[i]) == rotary_.npos))
+      const auto axis = axis_letters.find(line[i]);
+      if (axis == std::string_view::npos || (axis > 2 && rotary_.find(line[i]) == rotary_.npos))
         fail(i, "expected a word of one of the axes XYZ" + rotary_ + ", for example X10.5");
       if (given[axis]) fail(i, std::string("axis ").append(1, line[i]).append(" is there twice"));
       given[axis] = any = true;
@@ -49,7 +51,9 @@ class LineReader {
     if (!any) return false;
     for (std::size_t axis = 0; axis < 3; ++axis)
       if (!given[axis])
-        fail(0, std::string("axis ").append(1, letters[axis]).append(" is missing: a touch has X, Y and Z"));
+        fail(
+            0,
+            std::string("axis ").append(1, axis_letters[axis]).append(" is missing: a touch has X, Y and Z"));
     return true;
   }
 
@@ -94,7 +98,7 @@ std::string text_of(const std::vector<TouchedPose>& poses, const ChainParameters
       const auto vectors = metrology::root_vectors(chain);
       for (const auto& vector : vectors) {
         char word[40];
-        const int length = std::snprintf(word, sizeof word, "%c%.12g ", letters[3 + vector.angle],
+        const int length = std::snprintf(word, sizeof word, "%c%.12g ", axis_letters[3 + vector.angle],
                                          pose.angles[vector.angle]);
         text.append(word, static_cast<std::size_t>(length));
       }

@@ -5,13 +5,14 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <string_view>
 
 namespace trunnion::canonical {
 
 /// The nine programmable axes of a channel in the order of parameters 040001..040009 (ISO 841 letters).
 enum Axis : std::uint8_t { X, Y, Z, A, B, C, U, V, W };
 inline constexpr std::size_t axis_count = 9;
-inline constexpr const char* axis_letters = "XYZABCUVW";
+inline constexpr std::string_view axis_letters = "XYZABCUVW";
 
 /// One value per axis: mm for X Y Z U V W, degrees for A B C. Axes a channel does not have stay 0.
 using AxisValues = std::array<double, axis_count>;

@@ -18,7 +18,7 @@ namespace {
 
 constexpr int longest_wait = 2;  // s: a gateway that does not answer must not be in the way
 
-std::string user_name() {
+std::string login_name() {
   const auto* user = getpwuid(getuid());
   return user != nullptr ? user->pw_name : std::to_string(getuid());
 }
@@ -54,7 +54,7 @@ OperatingStation::OperatingStation(std::uint32_t domain, bool take_over) {
   ::setsockopt(socket_, SOL_SOCKET, SO_RCVTIMEO, &wait, sizeof wait);
   ::setsockopt(socket_, SOL_SOCKET, SO_SNDTIMEO, &wait, sizeof wait);
   if (::connect(socket_, reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0) return;
-  const nlohmann::json question = {{"name", "command line of " + user_name()}, {"take_over", take_over}};
+  const nlohmann::json question = {{"name", "command line of " + login_name()}, {"take_over", take_over}};
   const auto text = question.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
   const auto answer = nlohmann::json::parse(exchange(socket_, text), nullptr, false);
   if (!answer.is_object() || !answer.contains("holder") || !answer["holder"].is_string()) return;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "canonical/axes.hpp"
 #include "geometry/angle.hpp"
 #include "volumetric/error_model.hpp"
 
@@ -12,7 +13,7 @@ namespace {
 using geometry::ChainParameters;
 using geometry::RotaryAxis;
 
-constexpr std::string_view letters = "XYZABCUVW";
+using canonical::axis_letters;
 
 // From the end of a side to the base.
 std::array<const std::optional<RotaryAxis>*, 3> side_of(const ChainParameters& p, bool workpiece) {
@@ -103,7 +104,7 @@ std::string name_of(const MachineLinks& links, Link link) {
   if (link.depth == 0) return "base";
   if (link == links.workpiece()) return "workpiece";
   if (link == links.spindle()) return "spindle";
-  return std::string(1, letters[links.joints(link.workpiece)[link.depth - 1].axis]);
+  return std::string(1, axis_letters[links.joints(link.workpiece)[link.depth - 1].axis]);
 }
 
 }  // namespace trunnion::collision

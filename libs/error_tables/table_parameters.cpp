@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "canonical/axes.hpp"
 #include "machine/axes.hpp"
 #include "machine/parameter_constants.hpp"
 
@@ -13,7 +14,7 @@ namespace {
 using machine::number_text;
 using machine::Parameters;
 
-constexpr std::string_view letters = "XYZABCUVW";
+using canonical::axis_letters;
 constexpr std::uint32_t last_value = 709999;
 
 // The parameters of one table. Those that a kind does not have are null.
@@ -71,7 +72,7 @@ class Channel {
     const auto found = std::find(axes_.index.begin(), axes_.index.end(), letter);
     if (found == axes_.index.end())
       throw std::runtime_error("table " + table + ": channel " + std::to_string(channel_) + " has no axis " +
-                               letters[letter]);
+                               axis_letters[letter]);
     return axes_.number[static_cast<std::size_t>(found - axes_.index.begin())];
   }
   std::size_t letter(int number, const machine::ParameterKey& key, std::uint32_t a) const {
@@ -156,7 +157,7 @@ std::map<std::uint32_t, machine::ParameterValue> parameters_of(const TextTables&
   }
   for (const auto& one : tables.squareness) {
     const std::string name =
-        std::string("squareness ") + letters[one.moving] + "_" + letters[one.compensated];
+        std::string("squareness ") + axis_letters[one.moving] + "_" + axis_letters[one.compensated];
     const std::uint32_t a = known.number(one.compensated, name);
     const auto* slot = free_slot(
         squareness, [](const SquarenessSlot& s) { return s.enable; }, a, name);

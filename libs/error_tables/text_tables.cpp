@@ -8,10 +8,12 @@
 #include <string_view>
 #include <tuple>
 
+#include "canonical/axes.hpp"
+
 namespace trunnion::error_tables {
 namespace {
 
-constexpr std::string_view letters = "XYZABCUVW";
+using canonical::axis_letters;
 constexpr double unit = 1e-3;               // um in mm, 0.001 deg in deg
 constexpr double largest = 2147483647;      // the manual's values are 32 bits wide
 constexpr std::size_t most_values = 10000;  // parameters 700000 .. 709999
@@ -93,8 +95,8 @@ class Parser {
     const Word word = next();
     std::string name(word.text);
     if (name.size() == 1 && name[0] >= '1' && name[0] < '1' + most_code) name = codes[name[0] - '1'];
-    const auto moving = name.size() == 3 ? letters.find(name[0]) : std::string_view::npos;
-    const auto compensated = name.size() == 3 ? letters.find(name[2]) : std::string_view::npos;
+    const auto moving = name.size() == 3 ? axis_letters.find(name[0]) : std::string_view::npos;
+    const auto compensated = name.size() == 3 ? axis_letters.find(name[2]) : std::string_view::npos;
     if (moving == std::string_view::npos || compensated == std::string_view::npos || name[1] != '_')
       fail(word, "'" + name + "': expected MOVING_COMPENSATED as X_Y, or a type code 1 .. " +
                      std::to_string(most_code));
@@ -115,7 +117,7 @@ class Parser {
     std::tie(table.moving, table.compensated) = pair(9);
     if (head.text == "angle") {
       const Word arm = next();
-      table.arm = arm.text.size() == 1 ? letters.find(arm.text[0]) : std::string_view::npos;
+      table.arm = arm.text.size() == 1 ? axis_letters.find(arm.text[0]) : std::string_view::npos;
       if (*table.arm == std::string_view::npos)
         fail(arm, "'" + std::string(arm.text) + "': expected the axis that is the lever arm");
     }
@@ -181,14 +183,14 @@ std::string shown(double value) {
 }
 
 std::string pair_of(std::size_t moving, std::size_t compensated) {
-  return std::string(1, letters[moving]) + "_" + letters[compensated];
+  return std::string(1, axis_letters[moving]) + "_" + axis_letters[compensated];
 }
 
 }  // namespace
 
 std::string name_of(const TextTable& table) {
   const auto name = pair_of(table.moving, table.compensated);
-  return table.arm ? name + " " + letters[*table.arm] : name;
+  return table.arm ? name + " " + axis_letters[*table.arm] : name;
 }
 
 TextTables parse_tables(const std::string& text, const std::string& file) {

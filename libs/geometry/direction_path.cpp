@@ -10,7 +10,7 @@
 namespace trunnion::geometry {
 namespace {
 
-constexpr double no_azimuth = 1e-9;
+constexpr double least_sine = 1e-9;
 constexpr double travel_slack = 1e-6;  // degrees
 
 double full_turns(double degrees) { return 360 * std::round(degrees / 360); }
@@ -31,7 +31,7 @@ DirectionPathFault fault_of(const OrientationAnswer& answer, double s) {
 }
 
 // The angle in degrees about k between two vectors across it.
-double azimuth(const Vec3& k, const Vec3& from, const Vec3& to) {
+double angle_across(const Vec3& k, const Vec3& from, const Vec3& to) {
   return arc_tangent(k.dot(from.cross(to)), from.dot(to)) / radians_per_degree;
 }
 
@@ -150,14 +150,14 @@ std::optional<DirectionPathFault> DirectionPath::check_directions(const Directio
 Vec3 DirectionPath::across(double s) const {
   const auto u = arc_.derivatives(s);
   const Vec3 c = pair_.axes.k1.cross(u[0]);
-  if (c.norm() > no_azimuth) return c;
+  if (c.norm() > least_sine) return c;
   return (s < 0.5 ? 1 : -1) * pair_.axes.k1.cross(u[1]);
 }
 
 // k1 x the tool turned by axis 2 alone; where that is k1, of the path there.
 Vec3 DirectionPath::around(const AxisPair::Triangle& triangle, double side) const {
   const Vec3 a = pair_.axes.k1.cross(pair_.axes.tool_at(triangle, side));
-  return a.norm() > no_azimuth ? a : Vec3(side * pair_.axes.k1.cross(pair_.axes.g));
+  return a.norm() > least_sine ? a : Vec3(side * pair_.axes.k1.cross(pair_.axes.g));
 }
 
 // Axis 1 turns the tool's azimuth about k1 onto that of u. Along a great circle the azimuth of u changes by
@@ -173,9 +173,9 @@ DirectionPath::Two DirectionPath::on_arc(const Piece& piece, double s) const {
   const Vec3 u_now = across(s), u_begin = across(piece.begin);
   const Vec3 v_now = around(triangle, piece.side), v_begin = around(triangle_at(piece.begin), piece.side);
   const Vec3 middle = piece.side * p.k1.cross(p.g);
-  const double change =
-      azimuth(p.k1, u_begin, u_now) - azimuth(p.k1, middle, v_now) + azimuth(p.k1, middle, v_begin);
-  const double first = azimuth(p.k1, v_now, u_now);
+  const double change = angle_across(p.k1, u_begin, u_now) - angle_across(p.k1, middle, v_now) +
+                        angle_across(p.k1, middle, v_begin);
+  const double first = angle_across(p.k1, v_now, u_now);
   return {first + full_turns(piece.first + change - first), p.second(triangle, piece.side) + piece.turn};
 }
 
@@ -226,7 +226,7 @@ void DirectionPath::build(const Piece& start, const DirectionPathRequest& reques
     if (!has_pole(sign, tolerance)) continue;
     const double s = foot(sign), place = std::clamp(s, 0.0, 1.0);
     const double closest = angle_between(arc_.at(place), Vec3(sign * pair_.axes.k1));
-    if (closest >= tolerance || (closest < no_azimuth && (place == 0 || place == 1))) continue;
+    if (closest >= tolerance || (closest < least_sine && (place == 0 || place == 1))) continue;
     const double passing = angle_between(arc_.at(s), Vec3(sign * pair_.axes.k1));
     // As far to either side as makes the axis turn about as fast as the direction, if the tolerance allows.
     double range = std::max({std::sqrt(passing), 2 * closest, 0.5 * radians_per_degree});

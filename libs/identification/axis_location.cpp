@@ -5,12 +5,14 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "canonical/axes.hpp"
+
 namespace trunnion::identification {
 namespace {
 
 using truth::Vec3;
 
-constexpr std::string_view letters = "XYZABCUVW";
+using canonical::axis_letters;
 constexpr double step_mm = 1e-3, step_rad = 1e-6;
 constexpr double least_singular_value = 1e-3;  // of the largest, of columns of length one
 constexpr double least_column = 1e-6;          // mm per mm, mm per 0.1 mrad
@@ -52,7 +54,7 @@ AxisLocation locate_axis(const truth::MachineOutline& machine, const geometry::C
       auto& errors = truth.axes[axis];
       const double step = angle ? step_rad : step_mm;
       (angle ? errors.inclination : errors.displacement)[static_cast<Eigen::Index>(k)] = step;
-      Unknown unknown{{letters[k + (angle ? 3 : 0)], 'O', letters[axis]}, angle, {}};
+      Unknown unknown{{axis_letters[k + (angle ? 3 : 0)], 'O', axis_letters[axis]}, angle, {}};
       unknown.column = column_of(truth::make_geometry(truth, machine, "location error"), model, ball,
                                  tool_length, readings, step);
       unknowns.push_back(std::move(unknown));

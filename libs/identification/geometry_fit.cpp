@@ -4,6 +4,7 @@
 #include <Eigen/Cholesky>
 #include <cmath>
 
+#include "canonical/axes.hpp"
 #include "geometry/angle.hpp"
 #include "volumetric/structure.hpp"
 
@@ -12,7 +13,7 @@ namespace {
 
 using truth::Vec3;
 
-constexpr std::string_view letters = "XYZABCUVW";
+using canonical::axis_letters;
 constexpr std::size_t spindle = 9;
 
 // The error functions' own direction of an axis: its position error.
@@ -213,9 +214,9 @@ FitResult GeometryFit::solve(const std::vector<std::vector<double>>& measured) c
     const auto row = static_cast<Eigen::Index>(k);
     const bool angle = u.kind == Kind::inclination || u.kind == Kind::spindle;
     if (!angle && u.kind != Kind::displacement) continue;
-    std::string name(1, letters[u.component + (angle ? 3 : 0)]);
+    std::string name(1, axis_letters[u.component + (angle ? 3 : 0)]);
     name += u.axis < 3 ? '0' : 'O';
-    name += u.axis == spindle ? 'S' : letters[u.axis];
+    name += u.axis == spindle ? 'S' : axis_letters[u.axis];
     result.locations.push_back({name, x[row], std::sqrt(covariance_(row, row)), angle});
   }
   result.tip_uncertainty = tip_uncertainty_;

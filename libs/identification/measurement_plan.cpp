@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "canonical/axes.hpp"
 #include "machine/yaml.hpp"
 #include "truth/truth_reader.hpp"
 #include "volumetric/structure.hpp"
@@ -13,7 +14,7 @@ namespace {
 
 using truth::Limits;
 
-constexpr std::string_view letters = "XYZABCUVW";
+using canonical::axis_letters;
 constexpr double micro = 1e-3;  // um in mm
 constexpr Limits place{-1e5, 1e5}, tool{0, 1e4};
 
@@ -91,8 +92,9 @@ class PlanReader {
   void laser(const YAML::Node& entry, Measurement& m) {
     if (!entry["error"]) reader_.fail(entry, "error is missing: EXX, EYX .. EBZ");
     const auto error = reader_.text(entry["error"]);
-    const auto component = error.size() == 3 && error[0] == 'E' ? letters.find(error[1]) : letters.npos;
-    const auto axis = error.size() == 3 ? letters.find(error[2]) : letters.npos;
+    const auto component =
+        error.size() == 3 && error[0] == 'E' ? axis_letters.find(error[1]) : std::string_view::npos;
+    const auto axis = error.size() == 3 ? axis_letters.find(error[2]) : std::string_view::npos;
     if (component > 5 || axis > 2)
       reader_.fail(entry["error"], "'" + error + "': expected EXX, EYX .. ECZ: an error of X, Y or Z");
     m.name = "laser " + error;
@@ -152,7 +154,7 @@ class PlanReader {
   void nest(const YAML::Node& entry, Measurement& m) {
     if (!entry["axis"]) reader_.fail(entry, "axis is missing");
     const auto name = reader_.text(entry["axis"]);
-    m.axis = name.size() == 1 ? letters.find(name[0]) : letters.npos;
+    m.axis = name.size() == 1 ? axis_letters.find(name[0]) : std::string_view::npos;
     bool turns = false;
     const auto& d = machine_.design;
     for (const auto* side : {&d.table_2, &d.table_1, &d.table_0, &d.head_2, &d.head_1, &d.head_0})

@@ -4,13 +4,6 @@
 #include <cmath>
 
 namespace trunnion::language {
-namespace {
-
-/// A move shorter than this (mm, degrees) on every axis is rounding, not motion.
-constexpr double no_distance = 1e-9;
-
-}  // namespace
-
 void CommandOutput::start() {
   kept_revision_.reset();
   compensation_.reset();

@@ -9,8 +9,6 @@ namespace {
 
 // Directions that differ by less (rad) are one direction.
 constexpr double tangential = 1e-9;
-// What rounding may leave of a move that the corner uses up, mm.
-constexpr double no_distance = 1e-9;
 
 // From direction `a` to direction `b`, in the sense of `sweep`: 0 .. 2 pi, a whole turn less rounding counts
 // as none.

@@ -8,8 +8,7 @@
 namespace trunnion::language {
 namespace {
 
-constexpr double no_distance = 1e-9;  // mm
-constexpr double tangent = 1e-6;      // sine of a corner that is none
+constexpr double tangent = 1e-6;  // sine of a corner that is none
 /// How much nearer than its radius the tool may come to a contour nearby, mm: words are rounded to a
 /// micrometre, and what that makes of a smooth contour is no interference.
 constexpr double touching = 0.002;
@@ -22,7 +21,7 @@ constexpr double reversal = 0.05;
 constexpr double radians = std::numbers::pi / 180;
 
 /// Angle of the corner in (-pi, pi], positive to the left.
-double turn(Vector2 from, Vector2 to) { return std::atan2(cross(from, to), dot(from, to)); }
+double change_of_direction(Vector2 from, Vector2 to) { return std::atan2(cross(from, to), dot(from, to)); }
 
 /// Where the walk turns back on itself: true when the tool on the `left` (negative: right) is between the two
 /// moves. Seen from the corner they separate by the angle between them and by their curvatures, which is
@@ -157,7 +156,8 @@ AlarmNumber CutterCompensation::settle_corner(Item& before, Item& after) {
     return check_direction(before);
   }
   after.tool_start = after.contour.left_of_start(after.left);
-  const double corner = turn(before.contour.tangent_at_end(), after.contour.tangent_at_start());
+  const double corner =
+      change_of_direction(before.contour.tangent_at_end(), after.contour.tangent_at_start());
   const bool same_side = (before.left > 0) == (after.left > 0) && before.left != 0 && after.left != 0;
   const bool straight_on = std::abs(std::sin(corner)) < tangent && std::cos(corner) > 0;
   before.smooth_end = after.smooth_start = std::abs(corner) < rounding_corner;
@@ -202,8 +202,8 @@ PlanarPiece CutterCompensation::tool_piece(const Item& item) const {
   if (!piece.arc) return piece;
   const PlanarPiece& c = item.contour;
   // What the corners cut off, as small signed angles, so that several turns stay several turns.
-  const double at_start = turn(c.start - c.centre, piece.start - c.centre);
-  const double at_end = turn(piece.end - c.centre, c.end - c.centre);
+  const double at_start = change_of_direction(c.start - c.centre, piece.start - c.centre);
+  const double at_end = change_of_direction(piece.end - c.centre, c.end - c.centre);
   piece.sweep = c.sweep - at_start - at_end;
   return piece;
 }
@@ -214,7 +214,7 @@ PlanarPiece CutterCompensation::around_piece(const Item& item) const {
   piece.centre = item.contour.start;
   piece.start = in_plane(tool_);
   piece.end = item.tool_start;
-  const double angle = turn(piece.start - piece.centre, piece.end - piece.centre);
+  const double angle = change_of_direction(piece.start - piece.centre, piece.end - piece.centre);
   // The left offset goes round a right corner, clockwise.
   piece.sweep = item.left > 0 ? -std::abs(angle) : std::abs(angle);
   return piece;
@@ -349,7 +349,7 @@ bool CutterCompensation::give_join(const Item& next, Command& command) {
     } else {
       // The corners of a polygon around the arc, at most a quarter turn each, then its end.
       if (join_step_ == 0) join_from_ = from - around.centre;
-      const double whole = std::abs(turn(join_from_, next.tool_start - around.centre));
+      const double whole = std::abs(change_of_direction(join_from_, next.tool_start - around.centre));
       const double quarters = std::max(1.0, std::ceil(whole / (std::numbers::pi / 2) - 1e-9));
       if (join_step_ < quarters) {
         const double part = std::copysign(whole / quarters, around.sweep);

@@ -8,14 +8,12 @@
 namespace trunnion::language {
 namespace {
 
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
-
 // Powers of ten up to 1e22 are exact in a double, and so is an integer up to 2^53; their quotient is one
 // rounding.
 constexpr std::array<double, 23> powers_of_ten = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
                                                   1e8,  1e9,  1e10, 1e11, 1e12, 1e13, 1e14, 1e15,
                                                   1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
-constexpr std::uint64_t exact_integers = 1ull << 53;
+constexpr std::uint64_t exact_mantissas = 1ull << 53;
 constexpr int most_digits = 15;  // 10^15 < 2^53
 
 }  // namespace
@@ -43,7 +41,7 @@ Decimal read_decimal(const char* begin, const char* end) {
   result.end = p;
   double magnitude = 0;
   if (digits <= most_digits) {
-    static_assert(powers_of_ten.size() > most_digits && exact_integers > 1000000000000000ull);
+    static_assert(powers_of_ten.size() > most_digits && exact_mantissas > 1000000000000000ull);
     magnitude = static_cast<double>(mantissa) / powers_of_ten[static_cast<std::size_t>(fraction)];
   } else {
     const auto parsed = std::from_chars(digits_begin, p, magnitude, std::chars_format::fixed);

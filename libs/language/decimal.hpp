@@ -14,6 +14,8 @@ struct Decimal {
   const char* end = nullptr;  ///< first byte behind the number
 };
 
+constexpr bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
 /// Largest magnitude of a number in a program.
 inline constexpr double largest_number = 999999999.0;
 

@@ -7,9 +7,9 @@
 
 namespace trunnion::language {
 
-constexpr std::uint32_t letter_bits(const char* letters) {
+constexpr std::uint32_t letter_bits(std::string_view letters) {
   std::uint32_t bits = 0;
-  for (; *letters != '\0'; ++letters) bits |= Block::bit(*letters);
+  for (const char letter : letters) bits |= Block::bit(letter);
   return bits;
 }
 inline constexpr std::uint32_t axis_bits = letter_bits(axis_letters);

@@ -9,7 +9,7 @@ namespace trunnion::language {
 namespace {
 
 constexpr double highest_program = 99999999;
-constexpr double highest_repetition = 999999;
+constexpr double most_calls = 999999;
 constexpr std::uint32_t first_m_cycle = 1007;
 
 Fault whole_word(const Block& block, char name, double lowest, double highest, std::uint32_t& result) {
@@ -111,7 +111,7 @@ Fault read_call(const Block& block, Call& call) {
   call.program_offset = block.offset('P');
   if (const Fault fault = whole_word(block, 'P', 1, highest_program, call.number)) return fault;
   if (!block.has('L')) return {};
-  return whole_word(block, 'L', 1, highest_repetition, call.repetitions);
+  return whole_word(block, 'L', 1, most_calls, call.repetitions);
 }
 
 void read_arguments(const Block& block, CallKind kind, bool absolute, Arguments& arguments) {

@@ -9,6 +9,9 @@
 
 namespace trunnion::language {
 
+/// A move shorter than this (mm, degrees) is rounding, not motion.
+constexpr double no_distance = 1e-9;
+
 /// A point or a direction, mm.
 struct Vector2 {
   double u = 0;

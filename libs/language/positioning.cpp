@@ -4,7 +4,7 @@
 namespace trunnion::language {
 namespace {
 
-constexpr double longest_dwell = 99999.999;  // seconds
+constexpr double longest_pause = 99999.999;  // seconds
 constexpr std::uint32_t highest_skip_input = 4;
 
 }  // namespace
@@ -20,7 +20,7 @@ Fault Positioning::dwell(std::uint16_t at) {
     seconds = letter == 'P' ? words_.value(letter) / 1000 : words_.value(letter);
   }
   if (found == '\0') return {AlarmNumber::missing_word, at, "needs P, X or U"};
-  if (seconds < 0 || seconds > longest_dwell) return {AlarmNumber::value_range, words_.offset(found)};
+  if (seconds < 0 || seconds > longest_pause) return {AlarmNumber::value_range, words_.offset(found)};
   output_.push(CommandKind::dwell).dwell_seconds = seconds;
   return {};
 }

@@ -10,7 +10,6 @@
 namespace trunnion::language {
 
 constexpr bool is_blank(char c) { return c == ' ' || c == '\t'; }
-constexpr bool is_digit(char c) { return c >= '0' && c <= '9'; }
 /// A to Z for a letter of either case, else 0.
 constexpr char letter(char c) {
   if (c >= 'a' && c <= 'z') return static_cast<char>(c - 'a' + 'A');

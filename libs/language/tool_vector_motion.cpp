@@ -9,7 +9,7 @@
 namespace trunnion::language {
 namespace {
 
-constexpr double no_length = 1e-9;
+constexpr double no_vector = 1e-9;
 
 AxisValues point_on_line(const AxisValues& start, const AxisValues& target, double share) {
   AxisValues point = start;
@@ -59,7 +59,7 @@ Fault ToolVectorMotion::read(std::optional<Vector3>& direction, std::uint16_t& a
     words[i] = words_.value(letter);
   }
   const double size = std::hypot(words[0], words[1], words[2]);
-  if (!(size > no_length)) return {AlarmNumber::tool_vector_zero, at};
+  if (!(size > no_vector)) return {AlarmNumber::tool_vector_zero, at};
   for (double& word : words) word /= size;
   direction = state_.frame().turned_by_tilt(words);
   return {};

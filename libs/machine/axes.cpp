@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "machine/axes.hpp"
 
+#include "canonical/axes.hpp"
 #include "machine/parameter_constants.hpp"
 
 namespace trunnion::machine {
@@ -35,7 +36,7 @@ ChannelAxes channel_axes(const Parameters& parameters, std::uint16_t channel) {
     if (number < 0 || number >= parameters.integer(parameter::maximum_axes)) continue;
     result.index.push_back(i);
     result.number.push_back(static_cast<std::uint16_t>(number));
-    result.letters += "XYZABCUVW"[i];
+    result.letters += canonical::axis_letters[i];
   }
   return result;
 }

@@ -10,7 +10,7 @@ namespace {
 
 // Of the directions from the centre to the touches: below it one direction is hardly seen.
 constexpr double least_singular_value = 1e-4;
-constexpr int most_steps = 50;
+constexpr int most_sphere_steps = 50;
 
 }  // namespace
 
@@ -55,7 +55,7 @@ std::variant<SphereFit, SphereError> fit_sphere(const std::vector<Vec3>& tips, s
     }
     const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(jacobian);
     const Eigen::VectorXd change = qr.solve(distances);
-    if (!change.allFinite() || step > most_steps) return SphereError::no_sphere;
+    if (!change.allFinite() || step > most_sphere_steps) return SphereError::no_sphere;
     fit.centre -= change.head<3>();
     if (!radius) fit.radius -= change[3];
     if (change.norm() <= 1e-12 * (spread + fit.centre.norm())) break;

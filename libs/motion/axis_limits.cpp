@@ -12,8 +12,6 @@ constexpr double range_share = 0.999;
 constexpr double checked_share = 1.0003;
 // Jerk that stays free when an acceleration is chosen.
 constexpr double kept_jerk = 0.05;
-constexpr double rounding = 1e-7;
-constexpr double rounding_distance = 2e-9;
 
 // Narrows the range of x so that |offset + factor x| <= limit.
 inline void narrow(Range& range, double offset, double factor, double limit) {
@@ -29,8 +27,8 @@ inline void narrow(Range& range, double offset, double factor, double limit) {
 bool within_axis_limits(const LimitCell& cell, double part, const PathState& state, double jerk) {
   if (cell.uniform || cell.axis_count == 0) {
     const RampLimits& ramp = cell.uniform ? cell.ramps[0] : cell.ramp(state.v);
-    return std::abs(state.a) <= ramp.acceleration * (1 + rounding) + 1e-6 &&
-           std::abs(jerk) <= ramp.jerk * (1 + rounding);
+    return std::abs(state.a) <= ramp.acceleration * (1 + relative_rounding) + 1e-6 &&
+           std::abs(jerk) <= ramp.jerk * (1 + relative_rounding);
   }
   const double v = state.v, a = state.a;
   for (int i = 0; i < cell.axis_count; ++i) {
@@ -114,7 +112,7 @@ bool keeps_axes(const PathState& from, const PathState& to, double jerk, const C
   double entered = 0;  // share of the step that is done
   while (true) {
     const LimitCell& here = cells[cell];
-    if (fastest > here.top * (1 + rounding) + 1e-9) return false;
+    if (fastest > here.top * (1 + relative_rounding) + 1e-9) return false;
     const bool last = to.s <= here.end;
     const double left = last ? 1 : std::clamp((here.end - from.s) / (to.s - from.s), entered, 1.0);
     const PathState middle = between(0.5 * (entered + left)), edge = between(left);

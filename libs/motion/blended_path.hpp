@@ -14,6 +14,7 @@ namespace trunnion::motion {
 struct BlendRules {
   double contour_tolerance = 0.01;      ///< mm; 0: exact
   double orientation_tolerance = 0.05;  ///< degrees of the rotary axes together
+  bool operator==(const BlendRules&) const = default;
 };
 
 /// Size of a change by the tolerances, linear and rotary axes apart: the larger share.

@@ -36,7 +36,7 @@ constexpr double end_share = 0.5, piece_share = 0.95;
 // Lines instead of a curve that does not keep its tolerance.
 constexpr std::uint64_t abandoned_lines = 16;
 // A piece is no shorter, mm: what lies beyond a knot by less belongs to the piece before.
-constexpr double shortest_piece = 1e-6;
+constexpr double shortest_part = 1e-6;
 // Where the parameter of the curve is not its length, the programmed speed is corrected in steps of this
 // share, when it would be off by more than the other.
 constexpr double feed_step = 1e-3, feed_error = 8e-4;
@@ -62,10 +62,6 @@ bool is_short_line(const PathBlock& block) {
   return block.rules.contour_tolerance > 0 && !(turns && !(block.rules.orientation_tolerance > 0));
 }
 
-bool same(const BlendRules& a, const BlendRules& b) {
-  return a.contour_tolerance == b.contour_tolerance && a.orientation_tolerance == b.orientation_tolerance;
-}
-
 double fraction_at(const PathBlock& block, double done) {
   return block.fraction_offset + (1 - block.fraction_offset) * done;
 }
@@ -86,7 +82,7 @@ Compressor::Break Compressor::join_of(std::uint64_t number) const {
   if (number == 0 || number == closed_) return Break::yes;
   const Entry &before = at(number - 1), &here = at(number);
   if (!before.short_line || !here.short_line || here.block.stop) return Break::yes;
-  if (!same(before.block.rules, here.block.rules)) return Break::yes;
+  if (before.block.rules != here.block.rules) return Break::yes;
   const AxisValues a = before.block.path.derivative(0), b = here.block.path.derivative(0);
   AxisValues turn{};
   for (std::size_t i = 0; i < axis_count; ++i) turn[i] = b[i] - a[i];
@@ -279,7 +275,7 @@ const PathBlock* Compressor::piece() {
   const PathSegment& line = entry.block.path;
   const CurveSpan span = spline_[span_];
   const double span_end = span.u + span.length, line_end = entry.u + entry.length;
-  const bool whole = span_end >= line_end - shortest_piece;  // up to the end of the line
+  const bool whole = span_end >= line_end - shortest_part;  // up to the end of the line
   const double end = whole ? line_end : span_end, length = end - at_;
   const Cubic curve = shifted(span.curve, at_ - span.u);
   const bool first = front_ == first_of_curve_ && at_ == entry.u;
@@ -315,7 +311,7 @@ const PathBlock* Compressor::piece() {
   ready_.feed = source.feed * feed_factor_;
   at_ = end;
   if (whole) ++front_;
-  if (span_end <= end + shortest_piece) ++span_;
+  if (span_end <= end + shortest_part) ++span_;
   if (span_ == spans_ && ends_) open_ = false;
   return &ready_;
 }

@@ -2,6 +2,7 @@
 // A section of the path with its limits of path speed, acceleration and jerk.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -9,6 +10,11 @@
 #include "motion/transition.hpp"
 
 namespace trunnion::motion {
+
+/// Lengths of path that rounding may add, mm or degrees.
+constexpr double rounding_distance = 2e-9;
+/// What computing speed, acceleration and jerk may add to a limit, as a share of it.
+constexpr double relative_rounding = 1e-7;
 
 /// One machine axis on a cell: first to third derivative by the path length at both ends, between which they
 /// are interpolated, and its limits.
@@ -61,6 +67,12 @@ struct LimitCell {
     return shares[k] * speed;
   }
 };
+
+/// Where `s` is on the cell: 0 at its start to 1 at its end.
+inline double part_of(const LimitCell& cell, double s) {
+  const double length = cell.end - cell.at;
+  return length > 0 ? std::clamp((s - cell.at) / length, 0.0, 1.0) : 0.0;
+}
 
 /// Ring of cells addressed by a counter that never wraps.
 class CellRing {

@@ -17,11 +17,6 @@ constexpr double least_jerk = 0.1;
 // Where much more jerk than this would be needed, the acceleration has to be reduced at once.
 constexpr double near_ramp_down = 0.3;
 
-double part_of(const LimitCell& cell, double s) {
-  const double length = cell.end - cell.at;
-  return length > 0 ? std::clamp((s - cell.at) / length, 0.0, 1.0) : 0.0;
-}
-
 Range capped(Range range, double cap) { return {std::max(range.low, -cap), std::min(range.high, cap)}; }
 
 // The constant jerk that would reduce the acceleration to zero with the same change of speed as the jerk that

@@ -8,8 +8,6 @@
 namespace trunnion::motion {
 namespace {
 
-constexpr double rounding = 1e-7;
-constexpr double rounding_distance = 2e-9;
 // A phase is checked in slices of this length, s, or a sixth of it.
 constexpr double slice_time = 0.002;
 
@@ -86,9 +84,9 @@ bool keeps_limits(const PhaseList& phases, PathState state, const CellRing& cell
       while (true) {
         const LimitCell& here = cells[cell];
         const RampLimits& ramp = here.ramp(fastest);
-        if (fastest > here.speed * (1 + rounding) + 1e-9) return false;
-        if (strongest > ramp.acceleration * (1 + rounding) + 1e-6) return false;
-        if (std::abs(jerk) > ramp.jerk * (1 + rounding)) return false;
+        if (fastest > here.speed * (1 + relative_rounding) + 1e-9) return false;
+        if (strongest > ramp.acceleration * (1 + relative_rounding) + 1e-6) return false;
+        if (std::abs(jerk) > ramp.jerk * (1 + relative_rounding)) return false;
         if (next.s <= here.end) break;
         if (cell + 1 >= cells.size() || cells[cell + 1].stop) {
           if (next.s > here.end + rounding_distance) return false;

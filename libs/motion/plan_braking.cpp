@@ -12,19 +12,19 @@ constexpr double sample_time = 2.5e-4;
 // Samples are set up to this time ahead, s of the plan.
 constexpr double horizon = 0.06;
 // Shares of the limits used where the plan itself uses no more; the rest is for what lies between samples.
-constexpr double acceleration_share = 0.997, jerk_share = 0.99;
+constexpr double braking_share = 0.997, braking_jerk_share = 0.99;
 // Shares of the strongest braking of a cycle that are tried.
 constexpr std::array<double, 6> shares{1, 0.8, 0.6, 0.4, 0.2, 0.05};
-constexpr double rounding = 1e-9;
+constexpr double offset_rounding = 1e-9;
 // Path coordinates this near are the same.
 constexpr double same_place = 1e-9;
 // r'' where no axis bounds it, 1/s^2.
 constexpr double most_bend = 1e6;
 
 // Narrows the range of x so that |offset + factor x| <= limit.
-void narrow(Range& range, double offset, double factor, double limit) {
+void narrow_offset(Range& range, double offset, double factor, double limit) {
   if (std::abs(factor) < 1e-12) {
-    if (std::abs(offset) > limit + rounding) range = {1, -1};
+    if (std::abs(offset) > limit + offset_rounding) range = {1, -1};
     return;
   }
   const double middle = -offset / factor, reach = limit / std::abs(factor);
@@ -108,13 +108,12 @@ bool PlanBraking::range(const Rate& at, double half, std::uint64_t& first, Range
     const Sample& sample = samples_[n % ring];
     for (int i = 0; i < sample.count; ++i) {
       const AxisSample& q = sample.axes[static_cast<std::size_t>(i)];
-      const double acceleration =
-          std::max(acceleration_share, fastest * fastest * std::abs(q.acceleration_a));
-      const double jerk = std::max(jerk_share, fastest * fastest * fastest * std::abs(q.jerk_j));
-      narrow(bend, r0 * r0 * r0 * q.jerk_j + 3 * r0 * at.slope * q.acceleration_j, q.speed_j, jerk);
-      narrow(bend, r1 * r1 * r1 * q.jerk_j + 3 * r1 * at.slope * q.acceleration_j,
-             q.speed_j + 3 * r1 * half * q.acceleration_j, jerk);
-      narrow(bend, r1 * r1 * q.acceleration_a + at.slope * q.speed_a, half * q.speed_a, acceleration);
+      const double acceleration = std::max(braking_share, fastest * fastest * std::abs(q.acceleration_a));
+      const double jerk = std::max(braking_jerk_share, fastest * fastest * fastest * std::abs(q.jerk_j));
+      narrow_offset(bend, r0 * r0 * r0 * q.jerk_j + 3 * r0 * at.slope * q.acceleration_j, q.speed_j, jerk);
+      narrow_offset(bend, r1 * r1 * r1 * q.jerk_j + 3 * r1 * at.slope * q.acceleration_j,
+                    q.speed_j + 3 * r1 * half * q.acceleration_j, jerk);
+      narrow_offset(bend, r1 * r1 * q.acceleration_a + at.slope * q.speed_a, half * q.speed_a, acceleration);
     }
     if (sample.time >= end) return bend.low <= bend.high;
   }
@@ -139,7 +138,7 @@ bool PlanBraking::proves(double share, double half, const SpeedPlan& plan, const
     tried_.push_back(use);
     const bool settles = tried_.size() > 2 && use == -at.slope / half;
     at = after(at, use, half);
-    if (at.rate < 0 || at.slope > rounding) return false;
+    if (at.rate < 0 || at.slope > offset_rounding) return false;
     if (!settles) continue;
     const SpeedPiece& last = plan[plan.size() - 1];
     const double v = at.rate * std::sqrt(std::max(0.0, last.b0));

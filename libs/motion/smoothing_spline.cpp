@@ -13,7 +13,7 @@ using canonical::axis_count;
 constexpr double first_width = 0.1, widest = 3, narrowest = 4e-3;
 // A width outside its tube becomes narrower by what it is outside, within these factors, in each round.
 constexpr double fastest_step = 0.3, slowest_step = 0.9, least_change = 0.98;
-constexpr int most_rounds = 40;
+constexpr int most_refinements = 40;
 // On a circle the curve is off by l^6 / R^5: mm that it may be.
 constexpr double circle_bias = 1e-4;
 // How fast the width may change along the curve: by its own size and by this share of the way.
@@ -380,10 +380,10 @@ bool SmoothingSpline::split() {
 void SmoothingSpline::fit(std::span<const Vertex> window, bool ends) {
   begin(window);
   append(window);
-  for (int round = 0; round < most_rounds; ++round) {
+  for (int round = 0; round < most_refinements; ++round) {
     choose_axes(window);
     solve(window, ends);
-    if (round + 1 == most_rounds || !refine(window)) break;
+    if (round + 1 == most_refinements || !refine(window)) break;
   }
   const std::size_t count = spans_.size();
   if (ends) {

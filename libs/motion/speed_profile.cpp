@@ -12,7 +12,6 @@
 namespace trunnion::motion {
 namespace {
 
-constexpr double rounding = 1e-7;
 // Below this share of the speed of a cell its ramps give almost nothing away.
 constexpr double easy_share = 0.4;
 // A stop has about this many steps, and none is shorter than a cycle.
@@ -70,7 +69,7 @@ bool SpeedStage::find_curved_stop(const PathState& state, std::uint64_t cell, Ph
     if (whole.result == Braked::beyond) return false;
     const LimitCell& rough = cells_[whole.cell];
     const double v = whole.state.v;
-    if (v > rough.top * (1 + rounding)) {
+    if (v > rough.top * (1 + relative_rounding)) {
       part.clear();
       const BrakeEnd slower = brake(from, cells_, here, rough.top, step, pacing, part);
       if (slower.result != Braked::yes || slower.cell > whole.cell || !stop.add(part)) return false;
@@ -104,7 +103,7 @@ std::optional<std::uint64_t> SpeedStage::critical_cell(const PathState& state, s
     const double distance = cells_[k].at - state.s;
     if (distance > 2 * stop) break;
     const double speed = top_of(cells_[k], demand);
-    if (highest <= speed * (1 + rounding)) continue;
+    if (highest <= speed * (1 + relative_rounding)) continue;
     const double needed = braking_distance(highest, 0, speed, ramp) / std::max(distance, 1e-9);
     if (needed > worst) worst = needed, found = k;
   }
@@ -176,7 +175,7 @@ bool SpeedStage::integrate_speed_profile(const SpeedDemand& demand, bool hold) {
   Braked why = Braked::yes;
   PhaseList demanded, action;
   fill_cycle(state_, cycle_, target, demanded);
-  if (state_.v > target * (1 + rounding)) checked.programmed = false;
+  if (state_.v > target * (1 + relative_rounding)) checked.programmed = false;
   if (accept_curved(demanded, checked, why)) return true;
   double low = 0, high = cycle_;
   bool taken = false;

@@ -7,7 +7,6 @@
 namespace trunnion::motion {
 namespace {
 
-constexpr double rounding = 1e-7;
 constexpr int most_halvings = 40;
 // Slower motion brakes at once, mm/s or degrees/s.
 constexpr double least_staged = 0.5;
@@ -60,7 +59,7 @@ bool SpeedStage::find_stop(const PathState& state, std::uint64_t cell, double st
     for (std::uint64_t k = here + 1; k < cells_.size() && !cells_[k].stop; ++k) {
       const double distance = cells_[k].at - at.s;
       if (distance > distance_needed) break;
-      if (!slower.found && at.v > cells_[k].speed * (1 + rounding))
+      if (!slower.found && at.v > cells_[k].speed * (1 + relative_rounding))
         slower = {true, cells_[k].speed, ramp, k, false};
       const RampLimits& own = cells_[k].ramp(at.v);
       if (own.acceleration < ramp.acceleration || own.jerk < ramp.jerk) {

@@ -12,8 +12,7 @@ namespace {
 
 // Rounding that is not worth a reaction: of path coordinates in mm, and of speeds and accelerations as a
 // share.
-constexpr double rounding_distance = 1e-9;
-constexpr double rounding = 1e-7;
+constexpr double short_distance = 1e-9;
 // Slower cells are taken into account this many stopping distances ahead, before they have to be.
 constexpr double look_ahead_stops = 3;
 // Speeds this near are the same; of an acceleration, what a cycle of the jerk of its share changes.
@@ -141,14 +140,14 @@ SpeedStage::Obstacle SpeedStage::obstacle_ahead(const PathState& state, std::uin
       behind = {std::min(behind.acceleration, own.acceleration), std::min(behind.jerk, own.jerk)};
     }
     const double speed = speed_of(next, demand);
-    const bool slower = highest > speed * (1 + rounding);
+    const bool slower = highest > speed * (1 + relative_rounding);
     // A cycle is left between the end of the braking and the slower cell, since cycles do not end at cells.
     const double margin = first.found ? 0 : speed * cycle_;
     if (slower && braking_distance(from.v, from.a, speed, ramp) + margin > distance)
       return report(speed, k, false);
     if (!first.found) {
       const RampLimits& own = next.ramp(highest);
-      const double excess = std::abs(state.a) - own.acceleration * (1 + rounding);
+      const double excess = std::abs(state.a) - own.acceleration * (1 + relative_rounding);
       if (excess > 0) {
         const double jerk = state.a > 0 ? -ramp.jerk : ramp.jerk;
         const PathState reduced = integrate({0, state.v, state.a}, jerk, excess / ramp.jerk);
@@ -193,7 +192,7 @@ SpeedStage::Outcome SpeedStage::evaluate(const PathState& state, const SpeedDema
       return outcome;
     }
     const double speed = speed_of(cells_[next], demand);
-    if (fastest > speed * (1 + rounding)) {
+    if (fastest > speed * (1 + relative_rounding)) {
       outcome.obstacle = {true, speed, local_ramp(fastest, fastest * cycle_), next, false};
       return outcome;
     }
@@ -386,7 +385,7 @@ void SpeedStage::step(const Overrides& overrides) {
   const LimitCell& cell = cells_[current_];
   const bool hold = now.hold || (cell.rapid ? now.rapid <= 0 : now.feed <= 0);
   if (hold && at_standstill()) return;
-  SpeedDemand demand{!hold, now.feed, now.rapid, rounding_distance};
+  SpeedDemand demand{!hold, now.feed, now.rapid, short_distance};
   if (now.feed <= 0) demand.feed = 1e-3;  // a feed move after a rapid that continues is approached slowly
   if (now.rapid <= 0) demand.rapid = 1e-3;
   if (!hold && !braking_for_ && cruises(now, demand)) return;

@@ -30,11 +30,6 @@ constexpr double drawn_share = 1.02;
 constexpr std::size_t fewest_pieces = 6;
 constexpr double shortest_piece = 1e-6;
 
-double part_of(const LimitCell& cell, double s) {
-  const double length = cell.end - cell.at;
-  return length > 0 ? std::clamp((s - cell.at) / length, 0.0, 1.0) : 0.0;
-}
-
 // Highest speed under an override, by feed and velocity.
 double highest(const LimitCell& cell, const SpeedRequest& request) {
   if (cell.rapid) return cell.reachable * std::max(request.rapid, 1e-3);

@@ -43,10 +43,6 @@ double inside_curve(const BlendRules& rules, const Limits& limits) {
   return std::max(rules.contour_tolerance - pieces, pieces);
 }
 
-bool same(const BlendRules& a, const BlendRules& b) {
-  return a.contour_tolerance == b.contour_tolerance && a.orientation_tolerance == b.orientation_tolerance;
-}
-
 }  // namespace
 
 Trajectory::Trajectory(const Limits& limits, const geometry::Chain* chain, double cycle_seconds)
@@ -138,7 +134,7 @@ BlendRules Trajectory::rules_of(const Command& command) const {
 // Another machining mode, or other tolerances, begin at a standstill.
 void Trajectory::change_mode(const Command& command) {
   const BlendRules rules = rules_of(command);
-  if (command.modal.smoothing == mode_ && same(rules, rules_)) return;
+  if (command.modal.smoothing == mode_ && rules == rules_) return;
   flush();
   stop_next_ = exact_next_ = true;
   mode_ = command.modal.smoothing;

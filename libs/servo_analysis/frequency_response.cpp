@@ -10,7 +10,6 @@ namespace trunnion::servo_analysis {
 namespace {
 
 using Complex = std::complex<double>;
-constexpr double degrees = 180 / std::numbers::pi;
 
 struct Lines {
   std::size_t first = 1, last = 1;

@@ -24,8 +24,8 @@ struct Header {
   std::uint64_t sequence;  // counts the saves of both files
   std::uint64_t checksum;  // of kind, size, sequence and content
 };
-constexpr char mark[] = "trunnion-state 1";
-static_assert(sizeof mark == sizeof(Header::mark) + 1);
+constexpr char file_mark[] = "trunnion-state 1";
+static_assert(sizeof file_mark == sizeof(Header::mark) + 1);
 
 // FNV-1a over words of 64 bits, the last one filled up with zeros.
 std::uint64_t hash(std::uint64_t state, std::span<const std::uint8_t> bytes) {
@@ -75,7 +75,7 @@ Half inspect(const std::string& path, const std::string& kind, std::size_t size)
   std::memcpy(&header, bytes.data(), sizeof header);
   char name[sizeof header.kind] = {};
   std::memcpy(name, kind.data(), kind.size());
-  if (std::memcmp(header.mark, mark, sizeof header.mark) != 0 ||
+  if (std::memcmp(header.mark, file_mark, sizeof header.mark) != 0 ||
       std::memcmp(header.kind, name, sizeof name) != 0) {
     half.problem = "is no file of this kind";
     return half;
@@ -148,7 +148,7 @@ void RetainedPair::open(std::span<const std::uint8_t> content) {
         unlink(fresh.c_str());
         const MappedFile file(fresh, sizeof(Header) + size_);
         auto& header = *static_cast<Header*>(file.data());
-        std::memcpy(header.mark, mark, sizeof header.mark);
+        std::memcpy(header.mark, file_mark, sizeof header.mark);
         std::memcpy(header.kind, kind_.data(), kind_.size());
         header.size = size_;
         const auto sequence = last + (last % 2 == i ? 2 : 1);

@@ -4,6 +4,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "canonical/axes.hpp"
 #include "machine/yaml.hpp"
 #include "text/utf8.hpp"
 
@@ -12,7 +13,7 @@ namespace {
 
 constexpr double limit = 100000;  // mm or deg
 constexpr std::uint32_t largest_tool = 99999999;
-constexpr const char* letters = "XYZABCUVW";
+using canonical::axis_letters;
 
 std::string check_value(const std::string& who, double value, double minimum) {
   if (value >= minimum && value <= limit) return "";
@@ -77,9 +78,9 @@ std::string check_offset(const idl::parameters::WorkOffset& offset) {
     return who + ": the index is outside 0 .. " + std::to_string(work_offset_count - 1);
   if (offset.values.size() != 9) return who + ": expected nine values";
   for (std::size_t i = 0; i < 9; ++i) {
-    auto error = check_value(
-        "channel " + std::to_string(offset.channel) + " " + work_offset_code(offset.index) + " " + letters[i],
-        offset.values[i], -limit);
+    auto error = check_value("channel " + std::to_string(offset.channel) + " " +
+                                 work_offset_code(offset.index) + " " + axis_letters[i],
+                             offset.values[i], -limit);
     if (!error.empty()) return error;
   }
   return "";
@@ -137,11 +138,9 @@ Offsets read_offsets(const std::string& text, const std::string& file, std::uint
     offset.values.assign(9, 0.0);
     for (const auto& entry : node) {
       const auto key = machine::scalar(file, entry.first);
-      const auto* letter = std::string(letters).find(key) != std::string::npos && key.size() == 1
-                               ? std::char_traits<char>::find(letters, 9, key[0])
-                               : nullptr;
-      if (letter != nullptr) {
-        offset.values[static_cast<std::size_t>(letter - letters)] = value<double>(file, entry.second, key);
+      const auto axis = key.size() == 1 ? axis_letters.find(key[0]) : std::string_view::npos;
+      if (axis != std::string_view::npos) {
+        offset.values[axis] = value<double>(file, entry.second, key);
       } else if (key == "channel") {
         offset.channel = value<std::uint16_t>(file, entry.second, key);
       } else if (key == "offset") {
@@ -171,7 +170,7 @@ std::string write_offsets(const Offsets& offsets, std::uint64_t revision) {
   out << "revision: " << revision << "\noffsets:\n";
   for (const auto& [key, offset] : offsets) {
     out << "  - {channel: " << offset.channel << ", offset: " << work_offset_code(offset.index);
-    for (std::size_t i = 0; i < 9; ++i) out << ", " << letters[i] << ": " << offset.values[i];
+    for (std::size_t i = 0; i < 9; ++i) out << ", " << axis_letters[i] << ": " << offset.values[i];
     out << "}\n";
   }
   return out.str();

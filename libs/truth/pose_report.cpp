@@ -8,13 +8,14 @@
 #include <stdexcept>
 #include <vector>
 
+#include "canonical/axes.hpp"
 #include "geometry/angle.hpp"
 #include "truth/random_source.hpp"
 
 namespace trunnion::truth {
 namespace {
 
-constexpr std::string_view letters = "XYZABCUVW";
+using canonical::axis_letters;
 constexpr double most = 1e6;  // mm or deg
 
 [[noreturn]] void fail(std::size_t line, std::size_t column, const std::string& text) {
@@ -61,14 +62,15 @@ std::optional<PoseAnswer> PoseReport::answer(const std::string& line, std::size_
       ++i;
       continue;
     }
-    const auto axis = letters.find(line[i]);
+    const auto axis = axis_letters.find(line[i]);
     if (axis == std::string_view::npos || !has(axis)) {
       std::string names;
       for (std::size_t k = 0; k < axis_count; ++k)
-        if (has(k)) names += letters[k];
+        if (has(k)) names += axis_letters[k];
       fail(number, i, "expected a word of one of the axes " + names + ", for example X10.5");
     }
-    if (given[axis]) fail(number, i, std::string("axis ").append(1, letters[axis]).append(" is there twice"));
+    if (given[axis])
+      fail(number, i, std::string("axis ").append(1, axis_letters[axis]).append(" is there twice"));
     const std::size_t end = std::min(line.find_first_of(" \t\r#;XYZABCUVW", i + 1), line.size());
     const char* first = line.data() + i + 1;
     if (first + 1 < line.data() + end && *first == '+' && first[1] != '-') ++first;

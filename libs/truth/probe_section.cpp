@@ -4,11 +4,11 @@
 #include <array>
 
 #include "geometry/angle.hpp"
+#include "truth/units.hpp"
 
 namespace trunnion::truth {
 namespace {
 
-constexpr double um = 1e-3, ms = 1e-3;
 constexpr Limits position{-1e5, 1e5}, angle{-360, 360};  // mm, deg
 constexpr Limits size{1e-3, 1e4};                        // mm: lengths and diameters
 constexpr std::size_t most_solids = 64;

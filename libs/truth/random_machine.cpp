@@ -5,14 +5,13 @@
 
 #include "truth/random_source.hpp"
 #include "truth/truth_reader.hpp"
+#include "truth/units.hpp"
 
 namespace trunnion::truth {
 
 extern const char* const grades_text;
 
 namespace {
-
-constexpr double um = 1e-3, urad = 1e-6;
 
 std::vector<Grade> read_grades() {
   const TruthReader reader("grades.yaml");

@@ -4,21 +4,22 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "canonical/axes.hpp"
 #include "machine/yaml.hpp"
 #include "truth/drive_section.hpp"
 #include "truth/error_section.hpp"
 #include "truth/probe_section.hpp"
 #include "truth/random_machine.hpp"
 #include "truth/truth_reader.hpp"
+#include "truth/units.hpp"
 #include "volumetric/structure.hpp"
 
 namespace trunnion::truth {
 namespace {
 
-constexpr double um = 1e-3, urad = 1e-6;
 constexpr Limits place{-1e5, 1e5};         // mm
 constexpr Limits error_limits{-1e5, 1e5};  // um or urad: 100 mm, 0.1 rad
-constexpr std::string_view letters = "XYZABCUVW";
+using canonical::axis_letters;
 
 bool turns(const MachineOutline& machine, std::size_t axis) {
   const auto& p = machine.design;
@@ -73,7 +74,7 @@ class TruthParser {
   }
 
   std::size_t axis(const YAML::Node& node, const std::string& name) const {
-    const auto found = name.size() == 1 ? letters.find(name[0]) : std::string_view::npos;
+    const auto found = name.size() == 1 ? axis_letters.find(name[0]) : std::string_view::npos;
     if (found == std::string_view::npos || !in_chain(machine_, found))
       reader_.fail(node, "the machine has no linear or rotary axis '" + name + "' in its kinematic chain");
     return found;
@@ -84,7 +85,8 @@ class TruthParser {
     auto structure = volumetric::parse_structure(reader_.text(node));
     if (const auto* refused = std::get_if<std::string>(&structure)) reader_.fail(node, *refused);
     geometry().structure = std::get<std::vector<StructureAxis>>(std::move(structure));
-    for (const auto& word : geometry().structure) axis(node, std::string(1, "XYZABCUVW"[word.axis]));
+    for (const auto& word : geometry().structure)
+      axis(node, std::string(1, canonical::axis_letters[word.axis]));
   }
 
   void axes(const YAML::Node& node) {
@@ -99,7 +101,7 @@ class TruthParser {
   }
 
   std::string keys_of(std::size_t index) const {
-    const std::string a(1, letters[index]);
+    const std::string a(1, axis_letters[index]);
     std::string keys = "reference_point_mm, thermal";
     for (const char component : {'X', 'Y', 'Z', 'A', 'B', 'C'})
       keys.append(", E").append(1, component).append(a);
@@ -119,7 +121,7 @@ class TruthParser {
     AxisTruth& out = geometry().axes[index];
     if (key == "reference_point_mm") return out.reference_point = reader_.vector(value, place), true;
     if (key == "thermal") return thermal(index, value), true;
-    if (key.size() == 3 && key[0] == 'E' && key[2] == letters[index]) {
+    if (key.size() == 3 && key[0] == 'E' && key[2] == axis_letters[index]) {
       const auto component = std::string_view("XYZABC").find(key[1]);
       if (component == std::string_view::npos) return false;
       for (auto& error : read_errors(
@@ -129,7 +131,7 @@ class TruthParser {
         out.errors.push_back(std::move(error));
       return true;
     }
-    return key.size() > 3 && key[2] == letters[index] && location(key, value);
+    return key.size() > 3 && key[2] == axis_letters[index] && location(key, value);
   }
 
   // Replaces a drawn one.
@@ -249,7 +251,7 @@ std::optional<LocationError> location_error(GeometryTruth& truth, const MachineO
   if (name[2] == 'S' && component < 5) {
     axis = &truth.spindle;
   } else {
-    const auto index = letters.find(name[2]);
+    const auto index = axis_letters.find(name[2]);
     if (index == std::string_view::npos || !in_chain(machine, index)) return std::nullopt;
     // The other directions of X, Y and Z define the machine's frame.
     if (index < 3 && name.front() != 'C' && name[2] == 'Y') return std::nullopt;

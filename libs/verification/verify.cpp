@@ -18,11 +18,9 @@
 namespace trunnion::verification {
 namespace {
 
-constexpr int stream_frames = 4096;      // that a writer of the stream keeps
-constexpr double match_timeout = 5;      // s for a reader that must not miss the first message
-constexpr double start_pause = 0.01;     // s for each message to a service that is not heard of yet
-constexpr double take_timeout = 0.5;     // s for a service to take a message and sleep again
-constexpr double final_messages = 0.05;  // s for what a service writes beyond what is recorded
+constexpr double match_timeout = 5;   // s for a reader that must not miss the first message
+constexpr double start_pause = 0.01;  // s for each message to a service that is not heard of yet
+constexpr double take_timeout = 0.5;  // s for a service to take a message and sleep again
 
 class Feeding {
  public:

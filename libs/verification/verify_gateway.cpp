@@ -22,9 +22,7 @@ namespace {
 using bus::Json;
 using idl::gateway::Sender;
 
-constexpr int stream_frames = 4096;      // that the writer of the drive's feedback keeps
-constexpr double final_messages = 0.05;  // s for what the gateway writes beyond what is recorded
-constexpr double short_wait = 0.005;     // s
+constexpr double short_wait = 0.005;  // s
 constexpr std::size_t shown_text = 200;
 
 std::string shortened(const std::string& text) {

@@ -13,6 +13,11 @@
 
 namespace trunnion::verification {
 
+/// That a writer of the stream keeps.
+constexpr int stream_frames = 4096;
+/// s for what a process writes beyond what is recorded.
+constexpr double final_messages = 0.05;
+
 /// A domain and a directory that nobody else has while this lives.
 class VerifyPlace {
  public:

@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 
+#include "canonical/axes.hpp"
 #include "geometry/angle.hpp"
 
 namespace trunnion::volumetric {
@@ -12,7 +13,7 @@ namespace {
 using geometry::radians_per_degree;
 using geometry::RotaryAxis;
 
-constexpr char letters[] = "XYZABCUVW";
+using canonical::axis_letters;
 
 geometry::SineCosine of_radians(double angle) { return geometry::sine_cosine(angle / radians_per_degree); }
 
@@ -126,7 +127,7 @@ std::string ErrorModel::order(const geometry::ChainParameters& design) {
     const auto count = std::count_if(structure.begin(), structure.end(),
                                      [&](const auto& other) { return other.axis == axis.axis; });
     if (count != 1)
-      return std::string("axis ") + letters[axis.axis] + " must be there once, it is there " +
+      return std::string("axis ") + axis_letters[axis.axis] + " must be there once, it is there " +
              std::to_string(count) + " times";
   }
   if (structure.size() != expected.size()) return "there is an axis that the machine does not have";
@@ -135,7 +136,7 @@ std::string ErrorModel::order(const geometry::ChainParameters& design) {
   const auto rotary = [](const std::vector<StructureAxis>& all) {
     std::string text;
     for (const auto& axis : all)
-      if (axis.axis > 2) text.append(1, letters[axis.axis]).append(axis.workpiece ? "' " : " ");
+      if (axis.axis > 2) text.append(1, axis_letters[axis.axis]).append(axis.workpiece ? "' " : " ");
     if (!text.empty()) text.pop_back();
     return text;
   };
@@ -150,7 +151,7 @@ std::string ErrorModel::order(const geometry::ChainParameters& design) {
         carriers += structure[i].workpiece ? -(k > i) : k < i;
     if (const int wanted = design.linear_carriers[structure[i].axis]; carriers != wanted)
       return std::string("rotary axes that carry ")
-          .append(1, letters[structure[i].axis])
+          .append(1, axis_letters[structure[i].axis])
           .append(": ")
           .append(std::to_string(std::abs(carriers)))
           .append(" here, ")
@@ -301,7 +302,7 @@ std::string ErrorModel::notation() const {
   bool bed = false;
   for (const auto& axis : errors_.structure) {
     if (!axis.workpiece && !bed) text += " b", bed = true;
-    text.append(" ").append(1, letters[axis.axis]).append(axis.workpiece ? "'" : "");
+    text.append(" ").append(1, axis_letters[axis.axis]).append(axis.workpiece ? "'" : "");
   }
   return text + (bed ? "" : " b") + " (S) t]";
 }

@@ -3,6 +3,8 @@
 
 #include <sstream>
 
+#include "canonical/axes.hpp"
+
 namespace trunnion::volumetric {
 
 std::variant<std::vector<StructureAxis>, std::string> parse_structure(const std::string& notation) {
@@ -25,7 +27,7 @@ std::variant<std::vector<StructureAxis>, std::string> parse_structure(const std:
     }
     const bool workpiece = word.size() == 2 && word[1] == '\'';
     if (workpiece == bed) return "'" + word + "': axes with ' are before b, axes without it after b";
-    const auto axis = std::string_view("XYZABCUVW").find(word[0]);
+    const auto axis = canonical::axis_letters.find(word[0]);
     if (axis == std::string_view::npos || word.size() != (workpiece ? 2u : 1u))
       return "the machine has no linear or rotary axis '" + (workpiece ? word.substr(0, 1) : word) +
              "' in its kinematic chain";

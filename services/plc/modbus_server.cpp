@@ -23,10 +23,10 @@ using st::ModbusTable;
 constexpr std::size_t most_clients = 8;
 constexpr int poll_period = 50;                 // ms until the end of the thread is seen
 constexpr std::uint32_t byte_timeout = 100000;  // us that the rest of a request may take
-constexpr double retry_period = 0.5;            // s between two attempts to listen
+constexpr double listen_period = 0.5;           // s between two attempts to listen
 constexpr int silent_attempts = 3;
 
-struct FreeContext {
+struct CloseServer {
   void operator()(modbus_t* context) const { modbus_free(context); }
 };
 struct FreeMapping {
@@ -65,7 +65,7 @@ class ServerConnection : public ModbusLink::Connection {
           lost("Modbus: nothing can be received at " + server_.host + ", port " +
                std::to_string(server_.port) + ": " + modbus_strerror(errno) +
                ". Correct host and port of the server in modbus.yaml");
-        if (!wait(stop, retry_period)) return;
+        if (!wait(stop, listen_period)) return;
         continue;
       }
       serve();
@@ -235,7 +235,7 @@ class ServerConnection : public ModbusLink::Connection {
   const st::ModbusServer server_;
   std::array<std::vector<bool>, 4> covered_;  ///< of each table
   std::unique_ptr<modbus_mapping_t, FreeMapping> mapping_;
-  std::unique_ptr<modbus_t, FreeContext> context_;
+  std::unique_ptr<modbus_t, CloseServer> context_;
   std::vector<pollfd> sockets_;  ///< the first one listens
   Clock::time_point written_;
 };

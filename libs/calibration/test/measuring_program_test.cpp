@@ -22,13 +22,13 @@ std::vector<Vec3> moves_of(const std::string& program) {
   return moves;
 }
 
-struct Case {
+struct ProgramCase {
   Positioning positioning;
   std::size_t touches;
   Vec3 shaft;
 };
 
-class MeasuringProgram : public testing::TestWithParam<Case> {};
+class MeasuringProgram : public testing::TestWithParam<ProgramCase> {};
 
 TEST_P(MeasuringProgram, NeverComesNearerToSphereOrShaftThanTheMeasuringPath) {
   const TrueMachine machine(geometry::ac_table(), geometry::ac_table());
@@ -64,10 +64,10 @@ TEST_P(MeasuringProgram, NeverComesNearerToSphereOrShaftThanTheMeasuringPath) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Ways, MeasuringProgram,
-                         testing::Values(Case{Positioning::paraxial, 10, {0, 0, -1}},
-                                         Case{Positioning::circular, 10, {0, 0, -1}},
-                                         Case{Positioning::circular, 8, {0, -1, -1}},
-                                         Case{Positioning::paraxial, 8, {1, 0, -1}}));
+                         testing::Values(ProgramCase{Positioning::paraxial, 10, {0, 0, -1}},
+                                         ProgramCase{Positioning::circular, 10, {0, 0, -1}},
+                                         ProgramCase{Positioning::circular, 8, {0, -1, -1}},
+                                         ProgramCase{Positioning::paraxial, 8, {1, 0, -1}}));
 
 TEST(MeasuringProgramText, GoesUpBeforeItTurnsAndDownLast) {
   const AxisPosition from{1, 2, -100, 10, 0, 20}, to{5, 2, -150, 0, 0, 90};

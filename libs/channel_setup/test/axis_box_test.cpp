@@ -12,7 +12,7 @@ namespace {
 
 using language::CommandKind;
 
-const std::string ac_table = MACHINES_DIRECTORY "/ac-table";
+const std::string ac_table_directory = MACHINES_DIRECTORY "/ac-table";
 
 language::Command arc_about(double x, double y, double sweep, const AxisValues& target, bool clockwise) {
   language::Command move;
@@ -25,7 +25,7 @@ language::Command arc_about(double x, double y, double sweep, const AxisValues& 
 }
 
 TEST(AxisBox, TheTopOfAnArcCountsThoughBothItsEndsAreLow) {
-  const ChannelSetup setup(tool_tables::load_machine_tables(ac_table));
+  const ChannelSetup setup(tool_tables::load_machine_tables(ac_table_directory));
   // Half a circle of radius 300 about the origin from +X over +Y to -X.
   const auto move = arc_about(0, 0, 180, {-300, 0}, false);
   const auto box = extent_of({300, 0}, move, setup.chain());
@@ -35,7 +35,7 @@ TEST(AxisBox, TheTopOfAnArcCountsThoughBothItsEndsAreLow) {
 }
 
 TEST(AxisBox, AnExtremeInTheFirstStepOfAnArcIsFound) {
-  const ChannelSetup setup(tool_tables::load_machine_tables(ac_table));
+  const ChannelSetup setup(tool_tables::load_machine_tables(ac_table_directory));
   // From 88 to 93 degrees: the top is 2 degrees behind the start.
   const double r = 200, from = 88 * M_PI / 180, to = 93 * M_PI / 180;
   const auto move = arc_about(0, 0, 5, {r * std::cos(to), r * std::sin(to)}, false);
@@ -44,7 +44,7 @@ TEST(AxisBox, AnExtremeInTheFirstStepOfAnArcIsFound) {
 }
 
 TEST(AxisBox, ASwingUnderAHeldTipCountsWhereTheLinearAxisIsFarthest) {
-  const ChannelSetup setup(tool_tables::load_machine_tables(ac_table));
+  const ChannelSetup setup(tool_tables::load_machine_tables(ac_table_directory));
   // C turns the table about X0 Y0; a tip held on the workpiece at radius 100 goes over the full circle's
   // quarter from 45 degrees on one side of the X axis to 45 degrees on the other: X is farthest in the
   // middle, at the radius, while both ends are at 100 cos 45.
@@ -60,7 +60,7 @@ TEST(AxisBox, ASwingUnderAHeldTipCountsWhereTheLinearAxisIsFarthest) {
 }
 
 TEST(AxisBox, AnOffsetIsAddedBeforeTheLimitsAreLookedAt) {
-  const ChannelSetup setup(tool_tables::load_machine_tables(ac_table));
+  const ChannelSetup setup(tool_tables::load_machine_tables(ac_table_directory));
   const AxisBox box{{-10}, {390}};
   EXPECT_EQ(setup.travel_error(box, {5}, 3), "");
   EXPECT_EQ(setup.travel_error(box, {11}, 3),

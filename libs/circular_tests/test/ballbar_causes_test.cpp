@@ -4,11 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include "radians.hpp"
 
 namespace trunnion::circular_tests {
 namespace {
 
-constexpr double radians = 3.14159265358979323846 / 180;
 constexpr double radius = 100;
 
 // Both paths from a machine that is computed by its positions, not by the closed forms: `x`, `y` are the

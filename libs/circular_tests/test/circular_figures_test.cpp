@@ -6,11 +6,10 @@
 #include <cmath>
 #include <random>
 #include <stdexcept>
+#include "radians.hpp"
 
 namespace trunnion::circular_tests {
 namespace {
-
-constexpr double radians = 3.14159265358979323846 / 180;
 
 // n readings, half a step beside the quadrants.
 template <class Deviation>

@@ -23,12 +23,12 @@ Vector3 tool_direction(const TestMachine& machine, const AxisValues& machine_pos
   return {gauge[X] - tip[X], gauge[Y] - tip[Y], gauge[Z] - tip[Z]};
 }
 
-void expect_near(const Vector3& a, const Vector3& b, double tolerance) {
+void expect_vector_near(const Vector3& a, const Vector3& b, double tolerance) {
   for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(a[i], b[i], tolerance) << i;
 }
 
 void expect_point(const AxisValues& target, const Vector3& point) {
-  expect_near({target[X], target[Y], target[Z]}, point, 1e-9);
+  expect_vector_near({target[X], target[Y], target[Z]}, point, 1e-9);
 }
 
 // The example of the manual: I90 J45 K-90 turns by 45 degrees about Y.
@@ -47,12 +47,12 @@ TEST(Tilt, EulerAnglesOfTheManualAndSwingWithTheTipHeld) {
   // Tilting moves nothing.
   EXPECT_EQ(result.commands[2].target, result.commands[1].target);
   EXPECT_TRUE(result.commands[2].modal.tilt.active);
-  expect_near(result.commands[2].modal.tilt.origin, {30, -40, 0}, 0);
+  expect_vector_near(result.commands[2].modal.tilt.origin, {30, -40, 0}, 0);
   // The swing holds the tip and points the tool along the plane's Z, (sin 45, 0, cos 45).
   const AxisValues& swung = result.commands[3].target;
   for (const Axis axis : {X, Y, Z}) EXPECT_EQ(swung[axis], result.commands[2].target[axis]);
   EXPECT_EQ(result.commands[3].modal.feed, 1000);
-  expect_near(tool_direction(machine, machine.machine_from_tip(swung, 120)), {half, 0, half}, 1e-9);
+  expect_vector_near(tool_direction(machine, machine.machine_from_tip(swung, 120)), {half, 0, half}, 1e-9);
   // (0, -15, 0) of the plane is the origin moved along Y: workpiece (30, -55, 0), over G54.
   expect_point(result.commands[4].target, {30 - 150, -55 - 100, 0 - 400});
   EXPECT_EQ(result.commands[4].modal.feed, 2000);
@@ -75,7 +75,7 @@ TEST(Tilt, SwingOfTheRotaryAxesAlone) {
   EXPECT_EQ(swing.modal.feed, 300);
   for (const Axis axis : {X, Y, Z}) EXPECT_EQ(swing.target[axis], before.target[axis]);
   EXPECT_EQ(swing.target, AxisValues({-145, -94, -200, swing.target[A], 0, swing.target[C], 0, 0, 0}));
-  expect_near(tool_direction(machine, swing.target), {half, 0, half}, 1e-9);
+  expect_vector_near(tool_direction(machine, swing.target), {half, 0, half}, 1e-9);
   EXPECT_EQ(after.modal.transformation, Transformation::rtcp);
   const AxisValues tip = machine.tip_from_machine(swing.target, 120);
   for (const Axis axis : {X, Y, Z}) EXPECT_NEAR(after.target[axis], tip[axis], 1e-9);
@@ -120,13 +120,14 @@ TEST(Tilt, CirclesLieInThePlane) {
   ASSERT_EQ(result.last, Step::end) << result.alarm.text.data();
   const Command& arc = result.commands[4];
   ASSERT_EQ(arc.kind, CommandKind::arc);
-  expect_near(arc.arc.centre, {30 - 150, -40 - 100, -400}, 1e-9);
-  expect_near(arc.arc.normal, {half, 0, half}, 1e-12);
+  expect_vector_near(arc.arc.centre, {30 - 150, -40 - 100, -400}, 1e-9);
+  expect_vector_near(arc.arc.normal, {half, 0, half}, 1e-12);
   EXPECT_FALSE(arc.arc.clockwise);
   EXPECT_NEAR(arc.arc.sweep, 90, 1e-9);
   // ZX: the plane's Y is the workpiece's.
-  expect_near(result.commands[5].arc.normal, {0, 1, 0}, 1e-12);
-  expect_near(result.commands[5].arc.centre, {30 - 5 * half - 150, -40 + 10 - 100, -5 * half - 400}, 1e-9);
+  expect_vector_near(result.commands[5].arc.normal, {0, 1, 0}, 1e-12);
+  expect_vector_near(result.commands[5].arc.centre, {30 - 5 * half - 150, -40 + 10 - 100, -5 * half - 400},
+                     1e-9);
 }
 
 TEST(Tilt, CutterCompensationWorksInThePlane) {
@@ -145,8 +146,8 @@ TEST(Tilt, MoveAlongTheTool) {
   const AxisValues& from = result.commands[2].target;
   const AxisValues& out = result.commands[3].target;
   const AxisValues& in = result.commands[4].target;
-  expect_near({out[X] - from[X], out[Y] - from[Y], out[Z] - from[Z]}, {10 * half, 0, 10 * half}, 1e-9);
-  expect_near({in[X] - from[X], in[Y] - from[Y], in[Z] - from[Z]}, {6 * half, 0, 6 * half}, 1e-9);
+  expect_vector_near({out[X] - from[X], out[Y] - from[Y], out[Z] - from[Z]}, {10 * half, 0, 10 * half}, 1e-9);
+  expect_vector_near({in[X] - from[X], in[Y] - from[Y], in[Z] - from[Z]}, {6 * half, 0, 6 * half}, 1e-9);
 }
 
 TEST(ToolVector, IsMadeRotaryAngles) {
@@ -157,10 +158,10 @@ TEST(ToolVector, IsMadeRotaryAngles) {
   ASSERT_EQ(result.commands.size(), 5u);
   EXPECT_TRUE(result.commands[1].modal.tool_vector);
   const AxisValues& leaning = result.commands[1].target;
-  expect_near(tool_direction(machine, machine.machine_from_tip(leaning, 120)), {half, 0, half}, 1e-9);
+  expect_vector_near(tool_direction(machine, machine.machine_from_tip(leaning, 120)), {half, 0, half}, 1e-9);
   const AxisValues& upright = result.commands[2].target;
   EXPECT_EQ(upright[X], leaning[X]);
-  expect_near(tool_direction(machine, machine.machine_from_tip(upright, 120)), {0, 0, 1}, 1e-9);
+  expect_vector_near(tool_direction(machine, machine.machine_from_tip(upright, 120)), {0, 0, 1}, 1e-9);
   for (const Axis axis : {A, C}) EXPECT_NEAR(result.commands[3].target[axis], upright[axis], 1e-12);
 }
 

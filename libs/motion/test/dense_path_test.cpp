@@ -29,18 +29,18 @@ Dense through(const std::vector<AxisValues>& points, double feed) {
   return dense;
 }
 
-Dense circle(double radius, double chord, double grain, double feed) {
+Dense dense_circle(double radius, double chord, double grain, double feed) {
   return through(circle_points(radius, chord, grain), feed);
 }
 
-Limits strong() {
+Limits strong_limits() {
   Limits limits = uniform_limits(500, 3000, 1);
   for (std::size_t i = canonical::A; i <= canonical::C; ++i) limits.axes[i] = {360, 360, 3000, 60000};
   return limits;
 }
 
-void expect_limits(const Motion& result, const AxisValues& start, const Limits& limits,
-                   const geometry::Chain* chain = nullptr, double tool_length = 0) {
+void expect_motion_limits(const Motion& result, const AxisValues& start, const Limits& limits,
+                          const geometry::Chain* chain = nullptr, double tool_length = 0) {
   ASSERT_TRUE(result.stopped);
   const Ratios ratios = axis_ratios(result, start, limits, chain, tool_length);
   EXPECT_LE(ratios.velocity, 1.001);
@@ -51,13 +51,13 @@ void expect_limits(const Motion& result, const AxisValues& start, const Limits& 
 // At 25 mm/s every cycle is 0.025 mm: 6283 setpoints on the circle, equally spaced but for the ramps.
 TEST(DensePath, a_circle_in_chords_is_true_to_size_at_any_tolerance) {
   for (const double tolerance : {0.01, 0.05}) {
-    const Dense dense = circle(25, 0.1, 1e-4, 1500);
-    Limits limits = strong();
+    const Dense dense = dense_circle(25, 0.1, 1e-4, 1500);
+    Limits limits = strong_limits();
     limits.contour_tolerance = tolerance;
     Trajectory t(limits, nullptr, cycle);
     t.start(dense.points.front(), Transformation::none, 0);
     const Motion result = run(t, dense.program);
-    expect_limits(result, dense.points.front(), limits);
+    expect_motion_limits(result, dense.points.front(), limits);
     double sum = 0;
     for (const Setpoint& s : result.setpoints) sum += std::hypot(s.position[0], s.position[1]) - 25;
     const double sagitta = 0.1 * 0.1 / (8 * 25);
@@ -69,12 +69,12 @@ TEST(DensePath, a_circle_in_chords_is_true_to_size_at_any_tolerance) {
 // Chords of 0.016 mm rounded to 0.0025 mm: the rounding alone took 13 s. The same circle as one arc is the
 // measure, and 3 tenths more for cells that keep the limits of all axes at once.
 TEST(DensePath, rounding_of_coordinates_is_no_jerk) {
-  const Dense dense = circle(25.4, 0.016, 0.0025, 12000);
-  const Limits limits = strong();
+  const Dense dense = dense_circle(25.4, 0.016, 0.0025, 12000);
+  const Limits limits = strong_limits();
   Trajectory t(limits, nullptr, cycle);
   t.start(dense.points.front(), Transformation::none, 0);
   const Motion chords = run(t, dense.program);
-  expect_limits(chords, dense.points.front(), limits);
+  expect_motion_limits(chords, dense.points.front(), limits);
   EXPECT_LE(contour_error(chords, dense.points), limits.contour_tolerance);
   t.start({25.4}, Transformation::none, 0);
   const Motion arc = run(t, {arc_to({25.4}, 0, 0, 360, false, 12000)});
@@ -83,8 +83,8 @@ TEST(DensePath, rounding_of_coordinates_is_no_jerk) {
 
 // Rounding makes the polyline longer than the curve: 0.0025 mm on 0.016 mm by about 1 %.
 TEST(DensePath, the_programmed_feed_is_that_of_the_curve) {
-  const Dense dense = circle(25, 0.016, 0.0025, 1200);
-  Trajectory t(strong(), nullptr, cycle);
+  const Dense dense = dense_circle(25, 0.016, 0.0025, 1200);
+  Trajectory t(strong_limits(), nullptr, cycle);
   t.start(dense.points.front(), Transformation::none, 0);
   const Motion result = run(t, dense.program);
   std::size_t cruising = 0;
@@ -145,7 +145,7 @@ TEST(DensePath, limits_and_tolerances_hold_under_overrides_and_holds_with_three_
     SCOPED_TRACE(seed);
     const bool five_axis = seed % 2 == 1;
     const Dense dense = through(surface(seed, five_axis), 6000);
-    const Limits limits = strong();
+    const Limits limits = strong_limits();
     const geometry::Chain* used = five_axis ? &chain : nullptr;
     Trajectory t(limits, used, cycle);
     t.start(dense.points.front(), five_axis ? Transformation::rtcp : Transformation::none, 100);
@@ -155,7 +155,7 @@ TEST(DensePath, limits_and_tolerances_hold_under_overrides_and_holds_with_three_
       if (changes() % 60 == 0) value = 1.5 * static_cast<double>(changes() % 5) / 4;
       return value;
     });
-    expect_limits(result, dense.points.front(), limits, used, 100);
+    expect_motion_limits(result, dense.points.front(), limits, used, 100);
     EXPECT_EQ(t.position(), dense.points.back());
     EXPECT_LE(contour_error(result, dense.points), limits.contour_tolerance);
     // 200 places of a leg of up to 0.35 mm are 0.9 um or less beside the nearest: a tenth of the tolerance.
@@ -167,7 +167,7 @@ TEST(DensePath, limits_and_tolerances_hold_under_overrides_and_holds_with_three_
 
 TEST(DensePath, going_back_and_forward_again_stays_on_the_same_curve_within_the_limits) {
   const Dense dense = through(surface(4, false), 6000);
-  const Limits limits = strong();
+  const Limits limits = strong_limits();
   Trajectory t(limits, nullptr, cycle);
   t.start(dense.points.front(), Transformation::none, 0);
   for (const Command& command : dense.program) ASSERT_TRUE(t.push(command));
@@ -180,7 +180,7 @@ TEST(DensePath, going_back_and_forward_again_stays_on_the_same_curve_within_the_
     if (result.setpoints.back().at_rest) break;
   }
   result.stopped = result.setpoints.back().at_rest;
-  expect_limits(result, dense.points.front(), limits);
+  expect_motion_limits(result, dense.points.front(), limits);
   EXPECT_LE(contour_error(result, dense.points), limits.contour_tolerance);
   EXPECT_EQ(t.position(), dense.points.back());
 }
@@ -189,7 +189,7 @@ TEST(DensePath, going_back_and_forward_again_stays_on_the_same_curve_within_the_
 // on the curve of the same program that was known at once.
 TEST(DensePath, the_curve_does_not_depend_on_when_its_blocks_arrive) {
   const Dense dense = through(surface(6, false), 1500);
-  Trajectory at_once(strong(), nullptr, cycle), slowly(strong(), nullptr, cycle);
+  Trajectory at_once(strong_limits(), nullptr, cycle), slowly(strong_limits(), nullptr, cycle);
   at_once.start(dense.points.front(), Transformation::none, 0);
   slowly.start(dense.points.front(), Transformation::none, 0);
   const Motion whole = run(at_once, dense.program);

@@ -10,7 +10,7 @@ namespace trunnion::motion {
 namespace {
 
 // A power of two, so that the times left of a tail are exact.
-constexpr double cycle = 1.0 / 1024;
+constexpr double interpolation_cycle = 1.0 / 1024;
 
 PathBlock line_block(const AxisValues& from, const AxisValues& to, std::uint32_t number) {
   PathBlock block;
@@ -45,7 +45,7 @@ TEST(Interpolation, a_block_ends_on_its_target_bit_for_bit_and_the_next_begins_t
   BlendedPath path;
   path.push(line_block({}, corner, 1));
   path.push(line_block(corner, {2, 3, 4}, 2));
-  Interpolation interpolation(cycle);
+  Interpolation interpolation(interpolation_cycle);
   interpolation.start({});
   EXPECT_EQ(interpolation.follow(path, at(0, 0)).position, AxisValues{});
   const Setpoint end = interpolation.follow(path, at(0, path[0].end()));
@@ -59,7 +59,7 @@ TEST(Interpolation, a_block_ends_on_its_target_bit_for_bit_and_the_next_begins_t
 
 TEST(Interpolation, line_sequence_and_fraction_change_with_the_block) {
   const BlendedPath path = three_lines();
-  Interpolation interpolation(cycle);
+  Interpolation interpolation(interpolation_cycle);
   interpolation.start({});
   const auto expect = [&](const PathPlace& place, std::uint32_t number, double fraction) {
     const Setpoint s = interpolation.follow(path, place);
@@ -84,7 +84,7 @@ TEST(Interpolation, the_fraction_counts_what_of_the_command_lay_before_the_block
   PathBlock block = line_block({}, {10}, 1);
   block.fraction_offset = 0.25;
   path.push(block);
-  Interpolation interpolation(cycle);
+  Interpolation interpolation(interpolation_cycle);
   interpolation.start({});
   EXPECT_DOUBLE_EQ(interpolation.follow(path, at(0, 0)).fraction, 0.25);
   EXPECT_DOUBLE_EQ(interpolation.follow(path, at(0, 5)).fraction, 0.625);
@@ -95,7 +95,7 @@ TEST(Interpolation, a_dwell_stands_on_the_border_at_fraction_0_while_it_waits_an
   BlendedPath path;
   path.push(line_block({}, {10}, 1));
   path.push(line_block({10}, {10}, 2));
-  Interpolation interpolation(cycle);
+  Interpolation interpolation(interpolation_cycle);
   interpolation.start({});
   EXPECT_FALSE(interpolation.follow(path, at(0, 10)).dwelling);
   PathPlace place = at(1, 10);
@@ -118,7 +118,7 @@ TEST(Interpolation, a_dwell_stands_on_the_border_at_fraction_0_while_it_waits_an
 
 TEST(Interpolation, the_axes_stay_until_the_path_is_entered_and_without_a_path) {
   const BlendedPath path = three_lines();
-  Interpolation interpolation(cycle);
+  Interpolation interpolation(interpolation_cycle);
   const AxisValues here{-1, -2, -3};
   interpolation.start(here);
   EXPECT_EQ(interpolation.stay().line, 0u);
@@ -144,7 +144,7 @@ TEST(Interpolation, the_axes_stay_until_the_path_is_entered_and_without_a_path) 
 TEST(Interpolation, the_feed_is_the_speed_of_x_y_z_and_the_distance_to_go_counts_every_axis) {
   BlendedPath path;
   path.push(line_block({}, {6, 8, 0, 14}, 1));
-  Interpolation interpolation(cycle);
+  Interpolation interpolation(interpolation_cycle);
   interpolation.start({});
   interpolation.follow(path, at(0, 0));
   const Setpoint s = interpolation.follow(path, at(0, 5));
@@ -162,7 +162,7 @@ TEST(Interpolation, a_rounded_corner_is_passed_beside_it) {
   block.stop = false;
   path.push(block);
   path[1].reach = 0.6;
-  Interpolation interpolation(cycle);
+  Interpolation interpolation(interpolation_cycle);
   interpolation.start({});
   const Setpoint s = interpolation.follow(path, at(1, 10));
   EXPECT_NEAR(s.position[0], 9.9, 1e-12);
@@ -174,11 +174,11 @@ TEST(Interpolation, a_rounded_corner_is_passed_beside_it) {
 // n^3 / 1e6 mm. What the next stretch has done meanwhile is added.
 TEST(Interpolation, a_tail_is_added_to_the_next_stretch_until_it_is_over) {
   const BlendedPath path = three_lines();
-  Interpolation interpolation(cycle);
+  Interpolation interpolation(interpolation_cycle);
   interpolation.start({10});
   Tail tail;
   tail.end = 10;
-  tail.time = 4 * cycle;
+  tail.time = 4 * interpolation_cycle;
   tail.jerk = 6.0 * 1024 * 1024 * 1024 / 1e6;
   interpolation.begin_tail(tail, 0);
   double along = 0;
@@ -197,10 +197,10 @@ TEST(Interpolation, a_tail_is_added_to_the_next_stretch_until_it_is_over) {
 
 TEST(Interpolation, a_tail_that_is_dropped_is_not_added) {
   const BlendedPath path = three_lines();
-  Interpolation interpolation(cycle);
+  Interpolation interpolation(interpolation_cycle);
   for (const bool by_start : {false, true}) {
     interpolation.start({10});
-    interpolation.begin_tail({10, 4 * cycle, 1e6, 0}, 0);
+    interpolation.begin_tail({10, 4 * interpolation_cycle, 1e6, 0}, 0);
     by_start ? interpolation.start({10}) : interpolation.drop_tail();
     EXPECT_FALSE(interpolation.overlapping());
     EXPECT_EQ(interpolation.follow(path, at(1, 10)).position, AxisValues{10});
@@ -213,7 +213,7 @@ TEST(Interpolation, backwards_it_gives_the_same_positions_and_progress_in_revers
   for (std::uint64_t block = 0; block < path.size(); ++block)
     for (int k = 0; k <= 8; ++k)
       places.push_back(at(block, path[block].at + path[block].path.length() * k / 8));
-  Interpolation forwards(cycle), backwards(cycle);
+  Interpolation forwards(interpolation_cycle), backwards(interpolation_cycle);
   forwards.start({});
   std::vector<Setpoint> there;
   for (const PathPlace& place : places) there.push_back(forwards.follow(path, place));

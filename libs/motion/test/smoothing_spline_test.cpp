@@ -9,17 +9,17 @@
 namespace trunnion::motion {
 namespace {
 
-double distance(const AxisValues& a, const AxisValues& b) {
+double point_distance(const AxisValues& a, const AxisValues& b) {
   return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
 }
 
 AxisValues place(const Cubic& c, double t) { return shifted(c, t)[0]; }
 
-std::vector<Vertex> polyline(const std::vector<AxisValues>& points, double tube) {
+std::vector<Vertex> vertices_of(const std::vector<AxisValues>& points, double tube) {
   std::vector<Vertex> vertices;
   double u = 0;
   for (std::size_t k = 0; k < points.size(); ++k) {
-    if (k > 0) u += distance(points[k], points[k - 1]);
+    if (k > 0) u += point_distance(points[k], points[k - 1]);
     vertices.push_back({points[k], u, tube, tube});
   }
   return vertices;
@@ -63,17 +63,17 @@ TEST(SmoothingSpline, a_straight_line_stays_one) {
   std::vector<AxisValues> points;
   for (int k = 0; k <= 40; ++k) points.push_back({3 + 0.3 * k, 0.4 * k, 7});
   SmoothingSpline spline;
-  for (const CurveSpan& span : fit_in_windows(spline, polyline(points, 1e-4), 50)) {
+  for (const CurveSpan& span : fit_in_windows(spline, vertices_of(points, 1e-4), 50)) {
     const AxisValues p = place(span.curve, span.length / 3);
     const double u = span.u + span.length / 3;  // 0.5 mm for each step
-    EXPECT_LE(distance(p, {3 + 0.6 * u, 0.8 * u, 7}), 1e-8);
+    EXPECT_LE(point_distance(p, {3 + 0.6 * u, 0.8 * u, 7}), 1e-8);
   }
 }
 
 TEST(SmoothingSpline, is_continuous_to_the_second_derivative_also_from_window_to_window) {
   SmoothingSpline spline;
   for (const std::uint64_t seed : {1, 2, 3, 4, 5}) {
-    const auto vertices = polyline(random_curve(seed, 900), 0.004);
+    const auto vertices = vertices_of(random_curve(seed, 900), 0.004);
     const auto spans = fit_in_windows(spline, vertices, 200);
     ASSERT_GT(spans.size(), 20U);
     for (std::size_t k = 1; k < spans.size(); ++k) {
@@ -91,10 +91,10 @@ TEST(SmoothingSpline, is_continuous_to_the_second_derivative_also_from_window_to
 TEST(SmoothingSpline, meets_its_first_and_last_vertex_and_keeps_the_tube_between) {
   SmoothingSpline spline;
   for (const std::uint64_t seed : {6, 7, 8}) {
-    const auto vertices = polyline(random_curve(seed, 500), 0.004);
+    const auto vertices = vertices_of(random_curve(seed, 500), 0.004);
     const auto spans = fit_in_windows(spline, vertices, 200);
-    EXPECT_LE(distance(spans.front().curve[0], vertices.front().at), 1e-7);
-    EXPECT_LE(distance(place(spans.back().curve, spans.back().length), vertices.back().at), 1e-7);
+    EXPECT_LE(point_distance(spans.front().curve[0], vertices.front().at), 1e-7);
+    EXPECT_LE(point_distance(place(spans.back().curve, spans.back().length), vertices.back().at), 1e-7);
     std::size_t leg = 0;
     for (const CurveSpan& span : spans) {
       for (double t = 0; t < span.length; t += 0.01) {
@@ -103,7 +103,7 @@ TEST(SmoothingSpline, meets_its_first_and_last_vertex_and_keeps_the_tube_between
         AxisValues p{};
         for (std::size_t i = 0; i < 9; ++i)
           p[i] = vertices[leg].at[i] + share * (vertices[leg + 1].at[i] - vertices[leg].at[i]);
-        ASSERT_LE(distance(place(span.curve, t), p), 0.004 * (1 + 1e-6));
+        ASSERT_LE(point_distance(place(span.curve, t), p), 0.004 * (1 + 1e-6));
       }
     }
   }

@@ -12,7 +12,7 @@
 namespace trunnion::st {
 namespace {
 
-constexpr std::size_t most_devices = 16, most_blocks = 32;
+constexpr std::size_t most_connections = 16, most_blocks = 32;
 constexpr const char* device_keys = "host, port, unit, period_ms, timeout_ms, inputs, outputs";
 constexpr const char* server_keys = "host, port, timeout_ms, inputs, outputs";
 
@@ -35,8 +35,8 @@ class ModbusReader {
 
  private:
   void devices(const YAML::Node& node) {
-    if (!node.IsMap() || node.size() > most_devices)
-      reader_.fail(node, "expected 1 .. " + std::to_string(most_devices) + " devices by their names");
+    if (!node.IsMap() || node.size() > most_connections)
+      reader_.fail(node, "expected 1 .. " + std::to_string(most_connections) + " devices by their names");
     std::set<std::string> names;
     for (const auto& entry : node) {
       ModbusDevice device;

@@ -19,9 +19,9 @@ bool is_operator(const std::string& upper) {
   return upper == "AND" || upper == "OR" || upper == "XOR" || upper == "MOD";
 }
 
-class Writer {
+class StatementWriter {
  public:
-  Writer(Document& document, const Diagram& diagram, const std::set<std::string>& names)
+  StatementWriter(Document& document, const Diagram& diagram, const std::set<std::string>& names)
       : document_(document), elements_(diagram.elements), networks_(diagram.networks), names_(names) {
     state_.resize(elements_.size(), State::open);
     for (std::size_t i = 0; i < elements_.size(); ++i)
@@ -443,7 +443,7 @@ class Writer {
 }  // namespace
 
 DiagramBody diagram_body(Document& document, const Diagram& diagram, const std::set<std::string>& names) {
-  return Writer(document, diagram, names).run();
+  return StatementWriter(document, diagram, names).run();
 }
 
 }  // namespace trunnion::st::plcopen

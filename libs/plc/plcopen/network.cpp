@@ -11,19 +11,19 @@ namespace {
 
 using Kind = Element::Kind;
 
-const std::map<std::string_view, Kind> kinds = {{"leftPowerRail", Kind::power_rail},
-                                                {"rightPowerRail", Kind::right_rail},
-                                                {"contact", Kind::contact},
-                                                {"coil", Kind::coil},
-                                                {"block", Kind::block},
-                                                {"inVariable", Kind::in_variable},
-                                                {"outVariable", Kind::out_variable},
-                                                {"inOutVariable", Kind::in_out_variable},
-                                                {"connector", Kind::connector},
-                                                {"continuation", Kind::continuation},
-                                                {"label", Kind::label},
-                                                {"jump", Kind::jump},
-                                                {"return", Kind::return_}};
+const std::map<std::string_view, Kind> element_kinds = {{"leftPowerRail", Kind::power_rail},
+                                                        {"rightPowerRail", Kind::right_rail},
+                                                        {"contact", Kind::contact},
+                                                        {"coil", Kind::coil},
+                                                        {"block", Kind::block},
+                                                        {"inVariable", Kind::in_variable},
+                                                        {"outVariable", Kind::out_variable},
+                                                        {"inOutVariable", Kind::in_out_variable},
+                                                        {"connector", Kind::connector},
+                                                        {"continuation", Kind::continuation},
+                                                        {"label", Kind::label},
+                                                        {"jump", Kind::jump},
+                                                        {"return", Kind::return_}};
 
 template <class Number>
 Number number(const std::string& text) {
@@ -37,9 +37,9 @@ Edge edge_of(Node node) {
   return text == "rising" ? Edge::rising : text == "falling" ? Edge::falling : Edge::none;
 }
 
-class Reader {
+class NetworkReader {
  public:
-  Reader(Document& document, Node body) : document_(document), body_(body) {}
+  NetworkReader(Document& document, Node body) : document_(document), body_(body) {}
 
   Diagram run() {
     for (const auto node : children(body_)) read(node);
@@ -56,8 +56,8 @@ class Reader {
   void read(Node node) {
     const auto name = local_name(node);
     if (name == "comment" || name == "documentation" || name == "vendorElement") return;
-    const auto found = kinds.find(name);
-    if (found == kinds.end())
+    const auto found = element_kinds.find(name);
+    if (found == element_kinds.end())
       return document_.error(
           node, "'" + std::string(name) + "' is not available in ladder and function block diagrams");
     Element element;
@@ -257,6 +257,6 @@ std::string Diagram::described(const Element& element) {
   return name + " with localId " + element.id;
 }
 
-Diagram read_diagram(Document& document, Node body) { return Reader(document, body).run(); }
+Diagram read_diagram(Document& document, Node body) { return NetworkReader(document, body).run(); }
 
 }  // namespace trunnion::st::plcopen

@@ -11,9 +11,6 @@
 namespace trunnion::st {
 namespace {
 
-bool is_literal(const Value& v) {
-  return v.type->kind == Kind::integer_literal || v.type->kind == Kind::real_literal;
-}
 bool is_number(Kind kind) {
   return is_integer(kind) || is_real(kind) || kind == Kind::integer_literal || kind == Kind::real_literal;
 }
@@ -193,7 +190,7 @@ Value Lowering::logic(const Expression& e, const Type* expected) {
 
 /// Both get the type of the operation: a literal that of the other side, otherwise the common type.
 bool Lowering::settle(Value& left, Value& right, const std::string& op, Position at) {
-  if (is_literal(left) && is_literal(right)) {
+  if (left.is_literal() && right.is_literal()) {
     if (left.type->kind == right.type->kind) return true;
     const auto* type = elementary(Kind::real_literal);
     for (auto* side : {&left, &right})
@@ -203,9 +200,9 @@ bool Lowering::settle(Value& left, Value& right, const std::string& op, Position
                                             : static_cast<double>(side->integer));
     return true;
   }
-  if (is_literal(left) || is_literal(right)) {
-    auto& literal = is_literal(left) ? left : right;
-    const auto& other = is_literal(left) ? right : left;
+  if (left.is_literal() || right.is_literal()) {
+    auto& literal = left.is_literal() ? left : right;
+    const auto& other = left.is_literal() ? right : left;
     const auto* type = other.type->kind == Kind::enumeration ? other.type : elementary(other.type->kind);
     // A real literal beside an integer makes the operation one of LREAL or REAL.
     if (literal.type->kind == Kind::real_literal && is_integer(other.type->kind))
@@ -215,7 +212,7 @@ bool Lowering::settle(Value& left, Value& right, const std::string& op, Position
       return false;
     }
     literal = converted(literal, *type, at);
-    auto& typed_side = is_literal(left) ? left : right;
+    auto& typed_side = left.is_literal() ? left : right;
     (void)typed_side;
     return !literal.is_error() &&
            (same_type(*left.type, *right.type) || common_type(*left.type, *right.type) != nullptr);
@@ -259,7 +256,7 @@ Value Lowering::arithmetic(const std::string& op, Value left, Value right, Posit
                           (is_number(left.type->kind) ? right.type->name : left.type->name) +
                           (left.type->kind == Kind::string ? "; strings are joined by CONCAT" : ""));
   if (!settle(left, right, op, at)) return error();
-  const auto* type = is_literal(left) ? left.type : common_type(*left.type, *right.type);
+  const auto* type = left.is_literal() ? left.type : common_type(*left.type, *right.type);
   if (op == "MOD" && !is_integer(type->kind) && type->kind != Kind::integer_literal)
     return failed(at, "MOD is for integers, not for " + type->name);
   if (left.is_constant && right.is_constant) return folded(op, left, right, *type, at);
@@ -384,12 +381,12 @@ Value Lowering::comparison(const std::string& op, Value left, Value right, Posit
   if (left.type->kind == Kind::string && right.type->kind == Kind::string &&
       left.type->wide == right.type->wide)
     return string_comparison(op, left, right);
-  const bool elementary_values = (is_elementary(left.type->kind) || is_literal(left)) &&
-                                 (is_elementary(right.type->kind) || is_literal(right));
+  const bool elementary_values = (is_elementary(left.type->kind) || left.is_literal()) &&
+                                 (is_elementary(right.type->kind) || right.is_literal());
   if (!elementary_values)
     return failed(
         at, "'" + op + "' is for elementary values, not for " +
-                (is_elementary(left.type->kind) || is_literal(left) ? right.type->name : left.type->name));
+                (is_elementary(left.type->kind) || left.is_literal() ? right.type->name : left.type->name));
   if (!settle(left, right, op, at)) return error();
   if (left.is_constant && right.is_constant) return folded_comparison(op, left, right);
   const auto* type = common_type(*left.type, *right.type);
@@ -460,7 +457,7 @@ Value Lowering::power(Value left, Value right, Position at) {
   const auto* type = elementary(left.type->kind == Kind::real ? Kind::real : Kind::lreal);
   if (right.type->kind == Kind::lreal) type = elementary(Kind::lreal);
   const auto numeric = [&](Value v) {
-    if (widens(*v.type, *type) || is_literal(v)) return converted(v, *type, at);
+    if (widens(*v.type, *type) || v.is_literal()) return converted(v, *type, at);
     return converted_to(v, *type, false, at);
   };
   const auto a = numeric(left), b = numeric(right);

@@ -15,10 +15,6 @@
 namespace trunnion::st {
 namespace {
 
-bool is_literal(const Value& v) {
-  return v.type->kind == Kind::integer_literal || v.type->kind == Kind::real_literal;
-}
-
 /// Arguments in the order of the parameters; an error is reported and gives false.
 bool in_order(const FunctionRow& row, const Expression& e, Diagnostics& diagnostics,
               std::vector<const Expression*>& result) {
@@ -132,9 +128,9 @@ std::optional<Value> Lowering::standard_function(const Expression& e, const Type
     case FunctionGroup::absolute: {
       const auto kind = values[0].type->kind;
       if (is_real(kind) || kind == Kind::real_literal) return math_function(MathFunction::abs, values, e);
-      if (is_literal(values[0]) || is_duration(kind) || (is_integer(kind) && is_signed(kind))) {
+      if (values[0].is_literal() || is_duration(kind) || (is_integer(kind) && is_signed(kind))) {
         const auto value =
-            is_literal(values[0]) ? converted(values[0], *elementary(Kind::lint), e.at) : values[0];
+            values[0].is_literal() ? converted(values[0], *elementary(Kind::lint), e.at) : values[0];
         const auto* type = elementary(value.type->kind);
         auto result = temporary(type);
         const auto zero = emit_.temporary(), negative = emit_.temporary();
@@ -177,14 +173,14 @@ Value Lowering::math_function(MathFunction function, const std::vector<Value>& v
   const bool single =
       std::all_of(values.begin(), values.end(),
                   [](const Value& v) {
-                    return v.type->kind == Kind::real || is_literal(v) ||
+                    return v.type->kind == Kind::real || v.is_literal() ||
                            widens(*v.type, *elementary(Kind::real));
                   }) &&
-      std::any_of(values.begin(), values.end(), [](const Value& v) { return !is_literal(v); });
+      std::any_of(values.begin(), values.end(), [](const Value& v) { return !v.is_literal(); });
   const auto* type = elementary(single ? Kind::real : Kind::lreal);
   std::int32_t cells[2] = {0, 0};
   for (std::size_t i = 0; i < values.size(); ++i) {
-    if (!is_literal(values[i]) && !widens(*values[i].type, *type))
+    if (!values[i].is_literal() && !widens(*values[i].type, *type))
       return failed(e.at, e.parts[0]->text + " is for REAL and LREAL, not for " + values[i].type->name);
     cells[i] = cell(converted(values[i], *type, e.at), *type);
   }
@@ -225,12 +221,13 @@ Value Lowering::selection(const std::string& name, const Expression& e, std::vec
   }
   const auto* type = values[0].type;
   for (const auto& value : values) {
-    if (is_literal(value) && (!is_literal(values[0]) || value.type->kind == Kind::integer_literal)) continue;
-    if (type->kind == Kind::integer_literal || (type->kind == Kind::real_literal && !is_literal(value))) {
-      type = is_literal(value) || !is_integer(value.type->kind) ? value.type : elementary(value.type->kind);
+    if (value.is_literal() && (!values[0].is_literal() || value.type->kind == Kind::integer_literal))
+      continue;
+    if (type->kind == Kind::integer_literal || (type->kind == Kind::real_literal && !value.is_literal())) {
+      type = value.is_literal() || !is_integer(value.type->kind) ? value.type : elementary(value.type->kind);
       continue;
     }
-    const auto* common = is_literal(value) ? type : common_type(*type, *value.type);
+    const auto* common = value.is_literal() ? type : common_type(*type, *value.type);
     if (common == nullptr && type->kind == Kind::string && value.type->kind == Kind::string &&
         type->wide == value.type->wide)
       common = type->length >= value.type->length ? type : value.type;
@@ -370,7 +367,7 @@ Value Lowering::test_function(const std::string& name, const std::vector<Value>&
     if (name == "ASSERT_NEAR") {
       const auto* lreal = elementary(Kind::lreal);
       for (auto* value : {&actual, &wanted})
-        *value = widens(*value->type, *lreal) || is_literal(*value)
+        *value = widens(*value->type, *lreal) || value->is_literal()
                      ? converted(*value, *lreal, e.at)
                      : converted_to(*value, *lreal, false, e.at);
       const auto difference = arithmetic("-", actual, wanted, e.at);
@@ -385,8 +382,8 @@ Value Lowering::test_function(const std::string& name, const std::vector<Value>&
     if (condition.is_error()) return condition;
     condition = condition.is_constant ? condition : kept(condition);
     const auto* type = is_elementary(actual.type->kind) ? actual.type : wanted.type;
-    const auto* common = is_elementary(type->kind) ? common_type(is_literal(actual) ? *type : *actual.type,
-                                                                 is_literal(wanted) ? *type : *wanted.type)
+    const auto* common = is_elementary(type->kind) ? common_type(actual.is_literal() ? *type : *actual.type,
+                                                                 wanted.is_literal() ? *type : *wanted.type)
                                                    : nullptr;
     if (common != nullptr) {
       assertion.kind = common->kind == Kind::real    ? Assertion::Kind::real

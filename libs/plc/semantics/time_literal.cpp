@@ -9,13 +9,13 @@ namespace {
 
 constexpr std::int64_t second = 1000000000;
 
-struct Unit {
+struct TimeUnit {
   std::string_view name;
   std::int64_t ns;
 };
 // Longer names first where one begins with another.
-constexpr Unit units[] = {{"ms", 1000000},      {"us", 1000},       {"ns", 1},    {"d", 86400 * second},
-                          {"h", 3600 * second}, {"m", 60 * second}, {"s", second}};
+constexpr TimeUnit units[] = {{"ms", 1000000},      {"us", 1000},       {"ns", 1},    {"d", 86400 * second},
+                              {"h", 3600 * second}, {"m", 60 * second}, {"s", second}};
 
 class Scanner {
  public:
@@ -48,7 +48,7 @@ class Scanner {
     }
     return value;
   }
-  const Unit* unit() {
+  const TimeUnit* unit() {
     for (const auto& unit : units) {
       if (text_.size() < unit.name.size()) continue;
       bool same = true;

@@ -14,7 +14,7 @@ struct Row {
   int bits;
   bool is_signed;
 };
-constexpr std::array rows = std::to_array<Row>({
+constexpr std::array type_rows = std::to_array<Row>({
     {Kind::boolean, "BOOL", 1, false},
     {Kind::byte, "BYTE", 8, false},
     {Kind::word, "WORD", 16, false},
@@ -42,14 +42,15 @@ constexpr std::array rows = std::to_array<Row>({
 });
 
 const Row* row(Kind kind) {
-  const auto found = std::find_if(rows.begin(), rows.end(), [&](const Row& r) { return r.kind == kind; });
-  return found == rows.end() ? nullptr : &*found;
+  const auto found =
+      std::find_if(type_rows.begin(), type_rows.end(), [&](const Row& r) { return r.kind == kind; });
+  return found == type_rows.end() ? nullptr : &*found;
 }
 
 const std::map<Kind, Type>& elementary_types() {
   static const auto types = [] {
     std::map<Kind, Type> result;
-    for (const auto& r : rows) {
+    for (const auto& r : type_rows) {
       auto& type = result[r.kind];
       type.kind = r.kind;
       type.name = r.name;
@@ -109,7 +110,7 @@ const Type* elementary(Kind kind) {
 const Type* elementary(std::string_view upper) {
   if (upper == "TOD") return elementary(Kind::tod);
   if (upper == "DT") return elementary(Kind::dt);
-  for (const auto& r : rows)
+  for (const auto& r : type_rows)
     if (upper == r.name && r.kind < Kind::string) return elementary(r.kind);
   return nullptr;
 }
@@ -193,7 +194,7 @@ const Type* common_type(const Type& a, const Type& b) {
   if (reaches(a.kind, b.kind)) return elementary(b.kind);
   if (reaches(b.kind, a.kind)) return elementary(a.kind);
   // In the order of the table the smallest type comes first within each family.
-  for (const auto& r : rows)
+  for (const auto& r : type_rows)
     if (r.kind < Kind::string && reaches(a.kind, r.kind) && reaches(b.kind, r.kind))
       return elementary(r.kind);
   return nullptr;

@@ -33,6 +33,7 @@ struct Value {
   Variable* variable = nullptr;  ///< the variable itself, not a part of it
 
   bool is_error() const { return type->kind == Kind::error; }
+  bool is_literal() const { return type->kind == Kind::integer_literal || type->kind == Kind::real_literal; }
 };
 
 Value constant_integer(const Type* type, std::int64_t value);

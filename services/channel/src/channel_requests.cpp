@@ -8,7 +8,6 @@
 
 namespace trunnion::channel {
 
-using language::CommandKind;
 using program_execution::AuxiliaryKind;
 
 namespace {
@@ -51,40 +50,40 @@ void ChannelCore::run_pending(FlowState state) {
 
 void ChannelCore::execute(const language::Command& command) {
   switch (command.kind) {
-    case CommandKind::transformation:
+    case language::CommandKind::transformation:
       machine_start_ = machine_position();
       path().start(command.target, command.modal.transformation, command.modal.tool_length);
       flow().finish_pending();
       return;
-    case CommandKind::skip:
+    case language::CommandKind::skip:
       begin_skip();
       return;
-    case CommandKind::tap:
+    case language::CommandKind::tap:
       begin_tapping();
       return;
-    case CommandKind::table:
+    case language::CommandKind::table:
       handshake_.begin_table(table_request(command, number_, tool_table_));
       states_.wait();
       return;
-    case CommandKind::message:
+    case language::CommandKind::message:
       event(alarm::program_message, program_name() + ":" + std::to_string(command.line) + ": message " +
                                         std::to_string(command.number) + ", see the comment of the line");
       flow().finish_pending();
       return;
-    case CommandKind::tool:
+    case language::CommandKind::tool:
       begin_auxiliary({AuxiliaryKind::T, command.number, 0});
       return;
-    case CommandKind::spindle_speed:
+    case language::CommandKind::spindle_speed:
       spindle_programmed_ = command.value;
       begin_auxiliary({AuxiliaryKind::S, 0, command.value});
       return;
-    case CommandKind::auxiliary:
+    case language::CommandKind::auxiliary:
       if (command.number == optional_stop && !switches_.optional_stop)
         flow().finish_pending();
       else
         begin_auxiliary({AuxiliaryKind::M, command.number, 0});
       return;
-    case CommandKind::end:
+    case language::CommandKind::end:
       begin_auxiliary({AuxiliaryKind::M, command.number, 0});
       return;
     default:
@@ -118,10 +117,10 @@ void ChannelCore::on_auxiliary_done(const idl::plc::AuxiliaryDone& done) {
   if (auto* suspended = states_.suspended()) suspended->mdi_functions.pass(command);
   // What the PLC has done is not undone by going back: the path begins anew behind it.
   if (language::changes_machine(command)) path().restart();
-  const bool auxiliary = command.kind == CommandKind::auxiliary;
+  const bool auxiliary = command.kind == language::CommandKind::auxiliary;
   // T only selects a tool; M6 puts it into the spindle.
   if (auxiliary && command.number == tool_change) tool_ = command.modal.tool;
-  if (command.kind == CommandKind::end) {
+  if (command.kind == language::CommandKind::end) {
     finish(true);
     return;
   }

@@ -10,7 +10,6 @@
 namespace trunnion::channel {
 namespace {
 
-using language::CommandKind;
 using testing::Channel;
 using testing::Codes;
 using enum idl::channel::AuxiliaryKind;

@@ -64,7 +64,7 @@ TEST(HandOver, WhatItDoesNotKnowIsRefusedWithItsPlaceAndNothingIsHalfTaken) {
       read_hand_over(text, "file", "b", read);
       ADD_FAILURE() << bad;
     } catch (const std::runtime_error& e) {
-      EXPECT_THAT(e.what(), testing::StartsWith("file:3: ")) << bad;
+      EXPECT_THAT(e.what(), ::testing::StartsWith("file:3: ")) << bad;
     }
     EXPECT_EQ(read.reset_count, 0u);
   }

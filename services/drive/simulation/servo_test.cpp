@@ -15,7 +15,7 @@ using idl::servo::TestSignal;
 
 namespace {
 constexpr std::size_t most_values = 4096;  // of a message
-constexpr double longest = 600;            // s
+constexpr double longest_test = 600;       // s
 
 std::uint32_t axis_of(std::uint32_t parameter) { return (parameter - 100000) / 1000; }
 
@@ -54,7 +54,7 @@ std::string ServoTest::refusal(const TestRequest& r) const {
         std::count(r.axes.begin(), r.axes.end(), axis) > 1)
       return "there is no axis with logical number " + std::to_string(axis) + ", or it is given twice";
   const auto within = [](double value, double low, double high) { return value >= low && value <= high; };
-  if (!within(r.duration, 0, longest)) return outside("duration", r.duration, 0, longest, "s");
+  if (!within(r.duration, 0, longest_test)) return outside("duration", r.duration, 0, longest_test, "s");
   if (!within(r.vibration_limit, 0, 10))
     return outside("vibration limit", r.vibration_limit, 0, 10, "mm or deg");
   if (r.decimation < 1 || r.decimation > 1000)
@@ -64,7 +64,7 @@ std::string ServoTest::refusal(const TestRequest& r) const {
     const double most = speed ? parameters_.get(parameter::maximum_feed, r.axes.front()) / 60 : 1;
     if (!within(std::abs(r.amplitude), 0, most))
       return outside("amplitude", r.amplitude, -most, most, speed ? "mm/s or deg/s" : "of the rated torque");
-    if (!within(r.period, 0.001, longest)) return outside("period", r.period, 0.001, longest, "s");
+    if (!within(r.period, 0.001, longest_test)) return outside("period", r.period, 0.001, longest_test, "s");
     const double highest = servo_substeps / period_ / 2;
     for (const double f : {r.first_frequency, r.last_frequency})
       if (!within(f, 0, highest)) return outside("frequency", f, 0, highest, "Hz");

@@ -15,8 +15,9 @@ namespace trunnion::drive {
 namespace {
 
 // An axis with the feed-forward that the executor gives it.
-struct Axis : SimulatedAxis {
-  explicit Axis(const truth::DriveTruth* truth, double at = 0, const ServoParameters& parameters = {}) {
+struct ElasticAxis : SimulatedAxis {
+  explicit ElasticAxis(const truth::DriveTruth* truth, double at = 0,
+                       const ServoParameters& parameters = {}) {
     configure(parameters, truth);
     place(at);
     setpoint.position = command();
@@ -53,7 +54,7 @@ ServoParameters full_closed() {
 TEST(ElasticAxis, WithTheMotorsEncoderTheLoadIsBackByTheBacklash) {
   auto truth = elastic();
   truth.mechanics->backlash = 0.02;
-  Axis axis(&truth);
+  ElasticAxis axis(&truth);
   double x = 0;
   const auto move = [&](double speed) {
     for (int i = 0; i < 500; ++i) axis.to(x += speed * 0.001);
@@ -71,8 +72,8 @@ TEST(ElasticAxis, WithAScaleTheLoadArrivesInSpiteOfScrewErrorAndWeight) {
   truth.mechanics->screw.terms.polynomials.push_back({0, 1000, {0, 0.5}});
   truth.mechanics->gravity = 0.2;
   truth.load.emplace();
-  Axis semi(&truth);
-  Axis full(&truth, 0, full_closed());
+  ElasticAxis semi(&truth);
+  ElasticAxis full(&truth, 0, full_closed());
   semi.by(100, 50);
   full.by(100, 50);
   EXPECT_NEAR(full.load(), 100, 2e-4);
@@ -85,7 +86,7 @@ TEST(ElasticAxis, AScaleMountedTheWrongWayRoundRunsAway) {
   auto truth = elastic();
   truth.load.emplace();
   truth.load->inverted = true;
-  Axis axis(&truth, 1, full_closed());
+  ElasticAxis axis(&truth, 1, full_closed());
   EXPECT_NEAR(axis.encoder(), -1, 1e-4);
   for (int i = 0; i < 300; ++i) axis.to(-1.01);
   EXPECT_GT(std::abs(axis.encoder() + 1.01), 0.1) << "the position loop drives away from its setpoint";
@@ -94,7 +95,7 @@ TEST(ElasticAxis, AScaleMountedTheWrongWayRoundRunsAway) {
 TEST(ElasticAxis, AnIncrementalEncoderHasNoReferenceUntilItIsGivenOne) {
   auto truth = elastic();
   truth.motor.kind = truth::EncoderKind::incremental;
-  Axis axis(&truth, 30);
+  ElasticAxis axis(&truth, 30);
   EXPECT_FALSE(axis.homed());
   EXPECT_EQ(axis.encoder(), 0);
   axis.set_reference(30);

@@ -16,8 +16,8 @@ namespace {
 
 // An axis that follows `delay` periods later, with a switch that is on beyond its edge and stays on for
 // another 0.1 mm on the way back.
-struct Axis {
-  Axis(double edge, std::size_t delay) : switch_edge(edge), queue(delay, 0.0) {}
+struct HomingAxis {
+  HomingAxis(double edge, std::size_t delay) : switch_edge(edge), queue(delay, 0.0) {}
   void follow(double commanded) {
     queue.push_back(commanded);
     const double before = status.position;
@@ -41,7 +41,7 @@ Homing::Settings settings() {
   return s;
 }
 
-Homing::State run(Homing& homing, Axis& axis, int most = 100000) {
+Homing::State run(Homing& homing, HomingAxis& axis, int most = 100000) {
   while (homing.state() == Homing::State::moving && most-- > 0) {
     const double setpoint = homing.step(axis.status, 0.001);
     const double velocity = (setpoint - axis.setpoint) / 0.001;
@@ -55,7 +55,7 @@ Homing::State run(Homing& homing, Axis& axis, int most = 100000) {
 
 TEST(Homing, TakesTheEdgeAtTheSlowSpeedAlsoBehindAQueueOfRows) {
   for (const std::size_t delay : {0u, 20u}) {
-    Axis axis(12.3, delay);
+    HomingAxis axis(12.3, delay);
     Homing homing;
     homing.start(settings(), 0);
     ASSERT_EQ(run(homing, axis), Homing::State::done);
@@ -66,7 +66,7 @@ TEST(Homing, TakesTheEdgeAtTheSlowSpeedAlsoBehindAQueueOfRows) {
 }
 
 TEST(Homing, LeavesTheSwitchFirstWhenItIsOnAtTheStart) {
-  Axis axis(12.3, 5);
+  HomingAxis axis(12.3, 5);
   axis.status.home_switch = true;
   axis.status.position = axis.setpoint = 30;
   std::fill(axis.queue.begin(), axis.queue.end(), 30.0);
@@ -77,7 +77,7 @@ TEST(Homing, LeavesTheSwitchFirstWhenItIsOnAtTheStart) {
 }
 
 TEST(Homing, GivesUpWhenTheSwitchDoesNotComeWithinTheTravel) {
-  Axis axis(1000, 5);
+  HomingAxis axis(1000, 5);
   Homing homing;
   homing.start(settings(), 0);
   EXPECT_EQ(run(homing, axis), Homing::State::failed);
@@ -85,7 +85,7 @@ TEST(Homing, GivesUpWhenTheSwitchDoesNotComeWithinTheTravel) {
 }
 
 TEST(Homing, AnAbortBrakesAndEndsWithoutAReference) {
-  Axis axis(12.3, 5);
+  HomingAxis axis(12.3, 5);
   Homing homing;
   homing.start(settings(), 0);
   run(homing, axis, 200);

@@ -13,7 +13,7 @@ using idl::plc::LoadPhase;
 using idl::plc::OnlineAction;
 using idl::plc::OnlineReply;
 using idl::plc::OnlineRequest;
-constexpr int domain = 64;
+constexpr int online_domain = 64;
 
 // `old` runs first. Both count in `kept`; what counts in R3 tells them apart.
 constexpr const char* fast_text = "PROGRAM fast\nEND_PROGRAM\n";
@@ -104,10 +104,10 @@ std::string journal_of(const RunningService& service) {
 }
 
 TEST(PlcOnline, AForceIsShownJournalledAndSurvivesAKill) {
-  RunningService service(TRUNNION_PLC, "plc_force", domain);
+  RunningService service(TRUNNION_PLC, "plc_force", online_domain);
   install_old(service);
   service.start({"--virtual-time"});
-  Machine machine(domain);
+  Machine machine(online_domain);
   ASSERT_TRUE(machine.wait_for([] { return true; }));
   EXPECT_EQ(machine.call(request_of(OnlineAction::FORCE, {"main.seen"}, {"yes"})).reason,
             "'main.seen': 'yes' is no DINT: write a whole number -2147483648 .. 2147483647");
@@ -134,10 +134,10 @@ TEST(PlcOnline, AForceIsShownJournalledAndSurvivesAKill) {
 }
 
 TEST(PlcOnline, NewProgramsTakeOverWithTheOldValuesAndAreUndone) {
-  RunningService service(TRUNNION_PLC, "plc_load", domain);
+  RunningService service(TRUNNION_PLC, "plc_load", online_domain);
   install_old(service);
   service.start({"--virtual-time"});
-  Machine machine(domain);
+  Machine machine(online_domain);
   ASSERT_TRUE(machine.wait_for([] { return true; }));
   set_kept_values(machine);
 
@@ -179,10 +179,10 @@ TEST(PlcOnline, AKillInEveryPhaseLosesNoValueAndLeavesWholePrograms) {
   int is_new = 0;
   for (int round = 0; round < 16; ++round) {
     const int phase = round < 6 ? round : 6;
-    RunningService service(TRUNNION_PLC, "plc_kill_" + std::to_string(round), domain);
+    RunningService service(TRUNNION_PLC, "plc_kill_" + std::to_string(round), online_domain);
     install_old(service);
     service.start({"--virtual-time"});
-    Machine machine(domain);
+    Machine machine(online_domain);
     ASSERT_TRUE(machine.wait_for([] { return true; }));
     set_kept_values(machine);
     go_to(machine, std::min(phase, 5) - (phase == 6 ? 1 : 0));
@@ -212,11 +212,11 @@ TEST(PlcOnline, AKillInEveryPhaseLosesNoValueAndLeavesWholePrograms) {
 
 // The directory of the machine wins at the start of a cluster when it has other programs than it had.
 TEST(PlcOnline, LoadedProgramsRunInLaterStartsUntilTheMachineGetsOthers) {
-  RunningService service(TRUNNION_PLC, "plc_later", domain);
+  RunningService service(TRUNNION_PLC, "plc_later", online_domain);
   install_old(service);
   service.start({"--virtual-time"});
   {
-    Machine machine(domain);
+    Machine machine(online_domain);
     ASSERT_TRUE(machine.wait_for([] { return true; }));
     set_kept_values(machine);
     go_to(machine, 5);
@@ -225,7 +225,7 @@ TEST(PlcOnline, LoadedProgramsRunInLaterStartsUntilTheMachineGetsOthers) {
   service.write("state/cluster.boot", "another boot\n");
   service.start({"--virtual-time"});
   {
-    Machine machine(domain);
+    Machine machine(online_domain);
     ASSERT_TRUE(machine.wait_for([] { return true; }));
     EXPECT_EQ(values_of(machine, {"main.kept", "main.hours", "%R3"}), (std::vector<std::uint64_t>{0, 88, 2}));
   }
@@ -233,17 +233,17 @@ TEST(PlcOnline, LoadedProgramsRunInLaterStartsUntilTheMachineGetsOthers) {
   service.write("state/cluster.boot", "a third boot\n");
   service.write("machine/plc/main.st", main_text(false) + "// corrected\n");
   service.start({"--virtual-time"});
-  Machine machine(domain);
+  Machine machine(online_domain);
   ASSERT_TRUE(machine.wait_for([] { return true; }));
   EXPECT_EQ(values_of(machine, {"%R3"}).at(0), 1u);
 }
 
 TEST(PlcOnline, ProgramsWithAnErrorAreReplacedWhileThePlcRuns) {
-  RunningService service(TRUNNION_PLC, "plc_corrected", domain);
+  RunningService service(TRUNNION_PLC, "plc_corrected", online_domain);
   install_old(service);
   service.write("machine/plc/main.st", "PROGRAM main\nlamp := TRUE;\nEND_PROGRAM\n");
   service.start({"--virtual-time"});
-  Machine machine(domain);
+  Machine machine(online_domain);
   ASSERT_TRUE(machine.wait_for([&] { return machine.state.lifecycle == idl::service::Lifecycle::FAULT; }));
   go_to(machine, 3);
   EXPECT_TRUE(machine.call(take_over_request()).accepted);

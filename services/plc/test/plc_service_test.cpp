@@ -7,13 +7,13 @@ namespace {
 
 using idl::channel::AuxiliaryKind;
 using idl::plc::PanelRequestKind;
-constexpr int domain = 63;
+constexpr int plc_domain = 63;
 
 TEST(PlcServiceOverDds, HandshakesTakeTheSameTicksAndAKillChangesNoOutput) {
-  RunningService service(TRUNNION_PLC, "plc", domain);
+  RunningService service(TRUNNION_PLC, "plc", plc_domain);
   install(service);
   service.start({"--virtual-time"});
-  Machine machine(domain);
+  Machine machine(plc_domain);
   ASSERT_TRUE(machine.wait_for([&] { return machine.outputs.axis_enable.at(0) == 1; }));
   machine.ask(1, AuxiliaryKind::S, 0, 1000);
   ASSERT_TRUE(machine.run_until_done(1));
@@ -46,11 +46,11 @@ TEST(PlcServiceOverDds, HandshakesTakeTheSameTicksAndAKillChangesNoOutput) {
 }
 
 TEST(PlcServiceOverDds, AFaultyProgramIsAFaultWithItsPlaceAndSafeOutputs) {
-  RunningService service(TRUNNION_PLC, "plc_faulty", domain);
+  RunningService service(TRUNNION_PLC, "plc_faulty", plc_domain);
   install(service);
   service.write("machine/plc/main.st", "PROGRAM main\nlamp := TRUE;\nEND_PROGRAM\n");
   service.start({"--virtual-time"});
-  Machine machine(domain);
+  Machine machine(plc_domain);
   ASSERT_TRUE(machine.wait_for([&] { return machine.state.lifecycle == idl::service::Lifecycle::FAULT; }));
   EXPECT_NE(machine.state.detail.find("main.st:2:1: error: there is no variable 'lamp'"), std::string::npos)
       << machine.state.detail;
@@ -59,7 +59,7 @@ TEST(PlcServiceOverDds, AFaultyProgramIsAFaultWithItsPlaceAndSafeOutputs) {
 }
 
 TEST(PlcServiceOverDds, ADivisionByZeroIsAnAlarmWithItsPlaceAndAResetStartsTheProgramAgain) {
-  RunningService service(TRUNNION_PLC, "plc_division", domain);
+  RunningService service(TRUNNION_PLC, "plc_division", plc_domain);
   install(service);
   service.write("machine/plc/extra.st",
                 "FUNCTION quotient : INT\nVAR_INPUT d : INT; END_VAR\nquotient := 1 / d;\nEND_FUNCTION\n");
@@ -67,7 +67,7 @@ TEST(PlcServiceOverDds, ADivisionByZeroIsAnAlarmWithItsPlaceAndAResetStartsThePr
       "machine/plc/main.st",
       "PROGRAM main\nVAR a : INT; END_VAR\nIF NOT %X16.0 THEN\n  a := quotient(0);\nEND_IF;\nEND_PROGRAM\n");
   service.start({"--virtual-time"});
-  Machine machine(domain);
+  Machine machine(plc_domain);
   ASSERT_TRUE(machine.wait_for([&] { return machine.outputs.emergency_stop; }));
   ASSERT_TRUE(machine.wait_for([&] {
     return machine.alarm_text.find("extra.st:3:15: error: division by zero in the main task") !=

@@ -31,7 +31,7 @@ ADD F2565
 ST B1
 )";
 
-std::shared_ptr<const machine::Parameters> parameters(std::uint64_t revision) {
+std::shared_ptr<const machine::Parameters> revised_parameters(std::uint64_t revision) {
   auto p = std::make_shared<machine::Parameters>();
   p->revision = revision;
   p->values[100000] = {0, "X"}, p->values[110000] = {0, "S"}, p->values[110001] = {10, ""};
@@ -50,7 +50,7 @@ PlcCore core_with(const std::string& program) {
 class Running {
  public:
   explicit Running(std::uint64_t seed) : core_(core_with(main_program)), random_(seed) {
-    core_.configure(*parameters(1), true);
+    core_.configure(*revised_parameters(1), true);
   }
 
   Round begin(std::uint32_t generation) {
@@ -122,7 +122,9 @@ class Running {
   std::uint32_t number_ = 0, resets_ = 0;
 };
 
-StandbyComparison comparison_of(const std::string& program) { return {core_with(program), true, parameters}; }
+StandbyComparison comparison_of(const std::string& program) {
+  return {core_with(program), true, revised_parameters};
+}
 
 Round over_the_wire(const Round& round) {
   bus::Bytes bytes;
@@ -236,7 +238,7 @@ TEST(StandbyComparison, ItWaitsForParametersThatHaveNotArrived) {
   Running running(5);
   bool arrived = false;
   StandbyComparison comparison(core_with(main_program), true, [&](std::uint64_t revision) {
-    return arrived ? parameters(revision) : nullptr;
+    return arrived ? revised_parameters(revision) : nullptr;
   });
   const Round start = running.begin(1);
   EXPECT_EQ(comparison.play(start, 1), StandbyComparison::Outcome::waiting);

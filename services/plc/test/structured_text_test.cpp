@@ -18,7 +18,7 @@
 namespace trunnion::plc {
 namespace {
 
-machine::Parameters parameters() {
+machine::Parameters text_parameters() {
   machine::Parameters p;
   p.values[100000] = {0, "X"};
   for (const std::uint32_t spindle : {0u, 1u}) {
@@ -45,7 +45,7 @@ PlcCore core_of(const std::string& source) {
   return core;
 }
 
-PlcCore core_of_directory(const std::string& directory, const machine::Parameters& p = parameters()) {
+PlcCore core_of_directory(const std::string& directory, const machine::Parameters& p = text_parameters()) {
   PlcCore core;
   core.configure(p, true);
   EXPECT_TRUE(load_programs(directory, core).empty()) << directory;
@@ -212,7 +212,7 @@ TEST(SimulatedDevices, APositionSwitchFollowsTheFeedbackOfItsAxis) {
 TEST(SimulatedDevices, WithOtherHardwareTheyDoNotRun) {
   const DeviceDirectory directory;
   PlcCore core;
-  core.configure(parameters(), true);
+  core.configure(text_parameters(), true);
   EXPECT_TRUE(load_programs(directory.path(), core, false).empty());
   core.advance(100);
   EXPECT_EQ(core.image().x[17], 0);

@@ -9,7 +9,7 @@
 namespace trunnion::recorder {
 namespace {
 // What a message costs beside its bytes.
-constexpr std::size_t overhead = sizeof(Message) + 64;
+constexpr std::size_t kept_overhead = sizeof(Message) + 64;
 }  // namespace
 
 FlightRecorder::FlightRecorder(std::string path, FileHeader header, FlightLimits limits, std::int64_t began)
@@ -21,7 +21,7 @@ FlightRecorder::FlightRecorder(std::string path, FileHeader header, FlightLimits
 
 void FlightRecorder::take(Message& message, double now) {
   const bool fired = fires(message);
-  bytes_ += message.cdr.size() + overhead;
+  bytes_ += message.cdr.size() + kept_overhead;
   kept_.push_back(
       {{message.topic, message.sequence, message.source_time, std::exchange(message.cdr, {})}, now});
   if (fired && !save_at_) save_at_ = now + limits_.after;
@@ -42,7 +42,7 @@ void FlightRecorder::forget(double now) {
   const double oldest = (save_at_ ? *save_at_ - limits_.after : now) - limits_.before;
   while (!kept_.empty() && (kept_.front().arrived < oldest || bytes_ > limits_.bytes)) {
     states_.see(kept_.front().message);
-    bytes_ -= kept_.front().message.cdr.size() + overhead;
+    bytes_ -= kept_.front().message.cdr.size() + kept_overhead;
     kept_.pop_front();
   }
 }

@@ -8,12 +8,12 @@
 namespace trunnion::recorder {
 namespace {
 // What a message costs beside its bytes, so that a flood of small ones is bounded too.
-constexpr std::size_t overhead = sizeof(Message) + 32;
+constexpr std::size_t queued_overhead = sizeof(Message) + 32;
 }  // namespace
 
 bool MessageQueue::push(Message& message) {
   const std::lock_guard lock(mutex_);
-  const std::size_t size = message.cdr.size() + overhead;
+  const std::size_t size = message.cdr.size() + queued_overhead;
   if (closed_ || bytes_ + taken_ + size > most_bytes_) {
     ++dropped_;
     return false;
