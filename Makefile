@@ -59,7 +59,7 @@ fuzz: packages
 # Needs the generated headers, not the programs.
 lint: configure
 	@cmake --build --preset $(PRESET) --target contracts_generated constants_generated
-	tools/lint.sh $(BUILD)
+	tools/lint.py $(BUILD)
 
 format:
 	git ls-files '*.cpp' '*.hpp' | xargs clang-format-14 -i

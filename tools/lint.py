@@ -1,0 +1,133 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""clang-format over every C++ file, and the chosen clang-tidy checks over every source that is built into a program.
+
+    tools/lint.py BUILD [FILE...]    of the named files only, with those that are compiled together with them
+
+Any finding is an error. clang-tidy excludes tests, benchmarks and fuzzers: they include the test framework and would
+nearly double the time. Sources that are compiled together (CMake's unity build) are checked together, so that the
+headers are read once: their texts stand behind each other in one file, because clang-tidy looks less closely at a file
+that is included. Without the precompiled headers of GCC, so a source that
+relies on them for what it uses is found here.
+"""
+import concurrent.futures
+import json
+import os
+import re
+import subprocess
+import sys
+
+EXCLUDED = re.compile(r'(^|/)(test|bench|integration_tests)/')
+NOISE = re.compile(r'warnings? generated|Suppressed|Use -header-filter|Use -system-headers')
+
+
+def tracked(*patterns):
+    return subprocess.run(['git', 'ls-files', *patterns], check=True, capture_output=True, text=True).stdout.split()
+
+
+def sources_of(unit):
+    """The sources of a unity build's file; none for an ordinary source."""
+    if '/Unity/unity_' not in unit:
+        return []
+    with open(unit) as text:
+        return re.findall(r'#include "(.*)"', text.read())
+
+
+def joined(sources):
+    """The texts behind each other, and [(first line, source)]."""
+    text, starts, line = '', [], 1
+    for source in sources:
+        with open(source) as file:
+            part = file.read() + '\n'
+        starts.append((line, source))
+        text, line = text + part, line + part.count('\n')
+    return text, starts
+
+
+def place(starts, line):
+    """file:line of a line of the joined texts."""
+    first, source = max(start for start in starts if start[0] <= line)
+    return f'{os.path.relpath(source)}:{line - first + 1}'
+
+
+def repeated_includes(files):
+    """file:line of what is included a second time."""
+    found = []
+    for file in files:
+        seen = set()
+        with open(file) as text:
+            for number, line in enumerate(text, 1):
+                if line.startswith('#if'):
+                    break  # what is included depends on a condition
+                if line.startswith('#include') and line in seen:
+                    found.append(f'{file}:{number}: error: included twice: {line.split()[1]}')
+                seen.add(line)
+    return found
+
+
+def commands(build, wanted):
+    """What holds the wanted sources (paths from the root): its folder with a compilation database, {file: starts}."""
+    chosen, database = {}, []
+    with open(f'{build}/compile_commands.json') as text:
+        entries = json.load(text)
+    folder = os.path.abspath(f'{build}/lint')
+    os.makedirs(folder, exist_ok=True)
+    left = set(wanted)
+    for entry in entries:
+        unit = entry['file']
+        sources = sources_of(unit)
+        held = {os.path.relpath(source) for source in sources or [unit]}
+        if not held & left:
+            continue
+        left -= held
+        command = re.sub(r' -Winvalid-pch| -include \S*cmake_pch\.hxx', '', entry['command'])
+        if sources:
+            file = f'{folder}/{os.path.relpath(unit, build).replace("/", "-")}.cpp'
+            content, starts = joined(sources)
+            with open(file, 'w') as text:
+                text.write(content)
+            quoted = ' '.join(f'-iquote {d}' for d in sorted({os.path.dirname(s) for s in sources}))
+            command = command.replace(unit, f'{file} {quoted}')
+        else:
+            file, starts = unit, [(1, unit)]
+        chosen[file] = starts
+        database.append({'directory': entry['directory'], 'file': file, 'command': command})
+    if left:
+        sys.exit(f'lint: not compiled by {build}: {", ".join(sorted(left))}')
+    with open(f'{folder}/compile_commands.json', 'w') as text:
+        json.dump(database, text)
+    return folder, chosen
+
+
+def tidy(folder, file, starts):
+    done = subprocess.run(['clang-tidy-14', '-p', folder, '--quiet', file], capture_output=True, text=True)
+    errors = '\n'.join(line for line in done.stderr.splitlines() if not NOISE.search(line))
+    text = re.sub(re.escape(file) + r':(\d+)', lambda m: place(starts, int(m.group(1))), done.stdout + errors)
+    return done.returncode, text.strip()
+
+
+def main():
+    if len(sys.argv) < 2:
+        sys.exit(__doc__)
+    build, wanted = sys.argv[1], [os.path.relpath(file) for file in sys.argv[2:]]
+    if not wanted:
+        subprocess.run(['clang-format-14', '--dry-run', '--Werror', *tracked('*.cpp', '*.hpp')], check=True)
+        wanted = [file for file in tracked('*.cpp') if not EXCLUDED.search(file)]
+    repeated = repeated_includes([*wanted, *(f for f in tracked('*.hpp') if len(sys.argv) == 2)])
+    print('\n'.join(repeated), end='\n' if repeated else '', flush=True)
+    folder, files = commands(build, wanted)
+    failed = bool(repeated)
+    with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+        for done, (code, text) in enumerate(pool.map(lambda file: tidy(folder, file, files[file]), files), 1):
+            failed |= code != 0
+            if text:
+                print(text, flush=True)
+            if sys.stdout.isatty():
+                print(f'[{done}/{len(files)}]', end='\r', flush=True)
+    if failed:
+        sys.exit('lint: findings, see above')
+    print('lint: clean')
+
+
+if __name__ == '__main__':
+    main()
