@@ -14,6 +14,7 @@
 #include "round_recorder.hpp"
 #include "service/node.hpp"
 #include "service/request.hpp"
+#include "task_times.hpp"
 
 namespace trunnion::plc {
 
@@ -72,6 +73,7 @@ class OnlineService {
   bool answer(const Request& request, std::int64_t source_time, double now);
   Reply change(const Request& request);
   Reply read_source(const Request& request) const;
+  Reply list(const Request& request, double now);
   std::string take_over(const Request& request);
   void start_compiling();
   void journal(const Request& request, const std::string& what);
@@ -85,6 +87,7 @@ class OnlineService {
   ProgramStore store_;
   OnlineValues values_{st::Variables()};
   ProgramLoad load_;
+  TaskTimes task_times_;
   std::future<Translated> worker_;
   std::future<void> synchronizing_;
   service::RequestServer<Request, Reply> requests_;

@@ -307,9 +307,11 @@ void PlcCore::scan(bool main, bool present) {
   auto& r = memory_.registers;
   set_strobes(present);
   apply_forces();
+  if (times_ != nullptr) times_->begin_scan();
   if (structured_.has(TaskName::simulation)) run_task(TaskName::simulation, {});
   run_task(TaskName::fast, fast_);
   if (main) run_task(TaskName::main, main_);
+  if (times_ != nullptr) times_->end_scan();
   check_spindles();
   finish();
   if (main && !continues_main()) {  // the main task has read them
@@ -322,11 +324,25 @@ void PlcCore::scan(bool main, bool present) {
 
 void PlcCore::run_task(TaskName task, const Program& program) {
   if (has_program_fault()) return;
-  if (structured_.has(task))
+  if (times_ != nullptr) times_->begin_task();
+  std::uint64_t executed = 0;
+  if (structured_.has(task)) {
     structured_.run(task, memory_.registers, memory_.program, memory_.scans, main_part_);
-  else
-    execute(program, memory_.registers, memory_.blocks, memory_.scans);
+    executed = structured_.statements();
+  } else {
+    executed = execute(program, memory_.registers, memory_.blocks, memory_.scans);
+  }
+  if (times_ != nullptr) times_->end_task(task, executed);
   apply_forces();
+}
+
+std::array<std::uint64_t, 3> PlcCore::statement_budgets() const {
+  std::array<std::uint64_t, 3> budgets{};
+  for (const auto task : {TaskName::fast, TaskName::main, TaskName::simulation})
+    if (structured_.has(task))
+      budgets[static_cast<std::size_t>(task)] =
+          static_cast<std::uint64_t>(task == TaskName::main ? main_part_ : StructuredText::most_statements);
+  return budgets;
 }
 
 void PlcCore::settle() {
@@ -355,7 +371,7 @@ void PlcCore::advance(std::uint64_t tick) {
 
 Registers PlcCore::rescanned() const {
   PlcCore copy = *this;
-  copy.set_trace(nullptr);
+  copy.scan_unseen();
   if (loaded_ && configured()) copy.settle();
   return copy.memory_.registers;
 }

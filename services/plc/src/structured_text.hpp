@@ -53,6 +53,8 @@ class StructuredText {
   /// Of the main task at most `part` statements: variables.main says whether and where it continues.
   void run(TaskName task, Registers& registers, ProgramVariables& variables, std::uint64_t now,
            std::int64_t part = most_statements);
+  /// That the last run() has executed.
+  std::uint64_t statements() const { return static_cast<std::uint64_t>(machine_->statements()); }
   /// In ms, as of the instruction list.
   std::optional<std::uint64_t> next_timer_end(std::uint64_t now) const;
   bool timer_due(std::uint64_t now) const;

@@ -9,7 +9,7 @@ import { type Live, PlcWatch } from "../plc/watch";
 import { tell } from "../state/store";
 import { text } from "../text/texts";
 import { Guard, GuardNote } from "./Guard";
-import { PlcTrace } from "./PlcTrace";
+import { PlcTools } from "./PlcTools";
 import { ask } from "./Question";
 
 const mostShown = 100;
@@ -241,7 +241,7 @@ export function PlcView({ close }: { close: () => void }) {
       )}
       <VariableList variables={variables.value} />
       <Watched live={live} forces={forces.value} />
-      <PlcTrace paths={chosen.value} />
+      <PlcTools paths={chosen.value} />
     </main>
   );
 }
