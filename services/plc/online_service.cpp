@@ -216,7 +216,7 @@ void OnlineService::start_compiling() {
   next.changes = (sources_.stored ? sources_.stored->changes : 0) + 1;
   next.active = load_.files(), next.previous = sources_.files;
   const bool simulated = node_.options().machine.simulated();
-  worker_ = std::async(std::launch::async, [next, simulated, running = values_.variables(), store = store_] {
+  worker_ = std::async(std::launch::async, [next, simulated, running = RunningSources{values_.variables(), modbus_}, store = store_] {
     use_ordinary_scheduling();
     auto result = translated(next.active, simulated, running);
     try {
@@ -244,6 +244,7 @@ std::string OnlineService::take_over(const Request& request) {
   now.active = load_.files(), now.previous = sources_.files;
   sources_.files = now.active, sources_.directory.clear(), sources_.stored = std::move(now);
   core_.take_over(load_.programs(), load_.change());
+  modbus_ = load_.modbus();
   values_.replace(load_.programs().variables, core_);
   task_times_.reset();
   load_.end();

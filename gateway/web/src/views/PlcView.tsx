@@ -9,6 +9,7 @@ import { type Live, PlcWatch } from "../plc/watch";
 import { tell } from "../state/store";
 import { text } from "../text/texts";
 import { Guard, GuardNote } from "./Guard";
+import { PlcLoad } from "./PlcLoad";
 import { PlcTools } from "./PlcTools";
 import { ask } from "./Question";
 
@@ -206,6 +207,7 @@ export function PlcView({ close }: { close: () => void }) {
   const forces = useSignal<PlcForces | null>(null);
   const problem = useSignal("");
   const shownInSource = useSignal<string[]>([]);
+  const changes = useSignal(false);
   const watch = useMemo(() => new PlcWatch(), []);
   useEffect(() => () => watch.close(), []);
   useEffect(() => {
@@ -232,9 +234,12 @@ export function PlcView({ close }: { close: () => void }) {
       <section class="setup-keys" aria-label={t.plcPrograms}>
         <button onClick={close}>{t.plcBack}</button>
         <h2>{t.plcPrograms}</h2>
+        <button aria-pressed={changes.value} disabled={!programs.value} onClick={() => (changes.value = !changes.value)}>{t.plcLoad}</button>
         {(problem.value || watch.problem.value) && <span class="refusal" role="status">{problem.value || watch.problem.value}</span>}
       </section>
-      {programs.value ? (
+      {programs.value && changes.value ? (
+        <PlcLoad programs={programs.value} close={() => (changes.value = false)} />
+      ) : programs.value ? (
         <Source programs={programs.value} paths={paths} live={live} watch={(list) => (shownInSource.value = list)} />
       ) : (
         <section class="plc-source dim" aria-label={t.plcSource}>{t.loading}</section>
