@@ -1,13 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 // New programs for the PLC: which files, and what the PLC says of them.
+import type { PlcPrograms } from "../contract";
+import type { Source } from "./source";
 
 /** Files of a directory with programs, as the PLC takes them. */
 export const isSource = (name: string): boolean =>
   (name.endsWith(".st") && !name.endsWith("_test.st")) || name.endsWith(".xml") || ["fast.il", "main.il", "devices.yaml", "modbus.yaml"].includes(name);
 
-export interface SourceFile {
-  name: string;
-  text: string;
+/** The texts of the programs that run. */
+export const runningSources = (programs: PlcPrograms): Promise<Source[]> =>
+  Promise.all(
+    programs.files.map(async ({ name }) => {
+      const answer = await fetch(`/api/plc/programs/${encodeURIComponent(name)}`);
+      return { name, text: answer.ok ? await answer.text() : "" };
+    }),
+  );
+
+export interface SourceFile extends Source {
   /** What runs under this name; undefined: nothing. */
   running: string | undefined;
 }

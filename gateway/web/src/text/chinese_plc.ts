@@ -58,4 +58,10 @@ export const chinesePlc: Pick<Texts, keyof typeof englishPlc> = {
   plcTakenOver: "新程序正在运行。",
   plcNoSource: (name) => `${name} 不是 PLC 源文件：可用 .st（非 _test.st）、.xml、fast.il、main.il、devices.yaml 和 modbus.yaml`,
   plcComparing: (scans, differences) => `两者使用相同输入运行：已比较 ${scans} 次扫描，${differences} 处差异`,
+  plcUses: "引用",
+  plcWrites: "写入",
+  plcNotUsed: "没有结构化文本源程序行引用它。",
+  plcSimulator: "输入",
+  plcNoDevices: "程序没有引用输入位，机床也没有仿真设备。",
+  plcSwitch: (name) => `切换 ${name}`,
 };

@@ -56,4 +56,10 @@ export const englishPlc = {
   plcTakenOver: "The new programs run.",
   plcNoSource: (name: string) => `${name} is no source of a PLC: .st (not _test.st), .xml, fast.il, main.il, devices.yaml and modbus.yaml are`,
   plcComparing: (scans: number, differences: number) => `Both run with the same inputs: ${scans} scans compared, ${differences} differences`,
+  plcUses: "Uses",
+  plcWrites: "written",
+  plcNotUsed: "No line of a source in Structured Text names it.",
+  plcSimulator: "Inputs",
+  plcNoDevices: "The programs name no input bit, and the machine has no simulated devices.",
+  plcSwitch: (name: string) => `Switch ${name}`,
 };

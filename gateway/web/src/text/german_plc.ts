@@ -58,4 +58,10 @@ export const germanPlc: Pick<Texts, keyof typeof englishPlc> = {
   plcTakenOver: "Die neuen Programme laufen.",
   plcNoSource: (name) => `${name} ist keine Quelle einer SPS: .st (nicht _test.st), .xml, fast.il, main.il, devices.yaml und modbus.yaml sind es`,
   plcComparing: (scans, differences) => `Beide laufen mit denselben Eingängen: ${scans} Zyklen verglichen, ${differences} Unterschiede`,
+  plcUses: "Verwendung",
+  plcWrites: "schreibt",
+  plcNotUsed: "Keine Zeile eines Quelltexts nennt sie.",
+  plcSimulator: "Eingänge",
+  plcNoDevices: "Die Programme nennen kein Eingangsbit, und die Maschine hat keine simulierten Geräte.",
+  plcSwitch: (name) => `${name} schalten`,
 };

@@ -4,7 +4,7 @@ import { useSignal } from "@preact/signals";
 import { useEffect, useMemo, useRef } from "preact/hooks";
 import { get, post, remove } from "../api";
 import type { PlcLoad as Load, PlcPrograms } from "../contract";
-import { isSource, messageOf, type SourceFile, stateOf, withFile } from "../plc/load";
+import { isSource, messageOf, runningSources, type SourceFile, stateOf, withFile } from "../plc/load";
 import type { ProgramEditor } from "../program/editor";
 import { phrases } from "../program/phrases";
 import { language } from "../state/preferences";
@@ -15,16 +15,6 @@ import { ask } from "./Question";
 
 const period = 200;  // ms between two questions
 const comparedFor = 1000;  // scans until a take-over is offered
-
-async function runningFiles(programs: PlcPrograms): Promise<SourceFile[]> {
-  return Promise.all(
-    programs.files.map(async ({ name }) => {
-      const answer = await fetch(`/api/plc/programs/${encodeURIComponent(name)}`);
-      const content = answer.ok ? await answer.text() : "";
-      return { name, text: content, running: content };
-    }),
-  );
-}
 
 function Editor({ file, label, changed, place }: { file: SourceFile; label: string; changed: (text: string) => void; place: { line: number; column: number; text: string } | undefined }) {
   const element = useRef<HTMLDivElement>(null);
@@ -59,12 +49,14 @@ export function PlcLoad({ programs, close }: { programs: PlcPrograms; close: () 
   const place = useSignal<{ file: string; line: number; column: number; text: string } | undefined>(undefined);
   const accepts = useSignal(false);
   const busy = useSignal(false);
+  /** Counts what is chosen: the editor begins again with another text. */
+  const chosen = useSignal(0);
   const chooser = useRef<HTMLInputElement>(null);
   const phase = load.value?.phase ?? "NO_LOAD";
 
   useEffect(() => {
-    void runningFiles(programs).then((found) => {
-      files.value = found;
+    void runningSources(programs).then((found) => {
+      files.value = found.map((file) => ({ ...file, running: file.text }));
       if (!found.some(({ name }) => name === shown.peek())) shown.value = found.find(({ name }) => name === "main.st")?.name ?? found[0]?.name ?? "";
     });
   }, [programs.crc32, programs.changes]);
@@ -105,7 +97,7 @@ export function PlcLoad({ programs, close }: { programs: PlcPrograms; close: () 
       void post("/api/plc/load/take-over", { accept_differences: accepts.value }).then((answer) => {
         if (!answer.ok) return tell(answer.reason, true);
         load.value = null;
-        tell(t.plcTakenOver);
+        tell(t.plcTakenOver, false);
         close();
       });
     });
@@ -118,6 +110,7 @@ export function PlcLoad({ programs, close }: { programs: PlcPrograms; close: () 
       files.value = withFile(files.value, file.name, await file.text());
       shown.value = file.name;
     }
+    chosen.value += 1;
     drop();
   };
   const messages = useMemo(() => (load.value?.messages ?? []).map(messageOf), [load.value?.messages]);
@@ -152,7 +145,7 @@ export function PlcLoad({ programs, close }: { programs: PlcPrograms; close: () 
       </div>
       {one && (
         <Editor
-          key={one.name} file={one} label={one.name}
+          key={`${one.name} ${chosen.value}`} file={one} label={one.name}
           place={place.value?.file === one.name ? place.value : undefined}
           changed={(content) => {
             files.value = withFile(files.value, one.name, content);

@@ -207,6 +207,7 @@ export function PlcView({ close }: { close: () => void }) {
   const forces = useSignal<PlcForces | null>(null);
   const problem = useSignal("");
   const shownInSource = useSignal<string[]>([]);
+  const shownInTools = useSignal<string[]>([]);
   const changes = useSignal(false);
   const watch = useMemo(() => new PlcWatch(), []);
   useEffect(() => () => watch.close(), []);
@@ -224,9 +225,10 @@ export function PlcView({ close }: { close: () => void }) {
     const timer = setInterval(() => void look(), forcePeriod);
     return () => clearInterval(timer);
   }, []);
-  const paths = useMemo(() => new Paths(variables.value.map(({ path }) => path)), [variables.value]);
+  const all = useMemo(() => variables.value.map(({ path }) => path), [variables.value]);
+  const paths = useMemo(() => new Paths(all), [all]);
   const forcedPaths = forces.value?.values.map(({ path }) => path) ?? [];
-  const wanted = [...chosen.value, ...forcedPaths, ...shownInSource.value];
+  const wanted = [...chosen.value, ...forcedPaths, ...shownInTools.value, ...shownInSource.value];
   useEffect(() => watch.set(wanted), [wanted.join(" ")]);
   const live = watch.values.value;
   return (
@@ -245,8 +247,10 @@ export function PlcView({ close }: { close: () => void }) {
         <section class="plc-source dim" aria-label={t.plcSource}>{t.loading}</section>
       )}
       <VariableList variables={variables.value} />
-      <Watched live={live} forces={forces.value} />
-      <PlcTools paths={chosen.value} />
+      {!changes.value && <Watched live={live} forces={forces.value} />}
+      {programs.value && (
+        <PlcTools chosen={chosen.value} programs={programs.value} all={all} live={live} watch={(list) => (shownInTools.value = list)} />
+      )}
     </main>
   );
 }
