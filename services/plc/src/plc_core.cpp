@@ -65,9 +65,10 @@ void PlcCore::configure(const machine::Parameters& parameters, bool virtual_time
     axis_names_.push_back(axis.name);
   }
   spindles_ = std::min(machine::spindles(parameters).size(), spindle_count);
+  const bool continues = !configured() && memory_.tick > 0;  // what restore() has left to do counts
   period_us_ = static_cast<std::uint64_t>(parameters.integer(parameter::interpolation_cycle));
   main_part_ = parameters.integer(parameter::plc2_statements);
-  view_.changed = true;
+  view_.changed = view_.changed || !continues;
 }
 
 void PlcCore::load(Program fast, Program main, StructuredText structured) {
@@ -99,7 +100,10 @@ void PlcCore::restore(const Memory& memory) {
   memory_ = memory;
   if (!loaded_) return;
   if (!structured_.fits(memory_.program)) drop_forces_of_variables();
+  const auto before = memory_.program;
   structured_.restore(memory_.program);
+  // The same programs have seen these inputs: one scan more would be one that the machine has not asked for.
+  view_.changed = memory_.program != before || memory_.tick == 0;
 }
 
 void PlcCore::power_up(const Memory& memory) {
