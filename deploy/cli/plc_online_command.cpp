@@ -257,8 +257,8 @@ int tasks(const Common& common) {
     return 0;
   }
   const auto us = [](std::uint64_t ns) { return static_cast<double>(ns) / 1000; };
-  std::printf("%-10s %10s %10s %10s %12s %12s %12s\n", "task", "last us", "worst us", "budget us", "statements",
-              "most", "budget");
+  std::printf("%-10s %10s %10s %10s %12s %12s %12s\n", "task", "last us", "worst us", "budget us",
+              "statements", "most", "budget");
   for (const auto& time : times)
     std::printf("%-10s %10.1f %10.1f %10.0f %12llu %12llu %12s\n", time.name.c_str(), us(time.last_ns),
                 us(time.worst_ns), us(time.budget_ns), static_cast<unsigned long long>(time.statements),
@@ -302,9 +302,10 @@ void add_plc_online_commands(CLI::App& plc, Common& common) {
       "Begin when this is true: PATH=VALUE, PATH<>VALUE, PATH<VALUE, PATH>VALUE; PATH alone: when "
       "it changes (default: at once)");
   traces->add_option("--output", options->output, "File to write (default: standard output)");
-  add_command(plc, common, "tasks",
-              "How long the tasks of the PLC take: last and worst time of a scan, statements, and their limits",
-              [&common] { return tasks(common); });
+  add_command(
+      plc, common, "tasks",
+      "How long the tasks of the PLC take: last and worst time of a scan, statements, and their limits",
+      [&common] { return tasks(common); });
 }
 
 }  // namespace trunnion::cli

@@ -7,7 +7,7 @@
 namespace trunnion::plc_online {
 namespace {
 
-constexpr std::uint64_t TaskTime::* members[] = {
+constexpr std::uint64_t TaskTime::*members[] = {
     &TaskTime::runs,       &TaskTime::last_ns,         &TaskTime::worst_ns,        &TaskTime::budget_ns,
     &TaskTime::statements, &TaskTime::most_statements, &TaskTime::statement_budget};
 

@@ -16,12 +16,12 @@ inline constexpr const char* task_times_prefix = "task:";
 
 /// Times are of the computer's clock: they are never an input of the PLC and differ from run to run.
 struct TaskTime {
-  std::string name;                      ///< scan (all tasks of one scan), simulation, fast, main
-  std::uint64_t runs = 0;                ///< in how many scans it ran since the programs began
+  std::string name;        ///< scan (all tasks of one scan), simulation, fast, main
+  std::uint64_t runs = 0;  ///< in how many scans it ran since the programs began
   std::uint64_t last_ns = 0, worst_ns = 0;
-  std::uint64_t budget_ns = 0;           ///< the tasks of one scan share it
+  std::uint64_t budget_ns = 0;                        ///< the tasks of one scan share it
   std::uint64_t statements = 0, most_statements = 0;  ///< of the last scan, and the most of one scan
-  std::uint64_t statement_budget = 0;    ///< of one scan; 0: none
+  std::uint64_t statement_budget = 0;                 ///< of one scan; 0: none
   bool operator==(const TaskTime&) const = default;
 };
 

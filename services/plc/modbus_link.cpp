@@ -99,13 +99,14 @@ void ModbusLink::change(const st::ModbusFile& file) {
   file_ = file;
   inputs_ = {};
   std::erase(before, nullptr);
-  changing_ = std::async(std::launch::async, [previous = std::move(changing_), before = std::move(before), fresh]() mutable {
-    use_ordinary_scheduling();
-    if (previous.valid()) previous.wait();
-    for (const auto& connection : before) connection->stop();
-    before.clear();  // with the port of a server
-    for (auto* connection : fresh) connection->start();
-  });
+  changing_ = std::async(std::launch::async,
+                         [previous = std::move(changing_), before = std::move(before), fresh]() mutable {
+                           use_ordinary_scheduling();
+                           if (previous.valid()) previous.wait();
+                           for (const auto& connection : before) connection->stop();
+                           before.clear();  // with the port of a server
+                           for (auto* connection : fresh) connection->start();
+                         });
 }
 
 ModbusLink::~ModbusLink() {

@@ -216,17 +216,19 @@ void OnlineService::start_compiling() {
   next.changes = (sources_.stored ? sources_.stored->changes : 0) + 1;
   next.active = load_.files(), next.previous = sources_.files;
   const bool simulated = node_.options().machine.simulated();
-  worker_ = std::async(std::launch::async, [next, simulated, running = RunningSources{values_.variables(), modbus_}, store = store_] {
-    use_ordinary_scheduling();
-    auto result = translated(next.active, simulated, running);
-    try {
-      if (result.programs) store.prepare(next);
-    } catch (const storage::StorageError& e) {
-      result.programs.reset();
-      result.messages.emplace_back(e.what());
-    }
-    return result;
-  });
+  worker_ =
+      std::async(std::launch::async,
+                 [next, simulated, running = RunningSources{values_.variables(), modbus_}, store = store_] {
+                   use_ordinary_scheduling();
+                   auto result = translated(next.active, simulated, running);
+                   try {
+                     if (result.programs) store.prepare(next);
+                   } catch (const storage::StorageError& e) {
+                     result.programs.reset();
+                     result.messages.emplace_back(e.what());
+                   }
+                   return result;
+                 });
 }
 
 std::string OnlineService::take_over(const Request& request) {

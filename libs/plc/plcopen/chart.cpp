@@ -134,7 +134,8 @@ class Reader {
       if (part.kind == Kind::step) {
         steps.push_back(part.index);
       } else if (part.kind == Kind::transition || part.kind == Kind::selection_convergence) {
-        return document_.error(transition.node, "two transitions follow each other; a step is missing between them");
+        return document_.error(transition.node,
+                               "two transitions follow each other; a step is missing between them");
       } else if ((part.kind != Kind::selection_divergence && part.kind != Kind::simultaneous_convergence) ||
                  depth == deepest_element) {
         return document_.error(transition.node, "the transition is not connected with a step before it");
@@ -152,7 +153,8 @@ class Reader {
         auto& after = chart_.transitions[part.index].after;
         if (std::find(after.begin(), after.end(), target) == after.end()) after.push_back(target);
       } else if (part.kind == Kind::step || part.kind == Kind::simultaneous_convergence) {
-        return document_.error(step.node, "two steps follow each other; a transition is missing between them");
+        return document_.error(step.node,
+                               "two steps follow each other; a transition is missing between them");
       } else if ((part.kind != Kind::selection_convergence && part.kind != Kind::simultaneous_divergence) ||
                  depth == deepest_element) {
         return document_.error(step.node, "the step is not connected with a transition before it");
@@ -212,9 +214,10 @@ class Reader {
       auto& count = initial[root(s)];
       if (count == 1) continue;
       document_.error(chart_.steps[s].node,
-                      count == 0 ? "the network of the step '" + chart_.steps[s].name + "' has no initial step"
-                                 : "the network of the step '" + chart_.steps[s].name +
-                                       "' has " + std::to_string(count) + " initial steps; one is allowed");
+                      count == 0
+                          ? "the network of the step '" + chart_.steps[s].name + "' has no initial step"
+                          : "the network of the step '" + chart_.steps[s].name + "' has " +
+                                std::to_string(count) + " initial steps; one is allowed");
       count = 1;  // it is said once
     }
     for (const auto& transition : chart_.transitions)

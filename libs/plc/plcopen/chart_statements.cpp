@@ -69,7 +69,8 @@ class Writer {
     std::size_t inlined = 0;
     for (const auto& one : chart_.associations) {
       if (one.action.empty()) {
-        all.push_back({"action_" + std::to_string(++inlined), one.node, {&one}, false, body_statements_(one.body)});
+        all.push_back(
+            {"action_" + std::to_string(++inlined), one.node, {&one}, false, body_statements_(one.body)});
         continue;
       }
       const auto upper = upper_case(one.action);
@@ -117,8 +118,10 @@ class Writer {
     if (const auto when = active(action, "P"); !when.empty()) terms.push_back(edge("_pulse", "R_TRIG", when));
     timed(action, latch, terms);
     std::vector<std::string> pulses;
-    if (const auto when = active(action, "P1"); !when.empty()) pulses.push_back(edge("_entry", "R_TRIG", when));
-    if (const auto when = active(action, "P0"); !when.empty()) pulses.push_back(edge("_exit", "F_TRIG", when));
+    if (const auto when = active(action, "P1"); !when.empty())
+      pulses.push_back(edge("_entry", "R_TRIG", when));
+    if (const auto when = active(action, "P0"); !when.empty())
+      pulses.push_back(edge("_exit", "F_TRIG", when));
 
     const auto is_active = declare(action.name + "_active", "BOOL", node);
     const auto any = [](const std::vector<std::string>& list, std::string text) {
@@ -130,7 +133,8 @@ class Writer {
     append(statements_, own("@define", TokenKind::symbol, node));
     append(statements_, runs);
     write(" := " + any(pulses, action.is_variable ? "FALSE" : is_active) + ";", node);
-    write(is_active + " := " + (reset.empty() ? "" : "NOT " + reset + " AND ") + "(" + any(terms, terms.empty() ? "FALSE" : "") + ");",
+    write(is_active + " := " + (reset.empty() ? "" : "NOT " + reset + " AND ") + "(" +
+              any(terms, terms.empty() ? "FALSE" : "") + ");",
           node);
     if (action.is_variable) {
       append(executions_, words(action.name + " := " + is_active + " OR ", node));
@@ -242,8 +246,8 @@ class Writer {
 
 }  // namespace
 
-ChartBody chart_body(Document& document, const Chart& chart, const ChartParts& parts, std::set<std::string>& names,
-                     const std::function<Tokens(Node)>& statements) {
+ChartBody chart_body(Document& document, const Chart& chart, const ChartParts& parts,
+                     std::set<std::string>& names, const std::function<Tokens(Node)>& statements) {
   return Writer(document, chart, parts, names, statements).run();
 }
 

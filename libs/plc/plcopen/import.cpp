@@ -130,7 +130,8 @@ class Import {
     for (const auto node : children(language)) {
       const auto name = attribute(node, "name");
       place(node, pou_ + ", " + std::string(local_name(node)) +
-                      (local_name(node) == "step" ? " '" + name + "'" : " with localId " + attribute(node, "localId")));
+                      (local_name(node) == "step" ? " '" + name + "'"
+                                                  : " with localId " + attribute(node, "localId")));
     }
     if (document_.diagnostics().errors() > before) return;
     const auto statements = [&](Node body) {

@@ -25,7 +25,8 @@ struct ChartText {
   static std::string point(const std::vector<int>& from) {
     std::string text;
     for (const int id : from)
-      text += "<connectionPointIn><connection refLocalId=\"" + std::to_string(id) + "\"/></connectionPointIn>";
+      text +=
+          "<connectionPointIn><connection refLocalId=\"" + std::to_string(id) + "\"/></connectionPointIn>";
     return text;
   }
   void add(const std::string& kind, int id, const std::string& attributes, const std::vector<int>& from,
@@ -45,11 +46,14 @@ struct ChartText {
         "<condition><inline name=\"\">" + st(condition) + "</inline></condition>", x);
   }
   void action(int id, int step, const std::string& actions) {
-    text += "<actionBlock localId=\"" + std::to_string(id) + "\">" + point({step}) + actions + "</actionBlock>\n";
+    text +=
+        "<actionBlock localId=\"" + std::to_string(id) + "\">" + point({step}) + actions + "</actionBlock>\n";
   }
-  static std::string named(const std::string& qualifier, const std::string& name, const std::string& duration = "") {
-    return "<action qualifier=\"" + qualifier + "\"" + (duration.empty() ? "" : " duration=\"" + duration + "\"") +
-           "><reference name=\"" + name + "\"/></action>";
+  static std::string named(const std::string& qualifier, const std::string& name,
+                           const std::string& duration = "") {
+    return "<action qualifier=\"" + qualifier + "\"" +
+           (duration.empty() ? "" : " duration=\"" + duration + "\"") + "><reference name=\"" + name +
+           "\"/></action>";
   }
   std::string body() const { return "<SFC>\n" + text + "</SFC>"; }
 
@@ -187,9 +191,12 @@ TEST(Chart, AnActionIsExecutedOnceMoreAfterItsStepAndP1AndP0OnceEach) {
   chart.transition(2, "a", {1});
   chart.step(3, "work", {2});
   chart.transition(4, "NOT a", {3});
-  chart.action(5, 3, ChartText::named("N", "count") + ChartText::named("P1", "entry") + ChartText::named("P0", "leave"));
-  Loaded logic(program(chart, {{"a", "<BOOL/>"}, {"n", "<INT/>"}, {"ins", "<INT/>"}, {"outs", "<INT/>"}},
-                       actions({{"count", "n := n + 1;"}, {"entry", "ins := ins + 1;"}, {"leave", "outs := outs + 1;"}})));
+  chart.action(
+      5, 3,
+      ChartText::named("N", "count") + ChartText::named("P1", "entry") + ChartText::named("P0", "leave"));
+  Loaded logic(program(
+      chart, {{"a", "<BOOL/>"}, {"n", "<INT/>"}, {"ins", "<INT/>"}, {"outs", "<INT/>"}},
+      actions({{"count", "n := n + 1;"}, {"entry", "ins := ins + 1;"}, {"leave", "outs := outs + 1;"}})));
   logic.set("a", true);
   logic.scan(6);  // the first one takes the transition, five have the step
   EXPECT_EQ(logic.get("n"), "5");
@@ -249,8 +256,10 @@ TEST(Chart, WrongOnesSayWhichElement) {
               HasSubstr("the network of the step 'rest' has 2 initial steps; one is allowed"));
   EXPECT_THAT(with([](ChartText& c) { c.step(7, "third", {3}); }),
               HasSubstr("two steps follow each other; a transition is missing"));
-  EXPECT_THAT(with([](ChartText& c) { c.transition(7, "a", {2}); }), HasSubstr("two transitions follow each other"));
-  EXPECT_THAT(with([](ChartText& c) { c.transition(7, "a", {3}); }), HasSubstr("no step follows the transition"));
+  EXPECT_THAT(with([](ChartText& c) { c.transition(7, "a", {2}); }),
+              HasSubstr("two transitions follow each other"));
+  EXPECT_THAT(with([](ChartText& c) { c.transition(7, "a", {3}); }),
+              HasSubstr("no step follows the transition"));
   EXPECT_THAT(with([](ChartText& c) { c.add("jumpStep", 7, "targetName=\"none\"", {4}); }),
               HasSubstr("there is no step 'none'"));
   EXPECT_THAT(with([](ChartText& c) { c.action(7, 3, ChartText::named("X", "q")); }),
@@ -262,10 +271,12 @@ TEST(Chart, WrongOnesSayWhichElement) {
   EXPECT_THAT(with([](ChartText& c) { c.action(7, 3, ChartText::named("N", "none")); }),
               HasSubstr("there is no variable 'none'"));
   EXPECT_THAT(with([](ChartText& c) {
-                c.action(7, 3, ChartText::named("D", "q", "T#1s")), c.action(8, 1, ChartText::named("L", "q", "T#1s"));
+                c.action(7, 3, ChartText::named("D", "q", "T#1s")),
+                    c.action(8, 1, ChartText::named("L", "q", "T#1s"));
               }),
               HasSubstr("the action 'q' has two qualifiers with a duration"));
-  const auto message = with([](ChartText& c) { c.transition(7, "n", {3}), c.add("jumpStep", 8, "targetName=\"rest\"", {7}); });
+  const auto message =
+      with([](ChartText& c) { c.transition(7, "n", {3}), c.add("jumpStep", 8, "targetName=\"rest\"", {7}); });
   EXPECT_THAT(message, HasSubstr("INT"));
   EXPECT_THAT(message, HasSubstr("(POU 'main', transition with localId 7)"));
   EXPECT_THAT(with([](ChartText& c) { c.add("macroStep", 7, "name=\"m\"", {}); }),
@@ -289,7 +300,8 @@ struct Model {
   };
   std::size_t steps = 0;
   std::vector<Transition> transitions;
-  std::vector<std::vector<Association>> actions;  // the last one counts its executions, the others are variables
+  std::vector<std::vector<Association>>
+      actions;  // the last one counts its executions, the others are variables
 };
 constexpr std::size_t inputs = 3, variables_count = 3;
 
@@ -307,18 +319,22 @@ Model random_model(std::mt19937& random) {
   };
   const auto count = model.steps + below(4);
   for (std::size_t t = 0; t < count; ++t) {
-    Model::Transition one{some(), some(), below(inputs), below(2) == 0, below(3) == 0 ? int(1 + below(3)) : 0,
-                          double(below(5))};
+    Model::Transition one{
+        some(),          some(), below(inputs), below(2) == 0, below(3) == 0 ? int(1 + below(3)) : 0,
+        double(below(5))};
     // A chain through all steps, so that they are one network.
     if (t + 1 < model.steps) one.before = {t}, one.after = {t + 1};
     model.transitions.push_back(one);
   }
-  static const std::vector<std::string> qualifiers = {"N", "N", "S", "R", "L", "D", "P", "P0", "P1", "SD", "DS", "SL"};
+  static const std::vector<std::string> qualifiers = {"N", "N",  "S",  "R",  "L",  "D",
+                                                      "P", "P0", "P1", "SD", "DS", "SL"};
   for (std::size_t a = 0; a <= variables_count; ++a) {
     auto& action = model.actions.emplace_back();
     for (std::size_t i = 0; i < 1 + below(4); ++i) {
-      Association one{below(model.steps), qualifiers[below(qualifiers.size())], std::int64_t(below(5)) * period};
-      const bool has_timed = std::any_of(action.begin(), action.end(), [](const auto& other) { return is_timed(other.qualifier); });
+      Association one{below(model.steps), qualifiers[below(qualifiers.size())],
+                      std::int64_t(below(5)) * period};
+      const bool has_timed = std::any_of(action.begin(), action.end(),
+                                         [](const auto& other) { return is_timed(other.qualifier); });
       if (is_timed(one.qualifier) && has_timed) continue;
       action.push_back(one);
     }
@@ -329,8 +345,10 @@ Model random_model(std::mt19937& random) {
 std::string xml_of(const Model& model) {
   ChartText chart;
   const auto id = [](const char* kind, std::size_t i) {
-    static const std::vector<std::string> kinds = {"step", "transition", "joined", "split", "chosen", "merged", "block"};
-    return static_cast<int>(i + 1 + 1000 * static_cast<std::size_t>(std::find(kinds.begin(), kinds.end(), kind) - kinds.begin()));
+    static const std::vector<std::string> kinds = {"step",   "transition", "joined", "split",
+                                                   "chosen", "merged",     "block"};
+    return static_cast<int>(
+        i + 1 + 1000 * static_cast<std::size_t>(std::find(kinds.begin(), kinds.end(), kind) - kinds.begin()));
   };
   std::vector<std::size_t> leaving(model.steps);
   for (const auto& t : model.transitions)
@@ -344,10 +362,12 @@ std::string xml_of(const Model& model) {
     }
     // The last one by a jump, where there are several.
     if (from.size() > 1 && s % 2 == 0) {
-      chart.add("jumpStep", 9000 + static_cast<int>(s), "targetName=\"s" + std::to_string(s) + "\"", {from.back()});
+      chart.add("jumpStep", 9000 + static_cast<int>(s), "targetName=\"s" + std::to_string(s) + "\"",
+                {from.back()});
       from.pop_back();
     }
-    if (from.size() > 1) chart.add("selectionConvergence", id("merged", s), "", from), from = {id("merged", s)};
+    if (from.size() > 1)
+      chart.add("selectionConvergence", id("merged", s), "", from), from = {id("merged", s)};
     chart.step(id("step", s), "s" + std::to_string(s), from, s == 0);
     if (leaving[s] > 1) chart.add("selectionDivergence", id("chosen", s), "", {id("step", s)});
   }
@@ -355,7 +375,8 @@ std::string xml_of(const Model& model) {
     const auto& one = model.transitions[t];
     std::vector<int> from;
     for (const auto s : one.before) from.push_back(id(leaving[s] > 1 ? "chosen" : "step", s));
-    if (from.size() > 1) chart.add("simultaneousConvergence", id("joined", t), "", from), from = {id("joined", t)};
+    if (from.size() > 1)
+      chart.add("simultaneousConvergence", id("joined", t), "", from), from = {id("joined", t)};
     chart.transition(id("transition", t), (one.negated ? "NOT i" : "i") + std::to_string(one.input), from,
                      one.priority > 0 ? "priority=\"" + std::to_string(one.priority) + "\"" : "", one.x);
     if (one.after.size() > 1) chart.add("simultaneousDivergence", id("split", t), "", {id("transition", t)});
@@ -363,9 +384,10 @@ std::string xml_of(const Model& model) {
   int block = 0;
   for (std::size_t a = 0; a < model.actions.size(); ++a)
     for (const auto& one : model.actions[a])
-      chart.action(id("block", static_cast<std::size_t>(block++)), id("step", one.step),
-                   ChartText::named(one.qualifier, a < variables_count ? "v" + std::to_string(a) : "count",
-                                    is_timed(one.qualifier) ? "T#" + std::to_string(one.duration) + "ms" : ""));
+      chart.action(
+          id("block", static_cast<std::size_t>(block++)), id("step", one.step),
+          ChartText::named(one.qualifier, a < variables_count ? "v" + std::to_string(a) : "count",
+                           is_timed(one.qualifier) ? "T#" + std::to_string(one.duration) + "ms" : ""));
   std::vector<std::pair<std::string, std::string>> list = {{"n", "<INT/>"}};
   for (std::size_t i = 0; i < inputs; ++i) list.emplace_back("i" + std::to_string(i), "<BOOL/>");
   for (std::size_t a = 0; a < variables_count; ++a) list.emplace_back("v" + std::to_string(a), "<BOOL/>");
@@ -374,7 +396,13 @@ std::string xml_of(const Model& model) {
 
 class Evaluator {
  public:
-  explicit Evaluator(const Model& model) : model_(model), active(model.steps), since(model.steps), time(model.steps), values(variables_count), actions_(model.actions.size()) {
+  explicit Evaluator(const Model& model)
+      : model_(model),
+        active(model.steps),
+        since(model.steps),
+        time(model.steps),
+        values(variables_count),
+        actions_(model.actions.size()) {
     active[0] = true;
   }
 
@@ -391,15 +419,20 @@ class Evaluator {
     std::vector<std::size_t> order(model_.transitions.size());
     for (std::size_t t = 0; t < order.size(); ++t) order[t] = t;
     std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-      const auto key = [&](const Model::Transition& t) { return std::pair(t.priority > 0 ? t.priority : 1000, t.x); };
+      const auto key = [&](const Model::Transition& t) {
+        return std::pair(t.priority > 0 ? t.priority : 1000, t.x);
+      };
       return key(model_.transitions[a]) < key(model_.transitions[b]);
     });
     std::vector<bool> claimed(model_.steps), next = active;
     std::vector<std::size_t> taken;
     for (const auto t : order) {
       const auto& one = model_.transitions[t];
-      const auto all = [&](const auto& holds) { return std::all_of(one.before.begin(), one.before.end(), holds); };
-      if (!all([&](std::size_t s) { return active[s] && !claimed[s]; }) || in[one.input] == one.negated) continue;
+      const auto all = [&](const auto& holds) {
+        return std::all_of(one.before.begin(), one.before.end(), holds);
+      };
+      if (!all([&](std::size_t s) { return active[s] && !claimed[s]; }) || in[one.input] == one.negated)
+        continue;
       for (const auto s : one.before) claimed[s] = true, next[s] = false;
       taken.push_back(t);
     }
@@ -486,7 +519,8 @@ TEST(Chart, RandomOnesDoWhatTheRulesSay) {
       for (std::size_t s = 0; s < model.steps; ++s) {
         const auto name = "s" + std::to_string(s);
         ASSERT_EQ(logic.is(name + ".X"), evaluator.active[s]) << name << " in scan " << scan;
-        ASSERT_EQ(logic.get(name + ".T"), "T#" + std::to_string(evaluator.time[s]) + "ms") << name << " in scan " << scan;
+        ASSERT_EQ(logic.get(name + ".T"), "T#" + std::to_string(evaluator.time[s]) + "ms")
+            << name << " in scan " << scan;
       }
       for (std::size_t a = 0; a < variables_count; ++a)
         ASSERT_EQ(logic.is("v" + std::to_string(a)), evaluator.values[a]) << "v" << a << " in scan " << scan;
@@ -495,7 +529,8 @@ TEST(Chart, RandomOnesDoWhatTheRulesSay) {
       before = evaluator.active;
     }
   }
-  // Of 12000 scans; a chart that waits for an input that changes at random moves in every second one or fewer.
+  // Of 12000 scans; a chart that waits for an input that changes at random moves in every second one or
+  // fewer.
   EXPECT_GT(moved, 2000) << "the charts hardly move: the test shows little";
 }
 

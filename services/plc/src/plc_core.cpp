@@ -102,8 +102,9 @@ void PlcCore::restore(const Memory& memory) {
   if (!structured_.fits(memory_.program)) drop_forces_of_variables();
   const auto before = memory_.program;
   structured_.restore(memory_.program);
-  // The same programs have seen these inputs: one scan more would be one that the machine has not asked for.
-  view_.changed = memory_.program != before || memory_.tick == 0;
+  // The same programs have seen these inputs: one scan more would be one that nobody has asked for.
+  // Instruction lists have no identity.
+  view_.changed = memory_.program != before || memory_.tick == 0 || memory_.program.cells == 0;
 }
 
 void PlcCore::power_up(const Memory& memory) {
@@ -356,6 +357,7 @@ void PlcCore::settle() {
     scan(true, true);
     if (memory_.registers == before && memory_.program == settling_) break;
   }
+  structured_.set_run(memory_.program);
 }
 
 void PlcCore::advance(std::uint64_t tick) {

@@ -23,7 +23,8 @@ std::string ProgramLoad::write(const std::string& name, std::string_view data) {
   if (phase_ != Phase::WRITING) return "no load has begun, or its sources are complete; begin a load";
   if (!st::is_source(name) || name.find('/') != std::string::npos)
     return "'" + name +
-           "': sources are .st files (not *_test.st), .xml files, fast.il, main.il, devices.yaml and modbus.yaml";
+           "': sources are .st files (not *_test.st), .xml files, fast.il, main.il, devices.yaml and "
+           "modbus.yaml";
   auto found =
       std::find_if(files_.begin(), files_.end(), [&](const auto& file) { return file.name == name; });
   if (found == files_.end()) {
@@ -105,7 +106,8 @@ Translated translated(const SourceFiles& files, bool simulated, const RunningSou
     result.messages = programs.warnings;
     result.messages.insert(result.messages.end(), result.change.losses().begin(),
                            result.change.losses().end());
-    for (auto& line : st::changes_of(running.modbus, result.modbus)) result.messages.push_back(std::move(line));
+    for (auto& line : st::changes_of(running.modbus, result.modbus))
+      result.messages.push_back(std::move(line));
     result.programs = std::move(programs);
   } catch (const std::runtime_error& e) {
     std::istringstream lines(e.what());

@@ -20,13 +20,12 @@ void TaskTimes::end_task(TaskName task, std::uint64_t statements) {
 
 void TaskTimes::end_scan() { scan_.add(clock_() - scan_begin_, scan_statements_); }
 
-std::vector<plc_online::TaskTime> TaskTimes::shown(
-    const std::array<std::uint64_t, 3>& budgets) const {
+std::vector<plc_online::TaskTime> TaskTimes::shown(const std::array<std::uint64_t, 3>& budgets) const {
   std::vector<plc_online::TaskTime> times;
   const auto show = [&](const char* name, const Use& use, std::uint64_t budget) {
     if (use.runs > 0)
-      times.push_back({name, use.runs, use.last, use.worst, scan_period_ns, use.statements,
-                       use.most_statements, budget});
+      times.push_back(
+          {name, use.runs, use.last, use.worst, scan_period_ns, use.statements, use.most_statements, budget});
   };
   const auto show_task = [&](const char* name, TaskName task) {
     const auto i = static_cast<std::size_t>(task);

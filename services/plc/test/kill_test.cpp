@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A PLC that is killed in any scan, before or after it has kept its memory, repeats no output: the machine sees the
-// outputs of one that was not killed.
+// A PLC that is killed in any scan, before or after it has kept its memory, repeats no output: the machine
+// sees the outputs of one that was not killed.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -12,8 +12,8 @@
 namespace trunnion::plc {
 namespace {
 
-// Pulses, a counter, a timer, stored bits, and a main task that needs several scans: each would be repeated, or lost,
-// by a PLC that forgets a part of its state.
+// Pulses, a counter, a timer, stored bits, and a main task that needs several scans: each would be repeated,
+// or lost, by a PLC that forgets a part of its state.
 constexpr const char* pulsing_fast =
     "PROGRAM fast\n"
     "VAR scans : UDINT; clock : R_TRIG; wait : TON; pulses : CTU; END_VAR\n"
@@ -88,7 +88,8 @@ TEST(Kill, InAnyScanRepeatsNoOutput) {
       }
       for (tick = killed; tick <= rounds; ++tick) {
         core.advance(tick);
-        ASSERT_EQ(seen(core), expected[tick - 1]) << "at " << tick << ", killed at " << killed << (kept ? " after" : " before") << " the memory was kept";
+        ASSERT_EQ(seen(core), expected[tick - 1]) << "at " << tick << ", killed at " << killed
+                                                  << (kept ? " after" : " before") << " the memory was kept";
       }
     }
   remove();
@@ -126,7 +127,8 @@ TEST(Kill, AFunctionIsCarriedOutOnceHoweverOftenThePlcIsKilled) {
     second.set_request(request);  // the channel asks until it is answered: the topic is a state
     for (std::uint64_t tick = killed + 1; tick <= 60; ++tick) round(second, tick);
     EXPECT_EQ(second.memory().registers.w[50], 1) << "killed at " << killed;
-    // An answer may be given again, because the one before may be lost; it is always that to the same request.
+    // An answer may be given again, because the one before may be lost; it is always that to the same
+    // request.
     ASSERT_FALSE(done.empty()) << "killed at " << killed;
     for (const auto& one : done) EXPECT_EQ(one.number, 1u);
   }

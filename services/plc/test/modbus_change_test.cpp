@@ -17,8 +17,9 @@ std::string device_text(const std::string& name, int port, int address, int at) 
          "}\n    outputs:\n      - {table: coils, address: 0, count: 8, at: Y" + std::to_string(at) + "}\n";
 }
 std::string server_text(int port, int address) {
-  return "server:\n  port: " + std::to_string(port) + "\n  inputs:\n    - {table: coils, address: " +
-         std::to_string(address) + ", count: 8, at: X60}\n  outputs:\n    - {table: discrete_inputs, address: " +
+  return "server:\n  port: " + std::to_string(port) +
+         "\n  inputs:\n    - {table: coils, address: " + std::to_string(address) +
+         ", count: 8, at: X60}\n  outputs:\n    - {table: discrete_inputs, address: " +
          std::to_string(address) + ", count: 8, at: R9}\n";
 }
 st::ModbusFile read(const std::string& yaml) { return st::read_modbus(yaml, "modbus.yaml"); }
@@ -82,7 +83,9 @@ TEST(ModbusChange, ConnectionsThatBothFilesHaveGoOnAndOthersBeginAndEnd) {
 TEST(ModbusChange, DoesNotWaitForADeviceThatIsSilent) {
   const int port = free_port();
   Device device(port);
-  device.spoil = [](const Bytes&) { return Bytes(); };  // never an answer: the thread waits for its time limit
+  device.spoil = [](const Bytes&) {
+    return Bytes();
+  };  // never an answer: the thread waits for its time limit
   const auto text = device_text("slow", port, 0, 32);
   Plc plc(read("devices:\n" + text));
   usleep(50000);
@@ -106,7 +109,8 @@ TEST(ModbusChange, ThreadsAndScanShareOnlyWhatTheLockProtects) {
     for (unsigned n = 0; !ends; ++n) {
       Asking client(port);
       for (unsigned i = 0; i < 20 && client.connected() && !ends; ++i)
-        client.ask({5, 0, static_cast<std::uint8_t>(i % 8), static_cast<std::uint8_t>(n % 2 == 0 ? 0xff : 0), 0});
+        client.ask(
+            {5, 0, static_cast<std::uint8_t>(i % 8), static_cast<std::uint8_t>(n % 2 == 0 ? 0xff : 0), 0});
     }
   });
   std::thread changes([&] {
@@ -114,9 +118,11 @@ TEST(ModbusChange, ThreadsAndScanShareOnlyWhatTheLockProtects) {
   });
   // The scan: outputs change, inputs are read, the file changes now and then.
   for (int scan = 0; scan < 600; ++scan) {
-    plc.registers.y[32] = static_cast<std::uint8_t>(scan), plc.registers.r[9] = static_cast<std::uint8_t>(scan);
+    plc.registers.y[32] = static_cast<std::uint8_t>(scan),
+    plc.registers.r[9] = static_cast<std::uint8_t>(scan);
     plc.link.exchange(plc.registers);
-    for (std::size_t b = 0; b < register_count; ++b) plc.registers.x[b] = plc.link.inputs().in(plc.registers.x[b], b);
+    for (std::size_t b = 0; b < register_count; ++b)
+      plc.registers.x[b] = plc.link.inputs().in(plc.registers.x[b], b);
     for (std::size_t i = 0; i < plc.link.connections(); ++i) (void)plc.link.problem(i).size();
     if (scan % 200 == 199) plc.link.change(read("devices:\n" + one + server_text(port, scan)));
     usleep(1000);

@@ -10,8 +10,9 @@ namespace {
 
 using testing::HasSubstr;
 
-const std::string pump = "devices:\n  pump:\n    host: 127.0.0.1\n    inputs:\n"
-                         "      - {table: coils, address: 0, count: 1, at: X32}\n";
+const std::string pump =
+    "devices:\n  pump:\n    host: 127.0.0.1\n    inputs:\n"
+    "      - {table: coils, address: 0, count: 1, at: X32}\n";
 
 ProgramLoad loaded(Running& plc, const std::string& modbus, const st::ModbusFile& running) {
   ProgramLoad load;
@@ -53,10 +54,11 @@ TEST(ModbusLoad, SaysBeforeWhichConnectionsBeginAndEnd) {
                 "Modbus: the device 'pump' is no longer asked; its inputs keep their last values"}));
   auto other = pump;
   other.replace(other.find("count: 1"), 8, "count: 2");
-  EXPECT_EQ(messages(other + "server:\n  outputs:\n    - {table: discrete_inputs, address: 0, count: 1, at: Y0}\n",
-                     running),
-            (std::vector<std::string>{"Modbus: the device 'pump' changes: it is connected anew",
-                                      "Modbus: the server is new"}));
+  EXPECT_EQ(
+      messages(other + "server:\n  outputs:\n    - {table: discrete_inputs, address: 0, count: 1, at: Y0}\n",
+               running),
+      (std::vector<std::string>{"Modbus: the device 'pump' changes: it is connected anew",
+                                "Modbus: the server is new"}));
 }
 
 }  // namespace

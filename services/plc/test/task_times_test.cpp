@@ -50,8 +50,10 @@ TEST(TaskTimes, HaveTheLastAndTheWorstOfEachTaskAndOfTheScan) {
 
 TEST(TaskTimes, CountTheStatementsOfAScanOfStructuredText) {
   TaskTimes times(ticking);
-  // A loop of 300 assignments with a test of its end each: 200 statements in one scan, the rest in the next ones.
-  Running running("PROGRAM main\nVAR i, s : INT; END_VAR\nFOR i := 1 TO 300 DO s := s + 1; END_FOR;\nEND_PROGRAM\n");
+  // A loop of 300 assignments with a test of its end each: 200 statements in one scan, the rest in the next
+  // ones.
+  Running running(
+      "PROGRAM main\nVAR i, s : INT; END_VAR\nFOR i := 1 TO 300 DO s := s + 1; END_FOR;\nEND_PROGRAM\n");
   auto parameters = axis_parameters();
   parameters.values[2] = {200, ""};
   running.core.configure(parameters, true);
