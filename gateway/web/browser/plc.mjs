@@ -69,6 +69,23 @@ async function english(browser, url) {
   check(`the scan has its last and worst time and its limit ${whole}`, Number(whole[1]) > 0 && Number(whole[2]) >= Number(whole[1]) && whole[3] === "1000");
   for (const [what, found] of [["nothing is cut", await overflowing(page)], ["touch targets of 48 px", await smallTargets(page)], ["axe-core", await inaccessible(page)]])
     check(`task times: ${what} ${found}`, found.length === 0);
+  await page.getByRole("button", { name: "Uses", exact: true }).click();
+  const used = page.getByRole("region", { name: "Uses" }).last().getByRole("row");
+  await used.filter({ hasText: "written" }).filter({ hasText: "speed :=" }).first().waitFor();
+  check("the cross reference has the line that writes a variable", true);
+  await page.getByRole("button", { name: "Inputs", exact: true }).click();
+  const key = page.getByRole("switch", { name: "Switch feed_hold_button" });
+  await key.click();
+  await page.getByRole("switch", { name: "Switch feed_hold_button", checked: true }).waitFor();
+  await eventually("the input is forced", async () => (await forces(url)).includes("%X0.2"));
+  for (const [what, found] of [["nothing is cut", await overflowing(page)], ["touch targets of 48 px", await smallTargets(page)], ["axe-core", await inaccessible(page)]])
+    check(`inputs: ${what} ${found}`, found.length === 0);
+  await shot(page, "plc-inputs");
+  await key.click();
+  await page.getByRole("switch", { name: "Switch feed_hold_button", checked: false }).waitFor();
+  await page.getByRole("button", { name: "Release feed_hold_button" }).click();
+  await eventually("and released", async () => (await forces(url)).length === 0);
+  check("an input is switched by hand and given back", true);
   await page.getByRole("button", { name: "Trace", exact: true }).click();
   await load(page, url);
   await page.getByRole("button", { name: "Registers and services" }).click();

@@ -67,9 +67,20 @@ END_FUNCTION_BLOCK
 
 test("inputs are those that sources and devices name", () => {
   const text = "PROGRAM main VAR closed AT %X16.0 : BOOL; END_VAR x := %IX2.7 OR %Y1.0; (* %X9.9 %X9.0 *)";
+  const everywhere = ["emergency_stop_button", "reset_button", "feed_hold_button"].map((name, bit) => ({ address: `%X0.${bit}`, name }));
   const yaml = "door:\n  actuator: {extended: X17.0, retract: Y17.1} # X20.1\n";
   expect(inputBits([{ name: "main.st", text }, { name: "devices.yaml", text: yaml }, { name: "modbus.yaml", text: "X1.1" }])).toEqual([
-    { address: "%X2.7", name: "" }, { address: "%X16.0", name: "closed" }, { address: "%X17.0", name: "" },
+    ...everywhere, { address: "%X2.7", name: "" }, { address: "%X4.5", name: "probe_contact" }, { address: "%X16.0", name: "closed" }, { address: "%X17.0", name: "" },
   ]);
   expect([...devices(["simulation.door.position", "simulation.door.extend", "main.n"])]).toEqual([["door", ["simulation.door.position", "simulation.door.extend"]]]);
+});
+
+test("a step of a chart is shown with its state", () => {
+  const lines = sourceLines(`<?xml version="1.0"?>
+<project>
+<pou name="main" pouType="program">
+<step localId="1" name="fill" initialStep="true">
+</step></pou></project>`);
+  expect(lines[3]).toMatchObject({ names: ["fill.X", "fill.T"], unit: "main", kind: "PROGRAM" });
+  expect(lines[4]!.names).toEqual([]);
 });

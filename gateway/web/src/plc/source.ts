@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Which variables a line of Structured Text names, so that their values can be shown beside it.
+import { inputNames } from "./input_catalogue";
 
 export interface SourceLine {
   text: string;
@@ -16,7 +17,23 @@ const comment = /\(\*[\s\S]*?\*\)|\/\*[\s\S]*?\*\/|\/\/[^\n]*|'(?:\$.|[^'\n])*'/
 /** Comments and strings become blanks of the same length, so that lines stay lines. */
 const blanked = (source: string) => source.replace(comment, (text) => text.replace(/[^\n]/g, " "));
 
+/** Of PLCopen XML: the steps of charts, each with whether it is active and for how long. */
+function chartLines(source: string): SourceLine[] {
+  let unit = "";
+  let kind: SourceLine["kind"] = "";
+  return source.split("\n").map((text) => {
+    const pou = /<(?:\w+:)?pou\s[^>]*/.exec(text)?.[0];
+    if (pou !== undefined) {
+      unit = /\bname="(\w+)"/.exec(pou)?.[1] ?? "";
+      kind = pou.includes('pouType="program"') ? "PROGRAM" : pou.includes('pouType="functionBlock"') ? "FUNCTION_BLOCK" : "";
+    }
+    const step = /<(?:\w+:)?step\s[^>]*\bname="(\w+)"/.exec(text)?.[1];
+    return { text, names: step === undefined ? [] : [`${step}.X`, `${step}.T`], unit, kind };
+  });
+}
+
 export function sourceLines(source: string): SourceLine[] {
+  if (/^\s*(?:\uFEFF)?<\?xml|^\s*<(?:\w+:)?project\b/.test(source)) return chartLines(source);
   const lines = source.split("\n");
   const code = blanked(source).split("\n");
   let unit = "";
@@ -117,9 +134,9 @@ export interface InputBit {
   name: string;
 }
 
-/** The bits of area X that the sources and the file of the simulated devices name, in the order of their addresses. */
+/** The bits of area X that every machine has, and those that the sources and the file of the simulated devices name, in order. */
 export function inputBits(sources: readonly Source[]): InputBit[] {
-  const names = new Map<string, string>();
+  const names = new Map(Object.entries(inputNames).map(([address, name]) => [address.slice(1), name]));
   for (const { name: file, text } of sources) {
     if (!file.endsWith(".st") && file !== "devices.yaml") continue;
     const code = file.endsWith(".st") ? blanked(text) : text.replace(/#[^\n]*/g, "");
