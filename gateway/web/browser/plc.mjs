@@ -75,13 +75,16 @@ async function english(browser, url) {
   check("the cross reference has the line that writes a variable", true);
   await page.getByRole("button", { name: "Inputs", exact: true }).click();
   const key = page.getByRole("switch", { name: "Switch feed_hold_button" });
+  const agree = () => page.getByRole("alertdialog", { name: /^Force %X0.2 to / }).getByRole("button", { name: "Force" }).click();
   await key.click();
+  await agree();
   await page.getByRole("switch", { name: "Switch feed_hold_button", checked: true }).waitFor();
   await eventually("the input is forced", async () => (await forces(url)).includes("%X0.2"));
   for (const [what, found] of [["nothing is cut", await overflowing(page)], ["touch targets of 48 px", await smallTargets(page)], ["axe-core", await inaccessible(page)]])
     check(`inputs: ${what} ${found}`, found.length === 0);
   await shot(page, "plc-inputs");
   await key.click();
+  await agree();
   await page.getByRole("switch", { name: "Switch feed_hold_button", checked: false }).waitFor();
   await page.getByRole("button", { name: "Release feed_hold_button" }).click();
   await eventually("and released", async () => (await forces(url)).length === 0);

@@ -7,6 +7,7 @@ import type { Live } from "../plc/watch";
 import { tell } from "../state/store";
 import { text } from "../text/texts";
 import { Guard, GuardNote } from "./Guard";
+import { ask } from "./Question";
 
 interface Props {
   sources: readonly Source[];
@@ -28,7 +29,9 @@ export function PlcSimulator({ sources, all, live, watch }: Props) {
     const answer = await post(path, body);
     if (!answer.ok) tell(answer.reason, true);
   };
-  const set = (address: string, value: string) => void order("/api/plc/force", { values: [{ path: address, value }] });
+  // On real hardware too a forced input moves the machine.
+  const set = (address: string, value: string) =>
+    ask(t.plcForceQuestion(address, value), t.plcForce, () => void order("/api/plc/force", { values: [{ path: address, value }] }));
   return (
     <div class="scroll" tabIndex={0} role="region" aria-label={t.plcSimulator}>
       <GuardNote needs="builder" />
