@@ -43,12 +43,12 @@ sanitize: packages
 	cmake --build --preset sanitize
 	ctest --test-dir build/sanitize --output-on-failure -j $(JOBS) -L unit
 
-# The tests of bus, service shell and stream under the thread sanitizer. The DDS libraries are not instrumented, so
+# The tests of bus, service shell, stream and Modbus under the thread sanitizer. The DDS libraries are not instrumented, so
 # what they do among themselves cannot be judged.
 threads: packages
 	@$(call cmake_configure,threads)
 	cmake --build --preset threads
-	TSAN_OPTIONS=ignore_noninstrumented_modules=1 ctest --test-dir build/threads --output-on-failure -j $(JOBS) -R '^(bus|service|stream)_test$$'
+	TSAN_OPTIONS=ignore_noninstrumented_modules=1 ctest --test-dir build/threads --output-on-failure -j $(JOBS) -R '^(bus|service|stream|plc_modbus)_test$$'
 
 # A short run of every fuzzer.
 fuzz: packages

@@ -145,6 +145,7 @@ void Api::handle(const Match& match, const RequestText& request, const Respond& 
       case Operation::plc_source:
       case Operation::plc_variables:
       case Operation::plc_forces:
+      case Operation::plc_tasks:
       case Operation::plc_force:
       case Operation::plc_release:
       case Operation::plc_start_trace:

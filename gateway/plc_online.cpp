@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cctype>
 
+#include "plc_online/task_times.hpp"
+
 namespace trunnion::gateway {
 namespace {
 
@@ -56,6 +58,8 @@ void PlcOnline::handle(const Match& match, const RequestText& request, const Res
         auto forces = bus::to_json(*snapshot->plc_forces);
         return respond(json_answer(200, {{"values", forces["values"]}}));
       }
+      case Operation::plc_tasks:
+        return answer_tasks(respond);
       case Operation::plc_force:
         return order(force_request(parse_body(request.body)), respond);
       case Operation::plc_release:
@@ -180,6 +184,18 @@ void PlcOnline::answer_variables(const std::string& query, const Respond& respon
     }
     respond(json_answer(200,
                         {{"total", total}, {"offset", offset}, {"variables", ShownVariables(shown).json()}}));
+  });
+}
+
+void PlcOnline::answer_tasks(const Respond& respond) {
+  auto request = request_for(OnlineAction::LIST_VARIABLES);
+  request.paths = {plc_online::task_times_prefix};
+  send(request, respond, [respond](const Request&, const Reply& reply) {
+    try {
+      respond(json_answer(200, {{"tasks", plc_online::json_of(plc_online::task_times(reply))}}));
+    } catch (const std::runtime_error& e) {
+      respond(problem_answer(409, e.what()));
+    }
   });
 }
 

@@ -47,6 +47,7 @@ class PlcOnline {
                     std::uint32_t offset, const Respond& respond, Then<std::vector<PlcSource>> then);
 
   void answer_variables(const std::string& query, const Respond& respond);
+  void answer_tasks(const Respond& respond);
   void answer_programs(const Respond& respond);
   void answer_source(const std::string& name, const std::string& query, const Respond& respond);
   void start_trace(const bus::Json& body, const Respond& respond);

@@ -58,6 +58,14 @@ is released "$(plc force --list)" "Nothing is forced"
 "$trunnion" alarms --reset --domain "$domain" > /dev/null || true
 "$trunnion" channel reset --domain "$domain" > /dev/null || true
 
+plc tasks > "$work/tasks"
+is "tasks" "$(awk '{print $1}' "$work/tasks" | xargs)" "task scan fast main"
+plc tasks --json | "$python" -c 'import json, sys
+scan, fast, main = json.load(sys.stdin)
+assert scan["budget_us"] == 1000 and 0 < scan["last_us"] <= scan["worst_us"], scan
+assert scan["statements"] >= fast["statements"] > 0 and main["statement_budget"] == 200 and main["most_statements"] <= 200, main' ||
+  fail "$(cat "$work/tasks")"
+
 # From here on everything is recorded.
 "$trunnion" record "$work/r.mcap" --domain "$domain" > "$work/record" 2>&1 &
 recorder=$!

@@ -118,6 +118,9 @@ def watch_and_force(page, port):
     page.ask("POST", "/api/plc/force", {"values": [{"path": "fast.counter.hours", "value": "9"}, {"path": "%G2968.0", "value": "TRUE"}]})
     sample = watch.until("forced values", lambda m: m.get("forced") == [0, 2])
     check("forced values are marked", sample["values"][0] == "9" and sample["values"][2] == "TRUE", sample)
+    times = page.ask("GET", "/api/plc/tasks")["tasks"]
+    check("the tasks have their times", [one["name"] for one in times] == ["scan", "fast", "main"] and
+          all(0 <= one["last_us"] <= one["worst_us"] and one["budget_us"] == 1000 for one in times), times)
     page.until("forces are listed", lambda: len(page.ask("GET", "/api/plc/forces")["values"]) == 2)
     refused = page.ask("POST", "/api/plc/force", {"values": [{"path": "fast.counter.hours", "value": "x"}]}, status=409)
     check("a wrong value is refused with what is expected", "write a whole number 0 .. 4294967295" in refused["detail"], refused)

@@ -269,10 +269,20 @@ def registers():
 def paragraphs(lines): return [line for paragraph in lines for line in wrapped(paragraph)]
 
 
+def input_catalogue():
+    """The inputs that have a name on every machine, for the PLC's view of the page."""
+    path = "libs/plc/library/registers.yaml"
+    inputs = [r for r in yaml.safe_load(read(path))["registers"] if r["address"].startswith("X")]
+    return ["// SPDX-License-Identifier: Apache-2.0", f"// Generated from {path} by tools/generate_docs.py.", "",
+            "/** Names of input bits that every machine has, by their address. */", "export const inputNames: Readonly<Record<string, string>> = {",
+            *(f"  {json.dumps(r['address'])}: {json.dumps(r['name'])}," for r in inputs), "};"]
+
+
 OUTPUTS = {
     "docs/parameters.md": lambda: paragraphs(parameters()), "docs/alarms.md": lambda: paragraphs(alarms()), "docs/codes.md": lambda: paragraphs(codes()),
     "docs/macros.md": lambda: paragraphs(macros()), "docs/plc-registers.md": lambda: paragraphs(registers()),
     "gateway/web/src/alarm_catalogue.ts": alarm_catalogue, "gateway/web/src/program/code_catalogue.ts": code_catalogue,
+    "gateway/web/src/plc/input_catalogue.ts": input_catalogue,
 }
 
 

@@ -12,7 +12,7 @@
 
 #include "bus/json.hpp"
 #include "cluster/operating_station.hpp"
-#include "plc/compile.hpp"
+#include "plc/source_files.hpp"
 #include "plc_session.hpp"
 
 namespace trunnion::cli {
@@ -37,7 +37,7 @@ std::vector<Source> sources_of(const std::string& directory) {
   std::vector<Source> sources;
   for (const auto& entry : std::filesystem::directory_iterator(directory)) {
     const auto name = entry.path().filename().string();
-    if (!st::is_compiled(name) && name != "fast.il" && name != "main.il" && name != "devices.yaml") continue;
+    if (!st::is_source(name)) continue;
     std::ifstream file(entry.path(), std::ios::binary);
     std::ostringstream text;
     text << file.rdbuf();
@@ -204,7 +204,7 @@ void add_plc_load_commands(CLI::App& plc, Common& common) {
                   "Load programs into the PLC that runs, after a comparison; says before what is not kept",
                   [options, &common] { return run(common, *options); });
   loads->add_option("directory", options->directory,
-                    "Directory with .st and .xml files, fast.il, main.il, devices.yaml");
+                    "Directory with .st and .xml files, fast.il, main.il, devices.yaml, modbus.yaml");
   loads->add_flag("--dry-run", options->dry_run, "Only translate them and say what is not kept");
   loads->add_flag("--undo", options->undo, "Load those again that ran before the last load");
   loads->add_flag("--take-right", options->take_over, cluster::take_right_help);

@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// plc variables, watch, force, trace: the values of the PLC that runs
+// plc variables, watch, force, trace, tasks: the values of the PLC that runs
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <atomic>
 #include <csignal>
+#include <cstdio>
 #include <fstream>
 #include <iostream>
 #include <memory>
 
 #include "bus/json.hpp"
 #include "cluster/operating_station.hpp"
+#include "plc_online/task_times.hpp"
 #include "plc_session.hpp"
 
 namespace trunnion::cli {
@@ -244,6 +246,27 @@ int trace(const Common& common, const Options& options) {
   return 1;
 }
 
+int tasks(const Common& common) {
+  PlcSession session(common);
+  OnlineRequest request;
+  request.action = OnlineAction::LIST_VARIABLES;
+  request.paths = {plc_online::task_times_prefix};
+  const auto times = plc_online::task_times(session.call(request));
+  if (common.json) {
+    std::cout << bus::text_of(plc_online::json_of(times)) << "\n";
+    return 0;
+  }
+  const auto us = [](std::uint64_t ns) { return static_cast<double>(ns) / 1000; };
+  std::printf("%-10s %10s %10s %10s %12s %12s %12s\n", "task", "last us", "worst us", "budget us",
+              "statements", "most", "budget");
+  for (const auto& time : times)
+    std::printf("%-10s %10.1f %10.1f %10.0f %12llu %12llu %12s\n", time.name.c_str(), us(time.last_ns),
+                us(time.worst_ns), us(time.budget_ns), static_cast<unsigned long long>(time.statements),
+                static_cast<unsigned long long>(time.most_statements),
+                time.statement_budget == 0 ? "-" : std::to_string(time.statement_budget).c_str());
+  return 0;
+}
+
 }  // namespace
 
 void add_plc_online_commands(CLI::App& plc, Common& common) {
@@ -279,6 +302,10 @@ void add_plc_online_commands(CLI::App& plc, Common& common) {
       "Begin when this is true: PATH=VALUE, PATH<>VALUE, PATH<VALUE, PATH>VALUE; PATH alone: when "
       "it changes (default: at once)");
   traces->add_option("--output", options->output, "File to write (default: standard output)");
+  add_command(
+      plc, common, "tasks",
+      "How long the tasks of the PLC take: last and worst time of a scan, statements, and their limits",
+      [&common] { return tasks(common); });
 }
 
 }  // namespace trunnion::cli

@@ -67,6 +67,7 @@ bool prolongs_session(Operation operation) {
     case Operation::operating_right:
     case Operation::plc_watch:
     case Operation::plc_forces:
+    case Operation::plc_tasks:
     case Operation::plc_load:
     case Operation::plc_trace:
     case Operation::plc_image:

@@ -85,6 +85,7 @@ std::vector<Route> all_routes() {
       {"GET", "/api/plc/variables", Operation::plc_variables},
       {"GET", "/api/plc/watch", Operation::plc_watch},
       {"GET", "/api/plc/forces", Operation::plc_forces},
+      {"GET", "/api/plc/tasks", Operation::plc_tasks},
       {"POST", "/api/plc/force", Operation::plc_force},
       {"POST", "/api/plc/release", Operation::plc_release},
       {"GET", "/api/plc/trace", Operation::plc_trace},

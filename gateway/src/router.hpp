@@ -47,6 +47,7 @@ enum class Operation {
   plc_source,
   plc_variables,
   plc_forces,
+  plc_tasks,
   plc_force,
   plc_release,
   plc_watch,

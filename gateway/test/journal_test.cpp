@@ -41,6 +41,7 @@ TEST(Journal, KeepsWhatMakesTheGatewayWriteToTheBusAndNoMereReading) {
                                          "/api/plc/variables",
                                          "/api/plc/watch",
                                          "/api/plc/forces",
+                                         "/api/plc/tasks",
                                          "/api/plc/force",
                                          "/api/plc/release",
                                          "/api/plc/trace",

@@ -8,6 +8,7 @@
 #include "plc/library/functions.hpp"
 #include "plc/machine/verify.hpp"
 #include "plc/plcopen/import.hpp"
+#include "plc/source_files.hpp"
 #include "plc/syntax/parser.hpp"
 
 namespace trunnion::st {
@@ -40,11 +41,12 @@ void add_symbol(const Variable& variable, const std::string& prefix, std::uint32
 
 /// Appends the element of a diagram to each message at it.
 void name_elements(const std::vector<plcopen::ElementPlace>& places, std::vector<Diagnostic>& diagnostics) {
+  const auto key = [](Position at) { return std::tuple(at.line, at.column); };
   for (auto& diagnostic : diagnostics) {
     const plcopen::ElementPlace* found = nullptr;
     for (const auto& place : places)
-      if (place.at.file == diagnostic.at.file &&
-          std::tuple(place.at.line, place.at.column) <= std::tuple(diagnostic.at.line, diagnostic.at.column))
+      if (place.at.file == diagnostic.at.file && key(place.at) <= key(diagnostic.at) &&
+          (found == nullptr || key(found->at) <= key(place.at)))
         found = &place;
     if (found != nullptr && !found->text.empty()) diagnostic.text += " (" + found->text + ")";
   }
@@ -92,6 +94,11 @@ std::uint64_t Compilation::layout() const {
   }
   add(code ? std::to_string(code->initial.size() - image_cells + layout_origin) : "");
   return hash;
+}
+
+bool is_source(const std::string& name) {
+  return is_compiled(name) || name == "fast.il" || name == "main.il" || name == "devices.yaml" ||
+         name == "modbus.yaml";
 }
 
 bool is_compiled(const std::string& name) {

@@ -46,6 +46,8 @@ Seed seed_of(snapshot::Snapshot snapshot, const std::map<std::uint64_t, std::int
   seed.time = snapshot.head.time;
   const auto next = lives.upper_bound(seed.time);
   seed.until = next == lives.end() ? forever : next->first;
+  for (const auto& [first, pid] : lives)
+    if (pid == snapshot.head.pid) seed.begin = first;
   for (const auto& input : snapshot.head.taken)
     if (const auto* topic = bus::find_topic(input.topic)) seed.taken[topic] = input.time;
   seed.snapshot = std::move(snapshot);
@@ -56,6 +58,8 @@ Seed seed_of(snapshot::Snapshot snapshot, const std::map<std::uint64_t, std::int
 
 bool Seed::had_taken(const StoredMessage& message) const {
   const auto newest = taken.find(message.topic);
+  // An event does not reach a process that was not there yet: it is in the state of the one before, or lost.
+  if (message.topic->qos == bus::QosKind::event && message.time < begin) return true;
   return message.time <= (newest == taken.end() ? time : newest->second);
 }
 

@@ -17,6 +17,7 @@ struct Seed {
   std::string refused;      ///< why the service had not given its state when it was asked; empty = it had
   std::uint64_t time = 0;   ///< ns: what the service wrote later is compared
   std::uint64_t until = 0;  ///< ns: from then on another process was the service
+  std::uint64_t begin = 0;  ///< ns: when this process was heard of first
   std::map<const bus::TopicEntry*, std::uint64_t> taken;
 
   /// The service had taken this message, so its effect is in the state.

@@ -3,11 +3,21 @@
 
 #include <pthread.h>
 
+#include <algorithm>
 #include <chrono>
 
 #include "modbus_connection.hpp"
 
 namespace trunnion::plc {
+namespace {
+
+// A thread begins with the scheduling of the one that makes it.
+void use_ordinary_scheduling() {
+  const sched_param parameters{};
+  pthread_setschedparam(pthread_self(), SCHED_OTHER, &parameters);
+}
+
+}  // namespace
 
 ModbusLink::Connection::Connection(std::vector<st::ModbusBlock> inputs, std::vector<st::ModbusBlock> outputs)
     : input_blocks(std::move(inputs)), output_blocks(std::move(outputs)) {
@@ -16,9 +26,7 @@ ModbusLink::Connection::Connection(std::vector<st::ModbusBlock> inputs, std::vec
 
 void ModbusLink::Connection::start() {
   thread_ = std::jthread([this](const std::stop_token& stop) {
-    // A thread begins with the scheduling of the one that makes it.
-    const sched_param parameters{};
-    pthread_setschedparam(pthread_self(), SCHED_OTHER, &parameters);
+    use_ordinary_scheduling();
     run(stop);
   });
 }
@@ -67,13 +75,42 @@ void ModbusLink::Connection::works() {
   problem_.clear();
 }
 
-ModbusLink::ModbusLink(const st::ModbusFile& file) {
-  for (const auto& device : file.devices) connections_.push_back(modbus_device(device));
-  if (file.server) connections_.push_back(modbus_server(*file.server));
-  for (auto& connection : connections_) connection->start();
+ModbusLink::ModbusLink(const st::ModbusFile& file) { change(file); }
+
+void ModbusLink::change(const st::ModbusFile& file) {
+  auto before = std::move(connections_);
+  connections_.clear();
+  std::vector<Connection*> fresh;
+  const auto begin = [&](std::unique_ptr<Connection> connection) {
+    fresh.push_back(connection.get());
+    connections_.push_back(std::move(connection));
+  };
+  for (const auto& device : file.devices) {
+    const auto known = std::find(file_.devices.begin(), file_.devices.end(), device);
+    if (known != file_.devices.end())
+      connections_.push_back(std::move(before[static_cast<std::size_t>(known - file_.devices.begin())]));
+    else
+      begin(modbus_device(device));
+  }
+  if (file.server && file.server == file_.server)
+    connections_.push_back(std::move(before.back()));
+  else if (file.server)
+    begin(modbus_server(*file.server));
+  file_ = file;
+  inputs_ = {};
+  std::erase(before, nullptr);
+  changing_ = std::async(std::launch::async,
+                         [previous = std::move(changing_), before = std::move(before), fresh]() mutable {
+                           use_ordinary_scheduling();
+                           if (previous.valid()) previous.wait();
+                           for (const auto& connection : before) connection->stop();
+                           before.clear();  // with the port of a server
+                           for (auto* connection : fresh) connection->start();
+                         });
 }
 
 ModbusLink::~ModbusLink() {
+  if (changing_.valid()) changing_.wait();
   for (auto& connection : connections_) connection->stop();
 }
 

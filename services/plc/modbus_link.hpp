@@ -2,6 +2,7 @@
 // Modbus TCP by threads of its own; the PLC exchanges values with them without waiting.
 #pragma once
 
+#include <future>
 #include <memory>
 #include <string>
 #include <vector>
@@ -13,8 +14,11 @@ namespace trunnion::plc {
 class ModbusLink {
  public:
   /// Connects to the devices and listens, each in a thread with ordinary scheduling.
-  explicit ModbusLink(const st::ModbusFile& file);
+  explicit ModbusLink(const st::ModbusFile& file = {});
   ~ModbusLink();
+  /// Connections that both files have go on. The others end, in a thread that waits for the answers they wait
+  /// for, and the new ones begin when they have ended, so that no device hears of both.
+  void change(const st::ModbusFile& file);
   ModbusLink(const ModbusLink&) = delete;
   ModbusLink& operator=(const ModbusLink&) = delete;
 
@@ -30,7 +34,9 @@ class ModbusLink {
   class Connection;
 
  private:
+  st::ModbusFile file_;
   std::vector<std::unique_ptr<Connection>> connections_;  ///< the devices, then the server
+  std::future<void> changing_;
   NetworkInputs inputs_;
 };
 

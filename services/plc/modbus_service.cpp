@@ -2,11 +2,8 @@
 #include "modbus_service.hpp"
 
 #include <algorithm>
-#include <filesystem>
-#include <iostream>
 
 #include "machine/alarm_constants.hpp"
-#include "machine/yaml.hpp"
 #include "service/request.hpp"
 
 namespace trunnion::plc {
@@ -23,27 +20,26 @@ bool is_forced(const Memory& memory, std::size_t byte) {
 }  // namespace
 
 ModbusService::ModbusService(service::Node& node)
-    : node_(node), requests_(node.bus().writer(topics::panel_request)), client_(service::make_client_id()) {
-  const auto path = node.options().machine.plc_directory() + "/modbus.yaml";
-  if (node.snapshot() != nullptr || !std::filesystem::exists(path)) return;
-  try {
-    link_.emplace(st::read_modbus(machine::read_text(path), path));
-    shown_.resize(link_->connections());
-  } catch (const std::runtime_error& e) {
-    std::cerr << e.what() << "\n";
-    node_.alarms().raise(alarm::plc_modbus, 0, std::string(e.what()) + "; no Modbus connection is made");
-  }
+    : node_(node), requests_(node.bus().writer(topics::panel_request)), client_(service::make_client_id()) {}
+
+void ModbusService::change(const st::ModbusFile& file) {
+  if (node_.snapshot() != nullptr) return;
+  link_.change(file);
+  // The numbers of the connections are other ones: what still holds is raised again.
+  for (std::size_t i = 0; i < shown_.size(); ++i)
+    if (!shown_[i].empty()) node_.alarms().clear(alarm::plc_modbus, static_cast<std::uint32_t>(i + 1));
+  shown_.assign(link_.connections(), "");
 }
 
 void ModbusService::pump(const PlcCore& core, double now) {
-  if (!link_) return;
-  link_->exchange(core.memory().registers);
+  if (link_.connections() == 0) return;
+  link_.exchange(core.memory().registers);
   send(core.memory(), now);
   show_problems(core.memory().tick);
 }
 
 void ModbusService::send(const Memory& memory, double now) {
-  const auto& inputs = link_->inputs();
+  const auto& inputs = link_.inputs();
   for (std::size_t i = 0; i < register_count; ++i) {
     if (inputs.mask[i] == 0) continue;
     const auto value = inputs.in(memory.registers.x[i], i);
@@ -67,7 +63,7 @@ void ModbusService::send(const Memory& memory, double now) {
 
 void ModbusService::show_problems(std::uint64_t tick) {
   for (std::size_t i = 0; i < shown_.size(); ++i) {
-    const auto& problem = link_->problem(i);
+    const auto& problem = link_.problem(i);
     if (problem == shown_[i]) continue;
     shown_[i] = problem;
     const auto part = static_cast<std::uint32_t>(i + 1);

@@ -4,7 +4,6 @@
 #pragma once
 
 #include <array>
-#include <optional>
 
 #include "modbus_link.hpp"
 #include "plc_core.hpp"
@@ -14,8 +13,10 @@ namespace trunnion::plc {
 
 class ModbusService {
  public:
-  /// With `modbus.yaml` in the machine's PLC directory; not in a verification.
   explicit ModbusService(service::Node& node);
+
+  /// These are the connections from now on; none in a verification.
+  void change(const st::ModbusFile& file);
 
   /// After the scans. `now` in s.
   void pump(const PlcCore& core, double now);
@@ -30,7 +31,7 @@ class ModbusService {
   };
   service::Node& node_;
   bus::Writer<idl::plc::PanelRequest> requests_;
-  std::optional<ModbusLink> link_;
+  ModbusLink link_;
   std::array<Sent, register_count> sent_{};
   std::vector<std::string> shown_;
   std::uint64_t client_ = 0, number_ = 0;

@@ -31,6 +31,11 @@ bool is_read_only(OnlineAction action) {
          action == OnlineAction::LOAD_STATUS;
 }
 
+std::uint64_t steady_time() {
+  const auto since = std::chrono::steady_clock::now().time_since_epoch();
+  return static_cast<std::uint64_t>(std::chrono::duration_cast<std::chrono::nanoseconds>(since).count());
+}
+
 bool is_done(const std::future<Translated>& worker) {
   return worker.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
 }
@@ -97,10 +102,13 @@ OnlineService::OnlineService(service::Node& node, PlcCore& core, RoundRecorder& 
       boot_(std::move(boot)),
       applied_(std::move(applied)),
       store_(node.options().state_directory + programs_file),
+      task_times_(steady_time),
       requests_(node.bus(), topics::online_request, topics::online_reply),
       watched_(node.bus().writer(topics::plc_watched)),
       forces_(node.bus().writer(topics::plc_forces)),
-      programs_(node.bus().writer(topics::plc_programs)) {}
+      programs_(node.bus().writer(topics::plc_programs)) {
+  core_.set_task_times(&task_times_);
+}
 
 Programs OnlineService::start() {
   sources_ = active_sources(node_, boot_);
@@ -149,6 +157,8 @@ bool OnlineService::answer(const Request& request, std::int64_t source_time, dou
     requests_.reply(request, read_source(request));
   } else if (request.action == OnlineAction::LOAD_STATUS) {
     requests_.reply(request, load_.status(request.first));
+  } else if (request.action == OnlineAction::LIST_VARIABLES) {
+    requests_.reply(request, list(request, now));
   } else if (is_read_only(request.action)) {
     requests_.reply(request, values_.answer(request, core_, now));
   } else {
@@ -206,17 +216,19 @@ void OnlineService::start_compiling() {
   next.changes = (sources_.stored ? sources_.stored->changes : 0) + 1;
   next.active = load_.files(), next.previous = sources_.files;
   const bool simulated = node_.options().machine.simulated();
-  worker_ = std::async(std::launch::async, [next, simulated, running = values_.variables(), store = store_] {
-    use_ordinary_scheduling();
-    auto result = translated(next.active, simulated, running);
-    try {
-      if (result.programs) store.prepare(next);
-    } catch (const storage::StorageError& e) {
-      result.programs.reset();
-      result.messages.emplace_back(e.what());
-    }
-    return result;
-  });
+  worker_ =
+      std::async(std::launch::async,
+                 [next, simulated, running = RunningSources{values_.variables(), modbus_}, store = store_] {
+                   use_ordinary_scheduling();
+                   auto result = translated(next.active, simulated, running);
+                   try {
+                     if (result.programs) store.prepare(next);
+                   } catch (const storage::StorageError& e) {
+                     result.programs.reset();
+                     result.messages.emplace_back(e.what());
+                   }
+                   return result;
+                 });
 }
 
 std::string OnlineService::take_over(const Request& request) {
@@ -234,7 +246,9 @@ std::string OnlineService::take_over(const Request& request) {
   now.active = load_.files(), now.previous = sources_.files;
   sources_.files = now.active, sources_.directory.clear(), sources_.stored = std::move(now);
   core_.take_over(load_.programs(), load_.change());
+  modbus_ = load_.modbus();
   values_.replace(load_.programs().variables, core_);
+  task_times_.reset();
   load_.end();
   synchronizing_ = std::async(std::launch::async, [store = store_] {
     use_ordinary_scheduling();
@@ -248,6 +262,15 @@ std::string OnlineService::take_over(const Request& request) {
   taken_over_ = true;
   forces_written_ = false;  // a variable that is not kept is not forced
   return "";
+}
+
+idl::plc::OnlineReply OnlineService::list(const Request& request, double now) {
+  if (request.paths.size() != 1 || request.paths[0] != plc_online::task_times_prefix)
+    return values_.answer(request, core_, now);
+  Reply reply;
+  reply.accepted = true;
+  for (const auto& time : task_times_.shown(core_.statement_budgets())) plc_online::add(time, reply);
+  return reply;
 }
 
 idl::plc::OnlineReply OnlineService::read_source(const Request& request) const {

@@ -14,6 +14,7 @@
 #include "round_recorder.hpp"
 #include "service/node.hpp"
 #include "service/request.hpp"
+#include "task_times.hpp"
 
 namespace trunnion::plc {
 
@@ -62,6 +63,12 @@ class OnlineService {
   /// It continues from a snapshot: what is forced was published before.
   void forces_are_published() { forces_written_ = true; }
   bool is_loading() const { return load_.phase() != ProgramLoad::Phase::NO_LOAD; }
+  /// The sources that run, and what goes before their names in messages.
+  const ActiveSources& sources() const { return sources_; }
+  /// Of the programs that have taken over last.
+  const st::ModbusFile& modbus() const { return modbus_; }
+  /// start() has found it, where it could be read.
+  void set_modbus(st::ModbusFile file) { modbus_ = std::move(file); }
   /// The sources, when they are not those of the machine's directory.
   const SourceFiles* loaded_sources() const { return sources_.stored ? &sources_.files : nullptr; }
 
@@ -72,6 +79,7 @@ class OnlineService {
   bool answer(const Request& request, std::int64_t source_time, double now);
   Reply change(const Request& request);
   Reply read_source(const Request& request) const;
+  Reply list(const Request& request, double now);
   std::string take_over(const Request& request);
   void start_compiling();
   void journal(const Request& request, const std::string& what);
@@ -82,9 +90,11 @@ class OnlineService {
   std::string boot_;
   Applied applied_;
   ActiveSources sources_;
+  st::ModbusFile modbus_;
   ProgramStore store_;
   OnlineValues values_{st::Variables()};
   ProgramLoad load_;
+  TaskTimes task_times_;
   std::future<Translated> worker_;
   std::future<void> synchronizing_;
   service::RequestServer<Request, Reply> requests_;

@@ -7,6 +7,8 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "plc/source_files.hpp"
+
 namespace trunnion::plc {
 
 SourceFiles read_sources(const std::string& directory) {
@@ -15,7 +17,7 @@ SourceFiles read_sources(const std::string& directory) {
     throw std::runtime_error(directory + ": error: is no directory");
   for (const auto& entry : std::filesystem::directory_iterator(directory)) {
     const auto name = entry.path().filename().string();
-    if (!is_source(name)) continue;
+    if (!st::is_source(name)) continue;
     std::ifstream in(entry.path(), std::ios::binary);
     std::ostringstream text;
     text << in.rdbuf();

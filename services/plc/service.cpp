@@ -57,6 +57,13 @@ PlcService::PlcService(service::Node& node)
     node_.alarms().raise(alarm::plc_program, 0, fault_.substr(0, fault_.find('\n')));
   }
   load_state();
+  try {
+    online_.set_modbus(modbus_of(online_.sources().files, online_.sources().directory));
+    modbus_.change(online_.modbus());
+  } catch (const std::runtime_error& e) {
+    std::cerr << e.what() << "\n";
+    node_.alarms().raise(alarm::plc_modbus, 0, std::string(e.what()) + "; no Modbus connection is made");
+  }
 }
 
 void PlcService::load_state() {
@@ -87,6 +94,8 @@ void PlcService::programs_changed() {
   fault_.clear();
   stopped_ = false;
   node_.alarms().clear(alarm::plc_program, 0);
+  node_.alarms().clear(alarm::plc_modbus, 0);
+  modbus_.change(online_.modbus());
 }
 
 service::SnapshotAnswer PlcService::snapshot() {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The programs of the PLC on a real cluster: source with live values, search, force and release, trace; in English and
-// Chinese.
+// The programs of the PLC on a real cluster: source with live values, search, force and release, trace, task times, new
+// programs; in English, Chinese and German.
 import { check, eventually, inaccessible, openPage, overflowing, post, shot, smallTargets } from "./harness.mjs";
 
 const forces = (url) => fetch(`${url}api/plc/forces`).then(async (answer) => (await answer.json()).values.map(({ path }) => path));
@@ -61,9 +61,107 @@ async function english(browser, url) {
   await page.locator("[data-test=plc-trace]").filter({ hasText: "200 of 200 scans" }).waitFor();
   check("a trace is plotted", (await page.getByRole("img", { name: "Trace" }).getAttribute("data-lanes")) === "2");
   await shot(page, "plc-trace");
+  await page.getByRole("button", { name: "Task times", exact: true }).click();
+  const tasks = page.getByRole("region", { name: "Task times" }).last();
+  const main = tasks.getByRole("row").filter({ hasText: "main" });
+  await main.getByText("/ 200").waitFor();
+  const whole = await tasks.getByRole("row").filter({ hasText: "whole scan" }).getByRole("cell").allTextContents();
+  check(`the scan has its last and worst time and its limit ${whole}`, Number(whole[1]) > 0 && Number(whole[2]) >= Number(whole[1]) && whole[3] === "1000");
+  for (const [what, found] of [["nothing is cut", await overflowing(page)], ["touch targets of 48 px", await smallTargets(page)], ["axe-core", await inaccessible(page)]])
+    check(`task times: ${what} ${found}`, found.length === 0);
+  await page.getByRole("button", { name: "Uses", exact: true }).click();
+  const used = page.getByRole("region", { name: "Uses" }).last().getByRole("row");
+  await used.filter({ hasText: "written" }).filter({ hasText: "speed :=" }).first().waitFor();
+  check("the cross reference has the line that writes a variable", true);
+  await page.getByRole("button", { name: "Inputs", exact: true }).click();
+  const key = page.getByRole("switch", { name: "Switch feed_hold_button" });
+  const agree = () => page.getByRole("alertdialog", { name: /^Force %X0.2 to / }).getByRole("button", { name: "Force" }).click();
+  await key.click();
+  await agree();
+  await page.getByRole("switch", { name: "Switch feed_hold_button", checked: true }).waitFor();
+  await eventually("the input is forced", async () => (await forces(url)).includes("%X0.2"));
+  for (const [what, found] of [["nothing is cut", await overflowing(page)], ["touch targets of 48 px", await smallTargets(page)], ["axe-core", await inaccessible(page)]])
+    check(`inputs: ${what} ${found}`, found.length === 0);
+  await shot(page, "plc-inputs");
+  await key.click();
+  await agree();
+  await page.getByRole("switch", { name: "Switch feed_hold_button", checked: false }).waitFor();
+  await page.getByRole("button", { name: "Release feed_hold_button" }).click();
+  await eventually("and released", async () => (await forces(url)).length === 0);
+  check("an input is switched by hand and given back", true);
+  await page.getByRole("button", { name: "Trace", exact: true }).click();
+  await load(page, url);
   await page.getByRole("button", { name: "Registers and services" }).click();
   await page.getByRole("region", { name: "PLC registers" }).first().waitFor();
   check(`the PLC's view logs no errors ${page.complaints}`, page.complaints.length === 0);
+  await page.context().close();
+}
+
+const programs = (url) => fetch(`${url}api/plc/programs`).then((answer) => answer.json());
+const source = (url, name) => fetch(`${url}api/plc/programs/${name}`).then((answer) => answer.text());
+const state = (page, text) => page.locator("[data-test=plc-load-state]").filter({ hasText: text }).waitFor();
+
+async function load(page, url) {
+  await page.getByRole("button", { name: "Change programs" }).click();
+  const pane = page.getByRole("region", { name: "Change programs" });
+  const before = await source(url, "main.st");
+  const chosen = async (text) => pane.getByLabel("Choose files").last().setInputFiles({ name: "main.st", mimeType: "text/plain", buffer: Buffer.from(text) });
+  await pane.getByText("Edit the sources or choose files.", { exact: false }).waitFor();
+  await pane.locator(".cm-content .nc-code").filter({ hasText: "PROGRAM" }).waitFor();
+  check("the editor colours the words of Structured Text", true);
+  await chosen(before.replace("END_PROGRAM", "no_such_lamp := TRUE;\nEND_PROGRAM"));
+  await pane.getByRole("button", { name: "Check", exact: true }).click();
+  await state(page, "The programs have errors");
+  const error = pane.getByRole("button", { name: /main\.st:\d+:1 there is no variable 'no_such_lamp'/ });
+  await error.click();
+  await pane.locator(".cm-activeLine").filter({ hasText: "no_such_lamp" }).waitFor();
+  check("an error leads to its line", await pane.getByRole("button", { name: "Take over" }).isDisabled());
+  check("and nothing has changed", (await programs(url)).changes === 0);
+  // The variable `extra` is new, and the lamp of the coolant shows something else.
+  const text = before.replace("PROGRAM main", "PROGRAM main\nVAR extra : INT; END_VAR").replace("END_PROGRAM", "extra := extra + 1;\n%R300 := 7;\nEND_PROGRAM");
+  await chosen(text);
+  await pane.getByRole("combobox", { name: "File" }).getByRole("option", { name: "main.st – changed" }).waitFor({ state: "attached" });
+  await pane.getByRole("button", { name: "Check", exact: true }).click();
+  await pane.getByText("main.extra (INT) is new: it begins with its initial value").waitFor();
+  await state(page, "Read this before you take over");
+  check("what is not kept is said before", true);
+  await pane.getByRole("button", { name: "Compare", exact: true }).click();
+  await pane.getByText(/register R300: 0 and 7/).waitFor();
+  check("the comparison names the difference, and a take-over needs consent", await pane.getByRole("button", { name: "Take over" }).isDisabled());
+  for (const [what, found] of [["nothing is cut", await overflowing(page)], ["touch targets of 48 px", await smallTargets(page)], ["axe-core", await inaccessible(page)]])
+    check(`new programs: ${what} ${found}`, found.length === 0);
+  await shot(page, "plc-load");
+  await pane.getByRole("checkbox", { name: "Take over with these differences" }).check();
+  await pane.getByRole("button", { name: "Take over" }).click();
+  await page.getByRole("alertdialog", { name: /Take over the new programs/ }).getByRole("button", { name: "Take over" }).click();
+  await eventually("the new programs run", async () => (await programs(url)).changes === 1);
+  check("their source is shown", (await source(url, "main.st")) === text);
+  await page.getByText("loaded online, 1 changes").waitFor();
+  await page.getByRole("button", { name: "Change programs" }).click();
+  await pane.getByRole("button", { name: "Undo the last change" }).click();
+  await pane.getByText(/main\.extra .* its value is lost/).waitFor();
+  await pane.getByRole("button", { name: "Compare", exact: true }).click();
+  await state(page, "Both run with the same inputs");
+  const accepts = pane.getByRole("checkbox", { name: "Take over with these differences" });
+  if (await pane.getByText(/ and /).filter({ hasText: "register" }).count() > 0) await accepts.check();
+  await pane.getByRole("button", { name: "Take over" }).click();
+  await page.getByRole("alertdialog").getByRole("button", { name: "Take over" }).click();
+  await eventually("the programs before run again", async () => (await source(url, "main.st")) === before);
+  check("and are taken back", true);
+}
+
+async function german(browser, url) {
+  const page = await openPage(browser, url, { locale: "de-DE" });
+  await open(page, "Diagnose", "SPS-Programme");
+  await page.getByRole("button", { name: "Taskzeiten" }).click();
+  await page.getByRole("row").filter({ hasText: "ganzer Zyklus" }).waitFor();
+  await page.getByRole("button", { name: "Programme ändern" }).click();
+  await page.getByRole("button", { name: "Prüfen", exact: true }).click();
+  await state(page, "Keine Fehler");
+  await page.getByRole("button", { name: "Beenden", exact: true }).click();
+  await eventually("the load is dropped", async () => (await fetch(`${url}api/plc/load`).then((answer) => answer.json())).phase === "NO_LOAD");
+  const cut = await overflowing(page);
+  check(`German: PLC programs fit ${cut}`, cut.length === 0);
   await page.context().close();
 }
 
@@ -81,4 +179,5 @@ async function chinese(browser, url) {
 export async function plc(browser, url) {
   await english(browser, url);
   await chinese(browser, url);
+  await german(browser, url);
 }

@@ -515,6 +515,26 @@ export interface PlcForces {
   values: PlcForcedValue[];
 }
 
+export interface PlcTask {
+  /** scan, simulation, fast or main */
+  name: string;
+  /** Scans in which it ran since the programs began */
+  runs: number;
+  last_us: number;
+  worst_us: number;
+  budget_us: number;
+  /** Of the last scan; of an instruction list its instructions */
+  statements: number;
+  /** The most of one scan */
+  most_statements: number;
+  /** Of one scan; 0: none */
+  statement_budget: number;
+}
+
+export interface PlcTasks {
+  tasks: PlcTask[];
+}
+
 export type PlcLoadPhase = "NO_LOAD" | "WRITING" | "COMPILING" | "WITH_ERRORS" | "COMPILED" | "COMPARING";
 
 export interface PlcPrograms {

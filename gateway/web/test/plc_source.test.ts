@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import { expect, test } from "vitest";
-import { declared, Paths, sourceLines } from "../src/plc/source";
+import { declared, devices, inputBits, Paths, sourceLines, uses } from "../src/plc/source";
 
 const source = `(* main task
    of two lines: ignored *)
@@ -42,4 +42,45 @@ test("instances of a function block are those that have all of its variables", (
   const paths = new Paths(["fast.a.step", "fast.a.n", "fast.a.m", "fast.list[1].step", "fast.list[1].n", "fast.list[1].m", "main.step", "main.n"]);
   expect(paths.instances(["step", "n", "m"])).toEqual(["fast.a", "fast.list[1]"]);
   expect(paths.instances([])).toEqual([]);
+});
+
+test("the cross reference has every line that names a variable, and whether it writes it", () => {
+  const text = `PROGRAM main
+VAR door : BOOL; counter : Counter; n : INT; END_VAR
+door := %X16.0; // door
+IF door THEN n := 1; ELSE n := 2; END_IF;
+counter(step := 1, n => n);
+END_PROGRAM
+FUNCTION_BLOCK Counter
+VAR_INPUT step : UDINT; END_VAR
+VAR_OUTPUT n : UDINT; END_VAR
+n := n + step;
+END_FUNCTION_BLOCK
+`;
+  const paths = new Paths(["main.door", "main.n", "main.counter.step", "main.counter.n"]);
+  const found = (path: string) => uses(path, [{ name: "main.st", text }], paths).map(({ line, writes }) => [line, writes]);
+  expect(found("main.door")).toEqual([[2, false], [3, true], [4, false]]);
+  expect(found("main.n")).toEqual([[2, false], [4, true], [5, true]]);
+  expect(found("main.counter.n")).toEqual([[9, false], [10, true]]);
+  expect(found("%X16.0")).toEqual([[3, false]]);
+});
+
+test("inputs are those that sources and devices name", () => {
+  const text = "PROGRAM main VAR closed AT %X16.0 : BOOL; END_VAR x := %IX2.7 OR %Y1.0; (* %X9.9 %X9.0 *)";
+  const everywhere = ["emergency_stop_button", "reset_button", "feed_hold_button"].map((name, bit) => ({ address: `%X0.${bit}`, name }));
+  const yaml = "door:\n  actuator: {extended: X17.0, retract: Y17.1} # X20.1\n";
+  expect(inputBits([{ name: "main.st", text }, { name: "devices.yaml", text: yaml }, { name: "modbus.yaml", text: "X1.1" }])).toEqual([
+    ...everywhere, { address: "%X2.7", name: "" }, { address: "%X4.5", name: "probe_contact" }, { address: "%X16.0", name: "closed" }, { address: "%X17.0", name: "" },
+  ]);
+  expect([...devices(["simulation.door.position", "simulation.door.extend", "main.n"])]).toEqual([["door", ["simulation.door.position", "simulation.door.extend"]]]);
+});
+
+test("a step of a chart is shown with its state", () => {
+  const lines = sourceLines(`<?xml version="1.0"?>
+<project>
+<pou name="main" pouType="program">
+<step localId="1" name="fill" initialStep="true">
+</step></pou></project>`);
+  expect(lines[3]).toMatchObject({ names: ["fill.X", "fill.T"], unit: "main", kind: "PROGRAM" });
+  expect(lines[4]!.names).toEqual([]);
 });

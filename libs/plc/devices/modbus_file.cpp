@@ -182,6 +182,33 @@ RegisterAddress place_of(const ModbusBlock& block, std::uint32_t i) {
   return moved(width == 8 ? 2 * i : i);
 }
 
+std::vector<std::string> changes_of(const ModbusFile& running, const ModbusFile& next) {
+  std::vector<std::string> lines;
+  const auto named = [](const ModbusFile& file, const std::string& name) {
+    const auto found = std::find_if(file.devices.begin(), file.devices.end(),
+                                    [&](const auto& device) { return device.name == name; });
+    return found == file.devices.end() ? nullptr : &*found;
+  };
+  constexpr const char* held = "; its inputs keep their last values";
+  for (const auto& device : running.devices) {
+    const auto* other = named(next, device.name);
+    if (other == nullptr)
+      lines.push_back("Modbus: the device '" + device.name + "' is no longer asked" + held);
+    else if (*other != device)
+      lines.push_back("Modbus: the device '" + device.name + "' changes: it is connected anew");
+  }
+  for (const auto& device : next.devices)
+    if (named(running, device.name) == nullptr)
+      lines.push_back("Modbus: the device '" + device.name + "' is new");
+  if (running.server && !next.server)
+    lines.push_back(std::string("Modbus: the server ends") + held);
+  else if (!running.server && next.server)
+    lines.emplace_back("Modbus: the server is new");
+  else if (running.server != next.server)
+    lines.emplace_back("Modbus: the server changes: its connections end, and others may connect again");
+  return lines;
+}
+
 ModbusFile read_modbus(const std::string& yaml, const std::string& file) {
   return ModbusReader(file).read(machine::parse_yaml(yaml, file));
 }

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "plc/machine/register_area.hpp"
@@ -23,6 +24,12 @@ struct ModbusBlock {
   RegisterAddress first;  ///< of bits with the first bit
   std::optional<std::uint16_t>
       at_loss;  ///< of inputs: each element without a connection; none: the last value
+  bool operator==(const ModbusBlock& other) const {
+    const auto key = [](const ModbusBlock& b) {
+      return std::tuple(b.table, b.address, b.count, b.first.area, b.first.index, b.first.bit, b.at_loss);
+    };
+    return key(*this) == key(other);
+  }
 };
 /// The register and the bit of element `i`; of a word the lowest bit.
 RegisterAddress place_of(const ModbusBlock& block, std::uint32_t i);
@@ -33,6 +40,7 @@ struct ModbusDevice {
   std::uint16_t port = 502, unit = 1;
   double period = 0.05, timeout = 0.5;  ///< s, between two exchanges; for one answer
   std::vector<ModbusBlock> inputs, outputs;
+  bool operator==(const ModbusDevice&) const = default;
 };
 
 /// What other devices may ask of the PLC. Coils and holding registers are inputs (X), which they write.
@@ -41,12 +49,17 @@ struct ModbusServer {
   std::uint16_t port = 502;
   double timeout = 0;  ///< s without a write after which the connection counts as lost; 0: never
   std::vector<ModbusBlock> inputs, outputs;
+  bool operator==(const ModbusServer&) const = default;
 };
 
 struct ModbusFile {
   std::vector<ModbusDevice> devices;
   std::optional<ModbusServer> server;
+  bool operator==(const ModbusFile&) const = default;
 };
+
+/// One line for each connection that begins, ends or begins anew when `next` replaces `running`.
+std::vector<std::string> changes_of(const ModbusFile& running, const ModbusFile& next);
 
 /// Throws std::runtime_error, beginning with file:line:column, for unknown and missing keys, numbers beyond
 /// their limits, blocks that leave their area, and inputs that are written twice.

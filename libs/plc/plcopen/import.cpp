@@ -3,6 +3,7 @@
 
 #include <set>
 
+#include "plc/plcopen/chart_statements.hpp"
 #include "plc/plcopen/declarations.hpp"
 #include "plc/plcopen/diagram_statements.hpp"
 #include "plc/plcopen/instruction_list.hpp"
@@ -81,18 +82,29 @@ class Import {
       for (const auto variable : children(list, "variable"))
         names_.insert(upper_case(attribute(variable, "name")));
     }
-    for (const auto body : children(node, "body")) read_body(body);
+    for (const auto body : children(node, "body")) {
+      auto result = read_body(node, body);
+      append(words_, std::move(result.declarations));
+      append(words_, std::move(result.statements));
+    }
     if (!child(node, "body")) document_.error(node, "the POU has no body");
     write(kind->end, node);
   }
 
-  void read_body(Node body) {
+  struct Body {
+    Tokens declarations, statements;
+  };
+  /// `pou`: whose actions and transitions a chart refers to; none: no chart is allowed.
+  Body read_body(Node pou, Node body) {
+    Body all;
     for (const auto language : children(body)) {
       const auto name = local_name(language);
       if (name == "ST") {
-        append(words_, document_.content(language));
+        append(all.statements, document_.content(language));
       } else if (name == "IL") {
-        append(words_, list_statements(document_, language));
+        append(all.statements, list_statements(document_, language));
+      } else if (name == "SFC" && pou) {
+        chart(pou, language, all);
       } else if (name == "LD" || name == "FBD") {
         const auto before = document_.diagnostics().errors();
         const auto diagram = read_diagram(document_, language);
@@ -101,13 +113,47 @@ class Import {
                                   Diagram::described(element));
         if (document_.diagnostics().errors() > before) continue;
         auto result = diagram_body(document_, diagram, names_);
-        append(words_, std::move(result.declarations));
-        append(words_, std::move(result.statements));
+        for (const auto& token : result.declarations) names_.insert(token.upper);
+        append(all.declarations, std::move(result.declarations));
+        append(all.statements, std::move(result.statements));
       } else if (name != "documentation" && name != "addData") {
-        document_.error(language,
-                        "a body in '" + std::string(name) + "' is not available: LD, FBD, ST and IL are");
+        document_.error(language, "a body in '" + std::string(name) + "' is not available: LD, FBD, ST, IL" +
+                                      (pou ? " and SFC are" : " are"));
       }
     }
+    return all;
+  }
+
+  void chart(Node pou, Node language, Body& all) {
+    const auto before = document_.diagnostics().errors();
+    const auto found = read_chart(document_, language);
+    for (const auto node : children(language)) {
+      const auto name = attribute(node, "name");
+      place(node, pou_ + ", " + std::string(local_name(node)) +
+                      (local_name(node) == "step" ? " '" + name + "'"
+                                                  : " with localId " + attribute(node, "localId")));
+    }
+    if (document_.diagnostics().errors() > before) return;
+    const auto statements = [&](Node body) {
+      auto result = read_body({}, body);
+      append(all.declarations, std::move(result.declarations));
+      return std::move(result.statements);
+    };
+    ChartParts parts;
+    for (const auto action : children(child(pou, "actions"), "action")) {
+      place(action, pou_ + ", action '" + attribute(action, "name") + "'");
+      if (document_.name(action, "name"))
+        parts.actions[upper_case(attribute(action, "name"))] = statements(child(action, "body"));
+    }
+    for (const auto transition : children(child(pou, "transitions"), "transition")) {
+      place(transition, pou_ + ", transition '" + attribute(transition, "name") + "'");
+      if (auto condition = chart_condition(document_, child(transition, "body")))
+        parts.transitions[upper_case(attribute(transition, "name"))] = std::move(*condition);
+    }
+    if (document_.diagnostics().errors() > before) return;
+    auto result = chart_body(document_, found, parts, names_, statements);
+    append(all.declarations, std::move(result.declarations));
+    append(all.statements, std::move(result.statements));
   }
 
   Document& document_;

@@ -439,7 +439,8 @@ TEST(Plcopen, WhatIsWrongIsSaid) {
   says("<html/>", "expected the element project of PLCopen XML");
   says(project(pou("main", "organism", "", "<ST/>")), "program, function or functionBlock, not 'organism'");
   says(project(pou("ma in", "program", "", "<ST/>")), "'ma in' is no name");
-  says(project(pou("main", "program", "", "<SFC/>")), "a body in 'SFC' is not available");
+  says(project(pou("main", "program", "", "<CFC/>")), "a body in 'CFC' is not available");
+  says(project(pou("main", "program", "", "<SFC/>")), "the chart has no step");
   says(project(pou("main", "program", variables("localVars", {{"p", "<pointer/>"}}), "<ST/>")),
        "the type 'pointer' is not available");
   const auto with = [](auto add) {

@@ -114,6 +114,19 @@ TEST_F(SeedTest, KnowsWhatTheServiceHadTaken) {
   EXPECT_FALSE(seed.had_taken(stored(topics::tool_table, {}, 1101)));
 }
 
+TEST_F(SeedTest, AnEventFromBeforeTheProcessNeverReachedIt) {
+  request(1000);
+  announce(100, 10);
+  announce(200, 2000);
+  auto head = snapshot(9000, 200);
+  head.taken = {{topics::panel_request.name, 0}, {topics::parameter_set.name, 0}};  // it has taken none yet
+  give(head);
+  const auto seed = *first_seed();
+  EXPECT_TRUE(seed.had_taken(stored(topics::panel_request, {}, 1999)));
+  EXPECT_FALSE(seed.had_taken(stored(topics::panel_request, {}, 2000)));
+  EXPECT_FALSE(seed.had_taken(parameters(1, 1999))) << "a state reaches a process that comes later";
+}
+
 TEST_F(SeedTest, NeedsTheNewestTablesThatItHadAndTheDriveOlderParametersToo) {
   request(1000);
   give(snapshot(1100));

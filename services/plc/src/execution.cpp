@@ -87,13 +87,14 @@ bool off_delay(Timer& timer, bool input, std::int32_t preset, std::uint64_t now)
 
 }  // namespace
 
-void execute(const Program& program, Registers& registers, Blocks& blocks, std::uint64_t now) {
+std::uint64_t execute(const Program& program, Registers& registers, Blocks& blocks, std::uint64_t now) {
   struct Frame {
     Op op;
     std::int32_t result;
   };
   std::array<Frame, deepest_nesting> stack;
   std::size_t depth = 0;
+  std::uint64_t executed = 0;
   std::int32_t result = 0;
   const auto value = [&](const Operand& operand) {
     return operand.is_constant ? operand.constant : load(registers, operand.address);
@@ -101,6 +102,7 @@ void execute(const Program& program, Registers& registers, Blocks& blocks, std::
   const auto count = program.instructions.size();
   for (std::size_t i = 0; i < count; ++i) {
     const auto& in = program.instructions[i];
+    ++executed;
     if (in.opens) {
       stack[depth++] = {in.op, result};
       continue;
@@ -173,6 +175,7 @@ void execute(const Program& program, Registers& registers, Blocks& blocks, std::
         break;
     }
   }
+  return executed;
 }
 
 std::optional<std::uint64_t> next_timer_end(const Blocks& blocks, std::uint64_t now) {

@@ -9,7 +9,7 @@ namespace trunnion::plc {
 
 OnlineComparison::OnlineComparison(const PlcCore& running, Programs next, st::Changeover change)
     : change_(std::move(change)), variables_(next.variables), core_(running) {
-  core_.set_trace(nullptr);
+  core_.scan_unseen();
   core_.take_over(next, change_);
   // As of the running one, which does not scan again only because programs are compared.
   core_.adopt({core_.memory(), running.snapshot().view});

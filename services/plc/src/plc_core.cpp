@@ -65,9 +65,10 @@ void PlcCore::configure(const machine::Parameters& parameters, bool virtual_time
     axis_names_.push_back(axis.name);
   }
   spindles_ = std::min(machine::spindles(parameters).size(), spindle_count);
+  const bool continues = !configured() && memory_.tick > 0;  // what restore() has left to do counts
   period_us_ = static_cast<std::uint64_t>(parameters.integer(parameter::interpolation_cycle));
   main_part_ = parameters.integer(parameter::plc2_statements);
-  view_.changed = true;
+  view_.changed = view_.changed || !continues;
 }
 
 void PlcCore::load(Program fast, Program main, StructuredText structured) {
@@ -99,7 +100,11 @@ void PlcCore::restore(const Memory& memory) {
   memory_ = memory;
   if (!loaded_) return;
   if (!structured_.fits(memory_.program)) drop_forces_of_variables();
+  const auto before = memory_.program;
   structured_.restore(memory_.program);
+  // The same programs have seen these inputs: one scan more would be one that nobody has asked for.
+  // Instruction lists have no identity.
+  view_.changed = memory_.program != before || memory_.tick == 0 || memory_.program.cells == 0;
 }
 
 void PlcCore::power_up(const Memory& memory) {
@@ -307,9 +312,11 @@ void PlcCore::scan(bool main, bool present) {
   auto& r = memory_.registers;
   set_strobes(present);
   apply_forces();
+  if (times_ != nullptr) times_->begin_scan();
   if (structured_.has(TaskName::simulation)) run_task(TaskName::simulation, {});
   run_task(TaskName::fast, fast_);
   if (main) run_task(TaskName::main, main_);
+  if (times_ != nullptr) times_->end_scan();
   check_spindles();
   finish();
   if (main && !continues_main()) {  // the main task has read them
@@ -322,11 +329,25 @@ void PlcCore::scan(bool main, bool present) {
 
 void PlcCore::run_task(TaskName task, const Program& program) {
   if (has_program_fault()) return;
-  if (structured_.has(task))
+  if (times_ != nullptr) times_->begin_task();
+  std::uint64_t executed = 0;
+  if (structured_.has(task)) {
     structured_.run(task, memory_.registers, memory_.program, memory_.scans, main_part_);
-  else
-    execute(program, memory_.registers, memory_.blocks, memory_.scans);
+    executed = structured_.statements();
+  } else {
+    executed = execute(program, memory_.registers, memory_.blocks, memory_.scans);
+  }
+  if (times_ != nullptr) times_->end_task(task, executed);
   apply_forces();
+}
+
+std::array<std::uint64_t, 3> PlcCore::statement_budgets() const {
+  std::array<std::uint64_t, 3> budgets{};
+  for (const auto task : {TaskName::fast, TaskName::main, TaskName::simulation})
+    if (structured_.has(task))
+      budgets[static_cast<std::size_t>(task)] =
+          static_cast<std::uint64_t>(task == TaskName::main ? main_part_ : StructuredText::most_statements);
+  return budgets;
 }
 
 void PlcCore::settle() {
@@ -336,6 +357,7 @@ void PlcCore::settle() {
     scan(true, true);
     if (memory_.registers == before && memory_.program == settling_) break;
   }
+  structured_.set_run(memory_.program);
 }
 
 void PlcCore::advance(std::uint64_t tick) {
@@ -355,7 +377,7 @@ void PlcCore::advance(std::uint64_t tick) {
 
 Registers PlcCore::rescanned() const {
   PlcCore copy = *this;
-  copy.set_trace(nullptr);
+  copy.scan_unseen();
   if (loaded_ && configured()) copy.settle();
   return copy.memory_.registers;
 }

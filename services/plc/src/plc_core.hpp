@@ -12,6 +12,7 @@
 #include "programs.hpp"
 #include "scan_trace.hpp"
 #include "symbols.hpp"
+#include "task_times.hpp"
 
 namespace trunnion::plc {
 
@@ -75,6 +76,12 @@ class PlcCore {
   void release_all();
   /// Is told of every scan from now on; null for none. It must outlive its use.
   void set_trace(ScanTrace* trace) { trace_ = trace; }
+  /// Measures every scan from now on; null for none. It must outlive its use.
+  void set_task_times(TaskTimes* times) { times_ = times; }
+  /// As of a copy that only computes: nobody is told of its scans.
+  void scan_unseen() { trace_ = nullptr, times_ = nullptr; }
+  /// The most statements of each task in one scan, by TaskName; 0: an instruction list, which always ends.
+  std::array<std::uint64_t, 3> statement_budgets() const;
 
   /// Scans up to the drive's tick, then until the image is stable.
   void advance(std::uint64_t tick);
@@ -133,6 +140,7 @@ class PlcCore {
   View view_;
   ProgramVariables settling_;  ///< before the scan
   ScanTrace* trace_ = nullptr;
+  TaskTimes* times_ = nullptr;
   std::vector<idl::plc::AuxiliaryDone> done_;
 };
 

@@ -19,6 +19,7 @@ void PlcCore::take_over(Programs& next, const st::Changeover& change) {
                 memory_.program.values.begin() + (move.to - st::image_cells));
   structured_.restore(memory_.program);
   memory_.program.main = {};  // it begins again
+  structured_.set_not_run(memory_.program);
   auto& forces = memory_.forces;
   const auto before = std::exchange(forces, {});
   for (std::uint32_t i = 0; i < before.count; ++i)

@@ -5,6 +5,8 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "plc/source_files.hpp"
+
 namespace trunnion::plc {
 namespace {
 
@@ -19,9 +21,10 @@ void ProgramLoad::begin() {
 
 std::string ProgramLoad::write(const std::string& name, std::string_view data) {
   if (phase_ != Phase::WRITING) return "no load has begun, or its sources are complete; begin a load";
-  if (!is_source(name) || name.find('/') != std::string::npos)
+  if (!st::is_source(name) || name.find('/') != std::string::npos)
     return "'" + name +
-           "': sources are .st files (not *_test.st), .xml files, fast.il, main.il and devices.yaml";
+           "': sources are .st files (not *_test.st), .xml files, fast.il, main.il, devices.yaml and "
+           "modbus.yaml";
   auto found =
       std::find_if(files_.begin(), files_.end(), [&](const auto& file) { return file.name == name; });
   if (found == files_.end()) {
@@ -89,14 +92,22 @@ idl::plc::OnlineReply ProgramLoad::status(std::uint32_t first) const {
   return reply;
 }
 
-Translated translated(const SourceFiles& files, bool simulated, const st::Variables& running) {
+st::ModbusFile modbus_of(const SourceFiles& files, const std::string& directory) {
+  const auto* file = find(files, "modbus.yaml");
+  return file == nullptr ? st::ModbusFile() : st::read_modbus(file->text, directory + file->name);
+}
+
+Translated translated(const SourceFiles& files, bool simulated, const RunningSources& running) {
   Translated result;
   try {
     auto programs = translate(files, simulated);
-    result.change = st::Changeover(running, programs.variables);
+    result.modbus = modbus_of(files);
+    result.change = st::Changeover(running.variables, programs.variables);
     result.messages = programs.warnings;
     result.messages.insert(result.messages.end(), result.change.losses().begin(),
                            result.change.losses().end());
+    for (auto& line : st::changes_of(running.modbus, result.modbus))
+      result.messages.push_back(std::move(line));
     result.programs = std::move(programs);
   } catch (const std::runtime_error& e) {
     std::istringstream lines(e.what());

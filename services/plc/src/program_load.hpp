@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "online_comparison.hpp"
+#include "plc/devices/modbus_file.hpp"
 
 namespace trunnion::plc {
 
@@ -16,6 +17,7 @@ inline constexpr std::size_t most_source_bytes = 4 << 20, most_source_files = 20
 /// What translating has given.
 struct Translated {
   std::optional<Programs> programs;  ///< nothing with errors
+  st::ModbusFile modbus;
   st::Changeover change;
   std::vector<std::string> messages;
 };
@@ -43,6 +45,7 @@ class ProgramLoad {
   /// Of COMPILED and COMPARING.
   Programs& programs() { return *result_.programs; }
   const st::Changeover& change() const { return result_.change; }
+  const st::ModbusFile& modbus() const { return result_.modbus; }
   /// LOAD_STATUS.
   idl::plc::OnlineReply status(std::uint32_t first) const;
 
@@ -54,7 +57,14 @@ class ProgramLoad {
   std::unique_ptr<OnlineComparison> comparison_;
 };
 
-/// translate() and what `running` keeps; errors are messages.
-Translated translated(const SourceFiles& files, bool simulated, const st::Variables& running);
+/// What runs while new programs are translated.
+struct RunningSources {
+  st::Variables variables;
+  st::ModbusFile modbus;
+};
+/// modbus.yaml of the sources; without the file there are no connections. Throws as st::read_modbus().
+st::ModbusFile modbus_of(const SourceFiles& files, const std::string& directory = "");
+/// translate(), modbus_of() and what `running` keeps; errors are messages.
+Translated translated(const SourceFiles& files, bool simulated, const RunningSources& running);
 
 }  // namespace trunnion::plc

@@ -18,20 +18,16 @@ std::string joined(const std::vector<std::string>& lines) {
   return text;
 }
 
-const SourceFile* find(const SourceFiles& files, const std::string& name) {
-  const auto found =
-      std::find_if(files.begin(), files.end(), [&](const SourceFile& file) { return file.name == name; });
-  return found == files.end() ? nullptr : &*found;
-}
-
 void sort(SourceFiles& files) {
   std::sort(files.begin(), files.end(), [](const auto& a, const auto& b) { return a.name < b.name; });
 }
 
 }  // namespace
 
-bool is_source(const std::string& name) {
-  return st::is_compiled(name) || name == "fast.il" || name == "main.il" || name == "devices.yaml";
+const SourceFile* find(const SourceFiles& files, const std::string& name) {
+  const auto found =
+      std::find_if(files.begin(), files.end(), [&](const SourceFile& file) { return file.name == name; });
+  return found == files.end() ? nullptr : &*found;
 }
 
 std::uint32_t crc32_of(SourceFiles files) {

@@ -28,9 +28,8 @@ struct Programs {
   std::vector<std::string> warnings;
 };
 
-/// Whether a file of a directory with PLC programs is a source: .st except *_test.st, .xml, fast.il,
-/// main.il, devices.yaml.
-bool is_source(const std::string& name);
+/// Null when there is no such file.
+const SourceFile* find(const SourceFiles& files, const std::string& name);
 /// Identifies the names and texts; the order does not count.
 std::uint32_t crc32_of(SourceFiles files);
 

@@ -41,6 +41,9 @@ class StructuredText {
   /// After a restart of the process: all variables; initial values when they have another layout. A fault of
   /// other code is forgotten.
   void restore(ProgramVariables& variables);
+  /// The variables are of code that has not run yet, or of this code: restore() tells one from the other.
+  void set_not_run(ProgramVariables& variables) const { variables.identity = 0; }
+  void set_run(ProgramVariables& variables) const { variables.identity = identity_; }
   /// After a new start of the cluster: RETAIN variables of `kept` when its layout is the same.
   void power_up(const ProgramVariables& kept, ProgramVariables& variables);
   /// Registers that the programs keep besides the retained areas.
@@ -53,6 +56,8 @@ class StructuredText {
   /// Of the main task at most `part` statements: variables.main says whether and where it continues.
   void run(TaskName task, Registers& registers, ProgramVariables& variables, std::uint64_t now,
            std::int64_t part = most_statements);
+  /// That the last run() has executed.
+  std::uint64_t statements() const { return static_cast<std::uint64_t>(machine_->statements()); }
   /// In ms, as of the instruction list.
   std::optional<std::uint64_t> next_timer_end(std::uint64_t now) const;
   bool timer_due(std::uint64_t now) const;

@@ -193,7 +193,7 @@ TEST(ProgramLoad, GoesThroughItsPhasesAndSaysWhatIsNotKept) {
   EXPECT_EQ(load.write("main.st", " : DINT; END_VAR limit := 1; END_PROGRAM"), "");
   EXPECT_EQ(load.may_take_over(true), "no programs are ready to take over");
   EXPECT_EQ(load.start_compiling(), "");
-  load.translated(translated(load.files(), true, plc.variables));
+  load.translated(translated(load.files(), true, {plc.variables, {}}));
   EXPECT_EQ(load.phase(), ProgramLoad::Phase::COMPILED);
   const auto messages = load.status(0).messages;
   EXPECT_NE(std::find(messages.begin(), messages.end(),
@@ -215,7 +215,7 @@ TEST(ProgramLoad, WithErrorsNothingTakesOver) {
   EXPECT_EQ(load.write("fast.st", empty_fast), "");
   EXPECT_EQ(load.write("main.st", "PROGRAM main\nlamp := TRUE;\nmore := 1;\nEND_PROGRAM\n"), "");
   EXPECT_EQ(load.start_compiling(), "");
-  load.translated(translated(load.files(), true, plc.variables));
+  load.translated(translated(load.files(), true, {plc.variables, {}}));
   EXPECT_EQ(load.phase(), ProgramLoad::Phase::WITH_ERRORS);
   EXPECT_EQ(load.status(0).messages,
             (std::vector<std::string>{"main.st:2:1: error: there is no variable 'lamp'",

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Which variables a line of Structured Text names, so that their values can be shown beside it.
+import { inputNames } from "./input_catalogue";
 
 export interface SourceLine {
   text: string;
@@ -16,7 +17,23 @@ const comment = /\(\*[\s\S]*?\*\)|\/\*[\s\S]*?\*\/|\/\/[^\n]*|'(?:\$.|[^'\n])*'/
 /** Comments and strings become blanks of the same length, so that lines stay lines. */
 const blanked = (source: string) => source.replace(comment, (text) => text.replace(/[^\n]/g, " "));
 
+/** Of PLCopen XML: the steps of charts, each with whether it is active and for how long. */
+function chartLines(source: string): SourceLine[] {
+  let unit = "";
+  let kind: SourceLine["kind"] = "";
+  return source.split("\n").map((text) => {
+    const pou = /<(?:\w+:)?pou\s[^>]*/.exec(text)?.[0];
+    if (pou !== undefined) {
+      unit = /\bname="(\w+)"/.exec(pou)?.[1] ?? "";
+      kind = pou.includes('pouType="program"') ? "PROGRAM" : pou.includes('pouType="functionBlock"') ? "FUNCTION_BLOCK" : "";
+    }
+    const step = /<(?:\w+:)?step\s[^>]*\bname="(\w+)"/.exec(text)?.[1];
+    return { text, names: step === undefined ? [] : [`${step}.X`, `${step}.T`], unit, kind };
+  });
+}
+
 export function sourceLines(source: string): SourceLine[] {
+  if (/^\s*(?:\uFEFF)?<\?xml|^\s*<(?:\w+:)?project\b/.test(source)) return chartLines(source);
   const lines = source.split("\n");
   const code = blanked(source).split("\n");
   let unit = "";
@@ -73,4 +90,68 @@ export function declared(source: string, block: string): string[] {
     for (const line of section[1]!.matchAll(/([\w, \n]+?)\s*:\s*(?:BOOL|[SDLU]{0,2}INT|L?REAL|[DL]?WORD|BYTE|L?TIME|STRING)\b/gi))
       for (const name of line[1]!.split(",")) if (/^\s*\w+\s*$/.test(name)) names.push(name.trim());
   return names.filter((name) => !/^(RETAIN)$/i.test(name));
+}
+
+export interface Source {
+  name: string;
+  text: string;
+}
+
+export interface Use {
+  file: string;
+  /** From 1. */
+  line: number;
+  text: string;
+  writes: boolean;
+}
+
+/** Every line that names the variable: in its program, in the function blocks whose instance it is in, elsewhere by its path. */
+export function uses(path: string, sources: readonly Source[], paths: Paths): Use[] {
+  const wanted = path.toUpperCase();
+  const found: Use[] = [];
+  for (const { name: file, text: source } of sources) {
+    if (!file.endsWith(".st")) continue;
+    const code = blanked(source).split("\n");
+    const instances = new Map<string, string[]>();
+    sourceLines(source).forEach(({ text, names, unit, kind }, index) => {
+      if (kind === "FUNCTION_BLOCK" && !instances.has(unit)) instances.set(unit, paths.instances(declared(source, unit)));
+      const prefixes = kind === "PROGRAM" ? [unit] : kind === "FUNCTION_BLOCK" ? instances.get(unit)! : [""];
+      const name = names.find((one) => prefixes.some((prefix) => paths.find(one, prefix)?.toUpperCase() === wanted));
+      if (name === undefined) return;
+      const written = new RegExp(`(?:^|;|\\bTHEN|\\bELSE|\\bDO|=>|:)\\s*${name.replace(/[.*+?^${}()|[\]\\]/g, "\\$&")}\\s*(?::=|;|$|,|\\))`, "i");
+      const line = code[index] ?? "";
+      const writes = written.test(line.replace(/=>\s*/g, "=> ")) && (line.includes(":=") || line.includes("=>"));
+      found.push({ file, line: index + 1, text: text.trim(), writes });
+    });
+  }
+  return found;
+}
+
+export interface InputBit {
+  /** %X16.0 */
+  address: string;
+  /** What the sources call it; empty without a name. */
+  name: string;
+}
+
+/** The bits of area X that every machine has, and those that the sources and the file of the simulated devices name, in order. */
+export function inputBits(sources: readonly Source[]): InputBit[] {
+  const names = new Map(Object.entries(inputNames).map(([address, name]) => [address.slice(1), name]));
+  for (const { name: file, text } of sources) {
+    if (!file.endsWith(".st") && file !== "devices.yaml") continue;
+    const code = file.endsWith(".st") ? blanked(text) : text.replace(/#[^\n]*/g, "");
+    for (const [, bit] of code.matchAll(/%?\bI?X(\d+\.[0-7])\b/gi)) if (!names.has(bit!)) names.set(bit!, "");
+    for (const [, name, bit] of code.matchAll(/(\w+)\s+AT\s+%I?X(\d+\.[0-7])\b/gi)) names.set(bit!, name!);
+  }
+  return [...names].map(([bit, name]) => ({ address: `%X${bit}`, name })).sort((a, b) => Number(a.address.slice(2)) - Number(b.address.slice(2)));
+}
+
+/** Simulated devices with the paths of their values: what is in the program `simulation`. */
+export function devices(all: readonly string[]): Map<string, string[]> {
+  const found = new Map<string, string[]>();
+  for (const path of all) {
+    const [, name] = /^simulation\.(\w+)/i.exec(path) ?? [];
+    if (name) found.set(name, [...(found.get(name) ?? []), path]);
+  }
+  return found;
 }

@@ -74,10 +74,11 @@ export class ProgramEditor {
   private readonly comparison = new Compartment();
   private lineNumber = 1;
 
-  constructor(place: HTMLElement, text: string, label: string, phrases: Record<string, string>, events: EditorEvents) {
+  /** `language`: colours and explanations; those of G code when it is left out. */
+  constructor(place: HTMLElement, text: string, label: string, phrases: Record<string, string>, events: EditorEvents, language: Extension = [highlighting, explanations]) {
     const extensions: Extension[] = [
       lineNumbers(), history(), drawSelection(), highlightActiveLine(), highlightActiveLineGutter(), highlightSelectionMatches(),
-      lintGutter(), highlighting, explanations, search({ top: true }), keymap.of([...searchKeymap, ...historyKeymap, ...defaultKeymap]),
+      lintGutter(), language, search({ top: true }), keymap.of([...searchKeymap, ...historyKeymap, ...defaultKeymap]),
       EditorState.phrases.of(phrases), EditorView.contentAttributes.of({ "aria-label": label, spellcheck: "false", tabindex: "0", "data-test": "program-text" }),
       this.comparison.of([]), EditorState.lineSeparator.of(/\r\n/.test(text) && !/(^|[^\r])\n/.test(text) ? "\r\n" : "\n"),
       EditorView.updateListener.of((update) => {
@@ -102,7 +103,7 @@ export class ProgramEditor {
     this.view.dispatch({ changes: { from: 0, to: this.view.state.doc.length, insert: text } });
   }
 
-  /** Marks the place of an error, or none. */
+  /** Marks the place of an error, or none. A number 0 is not shown. */
   mark(error: ProgramError | undefined): void {
     const found: Diagnostic[] = [];
     const { doc } = this.view.state;
@@ -113,7 +114,7 @@ export class ProgramEditor {
       const from = error.column > 0 ? Math.min(line.from + before, line.to) : line.from;
       const token = tokens(line.text).find((one) => line.from + one.from <= from && from < line.from + one.to);
       const to = error.column === 0 ? line.to : token ? line.from + token.to : Math.min(from + 1, line.to);
-      found.push({ from, to, severity: "error", message: `${error.number}: ${error.text}` });
+      found.push({ from, to, severity: "error", message: error.number > 0 ? `${error.number}: ${error.text}` : error.text });
     }
     this.view.dispatch(setDiagnostics(this.view.state, found));
   }

@@ -56,7 +56,7 @@ export function PlcTrace({ paths }: { paths: readonly string[] }) {
     name: path, unit: unit ?? "", x: time, y: Float64Array.from(rows, ({ values }) => plotted(values[index] ?? "")),
   }));
   return (
-    <section class="plc-trace" aria-label={t.plcTrace}>
+    <div class="plc-trace">
       <form
         class="title"
         onSubmit={(event) => {
@@ -64,7 +64,6 @@ export function PlcTrace({ paths }: { paths: readonly string[] }) {
           void start();
         }}
       >
-        <h2>{t.plcTrace}</h2>
         <label class="row"><span class="dim">{t.plcScans}</span> <input class="short digits" inputMode="numeric" value={scans.value} onInput={(event) => (scans.value = event.currentTarget.value)} /></label>
         <button type="submit" disabled={paths.length === 0 || running.value}>{t.plcTraceStart}</button>
         <span class="dim end" role="status" data-test="plc-trace">{shown.value && t.plcTraceRows(rows.length, Number(scans.value))}</span>
@@ -74,6 +73,6 @@ export function PlcTrace({ paths }: { paths: readonly string[] }) {
       ) : (
         <p class="dim">{t.plcTraceAbout}</p>
       )}
-    </section>
+    </div>
   );
 }

@@ -9,7 +9,8 @@ import { type Live, PlcWatch } from "../plc/watch";
 import { tell } from "../state/store";
 import { text } from "../text/texts";
 import { Guard, GuardNote } from "./Guard";
-import { PlcTrace } from "./PlcTrace";
+import { PlcLoad } from "./PlcLoad";
+import { PlcTools } from "./PlcTools";
 import { ask } from "./Question";
 
 const mostShown = 100;
@@ -206,6 +207,8 @@ export function PlcView({ close }: { close: () => void }) {
   const forces = useSignal<PlcForces | null>(null);
   const problem = useSignal("");
   const shownInSource = useSignal<string[]>([]);
+  const shownInTools = useSignal<string[]>([]);
+  const changes = useSignal(false);
   const watch = useMemo(() => new PlcWatch(), []);
   useEffect(() => () => watch.close(), []);
   useEffect(() => {
@@ -222,9 +225,10 @@ export function PlcView({ close }: { close: () => void }) {
     const timer = setInterval(() => void look(), forcePeriod);
     return () => clearInterval(timer);
   }, []);
-  const paths = useMemo(() => new Paths(variables.value.map(({ path }) => path)), [variables.value]);
+  const all = useMemo(() => variables.value.map(({ path }) => path), [variables.value]);
+  const paths = useMemo(() => new Paths(all), [all]);
   const forcedPaths = forces.value?.values.map(({ path }) => path) ?? [];
-  const wanted = [...chosen.value, ...forcedPaths, ...shownInSource.value];
+  const wanted = [...chosen.value, ...forcedPaths, ...shownInTools.value, ...shownInSource.value];
   useEffect(() => watch.set(wanted), [wanted.join(" ")]);
   const live = watch.values.value;
   return (
@@ -232,16 +236,21 @@ export function PlcView({ close }: { close: () => void }) {
       <section class="setup-keys" aria-label={t.plcPrograms}>
         <button onClick={close}>{t.plcBack}</button>
         <h2>{t.plcPrograms}</h2>
+        <button aria-pressed={changes.value} disabled={!programs.value} onClick={() => (changes.value = !changes.value)}>{t.plcLoad}</button>
         {(problem.value || watch.problem.value) && <span class="refusal" role="status">{problem.value || watch.problem.value}</span>}
       </section>
-      {programs.value ? (
+      {programs.value && changes.value ? (
+        <PlcLoad programs={programs.value} close={() => (changes.value = false)} />
+      ) : programs.value ? (
         <Source programs={programs.value} paths={paths} live={live} watch={(list) => (shownInSource.value = list)} />
       ) : (
         <section class="plc-source dim" aria-label={t.plcSource}>{t.loading}</section>
       )}
       <VariableList variables={variables.value} />
-      <Watched live={live} forces={forces.value} />
-      <PlcTrace paths={chosen.value} />
+      {!changes.value && <Watched live={live} forces={forces.value} />}
+      {programs.value && (
+        <PlcTools chosen={chosen.value} programs={programs.value} all={all} live={live} watch={(list) => (shownInTools.value = list)} />
+      )}
     </main>
   );
 }
