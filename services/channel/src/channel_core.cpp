@@ -47,6 +47,7 @@ void ChannelCore::apply_parameters() {
   for (const auto& line : machine::kinematics_warnings(*parameters_, number_))
     event(alarm::direction_not_unit, line);
   exact_stop_.configure(*parameters_, machine_.channel_axes(), machine_.columns());
+  configure_guards();
   build_paths();
 }
 
@@ -61,6 +62,8 @@ void ChannelCore::build_paths() {
 void ChannelCore::set_tools(const idl::parameters::ToolTable& tools) {
   tool_table_ = tools;
   machine_.set_tools(tools);
+  for (auto* guard : {program_guard_.get(), manual_guard_.get()})
+    if (guard != nullptr) guard->tools_changed();
 }
 void ChannelCore::set_offsets(const idl::parameters::WorkOffsets& offsets) { machine_.set_offsets(offsets); }
 
@@ -129,6 +132,7 @@ void ChannelCore::stop_activity() {
   if (states_.is(Activity::program) && preparing == nullptr) states_.forget_suspended();
   states_.end();
   restart_.reset();
+  jog_obstacle_.reset();
   manual_.end_wheel();
   handshake_.cancel();
   apply_parameters();
@@ -140,6 +144,7 @@ void ChannelCore::finish(bool program_end) {
   finish_tapping();
   machine_start_ = machine_position();
   manual_.end_wheel();
+  jog_obstacle_.reset();
   if (states_.is(Activity::mdi) && !reset) {  // a reset has its own modal state
     mdi_.modal = mdi_flow_.modal();
     mdi_.frames_kept = true;
