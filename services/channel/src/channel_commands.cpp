@@ -123,6 +123,7 @@ Answer ChannelCore::select(const std::string& name) {
   for (const auto& entry : programs_.programs)
     if (entry.name == name) {
       if (interrupted_.name != name) interrupted_ = {};
+      if (is_temporary(name) && !is_temporary(selected_.name)) before_temporary_ = selected_.name;
       selected_ = entry;
       progress_.executed = {};
       return {};
@@ -240,6 +241,7 @@ void ChannelCore::reset() {
     stop_activity();
   else
     states_.end();
+  leave_temporary_program();
   if (stream_.idle()) drop_offset();
   apply_parameters();
 }

@@ -4,6 +4,12 @@
 #include "machine/alarm_constants.hpp"
 
 namespace trunnion::channel {
+namespace {
+// Of the programs that a command of `trunnion` writes for itself.
+constexpr std::string_view temporary_suffix = ".tmp.nc";
+}  // namespace
+
+bool is_temporary(const std::string& program) { return program.ends_with(temporary_suffix); }
 
 ChannelCore::ChannelCore(std::uint16_t channel, bool virtual_time)
     : number_(channel),
@@ -131,6 +137,7 @@ void ChannelCore::stop_activity() {
   keep_variables();
   if (states_.is(Activity::program) && preparing == nullptr) states_.forget_suspended();
   states_.end();
+  leave_temporary_program();
   restart_.reset();
   jog_obstacle_.reset();
   manual_.end_wheel();
@@ -157,9 +164,20 @@ void ChannelCore::finish(bool program_end) {
     end_snapshot();
   }
   states_.end();
+  leave_temporary_program();
   restart_.reset();
   if (reset) drop_offset();
   apply_parameters();
+}
+
+// A command that was killed cannot put back the operator's program: it is selected again when a temporary one
+// has ended. The command selects its own before each run.
+void ChannelCore::leave_temporary_program() {
+  if (!states_.in<Idle>() || !is_temporary(selected_.name)) return;
+  const auto name = std::exchange(before_temporary_, "");
+  selected_ = {};
+  for (const auto& entry : programs_.programs)
+    if (entry.name == name) selected_ = entry;
 }
 
 // What a program does at rest behind its last motion is written nowhere: the drive keeps a snapshot in which

@@ -50,6 +50,9 @@ struct ChannelEvent {
   std::string text;
 };
 
+/// A command of `trunnion` has stored the program for itself: its name ends with .tmp.nc.
+bool is_temporary(const std::string& program);
+
 class ChannelCore {
  public:
   ChannelCore(std::uint16_t channel, bool virtual_time);
@@ -185,6 +188,7 @@ class ChannelCore {
   // channel_core.cpp
   void stop_activity();
   void end_snapshot();
+  void leave_temporary_program();
   void finish(bool program_end);
   void keep_variables();
   void apply_parameters();
@@ -280,6 +284,7 @@ class ChannelCore {
   std::uint32_t reset_count_ = 0;
 
   idl::program::ProgramEntry selected_;
+  std::string before_temporary_;  // name of the program selected before a temporary one
   std::optional<RestartPoint> restart_;  // of the program, until it is reached
   AxisValues program_start_{};           // machine coordinates
   std::uint64_t ended_ = 0;              // newest cycle of the drive's snapshot when a program ended
