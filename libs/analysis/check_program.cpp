@@ -97,8 +97,7 @@ bool check_program(language::TextSource& text, language::Environment& environmen
   if (!options.json_lines) {
     summary.print(out, interpreter->blocks());
     if (!error.empty())
-      out << name(where) << ":" << command.line << ": " << number << ":" << text_of(error)
-          << "\n";
+      out << name(where) << ":" << command.line << ": " << number << ":" << text_of(error) << "\n";
     else if (!good)
       print_alarm(interpreter->alarm(), name, out);
   } else if (!error.empty()) {

@@ -30,17 +30,16 @@ struct Levers {
   double most_motion(const AxisPosition& amount) const {
     double moved = 0;
     for (std::size_t k = count; k-- > 0;)
-      moved += of[k].rotary
-                   ? geometry::radians_per_degree * amount[of[k].axis] * (of[k].reach + moved)
-                   : amount[of[k].axis];
+      moved += of[k].rotary ? geometry::radians_per_degree * amount[of[k].axis] * (of[k].reach + moved)
+                            : amount[of[k].axis];
     return moved;
   }
 };
 
 // What is known of a pair.
 struct Watch {
-  AxisPosition at{};      // the distance was computed here
-  double distance = 0;    // mm, or less than it
+  AxisPosition at{};    // the distance was computed here
+  double distance = 0;  // mm, or less than it
   bool known = false;
   bool escaping = false;  // the path began within the clearance of the pair
   double largest = 0;     // while escaping, mm
@@ -63,9 +62,9 @@ struct PathCheck::Implementation {
   AxisPosition from{}, to{}, deviation{};
   std::optional<AxisPosition> path_end;  // of the move before; none: a path begins
   bool path_begins = true, probing = false;
-  std::size_t pair = 0;        // that is followed
-  double at = 0;               // share to which it is known to be free
-  double end = 1;              // share up to which pairs are of interest
+  std::size_t pair = 0;  // that is followed
+  double at = 0;         // share to which it is known to be free
+  double end = 1;        // share up to which pairs are of interest
   FirstContact contact;
   bool found = false;
   std::uint64_t distances = 0;
@@ -98,8 +97,7 @@ struct PathCheck::Implementation {
     AxisPosition amount{};
     const auto here = position(at), there = position(end);
     for (std::size_t k = 0; k < axes; ++k)
-      amount[k] =
-          std::max(std::abs(here[k] - watch.at[k]), std::abs(there[k] - watch.at[k])) + deviation[k];
+      amount[k] = std::max(std::abs(here[k] - watch.at[k]), std::abs(there[k] - watch.at[k])) + deviation[k];
     return amount;
   }
 
@@ -149,8 +147,7 @@ struct PathCheck::Implementation {
   // The pair is followed to the end of the move or to a contact; false when the budget is used up.
   bool follow(std::size_t& budget) {
     Watch& watch = watches[pair];
-    if (watch.known && !watch.escaping &&
-        watch.distance - clearance > watch.most_motion(amount_from(watch)))
+    if (watch.known && !watch.escaping && watch.distance - clearance > watch.most_motion(amount_from(watch)))
       return true;
     for (;;) {
       if (budget == 0) return false;

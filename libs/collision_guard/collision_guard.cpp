@@ -21,8 +21,8 @@ using language::CommandKind;
 
 // Of one straight move, degrees: of all rotary axes together under a tool tip, and of an arc.
 constexpr double rotary_step = 5, arc_step = 10;
-// The axes leave a straight move most near its middle. So small parts of a turn are nearly parabolas, and twice
-// what is found there covers the difference.
+// The axes leave a straight move most near its middle. So small parts of a turn are nearly parabolas, and
+// twice what is found there covers the difference.
 constexpr double bend_share = 2;
 constexpr double difference_step = 0.1;  // degrees, of the derivatives of the linear axes
 
@@ -53,8 +53,8 @@ void CollisionGuard::configure(const machine::Parameters& parameters, std::uint1
   begin_run();
   if (!text_.text)
     throw std::runtime_error(text_.file + ": the file is missing, and 'collision' in machine.yaml needs it");
-  auto bodies = collision::parse_bodies(*text_.text, text_.file,
-                                        machine::chain_parameters(parameters, channel));
+  auto bodies =
+      collision::parse_bodies(*text_.text, text_.file, machine::chain_parameters(parameters, channel));
   travel_ = {};
   for (const auto axis : machine_.channel_axes().index)
     if (axis < travel_.size()) travel_[axis].present = true;
@@ -202,8 +202,8 @@ std::optional<Obstacle> CollisionGuard::obstacle(const AxisValues& from, const A
   return Obstacle{check_->contact().share, words()};
 }
 
-// "'spindle nose' and 'table' would be 0.998 mm apart (clearance 1 mm) at X10.000 Y0.000 Z-300.000 mm, A30.000
-// C0.000 deg"
+// "'spindle nose' and 'table' would be 0.998 mm apart (clearance 1 mm) at X10.000 Y0.000 Z-300.000 mm,
+// A30.000 C0.000 deg"
 std::string CollisionGuard::words() const {
   const auto& contact = check_->contact();
   const auto& bodies = model_->bodies();

@@ -45,8 +45,8 @@ class CollisionGuard : public program_execution::MoveGuard {
   /// `machine` must outlive the guard. `mode` is warn or stop.
   CollisionGuard(const channel_setup::ChannelSetup& machine, CollisionMode mode, BodiesText bodies);
 
-  /// When `machine` has been configured with `parameters`. Throws std::runtime_error: no bodies.yaml, an error
-  /// in it, or a chain without links. Before it, and after it has thrown, every move is a contact.
+  /// When `machine` has been configured with `parameters`. Throws std::runtime_error: no bodies.yaml, an
+  /// error in it, or a chain without links. Before it, and after it has thrown, every move is a contact.
   void configure(const machine::Parameters& parameters, std::uint16_t channel);
   /// When the tool table has changed.
   void tools_changed() { tool_.reset(); }

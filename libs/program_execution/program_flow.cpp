@@ -239,7 +239,8 @@ FlowState ProgramFlow::fill(bool single_block) {
     }
     const auto state = push_move();
     if (state == FlowState::alarm) return state;
-    // The same moves are looked at in the same cycles whatever the computer's speed: motion goes on meanwhile.
+    // The same moves are looked at in the same cycles whatever the computer's speed: motion goes on
+    // meanwhile.
     if (state == FlowState::waiting) return FlowState::full;
   }
   return FlowState::waiting;

@@ -36,7 +36,8 @@ TEST(PathCheck, StopsAMoveWhereTheClearanceBegins) {
   const auto model = ball_over_block(1);
   PathCheck check(model);
   ASSERT_EQ(whole(check, {}, {0, 0, -200}), Verdict::contact);
-  // The ball touches at Z-90; with 1 mm of clearance it is reported between Z-89 and the resolution before it.
+  // The ball touches at Z-90; with 1 mm of clearance it is reported between Z-89 and the resolution before
+  // it.
   EXPECT_LE(check.contact().position[2], -89 + PathCheck::resolution + 1e-9);
   EXPECT_GE(check.contact().position[2], -89);
   EXPECT_EQ(whole(check, {}, {0, 0, -88.9}), Verdict::free);
@@ -118,7 +119,8 @@ TEST(PathCheck, NoSampleOfARandomPathIsNearerThanTheClearanceBeforeItsContact) {
     BodySet set;
     set.clearance = 2;
     for (std::size_t i = 0; i < balls; ++i) {
-      on_table.push_back({tip + Vec3(number(-100, 100), number(-100, 100), number(-250, -100)), number(10, 50)});
+      on_table.push_back(
+          {tip + Vec3(number(-100, 100), number(-100, 100), number(-250, -100)), number(10, 50)});
       on_spindle.push_back({tip + Vec3(number(-30, 30), number(-30, 30), number(0, 80)), number(5, 20)});
       set.bodies.push_back({"t" + std::to_string(i), links.workpiece(), Sphere{on_table.back().radius},
                             on_table.back().centre});

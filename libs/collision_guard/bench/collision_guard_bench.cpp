@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the check of the bodies costs the planner: both in turn in one run, so that the ratio does not depend on
-// what else the computer does.
+// What the check of the bodies costs the planner: both in turn in one run, so that the ratio does not depend
+// on what else the computer does.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -55,10 +55,11 @@ std::string with_clamps() {
   char line[200];
   for (int i = 0; i < 24; ++i) {
     const double angle = i * std::numbers::pi / 12;
-    std::snprintf(line, sizeof line,
-                  "  - {name: clamp %d, on: workpiece, box: {size_mm: [20, 20, 15]}, position_mm: [%.3f, %.3f, "
-                  "-392.5]}\n",
-                  i, 130 * std::cos(angle), 130 * std::sin(angle));
+    std::snprintf(
+        line, sizeof line,
+        "  - {name: clamp %d, on: workpiece, box: {size_mm: [20, 20, 15]}, position_mm: [%.3f, %.3f, "
+        "-392.5]}\n",
+        i, 130 * std::cos(angle), 130 * std::sin(angle));
     text += line;
   }
   return text;

@@ -165,7 +165,8 @@ TEST(CollisionGuard, TheContactNamesLineBodiesDistanceAndPositions) {
   guard.configure(machine.tables.parameters, 0);
   language::StringSource source("G90\nG0 X90 Y20\nG1 Z-400 F1000\nM30\n");
   const auto run = analysis::run_program(source, machine.setup, {}, {}, {}, 1000000, &guard);
-  // The ball at the tip, radius 6 at 94 below the face, touches the ball of radius 30 whose centre is at -360.
+  // The ball at the tip, radius 6 at 94 below the face, touches the ball of radius 30 whose centre is at
+  // -360.
   EXPECT_EQ(run.alarm.rfind("3: 'ball on the table' and 'tip' would be ", 0), 0u) << run.alarm;
   EXPECT_NE(run.alarm.find("(clearance 2 mm) at X90.000 Y20.000 Z-"), std::string::npos) << run.alarm;
   EXPECT_NE(run.alarm.find(" mm, A0.000 C0.000 deg"), std::string::npos) << run.alarm;
@@ -246,17 +247,18 @@ std::string table_below(const collision::MachineLinks& links, double top) {
   const auto& joints = links.joints(true);
   char text[400];
   const auto point = joints.empty() ? Vec3(Vec3::Zero()) : joints.back().point;
-  std::snprintf(text, sizeof text,
-                "bodies:\n"
-                "  - {name: table, on: workpiece, cylinder: {diameter_mm: 320, height_mm: 40}, position_mm: [%.3f, "
-                "%.3f, %.3f]}\n"
-                "  - {name: nose, on: spindle, cylinder: {diameter_mm: 60, height_mm: 100}, position_mm: [0, 0, 50]}\n",
-                point.x(), point.y(), top - 20);
+  std::snprintf(
+      text, sizeof text,
+      "bodies:\n"
+      "  - {name: table, on: workpiece, cylinder: {diameter_mm: 320, height_mm: 40}, position_mm: [%.3f, "
+      "%.3f, %.3f]}\n"
+      "  - {name: nose, on: spindle, cylinder: {diameter_mm: 60, height_mm: 100}, position_mm: [0, 0, 50]}\n",
+      point.x(), point.y(), top - 20);
   return text;
 }
 
-// Every part program that a machine is delivered with, over a table below its lowest tip, by samples of the path
-// that it has without the check.
+// Every part program that a machine is delivered with, over a table below its lowest tip, by samples of the
+// path that it has without the check.
 TEST(CollisionGuard, DeliveredProgramsRunToTheSamePositionsOrStopForAContactThatSamplesConfirm) {
   constexpr double below = 15;  // mm
   int same = 0, stopped = 0;
@@ -287,8 +289,8 @@ TEST(CollisionGuard, DeliveredProgramsRunToTheSamePositionsOrStopForAContactThat
       };
       const auto without = run(nullptr);
       const auto design = machine::chain_parameters(machine.tables.parameters, 0);
-      const auto text =
-          table_below(std::get<collision::MachineLinks>(collision::MachineLinks::make(design)), lowest - below);
+      const auto text = table_below(std::get<collision::MachineLinks>(collision::MachineLinks::make(design)),
+                                    lowest - below);
       auto bodies = collision::parse_bodies(text, "bodies.yaml", design);
       const collision::CollisionModel model(bodies.links, bodies.set);
       double nearest = 1e9;
@@ -301,7 +303,8 @@ TEST(CollisionGuard, DeliveredProgramsRunToTheSamePositionsOrStopForAContactThat
         EXPECT_GE(nearest, 1) << file.path();
         ++same;
       } else {
-        // A tool of the table is a body as well; the samples are those of the nose, or it is the tool's contact.
+        // A tool of the table is a body as well; the samples are those of the nose, or it is the tool's
+        // contact.
         EXPECT_NE(std::get<1>(with).find("(alarm 176)"), std::string::npos) << std::get<1>(with);
         EXPECT_TRUE(nearest < 2 || std::get<1>(with).find("'tool'") != std::string::npos)
             << file.path() << " " << std::get<1>(with) << " nearest " << nearest;

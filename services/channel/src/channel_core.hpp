@@ -284,7 +284,7 @@ class ChannelCore {
   std::uint32_t reset_count_ = 0;
 
   idl::program::ProgramEntry selected_;
-  std::string before_temporary_;  // name of the program selected before a temporary one
+  std::string before_temporary_;         // name of the program selected before a temporary one
   std::optional<RestartPoint> restart_;  // of the program, until it is reached
   AxisValues program_start_{};           // machine coordinates
   std::uint64_t ended_ = 0;              // newest cycle of the drive's snapshot when a program ended

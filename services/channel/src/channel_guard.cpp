@@ -37,8 +37,7 @@ void ChannelCore::hold_guarded_axes() {
 void ChannelCore::report_guard() {
   auto* guard = states_.is(Activity::mdi) ? manual_guard_.get() : program_guard_.get();
   if (guard == nullptr || !guard->has_warnings()) return;
-  for (auto& line : guard->take_warnings())
-    event(alarm::bodies_near, program_name() + ":" + std::move(line));
+  for (auto& line : guard->take_warnings()) event(alarm::bodies_near, program_name() + ":" + std::move(line));
 }
 
 // A jog without an increment is planned to the end of travel: only where it arrives counts.
@@ -61,8 +60,8 @@ std::string ChannelCore::approach_obstacle(const std::vector<language::Command>&
   for (const auto& move : moves) {
     if (const auto obstacle = manual_guard_->obstacle(at, move.target, modal)) {
       if (guards_stop()) return obstacle->text;
-      event(alarm::bodies_near, program_name() + ":" + std::to_string(move.line) + ": on the approach " +
-                                    obstacle->text);
+      event(alarm::bodies_near,
+            program_name() + ":" + std::to_string(move.line) + ": on the approach " + obstacle->text);
       return "";
     }
     at = move.target;

@@ -144,9 +144,9 @@ Answer ChannelCore::continue_after_suspension() {
   if (const auto error = approach_error(machine_, machine_start_, preparation.moves); !error.empty())
     return refuse(alarm::travel_limit, "On the return to line " + error);
   if (const auto obstacle = approach_obstacle(preparation.moves); !obstacle.empty())
-    return refuse(alarm::bodies_would_meet, "On the return to line " +
-                                                std::to_string(suspended.progress.executed.line) + " " +
-                                                obstacle);
+    return refuse(
+        alarm::bodies_would_meet,
+        "On the return to line " + std::to_string(suspended.progress.executed.line) + " " + obstacle);
   states_.begin_return(std::move(preparation));
   return {};
 }

@@ -113,10 +113,11 @@ Answer ChannelCore::turn_handwheel(const ChannelRequest& request) {
     if (in_motion) flow().set_offset(manual_.offset_target());
   }
   if (distance != 0 && added == 0)
-    return refuse(alarm::travel_limit, "Axis " + std::string(1, language::axis_letters[axis]) +
-                                           (guards_stop() ? " has no travel left for the handwheel, or a body "
-                                                            "of the machine is in its way"
-                                                          : " has no travel left for the handwheel"));
+    return refuse(alarm::travel_limit,
+                  "Axis " + std::string(1, language::axis_letters[axis]) +
+                      (guards_stop() ? " has no travel left for the handwheel, or a body "
+                                       "of the machine is in its way"
+                                     : " has no travel left for the handwheel"));
   if (!turning && !in_motion) begin_manual(Activity::handwheel);
   return {};
 }

@@ -11,8 +11,8 @@ namespace {
 using namespace testing;
 using machine::CollisionMode;
 
-// The ball is at the spindle face, which is at the machine's zero with X Y Z at zero; the posts stand around it
-// and on the table. The pins are beside the table, on the table.
+// The ball is at the spindle face, which is at the machine's zero with X Y Z at zero; the posts stand around
+// it and on the table. The pins are beside the table, on the table.
 constexpr const char* bodies = R"(
 structure: "[w C' A' b X Y Z (S) t]"
 clearance_mm: 1
@@ -72,8 +72,8 @@ TEST_F(Guard, JogOfEachAxisStopsBeforeTheBodiesAndMayGoAway) {
     std::uint8_t axis;
     double speed, stops;
   };
-  for (const auto& c : {Case{0, 3000, stop_at}, Case{0, -3000, -stop_at}, Case{1, 3000, stop_at},
-                        Case{1, -3000, -stop_at}}) {
+  for (const auto& c :
+       {Case{0, 3000, stop_at}, Case{0, -3000, -stop_at}, Case{1, 3000, stop_at}, Case{1, -3000, -stop_at}}) {
     events.clear();
     ASSERT_TRUE(jog(c.axis, c.speed, 150).accepted);
     EXPECT_NEAR(at(c.axis), c.stops - std::copysign(early, c.speed), within) << int{c.axis};
