@@ -32,7 +32,7 @@ if "$trunnion" plan "$program" --machine "$work/m" > /dev/null 2> "$work/error";
 grep -q "machine.yaml:[0-9]*:[0-9]*: .*collision must be 'off', 'warn' or 'stop'" "$work/error" || fail "$(cat "$work/error")"
 sed -i 's/^collision: .*/collision: stop/' "$work/m/machine.yaml"
 
-alarms() { "$trunnion" alarms --domain "$domain"; }
+alarms() { "$trunnion" alarms --domain "$domain" > "$work/alarms"; cat "$work/alarms"; }
 wait_for() {
   for _ in $(seq 300); do
     "$@" > /dev/null 2>&1 && return 0
@@ -40,15 +40,20 @@ wait_for() {
   done
   return 1
 }
-stopped() { alarms | grep -q "$expected"; }
+stopped() {
+  alarms > /dev/null
+  grep -q "$expected" "$work/alarms"
+}
+cleared() { ! stopped; }
 for vendor in cyclonedds fastdds; do
   rm -rf "$work/state"
   start_cluster "$work/m" --vendor $vendor
   run() { "$trunnion" channel "$@" --domain "$domain" > "$work/answer" 2>&1; }
   run mode auto && run select down.nc && run start || fail "$vendor: $(cat "$work/answer")"
   wait_for stopped || fail "$vendor: $(alarms)"
-  alarms | grep "176" | sed 's/^.*down.nc/down.nc/; s/  .*//' > "$work/alarm-$vendor"
+  grep "$expected" "$work/alarms" | sed 's/^.*down.nc/down.nc/; s/  .*//' > "$work/alarm-$vendor"
   "$trunnion" alarms --reset --domain "$domain" > /dev/null
+  wait_for cleared || fail "$vendor: the alarm stays: $(alarms)"
   # Up is away; the table is still in the way down.
   "$trunnion" mdi "G53 G0 Z-200" --domain "$domain" > "$work/answer" 2>&1 || fail "$vendor: $(cat "$work/answer")"
   if "$trunnion" mdi "G53 G0 Z-410" --domain "$domain" > "$work/answer" 2>&1; then fail "$vendor: MDI into the table"; fi
