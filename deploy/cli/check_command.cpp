@@ -14,6 +14,7 @@
 #include "analysis/program_folders.hpp"
 #include "channel_setup/channel_setup.hpp"
 #include "cluster/cluster_files.hpp"
+#include "collision_machine.hpp"
 #include "commands.hpp"
 
 namespace trunnion::cli {
@@ -72,14 +73,18 @@ int run_check(const Check& options) {
     machine.resolve = resolve;
     good = analysis::check_program(text, machine, {}, check_options, name, std::cout);
   } else {
-    channel_setup::ChannelSetup machine(tool_tables::load_machine_tables(directory));
+    const auto tables = tool_tables::load_machine_tables(directory);
+    channel_setup::ChannelSetup machine(tables);
     machine.resolve = resolve;
     if (rows) machine.set_tools(tool_table(*rows));
     check_options.travel_error = [&machine](const auto& from, const auto& motion) {
       return machine.travel_error(from, motion);
     };
+    const auto guard = load_guard(machine, directory, tables.parameters);
+    check_options.guard = guard.get();
     good =
         analysis::check_program(text, machine, machine.reference_position(), check_options, name, std::cout);
+    print_warnings(guard.get(), options.program);
   }
   return good ? 0 : 1;
 }

@@ -2,6 +2,7 @@
 #include "collision_machine.hpp"
 
 #include <algorithm>
+#include <cstdio>
 #include <filesystem>
 #include <stdexcept>
 
@@ -32,6 +33,23 @@ void put_probe(collision::MachineBodies& bodies, const truth::TouchProbeTruth& p
   const auto& all = bodies.set.bodies;
   if (std::none_of(all.begin(), all.end(), [](const auto& body) { return body.tool; }))
     collision::add_probe(bodies.links, probe, bodies.set);
+}
+
+std::unique_ptr<collision_guard::CollisionGuard> load_guard(const channel_setup::ChannelSetup& machine,
+                                                            const std::string& directory,
+                                                            const machine::Parameters& parameters) {
+  const auto mode = machine::load_collision_mode(directory);
+  if (mode == machine::CollisionMode::off) return nullptr;
+  auto guard = std::make_unique<collision_guard::CollisionGuard>(
+      machine, mode, collision_guard::load_bodies_text(directory));
+  guard->configure(parameters, 0);
+  return guard;
+}
+
+void print_warnings(collision_guard::CollisionGuard* guard, const std::string& program) {
+  if (guard == nullptr) return;
+  for (const auto& line : guard->take_warnings())
+    std::fprintf(stderr, "%s:%s\n", program.c_str(), line.c_str());
 }
 
 }  // namespace trunnion::cli

@@ -2,11 +2,13 @@
 // The bodies of a machine of the command line.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 
 #include "collision/bodies_file.hpp"
 #include "collision/way_search.hpp"
+#include "collision_guard/collision_guard.hpp"
 #include "true_machine.hpp"
 
 namespace trunnion::cli {
@@ -24,5 +26,13 @@ collision::MachineBodies load_bodies(const TrueMachine& machine, const std::stri
 void put_tool(collision::MachineBodies& bodies, const CylinderTool& tool);
 /// The probe of truth.yaml, unless the file has bodies on the tool.
 void put_probe(collision::MachineBodies& bodies, const truth::TouchProbeTruth& probe);
+
+/// The check that machine.yaml in `directory` demands of the channel; null when it is off. Throws
+/// std::runtime_error.
+std::unique_ptr<collision_guard::CollisionGuard> load_guard(const channel_setup::ChannelSetup& machine,
+                                                            const std::string& directory,
+                                                            const machine::Parameters& parameters);
+/// Of `collision: warn`, to the error output; `guard` may be null.
+void print_warnings(collision_guard::CollisionGuard* guard, const std::string& program);
 
 }  // namespace trunnion::cli

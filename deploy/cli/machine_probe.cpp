@@ -15,7 +15,7 @@ using calibration::AxisPosition;
 using calibration::PlannedPose;
 using calibration::Vec3;
 
-constexpr const char* program_name = "calibration_pose.nc";
+constexpr const char* program_name = "calibration_pose.tmp.nc";
 constexpr double um = 1e3;
 constexpr double moved_tolerance = 0.02;  // mm: of the sphere since the poses that were measured before
 

@@ -13,6 +13,7 @@
 #include "analysis/program_folders.hpp"
 #include "analysis/program_run.hpp"
 #include "cluster/cluster_files.hpp"
+#include "collision_machine.hpp"
 #include "commands.hpp"
 
 namespace trunnion::cli {
@@ -76,10 +77,14 @@ int run_plan(const Plan& plan) {
     for (const char letter : axes.letters) std::fprintf(file.get(), ",%c", letter);
     std::fprintf(file.get(), ",tip_x,tip_y,tip_z,feed\n");
   }
-  const auto report = analysis::plan_program(text, machine, machine.reference_position(),
-                                             [&](const analysis::PlannedCycle& cycle) {
-                                               if (file) write_row(file.get(), cycle, axes);
-                                             });
+  const auto guard = load_guard(machine, directory, tables.parameters);
+  const auto report = analysis::plan_program(
+      text, machine, machine.reference_position(),
+      [&](const analysis::PlannedCycle& cycle) {
+        if (file) write_row(file.get(), cycle, axes);
+      },
+      guard.get());
+  print_warnings(guard.get(), plan.program);
   if (file && std::ferror(file.get()) != 0) throw std::runtime_error(plan.csv + ": cannot be written");
   const auto status = [&] {
     if (report.result.good) return 0;

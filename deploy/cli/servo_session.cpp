@@ -158,7 +158,10 @@ void ServoSession::check() {
 void ServoSession::start_program(const std::string& program) {
   check();
   client_->set_mode(channel_, Mode::AUTO);
-  if (program == program_) return;  // it is selected still
+  if (program == program_) {  // it is stored still; the channel has put back the operator's
+    client_->select_program(channel_, program_name);
+    return;
+  }
   program_.clear();
   uploaded_ = true;
   client_->upload(program_name, program);

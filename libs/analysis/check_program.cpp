@@ -25,15 +25,28 @@ void print_alarm(const language::Alarm& alarm, const TextName& name, std::ostrea
 /// Behind the line's number.
 std::string text_of(const std::string& error) { return error.substr(error.find(' ')); }
 
-/// As the channel raises it (alarm 140).
-language::Alarm travel_alarm(const std::string& error, const language::Command& motion) {
+/// As the channel raises it.
+language::Alarm motion_alarm(std::uint32_t number, const std::string& error,
+                             const language::Command& motion) {
   language::Alarm alarm;
-  alarm.number = static_cast<language::AlarmNumber>(alarm::travel_limit.number);
+  alarm.number = static_cast<language::AlarmNumber>(number);
   alarm.program = motion.program;
   alarm.line = motion.line;
   const auto text = text_of(error).substr(1);
   std::copy_n(text.begin(), std::min(text.size(), alarm.text.size() - 1), alarm.text.begin());
   return alarm;
+}
+
+/// Empty, or the line of the contact that the motion leads to.
+std::string contact_of(program_execution::MoveGuard* guard, const language::AxisValues& from,
+                       const language::Command& motion) {
+  using Verdict = program_execution::MoveGuard::Verdict;
+  auto verdict = guard != nullptr ? Verdict::unfinished : Verdict::free;
+  while (verdict == Verdict::unfinished) {
+    guard->begin_call();
+    verdict = guard->look(from, motion);
+  }
+  return verdict == Verdict::contact ? guard->contact_text() : "";
 }
 
 }  // namespace
@@ -54,7 +67,8 @@ bool check_program(language::TextSource& text, language::Environment& environmen
   language::Command command;
   Step step = Step::working;
   std::string error;
-  std::uint32_t where = 0;
+  std::uint32_t where = 0, number = alarm::travel_limit.number;
+  if (options.guard != nullptr) options.guard->begin_run();
   while (step != Step::end && step != Step::alarm) {
     step = interpreter->next(command);
     // No probe: the move to a skip signal ends where it was to end at the latest.
@@ -65,6 +79,10 @@ bool check_program(language::TextSource& text, language::Environment& environmen
     const auto motion = tracker.follow(command);
     if (!motion) continue;
     if (options.travel_error) error = options.travel_error(from, command);
+    if (error.empty()) {
+      error = contact_of(options.guard, from, command);
+      if (!error.empty()) number = alarm::bodies_would_meet.number;
+    }
     if (!error.empty()) {
       where = command.program;
       break;
@@ -79,12 +97,11 @@ bool check_program(language::TextSource& text, language::Environment& environmen
   if (!options.json_lines) {
     summary.print(out, interpreter->blocks());
     if (!error.empty())
-      out << name(where) << ":" << command.line << ": " << alarm::travel_limit.number << ":" << text_of(error)
-          << "\n";
+      out << name(where) << ":" << command.line << ": " << number << ":" << text_of(error) << "\n";
     else if (!good)
       print_alarm(interpreter->alarm(), name, out);
   } else if (!error.empty()) {
-    lines->error(travel_alarm(error, command));
+    lines->error(motion_alarm(number, error, command));
   } else if (good) {
     lines->end(tracker.machine());
   } else {

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "language/interpreter.hpp"
+#include "program_execution/move_guard.hpp"
 
 namespace trunnion::analysis {
 
@@ -17,6 +18,7 @@ struct CheckOptions {
   /// command).
   std::function<std::string(const language::AxisValues& from, const language::Command& motion)> travel_error =
       {};
+  program_execution::MoveGuard* guard = nullptr;  ///< looks at the motions as in the channel
 };
 
 /// Names the text of Command::program for a reader: a path.

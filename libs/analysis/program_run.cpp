@@ -23,6 +23,8 @@ bool is_move(const Command& command) {
          command.kind == CommandKind::arc || command.kind == CommandKind::dwell;
 }
 
+constexpr std::uint64_t no_limit = 100000000;  // cycles
+
 // Calls of ProgramFlow::fill() in a row, of millions of blocks each, that may bring no move.
 constexpr int most_reads = 25;
 
@@ -32,7 +34,8 @@ class Runner {
  public:
   Runner(channel_setup::ChannelSetup& machine, const AxisValues& start,
          const std::function<void(const PlannedCycle&)>& sink,
-         const std::function<void(const Command&, const FrameMoves&)>& moves, std::uint64_t most_cycles)
+         const std::function<void(const Command&, const FrameMoves&)>& moves, std::uint64_t most_cycles,
+         program_execution::MoveGuard* guard)
       : machine_(machine),
         sink_(sink),
         moves_(moves),
@@ -40,6 +43,7 @@ class Runner {
         trajectory_(machine.limits(), &machine.chain(), machine.cycle_seconds()),
         flow_(machine, {0, false}) {
     frame_.start = start;
+    flow_.set_guard(guard);
     flow_.on_move = [this](const Command& move) {
       ++result_.blocks;
       reads_ = 0;
@@ -174,12 +178,13 @@ class Runner {
 ProgramResult run_program(language::TextSource& text, channel_setup::ChannelSetup& machine,
                           const AxisValues& start, const std::function<void(const PlannedCycle&)>& sink,
                           const std::function<void(const Command&, const FrameMoves&)>& moves,
-                          std::uint64_t most_cycles) {
-  return std::make_unique<Runner>(machine, start, sink, moves, most_cycles)->run(text);
+                          std::uint64_t most_cycles, program_execution::MoveGuard* guard) {
+  return std::make_unique<Runner>(machine, start, sink, moves, most_cycles, guard)->run(text);
 }
 
 PlanReport plan_program(language::TextSource& text, channel_setup::ChannelSetup& machine,
-                        const AxisValues& start, const std::function<void(const PlannedCycle&)>& sink) {
+                        const AxisValues& start, const std::function<void(const PlannedCycle&)>& sink,
+                        program_execution::MoveGuard* guard) {
   PlanReport report;
   const motion::Limits& limits = machine.limits();
   LimitCheck check(limits, start, machine.cycle_seconds());
@@ -215,7 +220,8 @@ PlanReport plan_program(language::TextSource& text, channel_setup::ChannelSetup&
         if (!is_move(command)) return close(frame);
         bound.add(command);
         contour.add(command);
-      });
+      },
+      no_limit, guard);
   report.bound += bound.finish();
   report.places = places.finish();
   report.motion_time = static_cast<double>(check.moving_cycles()) * machine.cycle_seconds();

@@ -10,6 +10,7 @@
 #include "analysis/place_cost.hpp"
 #include "channel_setup/channel_setup.hpp"
 #include "language/interpreter.hpp"
+#include "program_execution/move_guard.hpp"
 
 namespace trunnion::analysis {
 
@@ -37,11 +38,13 @@ struct ProgramResult {
 };
 
 /// Runs `text` from the machine position `start`: every cycle goes to `sink`, every stretch of moves to
-/// `frames`, before its cycles; both may be empty. `most_cycles` ends a program that does not.
+/// `frames`, before its cycles; both may be empty. `most_cycles` ends a program that does not. `guard` looks
+/// at the moves as in the channel; it may be null.
 ProgramResult run_program(language::TextSource& text, channel_setup::ChannelSetup& machine,
                           const AxisValues& start, const std::function<void(const PlannedCycle&)>& sink,
                           const std::function<void(const language::Command&, const FrameMoves&)>& moves,
-                          std::uint64_t most_cycles = 100000000);
+                          std::uint64_t most_cycles = 100000000,
+                          program_execution::MoveGuard* guard = nullptr);
 
 /// Everything the command `plan` reports.
 struct PlanReport {
@@ -55,6 +58,7 @@ struct PlanReport {
 };
 
 PlanReport plan_program(language::TextSource& text, channel_setup::ChannelSetup& machine,
-                        const AxisValues& start, const std::function<void(const PlannedCycle&)>& sink);
+                        const AxisValues& start, const std::function<void(const PlannedCycle&)>& sink,
+                        program_execution::MoveGuard* guard = nullptr);
 
 }  // namespace trunnion::analysis

@@ -45,7 +45,7 @@ BodySet derived_bodies(const MachineLinks& links) {
 }
 
 Body tool_body(const MachineLinks& links, double length, double radius) {
-  auto body = cylinder("tool", links.spindle(), links.face(), -links.tool_direction(), length, radius);
+  auto body = cylinder(tool_name, links.spindle(), links.face(), -links.tool_direction(), length, radius);
   body.tool = true;
   return body;
 }

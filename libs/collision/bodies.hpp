@@ -48,6 +48,8 @@ struct BodySet {
 /// spindle nose.
 BodySet derived_bodies(const MachineLinks& links);
 
+/// Name of the body of a tool from the table.
+inline constexpr const char* tool_name = "tool";
 /// A tool as a cylinder from the spindle face to the tip, mm.
 Body tool_body(const MachineLinks& links, double length, double radius);
 /// Ball, stylus and body of a touch probe, and the solids that it measures, with their shafts. Stylus: 0.6 of

@@ -193,8 +193,8 @@ class BodiesParser {
       std::array<std::string, 2> names;
       for (std::size_t i = 0; i < 2; ++i) {
         names[i] = reader_.text(pair[i]);
-        if (std::none_of(set.bodies.begin(), set.bodies.end(),
-                         [&](const auto& body) { return body.name == names[i]; }))
+        if (names[i] != tool_name && std::none_of(set.bodies.begin(), set.bodies.end(),
+                                                  [&](const auto& body) { return body.name == names[i]; }))
           reader_.fail(pair[i], "'" + names[i] + "' is no body");
       }
       set.allowed.emplace_back(names[0], names[1]);

@@ -39,6 +39,8 @@ class ClearanceTable {
   std::vector<Row> rows_;
 };
 
+struct BodyPairs;
+
 /// Pairs of bodies on the same link or on neighbouring ones, and allowed pairs, are not checked. Pure; every
 /// member function may be called from any thread.
 ///
@@ -74,8 +76,8 @@ class CollisionModel {
   std::string text_of(const PairDistance& pair) const;
 
  private:
-  struct Implementation;
-  std::unique_ptr<Implementation> implementation_;
+  friend class PathCheck;
+  std::unique_ptr<BodyPairs> pairs_;
 };
 
 }  // namespace trunnion::collision

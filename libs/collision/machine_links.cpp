@@ -2,6 +2,7 @@
 #include "collision/machine_links.hpp"
 
 #include <algorithm>
+#include <cstdio>
 
 #include "canonical/axes.hpp"
 #include "geometry/angle.hpp"
@@ -105,6 +106,17 @@ std::string name_of(const MachineLinks& links, Link link) {
   if (link == links.workpiece()) return "workpiece";
   if (link == links.spindle()) return "spindle";
   return std::string(1, axis_letters[links.joints(link.workpiece)[link.depth - 1].axis]);
+}
+
+std::string text_of(const AxisPosition& position, const Travel& travel) {
+  std::string text;
+  for (std::size_t i = 0; i < position.size(); ++i) {
+    if (!travel[i].present) continue;
+    char word[40];
+    std::snprintf(word, sizeof word, "%s%c%.3f", text.empty() ? "" : " ", "XYZABCUVW"[i], position[i]);
+    text += word;
+  }
+  return text;
 }
 
 }  // namespace trunnion::collision

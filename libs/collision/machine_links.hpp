@@ -19,6 +19,12 @@ using geometry::Vec3;
 /// X Y Z A B C U V W in machine coordinates, mm and deg.
 using AxisPosition = std::array<double, 9>;
 
+/// Travel of the axes X Y Z A .. W; an axis that is not present does not move.
+using Travel = std::array<truth::AxisOutline, 9>;
+
+/// "X10.000 Y-20.000 Z0.000 A30.000": the axes that are present.
+std::string text_of(const AxisPosition& position, const Travel& travel);
+
 /// A rotation and a translation: of a point as it is with every axis at zero to where it is.
 struct Placement {
   Mat3 rotation = Mat3::Identity();

@@ -283,15 +283,4 @@ std::variant<std::vector<AxisPosition>, std::string> find_way(const CollisionMod
   return Search(model, travel, from, to, options).run();
 }
 
-std::string text_of(const AxisPosition& position, const Travel& travel) {
-  std::string text;
-  for (std::size_t i = 0; i < position.size(); ++i) {
-    if (!travel[i].present) continue;
-    char word[40];
-    std::snprintf(word, sizeof word, "%s%c%.3f", text.empty() ? "" : " ", "XYZABCUVW"[i], position[i]);
-    text += word;
-  }
-  return text;
-}
-
 }  // namespace trunnion::collision

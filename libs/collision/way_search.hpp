@@ -11,9 +11,6 @@
 
 namespace trunnion::collision {
 
-/// Travel of the axes X Y Z A .. W; an axis that is not present does not move.
-using Travel = std::array<truth::AxisOutline, 9>;
-
 struct SearchOptions {
   std::uint64_t seed = 1;
   std::size_t most_samples = 20000;  ///< of the search; then there is no way
@@ -30,8 +27,5 @@ std::variant<std::vector<AxisPosition>, std::string> find_way(const CollisionMod
                                                               const Travel& travel, const AxisPosition& from,
                                                               const AxisPosition& to,
                                                               const SearchOptions& options = {});
-
-/// "X10.000 Y-20.000 Z0.000 A30.000": the axes that are present.
-std::string text_of(const AxisPosition& position, const Travel& travel);
 
 }  // namespace trunnion::collision

@@ -16,6 +16,8 @@ inline constexpr std::size_t max_g_codes = 12;
 inline constexpr std::size_t max_m_codes = 8;
 /// Letters I J K of one macro call: ten of each.
 inline constexpr std::size_t max_call_centres = 30;
+/// Arguments of CYCLE1234(...): #1 to #33, as many as a macro call can set.
+inline constexpr std::size_t max_cycle_arguments = 33;
 
 /// One G or M of a block.
 struct CodeWord {
@@ -35,6 +37,7 @@ enum class Statement : std::uint8_t {
   none,
   assignment,  ///< done by the reader
   go_to,       ///< label
+  call_cycle,  ///< program_number and arguments
   begin_if,    ///< condition
   else_if,     ///< the condition is at `rest`, not evaluated yet: see Dialect::read_condition
   else_,
@@ -78,6 +81,8 @@ struct Block {
   std::array<CodeWord, max_g_codes> g{};
   std::array<CodeWord, max_m_codes> m{};
   std::array<CallCentre, max_call_centres> centres{};
+  std::uint8_t argument_count = 0;
+  std::array<Value, max_cycle_arguments> arguments{};  ///< of call_cycle; vacant: skipped, or a text
 
   static constexpr std::uint32_t bit(char letter) { return 1u << (letter - 'A'); }
   bool has(char letter) const { return (letters & bit(letter)) != 0; }
@@ -89,7 +94,7 @@ struct Block {
     head = Head::none;
     skipped = false;
     statement = Statement::none;
-    g_count = m_count = centre_count = 0;
+    g_count = m_count = centre_count = argument_count = 0;
     letters = 0;
   }
 };

@@ -156,6 +156,7 @@ class Interpreter {
   Alarm located(const Fault& fault, std::string_view line);
 
   State run_statement(std::string_view line);
+  State call_cycle(std::string_view line);
   State branch(bool condition, std::string_view line);
   State jump(Purpose purpose, std::uint32_t wanted, TextPosition from, const Fault& in_vain,
              std::string_view line);

@@ -25,6 +25,18 @@ Interpreter::State Interpreter::call_macro(Call& call, std::string_view line) {
   return this->call(call, line);
 }
 
+// The cycle is the program of its number, and its arguments are #1, #2 and so on.
+Interpreter::State Interpreter::call_cycle(std::string_view line) {
+  arguments_.clear();
+  arguments_.absolute = executor_.modal().absolute;
+  for (std::size_t i = 0; i < block_.argument_count; ++i) arguments_.values[i + 1] = block_.arguments[i];
+  Call call;
+  call.kind = CallKind::macro;
+  call.number = block_.program_number;
+  call.offset = call.program_offset = block_.at;
+  return this->call(call, line);
+}
+
 Interpreter::State Interpreter::call(const Call& call, std::string_view line) {
   if (depth_ == max_nesting) return fail({AlarmNumber::nesting_too_deep, call.offset}, line);
   call_ = call;

@@ -21,6 +21,8 @@ Interpreter::State Interpreter::run_statement(std::string_view line) {
       return State::running;
     case Statement::go_to:
       return jump(Purpose::label, block_.label, position_, {AlarmNumber::label_missing, block_.at}, line);
+    case Statement::call_cycle:
+      return call_cycle(line);
     default:
       break;
   }

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "language/cycle_signature.hpp"
 #include "language/expression.hpp"
 #include "language/scanner.hpp"
 #include "text/utf8.hpp"
@@ -253,6 +254,8 @@ class BlockReader {
       block_.rest = scanner_.offset();
     } else if (scanner_.take_word("ELSE")) {
       fault = state(Statement::else_);
+    } else if (scanner_.looking_at("CYCLE")) {
+      fault = cycle();
     } else {
       return {AlarmNumber::unknown_instruction, at};
     }
@@ -260,6 +263,46 @@ class BlockReader {
       return {AlarmNumber::statement_not_first, at};
     }
     return fault;
+  }
+
+  /// CYCLE1234(1, "text", , 4): arguments by their place, a skipped one is vacant.
+  Fault cycle() {
+    scanner_.take_word("CYCLE");
+    if (scanner_.at_end() || !is_digit(scanner_.peek())) return {AlarmNumber::unknown_instruction, block_.at};
+    const Decimal name = scanner_.number();
+    if (name.status != DecimalStatus::ok || name.value > highest_label || name.value < 1 ||
+        name.value != std::floor(name.value))
+      return {AlarmNumber::number_range, block_.at};
+    block_.program_number = static_cast<std::uint32_t>(name.value);
+    if (!scanner_.take('(')) return {AlarmNumber::operand_missing, scanner_.offset()};
+    const auto kinds = cycle_arguments(block_.program_number);
+    if (!scanner_.take(')'))
+      for (;;) {
+        if (const Fault fault = argument(kinds)) return fault;
+        if (scanner_.take(')')) break;
+        if (!scanner_.take(',')) return {AlarmNumber::bracket_open, scanner_.offset()};
+      }
+    return state(Statement::call_cycle);
+  }
+
+  /// The next one, before its comma.
+  Fault argument(std::string_view kinds) {
+    const bool more = scanner_.more();
+    const std::uint16_t at = scanner_.offset();
+    const char c = more ? scanner_.peek() : '\0';
+    if (block_.argument_count == kinds.size()) return {AlarmNumber::too_many_arguments, at};
+    Value& value = block_.arguments[block_.argument_count];
+    const bool text = kinds[block_.argument_count] == 't';
+    value = Value();
+    ++block_.argument_count;
+    if (c == ',' || c == ')') return {};
+    if ((c == '"') != text && more) return {AlarmNumber::argument_kind, at};
+    if (!text) return ExpressionReader(scanner_, variables_).expression(value);
+    do scanner_.advance();
+    while (!scanner_.at_end() && scanner_.peek() != '"');
+    if (scanner_.at_end()) return {AlarmNumber::bracket_open, at};
+    scanner_.advance();
+    return {};
   }
 
   Fault go_to() {

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "machine/chain_section.hpp"
+#include "machine/collision_mode.hpp"
 #include "machine/gateway_settings.hpp"
 #include "machine/kinematics.hpp"
 #include "machine/services.hpp"
@@ -91,6 +92,7 @@ MachineConfig parse_machine(const std::string& text, const std::string& director
               "vendor",
               "hardware",
               "hal",
+              "collision",
               "hosts",
               "network",
               "security",
@@ -111,6 +113,7 @@ MachineConfig parse_machine(const std::string& text, const std::string& director
   config.port = static_cast<std::uint16_t>(port);
   read_gateway_settings(document, file);  // the gateway reads them itself; an error is found at the start
   for (const auto& name : document["host_names"]) config.host_names.push_back(scalar(file, name));
+  read_collision_mode(document, file);  // the channel reads it itself
   const auto time = value<std::string>(file, document, "time", "real");
   if (time != "real" && time != "virtual")
     throw std::runtime_error(at(file, document["time"]) + "time must be 'real' or 'virtual'");

@@ -2,6 +2,7 @@
 #include "program_execution/program_flow.hpp"
 
 #include "machine/alarm_constants.hpp"
+#include "motion/path_segment.hpp"
 
 namespace trunnion::program_execution {
 
@@ -27,6 +28,7 @@ void ProgramFlow::start(motion::Trajectory& trajectory, language::TextSource& te
                         const language::VariableStore& variables, const Entry& entry,
                         language::Beginning beginning) {
   trajectory_ = &trajectory;
+  if (guard_ != nullptr) guard_->begin_run();
   interpreter_.start(text, position, initial, variables, beginning);
   interpreter_.stop_before_line(entry.line);
   have_command_ = false;
@@ -71,6 +73,7 @@ FlowState ProgramFlow::push_move() {
       error = machine_.travel_error(from, command_);
     }
     if (!error.empty()) return fail(alarm::travel_limit, error);
+    if (const auto state = ask_guard(from); state != FlowState::full) return state;
   }
   auto move = command_.kind == CommandKind::tap ? Tapping::line(command_) : command_;
   if (move.kind == CommandKind::skip) move.kind = CommandKind::line;
@@ -92,8 +95,31 @@ FlowState ProgramFlow::push_move() {
   return FlowState::full;
 }
 
+// The circle of a restart in the middle of an arc is what is left of it.
+FlowState ProgramFlow::ask_guard(const AxisValues& from) {
+  if (guard_ == nullptr) return FlowState::full;
+  auto move = command_;
+  if (entry_.restart.sequence == command_.sequence && entry_.restart.sequence > 0 &&
+      move.kind == CommandKind::arc)
+    move.arc.sweep = motion::remaining_sweep(from, move.target, move.arc, entry_.restart.fraction);
+  switch (guard_->look(from, move)) {
+    case MoveGuard::Verdict::free:
+      return FlowState::full;
+    case MoveGuard::Verdict::unfinished:
+      return FlowState::waiting;
+    case MoveGuard::Verdict::contact:
+      break;
+  }
+  return fail(alarm::bodies_would_meet, guard_->contact_text());
+}
+
+// The axes are at rest: the guard may take its time.
 FlowState ProgramFlow::push_pending() {
-  const auto state = push_move();
+  auto state = FlowState::waiting;
+  while (state == FlowState::waiting) {
+    if (guard_ != nullptr) guard_->begin_call();
+    state = push_move();
+  }
   refused_ = state == FlowState::alarm;
   trajectory_->finish();
   return state;
@@ -173,6 +199,7 @@ FlowState ProgramFlow::take_step(language::Step step) {
 FlowState ProgramFlow::fill(bool single_block) {
   text_missing_ = false;
   if (refused_) return FlowState::alarm;
+  if (guard_ != nullptr) guard_->begin_call();
   constexpr int most_commands = 4096;  // a long search for the restart point must leave time for messages
   for (int i = 0; i < most_commands; ++i) {
     if (!searching() && !trajectory_->can_accept()) return FlowState::full;
@@ -210,7 +237,11 @@ FlowState ProgramFlow::fill(bool single_block) {
       trajectory_->finish();
       return command_.kind == CommandKind::end && command_.number == 0 ? FlowState::end : FlowState::command;
     }
-    if (const auto state = push_move(); state == FlowState::alarm) return state;
+    const auto state = push_move();
+    if (state == FlowState::alarm) return state;
+    // The same moves are looked at in the same cycles whatever the computer's speed: motion goes on
+    // meanwhile.
+    if (state == FlowState::waiting) return FlowState::full;
   }
   return FlowState::waiting;
 }

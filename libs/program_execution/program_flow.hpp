@@ -13,6 +13,7 @@
 #include "motion/trajectory.hpp"
 #include "program_execution/auxiliary_memory.hpp"
 #include "program_execution/frame_trail.hpp"
+#include "program_execution/move_guard.hpp"
 #include "program_execution/skip_result.hpp"
 #include "program_execution/tapping.hpp"
 
@@ -51,6 +52,9 @@ class ProgramFlow {
 
   /// Sees every move as motion has got it; may be empty.
   std::function<void(const language::Command&)> on_move;
+
+  /// Looks at every move before motion gets it, and must outlive the flow; null: nobody does.
+  void set_guard(MoveGuard* guard) { guard_ = guard; }
 
   /// What holds for the next start.
   void set_block_skip(language::SkipLevels levels) { interpreter_.set_block_skip(levels); }
@@ -121,6 +125,8 @@ class ProgramFlow {
  private:
   enum class Search : std::uint8_t { none, restart, line };
   FlowState push_move();
+  /// Full: motion may have the pending move. Waiting: the guard has not finished. Else alarm.
+  FlowState ask_guard(const AxisValues& from);
   FlowState take_step(language::Step step);
   FlowState arrive_at_line();
   FlowState fail(const machine::AlarmDefinition& alarm, const std::string& text);
@@ -130,6 +136,7 @@ class ProgramFlow {
   FlowState continue_after_skip();
   channel_setup::ChannelSetup& machine_;
   motion::Trajectory* trajectory_ = nullptr;  // of the run
+  MoveGuard* guard_ = nullptr;
   language::Interpreter interpreter_;
   language::Command command_;
   language::ModalState executing_;

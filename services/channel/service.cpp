@@ -52,9 +52,16 @@ ChannelService::ChannelService(service::Node& node)
   if (!replicas_.replicas().empty()) progress_reader_.emplace(node.bus().reader(topics::stage_progress));
   std::ifstream boot(node.options().state_directory + "/cluster.boot");
   std::getline(boot, boot_);
+  read_bodies();
   read_variables();
   read_record();
   read_hand_over();
+}
+
+void ChannelService::read_bodies() {
+  const auto& directory = node_.options().machine.directory;
+  const auto mode = machine::load_collision_mode(directory);
+  if (mode != machine::CollisionMode::off) core_.guard(mode, collision_guard::load_bodies_text(directory));
 }
 
 // A kept text of this channel; damage is an alarm. `part` tells its files apart.

@@ -30,6 +30,7 @@ class ChannelService : public service::Service {
   void answer_requests();
   void fetch_text();
   void change_tables();
+  void read_bodies();
   void read_variables();
   void save_variables();
   void publish_variables(const language::VariableStore& variables);

@@ -199,6 +199,18 @@ export const alarmCatalogue: Readonly<Record<number, { cause: string; remedy: st
     cause: "The axis does not settle within its window: friction, load or too small a window",
     remedy: "Check the axis and the parameters of its exact stop; reset the alarm, then press cycle start",
   },
+  175: {
+    cause: "A move ahead leads two bodies of bodies.yaml within the clearance (collision: warn)",
+    remedy: "Hold the feed; compare bodies, line and position in the text; correct the program, the tool table or bodies.yaml",
+  },
+  176: {
+    cause: "A move would lead two bodies of bodies.yaml within the clearance (collision: stop)",
+    remedy: "Jog away: moves that increase the distance are allowed. Correct the program, the tool table or bodies.yaml, then start, or start from the line in the text",
+  },
+  177: {
+    cause: "bodies.yaml has an error, or does not fit the kinematic parameters; nothing moves while machine.yaml demands the check",
+    remedy: "Correct the file in the text and start the machine again, or set 'collision: off' in machine.yaml",
+  },
   483: {
     cause: "The drive of the other side of the gantry has stopped, and this one with it (10a943)",
     remedy: "Remove the cause at the axis of alarm 114, then reset",

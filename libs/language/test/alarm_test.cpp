@@ -123,6 +123,8 @@ std::vector<Wrong> wrong_programs() {
       {text_behind_statement, "ENDIF X5", 1, 7, ": X5"},
       {text_behind_statement, "#1=1 2", 1, 6, ": 2"},
       {too_many_centres, "G65 P1" + repeated(" I1", 31), 1, 8 + 30 * 3, ": I1"},
+      {argument_kind, "CYCLE9960(1,2)", 1, 13, ": 2"},
+      {too_many_arguments, "CYCLE1234(1" + repeated(",1", 33) + ")", 1, 11 + 33 * 2, ": 1"},
       {end_without_begin, "G0 X1\nENDIF", 2, 1, ": ENDIF"},
       {end_without_begin, "N1 ENDW", 1, 4, ": ENDW"},
       {end_without_begin, "END1", 1, 1, ": END"},

@@ -56,6 +56,52 @@ TEST(MacroCall, AlarmInACycleCarriesTheChainOfCalls) {
   EXPECT_EQ(std::string(deeper.alarm.text.data()), "alarm of the program: #3000=1(H IS MISSING)");
 }
 
+TEST(MacroCall, ACycleCalledByNameHasItsArgumentsByTheirPlace) {
+  TestMachine machine;
+  machine.programs["O1234"] =
+      std::make_unique<StringSource>("IF [#2 EQ #0] THEN #2=40\nG0 X#1 Y#2 Z#3\nM99\n");
+  EXPECT_THAT(
+      stream(run(machine, "#100=7\nCYCLE1234(1,2,3)\nN20 CYCLE1234( #100+1 , , [2*3] ) (comment)\nM30\n")),
+      ElementsAre("rapid X1 Y2 Z3", "rapid X8 Y40 Z6", "end 30"));
+  EXPECT_THAT(stream(run(machine, "G91\nCYCLE1234()\nM30\n")), ElementsAre("rapid Y40", "end 30"))
+      << "skipped arguments are vacant: their words are left out";
+}
+
+TEST(MacroCall, CYCLE9960TakesTheArgumentsOfItsSamplePrograms) {
+  TestMachine machine;
+  machine.programs["O9960"] =
+      std::make_unique<StringSource>("IF [#2 NE #0] THEN #3000=1(TEXT)\nG0 X#1 Y#4 Z#21\nM99\n");
+  EXPECT_THAT(
+      stream(run(
+          machine,
+          "N1150 CYCLE9960(11400,\"TOOL_CARR_KIN\",1,30,0,0,180,3,0,0,0,240,3,0,0.001,2,2,1,1,0,1)\nM30\n")),
+      ElementsAre("rapid X11400 Y30 Z1", "end 30"));
+}
+
+TEST(MacroCall, WhatIsWrongWithACycleCalledByNameIsAnAlarmWithItsColumn) {
+  TestMachine machine;
+  machine.programs["O9960"] = std::make_unique<StringSource>("M99\n");
+  const auto fault = [&](const std::string& line, AlarmNumber number, std::uint32_t column) {
+    const auto result = run(machine, "G0 X1\n" + line + "\nM30\n");
+    EXPECT_EQ(result.alarm.number, number) << line << ": " << result.alarm.text.data();
+    EXPECT_EQ(result.alarm.line, 2u) << line;
+    EXPECT_EQ(result.alarm.column, column) << line;
+  };
+  fault("CYCLE1234(1)", AlarmNumber::subprogram_missing, 1);
+  fault("CYCLE9960(\"A\")", AlarmNumber::argument_kind, 11);
+  fault("CYCLE9960(1,2)", AlarmNumber::argument_kind, 13);
+  fault("CYCLE9960(1,\"A\",3,\"B\")", AlarmNumber::argument_kind, 19);
+  fault("CYCLE9960(1,\"A\",3,4,5,6,7,8,9,10,11,12,13,14,15,16,17,18,19,20,21,22)",
+        AlarmNumber::too_many_arguments, 67);
+  fault("CYCLE9960(1,\"A)", AlarmNumber::bracket_open, 13);
+  fault("CYCLE9960(1 2)", AlarmNumber::bracket_open, 13);
+  fault("CYCLE9960(1", AlarmNumber::bracket_open, 12);
+  fault("CYCLE9960", AlarmNumber::operand_missing, 10);
+  fault("CYCLEX(1)", AlarmNumber::unknown_instruction, 1);
+  fault("CYCLE9960(1) X1", AlarmNumber::text_behind_statement, 14);
+  fault("G1 CYCLE9960(1)", AlarmNumber::statement_not_first, 4);
+}
+
 TEST(MacroCall, ExampleOfEveryCallCodeIsAcceptedAndOtherNumbersAreRefused) {
   TestMachine machine = machine_with_cycles();
   for (const CallCode& code : call_codes) {

@@ -30,6 +30,7 @@ Answer ChannelCore::startable() const {
   if (!configured()) return refuse(alarm::not_ready, "The channel has no parameters yet");
   if (!ready_) return refuse(alarm::not_ready, "The cluster is not ready: see the services");
   if (!external_hold_.empty()) return refuse(alarm::not_ready, external_hold_);
+  if (!guard_error_.empty()) return refuse(alarm::bodies_invalid, guard_error_);
   if (!recovered_) return refuse(alarm::not_ready, "The drive has not answered yet");
   if (link().drive_mode() == DriveMode::OFF) return refuse(alarm::not_ready, "The drives are off");
   if (link().drive_mode() == DriveMode::HOMING)
@@ -122,6 +123,7 @@ Answer ChannelCore::select(const std::string& name) {
   for (const auto& entry : programs_.programs)
     if (entry.name == name) {
       if (interrupted_.name != name) interrupted_ = {};
+      if (is_temporary(name) && !is_temporary(selected_.name)) before_temporary_ = selected_.name;
       selected_ = entry;
       progress_.executed = {};
       return {};
@@ -173,6 +175,10 @@ Answer ChannelCore::reference(std::uint8_t index) {
     stream_.link().request_homing(number);
     return {};
   }
+  if (!states_.busy() && startable().accepted) {
+    adopt_position();
+    if (auto refusal = guard_reference(std::get<AxisMove>(move))) return refuse(std::move(*refusal));
+  }
   return start_move(std::get<AxisMove>(move));
 }
 
@@ -183,6 +189,8 @@ Answer ChannelCore::jog(const ChannelRequest& request) {
   adopt_position();
   auto move = manual_.jog(request.axis, request.speed, request.increment, machine_start_);
   if (auto* refusal = std::get_if<Refusal>(&move)) return refuse(std::move(*refusal));
+  if (auto answer = startable(); !answer.accepted) return answer;
+  if (auto refusal = guard_jog(std::get<AxisMove>(move))) return refuse(std::move(*refusal));
   auto answer = start_move(std::get<AxisMove>(move));
   if (auto* running = states_.running(); answer.accepted && running != nullptr && request.increment == 0)
     running->press = JogPress{request.press, link().tick()};
@@ -233,6 +241,7 @@ void ChannelCore::reset() {
     stop_activity();
   else
     states_.end();
+  leave_temporary_program();
   if (stream_.idle()) drop_offset();
   apply_parameters();
 }

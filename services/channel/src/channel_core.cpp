@@ -4,6 +4,12 @@
 #include "machine/alarm_constants.hpp"
 
 namespace trunnion::channel {
+namespace {
+// Of the programs that a command of `trunnion` writes for itself.
+constexpr std::string_view temporary_suffix = ".tmp.nc";
+}  // namespace
+
+bool is_temporary(const std::string& program) { return program.ends_with(temporary_suffix); }
 
 ChannelCore::ChannelCore(std::uint16_t channel, bool virtual_time)
     : number_(channel),
@@ -47,6 +53,7 @@ void ChannelCore::apply_parameters() {
   for (const auto& line : machine::kinematics_warnings(*parameters_, number_))
     event(alarm::direction_not_unit, line);
   exact_stop_.configure(*parameters_, machine_.channel_axes(), machine_.columns());
+  configure_guards();
   build_paths();
 }
 
@@ -61,6 +68,8 @@ void ChannelCore::build_paths() {
 void ChannelCore::set_tools(const idl::parameters::ToolTable& tools) {
   tool_table_ = tools;
   machine_.set_tools(tools);
+  for (auto* guard : {program_guard_.get(), manual_guard_.get()})
+    if (guard != nullptr) guard->tools_changed();
 }
 void ChannelCore::set_offsets(const idl::parameters::WorkOffsets& offsets) { machine_.set_offsets(offsets); }
 
@@ -128,7 +137,9 @@ void ChannelCore::stop_activity() {
   keep_variables();
   if (states_.is(Activity::program) && preparing == nullptr) states_.forget_suspended();
   states_.end();
+  leave_temporary_program();
   restart_.reset();
+  jog_obstacle_.reset();
   manual_.end_wheel();
   handshake_.cancel();
   apply_parameters();
@@ -140,6 +151,7 @@ void ChannelCore::finish(bool program_end) {
   finish_tapping();
   machine_start_ = machine_position();
   manual_.end_wheel();
+  jog_obstacle_.reset();
   if (states_.is(Activity::mdi) && !reset) {  // a reset has its own modal state
     mdi_.modal = mdi_flow_.modal();
     mdi_.frames_kept = true;
@@ -152,9 +164,20 @@ void ChannelCore::finish(bool program_end) {
     end_snapshot();
   }
   states_.end();
+  leave_temporary_program();
   restart_.reset();
   if (reset) drop_offset();
   apply_parameters();
+}
+
+// A command that was killed cannot put back the operator's program: it is selected again when a temporary one
+// has ended. The command selects its own before each run.
+void ChannelCore::leave_temporary_program() {
+  if (!states_.in<Idle>() || !is_temporary(selected_.name)) return;
+  const auto name = std::exchange(before_temporary_, "");
+  selected_ = {};
+  for (const auto& entry : programs_.programs)
+    if (entry.name == name) selected_ = entry;
 }
 
 // What a program does at rest behind its last motion is written nowhere: the drive keeps a snapshot in which

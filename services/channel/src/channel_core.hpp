@@ -20,6 +20,7 @@
 #include "channel_setup/channel_setup.hpp"
 #include "channel_snapshot.hpp"
 #include "channel_states.hpp"
+#include "collision_guard/collision_guard.hpp"
 #include "contracts/types.hpp"
 #include "exact_stop_check.hpp"
 #include "hand_over.hpp"
@@ -49,6 +50,9 @@ struct ChannelEvent {
   std::string text;
 };
 
+/// A command of `trunnion` has stored the program for itself: its name ends with .tmp.nc.
+bool is_temporary(const std::string& program);
+
 class ChannelCore {
  public:
   ChannelCore(std::uint16_t channel, bool virtual_time);
@@ -72,6 +76,8 @@ class ChannelCore {
   void set_variables(const language::VariableStore& variables) { *variables_ = variables; }
   /// The program under way when the control was switched off: a start from its line is offered.
   void set_interrupted(const RunningProgram& program) { interrupted_ = program, ended_ = program.ended; }
+  /// `collision: warn` or `stop` of machine.yaml; without it nothing is checked.
+  void guard(machine::CollisionMode mode, const collision_guard::BodiesText& bodies);
   void set_programs(const idl::program::ProgramList& programs);
   void on_feedback(const idl::stream::FeedbackFrame& feedback);
   /// A process that has just started may find that one before it died in the middle of a program. Call it
@@ -122,6 +128,12 @@ class ChannelCore {
 
  private:
   friend struct ChannelFields;  // channel_explicit_state.cpp
+  /// Where a jog reaches the clearance of two bodies.
+  struct JogObstacle {
+    std::uint8_t axis = 0;
+    double position = 0, direction = 1;
+    std::string text;
+  };
   /// MDI, from line to line.
   struct Mdi {
     std::string line;
@@ -176,11 +188,25 @@ class ChannelCore {
   // channel_core.cpp
   void stop_activity();
   void end_snapshot();
+  void leave_temporary_program();
   void finish(bool program_end);
   void keep_variables();
   void apply_parameters();
   void build_paths();
   void adopt_position();
+
+  // channel_guard.cpp: bodies of the machine.
+  void configure_guards();
+  void hold_guarded_axes();
+  void report_guard();
+  void report_jog_obstacle();
+  std::string approach_obstacle(const std::vector<language::Command>& moves);
+  std::optional<Refusal> guard_jog(AxisMove& move);
+  std::optional<Refusal> guard_reference(const AxisMove& move);
+  double guard_handwheel(std::uint8_t axis, double distance);
+  bool guards_stop() const {
+    return manual_guard_ != nullptr && manual_guard_->mode() == machine::CollisionMode::stop;
+  }
 
   // channel_requests.cpp: what a program asks of the rest of the control.
   void run_pending(FlowState state);
@@ -241,6 +267,10 @@ class ChannelCore {
   ChannelPath program_path_, manual_path_;
   ProgramFlow program_flow_, mdi_flow_;
   ProgramCache program_cache_, mdi_cache_;
+  // Of the program and of everything else, as the paths; null unless machine.yaml demands the check.
+  std::unique_ptr<collision_guard::CollisionGuard> program_guard_, manual_guard_;
+  std::string guard_error_;
+  std::optional<JogObstacle> jog_obstacle_;
   SkipMove skip_;
   ExactStopCheck exact_stop_;
   Tapping tapping_;
@@ -254,6 +284,7 @@ class ChannelCore {
   std::uint32_t reset_count_ = 0;
 
   idl::program::ProgramEntry selected_;
+  std::string before_temporary_;         // name of the program selected before a temporary one
   std::optional<RestartPoint> restart_;  // of the program, until it is reached
   AxisValues program_start_{};           // machine coordinates
   std::uint64_t ended_ = 0;              // newest cycle of the drive's snapshot when a program ended

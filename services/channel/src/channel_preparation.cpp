@@ -49,6 +49,11 @@ void ChannelCore::prepare_entry() {
     give_up();
     return;
   }
+  if (const auto obstacle = approach_obstacle(preparation.moves); !obstacle.empty()) {
+    event(alarm::bodies_would_meet, place + "on the approach " + obstacle);
+    give_up();
+    return;
+  }
   if (by_line) {
     auto words = words_of(preparation, machine_start_);
     if (program_flow_.auxiliaries().not_repeated() > 0)
@@ -138,6 +143,10 @@ Answer ChannelCore::continue_after_suspension() {
   preparation.moves = approach_moves(machine_start_, suspended.machine, suspended.progress.executed.line);
   if (const auto error = approach_error(machine_, machine_start_, preparation.moves); !error.empty())
     return refuse(alarm::travel_limit, "On the return to line " + error);
+  if (const auto obstacle = approach_obstacle(preparation.moves); !obstacle.empty())
+    return refuse(
+        alarm::bodies_would_meet,
+        "On the return to line " + std::to_string(suspended.progress.executed.line) + " " + obstacle);
   states_.begin_return(std::move(preparation));
   return {};
 }

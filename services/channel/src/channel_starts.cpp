@@ -9,6 +9,7 @@ namespace trunnion::channel {
 
 // What holds from the first block on.
 void ChannelCore::configure_flow(ProgramFlow& flow) {
+  hold_guarded_axes();
   flow.set_block_skip(switches_.block_skip);
   flow.set_dry_run_feed(switches_.dry_run ? machine_.dry_run_feed() : 0);
   flow.set_offset(manual_.offset_target());

@@ -25,6 +25,7 @@ FlowState ChannelCore::fill() {
   path().trajectory().set_position_check(tapping_.active() ? 0 : exact_stop_.cycles());
   const auto state = flow().fill(switches_.single_block && states_.is(Activity::program));
   running->text_missing = state == FlowState::waiting;
+  report_guard();
   return state;
 }
 
@@ -149,6 +150,7 @@ bool ChannelCore::produce(idl::stream::PathFrame& frame) {
     if (!bound && uses_feedback()) break;
   }
   if (frame.count == 0) return false;
+  report_jog_obstacle();
   stream_.close(frame, path(), in_machine_coordinates(), machine_.revision(),
                 machine_.tapping_spindle(tapping_.axis()).axis.value_or(0));
   frame.skip_move = skip_.active();

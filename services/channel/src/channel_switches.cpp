@@ -60,6 +60,10 @@ Answer ChannelCore::set_block_skip(std::uint16_t mask) {
 Answer ChannelCore::set_handwheel_offset(bool on) {
   if (!configured() || !stream_.idle()) return refuse(alarm::request_invalid, "The channel is busy");
   if (on && lock_.any()) return refuse(alarm::request_invalid, "Unlock the axes before a handwheel offset");
+  if (on && manual_guard_ != nullptr)
+    return refuse(alarm::request_invalid,
+                  "The check for collisions does not know a handwheel offset: set 'collision: off' in "
+                  "machine.yaml to use it");
   if (on == manual_.offset_on()) return {};
   if (!on) {
     drop_offset();
@@ -101,7 +105,7 @@ Answer ChannelCore::turn_handwheel(const ChannelRequest& request) {
   const double distance = request.counts * request.increment;
   double added = 0;
   if (by_hand) {
-    added = manual_.turn(axis, distance, machine_start_);
+    added = manual_.turn(axis, guard_handwheel(axis, distance), machine_start_);
   } else {
     // The path that is planned already must keep its travel with the new offset.
     added = manual_.turn_offset(axis, distance,
@@ -109,8 +113,11 @@ Answer ChannelCore::turn_handwheel(const ChannelRequest& request) {
     if (in_motion) flow().set_offset(manual_.offset_target());
   }
   if (distance != 0 && added == 0)
-    return refuse(alarm::travel_limit, "Axis " + std::string(1, language::axis_letters[axis]) +
-                                           " has no travel left for the handwheel");
+    return refuse(alarm::travel_limit,
+                  "Axis " + std::string(1, language::axis_letters[axis]) +
+                      (guards_stop() ? " has no travel left for the handwheel, or a body "
+                                       "of the machine is in its way"
+                                     : " has no travel left for the handwheel"));
   if (!turning && !in_motion) begin_manual(Activity::handwheel);
   return {};
 }

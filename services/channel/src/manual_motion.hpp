@@ -59,6 +59,8 @@ class ManualMotion {
 
   void step_wheel() { wheel_.step(); }
   bool wheel_at_rest() const { return wheel_.at_rest(); }
+  /// As wheel(), where the axes are going.
+  const AxisValues& wheel_target() const { return wheel_.target(); }
   /// The distance of each axis since the wheel was last ended.
   const AxisValues& wheel() const { return wheel_.position(); }
   void end_wheel() { wheel_.start({}); }
