@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t axes = std::tuple_size_v<AxisPosition>;
 // A share of a move below this is not divided further.
-constexpr double least_share = 1e-9;
+constexpr double shortest_share = 1e-9;
 
 // What one axis between the pair's common part and a body does to the body.
 struct Lever {
@@ -175,7 +175,7 @@ struct PathCheck::Implementation {
       if (most - still <= spare && !watch.escaping) return true;
       // The motion is convex in the share: a smaller share moves less than in proportion.
       const double step = most - still > spare ? spare / (most - still) * (end - at) : end - at;
-      at = end - at <= step ? end : at + std::max(step, least_share);
+      at = end - at <= step ? end : at + std::max(step, shortest_share);
     }
   }
 

@@ -1,24 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "modbus_link.hpp"
 
-#include <pthread.h>
-
 #include <algorithm>
 #include <chrono>
 
 #include "modbus_connection.hpp"
+#include "ordinary_scheduling.hpp"
 
 namespace trunnion::plc {
-namespace {
-
-// A thread begins with the scheduling of the one that makes it.
-void use_ordinary_scheduling() {
-  const sched_param parameters{};
-  pthread_setschedparam(pthread_self(), SCHED_OTHER, &parameters);
-}
-
-}  // namespace
-
 ModbusLink::Connection::Connection(std::vector<st::ModbusBlock> inputs, std::vector<st::ModbusBlock> outputs)
     : input_blocks(std::move(inputs)), output_blocks(std::move(outputs)) {
   for (const auto& block : output_blocks) values_.emplace_back(block.count);

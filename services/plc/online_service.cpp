@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "online_service.hpp"
 
-#include <pthread.h>
-
 #include <chrono>
 #include <fstream>
 #include <iostream>
@@ -11,6 +9,7 @@
 #include "bus/json.hpp"
 #include "bus/json_type.hpp"
 #include "machine/alarm_constants.hpp"
+#include "ordinary_scheduling.hpp"
 #include "program_files.hpp"
 #include "service/damage_alarm.hpp"
 #include "snapshot/fields.hpp"
@@ -38,12 +37,6 @@ std::uint64_t steady_time() {
 
 bool is_done(const std::future<Translated>& worker) {
   return worker.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
-}
-
-// A thread begins with the scheduling of the one that makes it.
-void use_ordinary_scheduling() {
-  const sched_param parameters{};
-  pthread_setschedparam(pthread_self(), SCHED_OTHER, &parameters);
 }
 
 idl::plc::OnlineReply reply_of(const std::string& refusal) {

@@ -13,7 +13,7 @@
 namespace trunnion::st::plcopen {
 namespace {
 
-enum class Kind {
+enum class PartKind {
   step,
   jump,
   transition,
@@ -24,28 +24,29 @@ enum class Kind {
   action_block,
 };
 
-const std::map<std::string_view, Kind> kinds = {{"step", Kind::step},
-                                                {"jumpStep", Kind::jump},
-                                                {"transition", Kind::transition},
-                                                {"selectionDivergence", Kind::selection_divergence},
-                                                {"selectionConvergence", Kind::selection_convergence},
-                                                {"simultaneousDivergence", Kind::simultaneous_divergence},
-                                                {"simultaneousConvergence", Kind::simultaneous_convergence},
-                                                {"actionBlock", Kind::action_block}};
+const std::map<std::string_view, PartKind> part_kinds = {
+    {"step", PartKind::step},
+    {"jumpStep", PartKind::jump},
+    {"transition", PartKind::transition},
+    {"selectionDivergence", PartKind::selection_divergence},
+    {"selectionConvergence", PartKind::selection_convergence},
+    {"simultaneousDivergence", PartKind::simultaneous_divergence},
+    {"simultaneousConvergence", PartKind::simultaneous_convergence},
+    {"actionBlock", PartKind::action_block}};
 
 const std::set<std::string> plain_qualifiers = {"N", "R", "S", "P", "P0", "P1"};
 const std::set<std::string> timed_qualifiers = {"L", "D", "SD", "DS", "SL"};
 
 struct Part {
-  Kind kind = Kind::step;
+  PartKind kind = PartKind::step;
   Node node;
   std::vector<std::size_t> from;  ///< what its connections come from
   std::size_t index = 0;          ///< of a step or a transition
 };
 
-class Reader {
+class ChartReader {
  public:
-  Reader(Document& document, Node body) : document_(document), body_(body) {}
+  ChartReader(Document& document, Node body) : document_(document), body_(body) {}
 
   Chart run() {
     for (const auto node : children(body_)) read(node);
@@ -63,8 +64,8 @@ class Reader {
   void read(Node node) {
     const auto name = local_name(node);
     if (name == "comment" || name == "documentation" || name == "vendorElement") return;
-    const auto found = kinds.find(name);
-    if (found == kinds.end())
+    const auto found = part_kinds.find(name);
+    if (found == part_kinds.end())
       return document_.error(node, "'" + std::string(name) +
                                        "' is not available in a sequential function chart: step, jumpStep, "
                                        "transition, actionBlock, divergences and convergences are");
@@ -73,14 +74,14 @@ class Reader {
       return document_.error(node, id.empty() ? "the attribute localId is missing"
                                               : "there are two elements with localId " + id);
     Part part{found->second, node, {}, 0};
-    if (part.kind == Kind::step) {
+    if (part.kind == PartKind::step) {
       if (!document_.name(node, "name")) return;
       part.index = chart_.steps.size();
       const auto text = attribute(node, "name");
       if (!by_name_.emplace(upper_case(text), part.index).second)
         return document_.error(node, "there are two steps '" + text + "'");
       chart_.steps.push_back({node, text, attribute(node, "initialStep") == "true"});
-    } else if (part.kind == Kind::transition) {
+    } else if (part.kind == PartKind::transition) {
       part.index = chart_.transitions.size();
       chart_.transitions.push_back({node, 0, {}, {}});
     }
@@ -101,7 +102,7 @@ class Reader {
 
   void follow(const Part& part) {
     switch (part.kind) {
-      case Kind::transition: {
+      case PartKind::transition: {
         auto& before = chart_.transitions[part.index].before;
         steps_before(part, part, before, 0);
         std::sort(before.begin(), before.end());
@@ -109,17 +110,17 @@ class Reader {
         if (before.empty() && !failed()) document_.error(part.node, "the transition has no step before it");
         break;
       }
-      case Kind::step:
+      case PartKind::step:
         transitions_before(part, part, part.index, 0);
         break;
-      case Kind::jump: {
+      case PartKind::jump: {
         const auto name = attribute(part.node, "targetName");
         const auto found = by_name_.find(upper_case(name));
         if (found == by_name_.end()) return document_.error(part.node, "there is no step '" + name + "'");
         transitions_before(part, part, found->second, 0);
         break;
       }
-      case Kind::action_block:
+      case PartKind::action_block:
         read_actions(part);
         break;
       default:
@@ -131,12 +132,13 @@ class Reader {
   void steps_before(const Part& at, const Part& transition, std::vector<std::size_t>& steps, int depth) {
     for (const auto i : at.from) {
       const auto& part = parts_[i];
-      if (part.kind == Kind::step) {
+      if (part.kind == PartKind::step) {
         steps.push_back(part.index);
-      } else if (part.kind == Kind::transition || part.kind == Kind::selection_convergence) {
+      } else if (part.kind == PartKind::transition || part.kind == PartKind::selection_convergence) {
         return document_.error(transition.node,
                                "two transitions follow each other; a step is missing between them");
-      } else if ((part.kind != Kind::selection_divergence && part.kind != Kind::simultaneous_convergence) ||
+      } else if ((part.kind != PartKind::selection_divergence &&
+                  part.kind != PartKind::simultaneous_convergence) ||
                  depth == deepest_element) {
         return document_.error(transition.node, "the transition is not connected with a step before it");
       } else {
@@ -149,13 +151,14 @@ class Reader {
   void transitions_before(const Part& at, const Part& step, std::size_t target, int depth) {
     for (const auto i : at.from) {
       const auto& part = parts_[i];
-      if (part.kind == Kind::transition) {
+      if (part.kind == PartKind::transition) {
         auto& after = chart_.transitions[part.index].after;
         if (std::find(after.begin(), after.end(), target) == after.end()) after.push_back(target);
-      } else if (part.kind == Kind::step || part.kind == Kind::simultaneous_convergence) {
+      } else if (part.kind == PartKind::step || part.kind == PartKind::simultaneous_convergence) {
         return document_.error(step.node,
                                "two steps follow each other; a transition is missing between them");
-      } else if ((part.kind != Kind::selection_convergence && part.kind != Kind::simultaneous_divergence) ||
+      } else if ((part.kind != PartKind::selection_convergence &&
+                  part.kind != PartKind::simultaneous_divergence) ||
                  depth == deepest_element) {
         return document_.error(step.node, "the step is not connected with a transition before it");
       } else {
@@ -167,7 +170,7 @@ class Reader {
   void read_actions(const Part& block) {
     std::optional<std::size_t> step;
     for (const auto i : block.from)
-      if (parts_[i].kind == Kind::step) step = parts_[i].index;
+      if (parts_[i].kind == PartKind::step) step = parts_[i].index;
     if (!step) return document_.error(block.node, "the action block is not connected with a step");
     for (const auto node : children(block.node, "action")) {
       ChartAssociation one{node, *step, attribute(node, "qualifier"), {}, "", {}};
@@ -254,6 +257,6 @@ class Reader {
 
 }  // namespace
 
-Chart read_chart(Document& document, Node body) { return Reader(document, body).run(); }
+Chart read_chart(Document& document, Node body) { return ChartReader(document, body).run(); }
 
 }  // namespace trunnion::st::plcopen

@@ -17,10 +17,10 @@ struct Action {
   Tokens body;
 };
 
-class Writer {
+class ChartWriter {
  public:
-  Writer(Document& document, const Chart& chart, const ChartParts& parts, std::set<std::string>& names,
-         const std::function<Tokens(Node)>& statements)
+  ChartWriter(Document& document, const Chart& chart, const ChartParts& parts, std::set<std::string>& names,
+              const std::function<Tokens(Node)>& statements)
       : document_(document), chart_(chart), parts_(parts), names_(names), body_statements_(statements) {}
 
   ChartBody run() {
@@ -248,7 +248,7 @@ class Writer {
 
 ChartBody chart_body(Document& document, const Chart& chart, const ChartParts& parts,
                      std::set<std::string>& names, const std::function<Tokens(Node)>& statements) {
-  return Writer(document, chart, parts, names, statements).run();
+  return ChartWriter(document, chart, parts, names, statements).run();
 }
 
 std::optional<Tokens> chart_condition(Document& document, Node body) {

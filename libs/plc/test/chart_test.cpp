@@ -11,7 +11,7 @@ namespace {
 
 using testing::HasSubstr;
 
-std::string first_message(const std::string& xml) {
+std::string chart_message(const std::string& xml) {
   for (const auto& line : compile({{"chart.xml", xml}}, interface_registers()).lines())
     if (line.find(": error: ") != std::string::npos) return line;
   return "";
@@ -152,7 +152,7 @@ TEST(Chart, WrongOnesSayWhichElement) {
     chart.step(3, "work", {2});
     chart.transition(4, "b", {3});
     change(chart);
-    return first_message(program(chart, bits));
+    return chart_message(program(chart, bits));
   };
   EXPECT_EQ(with([](ChartText&) {}), "");
   EXPECT_THAT(with([](ChartText& c) { c.step(7, "REST", {}); }), HasSubstr("there are two steps 'REST'"));

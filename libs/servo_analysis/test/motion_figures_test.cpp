@@ -11,15 +11,16 @@
 namespace trunnion::servo_analysis {
 namespace {
 
-constexpr double period = 0.001;
+constexpr double sample_time = 0.001;
 
 // At rest, 1 s at `speed`, at rest; feedback and speed by the time in that second.
 template <class Feedback, class Speed>
 AxisTrace second_at(double speed, const Feedback& feedback, const Speed& actual) {
   AxisTrace t;
-  t.interval = period;
+  t.interval = sample_time;
   for (int i = 0; i < 100; ++i) add(t, 0, 0);
-  for (int i = 0; i < 1000; ++i) add(t, speed * i * period, feedback(i * period), actual(i * period));
+  for (int i = 0; i < 1000; ++i)
+    add(t, speed * i * sample_time, feedback(i * sample_time), actual(i * sample_time));
   for (int i = 0; i < 100; ++i) add(t, speed * 1, speed * 1);
   return t;
 }
@@ -56,13 +57,13 @@ TEST(MotionFigures, RippleIsTheAmplitudeOfAVibrationAndOvershootTheExcessAfterTh
 
 TEST(MotionFigures, ThePeaksOfAccelerationAreThoseOfTheSpeed) {
   AxisTrace t;
-  t.interval = period;
+  t.interval = sample_time;
   double v = 0, x = 0;
   // 100 ms with 500 mm/s2, 300 ms at constant speed, 50 ms with -1000 mm/s2.
   for (int i = 0; i < 450; ++i) {
     add(t, x, x, v);
-    x += v * period;
-    v += (i < 100 ? 500 : i < 400 ? 0 : -1000) * period;
+    x += v * sample_time;
+    v += (i < 100 ? 500 : i < 400 ? 0 : -1000) * sample_time;
   }
   const auto f = motion_figures(t);
   EXPECT_NEAR(f.acceleration_peak, 500, 1e-6);
@@ -78,15 +79,16 @@ TEST(MotionFigures, WithoutConstantSpeedThereIsNoFigure) {
 
 TEST(MotionFigures, TheReversalJumpIsWhatTheErrorGainsAtTheTurn) {
   AxisTrace t;
-  t.interval = period;
+  t.interval = sample_time;
   // To and fro with 10 mm/s; at the turn the feedback stays 26 um behind, in 30 ms it is back: the manual's
   // case before and after its correction.
   for (const double jump : {0.026, 0.01}) {
     t = {};
-    t.interval = period;
-    for (int i = 0; i < 500; ++i) add(t, 10 * i * period, 10 * i * period + 0.001 * std::sin(i * 0.1));
+    t.interval = sample_time;
+    for (int i = 0; i < 500; ++i)
+      add(t, 10 * i * sample_time, 10 * i * sample_time + 0.001 * std::sin(i * 0.1));
     for (int i = 0; i < 500; ++i) {
-      const double set = 10 * (500 - i) * period;
+      const double set = 10 * (500 - i) * sample_time;
       add(t, set, set + (i < 30 ? jump * std::sin(std::numbers::pi * i / 30) : 0));
     }
     // The error before has a span of 2 um.
