@@ -9,6 +9,7 @@
 
 #include "ball_motion.hpp"
 #include "circle_report.hpp"
+#include "figures.hpp"
 #include "machine/kinematics.hpp"
 #include "r_test.hpp"
 #include "servo_pictures.hpp"
@@ -17,7 +18,6 @@
 namespace trunnion::cli {
 namespace {
 
-constexpr double um = 1e3, urad = 1e6;
 constexpr const char* directions[] = {"X", "Y", "Z"};
 
 struct CommandOptions : BallOptions {
@@ -26,16 +26,6 @@ struct CommandOptions : BallOptions {
   double cutoff = 20;
   std::vector<double> feeds, starts;
 };
-
-std::string text(const char* format, auto... values) {
-  char line[240];
-  std::snprintf(line, sizeof line, format, values...);
-  return line;
-}
-
-bus::Json json_of(const Vec3& v, double unit) {
-  return bus::Json::array({v[0] * unit, v[1] * unit, v[2] * unit});
-}
 
 std::string table_row(const std::string& name, const Vec3& v, const char* unit) {
   return text("%-34s %10.3f %10.3f %10.3f %s", name.c_str(), v[0] * um, v[1] * um, v[2] * um, unit);

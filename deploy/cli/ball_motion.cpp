@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "canonical/axes.hpp"
+#include "figures.hpp"
 #include "geometry/angle.hpp"
 #include "machine/kinematics.hpp"
 #include "metrology/axis_of_rotation.hpp"
@@ -22,12 +23,6 @@ constexpr double rest_time = 0.2, mean_time = 0.1;                  // s
 constexpr double near_ball = 1;  // mm: more than compensations move an axis
 constexpr double share_of_travel = 0.9;
 constexpr double moves = 0.02;  // of the largest speed of an axis: slower axes have no servo to identify
-
-std::string text(const char* format, auto... values) {
-  char line[240];
-  std::snprintf(line, sizeof line, format, values...);
-  return line;
-}
 
 geometry::Chain chain_of(const ServoSession& session, std::uint16_t channel) {
   return machine::make_chain(session.parameters(), channel);

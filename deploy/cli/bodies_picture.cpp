@@ -13,9 +13,9 @@ namespace {
 using collision::Vec3;
 using report::PlotPoint;
 
-constexpr double side = 300, left = 85, gap = 90, top = 90;  // pixels
-constexpr int around = 36, rings = 18;                       // points of a round outline
-constexpr double margin = 0.05;                              // share of the extent
+constexpr double view_side = 300, view_left = 85, view_gap = 90, view_top = 90;  // pixels
+constexpr int around = 36, rings = 18;                                           // points of a round outline
+constexpr double margin = 0.05;                                                  // share of the extent
 constexpr const char* colours[]{"#0969da", "#1a7f37", "#9a6700", "#8250df", "#bc4c00", "#57606a"};
 
 // Points of the surface whose hull is the body's outline.
@@ -100,13 +100,13 @@ std::string bodies_picture(const collision::CollisionModel& model, const collisi
                          {1, 2, "from the side (+X)", "Y mm", "Z mm"},
                          {0, 1, "from above", "X mm", "Y mm"}};
   std::string content =
-      report::text(left, 24, report::escaped(title), "font-size=\"15\" font-weight=\"600\"");
+      report::text(view_left, 24, report::escaped(title), "font-size=\"15\" font-weight=\"600\"");
   if (nearest)
-    content += report::text(left, 44, report::escaped("nearest pair: " + model.text_of(*nearest)),
+    content += report::text(view_left, 44, report::escaped("nearest pair: " + model.text_of(*nearest)),
                             "fill=\"#cf222e\"");
-  double x = left;
+  double x = view_left;
   for (const View& view : views) {
-    report::Plot plot(x, top, side, side, range(view.across), range(view.up));
+    report::Plot plot(x, view_top, view_side, view_side, range(view.across), range(view.up));
     plot.title(view.title);
     plot.labels(view.across_name, view.up_name);
     for (std::size_t i = 0; i < bodies.size(); ++i) {
@@ -122,13 +122,13 @@ std::string bodies_picture(const collision::CollisionModel& model, const collisi
                   {nearest->on_second[view.across], nearest->on_second[view.up]}},
                  "stroke=\"#cf222e\" stroke-width=\"2\"");
     content += plot.svg();
-    x += side + gap;
+    x += view_side + view_gap;
   }
-  double at = left, row = top + side + 60;
+  double at = view_left, row = view_top + view_side + 60;
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     const auto& name = model.bodies()[i].name;
     const double width = 30 + 8.0 * static_cast<double>(name.size());
-    if (at + width > x) at = left, row += 20;
+    if (at + width > x) at = view_left, row += 20;
     content +=
         report::line(at, row - 4, at + 14, row - 4,
                      std::string("stroke=\"") + colours[i % std::size(colours)] + "\" stroke-width=\"6\"");

@@ -14,6 +14,7 @@
 #include "calibration_moves.hpp"
 #include "calibration_result.hpp"
 #include "cluster/cluster.hpp"
+#include "figures.hpp"
 #include "machine/yaml.hpp"
 #include "machine_probe.hpp"
 #include "report/plot.hpp"
@@ -26,8 +27,6 @@ namespace {
 using calibration::Mode;
 using calibration::Vec3;
 
-constexpr double um = 1e3;
-
 struct KinematicsOptions {
   CalibrationTarget target;
   std::string inputs, mode, sphere, true_sphere, touches, save_touches, protocol, plot, date, reference;
@@ -36,8 +35,6 @@ struct KinematicsOptions {
   std::size_t check = 0;
   bool virtual_probe = false, resume = false, retract = false, propose = false, acknowledge = false;
 };
-
-bus::Json json_of(const Vec3& v) { return bus::Json::array({v[0], v[1], v[2]}); }
 
 void check_source(const KinematicsOptions& o) {
   if (o.propose) return;
@@ -244,7 +241,7 @@ std::vector<calibration::TouchedPose> touch_on_machine(const KinematicsOptions& 
 }
 
 // The ranges in which the probe reaches the sphere, as a file of inputs has them.
-void propose(const CalibrationMoves& moves, const calibration::MeasuredMachine& measured) {
+void propose_ranges(const CalibrationMoves& moves, const calibration::MeasuredMachine& measured) {
   const auto in = moves.proposal();
   const auto plan = calibration::plan_measurement(in, measured);
   if (const auto* fault = std::get_if<std::string>(&plan)) throw std::runtime_error(*fault);
@@ -261,7 +258,7 @@ int kinematics(const KinematicsOptions& o, const Common& common) {
   const auto measured = measured_machine(machine, o.target.channel);
   const auto in = inputs_of(o, measured);
   if (o.propose) {
-    propose(CalibrationMoves(machine, o.target.machine, o.target.channel, in, measured), measured);
+    propose_ranges(CalibrationMoves(machine, o.target.machine, o.target.channel, in, measured), measured);
     return 0;
   }
   const auto reference = read_reference(o, in.reference);

@@ -9,6 +9,7 @@
 #include "calibration/sphere_check.hpp"
 #include "calibration/virtual_dial.hpp"
 #include "calibration_result.hpp"
+#include "figures.hpp"
 #include "machine/yaml.hpp"
 
 namespace trunnion::cli {
@@ -17,7 +18,6 @@ namespace {
 using calibration::ManualKind;
 using calibration::Vec3;
 
-constexpr double um = 1e3;
 constexpr int most_corrections = 3;
 
 struct ManualOptions {
@@ -28,7 +28,7 @@ struct ManualOptions {
   bool by_virtual = false;
 };
 
-struct Check {
+struct ManualCheck {
   std::vector<Vec3> displacements;
   calibration::Acceptance acceptance;
 };
@@ -47,7 +47,7 @@ void print_guide(ManualKind kind) {
   for (const auto& [name, about] : guide.values) std::cout << "  " << name << ": " << about << "\n";
 }
 
-void print_check(const Check& check, const std::vector<calibration::Angles>& poses,
+void print_check(const ManualCheck& check, const std::vector<calibration::Angles>& poses,
                  const calibration::ChainParameters& model, const char* when) {
   print_line("RTCP check at nine poses, %s: displacement of the ball in the workpiece frame, um", when);
   for (std::size_t i = 0; i < poses.size(); ++i)
@@ -59,7 +59,7 @@ void print_check(const Check& check, const std::vector<calibration::Angles>& pos
                line.value <= line.limit ? "" : "  EXCEEDED");
 }
 
-bus::Json json_of(const Check& check) {
+bus::Json json_of(const ManualCheck& check) {
   bus::Json out = {{"accepted", check.acceptance.accepted()}};
   for (const auto& d : check.displacements) out["displacements_mm"].push_back({d.x(), d.y(), d.z()});
   for (const auto& line : check.acceptance.lines)
@@ -120,7 +120,7 @@ int manual(const ManualOptions& o, const Common& common) {
   if (!o.displacements.empty()) {
     const auto displaced =
         calibration::parse_displacements(machine::read_text(o.displacements), o.displacements);
-    const Check check{displaced, calibration::acceptance_of(*kind, displaced)};
+    const ManualCheck check{displaced, calibration::acceptance_of(*kind, displaced)};
     if (!common.json) print_check(check, poses, model, "as given");
     out["checks"].push_back(json_of(check));
     if (check.acceptance.accepted() && !common.json) print_line("accepted; no correction");
@@ -128,7 +128,8 @@ int manual(const ManualOptions& o, const Common& common) {
   }
   truth::Instrument dial({o.noise / um, o.resolution / um, o.seed + 1});
   for (int round = 0; o.by_virtual; ++round) {
-    Check check{calibration::sphere_displacements(*machine.report, model, place, o.ball_length, poses), {}};
+    ManualCheck check{calibration::sphere_displacements(*machine.report, model, place, o.ball_length, poses),
+                      {}};
     for (auto& d : check.displacements)
       for (double& value : d) value = dial.read(value);
     check.acceptance = calibration::acceptance_of(*kind, check.displacements);

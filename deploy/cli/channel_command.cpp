@@ -24,7 +24,7 @@ namespace {
 using idl::channel::CommandKind;
 using idl::channel::RunState;
 
-struct Options {
+struct ChannelOptions {
   std::string word;
   std::vector<std::string> arguments;
   std::uint16_t channel = 0;
@@ -45,7 +45,7 @@ std::string letters_of(cluster::Client& client, std::uint16_t channel) {
   throw std::runtime_error("channel " + std::to_string(channel) + " is not there");
 }
 
-idl::channel::ChannelRequest request_of(cluster::Client& client, const Options& options) {
+idl::channel::ChannelRequest request_of(cluster::Client& client, const ChannelOptions& options) {
   if (options.word == "start" && options.from_line != 0)
     return {.channel = options.channel, .command = CommandKind::START_FROM_LINE, .line = options.from_line};
   const auto* command = commands::find_word(options.word);
@@ -100,7 +100,7 @@ void renew_until_released(cluster::Client& client, const idl::channel::ChannelRe
   if (moving) client.channel({.channel = jog.channel, .command = CommandKind::JOG_STOP, .axis = jog.axis});
 }
 
-int run(const Common& common, const Options& options) {
+int run_command(const Common& common, const ChannelOptions& options) {
   const auto cluster = cluster::find_cluster(common.domain);
   cluster::Client client(cluster.run.domain);
   auto request = request_of(client, options);
@@ -134,9 +134,9 @@ std::string list_of_commands() {
 }  // namespace
 
 void add_channel_command(CLI::App& app, Common& common) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ChannelOptions>();
   auto* command = add_command(app, common, "channel", "Operate a channel",
-                              [&common, options] { return run(common, *options); });
+                              [&common, options] { return run_command(common, *options); });
   std::vector<std::string> words;
   for (const auto& row : commands::channel_commands()) words.emplace_back(row.word);
   command->add_option("what", options->word, "What to do")->required()->check(CLI::IsMember(words));

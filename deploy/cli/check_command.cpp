@@ -20,7 +20,7 @@
 namespace trunnion::cli {
 namespace {
 
-struct Check {
+struct CheckOptions {
   std::string program;
   std::string machine;
   std::string tools;
@@ -50,7 +50,7 @@ idl::parameters::ToolTable tool_table(const analysis::ToolRows& rows) {
   return table;
 }
 
-int run_check(const Check& options) {
+int run_check(const CheckOptions& options) {
   analysis::FileSource text(options.program);
   const auto rows = tool_rows(options.tools);
   std::vector<std::string> folders{std::filesystem::path(options.program).parent_path().string()};
@@ -90,7 +90,7 @@ int run_check(const Check& options) {
 }
 
 /// What keeps a program from being read at all is an error line too, when lines are asked for.
-int run_check_as_asked(const Check& options) {
+int run_check_as_asked(const CheckOptions& options) {
   if (!options.json_lines) return run_check(options);
   try {
     return run_check(options);
@@ -105,13 +105,13 @@ int run_check_as_asked(const Check& options) {
 }  // namespace
 
 int check_file(const std::string& program, const std::string& machine) {
-  Check check;
+  CheckOptions check;
   check.program = program, check.machine = machine;
   return run_check(check);
 }
 
 void add_check_command(CLI::App& app, Common& common) {
-  auto options = std::make_shared<Check>();
+  auto options = std::make_shared<CheckOptions>();
   auto* command =
       add_command(app, common, "check", "Interpret a program without a cluster and report what it does",
                   [options] { return run_check_as_asked(*options); });

@@ -10,6 +10,7 @@
 #include "channel_motion.hpp"
 #include "circle_report.hpp"
 #include "circular_tests/turns.hpp"
+#include "figures.hpp"
 #include "geometry/angle.hpp"
 #include "machine/kinematics.hpp"
 #include "storage/file.hpp"
@@ -23,10 +24,9 @@ using circular_tests::PlanePoint;
 using circular_tests::ProgrammedCircle;
 using truth::Vec3;
 
-constexpr double um = 1e3;
-constexpr std::uint16_t decimation = 8;    // one sample in a cycle of 1 ms
-constexpr double found_within = 1e-4;      // mm: of a recording, the path from its circle
-constexpr double positioning_feed = 6000;  // mm/min
+constexpr std::uint16_t decimation = 8;           // one sample in a cycle of 1 ms
+constexpr double found_within = 1e-4;             // mm: of a recording, the path from its circle
+constexpr double circle_positioning_feed = 6000;  // mm/min
 
 struct CircleOptions {
   std::string machine, plane = "XY", source = "true", recording, plot, output, at;
@@ -34,18 +34,12 @@ struct CircleOptions {
   std::uint16_t channel = 0;
 };
 
-struct Plane {
+struct CirclePlane {
   std::size_t first = 0, second = 1;
 };
 
-Plane plane_of(const std::string& name) {
+CirclePlane plane_of(const std::string& name) {
   return {static_cast<std::size_t>(name[0] - 'X'), static_cast<std::size_t>(name[1] - 'X')};
-}
-
-std::string text(const char* format, auto... values) {
-  char line[240];
-  std::snprintf(line, sizeof line, format, values...);
-  return line;
 }
 
 // The circle's centre in machine coordinates: as given, or where the axes stand.
@@ -57,7 +51,7 @@ Vec3 centre_of(const CircleOptions& o, const ServoSession& session) {
   return centre;
 }
 
-void check(const CircleOptions& o, const ServoSession& session, const Vec3& centre) {
+void check_circle(const CircleOptions& o, const ServoSession& session, const Vec3& centre) {
   for (int i = 0; i < 3; ++i) {
     const auto& axis = session.axis(std::string(1, static_cast<char>('X' + i)));
     const bool moves = o.plane.find(axis.letter) != std::string::npos;
@@ -84,10 +78,10 @@ std::string circle_program(const CircleOptions& o, const ServoSession& session, 
   };
   const double x = centre[static_cast<Eigen::Index>(plane.first)],
                y = centre[static_cast<Eigen::Index>(plane.second)];
-  const auto to_centre = text("G53 G1 %c%.6f %c%.6f F%g\n", first, x, second, y, positioning_feed);
+  const auto to_centre = text("G53 G1 %c%.6f %c%.6f F%g\n", first, x, second, y, circle_positioning_feed);
   std::string program = o.plane == "XY" ? "G17" : o.plane == "XZ" ? "G18" : "G19";
   program += " G90 G94\n";
-  program += text("G53 G1 X%.6f Y%.6f Z%.6f F%g\n", centre[0], centre[1], centre[2], positioning_feed);
+  program += text("G53 G1 X%.6f Y%.6f Z%.6f F%g\n", centre[0], centre[1], centre[2], circle_positioning_feed);
   for (const int sense : {1, -1}) {
     const double from = o.start - sense * o.overrun, to = o.start + sense * o.overrun;
     const auto begin = point(from), end = point(to);
@@ -103,11 +97,11 @@ std::string circle_program(const CircleOptions& o, const ServoSession& session, 
   }
   for (const auto& axis : session.axes())
     if (axis.letter >= 'X' && axis.letter <= 'Z')
-      program += text("G53 G1 %c%.6f F%g\n", axis.letter, axis.place, positioning_feed);
+      program += text("G53 G1 %c%.6f F%g\n", axis.letter, axis.place, circle_positioning_feed);
   return program + "G17\nM30\n";
 }
 
-std::vector<PlanePoint> commanded_points(const ChannelMotion& motion, const Plane& plane) {
+std::vector<PlanePoint> commanded_points(const ChannelMotion& motion, const CirclePlane& plane) {
   std::vector<PlanePoint> points;
   points.reserve(motion.count);
   for (std::size_t i = 0; i < motion.count; ++i)
@@ -115,7 +109,7 @@ std::vector<PlanePoint> commanded_points(const ChannelMotion& motion, const Plan
   return points;
 }
 
-std::vector<PlanePoint> encoder_points(const ChannelMotion& motion, const Plane& plane) {
+std::vector<PlanePoint> encoder_points(const ChannelMotion& motion, const CirclePlane& plane) {
   std::vector<PlanePoint> points;
   points.reserve(motion.count);
   for (std::size_t i = 0; i < motion.count; ++i)
@@ -125,7 +119,7 @@ std::vector<PlanePoint> encoder_points(const ChannelMotion& motion, const Plane&
 
 // The true tip as positions of X, Y and Z of a machine without errors; the ball of the table is set where the
 // tip truly is at the centre.
-std::vector<PlanePoint> true_points(const ChannelMotion& motion, const Plane& plane,
+std::vector<PlanePoint> true_points(const ChannelMotion& motion, const CirclePlane& plane,
                                     const ProgrammedCircle& circle, const TrueMachine& machine) {
   const auto& chain = machine.report->model();
   const double length = machine.report->tool_length;
@@ -192,7 +186,7 @@ int measure_circle(const CircleOptions& o, const Common& common) {
   } else {
     ServoSession session(o.machine, common.domain, o.channel);
     const auto centre = centre_of(o, session);
-    check(o, session, centre);
+    check_circle(o, session, centre);
     motion = run_sampled(session, circle_program(o, session, centre), "XYZ", decimation);
     circle = {
         {centre[static_cast<Eigen::Index>(plane.first)], centre[static_cast<Eigen::Index>(plane.second)]},

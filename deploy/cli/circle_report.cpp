@@ -5,10 +5,10 @@
 #include <cstdio>
 #include <iostream>
 
+#include "figures.hpp"
+
 namespace trunnion::cli {
 namespace {
-
-constexpr double um = 1e3, urad = 1e6;
 
 bus::Json scaled(const std::array<double, 4>& values) {
   return bus::Json::array({values[0] * um, values[1] * um, values[2] * um, values[3] * um});

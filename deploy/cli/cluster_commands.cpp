@@ -110,7 +110,7 @@ std::string replica_state(const idl::service::ClusterService& service, bool in_s
   return in_step ? "in step" : "joining";
 }
 
-int status(const Common& common) {
+int show_status(const Common& common) {
   const auto cluster = cluster::find_cluster(common.domain);
   cluster::Client client(cluster.run.domain);
   auto announcements = client.bus().reader(topics::announcement);
@@ -226,7 +226,7 @@ void add_cluster_commands(CLI::App& app, Common& common) {
   add_command(
       app, common, "status",
       "Table of the services: vendor, pid, state, uptime, rates; and the alarms. Exit status 0 when ready",
-      [&common] { return status(common); });
+      [&common] { return show_status(common); });
 }
 
 }  // namespace trunnion::cli

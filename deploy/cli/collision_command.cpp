@@ -17,6 +17,7 @@
 #include "bus/json.hpp"
 #include "collision_machine.hpp"
 #include "commands.hpp"
+#include "figures.hpp"
 #include "machine_settings.hpp"
 #include "storage/file.hpp"
 
@@ -25,13 +26,13 @@ namespace {
 
 constexpr double table_range = 50;  // mm: pairs farther apart are not listed
 
-struct Options {
+struct CollisionOptions {
   std::string machine, program, tool, picture, pose;
   std::vector<std::string> set;
   std::optional<double> clearance;
 };
 
-double number_of(const std::string& text, const std::string& option) {
+double option_number(const std::string& text, const std::string& option) {
   std::istringstream in(text);
   double value = 0;
   char more = 0;
@@ -45,13 +46,13 @@ double number_of(const std::string& text, const std::string& option) {
 CylinderTool tool_of(const std::string& option, const tool_tables::MachineTables& tables) {
   const auto comma = option.find(',');
   if (comma != std::string::npos) {
-    const CylinderTool tool{number_of(option.substr(0, comma), option),
-                            number_of(option.substr(comma + 1), option) / 2};
+    const CylinderTool tool{option_number(option.substr(0, comma), option),
+                            option_number(option.substr(comma + 1), option) / 2};
     if (!(tool.length > 0 && tool.radius > 0))
       throw std::runtime_error("--tool " + option + ": length and diameter must be above 0 mm");
     return tool;
   }
-  const double number = number_of(option, option);
+  const double number = option_number(option, option);
   for (const auto& tool : tables.tools.tools)
     if (tool.number == number) {
       if (!(tool.length > 0 && tool.radius > 0))
@@ -96,9 +97,7 @@ struct Follower {
   }
 };
 
-bus::Json json_of(const collision::Vec3& v) { return {v.x(), v.y(), v.z()}; }
-
-int report(const Follower& follower, const Options& o, const collision::Travel& travel, bool json) {
+int report(const Follower& follower, const CollisionOptions& o, const collision::Travel& travel, bool json) {
   const auto& bodies = follower.model.bodies();
   auto rows = follower.table.rows();
   std::erase_if(rows, [](const auto& row) { return row.distance >= table_range; });
@@ -138,7 +137,7 @@ int report(const Follower& follower, const Options& o, const collision::Travel& 
   return follower.contact ? 1 : 0;
 }
 
-int run(const Options& o, const Common& common) {
+int run_collision(const CollisionOptions& o, const Common& common) {
   const auto directory = machine_directory(o.machine);
   const auto machine = load_true_machine(o.machine, 0, o.set);
   auto tables = tool_tables::load_machine_tables(directory);
@@ -173,13 +172,13 @@ int run(const Options& o, const Common& common) {
 }  // namespace
 
 void add_collision_command(CLI::App& app, Common& common) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<CollisionOptions>();
   auto& o = *options;
   auto* command = add_command(app, common, "collision",
                               "Follow the planned path of a program among the bodies of the machine "
                               "(docs/collision.md): first contact, and least clearance of each pair; 1 when "
                               "there is a contact",
-                              [options, &common] { return run(*options, common); });
+                              [options, &common] { return run_collision(*options, common); });
   command->add_option("machine", o.machine, "Name under configs/machines, or a directory with machine.yaml")
       ->required();
   command->add_option("--program", o.program, "The program's file");

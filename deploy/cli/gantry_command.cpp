@@ -8,6 +8,7 @@
 #include "bus/json.hpp"
 #include "cluster/client.hpp"
 #include "commands.hpp"
+#include "figures.hpp"
 #include "machine/parameter_constants.hpp"
 #include "session_cluster.hpp"
 #include "stream/gantry_synchronization.hpp"
@@ -22,12 +23,6 @@ struct GantryOptions {
   std::string machine;
   bool write = false;
 };
-
-void print(const char* format, auto... values) {
-  char line[240];
-  std::snprintf(line, sizeof line, format, values...);
-  std::cout << line << std::endl;
-}
 
 const char* state_of(const GantryPair& pair, const idl::stream::FeedbackFrame& f) {
   const auto i = static_cast<std::size_t>(pair.slave_column);
@@ -68,7 +63,7 @@ bus::Json json_of(double value, const char* unit, double limit, std::uint32_t nu
   return j;
 }
 
-int show(const GantryOptions& o, const Common& common) {
+int show_gantry(const GantryOptions& o, const Common& common) {
   SessionCluster cluster(o.machine, common.domain);
   cluster::Client client(cluster.running().run.domain);
   const auto p = machine::parameters_of(client.newest(topics::parameter_set));
@@ -161,7 +156,7 @@ void add_gantry_command(CLI::App& app, Common& common) {
   auto o = std::make_shared<GantryOptions>();
   auto* command =
       add_command(app, common, "gantry", "Both sides of a gantry: synchronization error, limits, Auto Offset",
-                  [o, &common] { return show(*o, common); });
+                  [o, &common] { return show_gantry(*o, common); });
   command->add_option(
       "machine", o->machine,
       "Name under configs/machines or a directory: a cluster of its own in virtual time; without it "

@@ -8,6 +8,7 @@
 
 #include "bus/json.hpp"
 #include "cluster/cluster.hpp"
+#include "figures.hpp"
 #include "identification/geometry_fit.hpp"
 #include "identification/improvement.hpp"
 #include "machine/kinematics.hpp"
@@ -53,18 +54,6 @@ std::optional<truth::PositionAccuracy> accuracy_of(truth::PoseReport report,
     return std::nullopt;
   report.tool_length = m.tool_length;
   return truth::measure_laser(report, m.laser, instrument).accuracy;
-}
-
-bus::Json json_of(const truth::Spread& spread, double unit) {
-  return {{"mean", spread.mean * unit},
-          {"percentile_95", spread.percentile_95 * unit},
-          {"maximum", spread.maximum * unit}};
-}
-
-void print(const char* format, auto... values) {
-  char line[200];
-  std::snprintf(line, sizeof line, format, values...);
-  std::cout << line << "\n";
 }
 
 class Report {

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <stdexcept>
 
+#include "figures.hpp"
 #include "metrology/sphere.hpp"
 #include "storage/file.hpp"
 
@@ -15,8 +16,7 @@ using calibration::AxisPosition;
 using calibration::PlannedPose;
 using calibration::Vec3;
 
-constexpr const char* program_name = "calibration_pose.tmp.nc";
-constexpr double um = 1e3;
+constexpr const char* probe_program = "calibration_pose.tmp.nc";
 constexpr double moved_tolerance = 0.02;  // mm: of the sphere since the poses that were measured before
 
 class MachineProbe {
@@ -57,7 +57,7 @@ class MachineProbe {
     top[2] = retract_height(last);
     const auto way = m_.way ? m_.way(last, top) : calibration::Way{top};
     execute(calibration::positioning_program(m_.inputs, m_.machine, way, ++serial_));
-    runner_.remove(program_name);
+    runner_.remove(probe_program);
     return poses;
   }
 
@@ -72,7 +72,7 @@ class MachineProbe {
     return calibration::retract_way(from, to, retract_height(from));
   }
   calibration::MacroVariables execute(const std::string& text) {
-    return runner_.run(program_name, text, serial_);
+    return runner_.run(probe_program, text, serial_);
   }
 
   std::vector<Vec3> touch(const PlannedPose& pose, const Vec3& centre) {

@@ -11,6 +11,7 @@
 #include "circle_command.hpp"
 #include "circle_report.hpp"
 #include "commands.hpp"
+#include "figures.hpp"
 #include "geometry_command.hpp"
 #include "storage/file.hpp"
 #include "true_machine.hpp"
@@ -19,8 +20,6 @@
 
 namespace trunnion::cli {
 namespace {
-
-constexpr double um = 1e3, urad = 1e6;
 
 struct MeasureOptions {
   std::string machine, plot, plane = "XY", error = "EXX", axis = "C", at = "0,0,0";
@@ -157,8 +156,9 @@ int rtest(const MeasureOptions& o, bool json) {
   return 0;
 }
 
-CLI::App* add(CLI::App& app, Common& common, const std::string& name, const std::string& about,
-              const std::shared_ptr<MeasureOptions>& options, int (*run)(const MeasureOptions&, bool)) {
+CLI::App* add_measurement(CLI::App& app, Common& common, const std::string& name, const std::string& about,
+                          const std::shared_ptr<MeasureOptions>& options,
+                          int (*run)(const MeasureOptions&, bool)) {
   auto* command =
       add_command(app, common, name, about, [options, &common, run] { return run(*options, common.json); });
   command
@@ -181,9 +181,9 @@ void add_measure_command(CLI::App& app, Common& common) {
   add_circle_command(*measure, common);
   add_ball_commands(*measure, common);
   auto options = std::make_shared<MeasureOptions>();
-  auto* bar = add(*measure, common, "ballbar",
-                  "Circular test by ISO 230-4 of the geometry alone: both circles and what they say", options,
-                  &ballbar);
+  auto* bar = add_measurement(
+      *measure, common, "ballbar",
+      "Circular test by ISO 230-4 of the geometry alone: both circles and what they say", options, &ballbar);
   bar->add_option("--plane", options->plane, "XY (default), XZ or YZ")
       ->check(CLI::IsMember({"XY", "XZ", "YZ"}));
   bar->add_option("--radius", options->radius, "mm (default 100)")->check(CLI::Range(1.0, 1e4));
@@ -191,8 +191,8 @@ void add_measure_command(CLI::App& app, Common& common) {
   bar->add_option("--points", options->points, "Readings of each circle (default 720)")
       ->check(CLI::Range(16, 100000));
   bar->add_option("--plot", options->plot, "Write the polar plot (SVG)");
-  auto* beam = add(*measure, common, "laser", "Position, straightness or angle of an axis by ISO 230-2",
-                   options, &laser);
+  auto* beam = add_measurement(*measure, common, "laser",
+                               "Position, straightness or angle of an axis by ISO 230-2", options, &laser);
   beam->add_option("--error", options->error, "EXX (default), EYX, EBX ...: which error of which axis");
   beam->add_option("--from", options->from, "First target in machine coordinates, mm (default: the travel)");
   beam->add_option("--to", options->to, "Last target");
@@ -200,7 +200,7 @@ void add_measure_command(CLI::App& app, Common& common) {
   beam->add_option("--points", options->points, "Targets (default 11)")->check(CLI::Range(2, 10000));
   beam->add_option("--runs", options->runs, "Runs up and down (default 5)")->check(CLI::Range(2, 1000));
   beam->add_option("--plot", options->plot, "Write the deviations (SVG)");
-  auto* nest = add(
+  auto* nest = add_measurement(
       *measure, common, "rtest",
       "The geometry alone: a rotary axis turns while the control keeps the tip at a place of the workpiece "
       "(RTCP), from stop to stop; in motion: r-test. Angle, "

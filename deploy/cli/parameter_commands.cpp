@@ -56,7 +56,7 @@ bus::Json row(std::uint32_t number, const machine::Parameters& parameters) {
   return json;
 }
 
-int get(const Common& common, const std::vector<std::string>& numbers) {
+int get_parameters(const Common& common, const std::vector<std::string>& numbers) {
   cluster::Client client(cluster::find_cluster(common.domain).run.domain);
   const auto parameters = active(client);
   bus::Json all = bus::Json::array();
@@ -94,7 +94,7 @@ int set(const Common& common, const std::string& number, const std::string& valu
   return send_parameters(common, client, std::move(request));
 }
 
-int list(const Common& common, const std::string& filter) {
+int list_parameters(const Common& common, const std::string& filter) {
   cluster::Client client(cluster::find_cluster(common.domain).run.domain);
   Pending pending;
   const auto parameters = active(client, &pending);
@@ -128,7 +128,7 @@ int list(const Common& common, const std::string& filter) {
   return 0;
 }
 
-int save(const Common& common, const std::string& file) {
+int save_parameters(const Common& common, const std::string& file) {
   cluster::Client client(cluster::find_cluster(common.domain).run.domain);
   const auto text = machine::write_parameter_text(active(client).values);
   if (file == "-") {
@@ -142,7 +142,7 @@ int save(const Common& common, const std::string& file) {
   return 0;
 }
 
-int load(const Common& common, const std::string& file) {
+int load_parameters(const Common& common, const std::string& file) {
   return import_parameters(common, machine::read_parameter_file(file));
 }
 
@@ -154,7 +154,7 @@ void add_parameter_commands(CLI::App& app, Common& common) {
   auto numbers = std::make_shared<std::vector<std::string>>();
   auto text = std::make_shared<std::pair<std::string, std::string>>();
   add_command(*param, common, "get", "Print active values",
-              [&common, numbers] { return get(common, *numbers); })
+              [&common, numbers] { return get_parameters(common, *numbers); })
       ->add_option("number", *numbers, "Six digits")
       ->required();
   auto take_right = std::make_shared<bool>(false);
@@ -170,14 +170,14 @@ void add_parameter_commands(CLI::App& app, Common& common) {
   command->add_option("value", text->second, "New value")->required();
   command->add_flag("--take-right", *take_right, cluster::take_right_help);
   add_command(*param, common, "list", "Values that differ from the defaults", [&common, text] {
-    return list(common, text->first);
+    return list_parameters(common, text->first);
   })->add_option("filter", text->first, "Start of the number or part of the name");
   add_command(*param, common, "export", "Write the active values as YAML",
-              [&common, text] { return save(common, text->first); })
+              [&common, text] { return save_parameters(common, text->first); })
       ->add_option("file", text->first, "File, - for standard output")
       ->required();
   command = add_command(*param, common, "import", "Set every value of a YAML file, all or none",
-                        operating([&common, text] { return load(common, text->first); }));
+                        operating([&common, text] { return load_parameters(common, text->first); }));
   command->add_option("file", text->first, "File")->required();
   command->add_flag("--take-right", *take_right, cluster::take_right_help);
 }

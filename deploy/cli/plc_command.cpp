@@ -61,7 +61,7 @@ bus::Json diagnostics_json(const st::Compilation& result) {
   return list;
 }
 
-int check(const PlcOptions& options, bool json) {
+int check_plc(const PlcOptions& options, bool json) {
   const auto result = compiled(options.files, false);
   const auto instructions = result.good() ? result.code->code.size() : 0;
   const auto cells = result.good() ? result.code->initial.size() - st::image_cells : 0;
@@ -109,7 +109,7 @@ std::pair<std::string, std::string> assignment(const std::string& text) {
 
 using Values = std::vector<std::pair<std::string, std::string>>;
 
-void print(const Values& values, const std::string& fault, bool json) {
+void print_values(const Values& values, const std::string& fault, bool json) {
   if (json) {
     bus::Json variables = bus::Json::object();
     for (const auto& [name, value] : values) variables[name] = value;
@@ -130,7 +130,7 @@ int refuse(const st::Compilation& result, bool json) {
   return 1;
 }
 
-int run(const PlcOptions& options, bool json) {
+int run_plc(const PlcOptions& options, bool json) {
   auto result = compiled(options.files, !options.call.empty());
   if (!result.good()) return refuse(result, json);
   const auto name = st::upper_case(options.call);
@@ -171,7 +171,7 @@ int run(const PlcOptions& options, bool json) {
     const auto found = program.scan(name, static_cast<std::int64_t>(options.period * 1e6));
     if (found.kind != st::FaultKind::none) fault = st::fault_line(result, program.machine(), found);
   }
-  print(program.variables(), fault, json);
+  print_values(program.variables(), fault, json);
   return fault.empty() ? 0 : 1;
 }
 
@@ -216,14 +216,14 @@ void add_plc_command(CLI::App& app, Common& common) {
       "Programs of the PLC: check, run and test them without a machine; see and change those that run");
   plc->require_subcommand(1);
   auto* checks = add_command(*plc, common, "check", "Report the errors and warnings of programs",
-                             [options, &common] { return check(*options, common.json); });
+                             [options, &common] { return check_plc(*options, common.json); });
   checks
       ->add_option("files", options->files,
                    "Structured Text, PLCopen XML and devices.yaml, translated together")
       ->required();
   auto* runs =
       add_command(*plc, common, "run", "Run programs, or one program or function, and print every variable",
-                  [options, &common] { return run(*options, common.json); });
+                  [options, &common] { return run_plc(*options, common.json); });
   runs->add_option("files", options->files,
                    "Structured Text, PLCopen XML and devices.yaml, translated together")
       ->required();

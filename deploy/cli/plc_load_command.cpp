@@ -20,7 +20,7 @@ namespace {
 
 using idl::plc::LoadPhase;
 
-struct Options {
+struct PlcLoadOptions {
   std::string directory;
   bool dry_run = false, undo = false, accept_differences = false, take_over = false;
   double seconds = 1;
@@ -69,7 +69,7 @@ std::vector<Source> previous(PlcSession& session) {
   return sources;
 }
 
-OnlineReply status(PlcSession& session, std::vector<std::string>& messages) {
+OnlineReply load_status(PlcSession& session, std::vector<std::string>& messages) {
   OnlineRequest request;
   request.action = OnlineAction::LOAD_STATUS;
   request.first = static_cast<std::uint32_t>(messages.size());
@@ -86,7 +86,7 @@ struct Outcome {
   std::string refusal;
 };
 
-void print(const Outcome& outcome, bool json, std::size_t from) {
+void print_outcome(const Outcome& outcome, bool json, std::size_t from) {
   if (json) {
     bus::Json document = {{"good", outcome.good},
                           {"taken_over", outcome.taken_over},
@@ -118,17 +118,17 @@ void send(PlcSession& session, const std::vector<Source>& sources) {
 }
 
 // Messages so far are printed before the programs take over.
-Outcome load(const Common& common, PlcSession& session, const Options& options) {
+Outcome load_programs(const Common& common, PlcSession& session, const PlcLoadOptions& options) {
   Outcome outcome;
   const auto wait = [] { std::this_thread::sleep_for(std::chrono::milliseconds(10)); };
   auto until = service::monotonic_seconds() + longest_compilation;
-  auto reply = status(session, outcome.messages);
+  auto reply = load_status(session, outcome.messages);
   for (; reply.phase == LoadPhase::COMPILING && service::monotonic_seconds() < until; wait())
-    reply = status(session, outcome.messages);
-  while (outcome.messages.size() < reply.total) reply = status(session, outcome.messages);
+    reply = load_status(session, outcome.messages);
+  while (outcome.messages.size() < reply.total) reply = load_status(session, outcome.messages);
   const auto told = outcome.messages.size();
   outcome.good = reply.phase == LoadPhase::COMPILED;
-  if (!common.json) print(outcome, false, 0);
+  if (!common.json) print_outcome(outcome, false, 0);
   if (!outcome.good) {
     outcome.refusal = "the programs have errors; nothing has changed";
     return outcome;
@@ -141,14 +141,14 @@ Outcome load(const Common& common, PlcSession& session, const Options& options) 
   do {
     wait();
     const auto before = reply.compared;
-    reply = status(session, outcome.messages);
+    reply = load_status(session, outcome.messages);
     if (reply.compared != before) advanced = service::monotonic_seconds();
   } while (static_cast<double>(reply.compared) < options.seconds * 1000 &&
            reply.phase == LoadPhase::COMPARING && service::monotonic_seconds() < until &&
            service::monotonic_seconds() - advanced < 0.5);
-  while (outcome.messages.size() < reply.total) reply = status(session, outcome.messages);
+  while (outcome.messages.size() < reply.total) reply = load_status(session, outcome.messages);
   outcome.compared = reply.compared, outcome.differences = reply.differences;
-  if (!common.json) print(outcome, false, told);
+  if (!common.json) print_outcome(outcome, false, told);
   OnlineRequest request;
   const cluster::OperatingStation station(session.domain(), options.take_over);
   request.action = OnlineAction::TAKE_OVER;
@@ -162,16 +162,16 @@ Outcome load(const Common& common, PlcSession& session, const Options& options) 
   return outcome;
 }
 
-int run(const Common& common, const Options& options) {
+int run_load(const Common& common, const PlcLoadOptions& options) {
   if (options.undo != options.directory.empty())
     throw std::runtime_error("name a directory with programs, or --undo for those before the last load");
   PlcSession session(common);
   const auto sources = options.undo ? previous(session) : sources_of(options.directory);
   send(session, sources);
-  const auto outcome = load(common, session, options);
+  const auto outcome = load_programs(common, session, options);
   if (!outcome.taken_over) session.call(OnlineAction::END_LOAD);
   if (common.json) {
-    print(outcome, true, 0);
+    print_outcome(outcome, true, 0);
   } else if (outcome.taken_over) {
     std::cout << "The new programs run; compared over " << outcome.compared << " ms, " << outcome.differences
               << " differences\n";
@@ -198,11 +198,11 @@ int programs(const Common& common) {
 }  // namespace
 
 void add_plc_load_commands(CLI::App& plc, Common& common) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<PlcLoadOptions>();
   auto* loads =
       add_command(plc, common, "load",
                   "Load programs into the PLC that runs, after a comparison; says before what is not kept",
-                  [options, &common] { return run(common, *options); });
+                  [options, &common] { return run_load(common, *options); });
   loads->add_option("directory", options->directory,
                     "Directory with .st and .xml files, fast.il, main.il, devices.yaml, modbus.yaml");
   loads->add_flag("--dry-run", options->dry_run, "Only translate them and say what is not kept");

@@ -17,7 +17,7 @@
 namespace trunnion::cli {
 namespace {
 
-struct Options {
+struct PlcOnlineOptions {
   std::vector<std::string> paths;
   std::string when, output;
   std::uint32_t scans = 1000;
@@ -25,9 +25,9 @@ struct Options {
   bool permanent = false, release = false, list = false, take_over = false;
 };
 
-std::atomic<bool> interrupted{false};
+std::atomic<bool> watch_interrupted{false};
 
-int variables(const Common& common, const Options& options) {
+int variables(const Common& common, const PlcOnlineOptions& options) {
   PlcSession session(common);
   std::vector<idl::plc::VariableInfo> all;
   for (std::uint32_t total = 1; all.size() < total;) {
@@ -63,7 +63,7 @@ int variables(const Common& common, const Options& options) {
   return 0;
 }
 
-void show(const Common& common, const ShownVariables& shown, const idl::plc::Watched& sample) {
+void show_watched(const Common& common, const ShownVariables& shown, const idl::plc::Watched& sample) {
   const auto texts = shown.texts(sample.cells);
   const auto forced = [&](std::size_t i) {
     return std::find(sample.forced.begin(), sample.forced.end(), i) != sample.forced.end();
@@ -84,7 +84,7 @@ void show(const Common& common, const ShownVariables& shown, const idl::plc::Wat
   std::cout << std::endl;
 }
 
-int watch(const Common& common, const Options& options) {
+int watch(const Common& common, const PlcOnlineOptions& options) {
   PlcSession session(common);
   auto reader = session.bus().reader(topics::plc_watched);
   OnlineRequest request;
@@ -93,11 +93,11 @@ int watch(const Common& common, const Options& options) {
   auto reply = session.call(request);
   auto asked = service::monotonic_seconds();
   ShownVariables shown(reply.variables);
-  std::signal(SIGINT, [](int) { interrupted = true; });
-  std::signal(SIGTERM, [](int) { interrupted = true; });
+  std::signal(SIGINT, [](int) { watch_interrupted = true; });
+  std::signal(SIGTERM, [](int) { watch_interrupted = true; });
   idl::plc::Watched sample, last;
   std::uint64_t written = 0;
-  while (!interrupted && (options.count == 0 || written < options.count)) {
+  while (!watch_interrupted && (options.count == 0 || written < options.count)) {
     if (service::monotonic_seconds() - asked > 1.5) {
       reply = session.call(request);
       asked = service::monotonic_seconds();
@@ -107,7 +107,7 @@ int watch(const Common& common, const Options& options) {
         continue;
       if (written > 0 && sample.cells == last.cells && sample.forced == last.forced) continue;
       if (options.count != 0 && written == options.count) continue;
-      show(common, shown, sample);
+      show_watched(common, shown, sample);
       ++written;
       last = sample;
     }
@@ -129,7 +129,7 @@ int list_forces(const Common& common, PlcSession& session) {
   return 0;
 }
 
-int force(const Common& common, const Options& options) {
+int force(const Common& common, const PlcOnlineOptions& options) {
   if (options.release && options.permanent)
     throw std::runtime_error("--release ends a force; leave out --permanent");
   if (!options.release && !options.list && options.paths.empty())
@@ -207,7 +207,7 @@ void write_trace(const Common& common, std::ostream& out, const ShownVariables& 
   }
 }
 
-int trace(const Common& common, const Options& options) {
+int trace(const Common& common, const PlcOnlineOptions& options) {
   PlcSession session(common);
   OnlineRequest request;
   request.action = OnlineAction::START_TRACE;
@@ -215,8 +215,8 @@ int trace(const Common& common, const Options& options) {
   request.scans = options.scans;
   set_condition(options.when, request);
   const ShownVariables shown(session.call(request).variables);
-  std::signal(SIGINT, [](int) { interrupted = true; });
-  std::signal(SIGTERM, [](int) { interrupted = true; });
+  std::signal(SIGINT, [](int) { watch_interrupted = true; });
+  std::signal(SIGTERM, [](int) { watch_interrupted = true; });
   std::vector<std::uint64_t> cells;
   const auto width = shown.cells() + 2;
   bool complete = false;
@@ -228,7 +228,7 @@ int trace(const Common& common, const Options& options) {
     cells.insert(cells.end(), reply.cells.begin(), reply.cells.end());
     complete = reply.complete;
     if (reply.cells.empty()) {
-      if (interrupted) break;
+      if (watch_interrupted) break;
       session.bus().signal().wait(0.02);
     }
   }
@@ -270,7 +270,7 @@ int tasks(const Common& common) {
 }  // namespace
 
 void add_plc_online_commands(CLI::App& plc, Common& common) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<PlcOnlineOptions>();
   const auto bind = [&common, options](auto what) {
     return [&common, options, what] { return what(common, *options); };
   };

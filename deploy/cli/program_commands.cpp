@@ -24,13 +24,13 @@ using idl::program::Operation;
 using idl::program::ProgramEntry;
 using idl::program::ProgramList;
 
-struct Options {
+struct ProgramOptions {
   std::string name, new_name, file;
   bool replace = false;
 };
 
 /// The stored program `name`; "part" and "part.nc" are alike where only one of them is stored.
-std::optional<ProgramEntry> find(const ProgramList& list, const std::string& name) {
+std::optional<ProgramEntry> find_program(const ProgramList& list, const std::string& name) {
   constexpr std::string_view suffix = ".nc";
   for (const auto& wanted : {name, name + std::string(suffix),
                              name.ends_with(suffix) ? name.substr(0, name.size() - suffix.size()) : name}) {
@@ -41,7 +41,7 @@ std::optional<ProgramEntry> find(const ProgramList& list, const std::string& nam
 }
 
 ProgramEntry stored(const ProgramList& list, const std::string& name) {
-  if (const auto found = find(list, name)) return *found;
+  if (const auto found = find_program(list, name)) return *found;
   throw std::runtime_error("there is no stored program " + name + "; trunnion program list shows them");
 }
 
@@ -67,7 +67,7 @@ cluster::Client connect(const Common& common) {
   return cluster::Client(cluster::find_cluster(common.domain).run.domain);
 }
 
-int list(const Common& common) {
+int list_programs(const Common& common) {
   auto client = connect(common);
   const auto list = client.newest(topics::program_list);
   if (common.json) {
@@ -84,7 +84,7 @@ int list(const Common& common) {
   return 0;
 }
 
-int put(const Common& common, const Options& options) {
+int put(const Common& common, const ProgramOptions& options) {
   const auto text = machine::read_text(options.file);
   auto client = connect(common);
   const auto name = options.name.empty() ? fs::path(options.file).filename().string() : options.name;
@@ -100,7 +100,7 @@ int put(const Common& common, const Options& options) {
   return answer(common, "stored", client.program(request).entry);
 }
 
-int get(const Common& common, const Options& options) {
+int get_program(const Common& common, const ProgramOptions& options) {
   auto client = connect(common);
   const auto entry = stored(client.newest(topics::program_list), options.name);
   const auto text = client.download(entry.name);
@@ -117,7 +117,7 @@ int get(const Common& common, const Options& options) {
 
 /// Changes a stored program; the program service refuses one that a channel executes. Returns it as it was
 /// and as it is now.
-std::pair<ProgramEntry, ProgramEntry> change(const Common& common, const Options& options,
+std::pair<ProgramEntry, ProgramEntry> change(const Common& common, const ProgramOptions& options,
                                              Operation operation) {
   auto client = connect(common);
   const auto entry = stored(client.newest(topics::program_list), options.name);
@@ -128,16 +128,16 @@ std::pair<ProgramEntry, ProgramEntry> change(const Common& common, const Options
   return {entry, client.program(request).entry};
 }
 
-int remove(const Common& common, const Options& options) {
+int remove_program(const Common& common, const ProgramOptions& options) {
   return answer(common, "deleted", change(common, options, Operation::REMOVE).first);
 }
 
-int rename(const Common& common, const Options& options) {
+int rename(const Common& common, const ProgramOptions& options) {
   const auto [before, now] = change(common, options, Operation::RENAME);
   return answer(common, "was " + before.name, now);
 }
 
-int check(const Common& common, const Options& options) {
+int check_program(const Common& common, const ProgramOptions& options) {
   const auto cluster = cluster::find_cluster(common.domain);
   cluster::Client client(cluster.run.domain);
   const auto entry = stored(client.newest(topics::program_list), options.name);
@@ -152,15 +152,16 @@ int check(const Common& common, const Options& options) {
 void add_program_commands(CLI::App& app, Common& common) {
   auto* program = app.add_subcommand("program", "List, store, read and check programs of a running cluster");
   program->require_subcommand(1);
-  const auto add = [&](const char* name, const char* about, int (*run)(const Common&, const Options&)) {
-    auto options = std::make_shared<Options>();
+  const auto add = [&](const char* name, const char* about,
+                       int (*run)(const Common&, const ProgramOptions&)) {
+    auto options = std::make_shared<ProgramOptions>();
     auto* command =
         add_command(*program, common, name, about, [&common, options, run] { return run(common, *options); });
     return std::pair(command, options);
   };
   const char* const stored_name = "Name of a stored program, with or without .nc";
   add("list", "Stored programs with revision and size",
-      [](const Common& c, const Options&) { return list(c); });
+      [](const Common& c, const ProgramOptions&) { return list_programs(c); });
   {
     const auto [command, options] = add("put", "Store a file as a program", put);
     command->add_option("file", options->file, "File")->required()->check(CLI::ExistingFile);

@@ -34,7 +34,7 @@ constexpr double match_timeout = 60;  // s for a first reader
 
 volatile sig_atomic_t stop_requested = 0;
 
-int run(const Common& common, const ReplayArguments& arguments) {
+int run_replay(const Common& common, const ReplayArguments& arguments) {
   if (!common.domain) throw std::runtime_error("say with --domain where to replay it");
   std::set<std::string> topics;
   for (const auto& name : arguments.only) {
@@ -99,7 +99,7 @@ void add_replay_command(CLI::App& app, Common& common) {
       add_command(app, common, "replay",
                   "Write a recording into a domain as its writers did: in the order of cycles, states "
                   "kept for late joiners",
-                  [&common, arguments] { return run(common, *arguments); });
+                  [&common, arguments] { return run_replay(common, *arguments); });
   command->add_option("file", arguments->file, "Recording")->required()->check(CLI::ExistingFile);
   command->add_option("--only", arguments->only, "Handles of topics, separated by commas (default: all)")
       ->delimiter(',');

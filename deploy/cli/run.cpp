@@ -65,17 +65,17 @@ class Recorder {
   cluster::ChildProcess process_;
 };
 
-std::atomic<bool> interrupted{false};
+std::atomic<bool> run_interrupted{false};
 
 // Ctrl-C, SIGTERM and the end of the terminal end a run in order: its cluster does not outlive it.
 void watch_interrupts() {
   struct sigaction action {};
-  action.sa_handler = [](int) { interrupted = true; };
+  action.sa_handler = [](int) { run_interrupted = true; };
   for (const int number : {SIGINT, SIGTERM, SIGHUP}) sigaction(number, &action, nullptr);
 }
 
 void stop_when_interrupted() {
-  if (interrupted) throw std::runtime_error("interrupted; the cluster of the run was stopped");
+  if (run_interrupted) throw std::runtime_error("interrupted; the cluster of the run was stopped");
 }
 
 class ClusterGuard {

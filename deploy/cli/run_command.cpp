@@ -16,7 +16,7 @@ namespace trunnion::cli {
 namespace fs = std::filesystem;
 namespace {
 
-int run(const Common& common, RunOptions options, const std::string& report_directory) {
+int run_machine(const Common& common, RunOptions options, const std::string& report_directory) {
   const fs::path out = report_directory.empty() ? fs::path("out") : fs::path(report_directory);
   fs::create_directories(out);
   if (options.recording.empty()) options.recording = (out / "recording.mcap").string();
@@ -139,7 +139,7 @@ void add_run_command(CLI::App& app, Common& common) {
                               "Start a cluster of its own, run a program on it, write a report, stop it",
                               [&common, options, report_directory, executables] {
                                 options->executables = cluster::read_executables(*executables);
-                                return run(common, *options, *report_directory);
+                                return run_machine(common, *options, *report_directory);
                               });
   command
       ->add_option("machine", options->machine,

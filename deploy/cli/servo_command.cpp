@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "commands.hpp"
+#include "figures.hpp"
 #include "servo_tests.hpp"
 #include "storage/file.hpp"
 
@@ -17,12 +18,6 @@ struct ServoOptions : TestOptions {
   double amplitude_um = 20;
   bool write = false;
 };
-
-void print(const char* format, auto... values) {
-  char line[240];
-  std::snprintf(line, sizeof line, format, values...);
-  std::cout << line << std::endl;
-}
 
 std::string limits(const TestFigure& f) {
   char text[80] = "";
@@ -57,7 +52,8 @@ std::vector<servo_analysis::ServoSettings::Value> changes(
   return values;
 }
 
-void propose(const ServoSession& session, const std::vector<servo_analysis::ServoSettings::Value>& values) {
+void propose_settings(const ServoSession& session,
+                      const std::vector<servo_analysis::ServoSettings::Value>& values) {
   for (const auto& v : values)
     print("%s %-26s %10.5g -> %10.5g", machine::number_text(v.number).c_str(),
           machine::Catalogue::instance().find(v.number)->name.c_str(), session.parameters().at(v.number),
@@ -86,7 +82,7 @@ int run_test(const ServoOptions& o, const Common& common,
     print("%-34s %12.4f %-20s %-20s %s", f.name.c_str(), f.value, f.unit.c_str(), limits(f).c_str(),
           f.least || f.most ? f.reached() ? "pass" : "FAIL" : "");
   for (const auto& note : report.notes) std::cout << note << "\n";
-  propose(session, report.proposal);
+  propose_settings(session, report.proposal);
   if (!report.proposal.empty())
     print(o.write ? "written; a change of encoders acts after a restart"
                   : "nothing written: --write sets the parameters");
@@ -145,7 +141,7 @@ int tune(const ServoOptions& o, const Common& common) {
   if (common.json) {
     std::cout << bus::text_of(out) << "\n";
   } else {
-    propose(session, values);
+    propose_settings(session, values);
     print(write                 ? "written in one activation"
           : o.write && !reached ? "nothing written: a limit is not reached"
                                 : "nothing written: --write sets the parameters");

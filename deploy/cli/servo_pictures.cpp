@@ -10,12 +10,12 @@
 namespace trunnion::cli {
 namespace {
 
-constexpr const char* colours[] = {"#0969da", "#cf222e", "#1a7f37", "#9a6700", "#8250df"};
-constexpr std::size_t most_points = 4000;
+constexpr const char* curve_colours[] = {"#0969da", "#cf222e", "#1a7f37", "#9a6700", "#8250df"};
+constexpr std::size_t most_curve_points = 4000;
 constexpr const char* title_style = "font-size=\"15\" font-weight=\"600\"";
 
 std::string style(std::size_t i) {
-  return std::string("stroke=\"") + colours[i % std::size(colours)] + "\" stroke-width=\"1.3\"";
+  return std::string("stroke=\"") + curve_colours[i % std::size(curve_colours)] + "\" stroke-width=\"1.3\"";
 }
 
 report::Range widened(report::Range r) {
@@ -24,7 +24,7 @@ report::Range widened(report::Range r) {
 }
 
 std::vector<report::PlotPoint> thinned(const std::vector<report::PlotPoint>& points) {
-  const std::size_t step = points.size() / most_points + 1;
+  const std::size_t step = points.size() / most_curve_points + 1;
   std::vector<report::PlotPoint> out;
   for (std::size_t i = 0; i < points.size(); i += step) out.push_back(points[i]);
   return out;
@@ -45,7 +45,7 @@ std::string diagram(double top, double height, const std::string& x, const std::
   for (std::size_t i = 0; i < curves.size(); ++i) {
     plot.curve(thinned(curves[i].points), style(i));
     legend += report::text(90 + 130.0 * static_cast<double>(i), top - 6, report::escaped(curves[i].name),
-                           std::string("fill=\"") + colours[i % std::size(colours)] + "\"");
+                           std::string("fill=\"") + curve_colours[i % std::size(curve_colours)] + "\"");
   }
   return plot.svg() + legend;
 }
@@ -106,7 +106,7 @@ std::string roundness_picture(const std::string& title, const servo_analysis::Ro
   report::Plot plot(40, 60, 460, 460, {-1.45, 1.45}, {-1.45, 1.45});
   const auto add = [&](auto&& radius_at, const char* stroke) {
     std::vector<report::PlotPoint> points;
-    const std::size_t step = figures.points.size() / most_points + 1;
+    const std::size_t step = figures.points.size() / most_curve_points + 1;
     for (std::size_t i = 0; i < figures.points.size(); i += step) {
       const auto [s, c] = geometry::sine_cosine(figures.points[i].angle);
       const double r = radius_at(figures.points[i]);

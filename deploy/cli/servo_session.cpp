@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <thread>
 
+#include "figures.hpp"
 #include "machine/axes.hpp"
 #include "machine/parameter_constants.hpp"
 
@@ -21,17 +22,11 @@ using servo_analysis::AxisTrace;
 
 namespace {
 
-constexpr const char* program_name = "servo-test.tmp.nc";
-constexpr double answer_time = 5, longest_motion = 600;  // s of wall time
-constexpr std::size_t columns = 8;                       // of a sample of idl/servo.idl
+constexpr const char* servo_program = "servo-test.tmp.nc";
+constexpr double servo_answer_time = 5, longest_motion = 600;  // s of wall time
+constexpr std::size_t columns = 8;                             // of a sample of idl/servo.idl
 
 std::atomic<bool> interrupted{false};
-
-std::string text(const char* format, auto... values) {
-  char line[160];
-  std::snprintf(line, sizeof line, format, values...);
-  return line;
-}
 
 void pause() { std::this_thread::sleep_for(std::chrono::milliseconds(1)); }
 
@@ -86,7 +81,7 @@ ServoSession::~ServoSession() {
       client_->set_mode(channel_, before_.mode);
       idl::program::ProgramRequest remove;
       remove.operation = idl::program::Operation::REMOVE;
-      remove.name = program_name;
+      remove.name = servo_program;
       client_->program(remove);
     }
   } catch (const std::exception& e) {
@@ -95,7 +90,7 @@ ServoSession::~ServoSession() {
 }
 
 idl::channel::ChannelState ServoSession::state() {
-  const double until = service::monotonic_seconds() + answer_time;
+  const double until = service::monotonic_seconds() + servo_answer_time;
   idl::channel::ChannelState found;
   while (service::monotonic_seconds() < until) {
     bool any = false;
@@ -159,26 +154,26 @@ void ServoSession::start_program(const std::string& program) {
   check();
   client_->set_mode(channel_, Mode::AUTO);
   if (program == program_) {  // it is stored still; the channel has put back the operator's
-    client_->select_program(channel_, program_name);
+    client_->select_program(channel_, servo_program);
     return;
   }
   program_.clear();
   uploaded_ = true;
-  client_->upload(program_name, program);
+  client_->upload(servo_program, program);
   // The list with the new program may reach the channel after the store's answer has reached us.
-  const double until = service::monotonic_seconds() + answer_time;
+  const double until = service::monotonic_seconds() + servo_answer_time;
   // One reader for the whole session: a new one would have to be discovered for each motion.
   const auto stored = [&] {
     for (idl::program::ProgramList list; programs_->take(list);)
       for (const auto& p : list.programs)
-        if (p.name == program_name) program_revision_ = p.revision;
+        if (p.name == servo_program) program_revision_ = p.revision;
     return program_revision_;
   };
   const std::uint64_t before = program_revision_;
   while (stored() == before && service::monotonic_seconds() < until) pause();
   for (;;) {
     try {
-      client_->select_program(channel_, program_name);
+      client_->select_program(channel_, servo_program);
       if (state().program_revision >= stored()) break;
     } catch (const std::exception&) {
       if (service::monotonic_seconds() > until) throw;
@@ -216,7 +211,7 @@ void ServoSession::await_end(SessionResult* result) {
 }
 
 void ServoSession::begin_test(const idl::servo::TestRequest& request) {
-  const double until = service::monotonic_seconds() + answer_time;
+  const double until = service::monotonic_seconds() + servo_answer_time;
   while (requests_->matched() == 0 && service::monotonic_seconds() < until) pause();
   request_ = request;
   requests_->write(request_);
@@ -291,7 +286,7 @@ SessionResult ServoSession::run(idl::servo::TestRequest request, const std::stri
     return result;
   }
   // The drive has it before the axes move: its first answer has come.
-  const double until = service::monotonic_seconds() + answer_time;
+  const double until = service::monotonic_seconds() + servo_answer_time;
   while (result.traces.empty() && result.phase != TestPhase::RUNNING) {
     take_samples(result);
     if (service::monotonic_seconds() > until) throw std::runtime_error("the drive does not answer");

@@ -28,7 +28,7 @@ struct Place {
   std::string machine, state;
 };
 
-void add_place(CLI::App& command, Place& place) {
+void add_place_options(CLI::App& command, Place& place) {
   command.add_option("--machine", place.machine, "Machine whose default state directory it is");
   command.add_option("--state", place.state, "State directory (default: that of the running cluster)");
 }
@@ -54,7 +54,7 @@ const char* text_of(storage::KeptState state) {
   return names[static_cast<int>(state)];
 }
 
-int check(const Common& common, const Place& where) {
+int check_state(const Common& common, const Place& where) {
   const auto place = place_of(common, where);
   const auto reports = machine_state::check_state(place.state);
   bool good = true;
@@ -143,26 +143,26 @@ void add_state_commands(CLI::App& app, Common& common) {
       add_command(*state, common, "check",
                   "List every kept file, its generation and what of it can be used. Exit status 0 "
                   "when nothing is damaged",
-                  [&common, place] { return check(common, *place); });
-  add_place(*command, *place);
+                  [&common, place] { return check_state(common, *place); });
+  add_place_options(*command, *place);
   command =
       add_command(*state, common, "accept",
                   "Use files that were edited by hand as they are, from the next start on; not while the "
                   "cluster runs",
                   [&common, place, files] { return accept(common, *place, *files); });
-  add_place(*command, *place);
+  add_place_options(*command, *place);
   command->add_option("file", *files, "Below the state directory, for example tools.yaml or programs/part.nc")
       ->required();
   command = add_command(app, common, "backup", "Write the whole state of a machine into one file (tar)",
                         [&common, place, file] { return backup(common, *place, *file); });
-  add_place(*command, *place);
+  add_place_options(*command, *place);
   command->add_option("file", *file, "The file")->required();
   command =
       add_command(app, common, "restore",
                   "Put a backup in the place of the state directory, after it was checked; not while the "
                   "cluster runs. What was there is kept beside it",
                   [&common, place, file] { return restore(common, *place, *file); });
-  add_place(*command, *place);
+  add_place_options(*command, *place);
   command->add_option("file", *file, "The backup")->required();
 }
 

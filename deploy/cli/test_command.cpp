@@ -32,7 +32,7 @@ using verification::SuiteResult;
 using verification::SuiteTest;
 using verification::VerifiedProcess;
 
-struct Options {
+struct TestOptions {
   std::string suite, junit, html;
   unsigned jobs = std::max(1u, std::thread::hardware_concurrency());
 };
@@ -66,7 +66,7 @@ class Runner {
   Runner(const Suite& suite, std::vector<SuiteTest> tests, bool quiet)
       : suite_(suite), tests_(std::move(tests)), results_(tests_.size()), quiet_(quiet) {}
 
-  std::vector<SuiteResult> run(unsigned jobs) {
+  std::vector<SuiteResult> run_suite(unsigned jobs) {
     std::vector<std::thread> workers;
     for (unsigned i = 0; i < std::min<std::size_t>(jobs, tests_.size()); ++i)
       workers.emplace_back([this] {
@@ -119,7 +119,7 @@ class Runner {
   bool quiet_;
 };
 
-int run(const Common& common, const Options& options) {
+int run_suite(const Common& common, const TestOptions& options) {
   const auto suite = verification::parse_suite(machine::read_text(options.suite), options.suite);
   const auto title = suite.title.empty() ? fs::path(options.suite).filename().string() : suite.title;
   const auto results =
@@ -146,11 +146,11 @@ int run(const Common& common, const Options& options) {
 }  // namespace
 
 void add_test_command(CLI::App& app, Common& common) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<TestOptions>();
   auto* command =
       add_command(app, common, "test",
                   "Verify the services of a list of recordings (docs/recordings.md); status 0: all are equal",
-                  [&common, options] { return run(common, *options); });
+                  [&common, options] { return run_suite(common, *options); });
   command->add_option("suite", options->suite, "The list as YAML")->required()->check(CLI::ExistingFile);
   command->add_option("--jobs", options->jobs, "Verifications at a time (default: the number of processors)")
       ->check(CLI::Range(1, 64));

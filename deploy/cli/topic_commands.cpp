@@ -21,14 +21,14 @@
 namespace trunnion::cli {
 namespace {
 
-const bus::TopicEntry& find(const std::string& name) {
+const bus::TopicEntry& find_topic(const std::string& name) {
   const auto* entry = bus::find_topic(name);
   if (entry == nullptr)
     throw std::runtime_error("no topic is called '" + name + "': see 'trunnion topic list'");
   return *entry;
 }
 
-int list(const Common& common) {
+int list_topics(const Common& common) {
   bus::Json all = bus::Json::array();
   for (const auto& t : bus::all_topics()) {
     all.push_back({{"handle", t.handle}, {"name", t.description.name}, {"type", t.type}, {"about", t.about}});
@@ -41,7 +41,7 @@ int list(const Common& common) {
 }
 
 int echo(const Common& common, const std::string& name, int count, double timeout) {
-  const auto& topic = find(name);
+  const auto& topic = find_topic(name);
   bus::Bus bus(bus::Vendor::cyclonedds, cluster::find_cluster(common.domain).network);
   auto reader = bus.backend().reader(topic.description, bus::reader_qos(topic.qos), &bus.signal());
   bus::Bytes bytes;
@@ -63,7 +63,7 @@ int echo(const Common& common, const std::string& name, int count, double timeou
 }
 
 int rate(const Common& common, const std::string& name, double seconds) {
-  const auto& topic = find(name);
+  const auto& topic = find_topic(name);
   bus::Bus bus(bus::Vendor::cyclonedds, cluster::find_cluster(common.domain).network);
   auto reader = bus.backend().reader(topic.description, bus::reader_qos(topic.qos), &bus.signal());
   for (int i = 0; i < 100 && reader->matched() == 0; ++i)
@@ -135,7 +135,8 @@ void add_topic_commands(CLI::App& app, Common& common) {
   auto name = std::make_shared<std::string>();
   auto count = std::make_shared<int>(0);
   auto seconds = std::make_shared<double>(0);
-  add_command(*topic, common, "list", "Every topic of the contract", [&common] { return list(common); });
+  add_command(*topic, common, "list", "Every topic of the contract",
+              [&common] { return list_topics(common); });
   auto* command =
       add_command(*topic, common, "echo", "Print what is published, as JSON",
                   [&common, name, count, seconds] { return echo(common, *name, *count, *seconds); });

@@ -7,6 +7,7 @@
 
 #include "bus/json.hpp"
 #include "commands.hpp"
+#include "figures.hpp"
 #include "storage/file.hpp"
 #include "true_machine.hpp"
 #include "truth_picture.hpp"
@@ -22,16 +23,6 @@ struct TruthOptions {
   std::uint64_t seed = 1;
   std::vector<std::string> set;
 };
-
-bus::Json json_of(const truth::Vec3& v, double unit) {
-  return bus::Json::array({v[0] * unit, v[1] * unit, v[2] * unit});
-}
-
-bus::Json json_of(const truth::Spread& spread, double unit) {
-  return {{"mean", spread.mean * unit},
-          {"percentile_95", spread.percentile_95 * unit},
-          {"maximum", spread.maximum * unit}};
-}
 
 void print_summary(const truth::DeviationSummary& summary) {
   const auto line = [](const char* name, const truth::Spread& spread, double unit, const char* unit_name) {

@@ -12,13 +12,13 @@ namespace {
 
 constexpr int cells = 8, steps = 5;  // steps of a curve in each cell
 constexpr double side = 300, left = 85, gap = 90, top = 60,
-                 longest_error = 0.08;     // pixels; share of the travel
-constexpr std::size_t most_points = 1440;  // that are drawn of a circle
+                 longest_error = 0.08;            // pixels; share of the travel
+constexpr std::size_t most_circle_points = 1440;  // that are drawn of a circle
 constexpr const char* ideal_style = "stroke=\"#afb8c1\" stroke-width=\"1\"";
 constexpr const char* true_style = "stroke=\"#cf222e\" stroke-width=\"1.3\"";
 constexpr const char* second_style = "stroke=\"#0969da\" stroke-width=\"1.3\"";
 
-struct Plane {
+struct PicturePlane {
   std::size_t across, up;
   const char *across_name, *up_name;
 };
@@ -27,8 +27,8 @@ struct GridPoint {
   double x, y, error_x, error_y;
 };
 
-GridPoint point(const truth::PoseReport& report, const truth::MachineOutline& machine, const Plane& plane,
-                double u, double v) {
+GridPoint point(const truth::PoseReport& report, const truth::MachineOutline& machine,
+                const PicturePlane& plane, double u, double v) {
   truth::MachinePose pose;
   for (std::size_t i = 0; i < 3; ++i) pose.positions[i] = (machine.axes[i].low + machine.axes[i].high) / 2;
   const auto at = [&](std::size_t axis, double share) {
@@ -47,8 +47,8 @@ GridPoint point(const truth::PoseReport& report, const truth::MachineOutline& ma
 
 std::string truth_picture(const truth::PoseReport& report, const truth::MachineOutline& machine,
                           const std::string& title) {
-  constexpr Plane planes[] = {{0, 1, "X mm", "Y mm"}, {0, 2, "X mm", "Z mm"}, {1, 2, "Y mm", "Z mm"}};
-  const auto every_line = [&](const Plane& plane, auto&& visit) {
+  constexpr PicturePlane planes[] = {{0, 1, "X mm", "Y mm"}, {0, 2, "X mm", "Z mm"}, {1, 2, "Y mm", "Z mm"}};
+  const auto every_line = [&](const PicturePlane& plane, auto&& visit) {
     for (const bool along : {true, false})
       for (int i = 0; i <= cells; ++i) {
         std::vector<GridPoint> points;
@@ -115,7 +115,7 @@ std::string ballbar_picture(const truth::BallbarMeasurement& measured, const std
   for (int k = -3; k <= 3; ++k) circle(1 + 1e-3 * division * k * magnification, ideal_style);
   const auto trace = [&](const std::vector<circular_tests::RadialReading>& readings, const char* style) {
     std::vector<report::PlotPoint> points;
-    for (std::size_t i = 0; i < readings.size(); i += readings.size() / most_points + 1) {
+    for (std::size_t i = 0; i < readings.size(); i += readings.size() / most_circle_points + 1) {
       const auto& reading = readings[i];
       const auto [s, c] = geometry::sine_cosine(reading.angle);
       const double radius = 1 + magnification * reading.deviation;

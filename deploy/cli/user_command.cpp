@@ -84,12 +84,12 @@ void say(const Common& common, const std::string& what, const Json& json) {
     std::cout << what << "\n";
 }
 
-void save(const std::string& state, const Users& users, const std::string& what) {
+void save_users(const std::string& state, const Users& users, const std::string& what) {
   access::save_users(state, users);
   access::journal(state, service::time_of_day(), "trunnion user", what);
 }
 
-int add(const Common& common, const Arguments& arguments) {
+int add_user(const Common& common, const Arguments& arguments) {
   const auto state = state_directory(common, arguments);
   auto users = access::load_users(state).value_or(Users{});
   check_name(arguments.name);
@@ -97,13 +97,13 @@ int add(const Common& common, const Arguments& arguments) {
     throw std::runtime_error("there is a user '" + arguments.name + "' already");
   const auto role = role_of(arguments.role);
   users.users.push_back({arguments.name, role, access::hash_password(new_password())});
-  save(state, users, "added the user " + arguments.name + ", " + access::name_of(role));
+  save_users(state, users, "added the user " + arguments.name + ", " + access::name_of(role));
   say(common, arguments.name + " is " + access::name_of(role),
       {{"name", arguments.name}, {"role", access::name_of(role)}});
   return 0;
 }
 
-int remove(const Common& common, const Arguments& arguments) {
+int remove_user(const Common& common, const Arguments& arguments) {
   const auto state = state_directory(common, arguments);
   auto users = access::load_users(state).value_or(Users{});
   const auto* user = users.find(arguments.name);
@@ -113,12 +113,12 @@ int remove(const Common& common, const Arguments& arguments) {
   if (user->role == access::Role::administrator && administrators == 1)
     throw std::runtime_error(arguments.name + " is the only administrator: add another one first");
   std::erase_if(users.users, [&](const auto& one) { return one.name == arguments.name; });
-  save(state, users, "removed the user " + arguments.name);
+  save_users(state, users, "removed the user " + arguments.name);
   say(common, arguments.name + " is removed", {{"removed", arguments.name}});
   return 0;
 }
 
-int list(const Common& common, const Arguments& arguments) {
+int list_users(const Common& common, const Arguments& arguments) {
   const auto users = access::load_users(state_directory(common, arguments)).value_or(Users{});
   Json json = {{"users", Json::array()}, {"tokens", Json::array()}};
   for (const auto& one : users.users)
@@ -142,7 +142,7 @@ int password(const Common& common, const Arguments& arguments) {
   const auto user = std::ranges::find(users.users, arguments.name, &access::User::name);
   if (user == users.users.end()) throw std::runtime_error("there is no user '" + arguments.name + "'");
   user->hash = access::hash_password(new_password());
-  save(state, users, "changed the password of " + arguments.name);
+  save_users(state, users, "changed the password of " + arguments.name);
   std::error_code ignored;
   if (user->role == access::Role::administrator)
     std::filesystem::remove(state + "/" + access::initial_password_file, ignored);
@@ -159,7 +159,7 @@ int token(const Common& common, const Arguments& arguments) {
   if (arguments.remove) {
     if (known == users.tokens.end()) throw std::runtime_error("there is no token '" + arguments.name + "'");
     users.tokens.erase(known);
-    save(state, users, "removed the token " + arguments.name);
+    save_users(state, users, "removed the token " + arguments.name);
     say(common, "the token " + arguments.name + " is removed", {{"removed", arguments.name}});
     return 0;
   }
@@ -168,7 +168,7 @@ int token(const Common& common, const Arguments& arguments) {
   const auto role = role_of(arguments.role);
   const auto secret = access::random_secret();
   users.tokens.push_back({arguments.name, role, access::digest(secret)});
-  save(state, users, "made the token " + arguments.name + ", " + access::name_of(role));
+  save_users(state, users, "made the token " + arguments.name + ", " + access::name_of(role));
   say(common, secret, {{"token", secret}, {"name", arguments.name}, {"role", access::name_of(role)}});
   return 0;
 }
@@ -192,14 +192,14 @@ void add_user_command(CLI::App& app, Common& common) {
   const char* const roles = "operator, setter, builder or administrator (default: operator)";
   named(add_command(*user, common, "add",
                     "Add a user; the password is read from the terminal or one line of input",
-                    [&common, arguments] { return add(common, *arguments); }),
+                    [&common, arguments] { return add_user(common, *arguments); }),
         "Name of the user")
       ->add_option("--role", arguments->role, roles);
   named(add_command(*user, common, "remove", "Remove a user; its sessions end",
-                    [&common, arguments] { return remove(common, *arguments); }),
+                    [&common, arguments] { return remove_user(common, *arguments); }),
         "Name of the user");
   place(add_command(*user, common, "list", "Users and tokens with their roles",
-                    [&common, arguments] { return list(common, *arguments); }));
+                    [&common, arguments] { return list_users(common, *arguments); }));
   named(add_command(*user, common, "password", "Change a password; the sessions of the user end",
                     [&common, arguments] { return password(common, *arguments); }),
         "Name of the user");

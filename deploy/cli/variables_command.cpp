@@ -15,7 +15,7 @@
 namespace trunnion::cli {
 namespace {
 
-struct Options {
+struct VariablesOptions {
   std::vector<std::uint32_t> numbers;
   std::uint16_t channel = 0;
 };
@@ -34,7 +34,7 @@ idl::channel::Variables newest(const Common& common, std::uint16_t channel) {
                            " has not published its variables within 5 s");
 }
 
-int show(const Common& common, const Options& options) {
+int show_variables(const Common& common, const VariablesOptions& options) {
   const auto variables = newest(common, options.channel);
   bus::Json json = bus::Json::object();
   for (std::size_t i = 0; i < variables.numbers.size(); ++i) {
@@ -55,11 +55,11 @@ int show(const Common& common, const Options& options) {
 }  // namespace
 
 void add_variables_command(CLI::App& app, Common& common) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<VariablesOptions>();
   auto* command =
       add_command(app, common, "variables",
                   "Macro variables that have a value, as the newest program or MDI line has left them",
-                  [options, &common] { return show(common, *options); });
+                  [options, &common] { return show_variables(common, *options); });
   command->add_option("numbers", options->numbers, "Numbers of variables, for example 500 (default: all)");
   command->add_option("--channel", options->channel, "Channel (default 0)")->check(CLI::Range(0, 31));
 }

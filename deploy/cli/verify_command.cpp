@@ -12,8 +12,8 @@
 namespace trunnion::cli {
 namespace {
 
-int run(const Common& common, verification::VerifyOptions options, const std::vector<std::string>& tolerances,
-        const std::vector<std::string>& required) {
+int run_verification(const Common& common, verification::VerifyOptions options,
+                     const std::vector<std::string>& tolerances, const std::vector<std::string>& required) {
   options.domain = common.domain;
   for (const auto& text : tolerances) verification::add_tolerance(options.comparison, text);
   const auto result = verification::verify(options);
@@ -60,11 +60,13 @@ void add_verify_command(CLI::App& app, Common& common) {
   auto options = std::make_shared<verification::VerifyOptions>();
   auto tolerances = std::make_shared<std::vector<std::string>>();
   auto required = std::make_shared<std::vector<std::string>>();
-  auto* command = add_command(
-      app, common, "verify",
-      "Start one service alone, feed it what a recording says was sent to it, compare "
-      "what it writes; status 0: equal",
-      [&common, options, tolerances, required] { return run(common, *options, *tolerances, *required); });
+  auto* command =
+      add_command(app, common, "verify",
+                  "Start one service alone, feed it what a recording says was sent to it, compare "
+                  "what it writes; status 0: equal",
+                  [&common, options, tolerances, required] {
+                    return run_verification(common, *options, *tolerances, *required);
+                  });
   command->add_option("--service", options->service, "Service, as in machine.yaml")->required();
   command->add_option("--recording", options->recording, "Recording")->required()->check(CLI::ExistingFile);
   command->add_option("--exec", options->executable, "Executable to verify (default: the one of this build)");

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "circular_tests/ballbar_causes.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
 #include "geometry/angle.hpp"
+#include "geometry/decompositions.hpp"
 
 namespace trunnion::circular_tests {
 namespace {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "identification/axis_location.hpp"
 
-#include <Eigen/SVD>
 #include <cmath>
 #include <stdexcept>
 
 #include "canonical/axes.hpp"
+#include "geometry/decompositions.hpp"
 
 namespace trunnion::identification {
 namespace {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "identification/geometry_fit.hpp"
 
-#include <Eigen/Cholesky>
 #include <cmath>
 
 #include "canonical/axes.hpp"
 #include "geometry/angle.hpp"
+#include "geometry/decompositions.hpp"
 #include "volumetric/structure.hpp"
 
 namespace trunnion::identification {

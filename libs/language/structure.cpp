@@ -9,6 +9,7 @@ AlarmNumber OpenStructures::pass(Statement statement, std::uint32_t label, TextP
     case Statement::none:
     case Statement::assignment:
     case Statement::go_to:
+    case Statement::call_cycle:
       return AlarmNumber::none;
     case Statement::begin_if:
     case Statement::begin_while:

@@ -3,12 +3,11 @@
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
-#include <Eigen/QR>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 
 #include "geometry/angle.hpp"
+#include "geometry/decompositions.hpp"
 
 namespace trunnion::metrology {
 namespace {

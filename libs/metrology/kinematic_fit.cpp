@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "metrology/kinematic_fit.hpp"
 
-#include <Eigen/Cholesky>
 #include <Eigen/LU>
-#include <Eigen/SVD>
 #include <cmath>
 
+#include "geometry/decompositions.hpp"
 #include "metrology/student.hpp"
 
 namespace trunnion::metrology {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "metrology/sphere.hpp"
 
-#include <Eigen/QR>
-#include <Eigen/SVD>
 #include <cmath>
+
+#include "geometry/decompositions.hpp"
 
 namespace trunnion::metrology {
 namespace {

@@ -7,6 +7,8 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "geometry/decompositions.hpp"
+
 namespace trunnion::servo_analysis {
 namespace {
 

@@ -7,6 +7,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "geometry/decompositions.hpp"
 #include "servo_analysis/motion_figures.hpp"
 
 namespace trunnion::servo_analysis {

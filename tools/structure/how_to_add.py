@@ -5,7 +5,7 @@ CONTRIBUTING.md names and in no other, generates code and documents, configures,
 
 how_to_add.py --source DIRECTORY --scratch DIRECTORY [--cmake PATH]
 """
-import argparse, os, re, shutil, subprocess, sys
+import argparse, glob, os, re, shutil, subprocess, sys
 
 STAGE = "thermal"
 FILES = {
@@ -163,6 +163,15 @@ def add_stage(s):
            rf"\g<1>  - {{name: {STAGE}, cyclic: true, stage: {{input: gantry_frame, output: thermal_frame}}}}\n")
 
 
+def object_of(s, directory, target, source):
+    """The object of a source, which is compiled with others of its target."""
+    folder = f"{directory}/CMakeFiles/{target}.dir"
+    for unit in sorted(glob.glob(f"{s.root}/build/release/{folder}/Unity/*.cxx")):
+        with open(unit) as text:
+            if f"/{source}\"" in text.read(): return f"{folder}/Unity/{os.path.basename(unit)}.o"
+    sys.exit(f"{folder}: {source} is in no file of the unity build")
+
+
 def main():
     p = argparse.ArgumentParser(description=__doc__)
     p.add_argument("--source", required=True), p.add_argument("--scratch", required=True), p.add_argument("--cmake", default="cmake")
@@ -179,9 +188,9 @@ def main():
     s.run(*build, "contracts_generated")
     if "trunnion/thermal/spindle_growth/1" not in s.read("build/release/generated/contracts/topics.md"): sys.exit("topics.md: the topic is missing")
     # The objects alone: an archive or a program would build the libraries again, for nothing that the compiler does not say.
-    sources = [f"services/{STAGE}/CMakeFiles/trunnion_{STAGE}_core.dir/src/{STAGE}_core", f"services/{STAGE}/CMakeFiles/trunnion-{STAGE}.dir/main",
-               f"services/{STAGE}/CMakeFiles/trunnion-{STAGE}.dir/service", "libs/language/CMakeFiles/trunnion_language.dir/codes"]
-    s.run(*build, *(f"{source}.cpp.o" for source in sources))
+    sources = ((f"services/{STAGE}", f"trunnion_{STAGE}_core", f"{STAGE}_core.cpp"), (f"services/{STAGE}", f"trunnion-{STAGE}", "main.cpp"),
+               (f"services/{STAGE}", f"trunnion-{STAGE}", "service.cpp"), ("libs/language", "trunnion_language", "codes.cpp"))
+    s.run(*build, *sorted({object_of(s, *source) for source in sources}))
     shutil.rmtree(s.root)
 
 
