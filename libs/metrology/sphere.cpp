@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "metrology/sphere.hpp"
 
+#include <Eigen/LU>
 #include <cmath>
 
 #include "geometry/decompositions.hpp"
