@@ -88,7 +88,7 @@ int k_test(CommandOptions o, const Common& common) {
                    {"axis", o.axis},
                    {"feed_mm_per_min", o.feed},
                    {"radius_mm", test.radius()},
-                   {"ball_mm", json_of(test.ball(), 1)},
+                   {"ball_mm", vector_json(test.ball(), 1)},
                    {"source", o.source}};
   if (!common.json) {
     std::cout << name << ", ";
@@ -106,7 +106,7 @@ int k_test(CommandOptions o, const Common& common) {
     for (const auto& s : turn->samples) places.push_back(s.place), angles.push_back(s.turned);
     const auto range = circular_tests::direction_ranges(places, deviations, test.direction(), test.centre());
     const Vec3 span = ranges(deviations);
-    out[sense] = {{"range_um", json_of(span, um)},
+    out[sense] = {{"range_um", vector_json(span, um)},
                   {"radial_um", range.radial * um},
                   {"tangential_um", range.tangential * um},
                   {"axial_um", range.axial * um}};
@@ -188,8 +188,8 @@ int r_test_study(BallTest& test, const CommandOptions& o, const std::string& mac
   for (const auto& row : rows) {
     out["study"].push_back({{"feed_mm_per_min", row.feed},
                             {"start_deg", row.start},
-                            {"difference_um", json_of(row.difference, um)},
-                            {"cleaned_um", json_of(row.cleaned, um)}});
+                            {"difference_um", vector_json(row.difference, um)},
+                            {"cleaned_um", vector_json(row.cleaned, um)}});
     if (!json)
       std::cout << text("%8g %7g %10.3f %10.3f %10.3f %10.3f %10.3f %10.3f\n", row.feed, row.start,
                         row.difference[0] * um, row.difference[1] * um, row.difference[2] * um,
@@ -227,12 +227,12 @@ int r_test(CommandOptions o, const Common& common) {
                    {"feed_mm_per_min", o.feed},
                    {"speed_rad_per_s", speed},
                    {"radius_mm", test.radius()},
-                   {"ball_mm", json_of(test.ball(), 1)},
+                   {"ball_mm", vector_json(test.ball(), 1)},
                    {"interval_s", motion.there.interval},
                    {"readings", result.angles.size()},
-                   {"noise_um", json_of(motion.there.noise, um)},
-                   {"range_um", json_of(ranges(result.read), um)},
-                   {"cleaned_range_um", json_of(ranges(result.cleaned), um)},
+                   {"noise_um", vector_json(motion.there.noise, um)},
+                   {"range_um", vector_json(ranges(result.read), um)},
+                   {"cleaned_range_um", vector_json(ranges(result.cleaned), um)},
                    {"dynamic", json_of(result.location)}};
   for (const auto& s : motion.servos)
     out["servos"].push_back({{"axis", std::string(1, s.letter)},
@@ -257,8 +257,8 @@ int r_test(CommandOptions o, const Common& common) {
     standing = locate_from_stops(test, stops);
     out["static"] = json_of(standing);
     out["static"]["stops"] = stops.size();
-    out["dynamic_less_static_um"] = json_of(difference, um);
-    out["cleaned_less_static_um"] = json_of(cleaned, um);
+    out["dynamic_less_static_um"] = vector_json(difference, um);
+    out["cleaned_less_static_um"] = vector_json(cleaned, um);
   }
   if (!o.plot.empty()) {
     std::vector<PictureDiagram> diagrams = {

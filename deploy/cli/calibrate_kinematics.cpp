@@ -145,7 +145,7 @@ bus::Json json_of(const calibration::KinematicsResult& r, const calibration::Mea
                   const calibration::MeasurementInputs& in) {
   bus::Json out = {{"machine", machine.name},
                    {"type", metrology::to_string(metrology::kinematic_type(machine.model))},
-                   {"sphere_mm", json_of(r.sphere)},
+                   {"sphere_mm", vector_json(r.sphere)},
                    {"ball_diameter_mm", r.ball_diameter},
                    {"touch_deviation_mm", r.touch_deviation},
                    {"degrees_of_freedom", r.freedom},
@@ -158,24 +158,25 @@ bus::Json json_of(const calibration::KinematicsResult& r, const calibration::Mea
   for (const auto& pose : r.poses)
     out["poses"].push_back({{"pose", calibration::pose_name(pose.angles, machine.model)},
                             {"touches", pose.touches},
-                            {"centre_mm", json_of(pose.centre)},
-                            {"difference_mm", json_of(pose.difference)},
-                            {"residual_mm", json_of(pose.residual)},
+                            {"centre_mm", vector_json(pose.centre)},
+                            {"difference_mm", vector_json(pose.difference)},
+                            {"residual_mm", vector_json(pose.residual)},
                             {"diameter_mm", pose.diameter}});
   for (const auto& v : r.vectors)
     out["vectors"].push_back({{"axis", v.name},
-                              {"offset_before_mm", json_of(v.before)},
-                              {"offset_after_mm", json_of(v.after)},
-                              {"offset_uncertainty_95_mm", json_of(v.expanded)},
+                              {"offset_before_mm", vector_json(v.before)},
+                              {"offset_after_mm", vector_json(v.after)},
+                              {"offset_uncertainty_95_mm", vector_json(v.expanded)},
                               {"observed", v.observed},
-                              {"direction_ideal", json_of(v.direction_before)},
-                              {"direction_real", json_of(v.direction_after)},
-                              {"direction_uncertainty_95", json_of(v.direction_expanded)}});
+                              {"direction_ideal", vector_json(v.direction_before)},
+                              {"direction_real", vector_json(v.direction_after)},
+                              {"direction_uncertainty_95", vector_json(v.direction_expanded)}});
   return out;
 }
 
 bus::Json json_of(const calibration::CheckSummary& s) {
-  return {{"largest_um", json_of(Vec3(um * s.largest))}, {"root_mean_square_um", um * s.root_mean_square}};
+  return {{"largest_um", vector_json(Vec3(um * s.largest))},
+          {"root_mean_square_um", um * s.root_mean_square}};
 }
 
 // RTCP with the sphere before and after on the true machine.

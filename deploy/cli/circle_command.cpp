@@ -232,7 +232,7 @@ int measure_circle(const CircleOptions& o, const Common& common) {
                                                                  o.plane.c_str(), circle.radius, feed,
                                                                  from_truth ? "true machine" : "encoders")));
   if (common.json) {
-    auto out = json_of(report);
+    auto out = report_json(report);
     out["machine"] = name, out["source"] = o.source;
     out["centre_mm"] = {circle.centre.first, circle.centre.second};
     out["feed_mm_per_min"] = feed, out["servo_mismatch_ms"] = lag;
@@ -245,7 +245,7 @@ int measure_circle(const CircleOptions& o, const Common& common) {
   print_figure("feed reached", feed, "mm/min");
   print_figure("start angle", turn.start, "deg");
   print_figure("readings in a second", 1 / motion.interval, "");
-  print(report);
+  print_report(report);
   print_figure("servo mismatch", lag, "ms");
   for (const auto& file : {o.output, o.plot})
     if (!file.empty()) std::cout << file << "\n";

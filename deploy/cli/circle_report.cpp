@@ -36,7 +36,7 @@ void print_figure(const std::string& name, double value, const char* unit) {
   std::cout << line << "\n";
 }
 
-void print(const CircleReport& r) {
+void print_report(const CircleReport& r) {
   const auto& f = r.figures;
   const auto& c = r.causes;
   const std::string first(1, r.plane[0]), second(1, r.plane[1]);
@@ -73,13 +73,13 @@ void print(const CircleReport& r) {
   }
 }
 
-bus::Json json_of(circular_tests::Readings readings) {
+bus::Json readings_json(circular_tests::Readings readings) {
   bus::Json all = bus::Json::array();
   for (const auto& reading : readings) all.push_back({reading.angle, reading.deviation * um});
   return all;
 }
 
-bus::Json json_of(const CircleReport& r) {
+bus::Json report_json(const CircleReport& r) {
   const auto& f = r.figures;
   const auto& c = r.causes;
   // X Y Z of the machine; the axis across the plane has no centre.

@@ -21,11 +21,11 @@ struct CircleReport {
 CircleReport circle_report(const std::string& plane, double radius, circular_tests::Readings ccw,
                            circular_tests::Readings cw);
 /// To standard output, um.
-void print(const CircleReport& report);
+void print_report(const CircleReport& report);
 /// One line of a table: name, value, unit.
 void print_figure(const std::string& name, double value, const char* unit);
-bus::Json json_of(const CircleReport& report);
+bus::Json report_json(const CircleReport& report);
 /// [angle deg, deviation um] of each reading.
-bus::Json json_of(circular_tests::Readings readings);
+bus::Json readings_json(circular_tests::Readings readings);
 
 }  // namespace trunnion::cli

@@ -114,8 +114,8 @@ int report(const Follower& follower, const CollisionOptions& o, const collision:
                               {"bodies", {bodies[c->pair.first].name, bodies[c->pair.second].name}},
                               {"distance_mm", c->pair.distance},
                               {"axes", c->position},
-                              {"on_first_mm", json_of(c->pair.on_first)},
-                              {"on_second_mm", json_of(c->pair.on_second)}};
+                              {"on_first_mm", vector_json(c->pair.on_first)},
+                              {"on_second_mm", vector_json(c->pair.on_second)}};
     for (const auto& row : rows)
       out["clearances"].push_back({{"bodies", {bodies[row.first].name, bodies[row.second].name}},
                                    {"distance_mm", row.distance},

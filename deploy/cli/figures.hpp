@@ -23,11 +23,11 @@ std::string text(const char* format, auto... values) {
 /// The same as a line on standard output, which appears at once.
 void print(const char* format, auto... values) { std::cout << text(format, values...) << std::endl; }
 
-inline bus::Json json_of(const geometry::Vec3& v, double unit = 1) {
+inline bus::Json vector_json(const geometry::Vec3& v, double unit = 1) {
   return bus::Json::array({v[0] * unit, v[1] * unit, v[2] * unit});
 }
 
-inline bus::Json json_of(const truth::Spread& spread, double unit) {
+inline bus::Json spread_json(const truth::Spread& spread, double unit) {
   return {{"mean", spread.mean * unit},
           {"percentile_95", spread.percentile_95 * unit},
           {"maximum", spread.maximum * unit}};

@@ -96,11 +96,11 @@ class Report {
   bus::Json json(const std::string& machine) const {
     bus::Json out = {{"machine", machine}, {"poses", poses}, {"seed", options_.seed}};
     out["residual"] = fit_.residual;
-    out["tip_um"] = {{"before", json_of(before_.tip, micro)},
-                     {"after", json_of(after_.tip, micro)},
+    out["tip_um"] = {{"before", spread_json(before_.tip, micro)},
+                     {"after", spread_json(after_.tip, micro)},
                      {"uncertainty", fit_.tip_uncertainty * micro}};
-    out["axis_urad"] = {{"before", json_of(before_.direction, microradian)},
-                        {"after", json_of(after_.direction, microradian)},
+    out["axis_urad"] = {{"before", spread_json(before_.direction, microradian)},
+                        {"after", spread_json(after_.direction, microradian)},
                         {"uncertainty", fit_.direction_uncertainty * microradian}};
     for (const auto& row : rows_) {
       const double unit = row.angular ? microradian : micro;

@@ -58,12 +58,12 @@ int ballbar(const MeasureOptions& o, bool json) {
   const auto r = circle_report(o.plane, path.radius, m.ccw, m.cw);
   write_plot(o.plot, ballbar_picture(m, machine.name + ", plane " + o.plane), json);
   if (json) {
-    auto out = json_of(r);
-    out["machine"] = machine.name, out["ccw"] = json_of(m.ccw), out["cw"] = json_of(m.cw);
+    auto out = report_json(r);
+    out["machine"] = machine.name, out["ccw"] = readings_json(m.ccw), out["cw"] = readings_json(m.cw);
     std::cout << bus::text_of(out) << "\n";
     return 0;
   }
-  print(r);
+  print_report(r);
   return 0;
 }
 

@@ -169,12 +169,13 @@ void add_program_commands(CLI::App& app, Common& common) {
     command->add_flag("--replace", options->replace, "Also when a program of this name is stored");
   }
   {
-    const auto [command, options] = add("get", "Read a stored program", get);
+    const auto [command, options] = add("get", "Read a stored program", get_program);
     command->add_option("name", options->name, stored_name)->required();
     command->add_option("file", options->file, "File to write (default: standard output)");
   }
   {
-    const auto [command, options] = add("delete", "Delete a stored program that no channel executes", remove);
+    const auto [command, options] =
+        add("delete", "Delete a stored program that no channel executes", remove_program);
     command->add_option("name", options->name, stored_name)->required();
   }
   {
@@ -185,7 +186,7 @@ void add_program_commands(CLI::App& app, Common& common) {
   {
     const auto [command, options] = add(
         "check", "Interpret a stored program with the machine's axes, travel, offsets and tools as delivered",
-        check);
+        check_program);
     command->add_option("name", options->name, stored_name)->required();
   }
 }

@@ -66,7 +66,7 @@ class Runner {
   Runner(const Suite& suite, std::vector<SuiteTest> tests, bool quiet)
       : suite_(suite), tests_(std::move(tests)), results_(tests_.size()), quiet_(quiet) {}
 
-  std::vector<SuiteResult> run_suite(unsigned jobs) {
+  std::vector<SuiteResult> run(unsigned jobs) {
     std::vector<std::thread> workers;
     for (unsigned i = 0; i < std::min<std::size_t>(jobs, tests_.size()); ++i)
       workers.emplace_back([this] {

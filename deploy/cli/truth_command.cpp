@@ -47,10 +47,10 @@ void answer_lines(truth::PoseReport& report, bool json, bus::Json& poses) {
     }
     if (!answer) continue;
     if (json)
-      poses.push_back({{"tip_mm", json_of(answer->actual.tip, 1)},
-                       {"axis", json_of(answer->actual.axis, 1)},
-                       {"tip_deviation_um", json_of(answer->deviation.tip, 1e3)},
-                       {"axis_deviation_urad", json_of(answer->deviation.axis, 1e6)}});
+      poses.push_back({{"tip_mm", vector_json(answer->actual.tip, 1)},
+                       {"axis", vector_json(answer->actual.axis, 1)},
+                       {"tip_deviation_um", vector_json(answer->deviation.tip, 1e3)},
+                       {"axis_deviation_urad", vector_json(answer->deviation.axis, 1e6)}});
     else
       std::cout << truth::text_of(*answer) << "\n" << std::flush;
   }
@@ -71,8 +71,8 @@ int truth_of(const TruthOptions& options, bool json) {
     const auto summary = report.summary(options.summary, options.seed);
     out["summary"] = {{"poses", summary.count},
                       {"seed", options.seed},
-                      {"tip_um", json_of(summary.tip, 1e3)},
-                      {"axis_urad", json_of(summary.axis, 1e6)}};
+                      {"tip_um", spread_json(summary.tip, 1e3)},
+                      {"axis_urad", spread_json(summary.axis, 1e6)}};
     if (!json) print_summary(summary);
   }
   if (options.summary == 0 && options.plot.empty()) {
