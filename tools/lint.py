@@ -111,7 +111,9 @@ def main():
         sys.exit(__doc__)
     build, wanted = sys.argv[1], [os.path.relpath(file) for file in sys.argv[2:]]
     if not wanted:
-        subprocess.run(['clang-format-14', '--dry-run', '--Werror', *tracked('*.cpp', '*.hpp')], check=True)
+        format_check = ['clang-format-14', '--dry-run', '--Werror', *tracked('*.cpp', '*.hpp')]
+        if subprocess.run(format_check).returncode != 0:
+            sys.exit('lint: the layout differs, see above; `make format` mends it')
         wanted = [file for file in tracked('*.cpp') if not EXCLUDED.search(file)]
     repeated = repeated_includes([*wanted, *(f for f in tracked('*.hpp') if len(sys.argv) == 2)])
     print('\n'.join(repeated), end='\n' if repeated else '', flush=True)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Eigen's decompositions of matrices of any size: compiled once, because each takes seconds wherever it is used.
+// Eigen's decompositions of matrices of any size: compiled once, because each takes seconds wherever it is
+// used.
 #pragma once
 
 #include <Eigen/Cholesky>
