@@ -67,6 +67,17 @@ TEST(MacroCall, ACycleCalledByNameHasItsArgumentsByTheirPlace) {
       << "skipped arguments are vacant: their words are left out";
 }
 
+TEST(MacroCall, WhatIsSkippedOrJumpedOverMayCallCycles) {
+  TestMachine machine;
+  machine.programs["O1234"] = std::make_unique<StringSource>("G0 X#1\nM99\n");
+  EXPECT_THAT(stream(run(machine, "GOTO 20\nCYCLE1234(1)\nN20 G0 X2\nM30\n")),
+              ElementsAre("rapid X2", "end 30"));
+  EXPECT_THAT(
+      stream(
+          run(machine, "WHILE [#1 LT 1]\n#1=1\nIF 0\nCYCLE1234(3)\nCYCLE1234(4)\nENDIF\nG0 X5\nENDW\nM30\n")),
+      ElementsAre("rapid X5", "end 30"));
+}
+
 TEST(MacroCall, CYCLE9960TakesTheArgumentsOfItsSamplePrograms) {
   TestMachine machine;
   machine.programs["O9960"] =
