@@ -9,6 +9,8 @@ option(TRUNNION_SANITIZE "Build with the address and undefined-behaviour sanitiz
 if(TRUNNION_SANITIZE)
   add_compile_options(-fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer)
   add_link_options(-fsanitize=address,undefined)
+  # Eigen would allocate in another way under the sanitizer than in the library OMPL, which frees what we allocate.
+  add_compile_definitions(EIGEN_MALLOC_ALREADY_ALIGNED=1)
   set(trunnion_test_timeout 900)
 else()
   set(trunnion_test_timeout 120)
