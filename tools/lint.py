@@ -75,7 +75,8 @@ def commands(build, wanted):
     left = set(wanted)
     for entry in entries:
         unit = entry['file']
-        sources = sources_of(unit)
+        # What the build generates is not ours to write, and may not be there yet.
+        sources = [source for source in sources_of(unit) if not source.startswith(os.path.abspath(build) + '/')]
         held = {os.path.relpath(source) for source in sources or [unit]}
         if not held & left:
             continue

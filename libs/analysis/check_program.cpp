@@ -44,7 +44,7 @@ std::string contact_of(program_execution::MoveGuard* guard, const language::Axis
   auto verdict = guard != nullptr ? Verdict::unfinished : Verdict::free;
   while (verdict == Verdict::unfinished) {
     guard->begin_call();
-    verdict = guard->look(from, motion);
+    verdict = guard->check(from, motion);
   }
   return verdict == Verdict::contact ? guard->contact_text() : "";
 }

@@ -158,8 +158,8 @@ void CollisionGuard::begin_chord() {
   check_->begin(at_, next_, deviation, move_.kind == CommandKind::skip);
 }
 
-program_execution::MoveGuard::Verdict CollisionGuard::look(const AxisValues& from,
-                                                           const language::Command& move) {
+program_execution::MoveGuard::Verdict CollisionGuard::check(const AxisValues& from,
+                                                            const language::Command& move) {
   if (!bodies_) {
     contact_text_ = std::to_string(move.line) + ": the bodies of the machine are not known";
     return Verdict::contact;

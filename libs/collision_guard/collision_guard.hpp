@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Moves of a channel among the bodies of its machine, looked at before motion gets them.
+// Moves of a channel among the bodies of its machine, checked before motion gets them.
 #pragma once
 
 #include <optional>
@@ -58,7 +58,7 @@ class CollisionGuard : public program_execution::MoveGuard {
   void begin_call() override { budget_ = most_distances; }
   /// With CollisionMode::warn a contact is a line of take_warnings(), and the move is free. Bodies on the
   /// tool and bodies on the workpiece's side may touch in a skip move.
-  Verdict look(const AxisValues& from, const language::Command& move) override;
+  Verdict check(const AxisValues& from, const language::Command& move) override;
   const std::string& contact_text() const override { return contact_text_; }
 
   /// A straight move of the axes in machine coordinates, with the tool of `modal`; nothing when it is free.
@@ -71,7 +71,7 @@ class CollisionGuard : public program_execution::MoveGuard {
   /// Distances computed so far.
   std::uint64_t distances() const { return check_ ? check_->distances() : 0; }
 
-  /// Positions of pairs that one call of ProgramFlow::fill() may look at: about 0.3 ms.
+  /// Positions of pairs that one call of ProgramFlow::fill() may compute: about 0.3 ms.
   static constexpr std::size_t most_distances = 64;
 
  private:
@@ -98,7 +98,7 @@ class CollisionGuard : public program_execution::MoveGuard {
   std::uint16_t held_mask_ = 0;
   AxisValues held_{};
 
-  // The command that is looked at.
+  // The command that is checked.
   bool open_ = false;
   motion::PathSegment path_;
   language::Command move_;

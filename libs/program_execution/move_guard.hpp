@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Who looks at the moves of a program before motion gets them.
+// What checks the moves of a program before motion gets them.
 #pragma once
 
 #include <cstdint>
@@ -16,16 +16,16 @@ class MoveGuard {
   enum class Verdict : std::uint8_t {
     free,        ///< motion may have the move
     contact,     ///< it may not: contact_text()
-    unfinished,  ///< look again at the same move
+    unfinished,  ///< to be asked again about the same move
   };
 
   virtual ~MoveGuard() = default;
-  /// A run of a flow begins: what was looked at before does not count.
+  /// A run of a flow begins: what was checked before does not count.
   virtual void begin_run() = 0;
   /// A call of ProgramFlow::fill() begins, which allows a fixed amount of work.
   virtual void begin_call() = 0;
   /// `from` and `move` in the frame of the move.
-  virtual Verdict look(const AxisValues& from, const language::Command& move) = 0;
+  virtual Verdict check(const AxisValues& from, const language::Command& move) = 0;
   /// One line for the operator that begins with the line of the move.
   virtual const std::string& contact_text() const = 0;
 };

@@ -102,7 +102,7 @@ FlowState ProgramFlow::ask_guard(const AxisValues& from) {
   if (entry_.restart.sequence == command_.sequence && entry_.restart.sequence > 0 &&
       move.kind == CommandKind::arc)
     move.arc.sweep = motion::remaining_sweep(from, move.target, move.arc, entry_.restart.fraction);
-  switch (guard_->look(from, move)) {
+  switch (guard_->check(from, move)) {
     case MoveGuard::Verdict::free:
       return FlowState::full;
     case MoveGuard::Verdict::unfinished:
@@ -239,7 +239,7 @@ FlowState ProgramFlow::fill(bool single_block) {
     }
     const auto state = push_move();
     if (state == FlowState::alarm) return state;
-    // The same moves are looked at in the same cycles whatever the computer's speed: motion goes on
+    // The same moves are checked in the same cycles whatever the computer's speed: motion goes on
     // meanwhile.
     if (state == FlowState::waiting) return FlowState::full;
   }

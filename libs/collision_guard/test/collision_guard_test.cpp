@@ -226,7 +226,7 @@ TEST(CollisionGuard, AMoveIsTheSameWhateverOneCallMayDo) {
   const auto ask = [&] {
     guard.begin_run();
     auto verdict = Verdict::unfinished;
-    while (verdict == Verdict::unfinished) guard.begin_call(), verdict = guard.look({}, move);
+    while (verdict == Verdict::unfinished) guard.begin_call(), verdict = guard.check({}, move);
     return std::pair(verdict, guard.contact_text());
   };
   const auto first = ask();
@@ -238,7 +238,7 @@ TEST(CollisionGuard, WithoutUsableBodiesEveryMoveIsRefused) {
   CollisionGuard guard(machine.setup, CollisionMode::stop, {"bodies.yaml", "bodies: [{name: a}]"});
   EXPECT_THROW(guard.configure(machine.tables.parameters, 0), std::runtime_error);
   guard.begin_call();
-  EXPECT_EQ(guard.look({}, {}), Verdict::contact);
+  EXPECT_EQ(guard.check({}, {}), Verdict::contact);
   EXPECT_TRUE(guard.obstacle({}, {}, {}));
 }
 

@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "checked_compilation.hpp"
 #include "plc/library/register_names.hpp"
-#include "plc/machine/verify.hpp"
 #include "plc/tools/program_run.hpp"
 #include "plcopen_documents.hpp"
 
@@ -95,13 +95,6 @@ class LoadedChart {
 
   Compilation compilation;
   ProgramRun run;
-
- private:
-  static const Compilation& checked(const Compilation& compilation) {
-    if (!compilation.good()) throw std::runtime_error(testing::PrintToString(compilation.lines()));
-    EXPECT_EQ(verify(*compilation.code), "");
-    return compilation;
-  }
 };
 
 }  // namespace trunnion::st

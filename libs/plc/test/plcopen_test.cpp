@@ -4,8 +4,8 @@
 
 #include <random>
 
+#include "checked_compilation.hpp"
 #include "plc/library/register_names.hpp"
-#include "plc/machine/verify.hpp"
 #include "plc/tools/program_run.hpp"
 #include "plcopen_documents.hpp"
 
@@ -28,13 +28,6 @@ class Loaded {
 
   Compilation compilation;
   ProgramRun run;
-
- private:
-  static const Compilation& checked(const Compilation& compilation) {
-    if (!compilation.good()) throw std::runtime_error(testing::PrintToString(compilation.lines()));
-    EXPECT_EQ(verify(*compilation.code), "");
-    return compilation;
-  }
 };
 
 std::vector<std::string> messages(const std::string& xml) {
