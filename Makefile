@@ -37,11 +37,16 @@ product:
 cmake_configure = mkdir -p build; echo "Configuring build/$(1)"; \
   cmake --preset $(1) > build/$(1)-configure.log || { cat build/$(1)-configure.log; exit 1; }
 
-# The unit tests under the address and undefined-behaviour sanitizers.
+# The unit tests under the address and undefined-behaviour sanitizers. PART=foreign: those of what reads bytes that others have
+# written - programs, configuration, files of the state directory, recordings, the network.
+foreign := access bus commands error_tables gateway_core http_client language machine machine_state measurement parameter_store \
+  plc plc_language plc_modbus plc_online program_store programs recorder recording service snapshot storage text tool_tables truth \
+  verification
 sanitize: packages
 	@$(call cmake_configure,sanitize)
-	cmake --build --preset sanitize
-	ctest --test-dir build/sanitize --output-on-failure -j $(JOBS) -L unit
+	cmake --build --preset sanitize $(if $(PART),--target $(addsuffix _test,$($(PART))))
+	ctest --test-dir build/sanitize --output-on-failure -j $(JOBS) -L unit \
+	  $(if $(PART),-R '^($(subst $() ,|,$(strip $($(PART)))))_test$$')
 
 # The tests of bus, service shell, stream and Modbus under the thread sanitizer. The DDS libraries are not instrumented, so
 # what they do among themselves cannot be judged.
@@ -50,16 +55,16 @@ threads: packages
 	cmake --build --preset threads
 	TSAN_OPTIONS=ignore_noninstrumented_modules=1 ctest --test-dir build/threads --output-on-failure -j $(JOBS) -R '^(bus|service|stream|plc_modbus)_test$$'
 
-# A short run of every fuzzer.
+# A short run of every fuzzer, in the same build directory: the libraries are compiled once for both.
 fuzz: packages
-	@$(call cmake_configure,fuzz)
+	@$(call cmake_configure,sanitize)
 	cmake --build --preset fuzz
-	ctest --test-dir build/fuzz --output-on-failure -j $(JOBS) -L fuzz
+	ctest --test-dir build/sanitize --output-on-failure -j $(JOBS) -L fuzz
 
-# Needs the generated headers, not the programs.
+# Needs the generated headers, not the programs. WITHIN=seconds: no file is begun after that time.
 lint: configure
 	@cmake --build --preset $(PRESET) --target contracts_generated constants_generated
-	tools/lint.py $(BUILD)
+	tools/lint.py $(BUILD) $(if $(WITHIN),--within $(WITHIN))
 
 format:
 	git ls-files '*.cpp' '*.hpp' | xargs clang-format-14 -i
@@ -67,9 +72,11 @@ format:
 bench: build
 	for program in $(BUILD)/bin/*_bench; do $$program $(BENCH_OPTIONS) || exit 1; done
 
-# Every cell of the fault matrix, half an hour; goes on where an interrupted run was. FRESH=1 begins anew.
+# Every cell of the fault matrix, half an hour; goes on where an interrupted run was. FRESH=1 begins anew. Then every fault of
+# a measurement of the kinematics, ten minutes.
 faults: build
 	tools/fault_matrix.py --program $(BUILD)/bin/fault_matrix_test --results $(BUILD)/faults $(if $(FRESH),--fresh)
+	$(BUILD)/bin/measurement_faults_test --gtest_filter='*MeasurementFaults*' --gtest_also_run_disabled_tests
 
 # Programs with a random fault every few seconds. SEED=, MINUTES=
 SEED ?= 1

@@ -144,7 +144,7 @@ function(trunnion_benchmark name)
 endfunction()
 
 # trunnion_fuzzer(name SOURCES a_fuzz.cpp CORPUS dir [LINK libs...]): a libFuzzer target; only with TRUNNION_FUZZ. The
-# test runs for 12 s; a longer search is the program's own: fuzz/bin/<name> corpus-directory.
+# test runs for 6 s; a longer search is the program's own: fuzz/bin/<name> corpus-directory.
 function(trunnion_fuzzer name)
   cmake_parse_arguments(ARG "" "CORPUS" "SOURCES;LINK" ${ARGN})
   if(TRUNNION_FUZZ)
@@ -155,7 +155,7 @@ function(trunnion_fuzzer name)
     target_link_libraries(${name} PRIVATE trunnion_options trunnion_testing_support ${ARG_LINK})
     add_dependencies(fuzzers ${name})
     add_test(NAME ${name} WORKING_DIRECTORY ${CMAKE_BINARY_DIR}
-      COMMAND ${name} -max_total_time=12 -seed=1 -len_control=0 -timeout=10 -verbosity=0 ${found} ${ARG_CORPUS})
+      COMMAND ${name} -max_total_time=6 -seed=1 -len_control=0 -timeout=10 -verbosity=0 ${found} ${ARG_CORPUS})
     set_tests_properties(${name} PROPERTIES LABELS fuzz TIMEOUT 120)
   endif()
 endfunction()

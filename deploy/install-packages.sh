@@ -17,7 +17,7 @@ case "${1:-test}" in
     packages+=(
       clang-14 clang-tidy-14 clang-format-14 clang-tools-14 libclang-rt-14-dev
       linuxcnc-uspace linuxcnc-uspace-dev  # for machines behind its HAL: docs/hal.md
-      chromium curl file iproute2 iptables util-linux openssl hostname systemd locales
+      chromium curl file libxml2-utils iproute2 iptables util-linux openssl hostname systemd locales
     )
     ;;
   *) echo "usage: $0 [run|test]" >&2; exit 2 ;;

@@ -21,6 +21,8 @@ struct AccessSettings {
   bool on = false;
   std::string state_directory;
   double session_idle = access::Sessions::longest_idle;  ///< s
+  bool secure = false;                                   ///< cookies only travel by TLS
+  bool believing = false;  ///< without users: a bearer token is the name of who sends, for verification
 };
 
 class AccessControl {
@@ -32,6 +34,8 @@ class AccessControl {
   AccessControl(AccessSettings settings, FileWorker& worker);
 
   bool on() const { return settings_.on; }
+  /// Whether the gateway is reached by TLS.
+  bool secure() const { return settings_.secure; }
   /// Who sends a request with these values of the headers Cookie and Authorization. Only what a person does
   /// `prolongs` a session, not what a page asks by itself.
   std::optional<access::Identity> identify(std::string_view cookies, std::string_view authorization,

@@ -46,6 +46,10 @@ Answer error_answer(unsigned status, const std::string& text, const std::string&
 /// As "application/problem+json" (RFC 9457): {"type", "title", "status", "detail", "field"}.
 Answer problem_answer(unsigned status, const std::string& detail, const std::string& field = {});
 
+/// The part of the list `member` of `body` that offset and limit of the query ask for; how many it has is in
+/// X-Total-Count. Throws BadRequest.
+Answer list_answer(bus::Json body, const char* member, const std::string& query);
+
 /// 409 with the number of an alarm, 0 = none, and the reason.
 Answer refused_answer(std::uint32_t alarm, const std::string& reason);
 

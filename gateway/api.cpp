@@ -3,6 +3,8 @@
 
 #include <fstream>
 
+#include "src/paging.hpp"
+#include "src/precondition.hpp"
 #include "src/requests.hpp"
 #include "src/static_files.hpp"
 #include "storage/crc32.hpp"
@@ -12,6 +14,8 @@ extern const char* const openapi_text;  // gateway/openapi.json, embedded
 namespace {
 
 using bus::Json;
+
+constexpr std::chrono::seconds shown_within{1};  // what the cluster has accepted is in the snapshot by then
 
 Answer silent(const char* who) {
   return error_answer(504, std::string("no answer from the ") + who + " service");
@@ -47,18 +51,18 @@ Answer published(const std::shared_ptr<const T>& value, const char* who) {
 }
 
 void submit(Mailbox& mailbox, idl::program::ProgramRequest request, ProgramDone done) {
-  mailbox.post([request = std::move(request), done = std::move(done)](Links& links, double now) {
+  using Operation = idl::program::Operation;
+  const bool part = request.operation == Operation::WRITE || request.operation == Operation::COMMIT_UPLOAD;
+  mailbox.post([part, request = std::move(request), done = std::move(done)](Links& links, double now) {
     links.program.submit(
-        request, [done](const auto&, const ProgramReply& reply) { done(reply); }, now);
+        request, [done](const auto&, const ProgramReply& reply) { done(reply); }, now,
+        part ? give_up_part_after : give_up_after);
   });
 }
 
-std::size_t count_in_query(const std::string& query, const char* name, std::uint32_t fallback) {
-  const auto text = query_value(query, name);
-  if (text.empty()) return fallback;
-  const auto number = path_number(text, 100000);
-  if (!number) throw BadRequest(name, std::string(name) + " must be a whole number up to 100000");
-  return *number;
+Answer tagged(Answer answer, const std::string& tag) {
+  if (answer.status == 200) answer.headers.emplace_back("ETag", tag);
+  return answer;
 }
 
 }  // namespace
@@ -88,6 +92,13 @@ Answer problem_answer(unsigned status, const std::string& detail, const std::str
   if (!field.empty()) body["field"] = field;
   auto answer = json_answer(status, body);
   answer.type = "application/problem+json";
+  return answer;
+}
+
+Answer list_answer(Json body, const char* member, const std::string& query) {
+  const auto total = cut_to_page(body[member], query);
+  auto answer = json_answer(200, body);
+  answer.headers.emplace_back("X-Total-Count", std::to_string(total));
   return answer;
 }
 
@@ -124,6 +135,8 @@ void Api::handle(const Match& match, const RequestText& request, const Respond& 
         return send_parameters(match, {}, request, respond);
       case Operation::check:
         return check(match, body, respond);
+      case Operation::plan_program:
+        return plan(match, query, respond);
       case Operation::remove_program:
         return remove_program(match.parts.at(0), respond);
       case Operation::rename_program:
@@ -146,6 +159,7 @@ void Api::handle(const Match& match, const RequestText& request, const Respond& 
       case Operation::plc_variables:
       case Operation::plc_forces:
       case Operation::plc_tasks:
+      case Operation::plc_uses:
       case Operation::plc_force:
       case Operation::plc_release:
       case Operation::plc_start_trace:
@@ -157,6 +171,21 @@ void Api::handle(const Match& match, const RequestText& request, const Respond& 
       case Operation::plc_take_over:
       case Operation::plc_end_load:
         return plc_.handle(match, request, respond);
+      case Operation::bodies:
+        return answer_bodies(mailbox_, files(), machine_directory_, match.parts.at(0), respond);
+      case Operation::measurement:
+      case Operation::measurement_start:
+      case Operation::measurement_continue:
+      case Operation::measurement_abort:
+      case Operation::measurement_confirm:
+      case Operation::measurement_discard:
+      case Operation::measurement_inputs:
+      case Operation::measurement_last:
+      case Operation::measurement_undo:
+      case Operation::manual_calibration:
+      case Operation::manual_evaluation:
+      case Operation::manual_write:
+        return measurement_.handle(match, request, respond);
       case Operation::recordings:
       case Operation::read_recording:
       case Operation::recording_table:
@@ -180,7 +209,9 @@ Answer Api::read(const Match& match, const std::string& query) const {
     case Operation::status:
       return json_answer(200, status_answer(*snapshot, contract_));
     case Operation::alarms:
-      return json_answer(200, alarms_answer(*snapshot));
+      return list_answer(alarms_answer(*snapshot), "alarms", query);
+    case Operation::past_alarms:
+      return list_answer(past_alarms_answer(*snapshot, query_value(query, "search")), "alarms", query);
     case Operation::channels:
       return json_answer(200, channels_answer(*snapshot));
     case Operation::channel: {
@@ -203,20 +234,24 @@ Answer Api::read(const Match& match, const std::string& query) const {
       wanted.search = query_value(query, "search");
       wanted.offset = count_in_query(query, "offset", 0);
       wanted.limit = count_in_query(query, "limit", 500);
-      return published(parameters_answer(*snapshot, wanted), "parameters");
+      return tagged(published(parameters_answer(*snapshot, wanted), "parameters"), snapshot->parameters_tag);
     }
     case Operation::parameter: {
       const auto number = path_number(match.parts.at(0), 999999);
       if (!number || machine::Catalogue::instance().find(*number) == nullptr)
         return error_answer(404, "no parameter " + match.parts[0]);
-      return published(parameter_answer(*snapshot, *number), "parameters");
+      return tagged(published(parameter_answer(*snapshot, *number), "parameters"), snapshot->parameters_tag);
     }
     case Operation::tools:
-      return published(snapshot->tools, "parameters");
+      if (!snapshot->tools) return published(snapshot->tools, "parameters");
+      return tagged(list_answer(bus::to_json(*snapshot->tools), "tools", query),
+                    entity_tag(snapshot->tools->revision));
     case Operation::work_offsets:
-      return published(snapshot->offsets, "parameters");
+      return tagged(published(snapshot->offsets, "parameters"),
+                    entity_tag(snapshot->offsets ? snapshot->offsets->revision : 0));
     case Operation::programs:
-      return published(snapshot->programs, "program");
+      if (!snapshot->programs) return published(snapshot->programs, "program");
+      return list_answer(bus::to_json(*snapshot->programs), "programs", query);
     case Operation::plc_image:
       return published(snapshot->image, "plc");
     default:
@@ -268,6 +303,30 @@ std::optional<Answer> Api::parameter_refusal(const idl::parameters::ParameterReq
   return {};
 }
 
+std::string Api::changed_meanwhile(const Match& match, const std::string& if_match,
+                                   idl::parameters::ParameterRequest& request) const {
+  if (if_match.empty()) return {};
+  const auto snapshot = mailbox_.newest();
+  if (!snapshot || !snapshot->parameters || !snapshot->tools || !snapshot->offsets)
+    return "the parameters service has not published yet";
+  const auto check = [&](const std::string& now) {
+    return if_match == "*" || if_match == now ? std::string()
+                                              : "the change was made on " + if_match + ", and by now it is " +
+                                                    now + ": read the values again";
+  };
+  // The service compares the revisions of its tables, too.
+  const auto check_table = [&](std::uint64_t revision) {
+    if (if_match != "*" && request.revision == 0) request.revision = revision;
+    return check(entity_tag(revision));
+  };
+  if (match.operation == Operation::set_work_offset) return check_table(snapshot->offsets->revision);
+  if (match.operation == Operation::set_tool || match.operation == Operation::remove_tool)
+    return check_table(snapshot->tools->revision);
+  if (sent_.from == snapshot->parameters && std::chrono::steady_clock::now() - sent_.since < shown_within)
+    return "another change of the parameters is under way: read the values again";
+  return check(snapshot->parameters_tag);
+}
+
 void Api::send_parameters(const Match& match, const Json& body, const RequestText& text,
                           const Respond& respond) {
   idl::parameters::ParameterRequest request;
@@ -288,6 +347,11 @@ void Api::send_parameters(const Match& match, const Json& body, const RequestTex
     request = parameter_request(*number, definition->type == machine::ParameterType::text, body);
   }
   if (auto refusal = parameter_refusal(request, text)) return respond(std::move(*refusal));
+  if (const auto changed = changed_meanwhile(match, text.if_match, request); !changed.empty())
+    return respond(error_answer(412, changed));
+  if (match.operation == Operation::set_parameter || match.operation == Operation::set_parameters)
+    if (const auto snapshot = mailbox_.newest())
+      sent_ = {snapshot->parameters, std::chrono::steady_clock::now()};
   if (text.user) request.who = text.user->name;  // who is logged in, whatever the body says
   mailbox_.post([request, respond](Links& links, double now) {
     links.parameters.submit(
@@ -326,7 +390,7 @@ void Api::note_stored(const idl::program::ProgramEntry& entry) {
 }
 
 std::uint64_t Api::stored_lately(const std::string& name) {
-  const auto old = std::chrono::steady_clock::now() - std::chrono::seconds(1);
+  const auto old = std::chrono::steady_clock::now() - shown_within;
   std::erase_if(stored_, [&](const auto& one) { return one.second.since < old; });
   const auto found = stored_.find(name);
   return found == stored_.end() ? 0 : found->second.revision;
@@ -338,6 +402,15 @@ void Api::check(const Match& match, const std::string& text, const Respond& resp
   if (!snapshot || !number || !snapshot->channels.contains(static_cast<std::uint16_t>(*number)))
     return respond(error_answer(404, "no channel " + match.parts[0]));
   checker_.submit({text, static_cast<std::uint16_t>(*number), snapshot, respond});
+}
+
+void Api::plan(const Match& match, const std::string& query, const Respond& respond) {
+  const auto text = query_value(query, "channel");
+  const auto number = path_number(text.empty() ? "0" : text, 31);
+  const auto snapshot = mailbox_.newest();
+  if (!snapshot || !number || !snapshot->channels.contains(static_cast<std::uint16_t>(*number)))
+    return respond(problem_answer(404, "no channel " + text));
+  planner_.submit({match.parts.at(0), static_cast<std::uint16_t>(*number), snapshot, respond});
 }
 
 Answer Api::page(std::string_view path, bool gzip) const {

@@ -10,11 +10,14 @@
 
 #include "access_control.hpp"
 #include "answer.hpp"
+#include "bodies.hpp"
 #include "bus/json.hpp"
 #include "mailbox.hpp"
+#include "measurement.hpp"
 #include "operating_control.hpp"
 #include "plc_online.hpp"
 #include "program_checker.hpp"
+#include "program_planner.hpp"
 #include "recordings.hpp"
 #include "src/router.hpp"
 
@@ -31,15 +34,18 @@ Answer unrouted(RouteResult result);
 class Api {
  public:
   Api(Mailbox& mailbox, std::string contract, std::filesystem::path web, RecordingSettings recordings = {},
-      AccessSettings access = {}, bool one_operates = false)
+      AccessSettings access = {}, bool one_operates = false, MeasurementSettings measurement = {})
       : mailbox_(mailbox),
         contract_(std::move(contract)),
         web_(std::move(web)),
         checker_(mailbox),
+        planner_(mailbox),
         recordings_(std::move(recordings)),
         access_(std::move(access), recordings_.worker()),
         operating_(one_operates, access_),
-        plc_(mailbox) {}
+        plc_(mailbox),
+        machine_directory_(measurement.machine.directory),
+        measurement_(mailbox, recordings_.worker(), std::move(measurement)) {}
 
   /// Everything but the stream and the reading and writing of programs.
   void handle(const Match& match, const RequestText& request, const Respond& respond);
@@ -55,9 +61,10 @@ class Api {
   OperatingControl& operating() { return operating_; }
   /// Where the source of an answer is read.
   FileWorker& files() { return recordings_.worker(); }
-  /// Ends the threads of checks and files; to be called while the mailbox exists.
+  /// Ends the threads of checks, plans and files; to be called while the mailbox exists.
   void stop() {
     checker_.stop();
+    planner_.stop();
     recordings_.stop();
   }
 
@@ -70,23 +77,37 @@ class Api {
   /// 403 when `asked` has a parameter that the user must not change.
   std::optional<Answer> parameter_refusal(const idl::parameters::ParameterRequest& asked,
                                           const RequestText& request) const;
+  /// Why the condition If-Match of a change does not hold, empty = it does or there is none. The revision of
+  /// a table becomes that of the request.
+  std::string changed_meanwhile(const Match& match, const std::string& if_match,
+                                idl::parameters::ParameterRequest& request) const;
   void send_program(const idl::program::ProgramRequest& request, const Respond& respond);
   void remove_program(const std::string& name, const Respond& respond);
   void check(const Match& match, const std::string& text, const Respond& respond);
+  void plan(const Match& match, const std::string& query, const Respond& respond);
 
   Mailbox& mailbox_;
   std::string contract_;
   std::filesystem::path web_;
   ProgramChecker checker_;
+  ProgramPlanner planner_;
   Recordings recordings_;
   AccessControl access_;
   OperatingControl operating_;
   PlcOnline plc_;
+  std::string machine_directory_;
+  KinematicMeasurement measurement_;
   struct Stored {
     std::uint64_t revision = 0;
     std::chrono::steady_clock::time_point since;
   };
   std::map<std::string, Stored> stored_;
+  /// The newest change of parameters, and the set that was known then.
+  struct Sent {
+    std::shared_ptr<const idl::parameters::ParameterSet> from;
+    std::chrono::steady_clock::time_point since;
+  };
+  Sent sent_;
 };
 
 using ProgramReply = std::optional<idl::program::ProgramReply>;

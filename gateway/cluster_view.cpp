@@ -17,9 +17,9 @@ bool keep_newest(bus::Reader<T>& reader, std::shared_ptr<const T>& kept) {
   return true;
 }
 
-std::vector<std::uint16_t> drive_columns(const idl::parameters::ParameterSet& set) {
+std::vector<std::uint16_t> drive_columns(const machine::Parameters& parameters) {
   std::vector<std::uint16_t> columns;
-  for (const auto& axis : machine::drive_axes(machine::parameters_of(set))) columns.push_back(axis.number);
+  for (const auto& axis : machine::drive_axes(parameters)) columns.push_back(axis.number);
   return columns;
 }
 
@@ -38,6 +38,8 @@ ClusterView::ClusterView(bus::Bus& bus)
       forces_(bus.reader(topics::plc_forces)),
       plc_programs_(bus.reader(topics::plc_programs)),
       watched_(bus.reader(topics::plc_watched)),
+      measurement_(bus.reader(topics::measurement_state)),
+      measurement_result_(bus.reader(topics::measurement_result)),
       parameters_(bus.reader(topics::parameter_set)),
       tools_(bus.reader(topics::tool_table)),
       offsets_(bus.reader(topics::work_offsets)),
@@ -47,9 +49,16 @@ void ClusterView::drain(double now) {
   idl::service::Announcement announcement;
   while (announcements_.take(announcement)) document_.apply(announcement);
   idl::service::Alarm alarm;
-  while (alarms_.take(alarm)) document_.apply(alarm, now, service::time_of_day());
+  while (alarms_.take(alarm)) {
+    const auto time = service::time_of_day();
+    document_.apply(alarm, now, time);
+    history_.apply(alarm, time);
+  }
   idl::service::ServiceState state;
-  while (service_states_.take(state)) document_.apply(state, now);
+  while (service_states_.take(state)) {
+    document_.apply(state, now);
+    history_.keep([this](const auto& active) { return document_.is_active(active); }, service::time_of_day());
+  }
   idl::service::Cluster cluster;
   if (cluster_.take_newest(cluster)) document_.apply(cluster);
   idl::channel::ChannelState channel;
@@ -67,16 +76,20 @@ void ClusterView::drain(double now) {
   keep_newest(image_, next_.image);
   keep_newest(forces_, next_.plc_forces);
   keep_newest(plc_programs_, next_.plc_programs);
+  if (keep_newest(measurement_, next_.measurement)) document_.apply(*next_.measurement);
+  keep_newest(measurement_result_, next_.measurement_result);
   idl::plc::Watched watched;
   while (watched_.take(watched))
     next_.plc_watched[watched.slot] = std::make_shared<const idl::plc::Watched>(watched);
   idl::channel::Variables variables;
   while (variables_.take(variables))
     next_.variables[variables.channel] = std::make_shared<const idl::channel::Variables>(variables);
-  if (keep_newest(parameters_, next_.parameters)) {
+  std::shared_ptr<const idl::parameters::ParameterSet> parameters;
+  if (keep_newest(parameters_, parameters)) {
+    next_.set_parameters(std::move(parameters));
     document_.set_revision("parameters", next_.parameters->revision);
     document_.set_revision("pending", next_.parameters->pending.size());
-    document_.set_drive_axes(drive_columns(*next_.parameters));
+    document_.set_drive_axes(drive_columns(*next_.values));
   }
   if (keep_newest(tools_, next_.tools)) document_.set_revision("tools", next_.tools->revision);
   if (keep_newest(offsets_, next_.offsets)) document_.set_revision("work_offsets", next_.offsets->revision);
@@ -86,6 +99,7 @@ void ClusterView::drain(double now) {
 std::shared_ptr<const Snapshot> ClusterView::snapshot(double now, const bus::Json& operating) {
   ++next_.sequence;
   next_.document = document_.document(now);
+  next_.past_alarms = history_.newest();
   if (!operating.is_null()) next_.document["operating"] = operating;
   return std::make_shared<const Snapshot>(next_);
 }

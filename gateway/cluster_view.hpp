@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "bus/bus.hpp"
+#include "src/alarm_history.hpp"
 #include "src/snapshot.hpp"
 #include "src/state_document.hpp"
 
@@ -18,6 +19,7 @@ class ClusterView {
   /// Everything as it is now; peaks and the trace start afresh with it. `operating` is that of
   /// OperatingControl.
   std::shared_ptr<const Snapshot> snapshot(double now, const bus::Json& operating = nullptr);
+  AlarmHistory& alarm_history() { return history_; }
   std::uint64_t frames() const { return frames_; }
   /// Of the parameters, 0 = none yet.
   std::uint64_t revision() const { return next_.parameters ? next_.parameters->revision : 0; }
@@ -35,12 +37,15 @@ class ClusterView {
   bus::Reader<idl::plc::Forces> forces_;
   bus::Reader<idl::plc::Programs> plc_programs_;
   bus::Reader<idl::plc::Watched> watched_;
+  bus::Reader<idl::measurement::MeasurementState> measurement_;
+  bus::Reader<idl::measurement::MeasurementResult> measurement_result_;
   bus::Reader<idl::parameters::ParameterSet> parameters_;
   bus::Reader<idl::parameters::ToolTable> tools_;
   bus::Reader<idl::parameters::WorkOffsets> offsets_;
   bus::Reader<idl::program::ProgramList> programs_;
 
   StateDocument document_;
+  AlarmHistory history_;
   Snapshot next_;
   std::uint64_t frames_ = 0;
 };

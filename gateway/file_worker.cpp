@@ -14,6 +14,11 @@ void FileWorker::post(std::function<void()> job) {
   wake_.notify_one();
 }
 
+std::size_t FileWorker::waiting() const {
+  const std::lock_guard lock(mutex_);
+  return jobs_.size();
+}
+
 void FileWorker::stop() {
   std::deque<std::function<void()>> dropped;
   {

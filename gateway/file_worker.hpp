@@ -18,12 +18,14 @@ class FileWorker {
   FileWorker& operator=(const FileWorker&) = delete;
   /// Runs `job` after those before it. Nothing after stop().
   void post(std::function<void()> job);
+  /// Jobs that have not begun.
+  std::size_t waiting() const;
   /// Drops what waits and returns when the job under way has ended.
   void stop();
 
  private:
   void work();
-  std::mutex mutex_;
+  mutable std::mutex mutex_;
   std::condition_variable wake_;
   std::deque<std::function<void()>> jobs_;
   bool stopping_ = false;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mailbox.hpp"
 
+#include <algorithm>
+
 namespace trunnion::gateway {
 
 Links::Links(bus::Bus& bus)
@@ -9,6 +11,7 @@ Links::Links(bus::Bus& bus)
       parameters(bus, topics::parameter_request, topics::parameter_reply),
       program(bus, topics::program_request, topics::program_reply),
       online(bus, topics::online_request, topics::online_reply),
+      measurement(bus, topics::measurement_request, topics::measurement_reply),
       alarm_resets(bus),
       journal(bus) {}
 
@@ -18,10 +21,15 @@ void Links::pump(double now) {
   parameters.pump(now);
   program.pump(now);
   online.pump(now);
+  measurement.pump(now);
 }
 
-bool Links::busy() const {
-  return channel.busy() || panel.busy() || parameters.busy() || program.busy() || online.busy();
+std::optional<double> Links::period() const {
+  std::optional<double> shortest;
+  for (const auto& period : {channel.period(), panel.period(), parameters.period(), program.period(),
+                             online.period(), measurement.period()})
+    if (period) shortest = std::min(*period, shortest.value_or(*period));
+  return shortest;
 }
 
 void Mailbox::post(Job job) {

@@ -50,14 +50,15 @@ class AlarmResets {
 struct Links {
   explicit Links(bus::Bus& bus);
   void pump(double now);
-  /// Requests are under way, so time matters.
-  bool busy() const;
+  /// Seconds after which pump() is to be called at the latest; nothing when no request is under way.
+  std::optional<double> period() const;
 
   RequestLanes<idl::channel::ChannelRequest, idl::channel::ChannelReply> channel;
   RequestLanes<idl::plc::PanelRequest, idl::plc::PanelReply> panel;
   RequestLanes<idl::parameters::ParameterRequest, idl::parameters::ParameterReply> parameters;
   RequestLanes<idl::program::ProgramRequest, idl::program::ProgramReply> program;
   RequestLanes<idl::plc::OnlineRequest, idl::plc::OnlineReply> online;
+  RequestLanes<idl::measurement::MeasurementRequest, idl::measurement::MeasurementReply> measurement;
   AlarmResets alarm_resets;
   Journal journal;
 };

@@ -5,9 +5,12 @@
 #include <ctime>
 #include <iostream>
 
+#include "access/certificate.hpp"
 #include "cluster/cluster_files.hpp"
 #include "cluster/operating_station.hpp"
+#include "http_client/client.hpp"
 #include "machine/gateway_settings.hpp"
+#include "machine/service_constants.hpp"
 #include "service.hpp"
 #include "service/network.hpp"
 #include "src/rights.hpp"
@@ -37,14 +40,26 @@ trunnion::gateway::mtconnect::AgentSettings agent_settings(const trunnion::machi
   settings.instance = static_cast<std::uint64_t>(std::time(nullptr));
   settings.channels = machine.channels;
   for (const auto& entry : machine.services)
-    if (entry.service == "channel") settings.channel_of[entry.instance] = entry.channel;
+    if (entry.service == trunnion::machine::service::channel.name)
+      settings.channel_of[entry.instance] = entry.channel;
   return settings;
 }
 
+/// The files of the certificate; none without TLS.
+trunnion::gateway::TlsFiles tls_files(const trunnion::machine::TlsSettings& settings,
+                                      const trunnion::service::Options& options) {
+  using namespace trunnion;
+  const std::filesystem::path machine = options.machine_directory, state = options.state_directory;
+  if (!settings.on) return {};
+  if (settings.certificate.empty())
+    return {state / access::certificate_file, state / access::certificate_key_file};
+  return {machine / settings.certificate, machine / settings.key};
+}
+
 /// False when the process is told to end before it is needed.
-bool stand_by(trunnion::service::Node& node, std::uint16_t port) {
+bool stand_by(trunnion::service::Node& node, const trunnion::http_client::Server& running) {
   if (!node.on_standby()) return node.stand_by();
-  trunnion::gateway::StandbyService standby(node, port);
+  trunnion::gateway::StandbyService standby(node, running);
   return node.stand_by(&standby);
 }
 
@@ -65,6 +80,11 @@ int main(int argc, char** argv) {
                  "Port of the MTConnect agent, 0 = none (default: mtconnect_port of machine.yaml)")
       ->check(CLI::Range(0, 65535));
   app.add_option("--web", own.web, "Directory of the built page");
+  bool verified = false;
+  app.add_flag(
+      "--verified", verified,
+      "As 'trunnion verify' starts it: on 127.0.0.1 without TLS, users and the right to operate; a bearer "
+      "token is the name of who sends a request");
   if (const int status = service::parse_options(app, argc, argv, options); status >= 0) return status;
   try {
     service::Node node(options);
@@ -72,11 +92,17 @@ int main(int argc, char** argv) {
     own.host_names = options.machine.host_names;
     char computer[256] = {};
     gethostname(computer, sizeof computer - 1);
-    const auto settings = machine::load_gateway_settings(options.machine_directory);
-    own.access = {settings.auth, options.state_directory, settings.session_idle};
+    auto settings = machine::load_gateway_settings(options.machine_directory);
+    if (verified) {
+      if (!gateway::is_loopback(own.address)) throw std::runtime_error("--verified is for 127.0.0.1 only");
+      settings.auth = settings.one_operates = false;
+      settings.tls = {};
+    }
+    own.access = {settings.auth, options.state_directory, settings.session_idle, settings.tls.on, verified};
     if (!settings.auth && !gateway::is_loopback(own.address))
       throw std::runtime_error("every computer that reaches " + own.address +
                                " could move the machine: set 'auth: on' in machine.yaml");
+    own.tls = tls_files(settings.tls, options);
     own.one_operates = settings.one_operates;
     own.command_socket = cluster::operating_socket(options.network.domain);
     own.mtconnect_port =
@@ -84,7 +110,9 @@ int main(int argc, char** argv) {
     own.mtconnect = agent_settings(options.machine, computer);
     own.host_names.insert(own.host_names.end(), {computer, std::string(computer) + ".local"});
     own.recordings = {std::filesystem::path(options.state_directory) / "recordings", recorder(options)};
-    if (!stand_by(node, own.port)) return 0;
+    own.measurement = {options.machine, std::filesystem::path(options.state_directory) / "journal.jsonl"};
+    own.alarm_file = (std::filesystem::path(options.state_directory) / gateway::AlarmFile::name).string();
+    if (!stand_by(node, {own.port, own.tls.on()})) return 0;
     gateway::GatewayService service(node, own);
     return node.run(service);
   } catch (const std::exception& e) {

@@ -80,7 +80,8 @@ Answer OperatingControl::handle(const Match& match, const RequestText& request) 
     auto answer = state(station);
     if (!made.empty())
       answer.headers.emplace_back("Set-Cookie", std::string(cookie) + "=" + made +
-                                                    "; Path=/; HttpOnly; SameSite=Strict; Max-Age=31536000");
+                                                    "; Path=/; HttpOnly; SameSite=Strict; Max-Age=31536000" +
+                                                    (access_.secure() ? "; Secure" : ""));
     return answer;
   }
   const auto body = parse_body(request.body);

@@ -60,6 +60,8 @@ void PlcOnline::handle(const Match& match, const RequestText& request, const Res
       }
       case Operation::plc_tasks:
         return answer_tasks(respond);
+      case Operation::plc_uses:
+        return answer_uses(request.query, respond);
       case Operation::plc_force:
         return order(force_request(parse_body(request.body)), respond);
       case Operation::plc_release:
@@ -196,6 +198,19 @@ void PlcOnline::answer_tasks(const Respond& respond) {
     } catch (const std::runtime_error& e) {
       respond(problem_answer(409, e.what()));
     }
+  });
+}
+
+void PlcOnline::answer_uses(const std::string& query, const Respond& respond) {
+  auto request = request_for(OnlineAction::LIST_USES);
+  request.paths = {query_value(query, "path")};
+  if (request.paths[0].empty()) throw BadRequest("path", "path is missing");
+  if (request.paths[0].size() > 240) throw BadRequest("path", "path has more than 240 characters");
+  request.first = count_of(query, "offset", 0, 1000000);
+  send(request, respond, [respond](const Request& asked, const Reply& reply) {
+    auto uses = bus::Json::array();
+    for (const auto& use : reply.uses) uses.push_back(bus::to_json(use));
+    respond(json_answer(200, {{"total", reply.total}, {"offset", asked.first}, {"uses", std::move(uses)}}));
   });
 }
 

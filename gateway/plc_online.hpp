@@ -48,6 +48,7 @@ class PlcOnline {
 
   void answer_variables(const std::string& query, const Respond& respond);
   void answer_tasks(const Respond& respond);
+  void answer_uses(const std::string& query, const Respond& respond);
   void answer_programs(const Respond& respond);
   void answer_source(const std::string& name, const std::string& query, const Respond& respond);
   void start_trace(const bus::Json& body, const Respond& respond);

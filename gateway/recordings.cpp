@@ -19,7 +19,8 @@ using bus::Json;
 constexpr double longest = 7 * 24 * 3600;  // s of a recording
 constexpr std::size_t most_topics = 64;
 constexpr auto time_to_begin = std::chrono::seconds(3);
-constexpr double time_to_finish = 20;  // s for what still waits for the disk
+constexpr double time_to_finish = 20;       // s for what still waits for the disk
+constexpr std::size_t most_requests = 256;  // that wait: their connections may be gone already
 
 std::string time_text(std::int64_t nanoseconds, const char* format) {
   const std::time_t seconds = nanoseconds / 1000000000;
@@ -73,6 +74,8 @@ StartRequest start_request(const Json& body) {
 }  // namespace
 
 void Recordings::handle(const Match& match, const RequestText& request, const Respond& respond) {
+  if (worker_.waiting() >= most_requests)
+    return respond(error_answer(503, std::to_string(most_requests) + " requests wait for files: try again"));
   worker_.post([this, match, request, respond] {
     try {
       respond(answer(match, request));
@@ -95,7 +98,7 @@ std::string Recordings::running() {
 }
 
 Answer Recordings::answer(const Match& match, const RequestText& request) {
-  if (match.operation == Operation::recordings) return list();
+  if (match.operation == Operation::recordings) return list(request.query);
   if (match.operation == Operation::start_recording) return start(request.body);
   const auto& name = match.parts.at(0);
   const auto file = recording_file(settings_.directory, name);
@@ -106,7 +109,7 @@ Answer Recordings::answer(const Match& match, const RequestText& request) {
   return read(*file, request);
 }
 
-Answer Recordings::list() {
+Answer Recordings::list(const std::string& query) {
   const auto current = running();
   auto files = Json::array();
   for (const auto& file : recording_files(settings_.directory))
@@ -119,9 +122,10 @@ Answer Recordings::list() {
   const auto place =
       fs::exists(settings_.directory, error) ? settings_.directory : settings_.directory.parent_path();
   const auto space = fs::space(place, error);
-  return json_answer(200, {{"recordings", std::move(files)},
-                           {"recording", current},
-                           {"free", error ? std::uintmax_t{0} : space.available}});
+  return list_answer({{"recordings", std::move(files)},
+                      {"recording", current},
+                      {"free", error ? std::uintmax_t{0} : space.available}},
+                     "recordings", query);
 }
 
 Answer Recordings::start(const std::string& body) {

@@ -31,7 +31,7 @@ class Recordings {
 
  private:
   Answer answer(const Match& match, const RequestText& request);
-  Answer list();
+  Answer list(const std::string& query);
   Answer start(const std::string& body);
   Answer end(const std::string& name);
   Answer remove(const RecordingFile& file, const std::string& if_match);

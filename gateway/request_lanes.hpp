@@ -15,6 +15,15 @@ namespace trunnion::gateway {
 
 /// Seconds without an answer after which a request is sent again, and after which it is given up.
 inline constexpr double resend_after = 0.2, give_up_after = 2.0;
+/// The latter for a part of a program that is stored: the service may be writing 100 MB of another one to a
+/// slow disk.
+inline constexpr double give_up_part_after = 20.0;
+/// So many requests in so many seconds: a reader that is read less often loses the oldest beyond 64
+/// (idl/topics.yaml, event), and would lose the same ones whenever they are sent again.
+inline constexpr std::size_t most_in_burst = 32;
+inline constexpr double burst_seconds = 0.004;
+/// Between two looks whether a request is to be sent again.
+inline constexpr double answer_seconds = 0.02;
 
 template <class Request, class Reply>
 class RequestLanes {
@@ -27,7 +36,7 @@ class RequestLanes {
 
   /// `done` is called once, by pump(): with the reply or, when nobody answers, with nothing. A request that
   /// comes with a client of its own keeps it and its number.
-  void submit(Request request, Done done, double now) {
+  void submit(Request request, Done done, double now, double give_up = give_up_after) {
     std::optional<Lane> lane;
     if (request.client == 0) {
       if (idle_.empty()) idle_.push_back({service::make_client_id(), 0});
@@ -36,8 +45,8 @@ class RequestLanes {
       request.client = lane->client;
       request.number = ++lane->number;
     }
-    under_way_.push_back({std::move(request), std::move(done), lane, now, now + give_up_after});
-    writer_.write(under_way_.back().request);
+    under_way_.push_back({std::move(request), std::move(done), lane, now, now + give_up});
+    send_due(now);
   }
 
   void pump(double now) {
@@ -50,17 +59,17 @@ class RequestLanes {
         }
     for (auto one = under_way_.begin(); one != under_way_.end();) {
       const auto next = std::next(one);
-      if (now >= one->until) {
-        finish(one, std::nullopt);
-      } else if (now - one->sent >= resend_after) {
-        writer_.write(one->request);
-        one->sent = now;
-      }
+      if (now >= one->until) finish(one, std::nullopt);
       one = next;
     }
+    send_due(now);
   }
 
-  bool busy() const { return !under_way_.empty(); }
+  /// Seconds after which pump() is to be called at the latest, when requests are under way.
+  std::optional<double> period() const {
+    if (under_way_.empty()) return std::nullopt;
+    return burst_ == most_in_burst ? burst_seconds : answer_seconds;
+  }
 
  private:
   struct Lane {
@@ -70,8 +79,22 @@ class RequestLanes {
     Request request;
     Done done;
     std::optional<Lane> lane;
-    double sent = 0, until = 0;
+    double due = 0, until = 0;  ///< to be sent (again), to be given up
+    bool repeated = false;
   };
+  // What was never sent comes first: an order does not wait for the repetitions of others.
+  void send_due(double now) {
+    if (now - burst_begun_ >= burst_seconds) burst_begun_ = now, burst_ = 0;
+    for (const bool repeated : {false, true})
+      for (auto& one : under_way_) {
+        if (burst_ == most_in_burst) return;
+        if (one.repeated != repeated || now < one.due) continue;
+        writer_.write(one.request);
+        one.due = now + resend_after;
+        one.repeated = true;
+        ++burst_;
+      }
+  }
   void finish(typename std::list<UnderWay>::iterator one, const std::optional<Reply>& reply) {
     if (one->lane) idle_.push_back(*one->lane);
     const auto over = std::move(*one);
@@ -83,6 +106,8 @@ class RequestLanes {
   bus::Reader<Reply> reader_;
   std::list<UnderWay> under_way_;
   std::vector<Lane> idle_;
+  double burst_begun_ = 0;
+  std::size_t burst_ = 0;
 };
 
 }  // namespace trunnion::gateway

@@ -3,10 +3,13 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 
+#include "alarm_file.hpp"
 #include "api.hpp"
 #include "cluster_view.hpp"
 #include "http/server.hpp"
+#include "http/tls_certificate.hpp"
 #include "mtconnect/server.hpp"
 #include "service/node.hpp"
 #include "service/parameter_client.hpp"
@@ -20,10 +23,13 @@ struct GatewayOptions {
   std::vector<std::string> host_names;  ///< as of Site
   RecordingSettings recordings;
   AccessSettings access;
-  bool one_operates = false;         ///< one station at a time
+  bool one_operates = false;  ///< one station at a time
+  MeasurementSettings measurement;
+  std::string alarm_file;            ///< of AlarmFile; empty: the history ends with the process
   std::string command_socket;        ///< as of CommandSocket
   std::uint16_t mtconnect_port = 0;  ///< 0 = no agent
   mtconnect::AgentSettings mtconnect;
+  TlsFiles tls;
 };
 
 class GatewayService : public service::Service {
@@ -38,6 +44,11 @@ class GatewayService : public service::Service {
   /// Seconds between two snapshots.
   static constexpr double snapshot_period = 0.05;
   void publish(double now);
+  /// Looks at the files of the certificate, and says by alarms what is wrong with them.
+  void watch_certificate(double now);
+  void begin_alarm_history(const std::string& file);
+  /// Writes what is new of the alarm history, on the thread of the files.
+  void keep_alarm_history(double now);
 
   // Answers that are under way hold HTTP sessions, so the server is destroyed after everything that may hold
   // one.
@@ -47,6 +58,14 @@ class GatewayService : public service::Service {
   Links links_;
 
   ClusterView view_;
+  std::shared_ptr<AlarmFile> alarm_file_;
+  bool alarm_file_failed_ = false;
+  double written_again_ = 0;  ///< not before, after a failure
+  double settles_ = 0;        ///< when alarms of before that were not heard of are over; 0: they are
+  std::size_t appended_ = 0;  ///< bytes since the file was rewritten
+  service::AlarmBoard& alarms_;
+  std::optional<TlsCertificate> certificate_;
+  double watched_ = 0;
   std::unique_ptr<mtconnect::Server> mtconnect_;
   double published_ = 0;
   std::string where_;

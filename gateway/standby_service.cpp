@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "standby_service.hpp"
 
-#include "http/first_message.hpp"
+#include "http_client/client.hpp"
 
 namespace trunnion::gateway {
 namespace {
@@ -29,8 +29,9 @@ Json own(const Snapshot& snapshot) {
 }
 
 // Null when no gateway answers there.
-Json running(std::uint16_t port) {
-  const auto first = first_message(port, "/api/stream", 1);
+Json running(const http_client::Server& gateway) {
+  http_client::WebSocketClient client(gateway, "/api/stream");
+  const auto first = client.open() ? client.next(gateway.timeout) : std::nullopt;
   auto message = first ? Json::parse(*first, nullptr, false) : Json();
   if (!message.is_object() || !message.contains("state")) return nullptr;
   return comparable(std::move(message["state"]));
@@ -38,11 +39,14 @@ Json running(std::uint16_t port) {
 
 }  // namespace
 
-StandbyService::StandbyService(service::Node& node, std::uint16_t port) : view_(node.bus()), port_(port) {}
+StandbyService::StandbyService(service::Node& node, const http_client::Server& gateway)
+    : view_(node.bus()), gateway_(gateway) {
+  gateway_.timeout = 1;  // s
+}
 
 void StandbyService::compare(double now) {
   const auto before = own(*view_.snapshot(now));
-  const auto theirs = running(port_);
+  const auto theirs = running(gateway_);
   no_answer_ = theirs.is_null();
   if (no_answer_) return;
   const double then = service::monotonic_seconds();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "cluster_view.hpp"
+#include "http_client/client.hpp"
 #include "service/node.hpp"
 #include "src/lasting_difference.hpp"
 
@@ -11,8 +12,8 @@ namespace trunnion::gateway {
 /// show with what the other one shows its clients. It writes nothing.
 class StandbyService : public service::Service {
  public:
-  /// `port` of the running gateway on this computer.
-  StandbyService(service::Node& node, std::uint16_t port);
+  /// `gateway` that runs on this computer.
+  StandbyService(service::Node& node, const http_client::Server& gateway);
   void pump() override;
   service::Health health() const override;
 
@@ -20,7 +21,7 @@ class StandbyService : public service::Service {
   void compare(double now);
 
   ClusterView view_;
-  std::uint16_t port_;
+  http_client::Server gateway_;
   LastingDifference comparison_;
   double compared_ = 0;
   bool no_answer_ = false;

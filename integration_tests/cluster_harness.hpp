@@ -25,10 +25,6 @@ using idl::stream::DriveMode;
 
 enum class Time { real, virtual_ };
 
-/// Parameter 000900, cycles, for tests in real time whose subject is not the lead. On a virtual machine even
-/// the highest priority is without its processor for 17 ms now and then, and half a lead of 32 covers 16.
-constexpr int lead_beyond_stalls = 128;
-
 using Rows = std::vector<std::vector<double>>;
 
 /// Where two runs differ first, or empty: the message of a test. Rows that one of them has not seen are
@@ -170,13 +166,17 @@ class Cluster {
       }
     cycle_start(channel);
   }
-  /// Returns when the state is one that was published after the start: the first that arrives after the
-  /// answer may have been on its way before, the second cannot.
+  /// Returns when the state is one that was published after the start.
   void cycle_start(std::uint16_t channel = 0) {
     client_->channel(channel, CommandKind::CYCLE_START);
+    EXPECT_TRUE(newer_state(channel));
+  }
+  /// Waits for a state that was published after this call, and says whether it came: the first that arrives
+  /// may have been on its way before, the second cannot.
+  bool newer_state(std::uint16_t channel = 0) {
     drain();
     const auto before = state_count[channel];
-    EXPECT_TRUE(until([&] { return state_count[channel] >= before + 2; }));
+    return until([&] { return state_count[channel] >= before + 2; });
   }
   bool finish(std::uint16_t channel = 0, double seconds = 60) {
     const bool ended = until(

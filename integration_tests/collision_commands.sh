@@ -15,6 +15,15 @@ for program in nas979_cone s_piece; do
   grep -q "no contact, clearance 1.000 mm" "$work/out" || fail "$(cat "$work/out")"
 done
 
+# Nor do those of the other machines, and their reference position is free.
+for bodies in "$3"/*/bodies.yaml; do
+  directory=$(dirname "$bodies")
+  for program in "$directory"/programs/*.nc; do
+    "$trunnion" collision "$directory" --program "$program" --tool 1 > "$work/out" || fail "$(cat "$work/out")"
+    grep -Eq "no contact, clearance 1.000 mm, [1-9][0-9]* pairs" "$work/out" || fail "$(cat "$work/out")"
+  done
+done
+
 # A tool of 100 mm and 20 mm diameter goes down beside the centre of the table, whose face is at Z-400: its face comes to it at
 # Z-300, and within the clearance of 1 mm, and at most 0.01 mm earlier, at Z-299.
 cat > "$work/down.nc" <<'END'

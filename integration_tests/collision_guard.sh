@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # collision_guard.sh TRUNNION MACHINES: `collision: stop` and `warn` in machine.yaml, for a program without a cluster and on
-# clusters of both vendors, with a channel that is killed; and a command that is killed leaves the operator's program selected.
+# clusters of both vendors.
 set -euo pipefail
 trunnion=$1
 . "$(dirname "$0")/cluster.sh"

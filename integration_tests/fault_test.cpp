@@ -3,6 +3,7 @@
 // virtual time, so that a busy machine changes nothing.
 #include "cluster_harness.hpp"
 #include "machine/services.hpp"
+#include "machine_copy.hpp"
 
 namespace trunnion::integration {
 namespace {
@@ -89,7 +90,9 @@ INSTANTIATE_TEST_SUITE_P(Services, KillInMotion, testing::ValuesIn(machine::serv
                          [](const auto& service) { return std::string(service.param.name); });
 
 TEST(Faults, AHungServiceIsReplaced) {
-  Cluster cluster("ac-table", Time::real);
+  const MachineCopy machine("ac-table");
+  machine.set_lead(lead_beyond_stalls);
+  Cluster cluster(machine.path(), Time::real);
   cluster.until([] { return false; }, 8);  // a process gets its time to start before its silence counts
   const int pid = cluster.service("compensation")->pid;
   ASSERT_EQ(kill(pid, SIGSTOP), 0);
@@ -136,7 +139,7 @@ TEST(Faults, AKilledLauncherTakesItsServicesWithItAndTheNextCommandSaysSo) {
     cluster::Client client(cluster.run.domain);
     for (const auto& service : client.newest(topics::cluster).services) pids.push_back(service.pid);
   }
-  ASSERT_EQ(pids.size(), 8u);
+  ASSERT_EQ(pids.size(), 9u);
   ASSERT_EQ(kill(*cluster.run.launcher(), SIGKILL), 0);
   const auto alive = [](int pid) {
     std::ifstream stat("/proc/" + std::to_string(pid) + "/stat");

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "cluster_harness.hpp"
+#include "machine_copy.hpp"
 
 namespace trunnion::integration {
 namespace {
@@ -19,15 +20,18 @@ class Bridge : public Cluster {
   double error() const { return feedback.position.at(2) - feedback.position.at(1); }
   bool is_off() const { return feedback.enabled.at(2) == 3; }
 
+  /// Keys at the bridge: X16.6 takes the slave off, X16.7 is the external reset.
+  void keys(std::uint32_t value) {
+    service::RequestClient<idl::plc::PanelRequest, idl::plc::PanelReply> panel(
+        client().bus(), topics::panel_request, topics::panel_reply);
+    const auto reply = panel.call({.kind = PanelRequestKind::FORCE_INPUT, .address = 16, .value = value}, 5);
+    ASSERT_TRUE(reply) << "the PLC does not answer; " << told();
+    ASSERT_TRUE(reply->accepted) << reply->reason;
+  }
   /// The key of the slave, until the drive has it; takes it off without an alarm that would refuse a jog.
   void key(bool on) {
     client().set_mode(0, Mode::JOG);
-    service::RequestClient<idl::plc::PanelRequest, idl::plc::PanelReply> panel(
-        client().bus(), topics::panel_request, topics::panel_reply);
-    const auto reply =
-        panel.call({.kind = PanelRequestKind::FORCE_INPUT, .address = 16, .value = on ? 64u : 0u}, 5);
-    ASSERT_TRUE(reply) << "the PLC does not answer; " << told();
-    ASSERT_TRUE(reply->accepted) << reply->reason;
+    keys(on ? 64u : 0u);
     ASSERT_TRUE(until([&] { return is_off() == on; })) << told();
     if (on) reset();  // nothing supervises a slave that is off
   }
@@ -110,7 +114,15 @@ TEST(GantryCluster, TheReleaseOfTheEmergencyStopAlignsBelowTheLimitAndRefusesAbo
   bridge.reset_alarms();
   bridge.until([] { return false; }, 0.5);
   EXPECT_TRUE(bridge.has_alarm(121)) << "its cause is there";
-  // The way out.
+  // The way out: nothing supervises a slave that is off, and the external reset of the manuals (G2960.3)
+  // clears what it has reported.
+  bridge.client().set_mode(0, Mode::JOG);
+  bridge.keys(64);
+  ASSERT_TRUE(bridge.until([&] { return bridge.is_off(); })) << bridge.told();
+  bridge.until([] { return false; }, 0.5);
+  EXPECT_TRUE(bridge.has_alarm(121)) << "until a reset";
+  bridge.keys(64 + 128);
+  EXPECT_TRUE(bridge.until([&] { return bridge.active_alarms().empty(); })) << bridge.told();
   bridge.misalign(0.05);
   bridge.press();
   bridge.release();
@@ -150,7 +162,9 @@ TEST(GantryCluster, AKilledServiceChangesNothingOfAGantryAtRest) {
 }
 
 TEST(GantryCluster, AGantryStageKilledInMotionStopsBothSidesTogetherAndTheProgramContinues) {
-  Bridge bridge("gantry-cb-head", Time::real);
+  const MachineCopy machine("gantry-cb-head");
+  machine.set_lead(lead_beyond_stalls);
+  Bridge bridge(machine.path(), Time::real);
   double most = 0;
   bridge.on_frame = [&](const auto& frame) {
     for (std::uint32_t i = 0; i < frame.count; ++i)
@@ -161,13 +175,16 @@ TEST(GantryCluster, AGantryStageKilledInMotionStopsBothSidesTogetherAndTheProgra
   ASSERT_TRUE(bridge.until([&] { return bridge.feedback.position[1] > 50; })) << bridge.told();
   const auto pid = bridge.service("gantry")->pid;
   ASSERT_EQ(kill(pid, SIGKILL), 0);
-  ASSERT_TRUE(bridge.until([&] { return bridge.feedback.mode == DriveMode::HELD; })) << bridge.told();
+  // The drive stops when its setpoints end, or the channel before that, at the alarm of the lost stage.
+  ASSERT_TRUE(bridge.until([&] {
+    return bridge.feedback.mode == DriveMode::HELD || bridge.state() == RunState::HELD;
+  })) << bridge.told();
   ASSERT_TRUE(bridge.until([&] { return bridge.service("gantry")->pid != pid && bridge.ready(); }))
       << bridge.told();
   ASSERT_TRUE(bridge.go_on()) << bridge.told();
   ASSERT_TRUE(bridge.finish()) << bridge.told();
   EXPECT_LT(most, 1e-9) << "mm, of the setpoints of both sides";
-  EXPECT_NEAR(bridge.error(), 0, settled);
+  EXPECT_TRUE(bridge.until([&] { return std::abs(bridge.error()) < settled; }, 5)) << bridge.error() << " mm";
 }
 
 TEST(GantryCluster, ASecondRunIsTheFirstBitForBitAndARestartKeepsTheSides) {

@@ -24,7 +24,7 @@ grep -q 'Auto Offset: parameter 102129 of axis 2 would be set to 0.000000 mm (no
 grep -q 'Slave axis 2 is off its master axis 1 by -0.1500 mm, limit 0.1000 mm (parameter 102107)' "$work/alarms" || fail "$(cat "$work/alarms")"
 
 gantry --json --write > "$work/json"
-"$python" - "$work/json" <<'END'
+"$python" - "$work/json" <<'END' || fail "$("$trunnion" status --domain "$domain")"
 import json, sys
 shown = json.load(open(sys.argv[1]))
 (pair,) = shown["gantries"]
@@ -41,5 +41,6 @@ grep -q 'synchronization error  *-*0.0000 mm' "$work/shown" || fail "after the r
 gantry --json --write | "$python" -c 'import json, sys; assert json.load(sys.stdin)["written"] is False' || fail "a second writing"
 
 # A machine of its own; and one without a gantry.
-"$trunnion" gantry "$2/gantry-cb-head" | grep -q 'alignment on: errors up to 0.2000 mm' || fail "a cluster of its own"
+"$trunnion" gantry "$2/gantry-cb-head" > "$work/shown" || fail "a cluster of its own"
+grep -q 'alignment on: errors up to 0.2000 mm' "$work/shown" || fail "a cluster of its own: $(cat "$work/shown")"
 "$trunnion" gantry "$2/ac-table" | grep -q 'ac-table has no gantry' || fail "a machine without a gantry"

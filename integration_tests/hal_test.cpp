@@ -64,6 +64,12 @@ struct Hal : ::testing::Test {
     fs::copy(TRUNNION_HAL_MACHINE, directory, fs::copy_options::recursive);
     replace(directory / "machine.yaml", "queue: 32", "queue: 200");
     replace(directory / "parameters.yaml", "\"000900\": 160", "\"000900\": 500");
+    const auto port =
+        std::to_string(20000 + getpid() % 10000);  // of the Modbus server that trunnion-hal-io asks
+    replace(directory / "plc" / "modbus.yaml", "1502", port);
+    replace(directory / "io.yaml", "1502", port);
+    // A stalled computer is no lost connection: 0.5 s otherwise.
+    replace(directory / "plc" / "modbus.yaml", "timeout_ms: 500", "timeout_ms: 5000");
   }
   void TearDown() override {
     cluster.reset();
@@ -74,6 +80,17 @@ struct Hal : ::testing::Test {
     cluster.emplace(directory.string(), Time::real);
     EXPECT_TRUE(cluster->until([&] { return cluster->feedback.mode == DriveMode::FOLLOWING; }))
         << cluster->told();
+    await_door(true);
+  }
+  /// Until the PLC has the input of the door, X24.2: an open one inhibits starts and jog.
+  void await_door(bool closed) {
+    auto images = cluster->client().bus().reader(topics::plc_image);
+    idl::plc::Image image;
+    EXPECT_TRUE(cluster->until([&] {
+      while (images.take(image)) continue;
+      return image.x.size() > 24 && (image.x[24] >> 2 & 1) == (closed ? 1 : 0);
+    })) << cluster->told();
+    EXPECT_TRUE(cluster->until([&] { return cluster->has_alarm(136) != closed; })) << cluster->told();
   }
   void home(std::uint8_t axis) {
     cluster->client().set_mode(0, Mode::REF);
@@ -263,6 +280,104 @@ TEST_F(Hal, AFaultOfADriveSwitchesAllOffAndIsNamed) {
   cluster->reset_alarms();
   EXPECT_TRUE(cluster->until([&] { return cluster->feedback.mode == DriveMode::FOLLOWING; }))
       << cluster->told();
+}
+
+TEST_F(Hal, InputsAndOutputsOfThePlcAreItsPinsAndOutputsEndWithThePlc) {
+  make_encoders_absolute();
+  up();
+  const auto one_line = [&](const char* line) {
+    cluster->client().set_mode(0, Mode::MDI);
+    cluster->client().mdi(0, line);
+    cluster->until([&] { return cluster->state() != RunState::IDLE; }, 1);
+    EXPECT_TRUE(cluster->until([&] { return cluster->state() == RunState::IDLE; }, 20))
+        << line << ": " << cluster->told();
+  };
+  one_line("M8");
+  EXPECT_TRUE(cluster->until([] { return signal("coolant-flood") == 1; }, 2));
+  // M6: the drawbar takes 0.2 s to release and 0.2 s to clamp, as HAL has it.
+  bool released = false;
+  cluster->client().mdi(0, "T1 M6");
+  EXPECT_TRUE(cluster->until([&] { return released = released || signal("tool-released") == 1; }, 5));
+  EXPECT_TRUE(cluster->until([&] { return cluster->state() == RunState::IDLE; }, 10)) << cluster->told();
+  EXPECT_EQ(signal("tool-clamped"), 1);
+  EXPECT_EQ(cluster->active_alarms(), "");
+
+  // A PLC that does not answer: its outputs are 0 after 0.3 s.
+  const int plc = cluster->service("plc")->pid;
+  kill(plc, SIGSTOP);
+  std::this_thread::sleep_for(std::chrono::milliseconds(800));
+  EXPECT_EQ(signal("coolant-flood"), 0);
+  kill(plc, SIGCONT);
+  EXPECT_TRUE(cluster->until([] { return signal("coolant-flood") == 1; }, 5));
+
+  // A killed one: the next takes the connection again.
+  kill(plc, SIGKILL);
+  EXPECT_TRUE(cluster->until(
+      [&] { return cluster->service("plc") != nullptr && cluster->service("plc")->pid != plc; }, 10));
+  EXPECT_TRUE(cluster->until([] { return signal("coolant-flood") == 1; }, 10)) << "M8 is still in force";
+
+  cluster->client().channel(0, CommandKind::RESET);
+  for (int i = 0; i < 20 && !cluster->active_alarms().empty(); ++i) {  // until HAL has connected anew
+    cluster->reset_alarms();
+    cluster->until([&] { return cluster->active_alarms().empty(); }, 0.5);
+  }
+  EXPECT_EQ(cluster->active_alarms(), "");
+
+  // An input: with the door open the spindle does not start.
+  output_of("halcmd sets door-closed 0");
+  await_door(false);
+  EXPECT_THROW(cluster->client().mdi(0, "S100 M3"), std::exception) << "the door is open";
+  output_of("halcmd sets door-closed 1");
+  await_door(true);
+
+  // A door that opens stops the spindle.
+  one_line("S100 M3");
+  EXPECT_TRUE(cluster->until([] { return std::abs(signal("s-speed")) > 90; }, 5)) << cluster->told();
+  output_of("halcmd sets door-closed 0");
+  EXPECT_TRUE(cluster->until([] { return std::abs(signal("s-speed")) < 1; }, 5)) << cluster->told();
+}
+
+TEST_F(Hal, KeysOfThePanelArePinsAndSoAreItsLamps) {
+  make_encoders_absolute();
+  up();
+  cluster->until([] { return false; }, 0.8);  // keys pressed within 0.5 s of the PLC's start are held keys
+  const auto press = [&](const std::string& key, const std::function<bool()>& condition) {
+    output_of("halcmd setp io.key-" + key + " 1");
+    EXPECT_TRUE(cluster->until(condition, 10)) << key << ": " << cluster->told();
+    output_of("halcmd setp io.key-" + key + " 0");
+  };
+  const auto lamp = [](const std::string& name) {
+    return output_of("halcmd getp io.lamp-" + name) == "TRUE";
+  };
+  const auto& state = cluster->channels[0];
+  press("mdi", [&] { return state.mode == Mode::MDI; });
+  EXPECT_TRUE(cluster->until([&] { return lamp("mdi") && !lamp("jog"); }, 5));
+  press("jog", [&] { return state.mode == Mode::JOG; });
+  EXPECT_TRUE(cluster->until([&] { return lamp("jog") && !lamp("mdi"); }, 5));
+  press("single-block", [&] { return state.single_block; });
+  EXPECT_TRUE(cluster->until([&] { return lamp("single-block"); }, 5));
+  const double x = cluster->feedback.position[0];
+  press("x-plus", [&] { return cluster->feedback.position[0] > x + 1; });
+  EXPECT_TRUE(cluster->until([&] { return state.state == RunState::IDLE; }, 10)) << cluster->told();
+  const double rest = rest_of_x();
+  EXPECT_NEAR(signal("x-position"), rest, 1e-6) << "it stays where the key was released";
+}
+
+// The angle of the spindle's encoder in HAL, in revolutions.
+TEST_F(Hal, M19IsFinishedWhenTheSpindleIsHeldAtItsAngle) {
+  make_encoders_absolute();
+  up();
+  cluster->client().set_mode(0, Mode::MDI);
+  for (const char* line : {"S300 M3", "G4 P500", "M19"}) {
+    cluster->client().mdi(0, line);
+    cluster->until([&] { return cluster->state() != RunState::IDLE; }, 1);
+    ASSERT_TRUE(cluster->until([&] { return cluster->state() == RunState::IDLE; }, 20)) << cluster->told();
+  }
+  EXPECT_NEAR(std::remainder(signal("s-angle"), 1.0) * 360, 0, 0.2) << "10a945 is 0 deg, 10a946 0.1 deg";
+  const double angle = signal("s-angle");
+  EXPECT_GT(angle, 1) << "it has turned before";
+  cluster->until([] { return false; }, 0.5);
+  EXPECT_NEAR(signal("s-angle"), angle, 0.001) << "it is held";
 }
 
 TEST_F(Hal, NothingIsLeftWhenTheClusterIsDown) {

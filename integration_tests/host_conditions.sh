@@ -51,7 +51,7 @@ rapid() { "$trunnion" param get 100034 > "$work/said" 2>&1 || fail "param get"; 
 
 printf 'G21 G90 G54\nG0 X5\n#500=5\nG0 X-5\nM30\n' > "$work/part.nc"
 printf 'G0 X7\nM30\n' > "$work/other.nc"
-does up ac-table --time virtual --domain 79 --port $((20000 + $$ % 20000))
+does up ac-table --time virtual --domain 75 --port $((20000 + $$ % 20000))
 does program put "$work/part.nc"
 does param set 100034 21000
 fill
@@ -64,14 +64,14 @@ does channel reset
 does alarms
 fill
 does down
-refused "No space left on device" up ac-table --time virtual --domain 79 --port $((20000 + $$ % 20000))
+refused "No space left on device" up ac-table --time virtual --domain 75 --port $((20000 + $$ % 20000))
 rm "$work/disk/filling"
-does up ac-table --time virtual --domain 79 --port $((20000 + $$ % 20000))
+does up ac-table --time virtual --domain 75 --port $((20000 + $$ % 20000))
 [ "$(rapid)" = "23000 mm/min" ] || [ "$(rapid)" = "23000.0 mm/min" ] || fail "the parameter is lost"
 does program get part.nc "$work/again.nc"
 cmp "$work/part.nc" "$work/again.nc"
 does program get other.nc "$work/again.nc"
 does down
 mount -o remount,ro "$work/disk"
-refused "Read-only file system" up ac-table --time virtual --domain 79 --port $((20000 + $$ % 20000))
+refused "Read-only file system" up ac-table --time virtual --domain 75 --port $((20000 + $$ % 20000))
 [ ! -e "/tmp/trunnion-$(id -u)" ] || fail "the run directory is left"

@@ -10,9 +10,9 @@ fail() { echo "$*" >&2; exit 1; }
 is() { [ "$2" = "$3" ] || fail "$1: expected '$3', there is '$2'"; }
 
 # Every machine's programs in Structured Text, without warnings, and every test.
-for directory in "$examples/plc-ladder" "$examples/plc-tool-changer" $(ls -d "$machines"/*/plc); do
+for directory in "$examples/plc-ladder" "$examples/plc-pid" "$examples/plc-tool-changer" $(ls -d "$machines"/*/plc); do
   ls "$directory"/*.st > /dev/null 2>&1 || continue
-  is "$directory" "$(find "$directory/" -name "*.st" -o -name "*.xml" -o -name devices.yaml | sort | xargs "$trunnion" plc check | grep -v '^No errors' || true)" ""
+  is "$directory" "$(find "$directory/" -name "*.st" -o -name "*.xml" -o -name devices.yaml -o -name messages.yaml -o -name modbus.yaml | sort | xargs "$trunnion" plc check | grep -v '^No errors\|: at most [0-9]* statements in one run$' || true)" ""
   ! grep -lq '^TEST' "$directory"/*.st || "$trunnion" plc test "$directory" > "$work/tests" || fail "$(cat "$work/tests")"
 done
 
@@ -57,6 +57,47 @@ refused "the other" "bad.st:3:6: error: expected a whole number (INT), found a n
 printf 'PROGRAM main\nVAR i, n : INT; END_VAR\nn := 1 / i;\nEND_PROGRAM\n' > fault.st
 refused "a fault" "fault.st:3:8: division by zero" run fault.st
 
+# A configuration, the largest number of statements, what two tasks write, the cross reference.
+cat > line.st <<'END'
+CONFIGURATION plant
+RESOURCE plc ON PLC
+TASK quick(INTERVAL := T#1ms);
+TASK slow(INTERVAL := T#20ms);
+PROGRAM left WITH quick : conveyor(start := %X9.0);
+PROGRAM right WITH slow : conveyor(start := TRUE);
+END_RESOURCE
+END_CONFIGURATION
+PROGRAM conveyor
+VAR_INPUT start : BOOL; END_VAR
+VAR moved, i : INT; END_VAR
+IF start THEN moved := moved + 1; END_IF;
+FOR i := 1 TO 5 DO %W10 := 1; END_FOR;
+WHILE moved > 100 DO moved := 0; END_WHILE;
+END_PROGRAM
+END
+is instances "$("$trunnion" plc run line.st --scans 4 | grep moved)" "$(printf 'left.moved = 0\nright.moved = 2')"
+"$trunnion" plc check line.st --cross-reference > out
+for line in "fast: no limit of its statements is known, because of the loop at line.st:14:1" "%W10" "  line.st:13:20: writes" \
+  "line.st:13:20: warning: the register %W10 is written by the tasks main and fast (line.st:13:20): the one that runs last decides"; do
+  grep -qxF -- "$line" out || fail "check of a configuration: no '$line' in $(cat out)"
+done
+sed -i /^WHILE/d line.st
+# The call of the program and its entry, IF with one, FOR with five times one and the way back.
+is statements "$("$trunnion" plc check line.st | grep '^main')" "main: at most 15 statements in one run"
+is "cross reference" "$("$trunnion" plc check line.st --cross-reference --json | grep -o '"name":"conveyor.start"')" '"name":"conveyor.start"'
+
+# Instruction lists: errors with their places, the cross reference together with that of other files.
+printf 'LD %%X9.0\nAND M7\nST %%Y9.0\n' > wrong.il
+refused "an instruction list" "wrong.il:2:5: error: 'M7' is neither an address nor a name" check wrong.il
+"$trunnion" plc check wrong.il --json > out 2>&1 || true
+grep -q '"severity":"error","file":"wrong.il","line":2,"column":5' out || fail "$(cat out)"
+printf 'VAR\n  lamp AT %%Y9.0 : BOOL\nEND_VAR\nLD %%X9.0\nST lamp\nLD %%W10\nADD 1\nST %%W11\n' > fast.il
+sed -i '/quick/d' line.st
+"$trunnion" plc check line.st fast.il --cross-reference > out || fail "$(cat out)"
+grep -A1 -x "%Y9.0  lamp" out | grep -qx "  fast.il:5:4: writes" || fail "$(cat out)"
+grep -A2 -x "%W10" out | grep -qx "  fast.il:6:4: reads" || fail "$(cat out)"
+"$trunnion" plc check fast.il > out || fail "$(cat out)"
+
 # The blocks of the tutorial: each is a whole unit or a part of one that step 3 begins.
 awk '/^## Tutorial/ { tutorial = 1 } !tutorial { next } /^```/ { inside = !inside; if (inside) ++n; next } inside { print > ("tutorial_" n ".st") }' "$docs/plc.md"
 for n in 1 2 3; do
@@ -68,3 +109,13 @@ cp tutorial_4.st steps/changer_test.st
 refused "the test of step 4" "changer_test.st:6:1: the assertion is not met" test steps
 sed -i "/^arm_forward := state/e cat $work/tutorial_5.st" steps/tool_changer.st
 "$trunnion" plc test steps > out || fail "$(cat out)"
+# Step 5, and steps 6 and 7 with the files of the example: what the tutorial builds passes the example's tests.
+sed -i -e '/^VAR_INPUT/s/END_VAR/limit : TIME := T#2s; END_VAR/' -e '/^VAR state/s/END_VAR/watch : TON; END_VAR/' \
+  -e "/^CASE/e cat $work/tutorial_6.st" -e 's/NOT spindle_at_rest) THEN/NOT spindle_at_rest OR watch.Q) THEN/' steps/tool_changer.st
+example=$examples/plc-tool-changer
+diff tutorial_7.st <(grep -v SPDX "$example/devices.yaml") > out || fail "step 6 of the tutorial is not the example: $(cat out)"
+diff tutorial_8.st <(grep -v SPDX "$example/main.st") > out || fail "step 7 of the tutorial is not the example: $(cat out)"
+cp tutorial_7.st steps/devices.yaml
+cp tutorial_8.st steps/main.st
+cp "$example/changer_test.st" steps/
+"$trunnion" plc test steps > out || fail "the changer of the tutorial with the tests of the example: $(cat out)"

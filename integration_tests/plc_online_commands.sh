@@ -59,9 +59,9 @@ is released "$(plc force --list)" "Nothing is forced"
 "$trunnion" channel reset --domain "$domain" > /dev/null || true
 
 plc tasks > "$work/tasks"
-is "tasks" "$(awk '{print $1}' "$work/tasks" | xargs)" "task scan fast main"
+is "tasks" "$(awk '{print $1}' "$work/tasks" | xargs)" "task scan simulation fast main"
 plc tasks --json | "$python" -c 'import json, sys
-scan, fast, main = json.load(sys.stdin)
+scan, simulation, fast, main = json.load(sys.stdin)
 assert scan["budget_us"] == 1000 and 0 < scan["last_us"] <= scan["worst_us"], scan
 assert scan["statements"] >= fast["statements"] > 0 and main["statement_budget"] == 200 and main["most_statements"] <= 200, main' ||
   fail "$(cat "$work/tasks")"
@@ -129,4 +129,25 @@ is "lines of the journal" "$("$python" -c 'import json, sys
 print(*[json.loads(line)["what"] for line in open(sys.argv[1])])' "$work/state/plc.jsonl")" "force release force release load load load"
 "$trunnion" state check --state "$work/state" > "$work/out" 2>&1 || fail "$(cat "$work/out")"
 grep -q "plc.programs" "$work/out" || fail "$(cat "$work/out")"
+stop_cluster
+
+# The kept programs are damaged: the generation before runs, and says so; of nothing that can be read, the machine's own.
+damage() { printf 'x' | dd of="$work/state/$1" bs=1 seek=40 conv=notrunc status=none; }
+alarms() { "$trunnion" alarms --domain "$domain"; }
+damage plc.programs
+start_cluster "$work/m"
+alarms > "$work/alarms"
+grep -q "153.*plc.programs is damaged .*PLC programs that were loaded while it ran of generation" "$work/alarms" || fail "$(cat "$work/alarms")"
+plc programs | grep -q "loaded" || fail "$(plc programs)"
+"$trunnion" alarms --reset --domain "$domain" > /dev/null
+stop_cluster
+start_cluster "$work/m"
+! alarms | grep -q "plc.programs" || fail "it is still damaged: $(alarms)"
+stop_cluster
+damage plc.programs
+damage plc.programs.previous
+start_cluster "$work/m"
+alarms > "$work/alarms"
+grep -q "154.*plc.programs is damaged .*are lost" "$work/alarms" || fail "$(cat "$work/alarms")"
+plc programs | grep -q "machine's directory" || fail "$(plc programs)"
 stop_cluster

@@ -46,12 +46,32 @@ printf 'G90 G54\nG0 X99999\nM30\n' > "$work/far.nc"
 status=0
 "$trunnion" program check far "${here[@]}" > "$work/out" 2>&1 || status=$?
 [ $status = 1 ] && grep -q "far.nc:2" "$work/out" || fail "X99999 is within the travel? $(cat "$work/out")"
+printf 'G90 G54\nT99 M6\nM30\n' > "$work/tool.nc"
+status=0
+"$trunnion" check "$work/tool.nc" --machine ac-table > "$work/out" 2>&1 || status=$?
+[ $status = 1 ] && grep -q "tool.nc:2.*T99" "$work/out" && grep -q 1709 "$work/out" || fail "T99 is there? $(cat "$work/out")"
+
+# The tables of the running machine count, and the programs that it has stored: O99 is in no folder of the machine.
+printf 'G90 G54\nT17 M6\nG0 X150\nM98 P99\nM30\n' > "$work/calls.nc"
+printf 'G0 X-150\nM99\n' > "$work/O99.nc"
+for name in calls.nc O99.nc; do "$trunnion" program put "$work/$name" "${here[@]}" > "$work/out"; done
+status=0
+"$trunnion" program check calls "${here[@]}" > "$work/out" 2>&1 || status=$?
+[ $status = 1 ] && grep -q "calls.nc:2.*1709" "$work/out" || fail "tool 17 is not there: $(cat "$work/out")"
+curl -fsS -X PUT -H "Content-Type: application/json" -d "{\"length\": 80, \"length_wear\": 0, \"radius\": 5, \"radius_wear\": 0, \"name\": \"drill\"}" \
+  "http://127.0.0.1:$((20000 + domain))/api/tools/17" > "$work/out" || fail "$(cat "$work/out")"
+"$trunnion" program check calls "${here[@]}" > "$work/out" 2>&1 || fail "tool 17 is there: $(cat "$work/out")"
+"$trunnion" param set 100007 -100 "${here[@]}" > "$work/out"
+"$trunnion" channel reset "${here[@]}"
+status=0
+"$trunnion" program check calls "${here[@]}" > "$work/out" 2>&1 || status=$?
+[ $status = 1 ] && grep -q "O99.nc:1" "$work/out" || fail "X-150 is within -100? $(cat "$work/out")"
 
 # A program that a channel executes stays.
 printf 'G21 G90 G54\nG0 X5\nM0\nM30\n' > "$work/held.nc"
 "$trunnion" program put "$work/held.nc" "${here[@]}" > "$work/out"
 "$trunnion" channel mode auto "${here[@]}"
-"$trunnion" channel select held.nc "${here[@]}"
+"$trunnion" channel select held "${here[@]}"
 "$trunnion" channel start "${here[@]}"
 sleep 1
 refused "is being executed by channel 0" program delete held "${here[@]}"

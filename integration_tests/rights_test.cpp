@@ -2,9 +2,11 @@
 // idl/topics.yaml says who writes and who reads a topic, and in a secured cluster these are rights. Here the
 // table is compared with what the processes of a whole cluster open, as DDS discovery tells it.
 #include <dds/dds.h>
-#include <algorithm>
 
+#include <algorithm>
+#include <array>
 #include <atomic>
+#include <cstdio>
 #include <fstream>
 #include <mutex>
 #include <set>
@@ -76,7 +78,7 @@ class Discovery {
   }
   /// A stage that is to replace another writes beside it; the right to the topic includes that.
   static std::string handle_of(std::string topic) {
-    const std::string beside = "/shadow";
+    const std::string beside = topics::standby_suffix;
     if (topic.ends_with(beside)) topic.resize(topic.size() - beside.size());
     const auto* entry = bus::find_topic(topic);
     return entry != nullptr ? entry->handle : topic;
@@ -106,7 +108,7 @@ class Discovery {
   std::thread thread_;
 };
 
-/// The machine with a gantry, and a second replica of its kinematics.
+/// The machine with a gantry, a second replica of its kinematics, and every optional service.
 class RedundantMachine {
  public:
   RedundantMachine()
@@ -118,6 +120,7 @@ class RedundantMachine {
     const auto at = text.find(one);
     EXPECT_NE(at, std::string::npos);
     text.insert(at + one.size(), ", replicas: 2");
+    text.insert(at, "{service: measurement}\n  - ");
     std::ofstream(directory_ / "machine.yaml") << text;
   }
   ~RedundantMachine() { fs::remove_all(directory_); }
@@ -142,7 +145,16 @@ Handles granted(const std::string& identity, bool is_service,
   return handles;
 }
 
-int run(const std::string& command) { return std::system((command + " > /dev/null 2>&1").c_str()); }
+/// What the command printed when it failed, else empty.
+std::string failure(const std::string& command) {
+  std::string printed;
+  FILE* const output = popen((command + " 2>&1").c_str(), "r");
+  if (output == nullptr) return "cannot be started";
+  std::array<char, 512> part{};
+  while (std::fgets(part.data(), part.size(), output) != nullptr) printed += part.data();
+  const int status = pclose(output);
+  return status == 0 ? "" : "exit " + std::to_string(WEXITSTATUS(status)) + ": " + printed;
+}
 
 TEST(Rights, EveryRightIsUsedAndNothingIsOpenedWithoutOne) {
   const RedundantMachine machine;
@@ -152,17 +164,23 @@ TEST(Rights, EveryRightIsUsedAndNothingIsOpenedWithoutOne) {
   const auto here = cluster::binary_directory();
   const auto more = " --domain " + std::to_string(domain);
   const auto recording = machine.path() + "/day.mcap";
-  EXPECT_EQ(run(here + "/trunnion record " + recording + " --duration 1" + more), 0);
+  EXPECT_EQ(failure(here + "/trunnion record " + recording + " --duration 1" + more), "");
   // A process that is to replace another opens what it needs to be compared with it.
   for (const auto& service : machine::service::all)
-    EXPECT_EQ(run(here + "/trunnion swap " + service.name + more), 0) << service.name;
+    EXPECT_EQ(failure(here + "/trunnion swap " + service.name + more), "") << service.name;
   ASSERT_TRUE(cluster.until([&] { return cluster.ready(); })) << cluster.told();
-  EXPECT_EQ(run(here + "/trunnion servo test current --axis X" + more), 0);
-  EXPECT_EQ(run(here + "/trunnion plc variables" + more), 0);
-
-  // What a process on standby opens exists for less than a second, so the discovery may miss it; a stage that
-  // was swapped may still be about to open the feedback. What was seen is kept, so such a service is swapped
-  // again.
+  // What a command or a process on standby opens exists for less than a second, so the discovery may miss it;
+  // a stage that was swapped may still be about to open the feedback. What was seen is kept, so such a
+  // command is given again, and such a service swapped again.
+  const auto commands_are_seen = [&] {
+    const auto opened = discovery.by_identity();
+    const auto found = opened.find("deploy");
+    return found != opened.end() &&
+           found->second.written == granted("deploy", false, &bus::TopicEntry::writers);
+  };
+  for (int round = 0; round == 0 || (round < 5 && !cluster.until(commands_are_seen, 1)); ++round)
+    for (const std::string command : {"servo test current --axis X", "plc variables", "calibrate discard"})
+      EXPECT_EQ(failure(here + "/trunnion " + command + more), "") << command;
   const auto is_seen = [&](const machine::ServiceDefinition& service) {
     const auto opened = discovery.by_identity();
     const auto found = opened.find(service.name);
@@ -172,7 +190,7 @@ TEST(Rights, EveryRightIsUsedAndNothingIsOpenedWithoutOne) {
   };
   for (const auto& service : machine::service::all)
     for (int round = 0; round < 5 && !cluster.until([&] { return is_seen(service); }, 1); ++round)
-      run(here + "/trunnion swap " + service.name + more);
+      failure(here + "/trunnion swap " + service.name + more);
   const auto opened = discovery.by_identity();
   for (const auto& service : machine::service::all) {
     ASSERT_TRUE(opened.contains(service.name)) << service.name;

@@ -1,27 +1,74 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# run_interrupted.sh TRUNNION: Ctrl-C and SIGTERM during `trunnion run` stop the cluster of the run.
+# run_interrupted.sh TRUNNION: a cluster that a command has started for itself ends with the command, in whatever way.
 set -euo pipefail
 trunnion=$1
 work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
+run=
+trap '[ -z "$run" ] || kill "$run" 2> /dev/null || true; rm -rf "$work"' EXIT
 fail() { echo "$1"; cat "$work/said"; exit 1; }
 
-for signal in INT TERM; do
+begin() {
   "$trunnion" run ac-table nas979_cone --real-time --report "$work/report" > "$work/said" 2>&1 &
   run=$!
-  for _ in $(seq 200); do
-    grep -q "is ready in" "$work/said" && break
+  for _ in $(seq 600); do
+    grep -q "is ready in .*domain [0-9]*)" "$work/said" && break
     sleep 0.05
   done
   domain=$(sed -n 's/.*domain \([0-9]*\)).*/\1/p' "$work/said")
   [ -n "$domain" ] || fail "the run does not name its domain"
+  launcher=$(pgrep -f -- "trunnion-launcher .*--domain $domain ")
+  of_the_run=$(processes)
+  [ "$(echo "$of_the_run" | wc -w)" -ge 8 ] || fail "the processes of the run are not found: $of_the_run"
   sleep 1  # in motion
+}
+
+# Afterwards another cluster of this computer may have taken the domain.
+processes() { pgrep -f -- "--domain $domain " || true; }
+# Not one that has ended and that its new parent has not waited for.
+runs() { [ -e "/proc/$1" ] && [ -n "$(cat "/proc/$1/cmdline" 2> /dev/null | tr -d "\0")" ]; }
+nothing_left() {
+  for pid in $of_the_run; do
+    ! runs "$pid" || fail "$1: a process is left: $(tr '\0' ' ' < "/proc/$pid/cmdline")"
+  done
+  local directory="/tmp/trunnion-$(id -u)/$domain"
+  ! grep -qs "\b$launcher\b" "$directory/launcher.pid" || fail "$1: the run directory is left"
+}
+wait_until_gone() {
+  for _ in $(seq 200); do
+    local left=0
+    for pid in $of_the_run; do ! runs "$pid" || left=1; done
+    [ $left = 1 ] || return 0
+    sleep 0.05
+  done
+}
+
+for signal in INT TERM; do
+  begin
   kill -$signal $run
   status=0
   wait $run || status=$?
   [ $status = 1 ] || fail "SIG$signal: status $status"
   grep -q "trunnion: interrupted; the cluster of the run was stopped" "$work/said" || fail "SIG$signal: it does not say so"
-  ! pgrep -f -- "--domain $domain " > "$work/left" || fail "SIG$signal: processes are left: $(cat "$work/left")"
-  [ ! -e "/tmp/trunnion-$(id -u)/$domain" ] || fail "SIG$signal: the run directory is left"
+  nothing_left "SIG$signal"
 done
+
+# Nothing of the command is left that could stop it: the launcher does so itself.
+begin
+kill -KILL $run
+wait $run 2> /dev/null || true
+wait_until_gone
+nothing_left SIGKILL
+
+# The reader of the output is gone before the first line of a command with a cluster of its own.
+set +e
+"$trunnion" gantry gantry-cb-head --domain 78 2> "$work/said" | true
+status=${PIPESTATUS[0]}
+set -e
+[ $status = 141 ] || fail "closed pipe: status $status, not that of SIGPIPE"
+domain=78
+for _ in $(seq 400); do
+  [ -e "/tmp/trunnion-$(id -u)/$domain" ] || break
+  sleep 0.05
+done
+[ -z "$(processes)" ] || fail "closed pipe: processes are left: $(processes)"

@@ -29,7 +29,7 @@ class Authority {
       : directory_(fs::temp_directory_path() / ("trunnion-" + name + "-" + std::to_string(getpid()))) {
     fs::remove_all(directory_);
     const auto made = output_of(std::string(TRUNNION_SECURITY) + "/make_certificates.sh " + path());
-    EXPECT_NE(made.find("22 identities"), std::string::npos) << made;
+    EXPECT_NE(made.find("24 identities"), std::string::npos) << made;
   }
   ~Authority() { fs::remove_all(directory_); }
   Authority(const Authority&) = delete;
@@ -174,7 +174,9 @@ TEST(Security, PermissionsAreThoseOfTheTopics) {
             (Names{"kinematics", "deploy", "recorder"}));
   EXPECT_EQ(who_may(directory, "publish", "trunnion/service/swap_request/1"), Names{"deploy"})
       << "it carries the path of an executable";
-  EXPECT_EQ(who_may(directory, "publish", "trunnion/channel/request/1"), (Names{"deploy", "gateway"}));
+  EXPECT_EQ(who_may(directory, "publish", "trunnion/channel/request/1"),
+            (Names{"deploy", "gateway", "measurement", "plc"}))
+      << "the operator panel";
   EXPECT_EQ(who_may(directory, "publish", "trunnion/service/alarm_reset/1"),
             (Names{"deploy", "gateway", "plc"}))
       << "G2960.3 of the PLC is an external reset";

@@ -27,6 +27,8 @@ program() { "$trunnion" program list --domain "$domain"; }
 
 # The scale counts backwards and twice as far: both are found before the loop is closed over it, and written.
 ! servo encoders --axis X > "$work/encoders" || fail "the wrong scale passes"
+# 10 mm are 131072 pulses of the motor: 13 times 10000 and 1072, within 20.
+grep -q '^DP-PFH  *13' "$work/encoders" && grep -q '^DP-PFL  *10[5-9][0-9]' "$work/encoders" || fail "$(cat "$work/encoders")"
 grep -q '^load over motor  *-\(2\.00\|1\.999\)' "$work/encoders" || fail "$(cat "$work/encoders")"
 servo encoders --axis X --write > /dev/null || true
 "$trunnion" param set 100930 1 --domain "$domain" > /dev/null
@@ -82,15 +84,18 @@ done < "$work/values"
 
 # Every test with its report; the limits of the manual are reached.
 for test in "position --axis X" "speed --axis X" "overshoot --axis X" "current --axis X" "friction --axis X" \
-  "frequency --axis Y" "frequency --axis X --loop position --feed 600" "roundness --axis Y --axis Z --radius 50"; do
+  "frequency --axis Y" "frequency --axis X --loop position --feed 600" "roundness --axis X --axis Y"; do
   # shellcheck disable=SC2086
   servo test $test --json --plot "$work/plot.svg" > "$work/test.json" || fail "$test: $(cat "$work/test.json")"
   "$python" -c 'import json, sys, xml.dom.minidom as x; assert json.load(open(sys.argv[1]))["reached"]; x.parse(sys.argv[2])' \
     "$work/test.json" "$work/plot.svg" || fail "$test: $(cat "$work/test.json")"
 done
+# The last of them is the circle: a mark at every reversal.
+[ "$(grep -o 'class="quadrant"' "$work/plot.svg" | wc -l)" = 4 ] || fail "the circle has no marks at its quadrants"
 "$trunnion" mdi "G53 G1 X60 F3000" --domain "$domain" > /dev/null
-servo test rtcp --axis C --json > "$work/rtcp.json" || true
-"$python" -c 'import json, sys; assert len(json.load(open(sys.argv[1]))["figures"]) == 6' "$work/rtcp.json" || fail "$(cat "$work/rtcp.json")"
+servo test rtcp --axis C --json > "$work/rtcp.json" || fail "$(cat "$work/rtcp.json")"
+"$python" -c 'import json, sys; r = json.load(open(sys.argv[1])); assert len(r["figures"]) == 6 and r["reached"]' "$work/rtcp.json" ||
+  fail "$(cat "$work/rtcp.json")"
 
 # Bad input is one line.
 one_line() {

@@ -6,6 +6,7 @@
 #include "cluster/swap_ticket.hpp"
 #include "cluster_harness.hpp"
 #include "machine/services.hpp"
+#include "machine_copy.hpp"
 
 namespace trunnion::integration {
 namespace {
@@ -128,40 +129,11 @@ TEST_F(Swapping, AStageThatComputesOtherwiseIsNotTaken) {
   EXPECT_FALSE(std::filesystem::exists(cluster.running().state_directory + "/" + cluster::swap_journal_file));
 }
 
-// ac-table in a place where its files may be changed.
-class OwnMachine {
- public:
-  OwnMachine()
-      : directory_(std::filesystem::temp_directory_path() /
-                   ("trunnion-machine-" + std::to_string(getpid()))) {
-    std::filesystem::remove_all(directory_);
-    std::filesystem::copy(cluster::find_machine("ac-table"), directory_,
-                          std::filesystem::copy_options::recursive);
-  }
-  ~OwnMachine() { std::filesystem::remove_all(directory_); }
-  OwnMachine(const OwnMachine&) = delete;
-  OwnMachine& operator=(const OwnMachine&) = delete;
-  std::string path() const { return directory_.string(); }
-  std::ofstream append(const std::string& file) const { return {directory_ / file, std::ios::app}; }
-  void replace(const std::string& file, const std::string& from, const std::string& to) const {
-    std::ostringstream text;
-    text << std::ifstream(directory_ / file).rdbuf();
-    auto content = text.str();
-    const auto at = content.find(from);
-    ASSERT_NE(at, std::string::npos) << from;
-    content.replace(at, from.size(), to);
-    std::ofstream(directory_ / file) << content;
-  }
-
- private:
-  std::filesystem::path directory_;
-};
-
 // With errors to compensate: backlash on X and Y, a pitch table for each direction on X, a table that repeats
 // on C.
-class MachineWithErrors : public OwnMachine {
+class MachineWithErrors : public MachineCopy {
  public:
-  MachineWithErrors() {
+  MachineWithErrors() : MachineCopy("ac-table") {
     auto out = append("parameters.yaml");
     const auto set = [&](unsigned number, double value) { out << '"' << number << "\": " << value << "\n"; };
     for (const unsigned axis : {300000u, 301000u}) set(axis, 1), set(axis + 1, 0.013), set(axis + 2, 0.0007);
@@ -248,8 +220,8 @@ TEST_F(Swapping, ThePlcIsComparedTickByTickOverMCodesAndItsSwapChangesNoBitOfThe
 }
 
 TEST_F(Swapping, InRealTimeThePlcIsComparedAtTheTicksTheClockGaveTheOldOne) {
-  const OwnMachine machine;
-  machine.append("parameters.yaml") << "\"000900\": " << lead_beyond_stalls << "\n";
+  const MachineCopy machine("ac-table");
+  machine.set_lead(lead_beyond_stalls);
   Cluster cluster(machine.path(), Time::real);
   cluster.start_text(functions(4000));
   ASSERT_TRUE(cluster.until([&] { return cluster.channels[0].line > 4; })) << cluster.told();
@@ -271,7 +243,7 @@ TEST_F(Swapping, InRealTimeThePlcIsComparedAtTheTicksTheClockGaveTheOldOne) {
 }
 
 TEST_F(Swapping, APlcAndKeepersThatWouldDoOtherwiseAreNotTaken) {
-  const OwnMachine machine;
+  const MachineCopy machine("ac-table");
   Cluster cluster(machine.path());
   cluster.start_text(functions(40000));
   ASSERT_TRUE(cluster.until([&] { return cluster.expected_cycle > 500; }));
@@ -290,7 +262,8 @@ TEST_F(Swapping, APlcAndKeepersThatWouldDoOtherwiseAreNotTaken) {
                 .find("differs in tick "),
             std::string::npos);
   // The same executable with another program: a lamp that the next M code switches on.
-  machine.replace("plc/main.st", "END_PROGRAM", "IF m_strobe_0 THEN %Y31.0 := TRUE; END_IF;\nEND_PROGRAM");
+  machine.replace("plc/main.st",
+                  "alarm_lamp :=", "IF m_strobe_0 THEN %Y31.0 := TRUE; END_IF;\nalarm_lamp :=");
   refused("plc", "", ", register Y31: 0 and 1 (the first is");
   machine.replace("plc/main.st", "END_PROGRAM", "nothing_of_that_name := 1;\nEND_PROGRAM");
   refused("plc", "", "main.st:");

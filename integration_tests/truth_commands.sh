@@ -16,6 +16,8 @@ is ideal "$(printf 'X10 Y200\n' | "$trunnion" truth "$machine" --tool-length 100
   "10.000000 200.000000 -100.000000 0.000000000 0.000000000 1.000000000 0.000 0.000 0.000 0.000 0.000 0.000"
 # Squareness of 10 urad over 200 mm, given in the call.
 is set "$(printf 'X10 Y200\n' | "$trunnion" truth "$machine" --set C0Y=10 | cut -d' ' -f7-9)" "-2.000 0.000 0.000"
+! "$trunnion" truth "$machine" --set C0Y=1e9 < /dev/null 2> "$work/error" || fail "1e9 urad are accepted"
+is limits "$(cat "$work/error")" "trunnion: --set C0Y=1e9: expected a number within -100000 .. 100000"
 # What was answered before a fault stays.
 status=0
 out=$(printf '# first\nX1\nX2 Q3\n' | "$trunnion" truth "$machine" 2> "$work/error") || status=$?
@@ -42,15 +44,23 @@ for picture in grid circle laser; do well_formed "$work/$picture.svg"; done
 # A cluster whose X has two masses, backlash and a coarse scale: twice the same bits, and others than an ideal one.
 printf 'G90 G1 F3000 X30 Y10\nG3 X30 Y10 I-10 J0\nG1 X0 Y0\nM30\n' > "$work/circle.nc"
 run() {
-  "$trunnion" run "$machine" "$work/circle.nc" --report "$work/$1" > "$work/$1.log" 2>&1 || fail "$(cat "$work/$1.log")"
-  "$trunnion" export "$work/$1/recording.mcap" --csv feedback_frame > "$work/$1.csv"
+  local name=$1
+  shift
+  "$trunnion" run "$machine" "$work/circle.nc" --report "$work/$name" "$@" > "$work/$name.log" 2>&1 || fail "$(cat "$work/$name.log")"
+  "$trunnion" export "$work/$name/recording.mcap" --csv feedback_frame > "$work/$name.csv"
 }
+rm "$machine/truth.yaml"
+run none
+: > "$machine/truth.yaml"
 run ideal
+cmp "$work/none.csv" "$work/ideal.csv" || fail "an empty truth.yaml changes the machine"
 printf 'drives:\n  X:\n    mechanics: {coulomb: 0.02, backlash_um: 10}\n    load_encoder: {resolution_um: 1}\n' \
   > "$machine/truth.yaml"
 run first
 run second
 cmp "$work/first.csv" "$work/second.csv" || fail "the second run differs"
+run other_vendor --vendor fastdds
+cmp "$work/first.csv" "$work/other_vendor.csv" || fail "the feedback differs between the vendors"
 commanded() { cut -d, -f5-9 "$1"; }
 cmp <(commanded "$work/first.csv") <(commanded "$work/ideal.csv") || fail "the commands differ from the ideal machine's"
 ! cmp -s "$work/first.csv" "$work/ideal.csv" || fail "the drive does not use truth.yaml"

@@ -22,7 +22,7 @@ for service in json.load(open(sys.argv[1]))["services"]: print(os.readlink("/pro
 # The launcher publishes the new process numbers a moment after a swap.
 others_run() {
   for _ in $(seq 50); do
-    [ "$(executables 2> /dev/null | grep -c "^$work/other/trunnion-")" = 9 ] && return
+    [ "$(executables 2> /dev/null | grep -c "^$work/other/trunnion-")" = 10 ] && return
     sleep 0.1
   done
   return 1
@@ -31,7 +31,7 @@ others_run() {
 cp -r "$machines/ac-table" "$work/machine"
 echo "swap_directories: [$work/other, $work/partial, $work/faulty]" >> "$work/machine/machine.yaml"
 mkdir "$work/other" "$work/partial" "$work/faulty"
-for service in parameters program plc drive gantry compensation kinematics channel gateway; do
+for service in parameters program plc drive gantry compensation kinematics channel gateway measurement; do
   cp "$built/trunnion-$service" "$work/other"
 done
 cp "$work/other"/* "$work/faulty"
@@ -58,7 +58,7 @@ for _ in $(seq 100); do
 done
 
 "$trunnion" upgrade "$work/other" "${here[@]}" > "$work/upgrade" 2>&1 || { cp "$work/upgrade" "$work/said"; fail "upgrade"; }
-[ "$(grep -c '^\[[0-9]*/9\] ' "$work/upgrade")" = 9 ] || { cp "$work/upgrade" "$work/said"; fail "not nine lines"; }
+[ "$(grep -c '^\[[0-9]*/10\] ' "$work/upgrade")" = 10 ] || { cp "$work/upgrade" "$work/said"; fail "not ten lines"; }
 others_run || fail "not every service is the other build's"
 "$trunnion" mdi "G0 X-10 Y0" "${here[@]}" > "$work/said" || fail "mdi after the upgrade"
 

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <fstream>
 
 #include "bus/codec.hpp"
 #include "bus/json.hpp"
@@ -42,6 +43,7 @@ class Operator {
     idl::gateway::OperatorRequest line{};
     line.line = ++lines_;
     line.sender = sender;
+    line.user = user;
     line.method = method;
     line.target = target;
     line.body = body.size() <= 1024 ? body : "";
@@ -93,6 +95,52 @@ class Operator {
          bus::text_of({{"accepted", true}, {"program", bus::to_json(reply.entry)}}), 3);
   }
 
+  // The plan of a program that is not there: one request to the program service.
+  void plan_missing(const std::string& name) {
+    idl::program::ProgramRequest request{};
+    request.client = client;
+    request.number = ++number_;
+    request.operation = idl::program::Operation::RESOLVE;
+    request.name = name;
+    add(topics::program_request, request);
+    idl::program::ProgramReply reply{};
+    reply.client = client;
+    reply.number = number_;
+    reply.alarm = 141;
+    reply.reason = "program '" + name + "' is not in the store";
+    add(topics::program_reply, reply);
+    line("GET", "/api/programs/" + name + "/plan", "", 404,
+         R"({"type":"about:blank","title":"Not Found","status":404,"detail":"no program )" + name +
+             R"(, or it is larger than 8 MB"})",
+         1);
+  }
+
+  // A change of a parameter by `name`, who was logged in, whatever the body says.
+  void change(std::uint32_t parameter, double value, const std::string& name) {
+    idl::parameters::ParameterRequest request{};
+    request.client = client;
+    request.number = ++number_;
+    request.operation = idl::parameters::Operation::SET;
+    request.who = name;
+    idl::parameters::Parameter changed{};
+    changed.number = parameter;
+    changed.value = value;
+    request.values.push_back(changed);
+    add(topics::parameter_request, request);
+    idl::parameters::ParameterReply reply{};
+    reply.client = client;
+    reply.number = number_;
+    reply.accepted = true;
+    reply.revision = 5;
+    add(topics::parameter_reply, reply);
+    user = name;
+    line("PUT", "/api/parameters/" + std::to_string(parameter),
+         bus::text_of({{"value", value}, {"who", "hmi"}}), 200,
+         bus::text_of({{"accepted", true}, {"revision", 5}, {"pending", 0}}), 1);
+  }
+
+  std::string user;  ///< logged in, of the lines that follow
+
  private:
   static constexpr std::uint64_t client = 4711;
   verification::StoredRecording& recording_;
@@ -127,6 +175,7 @@ class VerifyGateway : public testing::Test {
     with.line("POST", "/api/channels/0/cycle-start", "", 403,
               R"({"error":"a page of another site must not operate this machine"})", 0, Sender::FOREIGN_PAGE);
     with.upload("A.NC", std::string(3000, ';'));
+    with.plan_missing("NONE.NC");
     with.line("POST", "/api/channels/0/mdi", "{}", 400,
               R"({"error":"the field line is missing","field":"line"})", 0);
     with.order("/api/channels/0/jog", R"({"axis":"X","speed":600,"press":9})",
@@ -151,13 +200,38 @@ TEST_F(VerifyGateway, DoesShowsAndAnswersWhatIsRecordedOnEitherVendor) {
     const auto result = verification::verify(options_);
     EXPECT_TRUE(result.equal()) << vendor << ": " << result.problem
                                 << text_of(result.difference, "recorded", "written now");
-    EXPECT_EQ(result.requests, 7u);
+    EXPECT_EQ(result.requests, 8u);
     EXPECT_EQ(result.left_out, 0u);
     EXPECT_GE(result.samples, 2u) << "before the first request and at the end at least";
     std::size_t compared = 0;
     for (const auto& topic : result.difference.topics) compared += topic.compared;
-    EXPECT_EQ(compared, 7u + 4u + 3u) << "lines, orders to the channel, requests to the program service";
+    EXPECT_EQ(compared, 8u + 4u + 4u) << "lines, orders to the channel, requests to the program service";
   }
+}
+
+TEST_F(VerifyGateway, ARecordingOfAMachineWithUsersAndTlsIsVerifiedWithoutThem) {
+  const auto machine = fs::temp_directory_path() / ("trunnion-users-" + std::to_string(getpid()));
+  fs::copy(cluster::find_machine("ac-table"), machine, fs::copy_options::recursive);
+  std::ofstream(machine / "machine.yaml", std::ios::app) << "auth: on\ntls: on\n";
+  options_.machine = machine.string();
+  auto recording = verification::load_recording(options_.machine + "/recordings/golden.mcap");
+  std::erase_if(recording.messages, [](const auto& m) { return m.topic->handle == "operator_request"; });
+  Operator with(recording);
+  with.change(100034, 24000, "anna");
+  with.line("POST", "/api/channels/0/cycle-start", "", 401,
+            R"({"error":"log in first: the session is over, or there was none"})", 0);
+  with.line("PUT", "/api/parameters/000010", "", 403,
+            R"({"error":"this needs the role builder, and sam is setter"})", 0);
+  with.line(
+      "POST", "/api/channels/0/cycle-start", "", 409,
+      R"({"accepted":false,"alarm":0,"reason":"anna operates this machine: take over the right to operate, or ask for it"})",
+      0);
+  write(recording, options_.recording);
+  const auto result = verification::verify(options_);
+  EXPECT_TRUE(result.equal()) << result.problem << text_of(result.difference, "recorded", "written now");
+  EXPECT_EQ(result.requests, 1u);
+  EXPECT_EQ(result.left_out, 3u) << "another sender would have got another answer";
+  fs::remove_all(machine);
 }
 
 TEST_F(VerifyGateway, AnOrderThatIsNotTheOneAskedForIsFoundAtItsField) {

@@ -53,6 +53,17 @@ TEST_P(Stage, IsAsRecordedOnTheOtherVendorToo) {
 INSTANTIATE_TEST_SUITE_P(Stages, Stage, testing::ValuesIn(machine::transforming_stages()),
                          [](const auto& it) { return it.param; });
 
+TEST(Verify, ACompensationWithTheSignOfBacklashTurnedRoundIsFound) {
+  auto options = golden("ac-table", "compensation");
+  EXPECT_TRUE(verification::verify(options).equal());
+  options.executable = cluster::binary_directory() + "/compensation_flipped_backlash";
+  const auto result = verification::verify(options);
+  EXPECT_EQ(result.problem, "") << "it answers everything";
+  ASSERT_TRUE(result.difference.first.has_value());
+  EXPECT_EQ(result.difference.first->topic, "compensation_frame");
+  EXPECT_FALSE(result.equal());
+}
+
 TEST(Verify, AServiceThatEndsAtOnceIsAProblemAndNotAWait) {
   auto options = golden("ac-table", "kinematics");
   options.executable = "/bin/false";

@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Checks the prose of the documents and of the texts that operators read.
 
-Markdown: no line over 120 columns outside tables and code blocks. Markdown, alarm texts and parameter help: none of the
-words that docs/glossary.md refuses. Prints file:line: what, and exits with status 1 when something is found.
+Markdown: no line over 120 columns outside tables and code blocks. Markdown, alarm texts, parameter help, and the texts in
+the sources of the product, on the page in English and in the tables of commands: none of the words that docs/glossary.md
+refuses. Prints file:line: what, and exits with status 1 when something is found.
 With --wrap FILES the prose of these Markdown files is wrapped instead.
 """
 import argparse, os, re, sys, textwrap
@@ -12,6 +13,11 @@ ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 WIDTH = 120
 GLOSSARY = "docs/glossary.md"
 TEXTS = ("libs/machine/alarms.yaml", "libs/machine/catalogue.yaml", "libs/plc/library/registers.yaml", "libs/language/alarms.hpp")
+PRODUCT = ("libs", "services", "gateway", "deploy", "idl")
+SOURCE = re.compile(r"\.(cpp|hpp)$|/english\w*\.ts$|^gateway/openapi\.json$|^idl/\w+\.yaml$")
+NOT_PRODUCT = re.compile(r"/(test|bench|browser|testing_support|node_modules)/|/templates/")
+LITERAL = re.compile(r'"((?:[^"\\]|\\.)*)"')
+MARKUP = re.compile(r"font-weight")
 FENCE = re.compile(r"\s*(```|~~~)")
 WHOLE = re.compile(r"`[^`]*`|\[[^\]]*\]\([^)]*\)")  # code and links, which stay on one line
 ENTRY = re.compile(r"(\s*)((?:[-*+]|\d+\.)\s+)")
@@ -25,6 +31,19 @@ def markdown_files():
     for folder, folders, files in os.walk(ROOT):
         folders[:] = sorted(f for f in folders if f not in ("build", "node_modules", "out") and not f.startswith("."))
         yield from (os.path.relpath(os.path.join(folder, f), ROOT) for f in sorted(files) if f.endswith(".md"))
+
+
+def sources():
+    for top in PRODUCT:
+        for folder, _, files in os.walk(os.path.join(ROOT, top)):
+            paths = (os.path.relpath(os.path.join(folder, f), ROOT) for f in sorted(files))
+            yield from (p for p in paths if SOURCE.search(p) and not NOT_PRODUCT.search(p))
+
+
+def sentences(line):
+    """The literals of a line of source that have a blank: texts, not names."""
+    if re.match(r"\s*(//|#|\*)", line): return []
+    return [text for text in LITERAL.findall(line) if " " in text and not MARKUP.search(text)]
 
 
 def refused_words():
@@ -66,6 +85,9 @@ def check():
         for number, line in enumerate(read(path), 1):
             for text in re.findall(r'(?:text|help|about): (.*)\}', line) if path.endswith("yaml") else re.findall(r'"([^"]*)"', line):
                 find_words(path, number, text)
+    for path in sources():
+        for number, line in enumerate(read(path), 1):
+            for text in sentences(line): find_words(path, number, text)
     print("\n".join(found), end="\n" if found else "")
     return 1 if found else 0
 

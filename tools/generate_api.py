@@ -1,16 +1,19 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Keeps the gateway's interface current: in gateway/openapi.json the operator commands (idl/operator_commands.yaml) and
-the schemas with "x-idl" (idl/*.idl), and of that document the page's types in gateway/web/src/contract.ts.
+the schemas with "x-idl" (idl/*.idl), and of that document the page's types in gateway/web/src/contract.ts and the
+reference docs/api.md.
 
 Of a schema with "x-idl", `properties` and `required` are written here: the fields of the IDL type but those in
 "x-without", and the hand-written ones in "x-with" and in the document's own schemas. With --check nothing is written and
 the exit status is 1 when a file is not current.
 """
-import argparse, glob, json, sys
+import argparse, glob, json, os, sys, textwrap
 from generate_commands import load
 from generate_contracts import Enum, Parser
 
+ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+DOCUMENT = f"{ROOT}/gateway/openapi.json"
 CHANNEL, PANEL = "/api/channels/{channel}/", "/api/panel/"
 WHOLE = {"uint8", "octet", "int8", "uint16", "int16", "uint32", "int32", "uint64", "int64"}
 AXIS = {"oneOf": [{"type": "string"}, {"type": "integer", "minimum": 0}]}
@@ -157,15 +160,92 @@ def typescript(document):
     return "\n".join(out + ["}"]) + "\n"
 
 
+# The reference, docs/api.md.
+
+def md_type(schema):
+    """What a value is, within a cell of a table."""
+    if "$ref" in schema:
+        name = schema["$ref"].rsplit("/", 1)[1]
+        return f"[{name}](#{name.lower()})"
+    if "const" in schema: return f"`{json.dumps(schema['const'], ensure_ascii=False)}`"
+    if "allOf" in schema: return " and ".join(md_type(s) for s in schema["allOf"])
+    if "oneOf" in schema: return " or ".join(md_type(s) for s in schema["oneOf"])
+    if "enum" in schema: return ", ".join(f"`{value}`" for value in schema["enum"])
+    kind = schema.get("type")
+    if kind == "array":
+        most = schema.get("maxItems")
+        return f"list of {f'up to {most} ' if most else ''}{md_type(schema['items'])}"
+    if kind == "object":
+        if schema.get("properties"):
+            required = schema.get("required", [])
+            return ", ".join(f"`{name}`{'' if name in required else '?'}: {md_type(s)}" for name, s in schema["properties"].items())
+        extra = schema.get("additionalProperties")
+        return f"object of {md_type(extra)}" if isinstance(extra, dict) else "object"
+    limits = ""
+    if "minimum" in schema and "maximum" in schema: limits = f" {schema['minimum']} .. {schema['maximum']}"
+    elif "minimum" in schema: limits = f" from {schema['minimum']}"
+    elif "maxLength" in schema: limits = f" of up to {schema['maxLength']} bytes"
+    return (kind or "any") + limits
+
+
+def md_cell(text): return text.replace("|", "\\|").replace("\n", " ")
+
+
+def md_body(content):
+    return "; ".join(md_type(part["schema"]) if kind == "application/json" else f"`{kind}`" for kind, part in content.items())
+
+
+def md_operation(path, method, operation, responses):
+    asked = [f"{one['in']} `{one['name']}`{'' if one.get('required') else '?'}: {md_type(one['schema'])}"
+             + (f" ({one['description']})" if one.get("description") else "") for one in operation.get("parameters", [])]
+    if "requestBody" in operation:
+        body = md_body(operation["requestBody"]["content"])
+        if body != "object": asked.append(f"body{'' if operation['requestBody'].get('required') else '?'}: {body}")
+    answers = []
+    for status, answer in operation["responses"].items():
+        if "$ref" in answer: answer = responses[answer["$ref"].rsplit("/", 1)[1]]
+        body = md_body(answer.get("content", {})) if status.startswith("2") else ""
+        answers.append(f"{status}{f' {body}' if body and body != 'object' else ''}")
+    about = operation["summary"] + (f". {operation['description']}" if operation.get("description") else "")
+    cells = [f"`{method.upper()} {path}`", about, "<br>".join(asked), "<br>".join(answers)]
+    return "| " + " | ".join(md_cell(cell) for cell in cells) + " |"
+
+
+def markdown(document):
+    components = document["components"]
+    out = ["# HTTP interface", "Generated from [gateway/openapi.json](../gateway/openapi.json), which the gateway also answers to",
+           "`GET /api/openapi.json`. A name with `?` may be left out.", "", *textwrap.wrap(document["info"]["description"], 120), ""]
+    groups = {}
+    for path, item in document["paths"].items():
+        for method, operation in item.items(): groups.setdefault(path.split("/")[2], []).append((path, method, operation))
+    for group, operations in groups.items():
+        out += [f"## /api/{group}", "| Request | What it does | Parameters and body | Answers |", "|---|---|---|---|"]
+        out += [md_operation(*one, components["responses"]) for one in operations] + [""]
+    out += ["## Answers that are no success", "| Answer | Body |", "|---|---|"]
+    out += [f"| {md_cell(one['description'])} | {md_cell(md_body(one.get('content', {})))} |" for one in components["responses"].values()]
+    out += ["", "## Types"]
+    for name, schema in components["schemas"].items():
+        out += [f"### {name}"] + textwrap.wrap(schema["description"] + "." if schema.get("description") else "", 120)
+        if not schema.get("properties"):
+            out += [*textwrap.wrap(md_type(schema), 120, break_long_words=False, break_on_hyphens=False), ""]
+            continue
+        required = schema.get("required", [])
+        out += ["", "| Member | Value | Meaning |", "|---|---|---|"]
+        out += [f"| `{member}`{'' if member in required else '?'} | {md_cell(md_type(s))} | {md_cell(s.get('description', ''))} |"
+                for member, s in schema["properties"].items()]
+        out.append("")
+    return "\n".join(out).rstrip("\n") + "\n"
+
+
 def main():
     p = argparse.ArgumentParser(description=__doc__)
-    p.add_argument("--idl", required=True, help="directory"); p.add_argument("--document", required=True)
-    p.add_argument("--types", required=True); p.add_argument("--check", action="store_true")
+    p.add_argument("--check", action="store_true")
     a = p.parse_args()
-    with open(a.document) as f: text = f.read()
-    document = updated(json.loads(text), Idl(glob.glob(f"{a.idl}/*.idl")), load(f"{a.idl}/operator_commands.yaml"))
+    with open(DOCUMENT) as f: text = f.read()
+    document = updated(json.loads(text), Idl(glob.glob(f"{ROOT}/idl/*.idl")), load(f"{ROOT}/idl/operator_commands.yaml"))
     stale = []
-    for path, wanted in ((a.document, json.dumps(document, indent=1, ensure_ascii=False) + "\n"), (a.types, typescript(document))):
+    for path, wanted in ((DOCUMENT, json.dumps(document, indent=1, ensure_ascii=False) + "\n"),
+                         (f"{ROOT}/gateway/web/src/contract.ts", typescript(document)), (f"{ROOT}/docs/api.md", markdown(document))):
         try:
             with open(path) as f: current = f.read()
         except FileNotFoundError: current = None

@@ -10,7 +10,7 @@ PARAMETER_TYPES = {"integer": "IntegerParameter", "real": "RealParameter", "text
 SEVERITIES = {"hint", "warning", "error", "emergency"}
 REACTIONS = {"show", "feed_hold", "axis_stop", "emergency_stop"}
 SUBJECTS = {"machine", "channel", "axis", "service"}
-SERVICE_KEYS = {"name", "required", "per_channel", "cyclic", "stage"}
+SERVICE_KEYS = {"name", "required", "per_channel", "cyclic", "not_verified", "stage"}
 
 
 def load(path, key):
@@ -69,7 +69,7 @@ def services(path):
         if stage and (set(stage) - {"input", "output"} or "output" not in stage or ("input" in stage) != (stages > 0)):
             fail(path, f"{row['name']}: a stage has an output, and all but the first an input")
         stages += bool(stage)
-        flags = ", ".join(str(bool(row.get(key))).lower() for key in ("required", "per_channel", "cyclic"))
+        flags = ", ".join(str(bool(row.get(key))).lower() for key in ("required", "per_channel", "cyclic", "not_verified"))
         text = lambda key: f'"{stage[key]}"' if key in stage else "nullptr"
         lines.append(f"inline constexpr ServiceDefinition {row['name']}{{\n    \"{row['name']}\", {flags}, {stages if stage else 0}, {text('input')}, {text('output')}}};")
     names = [row["name"] for row in rows]

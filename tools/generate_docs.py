@@ -90,13 +90,28 @@ def machine_alarms():
     return rows
 
 
+def translated_alarms(language, rows):
+    """Cause and remedy by number; exactly those of the alarms."""
+    path = f"libs/machine/translations/alarms.{language}.yaml"
+    texts = yaml.safe_load(read(path))
+    wrong = set(texts) ^ {row["number"] for row in rows} | {number for number, one in texts.items() if not all(one.get(key) for key in ("cause", "remedy"))}
+    if wrong: fail(path, f"cause and remedy of these alarms are missing, or there are no such alarms: {', '.join(map(str, sorted(wrong)))}")
+    return texts
+
+
 def alarm_catalogue():
     """What the page shows below the text of an alarm; the NC language's alarms name cause and place in their texts."""
-    out = ["// SPDX-License-Identifier: Apache-2.0", f"// Generated from {MACHINE_ALARMS} by tools/generate_docs.py.", "",
-           "/** Usual cause of an alarm and what the operator does, by its number. */",
-           "export const alarmCatalogue: Readonly<Record<number, { cause: string; remedy: string }>> = {"]
-    for a in machine_alarms():
-        out += [f"  {a['number']}: {{", f"    cause: {json.dumps(a['cause'], ensure_ascii=False)},", f"    remedy: {json.dumps(a['remedy'], ensure_ascii=False)},", "  },"]
+    out = ["// SPDX-License-Identifier: Apache-2.0", f"// Generated from {MACHINE_ALARMS} and its translations by tools/generate_docs.py.", "",
+           "/** Usual cause of an alarm and what the operator does, by its number and the language. */",
+           "export const alarmCatalogue: Readonly<Record<number, Readonly<Record<string, { cause: string; remedy: string }>>>> = {"]
+    rows = machine_alarms()
+    languages = {"en": {row["number"]: row for row in rows}, **{name: translated_alarms(name, rows) for name in ("zh", "de")}}
+    for row in rows:
+        out.append(f"  {row['number']}: {{")
+        for name, texts in languages.items():
+            one = texts[row["number"]]
+            out.append(f"    {name}: {{ cause: {json.dumps(one['cause'], ensure_ascii=False)}, remedy: {json.dumps(one['remedy'], ensure_ascii=False)} }},")
+        out.append("  },")
     return out + ["};"]
 
 
@@ -209,6 +224,10 @@ def macros():
             "call a macro. `G1000` .. `G1999` and the M codes of parameters 010170 to 010177 call a cycle of `USERDEF.CYC`. Both have local variables "
             "of their own, which are set to the arguments at the start of each repetition. `M99` returns, `M99 P_` to the block of the caller "
             "with that N; in the main program `M99 P_` jumps to that block, and `M99` starts the program again. Calls nest 8 deep.", "",
+            "`CYCLE1234(1, \"text\", , 4)` calls O1234 as a macro; its arguments are #1 #2 #3 #4, and vacant where one is left out or a text. The "
+            "control has O9960 for `CYCLE9960` ([calibration.md](calibration.md#in-a-program)), O9801 "
+            "([calibration-programs.md](calibration-programs.md)) and O9810 to O9819 ([measuring-cycles.md](measuring-cycles.md)); a stored "
+            "program goes before them.", "",
             "`G66` calls after each block that moves, canned cycles included. `G66.1` calls instead of each following block until `G67`; the letters of the "
             "block are the arguments, and G (the last one), L, N and P are #10, #12, #14 and #16.", "",
             "The letters of a macro become the variables of Fanuc's argument list I. I, J and K may be given up to ten times, and are then #4 #5 #6, "
@@ -221,7 +240,9 @@ def macros():
 def address(first, index, stride):
     kind, rest = first[0], first[1:]
     register, _, bit = rest.partition(".")
-    if stride == "bit": return f"{kind}{register}.{int(bit) + index}"
+    if stride == "bit":
+        width = next(int(bits) for area, bits, *_ in register_areas() if area == kind)
+        return f"{kind}{int(register) + (int(bit) + index) // width}.{(int(bit) + index) % width}"
     return f"{kind}{int(register) + index * stride}" + (f".{bit}" if bit else "")
 
 
@@ -249,8 +270,8 @@ def registers():
                   ("channel 5 .. 7, which the manuals do not have", "3120, 3200, 3280 and 79 more")])
     out += ["", "## Registers with a function", "",
             "This is the interface between the PLC program and the other services; programs use the names. A name with several registers is `name_0`, "
-            "`name_1` and so on. Every other register is storage of the programs, also those to which the manuals give a meaning: nothing else in "
-            "this product reads or writes it. The languages are described in [plc.md](plc.md).", ""]
+            "`name_1` and so on. \"storage\" are registers to which only the manuals give a meaning. They and all without a name are storage of the programs: "
+            "nothing else in this product reads or writes them. The languages are described in [plc.md](plc.md).", ""]
     rows = []
     for r in yaml.safe_load(read(path))["registers"]:
         channels = r.get("each") == "channel"
@@ -270,12 +291,15 @@ def paragraphs(lines): return [line for paragraph in lines for line in wrapped(p
 
 
 def input_catalogue():
-    """The inputs that have a name on every machine, for the PLC's view of the page."""
+    """The inputs that have a name on every machine and the names of all registers, for the PLC's view of the page."""
     path = "libs/plc/library/registers.yaml"
-    inputs = [r for r in yaml.safe_load(read(path))["registers"] if r["address"].startswith("X")]
+    named = yaml.safe_load(read(path))["registers"]
+    inputs = [r for r in named if r["address"].startswith("X")]
     return ["// SPDX-License-Identifier: Apache-2.0", f"// Generated from {path} by tools/generate_docs.py.", "",
             "/** Names of input bits that every machine has, by their address. */", "export const inputNames: Readonly<Record<string, string>> = {",
-            *(f"  {json.dumps(r['address'])}: {json.dumps(r['name'])}," for r in inputs), "};"]
+            *(f"  {json.dumps(r['address'])}: {json.dumps(r['name'])}," for r in inputs), "};", "",
+            "/** Names of registers; one that ends with _ has a number behind it. */", "export const registerNames: ReadonlySet<string> = new Set([",
+            *(f"  {json.dumps(r['name'] + ('_' if 'each' in r or 'count' in r else ''))}," for r in named), "]);"]
 
 
 OUTPUTS = {

@@ -4,18 +4,24 @@
 
     tools/lint.py BUILD [FILE...]    of the named files only, with those that are compiled together with them
 
+--within SECONDS begins no further file after that time: the sources that were changed last come first, and the last
+line says how many were not read.
+
 Any finding is an error. clang-tidy excludes tests, benchmarks and fuzzers: they include the test framework and would
 nearly double the time. Sources that are compiled together (CMake's unity build) are checked together, so that the
 headers are read once: their texts stand behind each other in one file, because clang-tidy looks less closely at a file
 that is included. Without the precompiled headers of GCC, so a source that
 relies on them for what it uses is found here.
 """
+import argparse
 import concurrent.futures
+import itertools
 import json
 import os
 import re
 import subprocess
 import sys
+import time
 
 EXCLUDED = re.compile(r'(^|/)(test|bench|integration_tests)/')
 NOISE = re.compile(r'warnings? generated|Suppressed|Use -header-filter|Use -system-headers')
@@ -107,21 +113,46 @@ def tidy(folder, file, starts):
     return done.returncode, text.strip()
 
 
+def newest_first(files):
+    """The files of commands(), those first of which a source was changed last."""
+    log = subprocess.run(['git', 'log', '--format=', '--name-only'], check=True, capture_output=True, text=True).stdout
+    age = {}
+    for name in log.split():
+        age.setdefault(name, len(age))
+
+    def newest(file):
+        return min(age.get(os.path.relpath(source), len(age)) for _, source in files[file])
+
+    return sorted(files, key=newest)
+
+
 def main():
-    if len(sys.argv) < 2:
-        sys.exit(__doc__)
-    build, wanted = sys.argv[1], [os.path.relpath(file) for file in sys.argv[2:]]
-    if not wanted:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument('build')
+    parser.add_argument('files', nargs='*')
+    parser.add_argument('--within', type=float, metavar='SECONDS')
+    given = parser.parse_args()
+    end = time.monotonic() + given.within if given.within is not None else float('inf')
+    build, wanted = given.build, [os.path.relpath(file) for file in given.files]
+    whole = not wanted
+    if whole:
         format_check = ['clang-format-14', '--dry-run', '--Werror', *tracked('*.cpp', '*.hpp')]
         if subprocess.run(format_check).returncode != 0:
             sys.exit('lint: the layout differs, see above; `make format` mends it')
         wanted = [file for file in tracked('*.cpp') if not EXCLUDED.search(file)]
-    repeated = repeated_includes([*wanted, *(f for f in tracked('*.hpp') if len(sys.argv) == 2)])
+    repeated = repeated_includes([*wanted, *(f for f in tracked('*.hpp') if whole)])
     print('\n'.join(repeated), end='\n' if repeated else '', flush=True)
     folder, files = commands(build, wanted)
-    failed = bool(repeated)
+    failed, unread = bool(repeated), itertools.count()
+
+    def read(file):
+        if time.monotonic() < end:
+            return tidy(folder, file, files[file])
+        next(unread)
+        return 0, ''
+
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-        for done, (code, text) in enumerate(pool.map(lambda file: tidy(folder, file, files[file]), files), 1):
+        for done, (code, text) in enumerate(pool.map(read, newest_first(files)), 1):
             failed |= code != 0
             if text:
                 print(text, flush=True)
@@ -129,7 +160,13 @@ def main():
                 print(f'[{done}/{len(files)}]', end='\r', flush=True)
     if failed:
         sys.exit('lint: findings, see above')
-    print('lint: clean')
+    left = next(unread)
+    if left == len(files):
+        sys.exit(f'lint: nothing was read within {given.within:.0f} s')
+    if left:
+        print(f'lint: clean as far as it was read: {left} of {len(files)} files were not, after {given.within:.0f} s')
+    else:
+        print('lint: clean')
 
 
 if __name__ == '__main__':

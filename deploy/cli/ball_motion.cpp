@@ -325,7 +325,7 @@ std::vector<BallSample> BallTest::stop(std::size_t stops, double start) {
     means.push_back(sample);
     quiet = 0;
   }
-  if (means.size() != stops) throw std::runtime_error("the axis has not stood at every stop");
+  if (means.size() != stops) throw std::runtime_error("the axis did not come to rest at every stop");
   return means;
 }
 

@@ -86,7 +86,8 @@ calibration::MeasuredMachine measured_machine(const TrueMachine& machine, std::u
 }
 
 int write_change(const CalibrationTarget& target, const Common& common,
-                 const calibration::ChainParameters& before, const calibration::ChainParameters& after) {
+                 const calibration::ChainParameters& before, const calibration::ChainParameters& after,
+                 const ChangeWriter& writer) {
   const auto values = calibration::changed_parameters(before, after, target.channel);
   if (!common.json)
     for (const auto& [number, value] : values)
@@ -98,10 +99,18 @@ int write_change(const CalibrationTarget& target, const Common& common,
   }
   std::fflush(stdout);
   if (target.write && !values.empty()) {
+    if (writer) {
+      writer(values);
+      if (!common.json) print_line("written; active after a reset of the channel");
+      return 0;
+    }
     return import_parameters(common, values, calibration::calibrated_by, common.json);
   }
   if (!common.json && target.output.empty())
-    print_line("nothing written: --write changes the cluster that runs, --output FILE writes parameters");
+    print_line(
+        target.running
+            ? "nothing written: `trunnion calibrate confirm` writes the result, `discard` gives it up"
+            : "nothing written: --write changes the cluster that runs, --output FILE writes parameters");
   return 0;
 }
 
@@ -110,6 +119,7 @@ void add_calibrate_command(CLI::App& app, Common& common) {
   calibrate->require_subcommand(1);
   add_calibrate_kinematics(*calibrate, common);
   add_calibrate_manual(*calibrate, common);
+  add_calibrate_measurement(*calibrate, common);
   add_command(
       *calibrate, common, "undo",
       "Give the parameters that the last calibration has written into the cluster that runs the values of "

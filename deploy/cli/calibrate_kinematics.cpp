@@ -9,17 +9,20 @@
 #include "bus/json.hpp"
 #include "calibration/chain_change.hpp"
 #include "calibration/measurement_file.hpp"
+#include "calibration/measurement_moves.hpp"
+#include "calibration/program_variables.hpp"
 #include "calibration/protocol.hpp"
 #include "calibration/sphere_check.hpp"
-#include "calibration_moves.hpp"
 #include "calibration_result.hpp"
 #include "cluster/cluster.hpp"
+#include "cluster/operating_station.hpp"
+#include "collision_machine.hpp"
 #include "figures.hpp"
 #include "machine/yaml.hpp"
-#include "machine_probe.hpp"
+#include "measurement_session.hpp"
 #include "report/plot.hpp"
 #include "storage/file.hpp"
-#include "truth/truth_reader.hpp"
+#include "variables_command.hpp"
 
 namespace trunnion::cli {
 namespace {
@@ -34,18 +37,17 @@ struct KinematicsOptions {
   std::optional<std::uint64_t> seed;
   std::size_t check = 0;
   bool virtual_probe = false, resume = false, retract = false, propose = false, acknowledge = false;
+  bool detach = false, take_right = false, variables = false;
 };
 
 void check_source(const KinematicsOptions& o) {
   if (o.propose) return;
-  if (o.virtual_probe + o.target.running + !o.touches.empty() != 1)
+  if (o.virtual_probe + o.target.running + o.variables + !o.touches.empty() != 1)
     throw std::runtime_error(
-        "give one of --virtual, --on-machine and --touches FILE as the source of the touches");
-  if (o.target.running && o.save_touches.empty())
-    throw std::runtime_error(
-        "--on-machine needs --save-touches FILE: it keeps every complete pose for --resume");
+        "give one of --virtual, --on-machine, --variables and --touches FILE as the source of the touches");
   if (o.resume && !o.target.running)
     throw std::runtime_error("--resume continues a measurement --on-machine");
+  if (o.detach && !o.target.running) throw std::runtime_error("--detach leaves a measurement --on-machine");
 }
 
 calibration::MeasurementInputs inputs_of(const KinematicsOptions& o,
@@ -61,7 +63,7 @@ calibration::MeasurementInputs inputs_of(const KinematicsOptions& o,
   if (const auto fault = fault_of(in, machine); !fault.empty()) throw std::runtime_error(fault);
   if (in.mode == Mode::measure_only && (o.target.write || !o.target.output.empty()))
     throw std::runtime_error("the mode is measure_only: nothing may be written; give --mode correct");
-  if (in.mode == Mode::only_correct && o.touches.empty())
+  if (in.mode == Mode::only_correct && o.touches.empty() && !o.variables)
     throw std::runtime_error("the mode is only_correct: give the stored touches with --touches FILE");
   return in;
 }
@@ -84,32 +86,12 @@ std::pair<std::string, std::string> date_of(const std::string& given) {
   return {text.substr(0, 10), text.substr(11)};
 }
 
-std::optional<calibration::ReferenceMeasurement> read_reference(const KinematicsOptions& o,
-                                                                calibration::Reference mode) {
-  if (mode == calibration::Reference::without) return std::nullopt;
+// That of the file, unless the inputs have it.
+void take_reference(const KinematicsOptions& o, calibration::MeasurementInputs& in) {
+  if (in.reference == calibration::Reference::without || in.reference_measurement) return;
   if (o.reference.empty()) throw std::runtime_error("a reference needs its file: --reference FILE");
-  if (mode == calibration::Reference::measure) return std::nullopt;
-  const truth::TruthReader reader(o.reference);
-  calibration::ReferenceMeasurement found;
-  const auto root = machine::parse_yaml(machine::read_text(o.reference), o.reference);
-  int keys = 0;
-  reader.each(root, "sphere_mm, zero_offset_mm", [&](const std::string& key, const YAML::Node& node) {
-    if (key != "sphere_mm" && key != "zero_offset_mm") return false;
-    (key == "sphere_mm" ? found.sphere : found.zero_offset) = reader.vector(node, {-1e5, 1e5});
-    ++keys;
-    return true;
-  });
-  if (keys != 2) reader.fail(root, "expected sphere_mm and zero_offset_mm");
-  return found;
-}
-
-void save_reference(const KinematicsOptions& o, const calibration::MeasurementInputs& in,
-                    const Vec3& sphere) {
-  char text[300];
-  std::snprintf(text, sizeof text, "sphere_mm: [%.9f, %.9f, %.9f]\nzero_offset_mm: [%.9f, %.9f, %.9f]\n",
-                sphere.x(), sphere.y(), sphere.z(), in.zero_offset.x(), in.zero_offset.y(),
-                in.zero_offset.z());
-  storage::replace_file(o.reference, text);
+  if (in.reference == calibration::Reference::adapt)
+    in.reference_measurement = calibration::parse_reference(machine::read_text(o.reference), o.reference);
 }
 
 // Differences before and residuals after of each pose, in um.
@@ -225,24 +207,50 @@ std::vector<truth::Solid> true_solids(const KinematicsOptions& o, const truth::T
   return solids;
 }
 
-std::vector<calibration::TouchedPose> touch_on_machine(const KinematicsOptions& o, const Common& common,
-                                                       const calibration::MeasurementInputs& in,
-                                                       const calibration::MeasuredMachine& measured,
-                                                       const calibration::MeasurementPlan& plan,
-                                                       const CalibrationMoves& moves) {
-  MachineMeasurement measurement{in, measured, plan, o.target.channel, o.save_touches, {}, {}, {}};
-  if (!o.retract) {
-    measurement.way = [&moves](const auto& from, const auto& to) { return moves.way(from, to); };
-    measurement.check = [&moves, &plan](const auto& from) { return moves.check(plan, from); };
+idl::measurement::MeasurementRequest measurement_request(const KinematicsOptions& o,
+                                                         const calibration::MeasurementInputs& in) {
+  using idl::measurement::Mode;
+  using idl::measurement::Operation;
+  idl::measurement::MeasurementRequest request;
+  request.operation = o.resume ? Operation::CONTINUE : Operation::START;
+  request.channel = o.target.channel;
+  if (!o.inputs.empty()) request.inputs = machine::read_text(o.inputs);
+  if (in.reference == calibration::Reference::adapt && !o.reference.empty())
+    request.inputs += "\nreference_measurement: " + calibration::text_of(*in.reference_measurement);
+  constexpr std::size_t most_inputs = 16384;  // idl/measurement.idl
+  if (request.inputs.size() > most_inputs)
+    throw std::runtime_error(o.inputs + ": has " + std::to_string(request.inputs.size()) +
+                             " bytes; at most " + std::to_string(most_inputs) + " are permitted");
+  if (o.mode == "correct") request.mode = Mode::CORRECT;
+  if (o.mode == "measure_only") request.mode = Mode::MEASURE_ONLY;
+  if (!o.sphere.empty()) {
+    const auto sphere = vector_option("--sphere", o.sphere);
+    request.sphere = {sphere.x(), sphere.y(), sphere.z()};
   }
-  if (o.resume)
-    measurement.done =
-        calibration::parse_touches(machine::read_text(o.save_touches), o.save_touches, measured.model);
-  return measure_on_machine(cluster::find_cluster(common.domain).run.domain, measurement);
+  if (o.probe_length) request.probe_length = {*o.probe_length};
+  request.retract = o.retract;
+  return request;
+}
+
+// Writes what the service has found; it must be what was printed.
+void confirm_on_machine(MeasurementSession& session, const KinematicsOptions& o,
+                        const std::map<std::uint32_t, machine::ParameterValue>& values) {
+  std::map<std::uint32_t, machine::ParameterValue> found;
+  for (const auto& change : session.result().changes) found[change.number] = {change.after, ""};
+  if (found != values)
+    throw std::runtime_error(
+        "the measurement was started with other inputs; nothing written: give the same inputs, or write with "
+        "`trunnion calibrate confirm`");
+  idl::measurement::MeasurementRequest request;
+  request.operation = idl::measurement::Operation::CONFIRM;
+  request.acknowledge = o.acknowledge;
+  session.follow(session.order(std::move(request)));
+  if (!session.state().written) throw std::runtime_error(session.state().error);
 }
 
 // The ranges in which the probe reaches the sphere, as a file of inputs has them.
-void propose_ranges(const CalibrationMoves& moves, const calibration::MeasuredMachine& measured) {
+void propose_ranges(const calibration::MeasurementMoves& moves,
+                    const calibration::MeasuredMachine& measured) {
   const auto in = moves.proposal();
   const auto plan = calibration::plan_measurement(in, measured);
   if (const auto* fault = std::get_if<std::string>(&plan)) throw std::runtime_error(*fault);
@@ -252,42 +260,67 @@ void propose_ranges(const CalibrationMoves& moves, const calibration::MeasuredMa
                range.start, range.end, range.points, range.other);
 }
 
+int detached(const Common& common, std::uint64_t number) {
+  if (common.json)
+    std::cout << bus::Json{{"measurement", number}}.dump() << "\n";
+  else
+    print_line("measurement %llu is under way: trunnion calibrate status, abort, confirm",
+               static_cast<unsigned long long>(number));
+  return 0;
+}
+
 int kinematics(const KinematicsOptions& o, const Common& common) {
   check_source(o);
   const auto date = date_of(o.date);
   const auto machine = load_calibrated_machine(o.target, common);
   const auto measured = measured_machine(machine, o.target.channel);
-  const auto in = inputs_of(o, measured);
+  auto in = inputs_of(o, measured);
   if (o.propose) {
-    propose_ranges(CalibrationMoves(machine, o.target.machine, o.target.channel, in, measured), measured);
+    propose_ranges(calibration::MeasurementMoves(load_bodies(machine, o.target.machine, o.target.channel),
+                                                 machine.truth.solids, machine.truth.probe, in, measured),
+                   measured);
     return 0;
   }
-  const auto reference = read_reference(o, in.reference);
-  if (o.check > 0 && !o.touches.empty())
+  take_reference(o, in);
+  if (o.check > 0 && (!o.touches.empty() || o.variables))
     throw std::runtime_error("--check needs the true machine: --virtual or a simulated one --on-machine");
+  std::optional<cluster::OperatingStation> station;
+  std::optional<MeasurementSession> session;
   std::vector<calibration::TouchedPose> touched;
-  if (o.touches.empty()) {
+  if (o.target.running) {
+    const auto domain = cluster::find_cluster(common.domain).run.domain;
+    station.emplace(domain, o.take_right);
+    session.emplace(domain);
+    const auto number = session->order(measurement_request(o, in));
+    if (o.detach) return detached(common, number);
+    session->follow(number);
+    touched = touched_poses(session->result());
+  } else if (o.variables) {
+    const auto variables = newest_variables(common, o.target.channel);
+    std::map<std::uint32_t, double> values;
+    for (std::size_t i = 0; i < variables.numbers.size(); ++i)
+      values[variables.numbers[i]] = variables.values[i];
+    auto measured_by_program = calibration::measurement_of(values, std::move(in), measured);
+    in = std::move(measured_by_program.inputs), touched = std::move(measured_by_program.touched);
+    if (const auto fault = fault_of(in, measured); !fault.empty()) throw std::runtime_error(fault);
+  } else if (o.touches.empty()) {
     const auto made = calibration::plan_measurement(in, measured);
     if (const auto* fault = std::get_if<std::string>(&made)) throw std::runtime_error(*fault);
-    const auto& plan = std::get<calibration::MeasurementPlan>(made);
-    touched =
-        o.target.running
-            ? touch_on_machine(o, common, in, measured, plan,
-                               CalibrationMoves(machine, o.target.machine, o.target.channel, in, measured))
-            : calibration::touch_virtually(*machine.report, in, measured, plan,
-                                           true_probe(o, machine.truth, in),
-                                           true_solids(o, machine.truth, in));
+    touched = calibration::touch_virtually(
+        *machine.report, in, measured, std::get<calibration::MeasurementPlan>(made),
+        true_probe(o, machine.truth, in), true_solids(o, machine.truth, in));
   } else {
     touched = calibration::parse_touches(machine::read_text(o.touches), o.touches, measured.model);
   }
   if (!o.save_touches.empty())
     storage::replace_file(o.save_touches, calibration::text_of(touched, measured.model));
-  const auto result = calibration::evaluate(
-      in, measured, touched, calibration::named_corrections(machine.model, o.target.channel), reference);
+  const auto result = calibration::evaluate(in, measured, touched,
+                                            calibration::named_corrections(machine.model, o.target.channel));
   const auto text =
       calibration::protocol_text({date.first, date.second, o.protocol.empty() ? "-" : o.protocol,
                                   o.virtual_probe    ? "virtual probe"
                                   : o.target.running ? "probe of the machine"
+                                  : o.variables      ? "program %001"
                                                      : o.touches},
                                  in, measured, result);
   if (!o.protocol.empty()) storage::replace_file(o.protocol, text);
@@ -298,7 +331,8 @@ int kinematics(const KinematicsOptions& o, const Common& common) {
   if (!common.json) std::fputs(text.c_str(), stdout);
   if (o.check > 0) check_rtcp(o, machine, measured, in, result, common.json, out);
   std::fflush(stdout);
-  if (in.reference == calibration::Reference::measure) save_reference(o, in, result.sphere);
+  if (in.reference == calibration::Reference::measure)
+    storage::replace_file(o.reference, calibration::text_of({result.sphere, in.zero_offset}));
   if (!result.tolerance_alarm.empty() && in.mode != Mode::measure_only) {
     if (in.tolerance_needs_reset)
       throw std::runtime_error(result.tolerance_alarm + "; nothing written, reset");
@@ -307,7 +341,10 @@ int kinematics(const KinematicsOptions& o, const Common& common) {
                                "; nothing written, --acknowledge writes in spite of it");
   }
   int status = 0;
-  if (in.mode != Mode::measure_only) status = write_change(o.target, common, result.before, result.after);
+  if (in.mode != Mode::measure_only)
+    status = write_change(
+        o.target, common, result.before, result.after,
+        session ? [&](const auto& values) { confirm_on_machine(*session, o, values); } : ChangeWriter());
   if (common.json) std::cout << bus::text_of(out) << "\n";
   return status;
 }
@@ -335,8 +372,12 @@ void add_calibrate_kinematics(CLI::App& calibrate, Common& common) {
                     "Touch with the probe and the solids of truth.yaml on the machine of truth.yaml");
   command->add_flag(
       "--on-machine", o.target.running,
-      "Touch with the probe of the machine whose cluster runs: checks the probe, then moves from "
-      "pose to pose. Ctrl-C holds the channel. Needs --save-touches");
+      "The measurement service of the cluster that runs touches with the probe of the machine: checks the "
+      "probe, then moves from pose to pose. Ctrl-C aborts it: the channel is held, nothing is written");
+  command->add_flag("--detach", o.detach,
+                    "With --on-machine: return when the measurement has started; then trunnion calibrate "
+                    "status, abort, confirm");
+  command->add_flag("--take-right", o.take_right, cluster::take_right_help);
   command->add_flag(
       "--propose", o.propose,
       "Measure nothing: print the widest ranges of the rotary axes in which the probe reaches the "
@@ -345,11 +386,15 @@ void add_calibrate_kinematics(CLI::App& calibrate, Common& common) {
       "--retract", o.retract,
       "With --on-machine: between the poses only Z up, turn, X and Y, Z down, without regard to "
       "bodies (docs/collision.md)");
-  command->add_flag("--resume", o.resume,
-                    "With --on-machine: continue after the poses in the file of --save-touches");
+  command->add_flag(
+      "--resume", o.resume,
+      "With --on-machine: continue the measurement that was interrupted, after its complete poses");
   command->add_option("--touches", o.touches, "Touches from a file");
-  command->add_option("--save-touches", o.save_touches,
-                      "Keep the touches in a file, for --mode only_correct and --resume");
+  command->add_flag(
+      "--variables", o.variables,
+      "The touches of the program %001, from the macro variables of the channel of the cluster that "
+      "runs (docs/calibration-programs.md)");
+  command->add_option("--save-touches", o.save_touches, "Write the touches into a file, for --touches");
   command->add_option("--true-sphere", o.true_sphere,
                       "Where the sphere truly is, mm, in place of that of truth.yaml");
   command

@@ -82,10 +82,8 @@ int manual(const ManualOptions& o, const Common& common) {
   const auto measured = measured_machine(machine, o.target.channel);
   const auto kind = calibration::manual_kind(measured.model);
   if (!kind)
-    throw std::runtime_error(
-        measured.name +
-        ": the manual calibration is for an AC table, a BC or AC head, or a B head over a C table "
-        "with the directions of the manual; use `trunnion calibrate kinematics`");
+    throw std::runtime_error(measured.name + ": " + calibration::manual_machines +
+                             "; use `trunnion calibrate kinematics`");
   const int sources =
       (o.by_virtual ? 1 : 0) + (o.readings.empty() ? 0 : 1) + (o.displacements.empty() ? 0 : 1);
   if (sources > 1) throw std::runtime_error("give one of --virtual, --readings and --displacements");

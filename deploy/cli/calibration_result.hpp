@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -34,10 +35,13 @@ void add_target_options(CLI::App& command, CalibrationTarget& target);
 TrueMachine load_calibrated_machine(const CalibrationTarget& target, const Common& common);
 calibration::MeasuredMachine measured_machine(const TrueMachine& machine, std::uint16_t channel);
 
+/// Writes changed parameters into the cluster, or throws.
+using ChangeWriter = std::function<void(const std::map<std::uint32_t, machine::ParameterValue>& values)>;
 /// Writes what has changed into file or cluster, in one activation, and says so on standard output (not with
-/// --json). 0 or throws.
+/// --json). `writer`: in place of an import by the parameters service. 0 or throws.
 int write_change(const CalibrationTarget& target, const Common& common,
-                 const calibration::ChainParameters& before, const calibration::ChainParameters& after);
+                 const calibration::ChainParameters& before, const calibration::ChainParameters& after,
+                 const ChangeWriter& writer = {});
 
 void print_line(const char* format, auto... values) {
   char line[400];
@@ -48,6 +52,7 @@ void print_line(const char* format, auto... values) {
 
 void add_calibrate_kinematics(CLI::App& calibrate, Common& common);
 void add_calibrate_manual(CLI::App& calibrate, Common& common);
+void add_calibrate_measurement(CLI::App& calibrate, Common& common);
 
 /// "X,Y,Z" in mm. Throws std::runtime_error that names the option.
 truth::Vec3 vector_option(const std::string& option, const std::string& text);

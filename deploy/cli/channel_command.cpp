@@ -17,6 +17,8 @@
 #include "cluster/operating_station.hpp"
 #include "commands.hpp"
 #include "commands/channel_request.hpp"
+#include "machine/service_constants.hpp"
+#include "stored_program.hpp"
 
 namespace trunnion::cli {
 namespace {
@@ -54,6 +56,9 @@ idl::channel::ChannelRequest request_of(cluster::Client& client, const ChannelOp
   const auto letters = axes ? letters_of(client, options.channel) : "";
   auto request = commands::request_of(*command, options.arguments, letters);
   request.channel = options.channel;
+  if (request.command == CommandKind::SELECT_PROGRAM)
+    if (const auto stored = find_program(client.newest(topics::program_list), request.program))
+      request.program = stored->name;
   return request;
 }
 
@@ -68,7 +73,8 @@ std::string await_line(cluster::Client& client, std::uint16_t channel) {
   while (service::monotonic_seconds() < until) {
     idl::service::Alarm a;
     while (alarms.take(a))
-      if (a.source == "channel" && a.part == channel && a.severity >= idl::service::Severity::ERROR)
+      if (a.source == machine::service::channel.name && a.part == channel &&
+          a.severity >= idl::service::Severity::ERROR)
         alarm = "alarm " + std::to_string(a.number) + ": " + a.text;
     while (states.take(state)) {
       if (state.channel != channel) continue;

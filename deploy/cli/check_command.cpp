@@ -3,10 +3,12 @@
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <iostream>
 #include <memory>
 #include <optional>
 #include <sstream>
+#include <utility>
 
 #include "analysis/check_program.hpp"
 #include "analysis/default_machine.hpp"
@@ -26,6 +28,8 @@ struct CheckOptions {
   std::string tools;
   bool skip_blocks = false;
   bool json_lines = false;
+  std::optional<tool_tables::MachineTables> active;  ///< of a running machine, in place of its folder's
+  std::function<void()> fetch;  ///< makes the programs that may be called files beside the program
 };
 
 std::optional<analysis::ToolRows> tool_rows(const std::string& path) {
@@ -62,7 +66,11 @@ int run_check(const CheckOptions& options) {
     folders.push_back(directory + "/cycles");
   }
   analysis::ProgramFolders programs(folders);
-  const auto resolve = [&programs](std::string_view name) { return programs.find(name); };
+  auto fetch = options.fetch;
+  const auto resolve = [&](std::string_view called) {
+    if (fetch) std::exchange(fetch, nullptr)();
+    return programs.find(called);
+  };
   const auto name = [&](std::uint32_t program) {
     return program == 0 ? options.program : programs.path(language::ProgramName(program).view());
   };
@@ -73,7 +81,7 @@ int run_check(const CheckOptions& options) {
     machine.resolve = resolve;
     good = analysis::check_program(text, machine, {}, check_options, name, std::cout);
   } else {
-    const auto tables = tool_tables::load_machine_tables(directory);
+    const auto tables = options.active ? *options.active : tool_tables::load_machine_tables(directory);
     channel_setup::ChannelSetup machine(tables);
     machine.resolve = resolve;
     if (rows) machine.set_tools(tool_table(*rows));
@@ -104,9 +112,11 @@ int run_check_as_asked(const CheckOptions& options) {
 
 }  // namespace
 
-int check_file(const std::string& program, const std::string& machine) {
+int check_file(const std::string& program, const std::string& machine,
+               const tool_tables::MachineTables& active, std::function<void()> fetch) {
   CheckOptions check;
   check.program = program, check.machine = machine;
+  check.active = active, check.fetch = std::move(fetch);
   return run_check(check);
 }
 

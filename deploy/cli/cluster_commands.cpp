@@ -13,6 +13,8 @@
 #include "cluster/instances.hpp"
 #include "commands.hpp"
 #include "machine/alarm_constants.hpp"
+#include "machine/gateway_settings.hpp"
+#include "machine/service_constants.hpp"
 #include "stream/replica_watch.hpp"
 #include "stream/stage_names.hpp"
 
@@ -50,7 +52,9 @@ int up(const Common& common, cluster::UpOptions options, const std::string& time
     std::printf("%s %s in %.2f s, domain %u, state in %s\n", cluster.machine.c_str(),
                 cluster.host.empty() ? "is ready" : ("runs what host " + cluster.host + " has").c_str(),
                 cluster.start_seconds, cluster.run.domain, cluster.state_directory.c_str());
-    if (cluster.port != 0) std::printf("Operate it at http://localhost:%u\n", cluster.port);
+    const bool tls = machine::load_gateway_settings(cluster.machine_directory).tls.on;
+    if (cluster.port != 0)
+      std::printf("Operate it at %s://localhost:%u\n", tls ? "https" : "http", cluster.port);
   }
   return 0;
 }
@@ -81,7 +85,7 @@ void add_place(Json& row, const machine::MachineConfig& config, std::uint32_t in
   for (const auto& entry : config.services) {
     if (entry.instance != cluster::place_of(instance)) continue;
     row["host"] = entry.host;
-    if (entry.service == "channel") row["channel"] = entry.channel;
+    if (entry.service == machine::service::channel.name) row["channel"] = entry.channel;
   }
 }
 
@@ -110,16 +114,43 @@ std::string replica_state(const idl::service::ClusterService& service, bool in_s
   return in_step ? "in step" : "joining";
 }
 
+// What the PLC's programs keep the channels from doing.
+Json inhibits_of(const std::optional<idl::plc::Outputs>& outputs) {
+  auto list = Json::array();
+  for (std::size_t channel = 0; outputs && channel < outputs->channels.size(); ++channel) {
+    const auto& control = outputs->channels[channel];
+    if (control.start_inhibit || control.manual_inhibit)
+      list.push_back({{"channel", channel},
+                      {"start_inhibit", control.start_inhibit},
+                      {"manual_inhibit", control.manual_inhibit},
+                      {"reason", control.reason}});
+  }
+  return list;
+}
+
+void print_inhibits(const Json& inhibits) {
+  if (!inhibits.empty()) std::printf("\ninhibited by the PLC\n");
+  for (const auto& one : inhibits) {
+    const bool start = one["start_inhibit"], manual = one["manual_inhibit"];
+    const auto reason = one["reason"].get<std::string>();
+    std::printf("  channel %d: %s%s%s: %s\n", one["channel"].get<int>(), start ? "cycle start" : "",
+                start && manual ? " and " : "", manual ? "manual motion" : "",
+                reason.empty() ? "the programs give no reason" : reason.c_str());
+  }
+}
+
 int show_status(const Common& common) {
   const auto cluster = cluster::find_cluster(common.domain);
   cluster::Client client(cluster.run.domain);
   auto announcements = client.bus().reader(topics::announcement);
   auto states = client.bus().reader(topics::service_state);
   auto alarms = client.bus().reader(topics::alarm);
+  auto plc = client.bus().reader(topics::plc_outputs);
   const auto list = client.newest(topics::cluster);
   std::map<std::uint32_t, idl::service::Announcement> announced;
   std::map<std::uint32_t, idl::service::ServiceState> state;
   std::map<std::array<std::uint32_t, 3>, idl::service::Alarm> alarm;
+  std::optional<idl::plc::Outputs> outputs;
   const double until = service::monotonic_seconds() + 1.5;
   do {
     idl::service::Announcement a;
@@ -128,7 +159,9 @@ int show_status(const Common& common) {
     while (states.take(s)) state[s.instance] = s;
     idl::service::Alarm l;
     while (alarms.take(l)) alarm[{l.instance, l.number, l.part}] = l;
-    bool all = announced.size() >= list.services.size();
+    idl::plc::Outputs o;
+    while (plc.take(o)) outputs = o;
+    bool all = announced.size() >= list.services.size() && outputs;
     for (const auto& service : list.services) all = all && state.count(service.instance) != 0;
     if (all && service::monotonic_seconds() > until - 1.2) break;
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
@@ -158,11 +191,12 @@ int show_status(const Common& common) {
   Json active = Json::array();
   for (const auto& [key, a] : alarm)
     if (a.active) active.push_back(bus::to_json(a));
+  const auto inhibits = inhibits_of(outputs);
   if (common.json) {
     std::cout << Json{{"machine", list.machine}, {"domain", cluster.run.domain},
                       {"ready", list.ready},     {"virtual_time", list.virtual_time},
                       {"services", services},    {"alarms", active},
-                      {"open", cluster.open}}
+                      {"inhibits", inhibits},    {"open", cluster.open}}
                      .dump(2)
               << "\n";
   } else {
@@ -182,6 +216,7 @@ int show_status(const Common& common) {
     for (const auto& a : active)
       std::printf("  %u %s (%s): %s\n", a["number"].get<unsigned>(), a["severity"].get<std::string>().c_str(),
                   a["source"].get<std::string>().c_str(), a["text"].get<std::string>().c_str());
+    print_inhibits(inhibits);
   }
   return list.ready ? 0 : 1;
 }
@@ -223,10 +258,11 @@ void add_cluster_commands(CLI::App& app, Common& common) {
   add_command(app, common, "down",
               "Stop a cluster (of several hosts: the part on this one); nothing of it is left but its state",
               [&common] { return down(common); });
-  add_command(
-      app, common, "status",
-      "Table of the services: vendor, pid, state, uptime, rates; and the alarms. Exit status 0 when ready",
-      [&common] { return show_status(common); });
+  add_command(app, common, "status",
+              "Table of the services: vendor, pid, state, uptime, rates; the alarms; what the PLC inhibits. "
+              "Exit status "
+              "0 when ready",
+              [&common] { return show_status(common); });
 }
 
 }  // namespace trunnion::cli

@@ -15,6 +15,7 @@
 #include "analysis/program_run.hpp"
 #include "bodies_picture.hpp"
 #include "bus/json.hpp"
+#include "canonical/axes.hpp"
 #include "collision_machine.hpp"
 #include "commands.hpp"
 #include "figures.hpp"
@@ -68,7 +69,7 @@ collision::AxisPosition pose_of(const std::string& text, const collision::Travel
   collision::AxisPosition position{};
   std::istringstream in(text);
   for (std::string word; in >> word;) {
-    const auto axis = std::string_view("XYZABCUVW").find(word[0]);
+    const auto axis = canonical::axis_letters.find(word[0]);
     std::istringstream value(word.substr(1));
     char more = 0;
     if (axis == std::string_view::npos || !travel[axis].present || !(value >> position[axis]) ||

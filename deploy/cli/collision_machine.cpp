@@ -29,12 +29,6 @@ void put_tool(collision::MachineBodies& bodies, const CylinderTool& tool) {
   bodies.set.bodies.push_back(collision::tool_body(bodies.links, tool.length, tool.radius));
 }
 
-void put_probe(collision::MachineBodies& bodies, const truth::TouchProbeTruth& probe) {
-  const auto& all = bodies.set.bodies;
-  if (std::none_of(all.begin(), all.end(), [](const auto& body) { return body.tool; }))
-    collision::add_probe(bodies.links, probe, bodies.set);
-}
-
 std::unique_ptr<collision_guard::CollisionGuard> load_guard(const channel_setup::ChannelSetup& machine,
                                                             const std::string& directory,
                                                             const machine::Parameters& parameters) {

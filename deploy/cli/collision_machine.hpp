@@ -24,8 +24,6 @@ collision::MachineBodies load_bodies(const TrueMachine& machine, const std::stri
                                      std::uint16_t channel);
 /// In the place of the bodies on the tool.
 void put_tool(collision::MachineBodies& bodies, const CylinderTool& tool);
-/// The probe of truth.yaml, unless the file has bodies on the tool.
-void put_probe(collision::MachineBodies& bodies, const truth::TouchProbeTruth& probe);
 
 /// The check that machine.yaml in `directory` demands of the channel; null when it is off. Throws
 /// std::runtime_error.

@@ -10,6 +10,9 @@
 namespace CLI {
 class App;
 }
+namespace trunnion::tool_tables {
+struct MachineTables;
+}
 
 namespace trunnion::cli {
 
@@ -49,11 +52,15 @@ void add_state_commands(CLI::App& app, Common& common);        // state, backup,
 void add_swap_command(CLI::App& app, Common& common);          // swap
 void add_upgrade_command(CLI::App& app, Common& common);       // upgrade
 void add_user_command(CLI::App& app, Common& common);          // user
+void add_certificate_command(CLI::App& app, Common& common);   // certificate
 void add_new_command(CLI::App& app, Common& common);           // new service
 void add_completion_command(CLI::App& app, Common& common);    // completion
 
-/// `trunnion check` of a file for a machine by name or directory; 1 when the program has an error.
-int check_file(const std::string& program, const std::string& machine);
+/// `trunnion check` of a file for a machine by name or directory with the tables that are `active` on it; 1
+/// when the program has an error. `fetch` is called before the first subprogram is looked for: it writes
+/// those that are stored beside the file.
+int check_file(const std::string& program, const std::string& machine,
+               const tool_tables::MachineTables& active, std::function<void()> fetch);
 
 /// The subject "motion" of bench; 1 when a requirement is missed.
 int bench_motion(const Common& common, const std::string& machine);

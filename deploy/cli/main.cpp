@@ -40,6 +40,7 @@ int main(int argc, char** argv) {
   add_swap_command(app, common);
   add_upgrade_command(app, common);
   add_user_command(app, common);
+  add_certificate_command(app, common);
   add_new_command(app, common);
   add_completion_command(app, common);
   try {

@@ -14,6 +14,7 @@
 #include "cluster/operating_station.hpp"
 #include "commands.hpp"
 #include "commands/command_table.hpp"
+#include "machine/service_constants.hpp"
 
 namespace trunnion::cli {
 namespace {
@@ -35,7 +36,7 @@ void wait_until_idle(cluster::Client& client, std::uint16_t channel, double time
   while (service::monotonic_seconds() < until) {
     idl::service::Alarm a;
     while (alarms.take(a))
-      if (a.active && a.source == "channel" && a.part == channel)
+      if (a.active && a.source == machine::service::channel.name && a.part == channel)
         alarm = std::to_string(a.number) + ": " + a.text;
     idl::channel::ChannelState state;
     while (reader.take(state)) {
@@ -90,8 +91,9 @@ int alarms(const Common& common, bool reset, bool take_over) {
   cluster::Client client(cluster.run.domain);
   if (reset) client.reset_alarms();
   auto reader = client.bus().reader(topics::alarm);
+  client.wait_for_all_services([&] { return reader.matched(); });
   std::map<std::array<std::uint32_t, 3>, idl::service::Alarm> list;
-  const double until = service::monotonic_seconds() + 0.5;
+  const double until = service::monotonic_seconds() + 0.25;
   idl::service::Alarm a;
   while (service::monotonic_seconds() < until) {
     while (reader.take(a)) list[{a.instance, a.number, a.part}] = a;

@@ -15,16 +15,16 @@ namespace {
 // Of ParameterRequest in idl/parameters.idl.
 constexpr std::size_t most_values = 4096, most_author = 64;
 
-std::string user() {
+}  // namespace
+
+std::string user_name() {
   const char* name = std::getenv("USER");
   return name != nullptr && *name != 0 ? name : "uid " + std::to_string(getuid());
 }
 
-}  // namespace
-
 int send_parameters(const Common& common, cluster::Client& client, idl::parameters::ParameterRequest request,
                     const std::string& suffix, bool silent) {
-  request.who = user().substr(0, most_author - suffix.size()) + suffix;
+  request.who = user_name().substr(0, most_author - suffix.size()) + suffix;
   const auto reply = client.parameter(std::move(request));
   if (silent) return 0;
   if (common.json)

@@ -10,6 +10,9 @@
 
 namespace trunnion::cli {
 
+/// Who calls the command, for journals.
+std::string user_name();
+
 /// Sends the request in the name of the user and prints the reply; 0. Throws std::runtime_error when it is
 /// refused.
 /// `suffix` follows the user's name in the journal; `silent` prints nothing.

@@ -15,12 +15,13 @@
 #include "cluster/cluster_files.hpp"
 #include "collision_machine.hpp"
 #include "commands.hpp"
+#include "plan_picture.hpp"
 
 namespace trunnion::cli {
 namespace {
 
 struct Plan {
-  std::string program, machine, csv;
+  std::string program, machine, csv, plot;
   std::vector<std::string> settings;
   bool places = false;
 };
@@ -78,14 +79,24 @@ int run_plan(const Plan& plan) {
     std::fprintf(file.get(), ",tip_x,tip_y,tip_z,feed\n");
   }
   const auto guard = load_guard(machine, directory, tables.parameters);
+  PlanPicture picture(machine.cycle_seconds());
   const auto report = analysis::plan_program(
       text, machine, machine.reference_position(),
       [&](const analysis::PlannedCycle& cycle) {
         if (file) write_row(file.get(), cycle, axes);
+        if (!plan.plot.empty()) picture.add(cycle);
       },
       guard.get());
   print_warnings(guard.get(), plan.program);
   if (file && std::ferror(file.get()) != 0) throw std::runtime_error(plan.csv + ": cannot be written");
+  if (!plan.plot.empty()) {
+    std::ofstream out(plan.plot, std::ios::binary);
+    out << picture.svg(std::filesystem::path(plan.program).filename().string() + " on " +
+                           std::filesystem::path(plan.machine).filename().string(),
+                       report.places);
+    out.close();
+    if (!out) throw std::runtime_error(plan.plot + ": cannot be written");
+  }
   const auto status = [&] {
     if (report.result.good) return 0;
     std::cerr << plan.program << ":" << report.result.alarm << "\n";
@@ -121,9 +132,10 @@ int run_plan(const Plan& plan) {
   for (std::size_t k = 0; k < report.places.size(); ++k) {
     const analysis::CostlyPlace& place = report.places[k];
     std::printf(
-        "%s{\"lines\": [%u, %u], \"begin\": %.3f, \"lost\": %.4f, \"axis\": \"%c\", \"limit\": \"%s\", "
+        "%s{\"lines\": [%u, %u], \"begin\": %.3f, \"end\": %.3f, \"lost\": %.4f, \"axis\": \"%c\", "
+        "\"limit\": \"%s\", "
         "\"use\": %.3f}",
-        k > 0 ? ", " : "", place.first_line, place.last_line, place.begin, place.lost,
+        k > 0 ? ", " : "", place.first_line, place.last_line, place.begin, place.end, place.lost,
         canonical::axis_letters[place.axis], limit_names[static_cast<std::size_t>(place.limit)], place.use);
   }
   std::printf("]}\n");
@@ -143,6 +155,8 @@ void add_plan_command(CLI::App& app, Common& common) {
   command->add_option("--csv", plan->csv, "File for one row per cycle");
   command->add_flag("--places", plan->places,
                     "Print the ten places that lose most time as text, in place of JSON");
+  command->add_option("--plot", plan->plot,
+                      "File for a picture (SVG) of path and feed with the ten places that lose most time");
   command->add_option("--set", plan->settings,
                       "NUMBER=VALUE instead of the machine's parameter; may be repeated");
 }

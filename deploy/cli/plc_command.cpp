@@ -7,15 +7,19 @@
 #include <iostream>
 #include <memory>
 #include <sstream>
+#include <utility>
 
 #include "bus/json.hpp"
 #include "commands.hpp"
 #include "plc/compile.hpp"
 #include "plc/devices/device_file.hpp"
+#include "plc/devices/message_file.hpp"
 #include "plc/devices/modbus_file.hpp"
+#include "plc/instruction_list/compiler.hpp"
 #include "plc/library/register_names.hpp"
 #include "plc/syntax/token.hpp"
 #include "plc/tools/program_run.hpp"
+#include "plc/tools/uses.hpp"
 
 namespace trunnion::cli {
 namespace {
@@ -26,6 +30,7 @@ struct PlcOptions {
   std::vector<std::string> set;
   std::uint64_t scans = 1;
   double period = 10;
+  bool cross_reference = false;
 };
 
 std::string read(const std::string& path) {
@@ -36,6 +41,26 @@ std::string read(const std::string& path) {
   return text.str();
 }
 
+/// Instruction lists: an error ends its list, so of each at most one is known.
+void add_lists(const std::vector<std::string>& files, st::Compilation& result) {
+  il::Compiler lists(il::interface_symbols());
+  for (const auto& path : files) {
+    if (!path.ends_with(".il")) continue;
+    try {
+      st::add_uses(result, path, lists.compile(read(path), path));
+    } catch (const il::CompileError& error) {
+      result.files.push_back(path);
+      result.diagnostics.push_back(
+          {st::Severity::error,
+           {static_cast<std::uint16_t>(result.files.size() - 1), static_cast<std::uint32_t>(error.line),
+            static_cast<std::uint32_t>(error.column)},
+           error.text});
+      result.code.reset();
+    }
+  }
+  for (const auto& warning : lists.warnings()) std::cerr << warning << "\n";
+}
+
 st::Compilation compiled(const std::vector<std::string>& files, bool functions) {
   std::vector<st::Source> sources;
   for (const auto& path : files) {
@@ -44,10 +69,16 @@ st::Compilation compiled(const std::vector<std::string>& files, bool functions) 
       st::read_modbus(text, path);
       continue;
     }
+    if (std::filesystem::path(path).filename() == "messages.yaml") {
+      st::read_messages(text, path);
+      continue;
+    }
     if (path.ends_with(".yaml")) text = st::read_devices(text, path, st::interface_registers()).program;
-    sources.push_back({path, std::move(text)});
+    if (!path.ends_with(".il")) sources.push_back({path, std::move(text)});
   }
-  return st::compile(sources, st::interface_registers(), functions);
+  auto result = st::compile(sources, st::interface_registers(), functions);
+  add_lists(files, result);
+  return result;
 }
 
 bus::Json diagnostics_json(const st::Compilation& result) {
@@ -61,21 +92,93 @@ bus::Json diagnostics_json(const st::Compilation& result) {
   return list;
 }
 
+std::string place_text(const st::Compilation& result, st::Position at) {
+  return (at.file < result.files.size() ? result.files[at.file] : std::string("?")) + ":" +
+         std::to_string(at.line) + ":" + std::to_string(at.column);
+}
+
+std::string access_text(const st::Use& use) {
+  std::string text;
+  for (const auto& [has, word] :
+       {std::pair{use.reads, "reads"}, {use.writes, "writes"}, {use.calls, "calls"}})
+    if (has) text.append(text.empty() ? "" : ", ").append(word);
+  return text;
+}
+
+bus::Json tasks_json(const st::Compilation& result) {
+  auto list = bus::Json::array();
+  for (const auto& task : result.tasks) {
+    bus::Json one = {{"program", task.name}};
+    if (task.most)
+      one["most_statements"] = *task.most;
+    else
+      one["unbounded_loop"] = place_text(result, task.unbounded);
+    list.push_back(std::move(one));
+  }
+  return list;
+}
+
+bus::Json references_json(const st::Compilation& result) {
+  auto list = bus::Json::array();
+  for (const auto& reference : result.references) {
+    auto uses = bus::Json::array();
+    for (const auto& use : reference.uses) {
+      bus::Json one = {{"file", result.files[use.at.file]},
+                       {"line", use.at.line},
+                       {"column", use.at.column},
+                       {"reads", use.reads},
+                       {"writes", use.writes},
+                       {"calls", use.calls}};
+      if (!use.element.empty()) one["element"] = use.element;
+      uses.push_back(std::move(one));
+    }
+    bus::Json one = {{"name", reference.name}, {"uses", uses}};
+    if (!reference.type.empty()) one["type"] = reference.type;
+    if (!reference.location.empty()) one["register"] = reference.location;
+    if (!reference.names.empty()) one["names"] = reference.names;
+    list.push_back(std::move(one));
+  }
+  return list;
+}
+
+void print_references(const st::Compilation& result) {
+  for (const auto& reference : result.references) {
+    std::cout << reference.name;
+    if (!reference.type.empty()) std::cout << " : " << reference.type;
+    if (!reference.location.empty()) std::cout << " at " << reference.location;
+    const char* separator = "  ";
+    for (const auto& name : reference.names) std::cout << std::exchange(separator, ", ") << name;
+    std::cout << "\n";
+    for (const auto& use : reference.uses)
+      std::cout << "  " << place_text(result, use.at) << ": " << access_text(use)
+                << (use.element.empty() ? "" : " (" + use.element + ")") << "\n";
+  }
+}
+
 int check_plc(const PlcOptions& options, bool json) {
   const auto result = compiled(options.files, false);
   const auto instructions = result.good() ? result.code->code.size() : 0;
   const auto cells = result.good() ? result.code->initial.size() - st::image_cells : 0;
   if (json) {
-    std::cout << bus::text_of({{"good", result.good()},
-                               {"instructions", instructions},
-                               {"cells", cells},
-                               {"diagnostics", diagnostics_json(result)}})
-              << "\n";
-  } else {
-    for (const auto& line : result.lines()) std::cout << line << "\n";
-    if (result.good())
-      std::cout << "No errors: " << instructions << " instructions, " << cells << " cells of memory\n";
+    bus::Json document = {{"good", result.good()},
+                          {"instructions", instructions},
+                          {"cells", cells},
+                          {"diagnostics", diagnostics_json(result)},
+                          {"statements", tasks_json(result)}};
+    if (options.cross_reference) document["cross_reference"] = references_json(result);
+    std::cout << bus::text_of(document) << "\n";
+    return result.good() ? 0 : 1;
   }
+  for (const auto& line : result.lines()) std::cout << line << "\n";
+  if (options.cross_reference) print_references(result);
+  for (const auto& task : result.tasks)
+    if (task.most)
+      std::cout << task.name << ": at most " << *task.most << " statements in one run\n";
+    else
+      std::cout << task.name << ": no limit of its statements is known, because of the loop at "
+                << place_text(result, task.unbounded) << "\n";
+  if (result.good())
+    std::cout << "No errors: " << instructions << " instructions, " << cells << " cells of memory\n";
   return result.good() ? 0 : 1;
 }
 
@@ -215,12 +318,15 @@ void add_plc_command(CLI::App& app, Common& common) {
       "plc",
       "Programs of the PLC: check, run and test them without a machine; see and change those that run");
   plc->require_subcommand(1);
-  auto* checks = add_command(*plc, common, "check", "Report the errors and warnings of programs",
+  auto* checks = add_command(*plc, common, "check",
+                             "Report errors, warnings and the largest number of statements of programs",
                              [options, &common] { return check_plc(*options, common.json); });
   checks
       ->add_option("files", options->files,
-                   "Structured Text, PLCopen XML and devices.yaml, translated together")
+                   "Structured Text, PLCopen XML, instruction lists and devices.yaml, translated together")
       ->required();
+  checks->add_flag("--cross-reference", options->cross_reference,
+                   "Every variable and register with the places that read, write or call it");
   auto* runs =
       add_command(*plc, common, "run", "Run programs, or one program or function, and print every variable",
                   [options, &common] { return run_plc(*options, common.json); });

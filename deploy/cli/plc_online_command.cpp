@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// plc variables, watch, force, trace, tasks: the values of the PLC that runs
+// plc variables, uses, watch, force, trace, tasks: the values of the PLC that runs
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <atomic>
@@ -8,6 +8,7 @@
 #include <fstream>
 #include <iostream>
 #include <memory>
+#include <utility>
 
 #include "bus/json.hpp"
 #include "cluster/operating_station.hpp"
@@ -27,19 +28,28 @@ struct PlcOnlineOptions {
 
 std::atomic<bool> watch_interrupted{false};
 
-int variables(const Common& common, const PlcOnlineOptions& options) {
+// All pages of a list.
+template <class Row>
+std::vector<Row> listed(const Common& common, const PlcOnlineOptions& options, OnlineAction action,
+                        std::vector<Row> idl::plc::OnlineReply::*rows) {
   PlcSession session(common);
-  std::vector<idl::plc::VariableInfo> all;
+  std::vector<Row> all;
   for (std::uint32_t total = 1; all.size() < total;) {
     OnlineRequest request;
-    request.action = OnlineAction::LIST_VARIABLES;
+    request.action = action;
     request.paths = options.paths;
     request.first = static_cast<std::uint32_t>(all.size());
     const auto reply = session.call(request);
+    const auto& page = reply.*rows;
     total = reply.total;
-    if (reply.variables.empty()) break;
-    all.insert(all.end(), reply.variables.begin(), reply.variables.end());
+    if (page.empty()) break;
+    all.insert(all.end(), page.begin(), page.end());
   }
+  return all;
+}
+
+int variables(const Common& common, const PlcOnlineOptions& options) {
+  const auto all = listed(common, options, OnlineAction::LIST_VARIABLES, &idl::plc::OnlineReply::variables);
   if (common.json) {
     std::cout << bus::text_of(ShownVariables(all).json()) << "\n";
     return 0;
@@ -246,6 +256,26 @@ int trace(const Common& common, const PlcOnlineOptions& options) {
   return 1;
 }
 
+int uses(const Common& common, const PlcOnlineOptions& options) {
+  const auto all = listed(common, options, OnlineAction::LIST_USES, &idl::plc::OnlineReply::uses);
+  if (common.json) {
+    auto list = bus::Json::array();
+    for (const auto& use : all) list.push_back(bus::to_json(use));
+    std::cout << bus::text_of(list) << "\n";
+    return 0;
+  }
+  if (all.empty()) std::cout << options.paths[0] << " is not used in the sources\n";
+  for (const auto& use : all) {
+    std::cout << use.file << ":" << use.line << ":" << use.column << ":";
+    const char* separator = " ";
+    for (const auto& [does, word] :
+         {std::pair{use.reads, "reads"}, {use.writes, "writes"}, {use.calls, "calls"}})
+      if (does) std::cout << std::exchange(separator, ", ") << word;
+    std::cout << (use.element.empty() ? "" : " (" + use.element + ")") << "\n";
+  }
+  return 0;
+}
+
 int tasks(const Common& common) {
   PlcSession session(common);
   OnlineRequest request;
@@ -277,6 +307,11 @@ void add_plc_online_commands(CLI::App& plc, Common& common) {
   auto* lists = add_command(plc, common, "variables", "Variables of the PLC that runs, with their types",
                             bind(variables));
   lists->add_option("path", options->paths, "Only those whose path begins with this")->expected(0, 1);
+  add_command(plc, common, "uses", "Places in the sources of the PLC that use a variable or register",
+              bind(uses))
+      ->add_option("path", options->paths, "Variable, register or name of a register, as of watch")
+      ->expected(1)
+      ->required();
   auto* watches = add_command(plc, common, "watch",
                               "Print the values of variables of the PLC whenever they change", bind(watch));
   watches

@@ -7,14 +7,16 @@
 #include <fstream>
 #include <iostream>
 #include <memory>
-#include <optional>
 
 #include "bus/json.hpp"
 #include "cluster/client.hpp"
 #include "cluster/cluster.hpp"
 #include "commands.hpp"
+#include "machine/parameters.hpp"
 #include "machine/yaml.hpp"
 #include "storage/temporary_directory.hpp"
+#include "stored_program.hpp"
+#include "tool_tables/machine_tables.hpp"
 
 namespace trunnion::cli {
 namespace {
@@ -28,17 +30,6 @@ struct ProgramOptions {
   std::string name, new_name, file;
   bool replace = false;
 };
-
-/// The stored program `name`; "part" and "part.nc" are alike where only one of them is stored.
-std::optional<ProgramEntry> find_program(const ProgramList& list, const std::string& name) {
-  constexpr std::string_view suffix = ".nc";
-  for (const auto& wanted : {name, name + std::string(suffix),
-                             name.ends_with(suffix) ? name.substr(0, name.size() - suffix.size()) : name}) {
-    const auto found = std::ranges::find(list.programs, wanted, &ProgramEntry::name);
-    if (found != list.programs.end()) return *found;
-  }
-  return std::nullopt;
-}
 
 ProgramEntry stored(const ProgramList& list, const std::string& name) {
   if (const auto found = find_program(list, name)) return *found;
@@ -142,9 +133,19 @@ int check_program(const Common& common, const ProgramOptions& options) {
   cluster::Client client(cluster.run.domain);
   const auto entry = stored(client.newest(topics::program_list), options.name);
   const storage::TemporaryDirectory directory("trunnion-check");
-  const auto file = directory.path() / entry.name;
-  std::ofstream(file, std::ios::binary) << client.download(entry.name);
-  return check_file(file.string(), cluster.machine_directory);
+  const auto write = [&](const std::string& name) {
+    std::ofstream(directory.path() / name, std::ios::binary) << client.download(name);
+  };
+  write(entry.name);
+  const auto fetch = [&] {
+    for (const auto& other : client.newest(topics::program_list).programs)
+      if (other.name != entry.name) write(other.name);
+  };
+  tool_tables::MachineTables active;
+  active.parameters = machine::parameters_of(client.newest(topics::parameter_set));
+  active.tools = client.newest(topics::tool_table);
+  active.offsets = client.newest(topics::work_offsets);
+  return check_file((directory.path() / entry.name).string(), cluster.machine_directory, active, fetch);
 }
 
 }  // namespace
@@ -184,9 +185,9 @@ void add_program_commands(CLI::App& app, Common& common) {
     command->add_option("new-name", options->new_name, "New name")->required();
   }
   {
-    const auto [command, options] = add(
-        "check", "Interpret a stored program with the machine's axes, travel, offsets and tools as delivered",
-        check_program);
+    const auto [command, options] =
+        add("check", "Interpret a stored program with the axes, travel, offsets and tools that are active",
+            check_program);
     command->add_option("name", options->name, stored_name)->required();
   }
 }

@@ -8,8 +8,11 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <memory>
+#include <set>
 #include <sstream>
 #include <thread>
+#include <tuple>
 
 #include "cluster/child_process.hpp"
 #include "cluster/client.hpp"
@@ -17,9 +20,11 @@
 #include "machine/alarm_constants.hpp"
 #include "machine/parameter_constants.hpp"
 #include "machine/stream_settings.hpp"
+#include "parameter_request.hpp"
 #include "recording/file_stream.hpp"
 #include "report/capture.hpp"
 #include "service/network.hpp"
+#include "true_machine.hpp"
 
 namespace trunnion::cli {
 namespace fs = std::filesystem;
@@ -28,6 +33,8 @@ namespace {
 using idl::channel::CommandKind;
 using idl::channel::Mode;
 using idl::channel::RunState;
+
+constexpr double activation_timeout = 10;  // s from the reset until parameters are active
 
 // Stops what a run has started, however it ends.
 class Recorder {
@@ -193,8 +200,14 @@ void search_line(cluster::Client& client, std::uint32_t line) {
                            " was not found: see the alarms of the recording");
 }
 
-// Starts every channel and waits until all are idle again. Returns the first alarm, or empty.
-std::string execute(cluster::Client& client, std::size_t channels, const RunOptions& options, bool bar) {
+struct Execution {
+  std::string alarm;     // the first one, or empty
+  bool starved = false;  // the drive has stopped because setpoints were missing
+  bool ended = false;    // every program came to its end
+};
+
+// Starts every channel, or continues it, and waits until all are idle again.
+Execution execute(cluster::Client& client, std::size_t channels, const RunOptions& options, bool bar) {
   const double timeout = options.timeout;
   if (options.dry_run)
     for (std::uint16_t c = 0; c < channels; ++c)
@@ -212,7 +225,8 @@ std::string execute(cluster::Client& client, std::size_t channels, const RunOpti
   for (std::uint16_t c = 0; c < channels; ++c) client.channel(c, CommandKind::CYCLE_START);
   const double began = service::monotonic_seconds();
   double drawn = 0;
-  std::string alarm;
+  Execution result;
+  auto& alarm = result.alarm;
   while (std::find(done.begin(), done.end(), false) != done.end()) {
     client.bus().signal().wait(0.05);
     stop_when_interrupted();
@@ -227,9 +241,11 @@ std::string execute(cluster::Client& client, std::size_t channels, const RunOpti
       newest[c] = state;
     }
     idl::service::Alarm a;
-    while (alarms.take(a))
-      if (a.active && alarm.empty() && a.severity >= idl::service::Severity::ERROR)
-        alarm = "alarm " + std::to_string(a.number) + " (" + a.source + "): " + a.text;
+    while (alarms.take(a)) {
+      if (!a.active || a.severity < idl::service::Severity::ERROR) continue;
+      result.starved |= a.number == alarm::setpoint_missing.number;
+      if (alarm.empty()) alarm = "alarm " + std::to_string(a.number) + " (" + a.source + "): " + a.text;
+    }
     const double now = service::monotonic_seconds();
     if (bar && now - drawn > 0.1) {
       draw_progress(newest, now - began);
@@ -244,17 +260,45 @@ std::string execute(cluster::Client& client, std::size_t channels, const RunOpti
       break;
     }
   }
+  result.ended = std::find(done.begin(), done.end(), false) == done.end();
   if (bar) {
     for (auto& state : newest)
       if (alarm.empty()) state.progress = 1;
     draw_progress(newest, service::monotonic_seconds() - began);
     std::fprintf(stderr, "\n");
   }
-  return alarm;
+  return result;
 }
 
-bool is_starvation(const std::string& alarm) {
-  return alarm.starts_with("alarm " + std::to_string(alarm::setpoint_missing.number) + " ");
+// Acknowledges all alarms and waits until none is active that would stop a start.
+void acknowledge(cluster::Client& client) {
+  client.reset_alarms();
+  auto alarms = client.bus().reader(topics::alarm);
+  std::set<std::tuple<std::string, std::uint32_t, std::uint32_t>> active;
+  const double began = service::monotonic_seconds();
+  for (double waited = 0; waited < 2 && (waited < 0.2 || !active.empty());
+       waited = service::monotonic_seconds() - began) {
+    client.bus().signal().wait(0.05);
+    for (idl::service::Alarm a; alarms.take(a);) {
+      const std::tuple key(a.source, a.number, a.part);
+      if (a.active && a.severity >= idl::service::Severity::ERROR)
+        active.insert(key);
+      else
+        active.erase(key);
+    }
+  }
+}
+
+// As execute(), and goes on where the drive has stopped on the path because setpoints were missing, until
+// `until`: the starved periods in the recording say so.
+std::string execute_starved(cluster::Client& client, std::size_t channels, const RunOptions& options,
+                            bool bar, double until) {
+  auto execution = execute(client, channels, options, bar);
+  while (execution.starved && !execution.ended && service::monotonic_seconds() < until) {
+    acknowledge(client);
+    execution = execute(client, channels, options, bar);
+  }
+  return execution.starved ? "" : execution.alarm;
 }
 
 // A cluster for this run alone, on this computer, whatever hosts machine.yaml names.
@@ -265,6 +309,7 @@ cluster::UpOptions up_options(const std::string& directory, const RunOptions& op
   up.executables = options.executables;
   up.state_directory = "temporary";
   up.own_domain = !options.domain;
+  up.of_this_process = true;
   up.domain = options.domain;
   up.virtual_time = !options.real_time;
   up.with_gateway = false;
@@ -284,6 +329,39 @@ void select_first(cluster::Client& client, const machine::MachineConfig& machine
   const auto name = place_program(client, machine, options.programs.at(0));
   client.set_mode(0, Mode::AUTO);
   select(client, 0, name);
+}
+
+// As an import and a reset do.
+void set_parameters(cluster::Client& client, const std::map<std::uint32_t, machine::ParameterValue>& values) {
+  idl::parameters::ParameterRequest request;
+  request.operation = idl::parameters::Operation::IMPORT;
+  request.who = user_name() + " run";
+  for (const auto& [number, value] : values) request.values.push_back({number, value.value, value.text});
+  client.parameter(std::move(request));
+  client.channel(0, CommandKind::RESET);
+  const double until = service::monotonic_seconds() + activation_timeout;
+  for (;;) {
+    const auto set = client.newest(topics::parameter_set);
+    if (set.pending.empty()) return;
+    if (service::monotonic_seconds() > until)
+      throw std::runtime_error("parameter " + machine::number_text(set.pending.front().number) +
+                               " is not active after a reset: it needs a restart of the cluster; write it "
+                               "into parameters.yaml of the machine");
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+}
+
+// Of a machine whose truth.yaml says what it is, else empty. The axes are cold.
+report::TrueTip true_tip(const std::string& machine, std::uint16_t channel) {
+  if (!has_truth(machine)) return {};
+  const std::shared_ptr<const truth::PoseReport> report = load_true_machine(machine, channel, {}).report;
+  return [report](const language::AxisValues& loads, const std::array<int, 9>& approach, double tool_length) {
+    truth::MachinePose pose;
+    pose.positions = loads;
+    pose.approach = approach;
+    pose.tool_length = tool_length;
+    return report->geometry().pose(pose).tip;
+  };
 }
 
 }  // namespace
@@ -309,13 +387,17 @@ RunResult run_programs(const RunOptions& options) {
     Recorder recorder(options.recording, cluster.get());
     cluster::Client client(cluster.get().run.domain);
     await_recorder(client);
+    if (!options.parameters.empty()) set_parameters(client, options.parameters);
     for (std::uint16_t c = 0; c < options.programs.size(); ++c) {
       names.push_back(place_program(client, machine, options.programs[c]));
       texts.push_back(client.download(names.back()));
       client.set_mode(c, Mode::AUTO);
       select(client, c, names.back());
     }
-    result.alarm = execute(client, options.programs.size(), options, !options.quiet && isatty(2) != 0);
+    const bool bar = !options.quiet && isatty(2) != 0;
+    result.alarm = options.continue_starved ? execute_starved(client, options.programs.size(), options, bar,
+                                                              service::monotonic_seconds() + options.timeout)
+                                            : execute(client, options.programs.size(), options, bar).alarm;
     std::this_thread::sleep_for(
         std::chrono::milliseconds(100));  // what the stages wrote last is still on its way
     recorder.stop();
@@ -326,6 +408,7 @@ RunResult run_programs(const RunOptions& options) {
     inputs.program_name = names[c];
     inputs.program_text = texts[c];
     inputs.channel = c;
+    inputs.true_tip = true_tip(directory, c);
     result.reports.push_back(report::make_report(options.recording, inputs));
     if (result.alarm.empty() && !result.reports.back().problem.empty())
       result.alarm = result.reports.back().problem;
@@ -347,7 +430,7 @@ RecordingCost measure_recording(const RunOptions& options, int rounds) {
     if (record) recorder.emplace(options.recording, cluster.get());
     const auto before = client.newest(topics::channel_state).cycle;
     const double began = service::monotonic_seconds();
-    if (const auto alarm = execute(client, 1, options, false); !alarm.empty())
+    if (const auto alarm = execute(client, 1, options, false).alarm; !alarm.empty())
       throw std::runtime_error(alarm);
     const double seconds = service::monotonic_seconds() - began;
     recorder.reset();
@@ -372,13 +455,8 @@ report::StreamTiming measure_real_time(const RunOptions& options, double seconds
     {
       Recorder recorder(options.recording, cluster.get());
       const bool bar = !options.quiet && isatty(2) != 0;
-      auto alarm = execute(client, 1, options, bar);
-      // The drive has stopped on the path because setpoints were missing: the starved periods say so.
-      while (is_starvation(alarm) && service::monotonic_seconds() < until) {
-        client.reset_alarms();
-        alarm = execute(client, 1, options, bar);
-      }
-      if (!alarm.empty() && !is_starvation(alarm)) throw std::runtime_error(alarm);
+      if (const auto alarm = execute_starved(client, 1, options, bar, until); !alarm.empty())
+        throw std::runtime_error(alarm);
       recorder.stop();
     }
     recording::FileSource source(options.recording);

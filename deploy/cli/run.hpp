@@ -2,10 +2,12 @@
 // A whole run: a cluster of its own, a program for each channel, a recording, a report.
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
 #include "cluster/executables.hpp"
+#include "machine/parameters.hpp"
 #include "report/report.hpp"
 #include "report/stream_timing.hpp"
 
@@ -18,10 +20,12 @@ struct RunOptions {
   cluster::Executables executables;   ///< in the place of those beside the command
   std::string recording;              ///< file to write
   bool real_time = false;
+  std::map<std::uint32_t, machine::ParameterValue> parameters;  ///< set before the programs run
   std::uint32_t from_line = 0;  ///< start from this line of the first program; 0 = from its top
   bool dry_run = false;
-  bool quiet = false;     ///< no progress
-  double timeout = 3600;  ///< s of wall time
+  bool continue_starved = false;  ///< after the drive has stopped because setpoints were missing
+  bool quiet = false;             ///< no progress
+  double timeout = 3600;          ///< s of wall time
   std::optional<std::uint32_t> domain;
 };
 

@@ -53,6 +53,7 @@ int bench(const Common& common, const std::string& machine, const std::string& p
       RunOptions options;
       options.machine = machine, options.programs = {program}, options.vendor = vendor;
       options.recording = recording, options.quiet = true, options.real_time = real_time;
+      options.continue_starved = real_time;
       const auto result = run_programs(options);
       fs::remove(recording);
       if (!result.alarm.empty()) throw std::runtime_error(result.alarm);
@@ -135,10 +136,13 @@ void add_run_command(CLI::App& app, Common& common) {
   auto options = std::make_shared<RunOptions>();
   auto report_directory = std::make_shared<std::string>();
   auto executables = std::make_shared<std::vector<std::string>>();
+  auto parameters = std::make_shared<std::string>();
   auto* command = add_command(app, common, "run",
                               "Start a cluster of its own, run a program on it, write a report, stop it",
-                              [&common, options, report_directory, executables] {
+                              [&common, options, report_directory, executables, parameters] {
                                 options->executables = cluster::read_executables(*executables);
+                                if (!parameters->empty())
+                                  options->parameters = machine::read_parameter_file(*parameters);
                                 return run_machine(common, *options, *report_directory);
                               });
   command
@@ -157,6 +161,9 @@ void add_run_command(CLI::App& app, Common& common) {
   command->add_option("--vendor", options->vendor, "DDS vendor of every service, instead of machine.yaml's")
       ->check(CLI::IsMember({"fastdds", "cyclonedds", "mixed"}));
   command->add_option("--exec", *executables, exec_help);
+  command->add_option("--parameters", *parameters,
+                      "YAML file of parameters that are set before, as `param import` and a reset do; the "
+                      "machine's own files stay as they are");
   command->add_option("--from-line", options->from_line, "Start the first program from this line");
   command->add_flag("--dry-run", options->dry_run, "Parameter 04c914 takes the place of programmed feeds");
   command->add_option("--timeout", options->timeout, "Seconds of wall time after which the run has failed");

@@ -151,9 +151,15 @@ TestReport test_encoders(ServoSession& session, const TestOptions& o) {
   const double load_pulses = p.get(parameter::load_encoder_pulses, a.number);
   TestReport r;
   r.test = "encoders";
-  r.figures = {{"motor encoder (DP-PFH, DP-PFL)", motor * motor_pulses, "pulses", {}, {}}};
-  if (load_pulses > 0)
-    r.figures.push_back({"load encoder (DP-FPH, DP-FPL)", load * load_pulses / travel, "pulses", {}, {}});
+  // A display of the drive has four digits: the upper one counts 10000 of the lower one, both with the sign.
+  const auto displayed = [&](const char* name, const char* high, const char* low, double pulses) {
+    const double whole = std::round(pulses), upper = std::trunc(whole / 10000);
+    r.figures.push_back({name, pulses, "pulses", {}, {}});
+    r.figures.push_back({high, upper, "10000 pulses", {}, {}});
+    r.figures.push_back({low, whole - 10000 * upper, "pulses", {}, {}});
+  };
+  displayed("motor encoder", "DP-PFH", "DP-PFL", motor * motor_pulses);
+  if (load_pulses > 0) displayed("load encoder", "DP-FPH", "DP-FPL", load * load_pulses / travel);
   r.figures.push_back({"load over motor", ratio, "", 0.99, 1.01});
   const auto parameter_text = [&](const auto& key) { return machine::number_text(key.number(a.number)); };
   if (std::abs(ratio) < 0.01) {

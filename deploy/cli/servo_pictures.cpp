@@ -117,12 +117,21 @@ std::string roundness_picture(const std::string& title, const servo_analysis::Ro
   for (int k = -3; k <= 3; ++k)
     add([&](const auto&) { return 1 + 1e-3 * division * k * magnification; }, "stroke=\"#afb8c1\"");
   add([&](const auto& p) { return 1 + magnification * p.deviation; }, style(1).c_str());
+  // Where an axis reverses: a line across the circle and the jump of the deviation there.
+  std::string jumps;
+  for (std::size_t q = 0; q < figures.quadrant_jump.size(); ++q) {
+    const auto [s, c] = geometry::sine_cosine(90 * static_cast<double>(q));
+    plot.curve({{0.6 * c, 0.6 * s}, {1.4 * c, 1.4 * s}}, "class=\"quadrant\" stroke=\"#57606a\"");
+    char value[40];
+    std::snprintf(value, sizeof value, "%.1f um", figures.quadrant_jump[q] * 1e3);
+    jumps += report::text(plot.pixel_x(0.45 * c), plot.pixel_y(0.45 * s), value, "text-anchor=\"middle\"");
+  }
   char line[120];
-  std::snprintf(line, sizeof line, "%g um for each circle of the grid; quadrants at 0, 90, 180, 270 deg",
+  std::snprintf(line, sizeof line, "%g um for each circle of the grid; inside: the jumps at the quadrants",
                 division);
-  return report::document(
-      540, 560,
-      report::text(40, 24, report::escaped(title), title_style) + report::text(40, 42, line) + plot.svg());
+  return report::document(540, 560,
+                          report::text(40, 24, report::escaped(title), title_style) +
+                              report::text(40, 42, line) + plot.svg() + jumps);
 }
 
 }  // namespace trunnion::cli

@@ -25,6 +25,7 @@ class SessionCluster {
     cluster::UpOptions up;
     up.machine = machine, up.state_directory = "temporary", up.domain = domain, up.own_domain = !domain;
     up.virtual_time = true, up.with_gateway = false, up.one_host = true;
+    up.of_this_process = true;
     cluster_ = cluster::start_cluster(up);
   }
   ~SessionCluster() {

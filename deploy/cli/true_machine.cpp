@@ -10,6 +10,7 @@
 #include "machine/machine.hpp"
 #include "machine/yaml.hpp"
 #include "machine_settings.hpp"
+#include "text/quantity.hpp"
 #include "volumetric/model_parameters.hpp"
 
 namespace trunnion::cli {
@@ -23,8 +24,8 @@ double number_of(const std::string& setting, const std::string& text, double mos
   } catch (const std::exception&) {
   }
   if (used != text.size() || text.empty() || !(std::abs(value) <= most))
-    throw std::runtime_error("--set " + setting + ": expected a number within -" + std::to_string(most) +
-                             " .. " + std::to_string(most));
+    throw std::runtime_error("--set " + setting + ": expected a number within " + text::quantity(-most) +
+                             " .. " + text::quantity(most));
   return value;
 }
 
@@ -75,6 +76,10 @@ TrueMachine load_true_machine(const std::string& name, std::uint16_t channel,
         std::make_shared<volumetric::VolumetricCompensation>(*std::move(compensation));
   machine.model = std::move(model);
   return machine;
+}
+
+bool has_truth(const std::string& machine) {
+  return std::filesystem::exists(machine_directory(machine) + "/truth.yaml");
 }
 
 truth::InstrumentTruth instrument(const TrueMachine& machine, const std::string& name) {

@@ -25,6 +25,9 @@ struct TrueMachine {
 TrueMachine load_true_machine(const std::string& machine, std::uint16_t channel,
                               const std::vector<std::string>& settings);
 
+/// Whether the machine's directory has a truth.yaml.
+bool has_truth(const std::string& machine);
+
 /// The instrument of this name in truth.yaml; without an entry an exact one.
 truth::InstrumentTruth instrument(const TrueMachine& machine, const std::string& name);
 

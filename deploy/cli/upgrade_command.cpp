@@ -21,6 +21,7 @@
 #include "cluster/swap_ticket.hpp"
 #include "commands.hpp"
 #include "machine/machine.hpp"
+#include "machine/service_constants.hpp"
 #include "text/quantity.hpp"
 
 namespace trunnion::cli {
@@ -70,7 +71,7 @@ void require_rest(cluster::Client& client, const machine::MachineConfig& config)
   for (const auto& [channel, now] : newest)
     if (now.state != idl::channel::RunState::IDLE)
       throw std::runtime_error("channel " + std::to_string(channel) + " is " + bus::to_string(now.state) +
-                               ": upgrade a machine at rest, without a program begun");
+                               ": upgrade a machine at rest, with no program started");
 }
 
 // Stages first: they are compared cycle by cycle where the machine moves. The drive, which holds the axes, is
@@ -94,7 +95,7 @@ std::vector<Replacement> plan(const cluster::RunningCluster& cluster, const mach
     if (entry == config.services.end() || (!cluster.host.empty() && entry->host != cluster.host)) continue;
     Replacement next;
     next.shown = service.service;
-    if (service.service == "channel") next.shown += " " + std::to_string(entry->channel);
+    if (service.service == machine::service::channel.name) next.shown += " " + std::to_string(entry->channel);
     if (service.replica > 0) next.shown += " replica " + std::to_string(service.replica);
     next.request.service = service.service;
     next.request.replica = service.replica;

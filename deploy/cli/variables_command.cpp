@@ -10,7 +10,7 @@
 #include "bus/json.hpp"
 #include "cluster/client.hpp"
 #include "cluster/cluster.hpp"
-#include "commands.hpp"
+#include "variables_command.hpp"
 
 namespace trunnion::cli {
 namespace {
@@ -20,7 +20,9 @@ struct VariablesOptions {
   std::uint16_t channel = 0;
 };
 
-idl::channel::Variables newest(const Common& common, std::uint16_t channel) {
+}  // namespace
+
+idl::channel::Variables newest_variables(const Common& common, std::uint16_t channel) {
   cluster::Client client(cluster::find_cluster(common.domain).network);
   auto reader = client.bus().reader(topics::variables);
   idl::channel::Variables variables;
@@ -34,8 +36,10 @@ idl::channel::Variables newest(const Common& common, std::uint16_t channel) {
                            " has not published its variables within 5 s");
 }
 
+namespace {
+
 int show_variables(const Common& common, const VariablesOptions& options) {
-  const auto variables = newest(common, options.channel);
+  const auto variables = newest_variables(common, options.channel);
   bus::Json json = bus::Json::object();
   for (std::size_t i = 0; i < variables.numbers.size(); ++i) {
     const auto number = variables.numbers[i];

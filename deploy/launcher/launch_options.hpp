@@ -2,6 +2,7 @@
 // What a launcher is started with.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "bus/endpoint.hpp"
@@ -19,6 +20,7 @@ struct LaunchOptions {
   cluster::RunDirectory run;
   std::string host;  ///< which of the machine's hosts this is; empty when it has none
   bus::NetworkSettings network;
+  std::optional<int> owner;          ///< process with which the cluster ends
   cluster::Executables executables;  ///< in the place of those beside the launcher
 
   /// Computers of a network can join without security.

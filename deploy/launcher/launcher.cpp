@@ -15,6 +15,7 @@
 #include "cluster/cluster.hpp"
 #include "cluster/instances.hpp"
 #include "machine/alarm_constants.hpp"
+#include "machine/service_constants.hpp"
 #include "service/node.hpp"
 
 namespace trunnion::launcher {
@@ -59,6 +60,7 @@ void write_info(const LaunchOptions& options) {
 Launcher::Launcher(LaunchOptions options)
     : options_(std::move(options)),
       identity_(prepare(options_)),
+      owner_(options_.owner),
       domain_lock_(options_.machine.domain, options_.host, identity_),
       state_lock_(options_.state_directory, identity_, options_.machine.domain),
       bus_(bus::Vendor::cyclonedds, options_.network),
@@ -67,6 +69,7 @@ Launcher::Launcher(LaunchOptions options)
       states_(bus_.reader(topics::service_state)),
       announcements_(bus_.reader(topics::announcement)),
       resets_(bus_.reader(topics::alarm_reset)),
+      alarms_of_services_(bus_),
       cluster_writer_(bus_.writer(topics::cluster)),
       swaps_(bus_, topics::swap_request, topics::swap_reply) {
   struct sigaction action {};
@@ -85,12 +88,15 @@ Launcher::Launcher(LaunchOptions options)
     if (const auto given = options_.executables.find(entry.service); given != options_.executables.end())
       process.executable = given->second;
     process.log = options_.run.log_file(
-        entry.service + "-" + std::to_string(entry.service == "channel" ? entry.channel : entry.replica));
+        entry.service + "-" +
+        std::to_string(entry.service == machine::service::channel.name ? entry.channel : entry.replica));
     processes_.push_back(std::move(process));
   }
 }
 
 Launcher::~Launcher() { stop_all(); }
+
+bool Launcher::must_stop() const { return stop_requested != 0 || owner_.ended(); }
 
 bool Launcher::has_live_twin(const ServiceProcess& process) const {
   return std::any_of(processes_.begin(), processes_.end(), [&](const ServiceProcess& other) {
@@ -114,6 +120,7 @@ bool Launcher::collect_ended(std::string& failure) {
     process.lifecycle = idl::service::Lifecycle::UNCONFIGURED;
     process.policy.ended(time_.now());
     if (process.retiring) continue;
+    alarms_of_services_.end(process.entry.instance);
     const auto& e = process.entry;
     const std::string how = WIFSIGNALED(*status)
                                 ? "was ended by signal " + std::to_string(WTERMSIG(*status))
@@ -213,6 +220,7 @@ void Launcher::listen() {
     if (is_candidate(announcement.instance)) continue;  // it is refused, which is no alarm
     foreign_.announced(announcement, announcements_.info().writer);
   }
+  alarms_of_services_.read();
   idl::service::AlarmReset reset;
   while (resets_.take(reset)) {
     if (reset.channel != service::all_channels) continue;  // the launcher's alarms are about services
@@ -302,7 +310,7 @@ void Launcher::publish() {
 std::string Launcher::listen_for_others() {
   if (options_.network.interface_address.rfind("127.", 0) == 0) return "";
   const double until = service::monotonic_seconds() + Presence::listening;
-  while (service::monotonic_seconds() < until && stop_requested == 0) {
+  while (service::monotonic_seconds() < until && !must_stop()) {
     presence_.update(service::monotonic_seconds());
     if (const auto other = presence_.other())
       return "domain " + std::to_string(options_.machine.domain) + " is in use by " +
@@ -324,7 +332,7 @@ int Launcher::run(void (*report)(const std::string&)) {
   for (auto& process : processes_)
     if (process.local) process.start(options_, false, began);
   std::string failure;
-  while (stop_requested == 0) {
+  while (!must_stop()) {
     bus_.signal().wait(0.02);
     time_.advance(service::monotonic_seconds());
     if (!collect_ended(failure)) break;

@@ -7,11 +7,13 @@
 #include <string>
 #include <vector>
 
+#include "alarms_of_services.hpp"
 #include "bus/bus.hpp"
 #include "cluster/cluster_locks.hpp"
 #include "contracts/topics.hpp"
 #include "foreign_services.hpp"
 #include "launch_options.hpp"
+#include "owner.hpp"
 #include "presence.hpp"
 #include "service/alarm_board.hpp"
 #include "service/notify.hpp"
@@ -32,6 +34,7 @@ class Launcher {
   int run(void (*report)(const std::string&));
 
  private:
+  bool must_stop() const;
   void stop_all();
   std::string listen_for_others();
   void update_alarms(double now);
@@ -56,6 +59,7 @@ class Launcher {
 
   LaunchOptions options_;
   cluster::Identity identity_;
+  Owner owner_;
   cluster::DomainLock domain_lock_;
   cluster::StateLock state_lock_;
   bus::Bus bus_;
@@ -67,6 +71,7 @@ class Launcher {
   bus::Reader<idl::service::ServiceState> states_;
   bus::Reader<idl::service::Announcement> announcements_;
   bus::Reader<idl::service::AlarmReset> resets_;
+  AlarmsOfServices alarms_of_services_;
   bus::Writer<idl::service::Cluster> cluster_writer_;
   service::RequestServer<idl::service::SwapRequest, idl::service::SwapReply> swaps_;
   service::Notifier notifier_;

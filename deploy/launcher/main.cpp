@@ -8,6 +8,7 @@
 #include <iostream>
 
 #include "launcher.hpp"
+#include "machine/service_constants.hpp"
 #include "service/network.hpp"
 
 namespace {
@@ -50,6 +51,7 @@ int main(int argc, char** argv) {
   app.add_option("--exec", executables, "SERVICE=PATH: what to start in the place of its executable");
   std::int64_t clock_offset = 0;
   app.add_option("--clock-offset", clock_offset, "ns from the monotonic clock to the time in messages");
+  app.add_option("--owner", options.owner, "Process id: stop when this process ends");
   bool one_host = false;
   app.add_flag("--one-host", one_host, "Start everything here, whatever hosts machine.yaml names");
   app.add_option("--report", report_pipe, "File descriptor to which 'ready' or 'error ...' is written");
@@ -65,7 +67,8 @@ int main(int argc, char** argv) {
     options.network.clock_offset = clock_offset;
     options.run.domain = domain;
     if (options.port == 0)
-      std::erase_if(options.machine.services, [](const auto& s) { return s.service == "gateway"; });
+      std::erase_if(options.machine.services,
+                    [](const auto& s) { return s.service == machine::service::gateway.name; });
     return launcher::Launcher(std::move(options)).run(report);
   } catch (const std::exception& e) {
     report(e.what());

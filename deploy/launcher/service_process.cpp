@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "cluster/cluster_files.hpp"
+#include "machine/service_constants.hpp"
 #include "service/network.hpp"
 #include "service/node.hpp"
 
@@ -30,7 +31,7 @@ void ServiceProcess::start(const LaunchOptions& options, bool on_standby, double
   for (auto& argument : service::network_arguments(options.network)) args.push_back(std::move(argument));
   if (options.virtual_time) args.emplace_back("--virtual-time");
   if (on_standby) args.emplace_back("--shadow");
-  if (e.service == "gateway") {
+  if (e.service == machine::service::gateway.name) {
     args.insert(args.end(), {"--port", std::to_string(options.port)});
     if (const auto web = cluster::web_directory(); !web.empty()) args.insert(args.end(), {"--web", web});
   }
@@ -69,9 +70,10 @@ bool ServiceProcess::hear(const idl::service::ServiceState& state, double now) {
 }
 
 std::string ServiceProcess::name() const {
-  return entry.service + (entry.service == "channel" ? " " + std::to_string(entry.channel)
-                          : entry.replica > 0        ? " (replica " + std::to_string(entry.replica) + ")"
-                                                     : "");
+  return entry.service + (entry.service == machine::service::channel.name
+                              ? " " + std::to_string(entry.channel)
+                          : entry.replica > 0 ? " (replica " + std::to_string(entry.replica) + ")"
+                                              : "");
 }
 
 }  // namespace trunnion::launcher

@@ -10,6 +10,7 @@
 #include "bus/contract.hpp"
 #include "bus/registry.hpp"
 #include "cluster/child_process.hpp"
+#include "machine/service_constants.hpp"
 #include "service/node.hpp"
 #include "storage/file.hpp"
 #include "stream/stage_names.hpp"
@@ -30,9 +31,9 @@ bus::Topic<idl::stream::AxisFrame> output_of(const std::string& service) {
 }
 
 Comparison comparison_of(const std::string& service) {
-  return stream::stage_of(service) ? Comparison::frames
-         : service == "plc"        ? Comparison::ticks
-                                   : Comparison::once;
+  return stream::stage_of(service)               ? Comparison::frames
+         : service == machine::service::plc.name ? Comparison::ticks
+                                                 : Comparison::once;
 }
 
 ServiceProcess make_fresh(const ServiceProcess& old, const idl::service::SwapRequest& request,
@@ -74,8 +75,7 @@ Swap::Swap(bus::Bus& bus, const LaunchOptions& options, ServiceProcess& old,
       comparison_(comparison_of(old.entry.service)),
       feedback_(bus.reader(topics::feedback_frame)),
       channels_(bus.reader(topics::channel_state)),
-      alarms_(bus.reader(topics::alarm)),
-      alarm_writer_(bus.writer(topics::alarm)),
+      alarms_(bus),
       promotions_(bus.writer(topics::promotion)),
       began_(now),
       moved_(began_),
@@ -103,14 +103,7 @@ void Swap::read(double now) {
   }
   idl::channel::ChannelState state;
   while (channels_.take(state)) run_states_[state.channel] = state.state;
-  idl::service::Alarm alarm;
-  while (alarms_.take(alarm)) {
-    const std::array key{alarm.instance, alarm.number, alarm.part};
-    if (alarm.active)
-      active_alarms_[key] = alarm;
-    else
-      active_alarms_.erase(key);
-  }
+  alarms_.read();
   idl::stream::AxisFrame frame;
   while (shadows_ && shadows_->take(frame)) frames_.shadow(frame);
   while (originals_ && originals_->take(frame)) {
@@ -124,8 +117,8 @@ std::string Swap::why_not_at_rest() const {
   const auto& service = old_.entry.service;
   if (service != "channel" && service != "drive") return "";
   for (const auto& [channel, state] : run_states_)
-    if ((service == "drive" || channel == old_.entry.channel) && state != RunState::IDLE &&
-        state != RunState::HELD)
+    if ((service == machine::service::drive.name || channel == old_.entry.channel) &&
+        state != RunState::IDLE && state != RunState::HELD)
       return "The " + service + " can be swapped at rest only: channel " + std::to_string(channel) + " is " +
              bus::to_string(state);
   return "";
@@ -162,7 +155,7 @@ void Swap::start_new(double now) {
   std::fprintf(stderr, "swap: the new %s %s: it is started again\n", old_.entry.service.c_str(),
                fresh_.pid == 0 ? "ended" : ("does not take part (" + fresh_.detail + ")").c_str());
   fresh_.child.kill();
-  clear_alarms(fresh_.entry.instance);
+  alarms_.end(fresh_.entry.instance);
   fresh_.detail.clear();
   frames_ = {};
   fresh_.start(options_, true, now);
@@ -176,15 +169,6 @@ void Swap::promote_new() {
 void Swap::end_old() {
   old_.retiring = true;
   old_.child.signal(SIGTERM);
-}
-
-// The alarms of a process that is gone: it cannot end them itself.
-void Swap::clear_alarms(std::uint32_t instance) {
-  for (auto& [key, alarm] : active_alarms_) {
-    if (alarm.instance != instance) continue;
-    alarm.active = false;
-    alarm_writer_.write(alarm);
-  }
 }
 
 std::string Swap::reason(SwapFailure failure) const {
@@ -231,7 +215,7 @@ SwapReply Swap::kept(SwapFailure failure, double now) const {
 }
 
 SwapReply Swap::succeeded(double now) {
-  clear_alarms(old_.entry.instance);
+  alarms_.end(old_.entry.instance);
   const auto side = [&](const ServiceProcess& process) {
     SwapSide result{process.executable, process.entry.vendor, "", ""};
     const auto announced = announced_.find(process.entry.instance);

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "alarms_of_services.hpp"
 #include "bus/bus.hpp"
 #include "contracts/topics.hpp"
 #include "service_process.hpp"
@@ -49,7 +50,6 @@ class Swap {
   idl::service::SwapReply reply(double now) const;
   idl::service::SwapReply kept(SwapFailure failure, double now) const;
   idl::service::SwapReply succeeded(double now);
-  void clear_alarms(std::uint32_t instance);
 
   const LaunchOptions& options_;
   ServiceProcess& old_;
@@ -61,11 +61,9 @@ class Swap {
   std::optional<bus::Reader<idl::stream::AxisFrame>> originals_, shadows_;
   bus::Reader<idl::stream::FeedbackFrame> feedback_;
   bus::Reader<idl::channel::ChannelState> channels_;
-  bus::Reader<idl::service::Alarm> alarms_;
-  bus::Writer<idl::service::Alarm> alarm_writer_;
+  AlarmsOfServices alarms_;
   bus::Writer<idl::service::Promotion> promotions_;
   std::map<std::uint16_t, idl::channel::RunState> run_states_;
-  std::map<std::array<std::uint32_t, 3>, idl::service::Alarm> active_alarms_;
   stream::ShadowComparison frames_;
   std::uint64_t executed_ = 0, tick_ = 0, promoted_cycle_ = 0;
   double began_ = 0, moved_ = 0;

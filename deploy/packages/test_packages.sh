@@ -52,6 +52,15 @@ as_user trunnion down --domain "$domain"
 as_user bash -c "cd /tmp/home && trunnion run ac-table nas979_cone --report /tmp/home/report" | tail -n 3
 [ -f "$root/tmp/home/report/path.svg" ] || { echo "the run has left no report"; exit 1; }
 
+if [ -e "$root/usr/lib/trunnion/bin/trunnion-drive-hal" ]; then
+  echo "== a machine behind HAL"
+  # HAL's shared memory has one key for each computer: an IPC namespace of its own keeps other machines apart.
+  in_root unshare --ipc setpriv --reuid=65534 --regid=65534 --clear-groups bash -c "
+    trunnion up hal-sim-xyz --domain $domain --port $((18000 + domain)) && trunnion status --domain $domain &&
+    trunnion down --domain $domain" > "$root/tmp/hal.log" 2>&1 || { cat "$root/tmp/hal.log"; exit 1; }
+  grep -q 'trunnion-drive-hal\|drive .*runs\|drive' "$root/tmp/hal.log"
+fi
+
 echo "== the unit"
 verified=$(in_root systemd-analyze verify /usr/lib/systemd/system/trunnion@.service 2>&1 | grep -i trunnion || true)
 [ -z "$verified" ] || { echo "$verified"; exit 1; }

@@ -18,11 +18,12 @@ using tcp = net::ip::tcp;
 
 struct HttpServer::Inside {
   Inside(const std::string& address, std::uint16_t port, Api& served, Site own,
-         const std::string& command_socket)
+         const std::string& command_socket, TlsCertificate* own_certificate)
       : acceptor(context),
         pause(context),
         api(served),
         site(std::move(own)),
+        certificate(own_certificate),
         hub(context, served.mailbox()),
         commands(context, command_socket, served.operating()) {
     listen_on(acceptor, address, port);
@@ -42,17 +43,29 @@ struct HttpServer::Inside {
         });
         return;
       }
-      if (make_room()) {
-        boost::system::error_code ignored;
-        socket.set_option(tcp::no_delay(true), ignored);
-        const auto session = std::make_shared<HttpSession>(std::move(socket), api, hub, site);
-        sessions.push_back(session);
-        session->start();
-      }
-      accept();
+      admit(std::move(socket));
     });
   }
 
+  void admit(tcp::socket socket) {
+    if (!make_room()) {
+      // What has arrived is read meanwhile.
+      pause.expires_after(std::chrono::milliseconds(1));
+      pause.async_wait([this, socket = std::move(socket)](const boost::system::error_code& stopped) mutable {
+        if (!stopped) admit(std::move(socket));
+      });
+      return;
+    }
+    boost::system::error_code ignored;
+    socket.set_option(tcp::no_delay(true), ignored);
+    Transport transport(std::move(socket), certificate != nullptr ? certificate->context() : nullptr);
+    const auto session = std::make_shared<HttpSession>(std::move(transport), api, hub, site);
+    sessions.push_back(session);
+    session->start();
+    accept();
+  }
+
+  /// Whether there is some now.
   bool make_room() {
     std::erase_if(sessions, [](const auto& session) { return session.expired(); });
     if (sessions.size() < most_connections) return true;
@@ -76,14 +89,15 @@ struct HttpServer::Inside {
   net::steady_timer pause;
   Api& api;
   const Site site;
+  TlsCertificate* const certificate;
   StreamHub hub;
   CommandSocket commands;
   std::thread thread;
 };
 
 HttpServer::HttpServer(const std::string& address, std::uint16_t port, Api& api, Site site,
-                       const std::string& command_socket)
-    : inside_(std::make_unique<Inside>(address, port, api, std::move(site), command_socket)) {}
+                       const std::string& command_socket, TlsCertificate* certificate)
+    : inside_(std::make_unique<Inside>(address, port, api, std::move(site), command_socket, certificate)) {}
 
 HttpServer::~HttpServer() { stop(); }
 

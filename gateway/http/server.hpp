@@ -7,6 +7,7 @@
 #include <string>
 
 #include "api.hpp"
+#include "http/tls_certificate.hpp"
 #include "src/site.hpp"
 
 namespace trunnion::gateway {
@@ -14,9 +15,9 @@ namespace trunnion::gateway {
 class HttpServer {
  public:
   /// Listens at once. Throws std::runtime_error saying address, port and reason.
-  /// `command_socket` as of CommandSocket, empty = none.
+  /// `command_socket` as of CommandSocket, empty = none. With a `certificate` by TLS only.
   HttpServer(const std::string& address, std::uint16_t port, Api& api, Site site = Site(),
-             const std::string& command_socket = {});
+             const std::string& command_socket = {}, TlsCertificate* certificate = nullptr);
   ~HttpServer();
   /// Ends the thread; nothing is answered afterwards. Answers may still be handed to sessions until it is
   /// destroyed.

@@ -24,37 +24,63 @@ using std::chrono::seconds;
 namespace {
 
 constexpr seconds first_request{5};  // who connects has something to say
+// What has come on a new connection may have been taken from it and wait for its turn.
+constexpr std::chrono::milliseconds turn{5};
 
 /// Of a request of any body.
 template <class Request>
-idl::gateway::Sender sender(const Request& request) {
+idl::gateway::Sender sender(const Request& request, bool secure) {
   const auto origin = view(request[http::field::origin]);
   using idl::gateway::Sender;
   if (origin.empty()) return Sender::TOOL;
-  return foreign_origin(origin, view(request[http::field::host])) ? Sender::FOREIGN_PAGE : Sender::PAGE;
+  return foreign_origin(origin, view(request[http::field::host]), secure) ? Sender::FOREIGN_PAGE
+                                                                          : Sender::PAGE;
 }
 
 }  // namespace
 
-HttpSession::HttpSession(net::ip::tcp::socket&& socket, Api& api, StreamHub& hub, const Site& site)
-    : stream_(std::move(socket)), api_(api), hub_(hub), site_(site) {
-  beast::error_code error;
-  const auto peer = stream_.socket().remote_endpoint(error);
-  if (!error) connection_.peer = peer.address().to_string();
+HttpSession::HttpSession(Transport&& transport, Api& api, StreamHub& hub, const Site& site)
+    : stream_(std::move(transport)), api_(api), hub_(hub), site_(site) {
+  connection_.peer = stream_.peer();
 }
 
-void HttpSession::start() { read_header(first_request); }
+void HttpSession::start() {
+  stream_.expires_after(first_request);
+  stream_.begin([self = shared_from_this()](beast::error_code error, std::optional<char> first) {
+    if (error) return;
+    if (first) {
+      *static_cast<char*>(self->buffer_.prepare(1).data()) = *first;
+      self->buffer_.commit(1);
+    }
+    self->read_header();
+  });
+}
+
+void HttpSession::read_next() {
+  stream_.expires_after(timeout);
+  read_header();
+}
 
 void HttpSession::close() { stream_.close(); }
 
-void HttpSession::read_header(seconds within) {
+Connection HttpSession::connection() const {
+  auto now = connection_;
+  now.arriving =
+      now.activity == Activity::waiting &&
+      (complete_ || stream_.has_unread() || std::chrono::steady_clock::now() - waits_since_ < turn);
+  return now;
+}
+
+void HttpSession::read_header() {
   connection_.activity = Activity::waiting;
+  complete_ = false;
+  waits_since_ = std::chrono::steady_clock::now();
   header_.emplace();
   header_->header_limit(16 << 10);
   header_->body_limit(largest_program);
-  stream_.expires_after(within);
   http::async_read_header(
-      stream_, buffer_, *header_, [self = shared_from_this()](beast::error_code error, std::size_t) {
+      stream_, buffer_, *header_,
+      Transferred([self = shared_from_this()](beast::error_code error, std::size_t) {
         if (error == http::error::body_limit)
           return self->answer_and_close(error_answer(413, "the body is larger than 128 MiB"));
         if (error == http::error::header_limit)
@@ -64,11 +90,10 @@ void HttpSession::read_header(seconds within) {
           return self->answer_and_close(error_answer(400, "this is not HTTP: " + error.message()));
         if (error) return;
         self->on_header();
-      });
+      }));
 }
 
 void HttpSession::on_header() {
-  connection_.activity = Activity::transferring;
   const auto& request = header_->get();
   keep_alive_ = request.keep_alive();
   gzip_ = accepts_gzip(view(request[http::field::accept_encoding]));
@@ -80,14 +105,15 @@ void HttpSession::on_header() {
   const bool is_api = path.starts_with("/api/");
   match_ = is_api ? match(view(request.method_string()), path) : Match{};
   if (match_.result == RouteResult::found && is_journaled(match_.operation)) {
-    line_ = std::make_unique<JournalLine>(
-        begin_line(sender(request), connection_.peer, view(request.method_string()), target));
+    line_ = std::make_unique<JournalLine>(begin_line(sender(request, stream_.secure()), connection_.peer,
+                                                     view(request.method_string()), target));
   }
   if (!site_.is_named(view(request[http::field::host])))
     return answer_and_close(
         error_answer(421, "this machine is not called '" + std::string(view(request[http::field::host])) +
                               "': use its address, or enter the name in host_names of machine.yaml"));
-  if (sender(request) == idl::gateway::Sender::FOREIGN_PAGE)
+  if (stream_.wants_tls() && !stream_.secure()) return refuse_clear_text();
+  if (sender(request, stream_.secure()) == idl::gateway::Sender::FOREIGN_PAGE)
     return answer_and_close(error_answer(403, "a page of another site must not operate this machine"));
   if (!is_api) {
     if (request.method() != http::verb::get) return answer_and_close(unrouted(RouteResult::no_method));
@@ -97,43 +123,64 @@ void HttpSession::on_header() {
   user_ =
       api_.access().identify(view(request[http::field::cookie]), view(request[http::field::authorization]),
                              prolongs_session(match_.operation));
+  if (line_ && user_) set_user(*line_, user_->name);
   if (auto refusal = api_.access().refusal(user_, match_)) return answer_and_close(std::move(*refusal));
   const auto station =
       api_.operating().station_of(view(request[http::field::cookie]), connection_.peer, user_);
   if (auto refusal = api_.operating().refusal(station, match_)) return answer_and_close(std::move(*refusal));
-  if (match_.operation == Operation::write_program) return continue_then(&HttpSession::begin_upload);
+  if (match_.operation == Operation::write_program) {
+    connection_.activity = Activity::transferring;
+    return continue_then(&HttpSession::begin_upload);
+  }
   const auto length = header_->content_length();
   if (length && *length > largest_body) return too_large("the body is larger than 1 MiB");
+  complete_ = length.value_or(0) <= buffer_.size();
   continue_then(&HttpSession::read_body);
+}
+
+void HttpSession::refuse_clear_text() {
+  line_.reset();  // refused before anybody was asked
+  const auto& request = header_->get();
+  const auto host = std::string(view(request[http::field::host]));
+  auto made = error_answer(host.empty() ? 426 : 308, "this gateway is reached by https:// only");
+  if (!host.empty())
+    made.headers.emplace_back("Location", "https://" + host + std::string(view(request.target())));
+  if (request.method() != http::verb::get && request.method() != http::verb::head) {
+    made.status = 426;
+    made.headers.clear();
+  }
+  answer_and_close(std::move(made));
 }
 
 void HttpSession::continue_then(void (HttpSession::*next)()) {
   if (!beast::iequals(header_->get()[http::field::expect], "100-continue")) return (this->*next)();
   static const std::string go_on = "HTTP/1.1 100 Continue\r\n\r\n";
   net::async_write(stream_, net::buffer(go_on),
-                   [self = shared_from_this(), next](beast::error_code error, std::size_t) {
+                   Transferred([self = shared_from_this(), next](beast::error_code error, std::size_t) {
                      if (!error) (self.get()->*next)();
-                   });
+                   }));
 }
 
 void HttpSession::read_body() {
   body_.emplace(std::move(*header_));
   body_->body_limit(largest_body);
   http::async_read(stream_, buffer_, *body_,
-                   [self = shared_from_this()](beast::error_code error, std::size_t) {
+                   Transferred([self = shared_from_this()](beast::error_code error, std::size_t) {
                      if (error == http::error::body_limit)
                        return self->too_large("the body is larger than 1 MiB");
                      if (!error) self->dispatch();
-                   });
+                   }));
 }
 
 void HttpSession::dispatch() {
   if (match_.operation == Operation::stream || match_.operation == Operation::plc_watch) {
     if (!beast::websocket::is_upgrade(body_->get()))
-      return answer(error_answer(426, "this path speaks WebSocket only"));
-    if (hub_.full()) return answer(error_answer(503, "too many clients of the stream"));
+      return answer(error_answer(426, "this path is for WebSocket only"));
+    if (const auto refusal = hub_.refusal(connection_.peer); !refusal.empty())
+      return answer(error_answer(503, refusal));
     const auto& headers = body_->get();
-    Visitor visitor{sender(headers), connection_.peer, std::string(view(headers[http::field::cookie])),
+    Visitor visitor{sender(headers, stream_.secure()), connection_.peer,
+                    std::string(view(headers[http::field::cookie])),
                     std::string(view(headers[http::field::authorization]))};
     if (match_.operation == Operation::plc_watch)
       std::make_shared<WatchSession>(std::move(stream_), hub_, api_, std::move(visitor))->accept(headers);
@@ -142,9 +189,9 @@ void HttpSession::dispatch() {
     return;
   }
   if (line_) add_body(*line_, body_->get().body());
-  if (match_.operation == Operation::read_program) return begin_download();
-  connection_.activity = Activity::answering;
   const auto& request = body_->get();
+  connection_.activity = request.method() == http::verb::get ? Activity::transferring : Activity::answering;
+  if (match_.operation == Operation::read_program) return begin_download();
   const auto header = [&](http::field name) { return std::string(view(request[name])); };
   const RequestText text{query_,
                          request.body(),
@@ -207,12 +254,12 @@ void HttpSession::send(Answer made) {
   response_.body() = std::move(made.body);
   response_.prepare_payload();
   stream_.expires_after(timeout);
-  http::async_write(stream_, response_, [self = shared_from_this()](beast::error_code error, std::size_t) {
-    if (error) return;
-    if (self->keep_alive_) return self->read_header(timeout);
-    beast::error_code ignored;
-    self->stream_.socket().shutdown(net::ip::tcp::socket::shutdown_send, ignored);
-  });
+  http::async_write(stream_, response_,
+                    Transferred([self = shared_from_this()](beast::error_code error, std::size_t) {
+                      if (error) return;
+                      if (self->keep_alive_) return self->read_next();
+                      self->stream_.finish();
+                    }));
 }
 
 void HttpSession::answer_and_close(Answer made) {
@@ -277,7 +324,8 @@ void HttpSession::read_part() {
   parts_->get().body().more = true;
   stream_.expires_after(timeout);
   http::async_read(
-      stream_, buffer_, *parts_, [self = shared_from_this()](beast::error_code error, std::size_t) {
+      stream_, buffer_, *parts_,
+      Transferred([self = shared_from_this()](beast::error_code error, std::size_t) {
         if (error == http::error::need_buffer) error = {};
         if (error) {
           const auto asked = self->abort_upload();
@@ -290,7 +338,7 @@ void HttpSession::read_part() {
         if (self->part_.empty()) return self->read_part();
         add_body(*self->line_, {reinterpret_cast<const char*>(self->part_.data()), self->part_.size()});
         self->upload_->write(std::move(self->part_), self->here(&HttpSession::part_stored));
-      });
+      }));
 }
 
 void HttpSession::part_stored(const ProgramReply& reply) {

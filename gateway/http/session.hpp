@@ -3,7 +3,6 @@
 #pragma once
 
 #include <boost/beast/core/flat_buffer.hpp>
-#include <boost/beast/core/tcp_stream.hpp>
 #include <boost/beast/http/buffer_body.hpp>
 #include <boost/beast/http/empty_body.hpp>
 #include <boost/beast/http/parser.hpp>
@@ -15,6 +14,7 @@
 
 #include "api.hpp"
 #include "http/stream.hpp"
+#include "http/transport.hpp"
 #include "src/connections.hpp"
 #include "src/precondition.hpp"
 #include "src/site.hpp"
@@ -23,9 +23,9 @@ namespace trunnion::gateway {
 
 class HttpSession : public std::enable_shared_from_this<HttpSession> {
  public:
-  HttpSession(boost::asio::ip::tcp::socket&& socket, Api& api, StreamHub& hub, const Site& site);
+  HttpSession(Transport&& transport, Api& api, StreamHub& hub, const Site& site);
   void start();
-  const Connection& connection() const { return connection_; }
+  Connection connection() const;
   /// Another connection takes its place.
   void close();
 
@@ -40,8 +40,12 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
   void journal_unanswered(const Asked& asked) {
     journal(0, asked, [] {});
   }
-  void read_header(std::chrono::seconds within);
+  void read_header();
+  /// The next request of a connection that stays.
+  void read_next();
   void on_header();
+  /// Says that this gateway is reached by TLS, to a client that has come without.
+  void refuse_clear_text();
   void continue_then(void (HttpSession::*next)());
   void read_body();
   void dispatch();
@@ -67,8 +71,6 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
   /// Returns what was asked of the store until then.
   Asked abort_upload();
 
-  /// Whether the store's list, which is a moment behind the store, has the program.
-  bool listed(const std::string& name) const;
   void begin_download();
   void download_part(const ProgramReply& reply);
   void send_part();
@@ -78,7 +80,7 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
   void next_of_source();
   void send_of_source(std::optional<std::string> part);
 
-  boost::beast::tcp_stream stream_;
+  Transport stream_;
   boost::beast::flat_buffer buffer_;
   Api& api_;
   StreamHub& hub_;
@@ -93,6 +95,8 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
   std::string query_;
   std::optional<access::Identity> user_;  ///< of the request under way
   bool keep_alive_ = false;
+  std::chrono::steady_clock::time_point waits_since_{};
+  bool complete_ = false;              ///< the request that is being read has arrived whole
   bool gzip_ = false;                  ///< the client permits it
   std::unique_ptr<JournalLine> line_;  ///< of the request under way, when it is one for the journal
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // HttpSession: answers that are sent in parts.
-#include <algorithm>
 #include <boost/asio/post.hpp>
 #include <boost/beast/http/write.hpp>
 
 #include "http/session.hpp"
 #include "http/session_parts.hpp"
+#include "machine/alarm_constants.hpp"
 #include "src/requests.hpp"
 
 namespace trunnion::gateway {
@@ -52,24 +52,17 @@ void HttpSession::send_of_source(std::optional<std::string> part) {
   body.more = more;
   stream_.expires_after(timeout);
   http::async_write(stream_, *sending.serializer,
-                    [self = shared_from_this(), more](beast::error_code error, std::size_t) {
+                    Transferred([self = shared_from_this(), more](beast::error_code error, std::size_t) {
                       if (error == http::error::need_buffer) error = {};
                       if (error) return;
                       if (more) return self->next_of_source();
                       self->sending_.reset();
-                      if (self->keep_alive_) return self->read_header(timeout);
-                      self->stream_.socket().shutdown(net::ip::tcp::socket::shutdown_send, error);
-                    });
+                      if (self->keep_alive_) return self->read_next();
+                      self->stream_.finish();
+                    }));
 }
 
 // --- Download: each part is asked for when the one before has left.
-
-bool HttpSession::listed(const std::string& name) const {
-  const auto snapshot = api_.mailbox().newest();
-  if (!snapshot || !snapshot->programs) return false;
-  const auto& programs = snapshot->programs->programs;
-  return std::any_of(programs.begin(), programs.end(), [&](const auto& one) { return one.name == name; });
-}
 
 void HttpSession::begin_download() {
   const auto& name = match_.parts.at(0);
@@ -88,8 +81,8 @@ void HttpSession::download_part(const ProgramReply& reply) {
   if (!download.serializer) {
     if (!good) {
       const auto& name = download.source.name();
-      auto made = reply && !reply->accepted && !listed(name) ? error_answer(404, "no program " + name)
-                                                             : program_refusal(reply);
+      const bool missing = reply && !reply->accepted && reply->alarm == alarm::program_missing.number;
+      auto made = missing ? error_answer(404, "no program " + name) : program_refusal(reply);
       made.asked = download.source.asked();
       return answer(std::move(made));
     }
@@ -129,7 +122,7 @@ void HttpSession::send_part() {
   body.more = download_->offset < download_->size;
   stream_.expires_after(timeout);
   http::async_write(stream_, *download_->serializer,
-                    [self = shared_from_this()](beast::error_code error, std::size_t) {
+                    Transferred([self = shared_from_this()](beast::error_code error, std::size_t) {
                       if (error == http::error::need_buffer) error = {};
                       auto& download = *self->download_;
                       const auto asked = download.source.asked();
@@ -139,9 +132,9 @@ void HttpSession::send_part() {
                                                     self->here(&HttpSession::download_part));
                       self->download_.reset();
                       self->journal(200, asked, [self] {
-                        if (self->keep_alive_) self->read_header(timeout);
+                        if (self->keep_alive_) self->read_next();
                       });
-                    });
+                    }));
 }
 
 }  // namespace trunnion::gateway

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "http/stream.hpp"
 
+#include <algorithm>
 #include <boost/asio/buffer.hpp>
 #include <boost/asio/post.hpp>
 #include <boost/beast/core/buffers_to_string.hpp>
@@ -18,8 +19,9 @@ namespace beast = boost::beast;
 namespace websocket = beast::websocket;
 using std::chrono::milliseconds;
 
-constexpr milliseconds period{50}, heartbeat_period{500};
+constexpr milliseconds period{50}, heartbeat_period{250};
 constexpr std::size_t most_answers = 16;
+constexpr std::size_t most_streams = 128, most_of_a_peer = 64;
 
 std::shared_ptr<const std::string> text(const bus::Json& json) {
   return std::make_shared<const std::string>(bus::text_of(json));
@@ -55,6 +57,13 @@ void StreamHub::join(const std::shared_ptr<Viewer>& viewer) {
   count_ = viewers_.size();
 }
 
+std::string StreamHub::refusal(const std::string& peer) const {
+  if (viewers_.size() >= most_streams) return std::to_string(most_streams) + " streams are open: close one";
+  const auto own = std::ranges::count(viewers_, peer, [](const auto& viewer) { return viewer->peer(); });
+  if (own < static_cast<std::ptrdiff_t>(most_of_a_peer)) return {};
+  return peer + " has " + std::to_string(own) + " streams open: close one";
+}
+
 void StreamHub::leave(const std::shared_ptr<Viewer>& viewer) {
   viewers_.erase(viewer);
   count_ = viewers_.size();
@@ -81,32 +90,31 @@ std::shared_ptr<const std::string> StreamHub::message(const std::shared_ptr<cons
 }
 
 void StreamSession::accept(const beast::http::request<beast::http::string_body>& request) {
-  auto& lowest = beast::get_lowest_layer(socket_);
-  lowest.expires_never();
+  socket_.next_layer().expires_never();
   // The kernel must not queue what we do not: by default it would hold megabytes of old states.
-  beast::error_code ignored;
-  lowest.socket().set_option(boost::asio::socket_base::send_buffer_size(32 << 10), ignored);
-  auto timeout = websocket::stream_base::timeout::suggested(beast::role_type::server);
-  timeout.idle_timeout = std::chrono::seconds(20);
-  timeout.keep_alive_pings = true;
-  socket_.set_option(timeout);
+  socket_.next_layer().limit_send_buffer(32 << 10);
+  auto limits = websocket::stream_base::timeout::suggested(beast::role_type::server);
+  limits.idle_timeout = std::chrono::seconds(20);
+  limits.keep_alive_pings = true;
+  socket_.set_option(limits);
   socket_.read_message_max(4096);
-  socket_.async_accept(request, [self = shared_from_this()](const beast::error_code& error) {
-    if (error) return;
-    self->hub_.join(self);
-    self->read();
-    self->offer();
-  });
+  socket_.async_accept(request, Done([self = shared_from_this()](beast::error_code error) {
+                         if (error) return;
+                         self->hub_.join(self);
+                         self->read();
+                         self->offer();
+                       }));
 }
 
 void StreamSession::read() {
   // Reading also answers a client's pings and notices that it goes.
-  socket_.async_read(incoming_, [self = shared_from_this()](const beast::error_code& error, std::size_t) {
-    if (error) return self->close();
-    self->take_order(beast::buffers_to_string(self->incoming_.data()));
-    self->incoming_.clear();
-    self->read();
-  });
+  socket_.async_read(incoming_,
+                     Transferred([self = shared_from_this()](beast::error_code error, std::size_t) {
+                       if (error) return self->close();
+                       self->take_order(beast::buffers_to_string(self->incoming_.data()));
+                       self->incoming_.clear();
+                       self->read();
+                     }));
 }
 
 void StreamSession::each_second() {
@@ -132,6 +140,7 @@ void StreamSession::take_order(const std::string& text) {
   if (const auto refusal = api_.operating().refusal(station, found)) return answer_order(order, *refusal);
   const auto body = member("body", bus::Json::object()).dump();
   auto line = std::make_shared<JournalLine>(begin_line(visitor_.sender, visitor_.peer, "POST", target));
+  if (user) set_user(*line, user->name);
   add_body(*line, body);
   api_.handle(found, {"", body}, [self = shared_from_this(), order, line](Answer made) {
     boost::asio::post(self->socket_.get_executor(), [self, order, line, made = std::move(made)] {
@@ -174,15 +183,15 @@ void StreamSession::send(std::shared_ptr<const std::string> message) {
   writing_ = std::move(message);
   socket_.text(true);
   socket_.async_write(boost::asio::buffer(*writing_),
-                      [self = shared_from_this()](const beast::error_code& error, std::size_t) {
+                      Transferred([self = shared_from_this()](beast::error_code error, std::size_t) {
                         self->writing_.reset();
                         if (error) return self->close();
                         self->offer();
-                      });
+                      }));
 }
 
 void StreamSession::close() {
-  beast::get_lowest_layer(socket_).close();
+  socket_.next_layer().close();
   hub_.leave(shared_from_this());
 }
 

@@ -6,7 +6,6 @@
 #include <atomic>
 #include <boost/asio/steady_timer.hpp>
 #include <boost/beast/core/flat_buffer.hpp>
-#include <boost/beast/core/tcp_stream.hpp>
 #include <boost/beast/http/message.hpp>
 #include <boost/beast/http/string_body.hpp>
 #include <boost/beast/websocket/stream.hpp>
@@ -16,6 +15,7 @@
 #include <set>
 
 #include "api.hpp"
+#include "http/transport.hpp"
 #include "http/viewer.hpp"
 
 namespace trunnion::gateway {
@@ -27,7 +27,8 @@ class StreamHub {
   void start();
   void join(const std::shared_ptr<Viewer>& viewer);
   void leave(const std::shared_ptr<Viewer>& viewer);
-  bool full() const { return viewers_.size() >= 32; }
+  /// Why `peer` gets no stream: one line. Empty when it gets one.
+  std::string refusal(const std::string& peer) const;
   std::size_t size() const { return count_; }
   const std::shared_ptr<const Snapshot>& newest() const { return newest_; }
   /// Text of the message that brings a client from `from` (null: from nothing) to the newest state. Empty
@@ -47,8 +48,8 @@ class StreamHub {
 
 class StreamSession : public Viewer, public std::enable_shared_from_this<StreamSession> {
  public:
-  StreamSession(boost::beast::tcp_stream&& stream, StreamHub& hub, Api& api, Visitor visitor)
-      : socket_(std::move(stream)), hub_(hub), api_(api), visitor_(std::move(visitor)) {}
+  StreamSession(Transport&& stream, StreamHub& hub, Api& api, Visitor visitor)
+      : Viewer(std::move(visitor)), socket_(std::move(stream)), hub_(hub), api_(api) {}
   void accept(const boost::beast::http::request<boost::beast::http::string_body>& request);
   /// Sends what is new, unless the message before is still under way.
   void offer(const std::shared_ptr<const Snapshot>&) override { offer(); }
@@ -63,10 +64,9 @@ class StreamSession : public Viewer, public std::enable_shared_from_this<StreamS
   void answer_order(const bus::Json& order, const Answer& made);
   void send(std::shared_ptr<const std::string> message);
   void close();
-  boost::beast::websocket::stream<boost::beast::tcp_stream> socket_;
+  boost::beast::websocket::stream<Transport> socket_;
   StreamHub& hub_;
   Api& api_;
-  const Visitor visitor_;
   boost::beast::flat_buffer incoming_;
   std::deque<std::shared_ptr<const std::string>> answers_;  ///< to orders, before the next state
   std::shared_ptr<const Snapshot> sent_;

@@ -19,11 +19,16 @@ struct Visitor {
 
 class Viewer {
  public:
+  explicit Viewer(Visitor visitor) : visitor_(std::move(visitor)) {}
   virtual ~Viewer() = default;
+  const std::string& peer() const { return visitor_.peer; }
   /// There is something new.
   virtual void offer(const std::shared_ptr<const Snapshot>& newest) = 0;
   /// Once a second.
   virtual void each_second() = 0;
+
+ protected:
+  const Visitor visitor_;
 };
 
 }  // namespace trunnion::gateway

@@ -25,40 +25,42 @@ Json problem(const Answer& answer) { return {{"problem", Json::parse(answer.body
 
 }  // namespace
 
-WatchSession::WatchSession(beast::tcp_stream&& stream, StreamHub& hub, Api& api, Visitor visitor)
-    : socket_(std::move(stream)),
+WatchSession::WatchSession(Transport&& stream, StreamHub& hub, Api& api, Visitor visitor)
+    : Viewer(std::move(visitor)),
+      socket_(std::move(stream)),
       hub_(hub),
       api_(api),
-      visitor_(std::move(visitor)),
       client_(service::make_client_id()) {}
 
 void WatchSession::accept(const beast::http::request<beast::http::string_body>& request) {
-  beast::get_lowest_layer(socket_).expires_never();
-  auto timeout = websocket::stream_base::timeout::suggested(beast::role_type::server);
-  timeout.idle_timeout = std::chrono::seconds(20);
-  timeout.keep_alive_pings = true;
-  socket_.set_option(timeout);
+  socket_.next_layer().expires_never();
+  auto limits = websocket::stream_base::timeout::suggested(beast::role_type::server);
+  limits.idle_timeout = std::chrono::seconds(20);
+  limits.keep_alive_pings = true;
+  socket_.set_option(limits);
   socket_.read_message_max(longest_message);
-  socket_.async_accept(request, [self = shared_from_this()](const beast::error_code& error) {
-    if (error) return;
-    self->open_ = true;
-    self->hub_.join(self);
-    self->read();
-  });
+  socket_.async_accept(request, Done([self = shared_from_this()](beast::error_code error) {
+                         if (error) return;
+                         self->open_ = true;
+                         self->hub_.join(self);
+                         self->read();
+                       }));
 }
 
 void WatchSession::read() {
-  socket_.async_read(incoming_, [self = shared_from_this()](const beast::error_code& error, std::size_t) {
-    if (error) return self->close();
-    self->take(beast::buffers_to_string(self->incoming_.data()));
-    self->incoming_.clear();
-    self->read();
-  });
+  socket_.async_read(incoming_,
+                     Transferred([self = shared_from_this()](beast::error_code error, std::size_t) {
+                       if (error) return self->close();
+                       self->take(beast::buffers_to_string(self->incoming_.data()));
+                       self->incoming_.clear();
+                       self->read();
+                     }));
 }
 
 void WatchSession::take(const std::string& text) {
   try {
     watched_ = watch_request(parse_body(text));
+    named_ = number_ + 1, slot_.reset();
     ask(*watched_);
   } catch (const BadRequest& bad) {
     send(problem(problem_answer(400, bad.what(), bad.field)));
@@ -89,10 +91,10 @@ void WatchSession::answered(const Request& asked, const std::optional<Reply>& re
   plc_online::ShownVariables shown(reply->variables);
   slot_ = reply->slot;
   const auto json = shown.json();
-  const bool same = described_ != 0 && json == shown_.json();
+  const bool same = described_ && json == shown_.json();
   shown_ = std::move(shown);
   if (!same) {
-    described_ = asked.number, sent_.reset();
+    described_ = true, sent_.reset();
     send({{"variables", json}});
   }
   if (const auto& newest = hub_.newest()) offer(newest);
@@ -103,7 +105,8 @@ void WatchSession::offer(const std::shared_ptr<const Snapshot>& newest) {
   const auto found = newest->plc_watched.find(*slot_);
   if (found == newest->plc_watched.end() || found->second->client != client_) return;
   const auto& sample = found->second;
-  if (sample->cells.size() != shown_.cells()) return;
+  // The values of another list may be as many.
+  if (sample->number < named_ || sample->cells.size() != shown_.cells()) return;
   if (sent_ && sent_->cells == sample->cells && sent_->forced == sample->forced) return;
   sent_ = sample;
   send({{"scan", sample->scan},
@@ -128,12 +131,12 @@ void WatchSession::write_next() {
   writing_ = true;
   socket_.text(true);
   socket_.async_write(boost::asio::buffer(outgoing_.front()),
-                      [self = shared_from_this()](const beast::error_code& error, std::size_t) {
+                      Transferred([self = shared_from_this()](beast::error_code error, std::size_t) {
                         self->writing_ = false;
                         self->outgoing_.pop_front();
                         if (error) return self->close();
                         if (!self->outgoing_.empty()) self->write_next();
-                      });
+                      }));
 }
 
 void WatchSession::close() {
@@ -145,7 +148,7 @@ void WatchSession::close() {
     watched_.reset();
     ask(end);
   }
-  beast::get_lowest_layer(socket_).close();
+  socket_.next_layer().close();
   hub_.leave(shared_from_this());
 }
 

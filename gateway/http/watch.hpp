@@ -5,7 +5,6 @@
 #pragma once
 
 #include <boost/beast/core/flat_buffer.hpp>
-#include <boost/beast/core/tcp_stream.hpp>
 #include <boost/beast/http/message.hpp>
 #include <boost/beast/http/string_body.hpp>
 #include <boost/beast/websocket/stream.hpp>
@@ -13,6 +12,7 @@
 #include <memory>
 
 #include "api.hpp"
+#include "http/transport.hpp"
 #include "http/viewer.hpp"
 #include "plc_online/shown_variables.hpp"
 
@@ -22,7 +22,7 @@ class StreamHub;
 
 class WatchSession : public Viewer, public std::enable_shared_from_this<WatchSession> {
  public:
-  WatchSession(boost::beast::tcp_stream&& stream, StreamHub& hub, Api& api, Visitor visitor);
+  WatchSession(Transport&& stream, StreamHub& hub, Api& api, Visitor visitor);
   void accept(const boost::beast::http::request<boost::beast::http::string_body>& request);
   void offer(const std::shared_ptr<const Snapshot>& newest) override;
   void each_second() override;
@@ -38,18 +38,19 @@ class WatchSession : public Viewer, public std::enable_shared_from_this<WatchSes
   void write_next();
   void close();
 
-  boost::beast::websocket::stream<boost::beast::tcp_stream> socket_;
+  boost::beast::websocket::stream<Transport> socket_;
   StreamHub& hub_;
   Api& api_;
-  const Visitor visitor_;
   const std::uint64_t client_;
-  std::uint64_t number_ = 0, described_ = 0;  ///< requests; the one whose variables the client knows
-  std::optional<Request> watched_;            ///< repeated while the client is there
+  std::uint64_t number_ = 0;        ///< of the last request
+  std::uint64_t named_ = 0;         ///< the first request of the list: what older ones gave is not of it
+  std::optional<Request> watched_;  ///< repeated while the client is there
   std::optional<std::uint8_t> slot_;
   plc_online::ShownVariables shown_;
   std::shared_ptr<const idl::plc::Watched> sent_;
   boost::beast::flat_buffer incoming_;
   std::deque<std::string> outgoing_;
+  bool described_ = false;  ///< the client knows the variables of shown_
   bool writing_ = false, open_ = false;
 };
 

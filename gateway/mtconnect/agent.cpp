@@ -13,7 +13,7 @@ namespace {
 using bus::Json;
 
 MachineShape shape_of(const AgentSettings& settings, const Snapshot& snapshot) {
-  const auto parameters = machine::parameters_of(*snapshot.parameters);
+  const auto& parameters = *snapshot.values;
   MachineShape shape;
   shape.name = settings.machine;
   shape.title = settings.title;

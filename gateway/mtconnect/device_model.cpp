@@ -23,6 +23,7 @@ constexpr std::array types = {
     ItemType{event, "CONTROLLER_MODE", "", "", "mode", "`channel_state.mode`"},
     ItemType{event, "PROGRAM", "", "", "program", "`channel_state.program`"},
     ItemType{event, "LINE_NUMBER", "ABSOLUTE", "", "line", "`channel_state.line`"},
+    ItemType{event, "PART_COUNT", "COMPLETE", "", "parts", "`channel_state.parts`"},
     ItemType{condition, "MOTION_PROGRAM", "", "", "motion", "alarms of the channel"},
     ItemType{sample, "PATH_FEEDRATE", "ACTUAL", "MILLIMETER/SECOND", "feed", "`channel_state.feed` / 60"},
     ItemType{sample, "PATH_FEEDRATE", "PROGRAMMED", "MILLIMETER/SECOND", "feed_programmed",
@@ -122,7 +123,7 @@ Device device_of(const MachineShape& shape) {
                              {emergency_stop, system, logic_program, hardware, communications});
   for (const auto& channel : shape.channels)
     add("Path", "path" + std::to_string(channel.number), channel.name, controller, channel.number,
-        {execution, controller_mode, program, line, motion_program, path_feed, path_feed_programmed,
+        {execution, controller_mode, program, line, parts, motion_program, path_feed, path_feed_programmed,
          feed_override, rapid_override, path_position, tool_number, tool_asset, work_offset});
   return device;
 }

@@ -26,6 +26,7 @@ enum class Quantity {
   controller_mode,
   program,
   line,
+  parts,
   motion_program,
   path_feed,
   path_feed_programmed,

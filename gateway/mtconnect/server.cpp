@@ -6,7 +6,6 @@
 #include <boost/asio/steady_timer.hpp>
 #include <boost/asio/write.hpp>
 #include <boost/beast/core/flat_buffer.hpp>
-#include <boost/beast/core/tcp_stream.hpp>
 #include <boost/beast/http/empty_body.hpp>
 #include <boost/beast/http/parser.hpp>
 #include <boost/beast/http/read.hpp>
@@ -17,6 +16,7 @@
 #include <thread>
 
 #include "http/listen.hpp"
+#include "http/transport.hpp"
 
 namespace trunnion::gateway::mtconnect {
 
@@ -57,11 +57,11 @@ class Session : public std::enable_shared_from_this<Session> {
     parser_->body_limit(0);
     stream_.expires_after(timeout);
     http::async_read_header(stream_, buffer_, *parser_,
-                            [self = shared_from_this()](beast::error_code error, std::size_t) {
+                            Transferred([self = shared_from_this()](beast::error_code error, std::size_t) {
                               if (!error) return self->answer();
                               if (error == http::error::header_limit)
                                 self->refuse(431, "the header is too large");
-                            });
+                            }));
   }
 
  private:
@@ -93,11 +93,12 @@ class Session : public std::enable_shared_from_this<Session> {
     response_.body() = std::move(document);
     response_.prepare_payload();
     stream_.expires_after(timeout);
-    http::async_write(stream_, response_, [self = shared_from_this()](beast::error_code error, std::size_t) {
-      if (error) return;
-      if (self->keep_alive_) return self->read();
-      self->stream_.socket().shutdown(tcp::socket::shutdown_send, error);
-    });
+    http::async_write(stream_, response_,
+                      Transferred([self = shared_from_this()](beast::error_code error, std::size_t) {
+                        if (error) return;
+                        if (self->keep_alive_) return self->read();
+                        self->stream_.finish();
+                      }));
   }
 
   // --- Streams: a document each interval with what is new, an empty one after the heartbeat.
@@ -125,9 +126,9 @@ class Session : public std::enable_shared_from_this<Session> {
             "\r\n\r\n" + part.document + "\r\n";
     stream_.expires_after(timeout);
     net::async_write(stream_, net::buffer(text_),
-                     [self = shared_from_this()](beast::error_code error, std::size_t) {
+                     Transferred([self = shared_from_this()](beast::error_code error, std::size_t) {
                        if (!error) self->wait();
-                     });
+                     }));
   }
 
   void wait() {
@@ -159,13 +160,13 @@ class Session : public std::enable_shared_from_this<Session> {
       text_ = std::string("--") + boundary + "\r\nContent-Type: text/xml\r\n\r\n" +
               agent_.error(error, time_text()) + "\r\n--" + boundary + "--\r\n";
       net::async_write(stream_, net::buffer(text_),
-                       [self = shared_from_this()](beast::error_code failed, std::size_t) {
-                         self->stream_.socket().shutdown(tcp::socket::shutdown_send, failed);
-                       });
+                       Transferred([self = shared_from_this()](beast::error_code, std::size_t) {
+                         self->stream_.finish();
+                       }));
     }
   }
 
-  beast::tcp_stream stream_;
+  Transport stream_;
   net::steady_timer timer_;
   const Agent& agent_;
   beast::flat_buffer buffer_;

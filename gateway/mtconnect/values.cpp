@@ -135,6 +135,8 @@ std::optional<std::string> ValuesOf::of_channel(const DataItem& item) const {
       return state.program;
     case Quantity::line:
       return std::to_string(state.line);
+    case Quantity::parts:
+      return std::to_string(state.parts);
     case Quantity::path_feed:
       return number(state.feed / 60, 2);
     case Quantity::path_feed_programmed:

@@ -1,21 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/connections.hpp"
 
+#include <algorithm>
 #include <map>
 
 namespace trunnion::gateway {
 
-std::optional<std::size_t> one_to_close(std::span<const Connection> connections) {
+std::optional<std::size_t> one_to_close(std::span<const Connection> connections, std::size_t at_work) {
   std::map<std::string, std::size_t> held;
   for (const auto& connection : connections) ++held[connection.peer];
-  for (const auto activity : {Activity::waiting, Activity::transferring}) {
+  const auto oldest = [&](Activity activity) {
     std::optional<std::size_t> chosen;
     for (std::size_t i = 0; i < connections.size(); ++i) {
-      if (connections[i].activity != activity) continue;
+      if (connections[i].activity != activity || connections[i].arriving) continue;
       if (!chosen || held[connections[i].peer] > held[connections[*chosen].peer]) chosen = i;
     }
-    if (chosen) return chosen;
+    return chosen;
+  };
+  const auto waiting = std::ranges::count(connections, Activity::waiting, &Connection::activity);
+  if (connections.size() - static_cast<std::size_t>(waiting) <= at_work) {
+    if (const auto chosen = oldest(Activity::waiting)) return chosen;
+    if (waiting > 0) return std::nullopt;
   }
+  for (const auto activity : {Activity::transferring, Activity::answering, Activity::waiting})
+    if (const auto chosen = oldest(activity)) return chosen;
   return std::nullopt;
 }
 

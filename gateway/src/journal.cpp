@@ -7,7 +7,8 @@ namespace trunnion::gateway {
 namespace {
 
 // Bounds of the strings in gateway.idl.
-constexpr std::size_t address_bytes = 48, method_bytes = 8, target_bytes = 256, text_bytes = 1024;
+constexpr std::size_t address_bytes = 48, method_bytes = 8, target_bytes = 256, text_bytes = 1024,
+                      user_bytes = 48;
 
 void add(std::string& kept, std::uint64_t& size, std::uint32_t& crc, std::string_view part) {
   crc = storage::crc32(crc, {reinterpret_cast<const std::uint8_t*>(part.data()), part.size()});
@@ -25,11 +26,11 @@ bool is_of_plc_programs(Operation operation) {
 }
 
 bool is_journaled(Operation operation) {
-  if (operation == Operation::read_program) return true;
+  if (operation == Operation::read_program || operation == Operation::plan_program) return true;
   if (operation == Operation::start_recording || operation == Operation::stop_recording ||
       operation == Operation::remove_recording || operation == Operation::login ||
       operation == Operation::logout || operation == Operation::change_operating_right ||
-      is_of_plc_programs(operation))
+      operation == Operation::manual_evaluation || is_of_plc_programs(operation))
     return false;  // nothing of it is on the bus, and no password gets there
   for (const auto& route : routes())
     if (route.operation == operation) return route.method != "GET";
@@ -53,6 +54,8 @@ void add_body(JournalLine& line, std::string_view part) {
 void add_answer(JournalLine& line, std::string_view part) {
   add(line.answer, line.answer_size, line.answer_crc32, part);
 }
+
+void set_user(JournalLine& line, std::string_view name) { line.user = name.substr(0, user_bytes); }
 
 void set_asked(JournalLine& line, const Asked& asked) {
   line.client = asked.client;

@@ -32,6 +32,8 @@ JournalLine begin_line(idl::gateway::Sender sender, std::string_view address, st
 /// More of the body, or of the answer's. As long as all of it fits it is kept, then its size and CRC alone.
 void add_body(JournalLine& line, std::string_view part);
 void add_answer(JournalLine& line, std::string_view part);
+/// Who was logged in.
+void set_user(JournalLine& line, std::string_view name);
 void set_asked(JournalLine& line, const Asked& asked);
 
 }  // namespace trunnion::gateway

@@ -8,6 +8,11 @@
 
 namespace trunnion::gateway {
 
+/// A revision as ETag.
+std::string entity_tag(std::uint64_t revision);
+/// Changes with the active and with the pending values, which have no revision.
+std::string entity_tag(const idl::parameters::ParameterSet& set);
+
 struct Precondition {
   std::string if_match;       ///< a revision in quotes or *, empty = none
   std::string if_none_match;  ///< *, empty = none

@@ -135,6 +135,8 @@ Json check_program(language::TextSource& text, channel_setup::ChannelSetup& mach
     }
     // No probe: the move to a skip signal ends where it was to end at the latest.
     if (step == Step::position) interpreter->set_position(command.target);
+    // No other service: its cycle has no parts.
+    if (step == Step::answer) interpreter->answer(0);
     if (step != Step::command) continue;
     if (command.program == 0) line = command.line;
     if (command.kind == CommandKind::transformation) from = command.target;

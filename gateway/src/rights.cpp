@@ -11,6 +11,7 @@ std::optional<Role> needed_role(const Match& match) {
     case Operation::session:
     case Operation::login:
     case Operation::logout:
+    case Operation::measurement_abort:
       return {};
     case Operation::panel_command:
       if (match.command == "emergency-stop") return {};
@@ -24,7 +25,13 @@ std::optional<Role> needed_role(const Match& match) {
     case Operation::plc_compare:
     case Operation::plc_take_over:
     case Operation::plc_end_load:
+    case Operation::measurement_confirm:  // the parameters of the kinematics are the builder's
+    case Operation::measurement_undo:
+    case Operation::manual_write:
       return Role::builder;
+    case Operation::measurement_start:
+    case Operation::measurement_continue:
+    case Operation::measurement_discard:
     case Operation::set_parameter:  // those of access builder need more
     case Operation::set_parameters:
     case Operation::set_tool:
@@ -54,6 +61,12 @@ bool needs_operating_right(const Match& match) {
     case Operation::plc_force:
     case Operation::plc_release:
     case Operation::plc_take_over:
+    case Operation::measurement_start:
+    case Operation::measurement_continue:
+    case Operation::measurement_confirm:
+    case Operation::measurement_discard:
+    case Operation::measurement_undo:
+    case Operation::manual_write:
       return true;
     default:
       return false;
@@ -72,6 +85,10 @@ bool prolongs_session(Operation operation) {
     case Operation::plc_trace:
     case Operation::plc_image:
     case Operation::variables:
+    case Operation::measurement:
+    case Operation::measurement_last:
+    case Operation::manual_calibration:
+    case Operation::plan_program:
       return false;
     default:
       return true;

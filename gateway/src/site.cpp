@@ -39,8 +39,9 @@ bool Site::is_named(std::string_view host) const {
   return name == "localhost" || std::ranges::find(names_, name) != names_.end();
 }
 
-bool foreign_origin(std::string_view origin, std::string_view host) {
+bool foreign_origin(std::string_view origin, std::string_view host, bool secure) {
   if (origin.empty()) return false;
+  if (secure && !origin.starts_with("https://")) return true;
   const auto scheme = origin.find("://");
   return scheme == std::string_view::npos || origin.substr(scheme + 3) != host;
 }

@@ -24,7 +24,8 @@ class Site {
 };
 
 /// Whether a page of another site sent the request: `origin` as in the header of that name, `host` as in
-/// Host.
-bool foreign_origin(std::string_view origin, std::string_view host);
+/// Host. One that came in clear text is another site when the request is `secure`; the other way it is that
+/// of a proxy that encrypts.
+bool foreign_origin(std::string_view origin, std::string_view host, bool secure);
 
 }  // namespace trunnion::gateway

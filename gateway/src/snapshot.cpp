@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "machine/parameter_constants.hpp"
+#include "src/precondition.hpp"
 
 namespace trunnion::gateway {
 namespace {
@@ -27,11 +28,6 @@ const char* group_of(std::uint32_t number) {
   return "table";
 }
 
-std::map<std::uint32_t, machine::ParameterValue> values_of(const Snapshot& snapshot) {
-  if (!snapshot.parameters) return {};
-  return machine::parameters_of(*snapshot.parameters).values;
-}
-
 Json number_json(double value) {
   // Whole numbers are shown as such: 8, not 8.0.
   if (std::floor(value) == value && std::abs(value) < 1e15) return static_cast<std::int64_t>(value);
@@ -43,8 +39,8 @@ std::uint32_t index_of(const machine::Definition& definition, std::uint32_t numb
   return definition.units > 1 ? distance % 1000 : distance;
 }
 
-Json entry(const Snapshot& snapshot, const machine::Definition& definition, std::uint32_t number,
-           const std::map<std::uint32_t, machine::ParameterValue>& values) {
+Json entry(const Snapshot& snapshot, const machine::Definition& definition, std::uint32_t number) {
+  const auto& values = snapshot.values->values;
   const bool is_text = definition.type == machine::ParameterType::text;
   const auto known = values.find(number);
   Json json;
@@ -78,6 +74,12 @@ Json entry(const Snapshot& snapshot, const machine::Definition& definition, std:
 
 }  // namespace
 
+void Snapshot::set_parameters(std::shared_ptr<const idl::parameters::ParameterSet> set) {
+  values = std::make_shared<const machine::Parameters>(machine::parameters_of(*set));
+  parameters_tag = entity_tag(*set);
+  parameters = std::move(set);
+}
+
 Json status_answer(const Snapshot& snapshot, const std::string& contract) {
   Json json;
   const auto& document = snapshot.document;
@@ -102,6 +104,14 @@ Json alarms_answer(const Snapshot& snapshot) {
   auto list = Json::array();
   if (snapshot.document.contains("alarms"))
     for (const auto& [key, alarm] : snapshot.document["alarms"].items()) list.push_back(alarm);
+  return {{"alarms", std::move(list)}};
+}
+
+Json past_alarms_answer(const Snapshot& snapshot, const std::string& search) {
+  auto list = Json::array();
+  if (snapshot.past_alarms)
+    for (const auto& past : *snapshot.past_alarms)
+      if (matches(past, search)) list.push_back(past_alarm_document(past));
   return {{"alarms", std::move(list)}};
 }
 
@@ -137,7 +147,7 @@ Json channel_answer(const Snapshot& snapshot, std::uint16_t number) {
 
 Json parameters_answer(const Snapshot& snapshot, const ParameterQuery& query) {
   if (!snapshot.parameters) return nullptr;
-  const auto values = values_of(snapshot);
+  const auto& values = snapshot.values->values;
   const auto name_number = parameter::axis_name.number();
   std::set<std::uint32_t> axes, channels;
   for (const auto& [number, value] : values)
@@ -173,7 +183,7 @@ Json parameters_answer(const Snapshot& snapshot, const ParameterQuery& query) {
   for (const auto& [number, definition] : found) {
     if (index++ < query.offset) continue;
     if (list.size() == query.limit) break;
-    list.push_back(entry(snapshot, *definition, number, values));
+    list.push_back(entry(snapshot, *definition, number));
   }
   return {{"revision", snapshot.parameters->revision},
           {"pending", snapshot.parameters->pending.size()},
@@ -184,7 +194,7 @@ Json parameters_answer(const Snapshot& snapshot, const ParameterQuery& query) {
 Json parameter_answer(const Snapshot& snapshot, std::uint32_t number) {
   const auto* definition = machine::Catalogue::instance().find(number);
   if (definition == nullptr || !snapshot.parameters) return nullptr;
-  return entry(snapshot, *definition, number, values_of(snapshot));
+  return entry(snapshot, *definition, number);
 }
 
 }  // namespace trunnion::gateway

@@ -8,6 +8,7 @@
 #include "bus/json.hpp"
 #include "contracts/types.hpp"
 #include "machine/parameters.hpp"
+#include "src/alarm_history.hpp"
 
 namespace trunnion::gateway {
 
@@ -16,20 +17,29 @@ struct Snapshot {
   bus::Json document = bus::Json::object();  ///< of StateDocument
   std::map<std::uint16_t, idl::channel::ChannelState> channels;
   std::shared_ptr<const idl::parameters::ParameterSet> parameters;
+  std::shared_ptr<const machine::Parameters> values;  ///< of `parameters`: set together
+  std::string parameters_tag;                         ///< their ETag
   std::shared_ptr<const idl::parameters::ToolTable> tools;
   std::shared_ptr<const idl::parameters::WorkOffsets> offsets;
   std::shared_ptr<const idl::program::ProgramList> programs;
+  std::shared_ptr<const PastAlarms> past_alarms;
   std::shared_ptr<const idl::plc::Image> image;
   std::map<std::uint16_t, std::shared_ptr<const idl::channel::Variables>> variables;  ///< by channel
   std::shared_ptr<const idl::plc::Forces> plc_forces;
   std::shared_ptr<const idl::plc::Programs> plc_programs;
+  std::shared_ptr<const idl::measurement::MeasurementState> measurement;
+  std::shared_ptr<const idl::measurement::MeasurementResult> measurement_result;
   std::map<std::uint8_t, std::shared_ptr<const idl::plc::Watched>> plc_watched;  ///< by slot
+
+  void set_parameters(std::shared_ptr<const idl::parameters::ParameterSet> set);
 };
 
 /// Answers of the GET operations, as the OpenAPI document describes them. Null when the service has not
 /// published yet.
 bus::Json status_answer(const Snapshot& snapshot, const std::string& contract);
 bus::Json alarms_answer(const Snapshot& snapshot);
+/// Newest first; those that have `search` in them.
+bus::Json past_alarms_answer(const Snapshot& snapshot, const std::string& search);
 bus::Json channels_answer(const Snapshot& snapshot);
 bus::Json channel_answer(const Snapshot& snapshot, std::uint16_t channel);
 

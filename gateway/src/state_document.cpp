@@ -53,6 +53,10 @@ void StateDocument::apply(const idl::service::Alarm& alarm, double now, const st
   raised.heard = now;
 }
 
+bool StateDocument::is_active(const idl::service::Alarm& alarm) const {
+  return alarms_.contains({alarm.instance, alarm.number, alarm.part});
+}
+
 void StateDocument::apply(const idl::service::Cluster& cluster) {
   cluster_ = cluster;
   has_cluster_ = true;
@@ -61,10 +65,13 @@ void StateDocument::apply(const idl::service::Cluster& cluster) {
 void StateDocument::apply(const idl::channel::ChannelState& state) { channels_[state.channel] = state; }
 
 void StateDocument::apply(const idl::plc::Outputs& outputs) {
+  auto channels = Json::array();
+  for (const auto& control : outputs.channels) channels.push_back(bus::to_json(control));
   plc_ = {{"emergency_stop", outputs.emergency_stop},
           {"feed_hold", outputs.feed_hold},
           {"coolant", outputs.coolant},
-          {"spindle_speed", outputs.spindle_speed}};
+          {"spindle_speed", outputs.spindle_speed},
+          {"channels", std::move(channels)}};
 }
 
 void StateDocument::apply(const idl::stream::FeedbackFrame& frame) {
@@ -82,6 +89,10 @@ void StateDocument::apply(const idl::stream::FeedbackFrame& frame) {
   }
   feedback_ = frame;
   has_feedback_ = true;
+}
+
+void StateDocument::apply(const idl::measurement::MeasurementState& state) {
+  measurement_ = bus::to_json(state);
 }
 
 void StateDocument::set_drive_axes(std::vector<std::uint16_t> axes) { drive_axes_ = std::move(axes); }
@@ -183,6 +194,7 @@ Json StateDocument::document(double now) {
                      {"starved", feedback_.starved},
                      {"spindle_speed", rounded_row(feedback_.spindle_speed)}};
   if (!plc_.is_null()) json["plc"] = plc_;
+  if (!measurement_.is_null()) json["measurement"] = measurement_;
   if (!trace_.empty() && !drive_axes_.empty()) {
     auto rows = Json::array();
     for (const auto& row : trace_.rows()) rows.push_back(rounded_row(row));

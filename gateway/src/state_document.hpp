@@ -25,11 +25,14 @@ class StateDocument {
   void apply(const idl::service::Cluster& cluster);
   void apply(const idl::channel::ChannelState& state);
   void apply(const idl::plc::Outputs& outputs);
+  void apply(const idl::measurement::MeasurementState& state);
   void apply(const idl::stream::FeedbackFrame& frame);
   /// Logical axis number of each column of the drive's feedback.
   void set_drive_axes(std::vector<std::uint16_t> axes);
   void set_revision(const char* what, std::uint64_t revision);
 
+  /// Whether the alarm of this instance, number and part is active.
+  bool is_active(const idl::service::Alarm& alarm) const;
   /// The whole document; peaks and the trace start afresh with it.
   bus::Json document(double now);
 
@@ -58,7 +61,7 @@ class StateDocument {
   std::map<std::uint16_t, idl::channel::ChannelState> channels_;
   idl::service::Cluster cluster_;
   bool has_cluster_ = false;
-  bus::Json plc_, revisions_ = bus::Json::object();
+  bus::Json plc_, measurement_, revisions_ = bus::Json::object();
   idl::stream::FeedbackFrame feedback_;
   bool has_feedback_ = false;
   std::vector<double> commanded_, actual_, peak_;

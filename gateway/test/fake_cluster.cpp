@@ -57,7 +57,9 @@ FakeCluster::FakeCluster(const bus::NetworkSettings& network)
       parameter_set_(bus_.writer(topics::parameter_set)),
       tool_table_(bus_.writer(topics::tool_table)),
       work_offsets_(bus_.writer(topics::work_offsets)),
-      program_list_(bus_.writer(topics::program_list)) {
+      program_list_(bus_.writer(topics::program_list)),
+      measurement_state_(bus_.writer(topics::measurement_state)),
+      measurement_result_(bus_.writer(topics::measurement_result)) {
   programs["CIRCLE.NC"] = circle_program();
   publish_once();
   publish_programs();
@@ -90,6 +92,18 @@ void FakeCluster::publish_once() {
   warning_.text = "Redundancy lost: compensation runs without its second replica";
   warning_.occurrences = 1;
   alarm_.write(warning_);
+
+  idl::measurement::MeasurementResult result;
+  result.measurement = 1;
+  result.poses.push_back({{-60, 0, 0, 0, 0, 0}, {}, {60, 40, -300}, {0, 0.02, 0}, {0.001, 0, -0.002}, 25});
+  result.valid = true;
+  measurement_result_.write(result);
+  idl::measurement::MeasurementState measurement;
+  measurement.measurement = 1;
+  measurement.phase = idl::measurement::Phase::WAITING;
+  measurement.poses = measurement.complete = 1;
+  measurement.may_confirm = true;
+  measurement_state_.write(measurement);
 
   channel.name = "Mill";
   channel.mode = idl::channel::Mode::AUTO;
@@ -246,6 +260,10 @@ void FakeCluster::answer_program() {
           reply.data.assign(from,
                             from + static_cast<std::ptrdiff_t>(std::min<std::size_t>(left, request.length)));
         }
+        break;
+      case Operation::RESOLVE:
+        reply.accepted = stored != programs.end();
+        if (reply.accepted) reply.entry = entry_of(request.name, stored->second);
         break;
       case Operation::BEGIN_UPLOAD:
         upload.clear();

@@ -59,6 +59,8 @@ class FakeCluster {
   bus::Writer<idl::parameters::ToolTable> tool_table_;
   bus::Writer<idl::parameters::WorkOffsets> work_offsets_;
   bus::Writer<idl::program::ProgramList> program_list_;
+  bus::Writer<idl::measurement::MeasurementState> measurement_state_;
+  bus::Writer<idl::measurement::MeasurementResult> measurement_result_;
 
   idl::parameters::ParameterSet parameters_;
   idl::parameters::WorkOffsets offsets_;

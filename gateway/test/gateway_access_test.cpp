@@ -131,6 +131,43 @@ TEST_F(GatewayAccess, ASessionMayDoWhatItsRoleSaysUntilItsEnd) {
   EXPECT_EQ(journal().find("password of"), std::string::npos);
 }
 
+TEST_F(GatewayAccess, TheOperatorJournalSaysWhoWasLoggedInByBothWays) {
+  add("ann", Role::machine_operator);
+  start();
+  bus::Bus bus(bus::Vendor::cyclonedds, {domain});
+  auto reader = bus.reader(topics::operator_request);
+  const auto ann = session("ann");
+  std::map<std::string, std::string> users;  // of the lines by target
+  const auto told = [&](const std::string& target, const std::function<void()>& order) {
+    users.clear();
+    order();
+    return eventually([&] {
+      idl::gateway::OperatorRequest line;
+      while (reader.take(line)) users[line.target] = line.user;
+      return users.contains(target);
+    });
+  };
+  const auto start_cycle = [&] {
+    EXPECT_EQ(ask("POST", "/api/channels/0/cycle-start", json::object(), ann).status, 200);
+  };
+  // The reader is new: until it is known, lines pass it by.
+  EXPECT_TRUE(eventually([&] {
+    start_cycle();
+    idl::gateway::OperatorRequest line;
+    return reader.take(line);
+  }));
+  EXPECT_TRUE(told("/api/channels/0/cycle-start", start_cycle));
+  EXPECT_EQ(users["/api/channels/0/cycle-start"], "ann");
+  http_client::WebSocketClient stream(port_, "/api/stream", 0, ann);
+  ASSERT_TRUE(stream.open());
+  EXPECT_TRUE(told("/api/channels/0/feed-hold",
+                   [&] { stream.send(R"({"order": 1, "path": "/api/channels/0/feed-hold"})"); }));
+  EXPECT_EQ(users["/api/channels/0/feed-hold"], "ann");
+  EXPECT_TRUE(told("/api/panel/emergency-stop",
+                   [&] { EXPECT_EQ(ask("POST", "/api/panel/emergency-stop").status, 200); }));
+  EXPECT_EQ(users["/api/panel/emergency-stop"], "") << "everybody may";
+}
+
 TEST_F(GatewayAccess, OneStationOperatesAndHandsOverWithConsentOrToASetter) {
   add("ann", Role::machine_operator);
   add("bob", Role::machine_operator);

@@ -49,6 +49,7 @@ class Process {
       wait();
     }
   }
+  pid_t pid() const { return pid_; }
   int wait() {
     int status = 0;
     if (pid_ > 0) waitpid(pid_, &status, 0);

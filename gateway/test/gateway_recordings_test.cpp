@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "gateway_fixture.hpp"
+#include "held_connections.hpp"
 #include "src/compression.hpp"
 
 namespace trunnion::gateway {
@@ -176,6 +177,48 @@ TEST_F(Gateway, CompressesLongAnswersAndThePageForThoseWhoPermitIt) {
   EXPECT_EQ(script.headers.at("content-type"), "text/javascript; charset=utf-8");
   EXPECT_EQ(gunzip(script.body, 100), "the script");
   EXPECT_EQ(get("/app.js").body, "the script");
+}
+
+/// The process that `parent` has started, 0 = none.
+pid_t child_of(pid_t parent) {
+  for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
+    if (std::atoi(entry.path().filename().c_str()) == 0) continue;  // no process
+    std::ifstream file(entry.path() / "stat");
+    std::string text{std::istreambuf_iterator<char>(file), {}};
+    // proc(5): pid (name) state parent; a name may contain anything.
+    const auto name_end = text.rfind(')');
+    if (name_end == std::string::npos) continue;
+    if (std::atoi(text.c_str() + name_end + 4) == parent) return std::atoi(text.c_str());
+  }
+  return 0;
+}
+
+TEST_F(GatewayRecordings, ThatWaitForTheDiskDoNotShutOutAStopAndDoNotQueueWithoutEnd) {
+  ASSERT_EQ(post("/api/recordings", {{"name", "slow.mcap"}}).status, 200);
+  const auto recorder = child_of(process_->pid());
+  ASSERT_GT(recorder, 0);
+  kill(recorder, SIGSTOP);  // it does not end its file: the thread of the files waits for it
+  std::thread waiting([&] {
+    auto server = http_client::Server(port_);
+    server.timeout = 30;
+    EXPECT_EQ(http_client::request(server, "POST", "/api/recordings/slow.mcap/stop", "{}").status, 200);
+  });
+  // From the moment on in which the thread waits, nothing of the files is answered any more.
+  ASSERT_TRUE(eventually([&] {
+    auto server = http_client::Server(port_);
+    server.timeout = 0.2;
+    return http_client::request(server, "GET", "/api/recordings").status == 0;
+  }));
+  HeldConnections held(port_);
+  for (int i = 0; i < 300; ++i) held.open("GET /api/recordings HTTP/1.1\r\nHost: 127.0.0.1\r\n\r\n");
+  EXPECT_EQ(post("/api/panel/emergency-stop").status, 200);
+  // 256 requests wait, whether or not their connections are still there.
+  const auto refused = get("/api/recordings");
+  EXPECT_EQ(refused.status, 503) << refused.body;
+  EXPECT_THAT(refused.body, HasSubstr("256 requests wait for files"));
+  kill(recorder, SIGCONT);
+  waiting.join();
+  EXPECT_TRUE(eventually([&] { return get("/api/recordings").status == 200; }));
 }
 
 }  // namespace

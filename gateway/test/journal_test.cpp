@@ -19,14 +19,20 @@ TEST(Journal, KeepsWhatMakesTheGatewayWriteToTheBusAndNoMereReading) {
     if (!is_journaled(route.operation)) read.insert(std::string(route.pattern));
   EXPECT_EQ(read, (std::set<std::string>{"/api/status",
                                          "/api/alarms",
+                                         "/api/alarms/history",
                                          "/api/channels",
                                          "/api/channels/{channel}",
+                                         "/api/bodies/{channel}",
                                          "/api/parameters",
                                          "/api/parameters/{number}",
                                          "/api/tools",
                                          "/api/work-offsets",
                                          "/api/programs",
                                          "/api/plc/image",
+                                         "/api/measurement",
+                                         "/api/measurement/inputs",
+                                         "/api/measurement/undo",
+                                         "/api/measurement/manual",
                                          "/api/variables/{channel}",
                                          "/api/openapi.json",
                                          "/api/stream",
@@ -42,6 +48,7 @@ TEST(Journal, KeepsWhatMakesTheGatewayWriteToTheBusAndNoMereReading) {
                                          "/api/plc/watch",
                                          "/api/plc/forces",
                                          "/api/plc/tasks",
+                                         "/api/plc/uses",
                                          "/api/plc/force",
                                          "/api/plc/release",
                                          "/api/plc/trace",
@@ -71,6 +78,7 @@ TEST(Journal, ATextThatFitsIsKeptInPartsAndALongerOneIsItsSizeAndSumAlone) {
 TEST(Journal, NoRequestHoweverLongIsBeyondTheBoundsOfTheLine) {
   const std::string text(100000, '/');
   auto line = begin_line(Sender::PAGE, text, text, text);
+  set_user(line, text);
   add_body(line, text);
   add_answer(line, text);
   bus::Bytes bytes;

@@ -78,7 +78,7 @@ struct Machine {
     auto parameters = std::make_shared<idl::parameters::ParameterSet>();
     parameters->revision = 1;
     parameters->values = {{100000, 0, "X"}, {100001, 1, ""}, {106000, 0, "C"}, {106001, 3, ""}};
-    snapshot.parameters = parameters;
+    snapshot.set_parameters(parameters);
     auto& state = snapshot.channels[0];
     state.name = "mill & turn";
     state.program = "A<B>.NC";
@@ -172,13 +172,13 @@ TEST(MtconnectAgent, ANewAxisIsANewDeviceWithANewInstance) {
   EXPECT_THAT(machine.get("/probe"), HasSubstr("instanceId=\"1\""));
   auto parameters = std::make_shared<idl::parameters::ParameterSet>(*machine.snapshot.parameters);
   parameters->revision = 2;
-  machine.snapshot.parameters = parameters;
+  machine.snapshot.set_parameters(parameters);
   machine.observe();
   EXPECT_THAT(machine.get("/probe"), HasSubstr("instanceId=\"1\"")) << "a revision with the same axes";
   parameters = std::make_shared<idl::parameters::ParameterSet>(*parameters);
   parameters->revision = 3;
   parameters->values.insert(parameters->values.begin() + 2, {{101000, 0, "Y"}, {101001, 1, ""}});
-  machine.snapshot.parameters = parameters;
+  machine.snapshot.set_parameters(parameters);
   machine.observe();
   EXPECT_THAT(machine.get("/probe"), HasSubstr("instanceId=\"2\""));
   EXPECT_EQ(machine.agent.buffer().first(), 1u);

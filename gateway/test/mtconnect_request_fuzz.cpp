@@ -15,7 +15,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     auto parameters = std::make_shared<idl::parameters::ParameterSet>();
     parameters->revision = 1;
     parameters->values = {{100000, 0, "X"}, {101000, 0, "Y"}};
-    snapshot.parameters = parameters;
+    snapshot.set_parameters(parameters);
     snapshot.channels[0].letters = "XY";
     made.observe(snapshot, "2026-01-01T00:00:00.000Z");
     return made;

@@ -43,5 +43,21 @@ TEST(Precondition, IfNoneMatchWantsANewName) {
   EXPECT_EQ((Precondition{"", "*"}.failed(&list, "a.nc")), "a.nc is stored already, revision 7");
 }
 
+TEST(EntityTag, OfParametersChangesWithActiveAndPendingValues) {
+  idl::parameters::ParameterSet set;
+  set.revision = 5;
+  const auto tag = entity_tag(set);
+  EXPECT_EQ(entity_tag(set), tag);
+  set.pending.push_back({100034, 1, ""});
+  const auto pending = entity_tag(set);
+  EXPECT_NE(pending, tag);
+  set.pending[0].value = 2;
+  EXPECT_NE(entity_tag(set), pending) << "another value that waits";
+  set.pending.clear();
+  EXPECT_EQ(entity_tag(set), tag);
+  set.revision = 6;
+  EXPECT_NE(entity_tag(set), tag);
+}
+
 }  // namespace
 }  // namespace trunnion::gateway

@@ -30,10 +30,10 @@ TEST(Rights, NothingElseIsDoneWithoutALogin) {
     found.command = route.command;
     if (!needed_role(found)) free.insert(std::string(route.method) + " " + route.pattern);
   }
-  EXPECT_EQ(free,
-            (std::set<std::string>{"POST /api/panel/emergency-stop", "POST /api/channels/{channel}/feed-hold",
-                                   "POST /api/channels/{channel}/jog-stop", "GET /api/session",
-                                   "POST /api/session", "DELETE /api/session", "GET /api/openapi.json"}));
+  EXPECT_EQ(free, (std::set<std::string>{
+                      "POST /api/panel/emergency-stop", "POST /api/channels/{channel}/feed-hold",
+                      "POST /api/channels/{channel}/jog-stop", "GET /api/session", "POST /api/session",
+                      "DELETE /api/session", "GET /api/openapi.json", "POST /api/measurement/abort"}));
 }
 
 TEST(Rights, OperatorsRunTheMachineAndSettersChangeWhatItWorksWith) {
@@ -53,15 +53,19 @@ TEST(Rights, OrdersToTheMachineNeedTheRightToOperateAndStopsAndFilesDoNot) {
     EXPECT_EQ(found.result, RouteResult::found) << path;
     return needs_operating_right(found);
   };
-  for (const char* path : {"/api/channels/0/cycle-start", "/api/channels/0/jog", "/api/channels/0/jog-renew",
-                           "/api/channels/0/mdi", "/api/panel/release", "/api/alarms/reset", "/api/plc/force",
-                           "/api/plc/release", "/api/plc/load/take-over"})
+  for (const char* path :
+       {"/api/channels/0/cycle-start", "/api/channels/0/jog", "/api/channels/0/jog-renew",
+        "/api/channels/0/mdi", "/api/panel/release", "/api/alarms/reset", "/api/plc/force",
+        "/api/plc/release", "/api/plc/load/take-over", "/api/measurement/start", "/api/measurement/continue",
+        "/api/measurement/confirm", "/api/measurement/discard", "/api/measurement/undo",
+        "/api/measurement/manual/write"})
     EXPECT_TRUE(needs("POST", path)) << path;
   for (const char* path : {"/api/tools/3", "/api/work-offsets", "/api/parameters/11", "/api/parameters"})
     EXPECT_TRUE(needs("PUT", path)) << path;
   for (const char* path :
        {"/api/panel/emergency-stop", "/api/channels/0/feed-hold", "/api/channels/0/jog-stop", "/api/session",
-        "/api/operating-right", "/api/recordings", "/api/check/0", "/api/plc/trace"})
+        "/api/operating-right", "/api/recordings", "/api/check/0", "/api/plc/trace", "/api/measurement/abort",
+        "/api/measurement/manual"})
     EXPECT_FALSE(needs("POST", path)) << path;
   EXPECT_FALSE(needs("PUT", "/api/programs/A"));
   for (const auto& route : routes())

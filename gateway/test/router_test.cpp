@@ -96,10 +96,12 @@ TEST(Site, IsNamedByAddressesLocalhostAndItsOwnNamesOnly) {
 }
 
 TEST(Site, TakesAPageOfAnotherHostOrPortForForeign) {
-  EXPECT_FALSE(foreign_origin("", "mill-3"));
-  EXPECT_FALSE(foreign_origin("http://mill-3:8080", "mill-3:8080"));
-  EXPECT_TRUE(foreign_origin("http://mill-3:8081", "mill-3:8080"));
-  EXPECT_TRUE(foreign_origin("null", "mill-3:8080"));
+  EXPECT_FALSE(foreign_origin("", "mill-3", true));
+  EXPECT_FALSE(foreign_origin("http://mill-3:8080", "mill-3:8080", false));
+  EXPECT_TRUE(foreign_origin("http://mill-3:8081", "mill-3:8080", false));
+  EXPECT_TRUE(foreign_origin("null", "mill-3:8080", false));
+  EXPECT_TRUE(foreign_origin("http://mill-3:8080", "mill-3:8080", true));
+  EXPECT_FALSE(foreign_origin("https://mill-3:8080", "mill-3:8080", true));
 }
 
 }  // namespace

@@ -101,7 +101,9 @@ Json whole_document() {
   document.apply(channel());
   idl::plc::Outputs outputs;
   outputs.coolant = {1}, outputs.spindle_speed = {500};
+  outputs.channels.resize(1);
   document.apply(outputs);
+  document.apply(idl::measurement::MeasurementState{});
   idl::stream::FeedbackFrame frame;
   frame.first = 100, frame.count = 1, frame.axis_count = 2, frame.mode = idl::stream::DriveMode::HELD;
   frame.commanded = {1, 2}, frame.actual = {1, 2}, frame.spindle_speed = {500};

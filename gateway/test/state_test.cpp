@@ -7,6 +7,7 @@
 #include "src/merge_patch.hpp"
 #include "src/snapshot.hpp"
 #include "src/state_document.hpp"
+#include "testing_support/allocation_count.hpp"
 
 namespace trunnion::gateway {
 namespace {
@@ -203,7 +204,7 @@ Snapshot with_two_axes() {
   set->values.push_back(rapid);
   set->pending = {{104034, 250, ""}};
   Snapshot snapshot;
-  snapshot.parameters = set;
+  snapshot.set_parameters(set);
   snapshot.channels[0] = {};
   return snapshot;
 }
@@ -235,6 +236,21 @@ TEST(ParameterAnswer, SearchesByNumberAndGoesByPages) {
   EXPECT_EQ(page["total"], all["total"]);
   EXPECT_TRUE(parameters_answer(snapshot, {"nonsense", "", 0, 10})["parameters"].empty());
   EXPECT_TRUE(parameters_answer(Snapshot{}, {}).is_null());
+}
+
+TEST(ParameterAnswer, AReadOfOneParameterTakesNoMoreOfALargerSet) {
+  const auto allocations = [](const Snapshot& snapshot) {
+    const auto before = testing_support::allocations;
+    EXPECT_EQ(parameter_answer(snapshot, 104034)["value"], 3600);
+    return testing_support::allocations - before;
+  };
+  const auto few = with_two_axes();
+  auto set = *few.parameters;
+  // Values of a table of 10,000 points, as a machine with compensation has them.
+  for (std::uint32_t number = 700000; number < 710000; ++number) set.values.push_back({number, 0.001, ""});
+  Snapshot many;
+  many.set_parameters(std::make_shared<idl::parameters::ParameterSet>(set));
+  EXPECT_EQ(allocations(many), allocations(few));
 }
 
 }  // namespace

@@ -73,6 +73,8 @@ bool check_program(language::TextSource& text, language::Environment& environmen
     step = interpreter->next(command);
     // No probe: the move to a skip signal ends where it was to end at the latest.
     if (step == Step::position) interpreter->set_position(command.target);
+    // No other service: its cycle has no parts.
+    if (step == Step::answer) interpreter->answer(0);
     if (step != Step::command) continue;
     if (!options.json_lines) summary.add(command);
     const auto from = tracker.target();

@@ -58,6 +58,7 @@ void PlaceCost::add(const motion::AxisValues& machine, const motion::Setpoint& s
 
 void PlaceCost::close() {
   if (cycles_ == 0) return;
+  place_.end = place_.begin + static_cast<double>(cycles_) * cycle_;
   for (std::size_t n = 0; n < use_.size(); ++n) {
     for (std::size_t i = 0; i < use_[n].size(); ++i) {
       const double use = use_[n][i] / static_cast<double>(cycles_);

@@ -18,6 +18,7 @@ enum class BindingLimit : std::uint8_t { velocity, acceleration, jerk };
 struct CostlyPlace {
   std::uint32_t first_line = 0, last_line = 0;
   double begin = 0;      ///< s since the start of the program
+  double end = 0;        ///< likewise
   double lost = 0;       ///< s more than the same path takes at the programmed feed
   std::size_t axis = 0;  ///< index of the axis whose limit is used most
   BindingLimit limit = BindingLimit::jerk;

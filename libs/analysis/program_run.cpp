@@ -28,6 +28,8 @@ constexpr std::uint64_t no_limit = 100000000;  // cycles
 // Calls of ProgramFlow::fill() in a row, of millions of blocks each, that may bring no move.
 constexpr int most_reads = 25;
 
+constexpr std::uint64_t cycles_between_stops = 256;
+
 // The channel without a cluster: moves come through the same ProgramFlow, and what the channel asks of
 // others while the axes stand is done at once.
 class Runner {
@@ -35,11 +37,12 @@ class Runner {
   Runner(channel_setup::ChannelSetup& machine, const AxisValues& start,
          const std::function<void(const PlannedCycle&)>& sink,
          const std::function<void(const Command&, const FrameMoves&)>& moves, std::uint64_t most_cycles,
-         program_execution::MoveGuard* guard)
+         program_execution::MoveGuard* guard, const std::function<bool()>& stop)
       : machine_(machine),
         sink_(sink),
         moves_(moves),
         most_(most_cycles),
+        stop_(stop),
         trajectory_(machine.limits(), &machine.chain(), machine.cycle_seconds()),
         flow_(machine, {0, false}) {
     frame_.start = start;
@@ -69,8 +72,9 @@ class Runner {
  private:
   bool go_on_reading() {
     if (flow_.text_missing()) return fail("The text ends in the middle of reading");
+    if (stop_ && stop_()) return end_here();
     if (++reads_ < most_reads) return true;
-    return fail("The program goes on and on without a move");
+    return fail("The program repeats without a move");
   }
 
   // As ChannelCore::run_pending.
@@ -134,12 +138,18 @@ class Runner {
     flow_.set_tapping(on);
   }
 
+  bool end_here() {
+    result_.stopped = true;
+    return false;
+  }
+
   bool fail(const std::string& why) {
     result_.alarm = why;
     return false;
   }
 
   bool step() {
+    if (stop_ && result_.cycles % cycles_between_stops == 0 && stop_()) return end_here();
     if (result_.cycles >= most_)
       return fail("The program has not ended after " + std::to_string(most_) + " cycles");
     const motion::Setpoint setpoint = trajectory_.step(1, 1, false);
@@ -162,6 +172,7 @@ class Runner {
   const std::function<void(const PlannedCycle&)>& sink_;
   const std::function<void(const Command&, const FrameMoves&)>& moves_;
   std::uint64_t most_;
+  const std::function<bool()>& stop_;
   int reads_ = 0;
   motion::Trajectory trajectory_;
   language::VariableStore variables_;
@@ -178,8 +189,9 @@ class Runner {
 ProgramResult run_program(language::TextSource& text, channel_setup::ChannelSetup& machine,
                           const AxisValues& start, const std::function<void(const PlannedCycle&)>& sink,
                           const std::function<void(const Command&, const FrameMoves&)>& moves,
-                          std::uint64_t most_cycles, program_execution::MoveGuard* guard) {
-  return std::make_unique<Runner>(machine, start, sink, moves, most_cycles, guard)->run(text);
+                          std::uint64_t most_cycles, program_execution::MoveGuard* guard,
+                          const std::function<bool()>& stop) {
+  return std::make_unique<Runner>(machine, start, sink, moves, most_cycles, guard, stop)->run(text);
 }
 
 PlanReport plan_program(language::TextSource& text, channel_setup::ChannelSetup& machine,

@@ -32,6 +32,7 @@ struct FrameMoves {
 
 struct ProgramResult {
   bool good = false;         ///< ended without an alarm
+  bool stopped = false;      ///< `stop` has ended it
   std::string alarm;         ///< one line, empty when good
   std::uint64_t blocks = 0;  ///< moves and dwells planned
   std::uint64_t cycles = 0;
@@ -39,12 +40,14 @@ struct ProgramResult {
 
 /// Runs `text` from the machine position `start`: every cycle goes to `sink`, every stretch of moves to
 /// `frames`, before its cycles; both may be empty. `most_cycles` ends a program that does not. `guard` looks
-/// at the moves as in the channel; it may be null.
+/// at the moves as in the channel; it may be null. `stop` is asked every few hundred cycles, and as often
+/// while a program repeats without a move; when it is true the run ends there.
 ProgramResult run_program(language::TextSource& text, channel_setup::ChannelSetup& machine,
                           const AxisValues& start, const std::function<void(const PlannedCycle&)>& sink,
                           const std::function<void(const language::Command&, const FrameMoves&)>& moves,
                           std::uint64_t most_cycles = 100000000,
-                          program_execution::MoveGuard* guard = nullptr);
+                          program_execution::MoveGuard* guard = nullptr,
+                          const std::function<bool()>& stop = {});
 
 /// Everything the command `plan` reports.
 struct PlanReport {

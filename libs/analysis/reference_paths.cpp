@@ -144,6 +144,58 @@ ReferencePath wavy_cap(double length) { return along_cap("five-axis wavy cap", l
 
 ReferencePath dense_three_axis(double length) { return along_cap("dense three-axis", length, false); }
 
+ReferencePath relief(int points, bool five_axis) {
+  ReferencePath path;
+  path.name = five_axis ? "five-axis relief" : "relief";
+  path.machine.limits = reference_limits();
+  if (five_axis) {
+    path.machine.chain = trunnion_table();
+    path.transformation = language::Transformation::rtcp;
+    path.tool_length = 100;
+  }
+  constexpr int in_row = 101;
+  constexpr double step = 0.12, feed = 6000;
+  const auto place = [&](int k) {
+    const int row = k / in_row, at = k % in_row;
+    const double x = step * (row % 2 == 0 ? at : in_row - at), y = 0.25 * row;
+    AxisValues q{x, y, 1.2 * std::sin(1.3 * x + y) + 0.15 * std::sin(4.1 * x - y)};
+    if (five_axis) {
+      q[language::A] = 20 + 10 * std::sin(0.4 * x);
+      q[language::C] = 10 * std::sin(0.3 * x) + 20 * std::sin(0.05 * y);
+    }
+    for (double& v : q) v = std::round(v * 100) / 100;
+    return q;
+  };
+  path.start = place(0);
+  for (int k = 1; k < points; ++k)
+    path.program.push_back(line_to(place(k), feed, static_cast<std::size_t>(k)));
+  return path;
+}
+
+ReferencePath lines_and_arcs(int count) {
+  ReferencePath path;
+  path.name = "lines and arcs";
+  path.machine.limits = reference_limits();
+  AxisValues at{};
+  for (int k = 1; k <= count; ++k) {
+    // Along X, to the left, along Y, to the right.
+    const int part = (k - 1) % 4;
+    AxisValues to = at;
+    if (part == 0) to[0] += 2;
+    if (part == 2) to[1] += 2;
+    if (part % 2 == 1) to[0] += 1, to[1] += 1;
+    Command command = line_to(to, 6000, static_cast<std::size_t>(k));
+    if (part % 2 == 1) {
+      command.kind = CommandKind::arc;
+      const bool right = part == 3;
+      command.arc = {language::Plane::xy, right, {right ? to[0] : at[0], right ? at[1] : to[1], 0}, 90};
+    }
+    path.program.push_back(command);
+    at = to;
+  }
+  return path;
+}
+
 std::string program_text(const ReferencePath& path) {
   std::string text = "G90 G94 G64\n";
   if (path.transformation == language::Transformation::rtcp) text += "T1 M6\nG43.4 H1\n";

@@ -35,6 +35,11 @@ ReferencePath circle(double feed);
 ReferencePath wavy_cap(double length = 300);
 /// The same line without rotary axes.
 ReferencePath dense_three_axis(double length = 300);
+/// Rows to and fro over waves, `points` places 0.12 mm apart, coordinates rounded to 0.01 mm, F6000: kinks
+/// all along. With five axes, rounded to 0.01 degrees, the tool tilts and the table turns.
+ReferencePath relief(int points, bool five_axis);
+/// Stairs of tangent lines of 2 mm and quarter circles of R 1 mm in turn, F6000.
+ReferencePath lines_and_arcs(int count);
 
 /// The path as a program of the interpreter's language (one block per command), for a machine with an A C
 /// table and a tool 1 when it goes through a chain.

@@ -17,9 +17,7 @@ namespace trunnion::bus {
 namespace {
 
 constexpr const char* name = "trunnion-history/1";
-// As many frames as the DDS writer of a long lead keeps, a thousand of four kilobytes.
-constexpr std::uint64_t capacity = std::uint64_t{4} << 20;
-using Ring = storage::RecordRing<capacity>;
+using Ring = storage::RecordRing<SharedHistory::capacity>;
 
 // One host: one start of one computer, one space of process numbers in it, and one network, so that hosts
 // that are network namespaces are as far apart as real ones.

@@ -16,6 +16,9 @@ struct SharedMemory;
 /// has it open by then still reads what is in it.
 class SharedHistory {
  public:
+  /// Bytes. As many frames as the DDS writer of a long lead keeps, a thousand of four kilobytes.
+  static constexpr std::uint64_t capacity = std::uint64_t{4} << 20;
+
   /// Null when the system gives no memory for it.
   static std::unique_ptr<SharedHistory> make();
   ~SharedHistory();

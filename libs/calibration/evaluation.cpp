@@ -29,13 +29,12 @@ class Evaluation {
              const std::array<bool, metrology::slot_count>& in_correction)
       : in_(in), machine_(machine), in_correction_(in_correction), chain_(chain_of(machine.model)) {}
 
-  KinematicsResult run(const std::vector<TouchedPose>& touched,
-                       const std::optional<ReferenceMeasurement>& reference) {
+  KinematicsResult run(const std::vector<TouchedPose>& touched) {
     result_.before = machine_.model;
     centres(touched);
     circles();
     vectors();
-    if (in_.reference == Reference::adapt) adapt(reference);
+    if (in_.reference == Reference::adapt) adapt();
     judge();
     return std::move(result_);
   }
@@ -58,6 +57,7 @@ class Evaluation {
       const auto found =
           measured_centre(in_, machine_, chain_, pose, result_.poses.empty(), result_.ball_diameter);
       const auto& fit = found.fit;
+      if (in_.calibrate_probe && result_.poses.empty()) ball_cofactor_ = found.radius_cofactor;
       PoseResult out;
       out.angles = pose.angles;
       out.touches = pose.positions.size();
@@ -141,6 +141,8 @@ class Evaluation {
     FitOptions options;
     options.into_correction = in_correction_;
     options.tool_length_uncertainty = in_.probe_length_uncertainty;
+    // An error of the calibrated ball shifts the centre of every pose along the tool: a longer tool.
+    options.tool_length_cofactor = ball_cofactor_;
     std::size_t open = 0;
     for (const auto& range : in_.axes) open += range.normalization.value_or(0) >= 10 ? 1 : 0;
     if (open > 0 && open < in_.axes.size())
@@ -186,7 +188,8 @@ class Evaluation {
   }
 
   // The head's end is where the reference had the sphere: what is left over is the chain's open end.
-  void adapt(const std::optional<ReferenceMeasurement>& reference) {
+  void adapt() {
+    const auto& reference = in_.reference_measurement;
     if (!reference) throw std::runtime_error("reference adapt: no reference was measured");
     const Vec3 offset = reference->zero_offset - in_.zero_offset;
     if (!(offset.cwiseAbs().maxCoeff() <= 1e-6))
@@ -224,6 +227,7 @@ class Evaluation {
   const std::array<bool, metrology::slot_count>& in_correction_;
   Chain chain_;
   std::vector<metrology::MeasuredPose> measured_;
+  double ball_cofactor_ = 0;  // variance of the calibrated radius of the ball for touches of variance 1
   KinematicsResult result_;
 };
 
@@ -231,9 +235,8 @@ class Evaluation {
 
 KinematicsResult evaluate(const MeasurementInputs& inputs, const MeasuredMachine& machine,
                           const std::vector<TouchedPose>& touched,
-                          const std::array<bool, metrology::slot_count>& in_correction,
-                          const std::optional<ReferenceMeasurement>& reference) {
-  return Evaluation(inputs, machine, in_correction).run(touched, reference);
+                          const std::array<bool, metrology::slot_count>& in_correction) {
+  return Evaluation(inputs, machine, in_correction).run(touched);
 }
 
 }  // namespace trunnion::calibration

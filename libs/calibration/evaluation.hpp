@@ -54,18 +54,11 @@ struct KinematicsResult {
   std::vector<std::string> warnings;
 };
 
-/// The place of the sphere that a reference head has measured.
-struct ReferenceMeasurement {
-  Vec3 sphere = Vec3::Zero();       ///< mm
-  Vec3 zero_offset = Vec3::Zero();  ///< mm, the work offset that was in force
-};
-
-/// `in_correction`: slots that have a named correction, which takes the change. With Reference::adapt
-/// `reference` is needed. Throws std::runtime_error: one line with pose, value and limit; nothing can be
-/// written then.
+/// `in_correction`: slots that have a named correction, which takes the change. Reference::adapt needs the
+/// reference's measurement in the inputs. Throws std::runtime_error: one line with pose, value and limit;
+/// nothing can be written then.
 KinematicsResult evaluate(const MeasurementInputs& inputs, const MeasuredMachine& machine,
                           const std::vector<TouchedPose>& touched,
-                          const std::array<bool, metrology::slot_count>& in_correction = {},
-                          const std::optional<ReferenceMeasurement>& reference = std::nullopt);
+                          const std::array<bool, metrology::slot_count>& in_correction = {});
 
 }  // namespace trunnion::calibration

@@ -14,6 +14,8 @@
 namespace trunnion::calibration {
 
 extern const char* const manual_steps_text;
+extern const char* const manual_steps_german_text;
+extern const char* const manual_steps_chinese_text;
 
 namespace {
 
@@ -64,14 +66,17 @@ std::optional<ManualKind> manual_kind(const ChainParameters& p) {
   return std::nullopt;
 }
 
-const ManualGuide& guide_of(ManualKind kind) {
+const ManualGuide& guide_of(ManualKind kind, GuideLanguage language) {
   static const auto guides = [] {
-    std::vector<ManualGuide> all;
-    const auto root = machine::parse_yaml(manual_steps_text, "manual_steps.yaml");
-    for (const char* name : names) all.push_back(read_guide(root[name]));
+    std::array<std::vector<ManualGuide>, 3> all;  // by language
+    const std::array texts{manual_steps_text, manual_steps_german_text, manual_steps_chinese_text};
+    for (std::size_t i = 0; i < texts.size(); ++i) {
+      const auto root = machine::parse_yaml(texts[i], "manual_steps.yaml");
+      for (const char* name : names) all[i].push_back(read_guide(root[name]));
+    }
     return all;
   }();
-  return guides[static_cast<std::size_t>(kind)];
+  return guides[static_cast<std::size_t>(language)][static_cast<std::size_t>(kind)];
 }
 
 Readings parse_readings(const std::string& text, const std::string& file, ManualKind kind) {

@@ -17,6 +17,10 @@ enum class ManualKind { ac_table, bc_head, ac_head, hybrid };
 /// another machine.
 std::optional<ManualKind> manual_kind(const ChainParameters& chain);
 const char* to_string(ManualKind kind);
+/// What is said of another machine.
+inline constexpr const char* manual_machines =
+    "the manual calibration is for an AC table, a BC or AC head, or a B head over a C table with the "
+    "directions of the manual";
 
 struct ManualStep {
   std::string at;                                             ///< positions of the rotary axes
@@ -31,8 +35,9 @@ struct ManualGuide {
   std::vector<std::pair<std::string, std::string>> values;  ///< of the instruments: name and meaning
   std::vector<std::string> optional;                        ///< names that may be absent
 };
-/// manual_steps.yaml.
-const ManualGuide& guide_of(ManualKind kind);
+enum class GuideLanguage { english, german, chinese };
+/// manual_steps.yaml, or its translation.
+const ManualGuide& guide_of(ManualKind kind, GuideLanguage language = GuideLanguage::english);
 
 /// mm (alpha: deg) by the names of the guide.
 using Readings = std::map<std::string, double>;

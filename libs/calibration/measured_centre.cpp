@@ -46,6 +46,7 @@ MeasuredCentre measured_centre(const MeasurementInputs& in, const MeasuredMachin
   }
   MeasuredCentre out;
   out.diameter = 2 * free.radius - ball_diameter;
+  out.radius_cofactor = free.radius_cofactor;
   if (!(std::abs(out.diameter - in.sphere_diameter) <= in.diameter_tolerance))
     fail(name, ": measured diameter of the sphere %.4f mm, given %.4f mm: the tolerance is %.4f mm",
          out.diameter, in.sphere_diameter, in.diameter_tolerance);

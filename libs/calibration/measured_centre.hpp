@@ -10,6 +10,8 @@ namespace trunnion::calibration {
 struct MeasuredCentre {
   metrology::SphereFit fit;  ///< with the known radius; centre in the workpiece frame, mm
   double diameter = 0;       ///< mm, of the sphere, by a fit with a free radius
+  /// Variance of the radius of that fit for touches of variance 1.
+  double radius_cofactor = 0;
 };
 
 /// `ball_diameter`: effective diameter of the ball, mm; the initial pose (`initial`) sets it when the inputs

@@ -2,6 +2,7 @@
 #include "calibration/measurement_file.hpp"
 
 #include <cmath>
+#include <cstdio>
 
 #include "machine/yaml.hpp"
 #include "truth/truth_reader.hpp"
@@ -14,19 +15,30 @@ using truth::Limits;
 constexpr std::string_view rotary_letters = "ABCUVW";
 constexpr Limits place{-1e5, 1e5}, any_angle{-1e6, 1e6};
 
+ReferenceMeasurement read_reference(const truth::TruthReader& reader, const YAML::Node& map) {
+  ReferenceMeasurement found;
+  reader.each(map, "sphere_mm, zero_offset_mm", [&](const std::string& key, const YAML::Node& node) {
+    if (key == "sphere_mm") return found.sphere = reader.vector(node, place), true;
+    return key == "zero_offset_mm" && (found.zero_offset = reader.vector(node, place), true);
+  });
+  if (!map["sphere_mm"] || !map["zero_offset_mm"])
+    reader.fail(map, "expected sphere_mm and zero_offset_mm of the reference");
+  return found;
+}
+
 class InputReader {
  public:
   InputReader(const std::string& file, const MeasuredMachine& machine) : reader_(file), machine_(machine) {}
 
   MeasurementInputs read(const YAML::Node& root) {
     in_ = default_inputs(machine_);
-    reader_.each(
-        root,
-        "plane, transformation, mode, calibrate_probe, positioning, reference, zero_offset_mm, sphere, "
-        "probe, measuring_path_mm, confidence_range_mm, axes, further_poses, vector_tolerance_mm, "
-        "tolerance_alarm, "
-        "directions, settings",
-        [&](const std::string& key, const YAML::Node& node) { return input(key, node); });
+    reader_.each(root,
+                 "plane, transformation, mode, calibrate_probe, positioning, reference, "
+                 "reference_measurement, zero_offset_mm, sphere, "
+                 "probe, measuring_path_mm, confidence_range_mm, axes, further_poses, vector_tolerance_mm, "
+                 "tolerance_alarm, "
+                 "directions, settings",
+                 [&](const std::string& key, const YAML::Node& node) { return input(key, node); });
     if (const auto fault = fault_of(in_, machine_); !fault.empty()) reader_.fail(root, fault);
     return in_;
   }
@@ -51,6 +63,8 @@ class InputReader {
       in_.reference = reader_.choice<Reference>(
           node,
           {{"without", Reference::without}, {"measure", Reference::measure}, {"adapt", Reference::adapt}});
+    else if (key == "reference_measurement")
+      in_.reference_measurement = read_reference(reader_, node);
     else if (key == "zero_offset_mm")
       in_.zero_offset = reader_.vector(node, place);
     else if (key == "measuring_path_mm")
@@ -200,6 +214,18 @@ class InputReader {
 MeasurementInputs parse_inputs(const std::string& text, const std::string& file,
                                const MeasuredMachine& machine) {
   return InputReader(file, machine).read(machine::parse_yaml(text, file));
+}
+
+ReferenceMeasurement parse_reference(const std::string& text, const std::string& file) {
+  return read_reference(truth::TruthReader(file), machine::parse_yaml(text, file));
+}
+
+std::string text_of(const ReferenceMeasurement& reference) {
+  const auto &s = reference.sphere, &z = reference.zero_offset;
+  char text[300];
+  std::snprintf(text, sizeof text, "{sphere_mm: [%.9f, %.9f, %.9f], zero_offset_mm: [%.9f, %.9f, %.9f]}\n",
+                s.x(), s.y(), s.z(), z.x(), z.y(), z.z());
+  return text;
 }
 
 }  // namespace trunnion::calibration

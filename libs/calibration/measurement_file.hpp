@@ -13,4 +13,8 @@ namespace trunnion::calibration {
 MeasurementInputs parse_inputs(const std::string& text, const std::string& file,
                                const MeasuredMachine& machine);
 
+/// A map of sphere_mm and zero_offset_mm, as text_of() writes it. Throws as parse_inputs().
+ReferenceMeasurement parse_reference(const std::string& text, const std::string& file);
+std::string text_of(const ReferenceMeasurement& reference);
+
 }  // namespace trunnion::calibration

@@ -4,6 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <stdexcept>
+
+#include "geometry/chain.hpp"
+#include "machine/chain_parameters.hpp"
 
 namespace trunnion::calibration {
 namespace {
@@ -48,6 +52,17 @@ std::string frame_fault(const geometry::Mat3& directions) {
 }
 
 }  // namespace
+
+MeasuredMachine measured_machine(const std::string& name, const machine::Parameters& delivered,
+                                 const machine::Parameters& active, std::uint16_t channel) {
+  MeasuredMachine measured;
+  measured.name = name;
+  measured.model = machine::chain_parameters(active, channel);
+  if (!std::holds_alternative<geometry::Chain>(geometry::Chain::make(measured.model)))
+    throw std::runtime_error("the kinematic parameters are invalid");
+  measured.outline = truth::outline_of(delivered, channel);
+  return measured;
+}
 
 std::string fault_of(const MeasurementInputs& in, const MeasuredMachine& machine) {
   const auto present = rotary_axes(machine.model);

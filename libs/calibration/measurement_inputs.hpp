@@ -33,6 +33,12 @@ struct AxisRange {
   double normalized_value = 0;       ///< mm, of modes 1 .. 3
 };
 
+/// The place of the sphere that a reference head has measured.
+struct ReferenceMeasurement {
+  Vec3 sphere = Vec3::Zero();       ///< mm
+  Vec3 zero_offset = Vec3::Zero();  ///< mm, the work offset that was in force
+};
+
 struct MeasurementInputs {
   Plane plane = Plane::active;
   std::string transformation;  ///< empty: that of the channel
@@ -40,8 +46,9 @@ struct MeasurementInputs {
   bool calibrate_probe = false;
   Positioning positioning = Positioning::circular;
   Reference reference = Reference::without;
-  Vec3 sphere = Vec3::Zero();           ///< mm, expected centre in the workpiece frame
-  double sphere_diameter = 25;          ///< mm
+  std::optional<ReferenceMeasurement> reference_measurement;  ///< of Reference::adapt
+  Vec3 sphere = Vec3::Zero();                                 ///< mm, expected centre in the workpiece frame
+  double sphere_diameter = 25;                                ///< mm
   std::optional<Vec3> shaft;            ///< from the centre to the shaft at zero; any length above zero
   double shaft_diameter = 8;            ///< mm
   double probe_length = 0;              ///< mm, spindle face to the centre of the ball
@@ -91,6 +98,11 @@ struct MeasuredMachine {
   std::string structure;  ///< name of its chain
   std::optional<ProbeAndSphere> gauges = {};
 };
+
+/// The machine with the axes of its `delivered` parameters and the vectors of its `active` ones, without
+/// gauges. Throws std::runtime_error when the vectors are no chain.
+MeasuredMachine measured_machine(const std::string& name, const machine::Parameters& delivered,
+                                 const machine::Parameters& active, std::uint16_t channel);
 
 /// Faults of inputs that depend on the machine: one line with number and limits, "" when there is none.
 /// `axes` in the file's order; they must be all rotary axes of the machine, one or two.

@@ -14,9 +14,9 @@ namespace {
 
 constexpr std::uint32_t first_variable = 52150, serial_variable = 52999;
 using canonical::axis_letters;
-constexpr double arc_step = 10;        // deg: an arc around the sphere is a polygon
-constexpr double shaft_clearance = 1;  // mm
-constexpr double second_retract = 1;   // mm, between first and second touch
+constexpr double arc_step = 10;       // deg: an arc around the sphere is a polygon
+constexpr double clear_of_shaft = 1;  // mm
+constexpr double second_retract = 1;  // mm, between first and second touch
 
 template <class... Values>
 std::string words(const char* format, Values... values) {
@@ -44,9 +44,9 @@ class Writer {
       go(way[i], turns ? in_.rotary_feed : in_.positioning_feed);
     }
   }
-  std::string end(std::uint32_t serial) {
-    text_ += words("#%u=%u\n", serial_variable, serial);
-    text_ += words("M%u\nM30\n", in_.probe_off);
+  std::string end(const ProgramEnd& end) {
+    text_ += words("#%u=%u\n", serial_variable, end.serial);
+    text_ += words("M%u\n%s\n", in_.probe_off, end.code == EndsWith::m30 ? "M30" : "M99");
     return std::move(text_);
   }
 
@@ -97,7 +97,7 @@ std::vector<Vec3> arc_between(const Vec3& from, const Vec3& to, const Vec3& tool
   if (shaft)
     for (const auto& point : points) {
       const double away = point.dot(*shaft) > 0 ? point.cross(*shaft).norm() : 1;
-      if (outer_radius(in) * away - (in.ball_diameter + in.shaft_diameter) / 2 < shaft_clearance) return {};
+      if (outer_radius(in) * away - (in.ball_diameter + in.shaft_diameter) / 2 < clear_of_shaft) return {};
     }
   return points;
 }
@@ -166,7 +166,7 @@ std::vector<MeasuringStep> measuring_steps(const MeasurementInputs& in, const Me
 
 std::string measuring_program(const MeasurementInputs& in, const MeasuredMachine& machine,
                               const PlannedPose& pose, const Vec3& centre, const Way& way,
-                              std::uint32_t serial) {
+                              const ProgramEnd& end) {
   Writer writer(in, machine);
   writer.begin("calibration, pose " + pose_name(pose.angles, machine.model), way);
   std::size_t touches = 0;
@@ -174,24 +174,24 @@ std::string measuring_program(const MeasurementInputs& in, const MeasuredMachine
     writer.go(step.to, step.feed);
     if (step.touch) writer.touch(step.direction, touches++);
   }
-  return writer.end(serial);
+  return writer.end(end);
 }
 
 std::string repeatability_program(const MeasurementInputs& in, const MeasuredMachine& machine,
                                   const PlannedPose& pose, const Vec3& centre, const Way& way,
-                                  std::uint32_t serial) {
+                                  const ProgramEnd& end) {
   Writer writer(in, machine);
   writer.begin("calibration, repeatability of the probe", way);
   writer.go(centre + outer_radius(in) * pose.directions.back(), in.positioning_feed);
   for (std::size_t i = 0; i < repeated_touches; ++i) writer.touch(pose.directions.back(), i);
-  return writer.end(serial);
+  return writer.end(end);
 }
 
 std::string positioning_program(const MeasurementInputs& in, const MeasuredMachine& machine, const Way& way,
-                                std::uint32_t serial) {
+                                const ProgramEnd& end) {
   Writer writer(in, machine);
   writer.begin("calibration, end", way);
-  return writer.end(serial);
+  return writer.end(end);
 }
 
 bool completed(const MacroVariables& variables, std::uint32_t serial) {

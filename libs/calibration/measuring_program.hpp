@@ -36,23 +36,29 @@ struct MeasuringStep {
 std::vector<MeasuringStep> measuring_steps(const MeasurementInputs& inputs, const MeasuredMachine& machine,
                                            const PlannedPose& pose, const Vec3& centre);
 
+/// What a program ends with: the serial number that it leaves in #52999 when all touches are made, and M30,
+/// or M99 when a program calls it.
+enum class EndsWith { m30, m99 };
+struct ProgramEnd {
+  std::uint32_t serial = 0;
+  EndsWith code = EndsWith::m30;
+};
+
 /// A program that goes along `way` (its last position is the approach position), touches the sphere about
 /// `centre` along the directions of the pose and returns to the approach position. Paraxial positioning goes
 /// by the height of the pole from touch to touch, circular positioning around the equator where the shaft is
-/// not in the way. `serial` is left in #52999 when all touches are made.
+/// not in the way.
 std::string measuring_program(const MeasurementInputs& inputs, const MeasuredMachine& machine,
                               const PlannedPose& pose, const Vec3& centre, const Way& way,
-                              std::uint32_t serial);
+                              const ProgramEnd& end);
 /// Touches the pole of the pose five times; the results are as many touches.
 std::string repeatability_program(const MeasurementInputs& inputs, const MeasuredMachine& machine,
                                   const PlannedPose& pose, const Vec3& centre, const Way& way,
-                                  std::uint32_t serial);
+                                  const ProgramEnd& end);
 inline constexpr std::size_t repeated_touches = 5;
-/// The macro O9801.
-extern const char* const double_touch_macro;
 /// Only goes along `way`.
 std::string positioning_program(const MeasurementInputs& inputs, const MeasuredMachine& machine,
-                                const Way& way, std::uint32_t serial);
+                                const Way& way, const ProgramEnd& end);
 
 /// Macro variables by their number, without vacant ones.
 using MacroVariables = std::map<std::uint32_t, double>;

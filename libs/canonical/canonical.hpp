@@ -108,6 +108,7 @@ enum class CommandKind : std::uint8_t {
           ///< out. number = tapping axis, 0 the spindle, 1..6 A B C U V W
   table,  ///< a table was changed by the program (G10): `table`, entry `number`, and `value` or target
   message,  ///< number; the text is the comment of its line
+  cycle,    ///< number as written to #3100; nothing further is read before Interpreter::answer()
 };
 
 /// What a command of kind table changed, for the owner of the tables; the interpreter has done so already.

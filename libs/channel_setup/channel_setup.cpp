@@ -107,7 +107,8 @@ void ChannelSetup::find_tapping_spindles(const machine::Parameters& p) {
   const auto spindle = [&](auto at) {
     return at == spindles.end()
                ? TappingSpindle{}
-               : TappingSpindle{at->number, p.get(parameter::maximum_acceleration, at->number)};
+               : TappingSpindle{at->number, p.get(parameter::maximum_acceleration, at->number),
+                                p.get(parameter::maximum_speed, at->number)};
   };
   tapping_spindles_ = {};
   tapping_spindles_[0] = spindle(next);

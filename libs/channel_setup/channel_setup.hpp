@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "channel_setup/axis_box.hpp"
+#include "channel_setup/control_macros.hpp"
 #include "channel_setup/travel_search.hpp"
 #include "contracts/types.hpp"
 #include "geometry/chain.hpp"
@@ -20,10 +21,12 @@
 
 namespace trunnion::channel_setup {
 
-/// The spindle that rigid tapping couples; `axis` is its logical number, nothing when the machine has none.
+/// The spindle that S turns and rigid tapping couples; `axis` is its logical number, nothing when the machine
+/// has none.
 struct TappingSpindle {
   std::optional<std::uint16_t> axis;
-  double acceleration = 0;  ///< degrees/s^2
+  double acceleration = 0;   ///< degrees/s^2
+  double highest_speed = 0;  ///< 1/min, 0 = no limit
 };
 
 class ChannelSetup : public language::Environment {
@@ -37,7 +40,7 @@ class ChannelSetup : public language::Environment {
   void configure(const machine::Parameters& parameters);
   void set_tools(const idl::parameters::ToolTable& tools);
   void set_offsets(const idl::parameters::WorkOffsets& offsets);
-  /// Finds the texts of subprograms; null when there are none.
+  /// Finds the texts of subprograms; null when there are none. The macros of the control come after them.
   std::function<language::TextSource*(std::string_view)> resolve;
 
   AxisValues work_offset(std::uint8_t index) const override {
@@ -74,9 +77,11 @@ class ChannelSetup : public language::Environment {
   AxisValues machine_from_tip(const AxisValues& tip, double tool_length) const override;
   std::uint16_t axes() const override { return mask_; }
   std::uint16_t spindle_axes() const override { return spindle_mask_; }
+  double highest_spindle_speed() const override { return tapping_spindles_[0].highest_speed; }
   double radius_deviation() const override { return radius_deviation_; }
   language::TextSource* subprogram(std::string_view name) override {
-    return resolve ? resolve(name) : nullptr;
+    auto* stored = resolve ? resolve(name) : nullptr;
+    return stored != nullptr ? stored : control_macro(name);
   }
 
   /// Empty, or one line about an axis that would leave its travel anywhere on the way from `from` to the end

@@ -71,7 +71,7 @@ BallbarCauses ballbar_causes(Readings ccw, Readings cw, double radius) {
   add(ccw, 1);
   add(cw, -1);
   const Eigen::Matrix<double, terms, 1> x =
-      (weights.asDiagonal() * rows).colPivHouseholderQr().solve(weights.cwiseProduct(values));
+      geometry::least_squares(weights.asDiagonal() * rows, weights.cwiseProduct(values));
   BallbarCauses causes;
   causes.radius = x[mean];
   causes.centre_first = x[centre_first], causes.centre_second = x[centre_second];

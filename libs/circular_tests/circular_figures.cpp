@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "circular_tests/circular_figures.hpp"
 
-#include <Eigen/Cholesky>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
 #include "geometry/angle.hpp"
+#include "geometry/decompositions.hpp"
 
 namespace trunnion::circular_tests {
 namespace {
@@ -113,7 +114,7 @@ ReferenceCircle least_squares_circle(Readings readings, double radius) {
       normal += row * row.transpose();
       right += row * (r - x[2]);
     }
-    x += normal.ldlt().solve(right);
+    x += geometry::solve_symmetric(normal, right);
   }
   const auto zone = zone_about(points, x.head<2>());
   return {x[0], x[1], x[2] - radius, zone.least - x[2], zone.largest - x[2]};

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cluster/client.hpp"
 
+#include <algorithm>
+#include <chrono>
 #include <stdexcept>
+#include <thread>
 
 #include "cluster/cluster.hpp"
 #include "storage/crc32.hpp"
@@ -70,12 +73,26 @@ idl::plc::PanelReply Client::panel(idl::plc::PanelRequestKind kind) {
   return *reply;
 }
 
+void Client::wait_for_all_services(const std::function<int()>& matched) {
+  constexpr std::chrono::seconds longest(3);
+  auto clusters = bus_.reader(topics::cluster);
+  idl::service::Cluster cluster;
+  bool known = false;
+  const auto all_matched = [&] {
+    while (clusters.take(cluster)) known = true;
+    constexpr int launchers = 1;
+    return known &&
+           matched() >= launchers + std::count_if(cluster.services.begin(), cluster.services.end(),
+                                                  [](const auto& service) { return service.pid != 0; });
+  };
+  const auto began = std::chrono::steady_clock::now();
+  while (!all_matched() && std::chrono::steady_clock::now() - began < longest)
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+}
+
 void Client::reset_alarms() {
-  constexpr int readers = 2;  // at least the drive and the launcher
   auto writer = bus_.writer(topics::alarm_reset);
-  for (int i = 0; i < 500 && writer.matched() < readers; ++i)
-    std::this_thread::sleep_for(std::chrono::milliseconds(2));
-  std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  wait_for_all_services([&] { return writer.matched(); });
   writer.write({service::make_client_id(), 1, every_channel});
   std::this_thread::sleep_for(std::chrono::milliseconds(200));
 }

@@ -2,6 +2,7 @@
 // What the command line says to a running cluster.
 #pragma once
 
+#include <functional>
 #include <string>
 
 #include "contracts/topics.hpp"
@@ -35,12 +36,15 @@ class Client {
   idl::plc::PanelReply panel(idl::plc::PanelRequestKind kind);
   /// Resets the alarms of the whole machine; returns when the services have had time to answer.
   void reset_alarms();
+  /// For an endpoint of a topic that every service and the launcher have: waits until `matched` counts all
+  /// that run; 3 s at most.
+  void wait_for_all_services(const std::function<int()>& matched);
   /// Stores `text` under `name` in chunks.
   void upload(const std::string& name, const std::string& text);
   std::string download(const std::string& name);
   /// The newest state of a topic, waiting up to `timeout` seconds for the first.
   template <class T>
-  T newest(const bus::Topic<T>& topic, double timeout = 2);
+  T newest(const bus::Topic<T>& topic, double timeout = 5);
 
  private:
   bus::Bus bus_;
@@ -59,7 +63,7 @@ T Client::newest(const bus::Topic<T>& topic, double timeout) {
     if (reader.take_newest(value)) return value;
     std::this_thread::sleep_for(std::chrono::milliseconds(2));
   }
-  throw std::runtime_error(std::string("nobody publishes ") + topic.name);
+  throw std::runtime_error(std::string("no process publishes ") + topic.name);
 }
 
 }  // namespace trunnion::cluster

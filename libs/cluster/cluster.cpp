@@ -38,6 +38,7 @@ std::vector<std::string> launcher_arguments(const UpOptions& up, const RunningCl
   args.insert(args.end(), {"--clock-offset", std::to_string(cluster.network.clock_offset)});
   for (auto& argument : executable_arguments(up.executables)) args.push_back(std::move(argument));
   if (up.one_host) args.emplace_back("--one-host");
+  if (up.of_this_process) args.insert(args.end(), {"--owner", std::to_string(getpid())});
   if (!up.vendor.empty()) args.insert(args.end(), {"--vendor", up.vendor});
   if (cluster.virtual_time) args.emplace_back("--virtual-time");
   return args;

@@ -26,7 +26,8 @@ struct UpOptions {
   std::string host;  ///< which host of machine.yaml this is; empty: the one with an address of this computer
   bool one_host = false;  ///< run everything here, whatever machine.yaml says of hosts
   bool foreground = false;
-  bool take_over = false;  ///< end what a killed launcher has left
+  bool take_over = false;        ///< end what a killed launcher has left
+  bool of_this_process = false;  ///< it stops when the calling process ends, in whatever way
 };
 
 /// A cluster that is running, as its launcher wrote it down.

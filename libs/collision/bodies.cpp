@@ -29,12 +29,15 @@ Mat3 rotation_to(const Vec3& direction) {
 BodySet derived_bodies(const MachineLinks& links) {
   BodySet set;
   const auto& joints = links.joints(true);
-  // The last rotary axis under the workpiece: a round table whose face is at the point of its axis.
+  // The last rotary axis under the workpiece: a round table whose face is at the point of its axis. Where it
+  // is the only one, its point may be anywhere on the axis, and nothing is known of the height of a table.
   for (std::size_t i = joints.size(); i-- > 0;) {
     if (!joints[i].rotary) continue;
     Vec3 axis = joints[i].direction;
     if (axis.dot(links.tool_direction()) < 0) axis = -axis;
-    if (axis.dot(links.tool_direction()) > 0.7)
+    const bool carried = std::any_of(joints.begin(), joints.begin() + static_cast<std::ptrdiff_t>(i),
+                                     [](const auto& joint) { return joint.rotary; });
+    if (carried && axis.dot(links.tool_direction()) > 0.7)
       set.bodies.push_back(
           cylinder("table", links.workpiece(), joints[i].point, -axis, table_height, table_radius));
     break;

@@ -44,7 +44,7 @@ struct BodySet {
   double clearance = 1;                                      ///< mm, between all others
 };
 
-/// Bodies of a machine without bodies.yaml: a table under the workpiece when rotary axes carry it, and a
+/// Bodies of a machine without bodies.yaml: a table under the workpiece when two rotary axes carry it, and a
 /// spindle nose.
 BodySet derived_bodies(const MachineLinks& links);
 

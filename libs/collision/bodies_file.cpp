@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "canonical/axes.hpp"
 #include "geometry/angle.hpp"
 #include "machine/yaml.hpp"
 #include "truth/truth_reader.hpp"
@@ -101,8 +102,7 @@ class BodiesParser {
 
   void carrier(const YAML::Node& node, Body& body) {
     const auto word = reader_.text(node);
-    const auto letter =
-        word.size() == 1 ? std::string_view("XYZABCUVW").find(word[0]) : std::string_view::npos;
+    const auto letter = word.size() == 1 ? canonical::axis_letters.find(word[0]) : std::string_view::npos;
     if (word == "base") {
       body.link = {};
     } else if (word == "workpiece") {

@@ -113,7 +113,7 @@ std::string text_of(const AxisPosition& position, const Travel& travel) {
   for (std::size_t i = 0; i < position.size(); ++i) {
     if (!travel[i].present) continue;
     char word[40];
-    std::snprintf(word, sizeof word, "%s%c%.3f", text.empty() ? "" : " ", "XYZABCUVW"[i], position[i]);
+    std::snprintf(word, sizeof word, "%s%c%.3f", text.empty() ? "" : " ", axis_letters[i], position[i]);
     text += word;
   }
   return text;

@@ -16,6 +16,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "canonical/axes.hpp"
 #include "truth/random_source.hpp"
 
 namespace trunnion::collision {
@@ -106,7 +107,7 @@ class Search {
       if (position[axes_[i]] < low_[i] - same || position[axes_[i]] > high_[i] + same) {
         char text[160];
         std::snprintf(text, sizeof text, "%s: %c %.4f is not within its travel %.10g .. %.10g", name,
-                      "XYZABCUVW"[axes_[i]], position[axes_[i]], low_[i], high_[i]);
+                      canonical::axis_letters[axes_[i]], position[axes_[i]], low_[i], high_[i]);
         return text;
       }
     const auto contact = model_.first_contact(position, position);

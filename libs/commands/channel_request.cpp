@@ -148,6 +148,9 @@ void fill(ChannelRequest& request, const Field& field, const Json& value, std::s
     case Into::press:
       request.press = static_cast<std::uint32_t>(whole_of(value, field));
       break;
+    case Into::parts:
+      request.parts = static_cast<std::uint32_t>(whole_of(value, field));
+      break;
   }
 }
 
@@ -241,6 +244,8 @@ std::optional<double> number_in(const ChannelRequest& request, Into field) {
       return request.counts;
     case Into::press:
       return request.press;
+    case Into::parts:
+      return request.parts;
     default:
       return std::nullopt;
   }

@@ -25,7 +25,8 @@ enum class Into {
   counts,
   axes,
   levels,
-  press
+  press,
+  parts
 };
 
 struct Field {

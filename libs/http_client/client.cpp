@@ -2,12 +2,15 @@
 #include "http_client/client.hpp"
 
 #include <arpa/inet.h>
+#include <openssl/ssl.h>
+#include <openssl/x509v3.h>
 #include <sys/socket.h>
 #include <sys/time.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <charconv>
+#include <csignal>
 #include <utility>
 
 namespace trunnion::http_client {
@@ -24,13 +27,23 @@ sockaddr_in loopback(std::uint16_t port) {
   return address;
 }
 
-int connect_to(std::uint16_t port, int receive_buffer) {
+timeval time_of(double seconds) {
+  const auto whole = static_cast<time_t>(seconds);
+  return {whole, static_cast<suseconds_t>((seconds - static_cast<double>(whole)) * 1e6)};
+}
+
+int connect_to(const Server& server, int receive_buffer) {
   const int fd = ::socket(AF_INET, SOCK_STREAM, 0);
   if (receive_buffer > 0) setsockopt(fd, SOL_SOCKET, SO_RCVBUF, &receive_buffer, sizeof receive_buffer);
-  const timeval timeout{5, 0};
+  const auto timeout = time_of(server.timeout);
   setsockopt(fd, SOL_SOCKET, SO_RCVTIMEO, &timeout, sizeof timeout);
   setsockopt(fd, SOL_SOCKET, SO_SNDTIMEO, &timeout, sizeof timeout);
-  const auto address = loopback(port);
+  if (!server.source.empty()) {
+    auto from = loopback(0);
+    inet_pton(AF_INET, server.source.c_str(), &from.sin_addr);
+    ::bind(fd, reinterpret_cast<const sockaddr*>(&from), sizeof from);
+  }
+  const auto address = loopback(server.port);
   if (::connect(fd, reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0) {
     ::close(fd);
     return -1;
@@ -38,43 +51,92 @@ int connect_to(std::uint16_t port, int receive_buffer) {
   return fd;
 }
 
-void send_all(int fd, const std::string& text) {
-  for (std::size_t sent = 0; sent < text.size();) {
-    const auto n = ::send(fd, text.data() + sent, text.size() - sent, MSG_NOSIGNAL);
-    if (n <= 0) return;  // the answer tells why the other side stopped reading
-    sent += static_cast<std::size_t>(n);
-  }
-}
-
 }  // namespace
 
-std::string raw_exchange(std::uint16_t port, const std::string& text) {
-  const int fd = connect_to(port, 0);
-  if (fd < 0) return {};
-  send_all(fd, text);
+class Link {
+ public:
+  explicit Link(const Server& server, int receive_buffer = 0) : socket_(connect_to(server, receive_buffer)) {
+    if (socket_ >= 0 && server.tls && !begin_tls(server)) end();
+  }
+  ~Link() { end(); }
+  Link(const Link&) = delete;
+  Link& operator=(const Link&) = delete;
+  bool open() const { return socket_ >= 0; }
+
+  void send(const std::string& text) {
+    for (std::size_t sent = 0; sent < text.size();) {
+      const auto left = text.size() - sent;
+      const auto n = ssl_ ? ssize_t{SSL_write(ssl_.get(), text.data() + sent, static_cast<int>(left))}
+                          : ::send(socket_, text.data() + sent, left, MSG_NOSIGNAL);
+      if (n <= 0) return;  // the answer tells why the other side stopped reading
+      sent += static_cast<std::size_t>(n);
+    }
+  }
+
+  /// Appends what has come to `text`; false when nothing did in time, or the other side has closed.
+  bool receive(std::string& text) {
+    char part[65536];
+    const auto n =
+        ssl_ ? ssize_t{SSL_read(ssl_.get(), part, sizeof part)} : ::recv(socket_, part, sizeof part, 0);
+    if (n > 0) text.append(part, static_cast<std::size_t>(n));
+    return n > 0;
+  }
+
+  void wait_at_most(double seconds) {
+    const auto time = time_of(seconds);
+    setsockopt(socket_, SOL_SOCKET, SO_RCVTIMEO, &time, sizeof time);
+  }
+
+ private:
+  struct Free {
+    void operator()(SSL* ssl) const { SSL_free(ssl); }
+    void operator()(SSL_CTX* context) const { SSL_CTX_free(context); }
+  };
+
+  bool begin_tls(const Server& server) {
+    ::signal(SIGPIPE, SIG_IGN);  // OpenSSL writes to a socket without MSG_NOSIGNAL
+    context_.reset(SSL_CTX_new(TLS_client_method()));
+    if (!server.authority.empty()) {
+      SSL_CTX_set_verify(context_.get(), SSL_VERIFY_PEER, nullptr);
+      if (SSL_CTX_load_verify_locations(context_.get(), server.authority.c_str(), nullptr) != 1) return false;
+      X509_VERIFY_PARAM_set1_ip_asc(SSL_CTX_get0_param(context_.get()), "127.0.0.1");
+    }
+    ssl_.reset(SSL_new(context_.get()));
+    return SSL_set_fd(ssl_.get(), socket_) == 1 && SSL_connect(ssl_.get()) == 1;
+  }
+
+  void end() {
+    ssl_.reset();
+    if (socket_ >= 0) ::close(std::exchange(socket_, -1));
+  }
+
+  int socket_;
+  std::unique_ptr<SSL_CTX, Free> context_;
+  std::unique_ptr<SSL, Free> ssl_;
+};
+
+std::string raw_exchange(const Server& server, const std::string& text) {
+  Link link(server);
+  if (!link.open()) return {};
+  link.send(text);
   std::string answer;
-  char part[65536];
-  for (ssize_t n; (n = ::recv(fd, part, sizeof part, 0)) > 0;)
-    answer.append(part, static_cast<std::size_t>(n));
-  ::close(fd);
+  while (link.receive(answer)) continue;
   return answer;
 }
 
-void send_and_go(std::uint16_t port, const std::string& text) {
-  const int fd = connect_to(port, 0);
-  if (fd < 0) return;
-  send_all(fd, text);
-  ::close(fd);
+void send_and_go(const Server& server, const std::string& text) {
+  Link link(server);
+  if (link.open()) link.send(text);
 }
 
-Response request(std::uint16_t port, const std::string& method, const std::string& target,
+Response request(const Server& server, const std::string& method, const std::string& target,
                  const std::string& body, const std::string& headers) {
   const bool has_length = headers.find("Content-Length") != std::string::npos;
-  const auto answer =
-      raw_exchange(port, method + " " + target + " HTTP/1.1\r\nHost: 127.0.0.1:" + std::to_string(port) +
-                             "\r\nConnection: close\r\n" +
-                             (has_length ? "" : "Content-Length: " + std::to_string(body.size()) + "\r\n") +
-                             headers + "\r\n" + body);
+  const auto answer = raw_exchange(
+      server, method + " " + target + " HTTP/1.1\r\nHost: 127.0.0.1:" + std::to_string(server.port) +
+                  "\r\nConnection: close\r\n" +
+                  (has_length ? "" : "Content-Length: " + std::to_string(body.size()) + "\r\n") + headers +
+                  "\r\n" + body);
   Response response;
   const auto end = answer.find("\r\n\r\n");
   if (end == std::string::npos || answer.size() < 12) return response;
@@ -95,12 +157,14 @@ Response request(std::uint16_t port, const std::string& method, const std::strin
   return response;
 }
 
-WebSocketClient::WebSocketClient(std::uint16_t port, const std::string& path, int receive_buffer)
-    : socket_(connect_to(port, receive_buffer)) {
-  if (socket_ < 0) return;
-  send_all(socket_, "GET " + path + " HTTP/1.1\r\nHost: 127.0.0.1:" + std::to_string(port) +
-                        "\r\nUpgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Version: 13\r\n"
-                        "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\r\n");
+WebSocketClient::WebSocketClient(const Server& server, const std::string& path, int receive_buffer,
+                                 const std::string& headers)
+    : link_(std::make_unique<Link>(server, receive_buffer)) {
+  if (!link_->open()) return;
+  link_->send("GET " + path + " HTTP/1.1\r\nHost: 127.0.0.1:" + std::to_string(server.port) +
+              "\r\nUpgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Version: 13\r\n"
+              "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n" +
+              headers + "\r\n");
   while (buffer_.find("\r\n\r\n") == std::string::npos)
     if (!fill(buffer_.size() + 1)) return;
   // RFC 6455, section 1.3 gives the answer to this key.
@@ -109,17 +173,11 @@ WebSocketClient::WebSocketClient(std::uint16_t port, const std::string& path, in
   buffer_.erase(0, buffer_.find("\r\n\r\n") + 4);
 }
 
-WebSocketClient::~WebSocketClient() {
-  if (socket_ >= 0) ::close(socket_);
-}
+WebSocketClient::~WebSocketClient() = default;
 
 bool WebSocketClient::fill(std::size_t bytes) {
-  char part[65536];
-  while (buffer_.size() < bytes) {
-    const auto n = ::recv(socket_, part, sizeof part, 0);
-    if (n <= 0) return false;
-    buffer_.append(part, static_cast<std::size_t>(n));
-  }
+  while (buffer_.size() < bytes)
+    if (!link_->receive(buffer_)) return false;
   return true;
 }
 
@@ -132,18 +190,17 @@ void WebSocketClient::send(const std::string& text) {
     frame += static_cast<char>(text.size() >> 8);
     frame += static_cast<char>(text.size() & 0xff);
   }
-  send_all(socket_, frame + std::string(4, '\0') + text);
+  link_->send(frame + std::string(4, '\0') + text);
 }
 
 void WebSocketClient::pong(const std::string& payload) {
   // A client masks what it sends (RFC 6455, 5.3); a mask of zeros leaves it as it is.
-  send_all(socket_, std::string{'\x8A', static_cast<char>(0x80 | payload.size()), 0, 0, 0, 0} + payload);
+  link_->send(std::string{'\x8A', static_cast<char>(0x80 | payload.size()), 0, 0, 0, 0} + payload);
 }
 
 std::optional<std::string> WebSocketClient::next(double timeout) {
-  const auto whole = static_cast<time_t>(timeout);
-  const timeval time{whole, static_cast<suseconds_t>((timeout - static_cast<double>(whole)) * 1e6)};
-  setsockopt(socket_, SOL_SOCKET, SO_RCVTIMEO, &time, sizeof time);
+  if (!link_->open()) return {};
+  link_->wait_at_most(timeout);
   while (true) {
     if (!fill(2)) return {};
     const auto byte = [&](std::size_t i) { return static_cast<std::uint8_t>(buffer_[i]); };

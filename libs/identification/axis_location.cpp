@@ -97,8 +97,7 @@ AxisLocation locate_axis(const truth::MachineOutline& machine, const geometry::C
     unknowns.erase(unknowns.begin() + weakest);
   }
   const Eigen::MatrixXd normal = matrix.transpose() * matrix;
-  const Eigen::MatrixXd inverse =
-      normal.ldlt().solve(Eigen::MatrixXd::Identity(normal.rows(), normal.cols()));
+  const Eigen::MatrixXd inverse = geometry::symmetric_inverse(normal);
   const Eigen::VectorXd x = inverse * (matrix.transpose() * varying(values));
   Eigen::VectorXd rest = values;
   for (Eigen::Index k = 0; k < x.size(); ++k)

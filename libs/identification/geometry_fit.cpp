@@ -55,7 +55,7 @@ GeometryFit::GeometryFit(const truth::MachineOutline& machine, const geometry::C
     prior_[k] = std::pow(unknowns_[static_cast<std::size_t>(k)].expected, -2);
   Eigen::MatrixXd normal = jacobian_.transpose() * jacobian_;
   normal.diagonal() += prior_;
-  covariance_ = normal.llt().solve(Eigen::MatrixXd::Identity(n, n));
+  covariance_ = geometry::symmetric_inverse(normal);
   find_uncertainty();
 }
 

@@ -16,7 +16,7 @@ bool is_number_character(char c) { return (c >= '0' && c <= '9') || c == '.' || 
 /// As much of `text` as a display shows, without cutting a character or showing what is no UTF-8.
 std::string_view head_of(std::string_view text) {
   text = text.substr(0, text::valid_utf8_prefix(text));
-  std::size_t size = std::min<std::size_t>(text.size(), 64);
+  std::size_t size = std::min<std::size_t>(text.size(), 96);
   while (size != 0 && size < text.size() && is_continuation(text[size])) --size;
   return text.substr(0, size);
 }

@@ -49,6 +49,7 @@ enum class AlarmNumber : std::uint16_t {
   tool_vector_travel = 1123,
   tool_vector_pole = 1124,
   tapping_spindle_missing = 1125,
+  spindle_speed_above = 1126,
   arc_centre_missing = 1201,
   arc_centre_and_radius = 1202,
   arc_radius_zero = 1203,
@@ -161,6 +162,7 @@ inline constexpr std::array alarm_texts = {
     AlarmText{AlarmNumber::not_resumable,
               "an interrupted rigid tapping, or a program behind lost skip moves, cannot be resumed: reset"},
     AlarmText{AlarmNumber::tapping_spindle_missing, "rigid tapping without a spindle on this machine"},
+    AlarmText{AlarmNumber::spindle_speed_above, "speed above the highest of the spindle"},
     AlarmText{AlarmNumber::tool_vector_opposite,
               "tool vector is opposite to the one before: no shortest way"},
     AlarmText{AlarmNumber::tool_vector_between,
@@ -276,7 +278,7 @@ struct Alarm {
   std::uint32_t program = 0;                  ///< as Command::program
   std::uint32_t line = 0;                     ///< from 1
   std::uint32_t column = 0;                   ///< in characters (code points) from 1
-  std::array<char, 160> text{};               ///< what is wrong and the word at fault, ends with a zero
+  std::array<char, 192> text{};               ///< what is wrong and the word at fault, ends with a zero
   std::uint8_t calls = 0;                     ///< how many calls led here
   std::array<CallSite, max_nesting> chain{};  ///< their places, the main program's first
 };

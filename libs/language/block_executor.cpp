@@ -275,4 +275,12 @@ Fault BlockExecutor::message(std::uint32_t number, std::uint32_t program, std::u
   return context_.output.settle();
 }
 
+Fault BlockExecutor::call_cycle(std::uint32_t number, std::uint32_t program, std::uint32_t line,
+                                CommandQueue& out) {
+  context_.output.begin(program, line, out);
+  if (const Fault fault = context_.output.refuse_in_compensation(0)) return fault;
+  context_.output.push(CommandKind::cycle).number = number;
+  return context_.output.settle();
+}
+
 }  // namespace trunnion::language

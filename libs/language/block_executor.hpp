@@ -84,6 +84,10 @@ class BlockExecutor {
   /// read.
   Fault message(std::uint32_t number, std::uint32_t program, std::uint32_t line, CommandQueue& out);
 
+  /// Appends the call of a cycle of another service, `number` as Command::number. Not with cutter radius
+  /// compensation: its moves need blocks that are not read yet.
+  Fault call_cycle(std::uint32_t number, std::uint32_t program, std::uint32_t line, CommandQueue& out);
+
   const ModalState& modal() const { return context_.state.modal; }
   /// Where the last move that was read ends, in the frame of its commands. With cutter compensation this is
   /// the contour, not the centre of the tool.

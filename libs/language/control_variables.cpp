@@ -45,7 +45,8 @@ void ControlVariables::start() {
   milliseconds_zero_ = hours_zero_ = 0;
   sequence_number_ = 0;
   program_number_ = 0;
-  modal_macro_ = false;
+  modal_macro_ = needs_answer_ = false;
+  answer_ = 0;
   skip_position_ = {};
   request_.reset();
 }
@@ -168,6 +169,9 @@ AlarmNumber ControlVariables::read(const VariableRange& range, std::uint32_t ind
     case VariableKind::time_hours:
       result = time_.hours - hours_zero_;
       break;
+    case VariableKind::cycle:
+      result = answer_;
+      break;
     case VariableKind::date:
       result = time_.date;
       break;
@@ -213,6 +217,7 @@ AlarmNumber ControlVariables::write(const VariableRange& range, std::uint32_t in
     case VariableKind::alarm:
       return AlarmNumber::program_alarm;
     case VariableKind::message:
+    case VariableKind::cycle:
       return ask(range, index, nearly_whole(value.number));
     case VariableKind::time_milliseconds:
       milliseconds_zero_ = time_.milliseconds - value.number;
@@ -226,7 +231,7 @@ AlarmNumber ControlVariables::write(const VariableRange& range, std::uint32_t in
 }
 
 AlarmNumber ControlVariables::ask(const VariableRange& range, std::uint32_t index, double value) {
-  const bool message = range.kind == VariableKind::message;
+  const bool message = range.kind == VariableKind::message || range.kind == VariableKind::cycle;
   const double lowest = message || range.kind == VariableKind::radius ? 0 : -largest_number;
   if (!(value >= lowest && value <= (message ? highest_message : largest_number)))
     return AlarmNumber::variable_value;
@@ -241,6 +246,11 @@ Fault ControlVariables::carry_out(std::uint32_t program, std::uint32_t line, Com
   request_.reset();
   if (request.kind == VariableKind::message)
     return executor_.message(static_cast<std::uint32_t>(request.value), program, line, out);
+  if (request.kind == VariableKind::cycle) {
+    const auto fault = executor_.call_cycle(static_cast<std::uint32_t>(request.value), program, line, out);
+    needs_answer_ = !fault;
+    return fault;
+  }
   if (is_work_offset(request.kind)) {
     const std::uint32_t axis = request.index % offsets_apart;
     return executor_.write_work_offset(work_offset_index(request.kind, request.index), axis,

@@ -32,6 +32,12 @@ class ControlVariables final : public SystemVariables {
   /// Where G31 stopped, workpiece, mm and degrees.
   void set_skip_position(const AxisValues& position) { skip_position_ = position; }
   void set_modal_macro(bool active) { modal_macro_ = active; }
+  /// A cycle was called (#3100) and not answered yet.
+  bool needs_answer() const { return needs_answer_; }
+  /// What #3100 reads from now on.
+  void answer(double value) { answer_ = value, needs_answer_ = false; }
+  /// A text begins: an answer that an earlier one needed will not come.
+  void forget_call() { needs_answer_ = false; }
 
   AlarmNumber read(const VariableRange& range, std::uint32_t index, Value& value) const override;
   AlarmNumber write(const VariableRange& range, std::uint32_t index, Value value) override;
@@ -52,7 +58,8 @@ class ControlVariables final : public SystemVariables {
   double hours_zero_ = 0;
   double sequence_number_ = 0;
   std::uint32_t program_number_ = 0;
-  bool modal_macro_ = false;
+  bool modal_macro_ = false, needs_answer_ = false;
+  double answer_ = 0;  // to the newest call of a cycle
   AxisValues skip_position_{};
   struct Request {
     VariableKind kind = VariableKind::message;

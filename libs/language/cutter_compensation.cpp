@@ -36,6 +36,14 @@ bool turns_back_inside(const PlanarPiece& before, const PlanarPiece& after, doub
   return (left > 0 ? to_the_left : -to_the_left) < -tangent;
 }
 
+// From `from` to `to` round the outside of a corner, rad: the left offset goes round a right corner,
+// clockwise. Where the contour turns back it may be a little more than half a turn.
+double turn_around(Vector2 from, Vector2 to, double left) {
+  const double sense = left > 0 ? -1 : 1;
+  const double angle = sense * change_of_direction(from, to);
+  return sense * (angle < -std::numbers::pi / 2 ? angle + 2 * std::numbers::pi : std::abs(angle));
+}
+
 }  // namespace
 
 void CutterCompensation::reset() {
@@ -214,9 +222,7 @@ PlanarPiece CutterCompensation::around_piece(const Item& item) const {
   piece.centre = item.contour.start;
   piece.start = in_plane(tool_);
   piece.end = item.tool_start;
-  const double angle = change_of_direction(piece.start - piece.centre, piece.end - piece.centre);
-  // The left offset goes round a right corner, clockwise.
-  piece.sweep = item.left > 0 ? -std::abs(angle) : std::abs(angle);
+  piece.sweep = turn_around(piece.start - piece.centre, piece.end - piece.centre, item.left);
   return piece;
 }
 
@@ -349,7 +355,7 @@ bool CutterCompensation::give_join(const Item& next, Command& command) {
     } else {
       // The corners of a polygon around the arc, at most a quarter turn each, then its end.
       if (join_step_ == 0) join_from_ = from - around.centre;
-      const double whole = std::abs(change_of_direction(join_from_, next.tool_start - around.centre));
+      const double whole = std::abs(turn_around(join_from_, next.tool_start - around.centre, next.left));
       const double quarters = std::max(1.0, std::ceil(whole / (std::numbers::pi / 2) - 1e-9));
       if (join_step_ < quarters) {
         const double part = std::copysign(whole / quarters, around.sweep);

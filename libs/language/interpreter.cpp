@@ -31,6 +31,7 @@ void Interpreter::start(TextSource& text, const AxisValues& position, const Moda
     control_.start();
     modal_calls_.clear();
   }
+  control_.forget_call();
   variables_.start(variables);
   for (std::size_t i = 0; i < cycle_m_codes_.size(); ++i) cycle_m_codes_[i] = environment_.cycle_m_code(i);
   queue_.clear();
@@ -59,6 +60,7 @@ Step Interpreter::next(Command& command) {
       continue;
     }
     if (executor_.needs_position()) return Step::position;
+    if (control_.needs_answer()) return Step::answer;
     if (state_ == State::done) return Step::end;
     if (state_ == State::failed) return Step::alarm;
     if (lines == lines_per_call) return Step::working;
@@ -181,6 +183,11 @@ void Interpreter::set_position(const AxisValues& position, const AxisValues& tou
     control_.set_skip_position(executor_.workpiece_position());
   }
   executor_.set_position(position);
+}
+
+void Interpreter::answer(double value) {
+  control_.answer(value);
+  found_.fill({});
 }
 
 AxisValues Interpreter::workpiece(const Command& command) const {

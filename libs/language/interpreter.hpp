@@ -24,6 +24,7 @@ enum class Step : std::uint8_t {
   alarm,     ///< see alarm(); stays so until start()
   position,  ///< the command before was a skip move: set_position() must report where it ended, for what the
              ///< program does next depends on it
+  answer,    ///< the command before calls a cycle of another service: answer() must report what it has said
   line,      ///< the line of stop_before_line() would be read next; it will be, when next() is called again
 };
 
@@ -82,6 +83,10 @@ class Interpreter {
   /// The same behind a skip move; `touched` is where its input found the axes (#5061).
   void set_position(const AxisValues& position, const AxisValues& touched);
 
+  /// The answer of a called cycle, which #3100 reads. Programs that are called from now on are looked for
+  /// again: the service may have stored another text.
+  void answer(double value);
+
   /// What the variables of time show from now on; before the first call they show zero.
   void set_time(const ControlTime& time) { control_.set_time(time); }
 
@@ -98,6 +103,10 @@ class Interpreter {
   /// Blocks executed since start(), a loop's each time.
   std::uint64_t blocks() const { return blocks_; }
   const VariableStore& variables() const { return variables_.store(); }
+  /// The local variables of the macro that is being read.
+  const std::array<Value, local_variables>& locals() const { return variables_.locals(); }
+  /// The line of the started text that is executed, or has called what is.
+  std::uint32_t main_line() const { return depth_ == 0 ? line_ : levels_[1].call_line; }
 
   /// Positions, frames and tables as the program has left them, for system variables.
   const BlockExecutor& executor() const { return executor_; }

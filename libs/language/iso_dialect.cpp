@@ -298,6 +298,7 @@ class BlockReader {
     if (c == ',' || c == ')') return {};
     if ((c == '"') != text && more) return {AlarmNumber::argument_kind, at};
     if (!text) return ExpressionReader(scanner_, variables_).expression(value);
+    if (!more) return {AlarmNumber::bracket_open, at};
     do scanner_.advance();
     while (!scanner_.at_end() && scanner_.peek() != '"');
     if (scanner_.at_end()) return {AlarmNumber::bracket_open, at};

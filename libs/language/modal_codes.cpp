@@ -2,6 +2,7 @@
 #include "language/modal_codes.hpp"
 
 #include <cmath>
+#include <cstdio>
 
 #include "language/arc_geometry.hpp"
 
@@ -44,6 +45,15 @@ Fault ModalCodes::set_spindle_mode(std::uint16_t, SpindleMode mode) {
   return {};
 }
 
+Fault ModalCodes::check_spindle_speed(double speed) {
+  const double highest = environment_.highest_spindle_speed();
+  if (highest == 0 || speed <= highest) return {};
+  FaultDetail& detail = context_.detail;
+  detail.number = AlarmNumber::spindle_speed_above;
+  std::snprintf(detail.text.data(), detail.text.size(), "at most %.10g 1/min (10a948)", highest);
+  return {detail.number, words_.offset('S')};
+}
+
 Fault ModalCodes::spindle_word() {
   ModalState& modal = state_.modal;
   const bool surface = modal.spindle_mode == SpindleMode::surface;
@@ -57,6 +67,7 @@ Fault ModalCodes::spindle_word() {
     } else if (surface) {
       modal.surface_speed = modal.metric ? speed : speed * metres_per_foot;
     } else {
+      if (const Fault fault = check_spindle_speed(speed)) return fault;
       modal.spindle_speed = speed;
     }
   }

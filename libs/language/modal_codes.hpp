@@ -29,6 +29,9 @@ class ModalCodes : private BlockHandler {
   Fault feed_word();
   Fault spindle_word();
   Fault tool_word();
+
+ private:
+  Fault check_spindle_speed(double speed);
 };
 
 }  // namespace trunnion::language

@@ -29,6 +29,7 @@ enum class VariableKind : std::uint8_t {
   time_milliseconds,
   time_hours,
   message,
+  cycle,
   date,
   time_of_day,
   modal,
@@ -67,6 +68,10 @@ inline constexpr std::array variable_ranges = {
     VariableRange{3006, 3006, VariableKind::message, true, "writing stops as M0 does and shows the comment"},
     VariableRange{3011, 3011, VariableKind::date, false, "date as year month day: 20250131"},
     VariableRange{3012, 3012, VariableKind::time_of_day, false, "time as hours minutes seconds: 235959"},
+    VariableRange{
+        3100, 3100, VariableKind::cycle, true,
+        "writing calls a cycle of another service: 9960 begins it, 0 when its part is done; reads 1 = call "
+        "the part O99601, 0 = finished"},
     VariableRange{4001, 4130, VariableKind::modal, false, "modal codes and words of the blocks before"},
     VariableRange{5001, 5009, VariableKind::block_end, false,
                   "end of the block before, program coordinates, X Y Z A B C U V W"},
@@ -144,6 +149,8 @@ class Variables {
   AlarmNumber argument(double number, Value& value) const;
 
   const VariableStore& store() const { return store_; }
+  /// Of the innermost level.
+  const std::array<Value, local_variables>& locals() const { return levels_[level_].values; }
 
  private:
   struct Level {

@@ -6,6 +6,7 @@
 
 #include "machine/kinematics.hpp"
 #include "machine/yaml.hpp"
+#include "machine/yaml_reader.hpp"
 
 namespace trunnion::machine {
 namespace {
@@ -15,14 +16,6 @@ using geometry::ElementKind;
 
 [[noreturn]] void fail(const std::string& file, const YAML::Node& node, const std::string& text) {
   throw std::runtime_error(at(file, node) + text);
-}
-
-void check_keys(const std::string& file, const YAML::Node& map, const std::set<std::string>& keys) {
-  if (!map.IsMap()) fail(file, map, "expected 'key: value' lines");
-  for (const auto& entry : map) {
-    const auto key = scalar(file, entry.first);
-    if (keys.count(key) == 0) fail(file, entry.first, "unknown key '" + key + "'");
-  }
 }
 
 geometry::Vec3 read_vector(const std::string& file, const YAML::Node& node) {
@@ -45,7 +38,7 @@ std::size_t read_letter(const std::string& file, const YAML::Node& node, const s
 }
 
 ChainElement read_element(const std::string& file, const YAML::Node& node) {
-  check_keys(file, node, {"name", "offset", "correction", "rotary", "linear", "direction", "base"});
+  YamlReader(file).only(node, {"name", "offset", "correction", "rotary", "linear", "direction", "base"});
   ChainElement element;
   if (!node["name"]) fail(file, node, "an element without a name");
   element.name = scalar(file, node["name"]);
@@ -102,7 +95,7 @@ void visit_chains(const YAML::Node& section, const std::string& file, Visit&& vi
   if (!section.IsSequence()) fail(file, section, "'chains' is a list");
   std::set<int> channels;
   for (const auto& node : section) {
-    check_keys(file, node, {"channel", "tool_direction", "closed", "elements"});
+    YamlReader(file).only(node, {"channel", "tool_direction", "closed", "elements"});
     int channel = 0;
     if (node["channel"] &&
         (!YAML::convert<int>::decode(node["channel"], channel) || channel < 0 || channel > 9))

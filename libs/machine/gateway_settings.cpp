@@ -7,6 +7,33 @@
 
 namespace trunnion::machine {
 
+namespace {
+
+TlsSettings read_tls(const YAML::Node& node, const std::string& file) {
+  if (node.IsScalar()) {
+    try {
+      return {node.as<bool>(), "", ""};
+    } catch (const YAML::Exception&) {
+    }
+  }
+  TlsSettings tls{true, "", ""};
+  if (node.IsMap()) {
+    for (const auto& entry : node) {
+      const auto name = entry.first.Scalar();
+      if (name != "certificate" && name != "key")
+        throw std::runtime_error(at(file, entry.first) + "tls has 'certificate' and 'key', not '" + name +
+                                 "'");
+      (name == "key" ? tls.key : tls.certificate) = entry.second.IsScalar() ? entry.second.Scalar() : "";
+    }
+  }
+  if (tls.certificate.empty() || tls.key.empty())
+    throw std::runtime_error(at(file, node) +
+                             "tls must be 'on', 'off', or {certificate: FILE, key: FILE} in PEM form");
+  return tls;
+}
+
+}  // namespace
+
 GatewaySettings read_gateway_settings(const YAML::Node& document, const std::string& file) {
   GatewaySettings settings;
   if (const auto node = document["mtconnect_port"]) {
@@ -43,6 +70,7 @@ GatewaySettings read_gateway_settings(const YAML::Node& document, const std::str
       throw std::runtime_error(at(file, node) + "operating_right must be 'one' or 'any'");
     settings.one_operates = text == "one";
   }
+  if (const auto node = document["tls"]) settings.tls = read_tls(node, file);
   return settings;
 }
 

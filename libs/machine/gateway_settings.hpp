@@ -11,11 +11,19 @@ class Node;
 
 namespace trunnion::machine {
 
+/// How the gateway is reached by TLS.
+struct TlsSettings {
+  bool on = false;
+  std::string certificate,
+      key;  ///< PEM files, relative ones beside machine.yaml; empty = those of the state directory
+};
+
 struct GatewaySettings {
   std::uint16_t mtconnect_port = 5000;  ///< of the MTConnect agent; 0 = none
   bool auth = false;                    ///< users log in
   double session_idle = 1800;           ///< s without a request after which a session ends
   bool one_operates = false;            ///< one station at a time; by default when users log in
+  TlsSettings tls;
 };
 
 /// `document` is that of machine.yaml in `file`. Throws std::runtime_error with file:line:column.

@@ -11,6 +11,7 @@
 #include "machine/kinematics.hpp"
 #include "machine/services.hpp"
 #include "machine/yaml.hpp"
+#include "machine/yaml_reader.hpp"
 
 namespace trunnion::machine {
 namespace {
@@ -34,15 +35,6 @@ T value(const std::string& file, const YAML::Node& parent, const char* key, T fa
   }
 }
 
-void check_keys(const std::string& file, const YAML::Node& map, const std::vector<std::string>& keys) {
-  if (!map.IsMap()) throw std::runtime_error(at(file, map) + "expected 'key: value' lines");
-  for (const auto& entry : map) {
-    const auto key = scalar(file, entry.first);
-    if (std::find(keys.begin(), keys.end(), key) == keys.end())
-      throw std::runtime_error(at(file, entry.first) + "unknown key '" + key + "'");
-  }
-}
-
 void read_hardware(const std::string& file, const YAML::Node& document, MachineConfig& config) {
   const auto hardware = value<std::string>(file, document, "hardware", "simulation");
   if (hardware != "simulation" && hardware != "hal")
@@ -57,7 +49,7 @@ void read_hardware(const std::string& file, const YAML::Node& document, MachineC
     throw std::runtime_error(
         at(file, document["hardware"]) +
         "'hardware: hal' needs 'hal: {file: NAME.hal}', the file that describes the machine");
-  check_keys(file, hal, {"file", "queue"});
+  YamlReader(file).only(hal, {"file", "queue"});
   const auto name = value<std::string>(file, hal, "file", "");
   if (name.empty()) throw std::runtime_error(at(file, hal) + "'file' is missing");
   const auto path = std::filesystem::path(config.directory) / name;
@@ -78,28 +70,28 @@ MachineConfig parse_machine(const std::string& text, const std::string& director
                             const std::string& vendor_override) {
   const std::string file = directory + "/machine.yaml";
   const auto document = parse_yaml(text, file);
-  check_keys(file, document,
-             {"name",
-              "title",
-              "domain",
-              "port",
-              "mtconnect_port",
-              "auth",
-              "session_idle_minutes",
-              "operating_right",
-              "host_names",
-              "time",
-              "vendor",
-              "hardware",
-              "hal",
-              "collision",
-              "hosts",
-              "network",
-              "security",
-              "open",
-              "swap_directories",
-              "services",
-              "chains"});
+  YamlReader(file).only(document, {"name",
+                                   "title",
+                                   "domain",
+                                   "port",
+                                   "mtconnect_port",
+                                   "auth",
+                                   "session_idle_minutes",
+                                   "tls",
+                                   "operating_right",
+                                   "host_names",
+                                   "time",
+                                   "vendor",
+                                   "hardware",
+                                   "hal",
+                                   "collision",
+                                   "hosts",
+                                   "network",
+                                   "security",
+                                   "open",
+                                   "swap_directories",
+                                   "services",
+                                   "chains"});
   MachineConfig config;
   config.directory = directory;
   config.name = value<std::string>(file, document, "name", "");
@@ -138,7 +130,7 @@ MachineConfig parse_machine(const std::string& text, const std::string& director
     throw std::runtime_error(file + ":1:1: error: 'services' is missing");
   config.channels = 0;
   for (const auto& node : services) {
-    check_keys(file, node, {"service", "vendor", "replicas", "channel", "host"});
+    YamlReader(file).only(node, {"service", "vendor", "replicas", "channel", "host"});
     ServiceEntry entry;
     entry.service = value<std::string>(file, node, "service", "");
     const auto* definition = find_service(entry.service);

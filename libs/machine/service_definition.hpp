@@ -12,6 +12,7 @@ struct ServiceDefinition {
   bool required;       ///< every machine.yaml has it
   bool per_channel;    ///< one process for each channel
   bool cyclic;         ///< shares the interpolation cycle
+  bool not_verified;   ///< depends on its own clock: a recording is not repeated with it
   std::uint8_t stage;  ///< number in the stream, from 1; 0 when it is no stage
   const char* input;   ///< handle of the topic a stage reads; null for the first, and for what is no stage
   const char* output;  ///< handle of the topic a stage writes, else null

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "machine/yaml_reader.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
@@ -26,6 +27,14 @@ void YamlReader::each(const YAML::Node& map, const std::string& keys, const Visi
   }
 }
 
+void YamlReader::only(const YAML::Node& map, const std::vector<std::string>& names) const {
+  std::string keys;
+  for (const auto& name : names) keys.append(keys.empty() ? "" : ", ").append(name);
+  each(map, keys, [&](const std::string& key, const YAML::Node&) {
+    return std::find(names.begin(), names.end(), key) != names.end();
+  });
+}
+
 double YamlReader::number(const YAML::Node& node, Limits limits) const {
   const auto word = text(node);
   double value = 0;
@@ -42,6 +51,12 @@ double YamlReader::number(const YAML::Node& node, Limits limits) const {
   return value;
 }
 
+std::int64_t YamlReader::whole(const YAML::Node& node, Limits limits) const {
+  const double value = number(node, limits);
+  if (value != std::floor(value)) fail(node, "expected a whole number");
+  return static_cast<std::int64_t>(value);
+}
+
 std::vector<double> YamlReader::numbers(const YAML::Node& node, std::size_t most, Limits limits) const {
   if (!node.IsSequence() || node.size() == 0 || node.size() > most)
     fail(node, "expected a list of 1 .. " + std::to_string(most) + " numbers");
@@ -56,5 +71,12 @@ geometry::Vec3 YamlReader::vector(const YAML::Node& node, Limits limits) const {
 }
 
 std::string YamlReader::text(const YAML::Node& node) const { return scalar(file_, node); }
+
+std::string YamlReader::host(const YAML::Node& node) const {
+  constexpr std::size_t longest_name = 253;  // of the DNS, RFC 1035
+  auto name = text(node);
+  if (name.empty() || name.size() > longest_name) fail(node, "expected an address or the name of a computer");
+  return name;
+}
 
 }  // namespace trunnion::machine

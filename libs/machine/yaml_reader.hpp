@@ -4,6 +4,7 @@
 
 #include <yaml-cpp/yaml.h>
 
+#include <cstdint>
 #include <functional>
 #include <initializer_list>
 #include <map>
@@ -29,10 +30,16 @@ class YamlReader {
   /// returns false for a key it does not know; `keys` is named then.
   using Visit = std::function<bool(const std::string& key, const YAML::Node& value)>;
   void each(const YAML::Node& map, const std::string& keys, const Visit& visit) const;
+  /// Every key of `map` must be one of `names`, and there once.
+  void only(const YAML::Node& map, const std::vector<std::string>& names) const;
   double number(const YAML::Node& node, Limits limits) const;
+  /// A number without a fraction, at most 2^53.
+  std::int64_t whole(const YAML::Node& node, Limits limits) const;
   std::vector<double> numbers(const YAML::Node& node, std::size_t most, Limits limits) const;
   geometry::Vec3 vector(const YAML::Node& node, Limits limits) const;
   std::string text(const YAML::Node& node) const;
+  /// An address or the name of a computer, which is not looked up.
+  std::string host(const YAML::Node& node) const;
   /// The entry of `choices` that the node names.
   template <class T>
   T choice(const YAML::Node& node, const std::map<std::string, T>& choices) const {

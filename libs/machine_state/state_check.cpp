@@ -22,15 +22,16 @@ namespace fs = std::filesystem;
 using storage::KeptState;
 namespace {
 
-constexpr std::array texts = {"active.yaml",   "parameters.yaml", "plc.programs",
-                              "programs.yaml", "tools.yaml",      "work_offsets.yaml"};
-constexpr std::array journals = {"journal.jsonl", "plc.jsonl", "swaps.jsonl"};
+constexpr std::array texts = {"active.yaml",   "measurement.json", "parameters.yaml",  "plc.programs",
+                              "programs.yaml", "tools.yaml",       "work_offsets.yaml"};
+constexpr std::array journals = {"alarms.jsonl", "journal.jsonl", "plc.jsonl", "swaps.jsonl"};
 struct Memory {
   const char* name;
   const char* kind;
 };
 constexpr std::array memories = {Memory{"encoders.bin", "encoders"}, Memory{"plc.image", "plc"},
-                                 Memory{"references.bin", "references"}};
+                                 Memory{"references.bin", "references"},
+                                 Memory{"simulation.bin", "simulation"}};
 constexpr const char* programs = "programs";
 
 bool is_channel_text(const std::string& name) {

@@ -89,7 +89,7 @@ std::variant<AxisFit, AxisError> fit_axis(const std::vector<TurnedCentre>& centr
       jacobian.row(row) << -e.transpose(), -along * e.dot(across), -along * e.dot(other), -1;
       jacobian.row(row + 1) << -fit.direction.transpose(), arm.dot(across), arm.dot(other), 0;
     }
-    Eigen::VectorXd change = jacobian.colPivHouseholderQr().solve(-deviations);
+    Eigen::VectorXd change = geometry::least_squares(jacobian, -deviations);
     if (!change.allFinite()) return AxisError::triangle_angle;
     fit.centre += change.head<3>();
     fit.direction = (fit.direction + change[3] * across + change[4] * other).normalized();

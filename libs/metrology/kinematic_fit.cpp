@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "metrology/kinematic_fit.hpp"
 
+#include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <cmath>
 
@@ -128,7 +129,7 @@ std::optional<MatrixXd> free_combinations(const ChainParameters& chain, const Un
   const auto jacobian =
       derivative(unknowns, VectorXd::Zero(unknowns.count()), Vec3(170, -90, 60), poses, 100);
   if (!jacobian) return std::nullopt;
-  const Eigen::BDCSVD<MatrixXd> svd(*jacobian, Eigen::ComputeFullV);
+  const Eigen::JacobiSVD<MatrixXd> svd(*jacobian, Eigen::ComputeFullV);
   Index rank = 0;
   while (rank < svd.singularValues().size() &&
          svd.singularValues()[rank] > structural * svd.singularValues()[0])
@@ -284,7 +285,7 @@ std::variant<KinematicFit, FitError> fit_kinematics(const ChainParameters& start
     fit.differences.emplace_back(expected->segment<3>(3 * static_cast<Index>(i)) - poses[i].centre);
   VectorXd y = VectorXd::Zero(span.cols());
   MatrixXd residual;
-  Eigen::BDCSVD<MatrixXd> svd;
+  Eigen::JacobiSVD<MatrixXd> svd;
   Index rank = 0;
   for (int step = 0;; ++step) {
     const VectorXd x = fixed + span * y;
@@ -324,13 +325,14 @@ std::variant<KinematicFit, FitError> fit_kinematics(const ChainParameters& start
   const MatrixXd hidden = span * svd.matrixV().rightCols(span.cols() - rank);
   const MatrixXd scaled = unit * seen * svd.singularValues().head(rank).cwiseInverse().asDiagonal();
   MatrixXd covariance = scaled * scaled.transpose();
-  if (options.tool_length_uncertainty > 0) {
+  const double length_deviation =
+      std::hypot(options.tool_length_uncertainty, unit * std::sqrt(options.tool_length_cofactor));
+  if (length_deviation > 0) {
     constexpr double longer = 1;  // mm
     MatrixXd effect = *predict(fit.parameters, fit.sphere, poses, tool_length + longer) - *after;
     whiten(poses, effect);
     const VectorXd change = seen * svd.singularValues().head(rank).cwiseInverse().asDiagonal() *
-                            (svd.matrixU().leftCols(rank).transpose() * effect) *
-                            options.tool_length_uncertainty;
+                            (svd.matrixU().leftCols(rank).transpose() * effect) * length_deviation;
     covariance += change * change.transpose();
   }
   describe(fit, unknowns, covariance, hidden);

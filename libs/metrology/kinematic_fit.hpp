@@ -38,6 +38,8 @@ struct FitOptions {
   double touch_uncertainty = 0;
   /// Standard uncertainty of the tool length, mm: added to the vectors that depend on it.
   double tool_length_uncertainty = 0;
+  /// In addition: variance of the tool length for touches of variance 1, where touches have given it.
+  double tool_length_cofactor = 0;
 };
 
 /// Estimated components with their standard and expanded uncertainty: with a probability of 95 % all

@@ -54,8 +54,7 @@ std::variant<SphereFit, SphereError> fit_sphere(const std::vector<Vec3>& tips, s
       jacobian.row(i).head<3>() = -arm.transpose() / length;
       if (!radius) jacobian(i, 3) = -1;
     }
-    const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(jacobian);
-    const Eigen::VectorXd change = qr.solve(distances);
+    const Eigen::VectorXd change = geometry::least_squares(jacobian, distances);
     if (!change.allFinite() || step > most_sphere_steps) return SphereError::no_sphere;
     fit.centre -= change.head<3>();
     if (!radius) fit.radius -= change[3];

@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "plc/devices/device_file.hpp"
+#include "plc/library/derived_units.hpp"
 #include "plc/library/functions.hpp"
 #include "plc/machine/verify.hpp"
 #include "plc/plcopen/import.hpp"
@@ -24,8 +25,8 @@ struct Kept {
   std::optional<Unit> unit;
 };
 
-void add_symbol(const Variable& variable, const std::string& prefix, std::uint32_t base,
-                Compilation& compilation) {
+void add_symbol(const Variable& variable, const std::string& prefix, const std::string& pou,
+                std::uint32_t base, Compilation& compilation) {
   if (variable.constant.is_constant) compilation.constants.push_back(prefix + variable.text);
   if (variable.type->kind == Kind::error || variable.constant.is_constant ||
       variable.section == VariableSection::in_out || variable.section == VariableSection::external ||
@@ -36,19 +37,48 @@ void add_symbol(const Variable& variable, const std::string& prefix, std::uint32
   const auto offset = static_cast<std::uint32_t>(place.offset);
   const bool absolute = place.base == Place::Base::absolute;
   compilation.symbols.push_back({prefix + variable.text, variable.type, absolute ? offset : base + offset,
-                                 place.bit, absolute && offset < image_cells});
+                                 place.bit, absolute && offset < image_cells, pou + variable.text});
 }
 
-/// Appends the element of a diagram to each message at it.
-void name_elements(const std::vector<plcopen::ElementPlace>& places, std::vector<Diagnostic>& diagnostics) {
-  const auto key = [](Position at) { return std::tuple(at.line, at.column); };
-  for (auto& diagnostic : diagnostics) {
-    const plcopen::ElementPlace* found = nullptr;
-    for (const auto& place : places)
-      if (place.at.file == diagnostic.at.file && key(place.at) <= key(diagnostic.at) &&
-          (found == nullptr || key(found->at) <= key(place.at)))
-        found = &place;
-    if (found != nullptr && !found->text.empty()) diagnostic.text += " (" + found->text + ")";
+/// Finds the element of a diagram that is at a place.
+class Elements {
+ public:
+  explicit Elements(std::vector<plcopen::ElementPlace> places) : places_(std::move(places)) {
+    std::stable_sort(places_.begin(), places_.end(),
+                     [](const auto& a, const auto& b) { return key(a.at) < key(b.at); });
+  }
+  std::string at(Position at) const {
+    const auto behind =
+        std::upper_bound(places_.begin(), places_.end(), at,
+                         [](Position p, const auto& place) { return key(p) < key(place.at); });
+    if (behind == places_.begin() || std::prev(behind)->at.file != at.file) return "";
+    return std::prev(behind)->text;
+  }
+
+ private:
+  static std::tuple<std::uint16_t, std::uint32_t, std::uint32_t> key(Position at) {
+    return {at.file, at.line, at.column};
+  }
+  std::vector<plcopen::ElementPlace> places_;
+};
+
+/// Statements of each program of a task, and a warning for what the PLC stops.
+void count_statements(const Unit& unit, Compilation& compilation, Diagnostics& diagnostics) {
+  const auto counts = statement_counts(unit.code, unit.loops);
+  for (const auto& entry : unit.code.entries) {
+    if (entry.is_test) continue;
+    const auto& count = counts[entry.routine];
+    TaskStatements task;
+    for (const char c : entry.name) task.name += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    task.most = count.most;
+    if (const auto loop = unit.loops.find(count.loop); !count.most)
+      task.unbounded = loop != unit.loops.end() ? loop->second.at : unit.code.place_of(count.loop);
+    if (count.most && *count.most > task_budget)
+      diagnostics.warning(unit.code.place_of(unit.code.routines[entry.routine].entry),
+                          "the program " + task.name + " can execute " + std::to_string(*count.most) +
+                              " statements in one run; the PLC stops it after " +
+                              std::to_string(task_budget));
+    compilation.tasks.push_back(std::move(task));
   }
 }
 
@@ -98,7 +128,7 @@ std::uint64_t Compilation::layout() const {
 
 bool is_source(const std::string& name) {
   return is_compiled(name) || name == "fast.il" || name == "main.il" || name == "devices.yaml" ||
-         name == "modbus.yaml";
+         name == "messages.yaml" || name == "modbus.yaml";
 }
 
 bool is_compiled(const std::string& name) {
@@ -112,6 +142,7 @@ Compilation compile(const std::vector<Source>& sources, const RegisterNames& reg
   kept->registers = registers;
   result.files.push_back("standard_blocks.st");
   parse(standard_blocks_text, 0, kept->tree, kept->diagnostics);
+  for (const auto& text : derived_units()) parse(text, 0, kept->tree, kept->diagnostics);
   result.files.push_back("simulated_devices.st");
   parse(simulated_devices_text, 1, kept->tree, kept->diagnostics);
   std::vector<plcopen::ElementPlace> places;
@@ -126,16 +157,26 @@ Compilation compile(const std::vector<Source>& sources, const RegisterNames& reg
   auto& unit = kept->unit.emplace(kept->tree, kept->diagnostics, kept->registers, library_files);
   // What could not be read is missing, so names are not checked then.
   if (kept->diagnostics.errors() == 0) unit.run();
+  if (kept->diagnostics.errors() == 0) {
+    warn_of_two_tasks(unit, result.files, kept->diagnostics);
+    count_statements(unit, result, kept->diagnostics);
+    result.references = cross_reference(unit);
+  }
   result.diagnostics = kept->diagnostics.sorted();
-  name_elements(places, result.diagnostics);
+  const Elements elements(std::move(places));
+  for (auto& diagnostic : result.diagnostics)
+    if (const auto text = elements.at(diagnostic.at); !text.empty()) diagnostic.text += " (" + text + ")";
+  for (auto& reference : result.references)
+    for (auto& use : reference.uses) use.element = elements.at(use.at);
   result.types = kept;
   if (kept->diagnostics.errors() > 0) return result;
-  for (const auto& variable : unit.globals) add_symbol(variable, "", 0, result);
+  for (const auto& variable : unit.globals) add_symbol(variable, "", "", 0, result);
+  for (const auto& instance : unit.instances)
+    for (const auto& variable : instance.pou->variables)
+      add_symbol(variable, instance.variable.text + ".", instance.pou->declaration->text + ".",
+                 static_cast<std::uint32_t>(instance.variable.place.offset), result);
   for (const auto* pou : unit.order) {
     const auto kind = pou->declaration->kind;
-    if (kind == PouKind::program)
-      for (const auto& variable : pou->variables)
-        add_symbol(variable, pou->declaration->text + ".", pou->base, result);
     if (kind != PouKind::function || unit.is_library(pou->declaration->at)) continue;
     result.functions.push_back(interface_of(*pou));
     if (entries_for_functions)

@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "plc/machine/byte_code.hpp"
+#include "plc/semantics/cross_reference.hpp"
+#include "plc/semantics/statement_count.hpp"
 #include "plc/semantics/unit.hpp"
 
 namespace trunnion::st {
@@ -24,6 +26,7 @@ struct Symbol {
   std::uint32_t address = 0;
   int bit = -1;  ///< of a register
   bool is_register = false;
+  std::string declared;  ///< its name in the cross reference: POU.variable
 };
 
 struct FunctionInterface {
@@ -39,6 +42,13 @@ struct FunctionInterface {
   std::uint32_t result_address = 0, routine = 0, base = 0;
 };
 
+/// How many statements a program of a task executes at most in one run.
+struct TaskStatements {
+  std::string name;  ///< fast, main, simulation or another PROGRAM
+  std::optional<std::int64_t> most;
+  Position unbounded;  ///< without `most`: a loop of which it is not known how often it runs
+};
+
 struct Compilation {
   std::shared_ptr<const ByteCode> code;  ///< nothing when there are errors
   std::vector<Diagnostic> diagnostics;
@@ -46,6 +56,8 @@ struct Compilation {
   std::vector<Symbol> symbols;         ///< variables of programs and global ones, in the order of memory
   std::vector<std::string> constants;  ///< paths of constants, which have no place in memory
   std::vector<FunctionInterface> functions;
+  std::vector<TaskStatements> tasks;
+  std::vector<CrossReference> references;
   std::shared_ptr<const void> types;  ///< owns what symbols point to
 
   /// One line for each error and warning.

@@ -7,7 +7,7 @@
 namespace trunnion::st {
 
 /// Whether a file of this name is a source: what is compiled (.st except *_test.st, .xml), fast.il, main.il,
-/// devices.yaml, modbus.yaml.
+/// devices.yaml, messages.yaml, modbus.yaml.
 bool is_source(const std::string& name);
 
 }  // namespace trunnion::st

@@ -149,6 +149,15 @@ FlowState ProgramFlow::continue_after_skip() {
   return FlowState::full;
 }
 
+// A call that is only searched for a restart or a line is not answered again: the service has gone on.
+FlowState ProgramFlow::fail_after_cycle() {
+  if (search_ == Search::line)
+    return fail_search(
+        "a cycle of another service is called before it, and what follows depends on its answer");
+  return fail(language::AlarmNumber::not_resumable,
+              "a program behind a cycle of another service cannot be resumed: reset and start again");
+}
+
 // The blocks of a contour with cutter radius compensation, and of a curve, depend on each other: in the
 // middle no block by itself gives the position of the tool.
 FlowState ProgramFlow::arrive_at_line() {
@@ -177,6 +186,8 @@ FlowState ProgramFlow::take_step(language::Step step) {
       return FlowState::waiting;
     case language::Step::position:
       return continue_after_skip();
+    case language::Step::answer:
+      return fail_after_cycle();
     case language::Step::line:
       return arrive_at_line();
     case language::Step::end:

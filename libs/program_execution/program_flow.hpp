@@ -91,6 +91,17 @@ class ProgramFlow {
   /// Where the pending skip move ended; the interpreter continues from there. A restart of the program reads
   /// the results again.
   void skip_ended(const SkipResult& result) { skips_.push_back(result); }
+  /// The pending call of a cycle was answered.
+  void cycle_answered(double value) {
+    interpreter_.answer(value);
+    finish_pending();
+  }
+  /// While a call of a cycle is pending: the local variables of the macro that calls, the line of the started
+  /// program, and the modal state it is called in.
+  const std::array<language::Value, language::local_variables>& locals() const {
+    return interpreter_.locals();
+  }
+  std::uint32_t main_line() const { return interpreter_.main_line(); }
   const std::vector<SkipResult>& skips() const { return skips_; }
   /// The results a program had before this process; after start().
   void set_skips(std::vector<SkipResult> skips) { skips_ = std::move(skips); }
@@ -134,6 +145,7 @@ class ProgramFlow {
   FlowState fail(language::AlarmNumber number) { return fail(number, language::alarm_text(number)); }
   FlowState fail_search(const std::string& why);
   FlowState continue_after_skip();
+  FlowState fail_after_cycle();
   channel_setup::ChannelSetup& machine_;
   motion::Trajectory* trajectory_ = nullptr;  // of the run
   MoveGuard* guard_ = nullptr;

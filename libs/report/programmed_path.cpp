@@ -131,6 +131,9 @@ ProgrammedPath programmed_path(const std::string& text, const MachineTables& tab
       case language::Step::position:  // no probe: a skip move ends at its end
         interpreter.set_position(at);
         break;
+      case language::Step::answer:  // nor another service: its cycle has no parts
+        interpreter.answer(0);
+        break;
       case language::Step::alarm: {
         const auto& alarm = interpreter.alarm();
         result.problem = std::to_string(alarm.line) + ":" + std::to_string(alarm.column) + ": " +

@@ -66,10 +66,40 @@ class Cursor {
   std::size_t next_ = 0;
 };
 
+// The loads behind the play of the axes (10a910), from the rows of the motor encoders: a load follows its
+// motor when one flank or the other touches. It begins in the middle of the play. In full closed loop
+// (10a930) the rows are those of the load.
+class LoadRows {
+ public:
+  LoadRows(const RowTable& motor, const machine::Parameters& parameters) : motor_(motor) {
+    for (const auto& axis : machine::drive_axes(parameters))
+      half_.push_back(parameters.integer(parameter::full_closed_loop, axis.number) != 0
+                          ? 0
+                          : parameters.get(parameter::mechanical_backlash, axis.number) / 2);
+    half_.resize(motor.width, 0);
+    if (!motor.cycles.empty()) load_.assign(motor.row(0), motor.row(0) + motor.width);
+  }
+  /// `cycle` does not descend from call to call.
+  const double* at(std::uint64_t cycle) {
+    for (; next_ < motor_.cycles.size() && motor_.cycles[next_] <= cycle; ++next_)
+      for (std::size_t i = 0; i < load_.size(); ++i) {
+        const double motor = motor_.row(next_)[i];
+        load_[i] = std::clamp(load_[i], motor - half_[i], motor + half_[i]);
+      }
+    return next_ > 0 && motor_.cycles[next_ - 1] == cycle ? load_.data() : nullptr;
+  }
+
+ private:
+  const RowTable& motor_;
+  std::vector<double> half_, load_;
+  std::size_t next_ = 0;
+};
+
 class Evaluation {
  public:
-  Evaluation(const Capture& capture, Report& report)
+  Evaluation(const Capture& capture, const TrueTip& true_tip, Report& report)
       : capture_(capture),
+        true_tip_(true_tip),
         report_(report),
         chain_(machine::make_chain(capture.tables.parameters, capture.tables.channel)),
         axes_(machine::channel_axes(capture.tables.parameters, capture.tables.channel)) {
@@ -95,11 +125,13 @@ class Evaluation {
 
   void run() {
     ErrorSum commanded_feed(report_.commanded_feed), commanded_rapid(report_.commanded_rapid),
-        actual_feed(report_.actual_feed), actual_rapid(report_.actual_rapid);
-    Cursor gantry(capture_.gantry), commanded(capture_.commanded), actual(capture_.actual);
+        actual_feed(report_.actual_feed), actual_rapid(report_.actual_rapid), true_feed(report_.true_feed),
+        true_rapid(report_.true_rapid);
+    Cursor gantry(capture_.gantry), commanded(capture_.commanded);
+    LoadRows actual(capture_.actual, capture_.tables.parameters);
     Fnv1a hash;
     const auto& programmed = report_.programmed;
-    std::size_t guess = 0, actual_guess = 0;
+    std::size_t guess = 0, actual_guess = 0, true_guess = 0;
     double residual_squares = 0, feed_sum = 0;
     std::uint64_t feed_cycles = 0;
     report_.samples.reserve(capture_.path.size());
@@ -132,6 +164,11 @@ class Evaluation {
         actual_guess = close.piece;
         sample.actual_foot = close.point;
         (sample.rapid ? actual_rapid : actual_feed).add(close.distance, sample);
+        if (true_tip_) {
+          const auto at = programmed.path.nearest(true_tip_of(position, row), true_guess);
+          true_guess = at.piece;
+          (sample.rapid ? true_rapid : true_feed).add(at.distance, sample);
+        }
       }
       const auto* before = report_.samples.empty() ? nullptr : &report_.samples.back();
       if (before != nullptr && before->cycle + 1 == sample.cycle &&
@@ -163,11 +200,24 @@ class Evaluation {
   }
 
   // Axes without a column are at zero, as in the setpoint batches.
-  Vec3 tip_of_joints(const double* joints, const std::vector<int>& columns, const PathRow& row) const {
+  AxisValues by_letter(const double* joints, const std::vector<int>& columns) const {
     AxisValues p{};
     for (std::size_t i = 0; i < columns.size(); ++i)
       if (columns[i] >= 0) p[axes_.index[i]] = joints[columns[i]];
+    return p;
+  }
+  Vec3 tip_of_joints(const double* joints, const std::vector<int>& columns, const PathRow& row) const {
+    const auto p = by_letter(joints, columns);
     return chain_.tip_from_machine({p[0], p[1], p[2]}, geometry::angles_of(p.data()), row.tool_length);
+  }
+
+  Vec3 true_tip_of(const double* loads, const PathRow& row) {
+    const auto p = by_letter(loads, drive_columns_);
+    if (loads_before_)
+      for (std::size_t i = 0; i < p.size(); ++i)
+        if (p[i] != (*loads_before_)[i]) approach_[i] = p[i] > (*loads_before_)[i] ? 1 : -1;
+    loads_before_ = p;
+    return true_tip_(p, approach_, row.tool_length);
   }
 
   static Latency latency(std::string from, std::string to, std::vector<double>& seconds) {
@@ -225,10 +275,13 @@ class Evaluation {
   }
 
   const Capture& capture_;
+  const TrueTip& true_tip_;
   Report& report_;
   geometry::Chain chain_;
   machine::ChannelAxes axes_;
   std::vector<int> drive_columns_, gantry_columns_;
+  std::optional<AxisValues> loads_before_;
+  std::array<int, 9> approach_{};
 };
 
 void write_file(const std::filesystem::path& path, const std::string& text) {
@@ -263,7 +316,7 @@ Report make_report(const std::string& recording, const ReportInputs& inputs) {
   report.repeated_frames = capture.repeated_frames;
   report.starved = capture.starved;
   report.period = capture.tables.parameters.get(parameter::interpolation_cycle) * 1e-6;
-  Evaluation evaluation(capture, report);
+  Evaluation evaluation(capture, inputs.true_tip, report);
   report.programmed = programmed_path(
       inputs.program_text, capture.tables,
       capture.path.empty() ? AxisValues{} : evaluation.machine_position(capture.path.front()));

@@ -2,7 +2,9 @@
 // What a run was like: a pure function of its recording and its program.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -12,6 +14,11 @@
 
 namespace trunnion::report {
 
+/// The tool tip in the workpiece frame, mm, as ProgrammedPath::path. `loads`: mm and deg, by axis letter;
+/// `approach`: direction of the last motion of each (-1, 0 before the first, 1); `tool_length`: mm.
+using TrueTip = std::function<Vec3(const language::AxisValues& loads, const std::array<int, 9>& approach,
+                                   double tool_length)>;
+
 /// What a recording may not contain. Empty tables are taken from the recording.
 struct ReportInputs {
   std::string program_name;
@@ -20,6 +27,7 @@ struct ReportInputs {
   std::optional<machine::Parameters> parameters;  ///< used when the recording has none
   std::optional<idl::parameters::ToolTable> tools;
   std::optional<idl::parameters::WorkOffsets> offsets;
+  TrueTip true_tip;  ///< of a machine whose true geometry is known; empty: the report does not state it
 };
 
 /// Distances of the tool tip from the programmed path, over the cycles of one kind of motion.
@@ -61,7 +69,10 @@ struct Report {
   double wall_seconds = 0;     ///< between the first and the last feedback of the motion
   double speed = 0;            ///< machine time over wall time; 0 when unknown
 
+  /// The actual positions are those of the encoders, behind the play of the axes (10a910).
   ContourError commanded_feed, commanded_rapid, actual_feed, actual_rapid;
+  /// The same positions by the true geometry (ReportInputs::true_tip) in the place of the control's chain.
+  ContourError true_feed, true_rapid;
   /// Forward kinematics of the axes' setpoints against the tip they were made from: the kinematics' rounding,
   /// and the compensation's and gantry's corrections when these are on.
   std::uint64_t residual_cycles = 0;

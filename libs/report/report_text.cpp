@@ -79,8 +79,10 @@ std::string terminal_text(const Report& report) {
               format("mean %.0f mm/min, max %.0f mm/min", report.mean_feed, report.largest_feed));
   text += row("Contour error, commands", contour(report.commanded_feed));
   text += row("Contour error, encoders", contour(report.actual_feed));
+  if (report.true_feed.cycles > 0) text += row("Contour error, true tip", contour(report.true_feed));
   text += row("  rapids, commands", contour(report.commanded_rapid));
   text += row("  rapids, encoders", contour(report.actual_rapid));
+  if (report.true_rapid.cycles > 0) text += row("  rapids, true tip", contour(report.true_rapid));
   text += row("Forward(inverse) kinematics",
               report.residual_cycles == 0
                   ? "no axis frames"
@@ -134,6 +136,10 @@ std::string json_text(const Report& report) {
       {"repeated_frames", report.repeated_frames},
       {"starved_periods", report.starved},
       {"command_hash_fnv1a64", hash_text(report)}};
+  if (report.true_feed.cycles + report.true_rapid.cycles > 0) {
+    json["contour_error"]["true_tip_feed"] = contour_json(report.true_feed);
+    json["contour_error"]["true_tip_rapid"] = contour_json(report.true_rapid);
+  }
   auto& latencies = json["latencies"] = nlohmann::ordered_json::array();
   for (const auto& latency : report.latencies)
     latencies.push_back({{"from", latency.from},

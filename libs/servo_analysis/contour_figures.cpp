@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "servo_analysis/contour_figures.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -29,7 +29,7 @@ Eigen::Vector3d fit_circle(const std::vector<double>& x, const std::vector<doubl
     normal += row * row.transpose();
     right += row * value;
   }
-  const Eigen::Vector3d s = normal.ldlt().solve(right);
+  const Eigen::Vector3d s = geometry::solve_symmetric(normal, right);
   return {s[0] + x[from], s[1] + y[from], std::sqrt(std::max(0.0, s[2] + s[0] * s[0] + s[1] * s[1]))};
 }
 
@@ -89,7 +89,7 @@ RoundnessFigures roundness(const AxisTrace& a, const AxisTrace& b) {
   }
   f.deviation = high - low;
   f.radius_error = sum / static_cast<double>(turn);
-  const Eigen::VectorXd s = rows.colPivHouseholderQr().solve(values);
+  const Eigen::VectorXd s = geometry::least_squares(rows, values);
   // x lags by wx t, y by wy t: the radius changes by R w / 2 (tx - ty) sin 2 angle in the positive sense.
   f.mismatch = sense * 2 * s[4] / (circle[2] * omega) * 1e3;
   const Eigen::VectorXd rest = values - rows * s;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "servo_analysis/friction.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -32,7 +32,7 @@ Solution solve(const std::vector<FrictionPoint>& points, double stribeck_speed) 
     torque[i] = p.torque;
   }
   Solution s;
-  s.values = rows.colPivHouseholderQr().solve(torque);
+  s.values = geometry::least_squares(rows, torque);
   s.squares = (torque - rows * s.values).squaredNorm();
   return s;
 }
@@ -103,7 +103,7 @@ double identify_inertia(const AxisTrace& t) {
     normal += row * row.transpose();
     right += row * (torque / static_cast<double>(window));
   }
-  const Eigen::Vector4d s = normal.ldlt().solve(right);
+  const Eigen::Vector4d s = geometry::solve_symmetric(normal, right);
   if (!s.allFinite() || !(s[0] > 0))
     throw std::runtime_error("the motion has no accelerations from which the inertia follows");
   return s[0];

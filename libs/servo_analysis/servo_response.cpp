@@ -7,6 +7,8 @@
 #include <stdexcept>
 #include <unsupported/Eigen/MatrixFunctions>
 
+#include "geometry/decompositions.hpp"
+
 namespace trunnion::servo_analysis {
 namespace {
 
@@ -152,7 +154,7 @@ ServoResponse fit_servo_response(const AxisTrace& t) {
     while (!better && damping < 1e8) {
       Eigen::Matrix3d damped = normal;
       damped.diagonal() *= 1 + damping;
-      const Eigen::Vector3d change = -damped.ldlt().solve(right);
+      const Eigen::Vector3d change = -geometry::solve_symmetric(damped, right);
       const Eigen::Vector3d next = x + change.cwiseMax(-2).cwiseMin(2);
       const VectorXd there = residual(next, t);
       better = there.allFinite() && there.squaredNorm() < r.squaredNorm();
@@ -176,7 +178,7 @@ ServoResponse fit_servo_response(const AxisTrace& t) {
     normal += row * row.transpose();
     right += row * (t.speed_set[i] - t.excitation[i]);
   }
-  const Eigen::Vector2d gains = normal.ldlt().solve(right);
+  const Eigen::Vector2d gains = geometry::solve_symmetric(normal, right);
   response.position_gain = gains[0], response.feedforward = gains[1];
   return response;
 }

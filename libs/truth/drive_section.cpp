@@ -158,21 +158,69 @@ class DriveParser {
   double small_ = 1e-3;
 };
 
+SpindleTruth read_spindle_drive(const TruthReader& reader, const YAML::Node& node) {
+  SpindleTruth spindle;
+  reader.each(node, "inertia_kg_m2, torque_Nm", [&](const std::string& key, const YAML::Node& v) {
+    if (key == "inertia_kg_m2") return spindle.inertia = reader.number(v, {1e-6, 1e4}), true;
+    if (key != "torque_Nm") return false;
+    if (!v.IsSequence() || v.size() == 0 || v.size() > 32)
+      reader.fail(
+          v, "expected 1 to 32 points [1/min, Nm] of the torque curve, for example [[0, 100], [6000, 25]]");
+    for (const auto& point : v) {
+      if (!point.IsSequence() || point.size() != 2)
+        reader.fail(point, "expected a point [1/min, Nm] of the torque curve");
+      const SpindleTruth::Point p{reader.number(point[0], {0, 1e6}), reader.number(point[1], {1e-6, 1e6})};
+      if (!spindle.torque.empty() && p.speed <= spindle.torque.back().speed)
+        reader.fail(point, "the speeds of the torque curve must rise");
+      spindle.torque.push_back(p);
+    }
+    return true;
+  });
+  for (const char* const key : {"inertia_kg_m2", "torque_Nm"})
+    if (!node[key]) reader.fail(node, std::string("'") + key + "' is missing");
+  return spindle;
+}
+
+// An entry for each of `names`.
+template <class Read>
+auto read_named(const TruthReader& reader, const YAML::Node& section, const std::vector<std::string>& names,
+                Read&& read) {
+  std::string known;
+  for (const auto& name : names) known.append(known.empty() ? "" : ", ").append(name);
+  std::map<std::string, decltype(read(std::string(), section))> all;
+  reader.each(section, known, [&](const std::string& name, const YAML::Node& node) {
+    return std::find(names.begin(), names.end(), name) != names.end() &&
+           (all.insert_or_assign(name, read(name, node)), true);
+  });
+  return all;
+}
+
 }  // namespace
+
+double SpindleTruth::torque_at(double speed) const {
+  const double at = std::abs(speed);
+  if (at <= torque.front().speed) return torque.front().torque;
+  for (std::size_t i = 1; i < torque.size(); ++i) {
+    const auto &low = torque[i - 1], &high = torque[i];
+    if (at <= high.speed)
+      return low.torque + (high.torque - low.torque) * (at - low.speed) / (high.speed - low.speed);
+  }
+  return torque.back().torque;
+}
 
 std::map<std::string, DriveTruth> read_drives(const TruthReader& reader, const YAML::Node& section,
                                               const std::vector<std::string>& axes,
                                               const std::vector<std::string>& turning) {
-  std::string known;
-  for (const auto& name : axes) known.append(known.empty() ? "" : ", ").append(name);
-  std::map<std::string, DriveTruth> drives;
-  const auto in = [](const std::vector<std::string>& list, const std::string& name) {
-    return std::find(list.begin(), list.end(), name) != list.end();
-  };
-  reader.each(section, known, [&](const std::string& name, const YAML::Node& node) {
-    return in(axes, name) && (drives[name] = DriveParser(reader, in(turning, name)).read(node), true);
+  return read_named(reader, section, axes, [&](const std::string& name, const YAML::Node& node) {
+    return DriveParser(reader, std::find(turning.begin(), turning.end(), name) != turning.end()).read(node);
   });
-  return drives;
+}
+
+std::map<std::string, SpindleTruth> read_spindle_drives(const TruthReader& reader, const YAML::Node& section,
+                                                        const std::vector<std::string>& names) {
+  return read_named(reader, section, names, [&](const std::string&, const YAML::Node& node) {
+    return read_spindle_drive(reader, node);
+  });
 }
 
 }  // namespace trunnion::truth

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The section `drives` of truth.yaml.
+// The sections `drives` and `spindle_drives` of truth.yaml.
 #pragma once
 
 #include <map>
@@ -16,5 +16,9 @@ namespace trunnion::truth {
 std::map<std::string, DriveTruth> read_drives(const TruthReader& reader, const YAML::Node& section,
                                               const std::vector<std::string>& names,
                                               const std::vector<std::string>& turning);
+
+/// The section `spindle_drives`, by the names of the spindles. Throws as read_drives().
+std::map<std::string, SpindleTruth> read_spindle_drives(const TruthReader& reader, const YAML::Node& section,
+                                                        const std::vector<std::string>& names);
 
 }  // namespace trunnion::truth

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "truth/true_geometry.hpp"
 
@@ -67,6 +68,19 @@ inline bool is_emergency(DriveFaultKind kind) { return kind <= DriveFaultKind::o
 struct DriveFaultTruth {
   DriveFaultKind kind = DriveFaultKind::overload;
   double at = 0;  ///< mm or deg
+};
+
+/// What a spindle's motor can do. Up to its speed 0 the torque is the first, beyond the last speed the last
+/// one of the curve; in between it is linear.
+struct SpindleTruth {
+  struct Point {
+    double speed = 0;   ///< 1/min
+    double torque = 0;  ///< Nm
+  };
+  double inertia = 0;         ///< kg m2, all that turns, at the spindle
+  std::vector<Point> torque;  ///< by speed, rising
+  /// Nm at `speed` (1/min, of either sign).
+  double torque_at(double speed) const;
 };
 
 struct DriveTruth {

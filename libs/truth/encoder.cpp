@@ -67,7 +67,7 @@ void Encoder::latch(double mark) {
   const double gap = sign * (latches_[0] - latches_[1]);
   if (const auto upper = decode_gap(truth_, std::abs(gap))) {
     // The upper mark is the newest when the axis moves up.
-    reference_ = *upper - (gap > 0 ? latches_[0] : latches_[1]);
+    reference_ = sign * *upper - (gap > 0 ? latches_[0] : latches_[1]);
     referenced_ = true;
   }
 }
@@ -94,9 +94,30 @@ void Encoder::pass_marks(double from, double to) {
     for (long n = last; n >= first; --n) visit(n);
 }
 
+void Encoder::find_free_interval(double position) {
+  // Of the cells of half a spacing (incremental: of one) each has the mark at its beginning and, of a
+  // distance-coded scale, those which the increments have moved into it from the cell before.
+  const bool coded = truth_.kind == EncoderKind::distance_coded;
+  const double cell = coded ? truth_.mark_spacing / 2 : truth_.mark_spacing;
+  const double number = std::floor((position - truth_.first_mark) / cell);
+  free_from_ = truth_.first_mark + number * cell, free_to_ = free_from_ + cell;
+  if (coded)
+    for (const long n : {static_cast<long>(number) - 1, static_cast<long>(number)}) {
+      const double mark = distance_coded_mark(truth_, n);
+      if (mark <= position) free_from_ = std::max(free_from_, mark);
+      if (mark > position) free_to_ = std::min(free_to_, mark);
+    }
+  // Beside a mark the exact comparison decides.
+  constexpr double margin = 1e-6;  // mm or deg
+  free_from_ += margin, free_to_ -= margin;
+}
+
 void Encoder::move(double position) {
   if (truth_.kind != EncoderKind::absolute && position != position_) {
-    pass_marks(position_, position);
+    if (!between_marks(position_) || !between_marks(position)) {
+      pass_marks(position_, position);
+      find_free_interval(position);
+    }
     if (truth_.lost_counts != 0 && (position_ < truth_.lost_at) != (position < truth_.lost_at))
       lost_ += (position > position_ ? -1.0 : 1.0) * (truth_.inverted ? -1 : 1) * truth_.lost_counts *
                truth_.resolution;

@@ -23,7 +23,10 @@ std::optional<double> decode_gap(const EncoderTruth& encoder, double distance);
 
 class Encoder {
  public:
-  void configure(const EncoderTruth& encoder) { truth_ = encoder; }
+  void configure(const EncoderTruth& encoder) {
+    truth_ = encoder;
+    free_from_ = free_to_ = 0;
+  }
   /// Switched on at `position`. An absolute encoder reads it; the others begin at zero.
   void start(double position);
   /// The axis has moved to `position`; the reading follows, and marks are latched.
@@ -49,6 +52,8 @@ class Encoder {
   double read(double position) const;
   void pass_marks(double from, double to);
   void latch(double mark);
+  bool between_marks(double position) const { return position > free_from_ && position < free_to_; }
+  void find_free_interval(double position);
 
   EncoderTruth truth_;
   double position_ = 0, reading_ = 0, origin_ = 0, lost_ = 0;
@@ -56,6 +61,7 @@ class Encoder {
   std::uint64_t marks_ = 0;          // passed since the start
   double reference_ = 0;
   bool referenced_ = false;
+  double free_from_ = 0, free_to_ = 0;  // a place without marks; follows from truth_, no state
 };
 
 }  // namespace trunnion::truth

@@ -3,6 +3,7 @@
 
 #include "machine/axes.hpp"
 #include "machine/chain_parameters.hpp"
+#include "machine/gantry_pairs.hpp"
 #include "machine/parameter_constants.hpp"
 
 namespace trunnion::truth {
@@ -18,6 +19,10 @@ MachineOutline outline_of(const machine::Parameters& parameters, std::uint16_t c
     outline.drives.push_back(axis.name);
     if (axis.type != machine::axis_type_linear) outline.turning.push_back(axis.name);
   }
+  for (const auto& spindle : machine::spindles(parameters)) outline.spindles.push_back(spindle.name);
+  for (const auto& pair : machine::gantry_pairs(parameters, channel))
+    for (std::size_t i = 0; i < axes.index.size(); ++i)
+      if (axes.number[i] == pair.master && axes.index[i] < 3) outline.gantry = axes.index[i];
   return outline;
 }
 

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,8 @@ struct MachineOutline {
   std::array<AxisOutline, axis_count> axes;  ///< X Y Z A B C U V W of the channel
   std::vector<std::string> drives;           ///< names of all servo axes, slaves of gantries too
   std::vector<std::string> turning;          ///< those of them that turn
+  std::vector<std::string> spindles;         ///< names of the spindles
+  std::optional<std::size_t> gantry;         ///< of `axes`: the linear axis that has a slave
 };
 
 /// Of `channel`. `parameters` are those the machine was delivered with: what the operator changes later does

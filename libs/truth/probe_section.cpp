@@ -127,7 +127,7 @@ TouchProbeTruth read_probe(const TruthReader& reader, const YAML::Node& section)
   reader.each(
       section,
       "ball_radius_mm, length_mm, pre_travel_um, lobing_um, lobing_phase_deg, repeatability_um, delay_ms, "
-      "seed, no_signal_from_touch, early_mm, early_from_touch",
+      "seed, no_signal_from_touch, early_mm, early_from_touch, stuck_from_touch",
       [&](const std::string& key, const YAML::Node& v) {
         if (key == "ball_radius_mm") return out.ball_radius = reader.number(v, {1e-3, 100}), true;
         if (key == "length_mm") return out.length = reader.number(v, {0, 2000}), true;
@@ -139,6 +139,7 @@ TouchProbeTruth read_probe(const TruthReader& reader, const YAML::Node& section)
         if (key == "seed") return out.seed = whole(v, seed), true;
         if (key == "no_signal_from_touch") return out.no_signal_from = whole(v, touch), true;
         if (key == "early_mm") return out.early = reader.number(v, {1e-3, 100}), true;
+        if (key == "stuck_from_touch") return out.stuck_from = whole(v, touch), true;
         return key == "early_from_touch" && (out.early_from = whole(v, touch), true);
       });
   return out;

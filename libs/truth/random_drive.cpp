@@ -31,4 +31,30 @@ MechanicsTruth draw_mechanics(const Grade& grade, std::uint64_t seed, std::uint3
   return m;
 }
 
+std::map<std::string, DriveTruth> draw_drives(const Grade& grade, std::uint64_t seed,
+                                              const MachineOutline& machine) {
+  std::map<std::string, DriveTruth> drives;
+  for (std::size_t i = 0; i < machine.drives.size(); ++i) {
+    const auto& name = machine.drives[i];
+    const bool turns =
+        std::find(machine.turning.begin(), machine.turning.end(), name) != machine.turning.end();
+    drives[name].mechanics = draw_mechanics(grade, seed, static_cast<std::uint32_t>(i), turns);
+  }
+  return drives;
+}
+
+BeamTruth draw_beam(const Grade& grade, std::uint64_t seed, const MachineOutline& machine, std::size_t axis) {
+  RandomSource random(seed * 0x2545f4914f6cdd1d + 0x2000);
+  const auto about = [&](double mean) { return mean * std::clamp(1 + 0.25 * random.normal(), 0.4, 1.6); };
+  const std::size_t across = axis == 0 ? 1 : 0;
+  BeamTruth beam;
+  beam.axis = axis;
+  beam.master_foot = machine.axes[across].low * Vec3::Unit(static_cast<Eigen::Index>(across));
+  beam.slave_foot = machine.axes[across].high * Vec3::Unit(static_cast<Eigen::Index>(across));
+  beam.misalignment = grade.beam.misalignment_um * 1e-3 * random.normal();
+  beam.racking_frequency = about(grade.beam.racking_frequency_Hz);
+  beam.racking_damping = about(grade.beam.racking_damping_ratio);
+  return beam;
+}
+
 }  // namespace trunnion::truth

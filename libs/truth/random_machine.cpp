@@ -29,7 +29,7 @@ std::vector<Grade> read_grades() {
       YAML::Load(grades_text), "names of grades", [&](const std::string& name, const YAML::Node& node) {
         Grade g;
         g.name = name;
-        reader.each(node, "about, linear, rotary, spindle, thermal, drive",
+        reader.each(node, "about, linear, rotary, spindle, thermal, drive, beam",
                     [&](const std::string& key, const YAML::Node& v) {
                       if (key == "about") return g.about = reader.text(v), true;
                       if (key == "linear")
@@ -60,6 +60,10 @@ std::vector<Grade> read_grades() {
                                            {"viscous_per_mm_per_s", &g.drive.viscous_per_mm_per_s},
                                            {"backlash_um", &g.drive.backlash_um},
                                            {"cogging", &g.drive.cogging}});
+                      if (key == "beam")
+                        return section(v, {{"misalignment_um", &g.beam.misalignment_um},
+                                           {"racking_frequency_Hz", &g.beam.racking_frequency_Hz},
+                                           {"racking_damping_ratio", &g.beam.racking_damping_ratio}});
                       return key == "thermal" &&
                              section(v,
                                      {{"expansion_um_per_m_K", &g.thermal.expansion_um_per_m_K},

@@ -39,6 +39,10 @@ struct Grade {
     double coulomb = 0, breakaway_excess = 0, viscous_per_mm_per_s = 0;  ///< breakaway over coulomb, less one
     double backlash_um = 0, cogging = 0;  ///< a rotary axis: at a radius of 100 mm
   } drive;
+  /// Of a machine with a gantry: a standard deviation, and means.
+  struct Beam {
+    double misalignment_um = 0, racking_frequency_Hz = 20, racking_damping_ratio = 0.05;
+  } beam;
 };
 
 /// Those of grades.yaml, in its order.

@@ -12,6 +12,8 @@ class RandomSource {
  public:
   explicit RandomSource(std::uint64_t seed = 0) : state_(seed) {}
 
+  /// A source of this seed continues.
+  std::uint64_t state() const { return state_; }
   /// 0 <= value < 1.
   double uniform() { return static_cast<double>(next() >> 11) * 0x1p-53; }
   /// Mean 0, standard deviation 1, never beyond 6: the sum of twelve uniform numbers less 6. Needs no

@@ -118,7 +118,7 @@ std::optional<double> TouchProbe::move(const ProbePose& pose, double duration) {
     }
   }
   const Solid* nearest = nullptr;
-  if (open_ && distance(pose.ball, nearest) > reseat + (early(touches_) ? truth_.early : 0)) {
+  if (open_ && !stuck() && distance(pose.ball, nearest) > reseat + (early(touches_) ? truth_.early : 0)) {
     open_ = waiting_ = signal_ = false;
     draw();
     margin_ = margin(pose.ball, pose);

@@ -26,6 +26,8 @@ struct TouchProbeTruth {
   std::uint32_t no_signal_from = 0;
   double early = 0;  ///< mm before the surface at which the edge comes, in place of the pre-travel ...
   std::uint32_t early_from = 1;  ///< ... from this touch on
+  /// Number of the touch from which on the contact does not close again; 0: none.
+  std::uint32_t stuck_from = 0;
 };
 
 /// Pre-travel for a surface whose outward normal is `normal` in the frame of the probe, without the noise,
@@ -41,6 +43,13 @@ struct ProbePose {
 /// The contact of the probe, followed from motion to motion. The solids are rigid, so the depth of the ball
 /// in them is its deflection. The contact opens when the depth reaches the pre-travel and closes when the
 /// ball is `reseat` off the surface; every touch draws one random number.
+/// What a probe keeps while nothing reads its signal: where its random numbers are, and its touches so far.
+struct TouchMemory {
+  std::uint64_t random = 0;
+  double noise = 0;  ///< mm, of the next touch
+  std::uint64_t touches = 0;
+};
+
 class TouchProbe {
  public:
   static constexpr double reseat = 1e-3;  ///< mm
@@ -55,6 +64,11 @@ class TouchProbe {
   std::optional<double> move(const ProbePose& pose, double duration);
   /// The signal: on from the edge until the contact closes.
   bool signal() const { return signal_; }
+  TouchMemory memory() const { return {random_.state(), noise_, touches_}; }
+  void restore(const TouchMemory& memory) {
+    random_ = RandomSource(memory.random);
+    noise_ = memory.noise, touches_ = static_cast<std::uint32_t>(memory.touches);
+  }
   /// Switched off, the probe gives no signal.
   void switch_off() { open_ = waiting_ = signal_ = false; }
 
@@ -67,6 +81,7 @@ class TouchProbe {
 
  private:
   bool early(std::uint32_t touch) const { return truth_.early > 0 && touch >= truth_.early_from; }
+  bool stuck() const { return truth_.stuck_from > 0 && touches_ >= truth_.stuck_from; }
   double distance(const Vec3& ball, const Solid*& nearest) const;
   double margin(const Vec3& ball, const ProbePose& pose) const;
   double contact_share(const Vec3& from, const ProbePose& pose) const;

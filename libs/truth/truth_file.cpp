@@ -9,6 +9,7 @@
 #include "truth/drive_section.hpp"
 #include "truth/error_section.hpp"
 #include "truth/probe_section.hpp"
+#include "truth/random_drive.hpp"
 #include "truth/random_machine.hpp"
 #include "truth/truth_reader.hpp"
 #include "truth/units.hpp"
@@ -38,20 +39,21 @@ class TruthParser {
   Truth parse(const YAML::Node& root) {
     if (root.IsNull()) return truth_;
     if (root.IsMap() && root["random"]) random(root["random"]);
-    reader_.each(root, "structure, random, axes, spindle, beam, drives, instruments, probe, solids",
-                 [&](const std::string& key, const YAML::Node& node) {
-                   if (key == "structure") return structure(node), true;
-                   if (key == "random") return true;
-                   if (key == "axes") return axes(node), true;
-                   if (key == "spindle") return spindle(node), true;
-                   if (key == "instruments") return instruments(node), true;
-                   if (key == "probe") return truth_.probe = read_probe(reader_, node), true;
-                   if (key == "solids") return truth_.solids = read_solids(reader_, node), true;
-                   if (key == "drives")
-                     return truth_.drives = read_drives(reader_, node, machine_.drives, machine_.turning),
-                            true;
-                   return key == "beam" && (beam(node), true);
-                 });
+    reader_.each(
+        root, "structure, random, axes, spindle, beam, drives, spindle_drives, instruments, probe, solids",
+        [&](const std::string& key, const YAML::Node& node) {
+          if (key == "structure") return structure(node), true;
+          if (key == "random") return true;
+          if (key == "axes") return axes(node), true;
+          if (key == "spindle") return spindle(node), true;
+          if (key == "instruments") return instruments(node), true;
+          if (key == "probe") return truth_.probe = read_probe(reader_, node), true;
+          if (key == "solids") return truth_.solids = read_solids(reader_, node), true;
+          if (key == "drives") return drives(node), true;
+          if (key == "spindle_drives")
+            return truth_.spindle_drives = read_spindle_drives(reader_, node, machine_.spindles), true;
+          return key == "beam" && (beam(node), true);
+        });
     check(root);
     return truth_;
   }
@@ -59,18 +61,31 @@ class TruthParser {
  private:
   GeometryTruth& geometry() { return truth_.geometry; }
 
+  // Replaces drawn ones.
+  void drives(const YAML::Node& node) {
+    for (auto& [name, drive] : read_drives(reader_, node, machine_.drives, machine_.turning))
+      truth_.drives[name] = std::move(drive);
+  }
+
   void random(const YAML::Node& node) {
     std::string grade;
     double seed = 1;
-    reader_.each(node, "grade, seed", [&](const std::string& key, const YAML::Node& value) {
+    bool drives = false;
+    reader_.each(node, "grade, seed, drives", [&](const std::string& key, const YAML::Node& value) {
       if (key == "grade") return grade = reader_.text(value), true;
+      if (key == "drives")
+        return drives = reader_.choice<bool>(value, {{"false", false}, {"true", true}}), true;
       return key == "seed" && (seed = reader_.number(value, {0, 4294967295.0}), true);
     });
     std::map<std::string, const Grade*> known;
     for (const Grade& g : grades()) known[g.name] = &g;
     if (!node["grade"]) reader_.fail(node, "'grade' is missing");
-    geometry() =
-        draw_machine(*reader_.choice(node["grade"], known), static_cast<std::uint64_t>(seed), machine_);
+    const Grade& drawn = *reader_.choice(node["grade"], known);
+    const auto number = static_cast<std::uint64_t>(seed);
+    geometry() = draw_machine(drawn, number, machine_);
+    if (!drives) return;
+    truth_.drives = draw_drives(drawn, number, machine_);
+    if (machine_.gantry) geometry().beam = draw_beam(drawn, number, machine_, *machine_.gantry);
   }
 
   std::size_t axis(const YAML::Node& node, const std::string& name) const {

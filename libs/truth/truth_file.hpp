@@ -15,8 +15,9 @@
 namespace trunnion::truth {
 
 struct Truth {
-  GeometryTruth geometry;                    ///< with the errors that `random` has drawn
-  std::map<std::string, DriveTruth> drives;  ///< by the name of the servo axis
+  GeometryTruth geometry;                              ///< with the errors that `random` has drawn
+  std::map<std::string, DriveTruth> drives;            ///< by the name of the servo axis
+  std::map<std::string, SpindleTruth> spindle_drives;  ///< by the name of the spindle
   /// ballbar, laser, rtest (mm), laser_angle (rad); without an entry an instrument is exact.
   std::map<std::string, InstrumentTruth> instruments;
   std::optional<TouchProbeTruth> probe;  ///< in the spindle

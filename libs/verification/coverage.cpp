@@ -23,7 +23,9 @@ using idl::stream::PathFrame;
 
 const std::map<std::string, std::vector<std::string>>& feature_names() {
   static const std::map<std::string, std::vector<std::string>> names = {
-      {"channel", {"motion", "tool tip control", "skip move", "tapping", "M", "S", "T", "refused command"}},
+      {"channel",
+       {"motion", "tool tip control", "skip move", "tapping", "M", "S", "T", "cycle of a service",
+        "refused command"}},
       {"kinematics", {"motion", "tool tip control", "tool length"}},
       {"compensation", {"motion", "backlash", "pitch error", "correction"}},
       {"gantry", {"motion", "gantry pair"}},
@@ -78,6 +80,8 @@ class Search {
       see("M", auxiliary_.kind == AuxiliaryKind::M);
       see("S", auxiliary_.kind == AuxiliaryKind::S);
       see("T", auxiliary_.kind == AuxiliaryKind::T);
+    } else if (message.topic->handle == "cycle_request") {
+      see("cycle of a service", true);
     } else if (is(message, "auxiliary_done", done_)) {
       see(done_.failed ? "refused function" : "function", true);
     } else if (is(message, "channel_reply", channel_reply_)) {

@@ -20,9 +20,9 @@ constexpr std::uint64_t shown_rows = 3;  // before and after the first differenc
 // In the order of the stream; then what is published when it changes and not by the clock.
 const std::vector<std::string>& default_topics() {
   static const std::vector<std::string> handles = {
-      "path_frame",     "kinematics_frame",  "compensation_frame", "gantry_frame",
-      "feedback_frame", "stream_request",    "parameter_set",      "tool_table",
-      "work_offsets",   "auxiliary_request", "auxiliary_done",     "alarm"};
+      "path_frame",     "kinematics_frame", "compensation_frame", "gantry_frame", "feedback_frame",
+      "stream_request", "parameter_set",    "tool_table",         "work_offsets", "auxiliary_request",
+      "auxiliary_done", "cycle_request",    "cycle_reply",        "alarm"};
   return handles;
 }
 

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "bus/codec.hpp"
+#include "bus/json.hpp"
 #include "contracts/topics.hpp"
 #include "storage/crc32.hpp"
 #include "verification/shown_state.hpp"
@@ -24,6 +25,18 @@ bool act_on(const StoredMessage& message, const char* handle, Act act) {
   if (message.topic->handle != handle || !bus::decode(message.cdr, value)) return false;
   act(value);
   return true;
+}
+
+// What is asked of the journal of the parameters service, a file that is not in a recording.
+bool is_of_journal(const OperatorLine& line) { return line.target.starts_with("/api/measurement/undo"); }
+
+// Another sender would have got another answer.
+bool is_refused_to_sender(const OperatorLine& line) {
+  constexpr unsigned no_login = 401, not_permitted = 403, conflict = 409;
+  if (line.status == no_login) return true;
+  if (line.status == not_permitted) return line.sender != idl::gateway::Sender::FOREIGN_PAGE;
+  return line.status == conflict && line.requests == 0 &&
+         line.answer.find(" operates this machine: ") != std::string::npos;
 }
 
 template <class Act>
@@ -126,6 +139,7 @@ class Plan {
   // A request can be sent again when it was answered and all of it is in the recording.
   std::optional<OperatorRequest> again(const OperatorLine& line) const {
     OperatorRequest request{line, line.body, {}};
+    if (is_refused_to_sender(line) || is_of_journal(line)) return std::nullopt;
     if (line.status == 0 || line.status == not_read_to_its_end || line.target.size() >= target_bytes)
       return std::nullopt;
     if (line.body.size() != line.body_size) {

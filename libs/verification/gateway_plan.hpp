@@ -34,7 +34,9 @@ struct GatewayPlan {
   VerifyPlan outputs;  ///< all but steps and end
   std::deque<OperatorRequest> requests;
   std::vector<GatewayStep> steps;
-  /// Lines that cannot be sent again: nobody waited for the answer, or the body is not in the recording.
+  /// Lines that cannot be sent again: nobody waited for the answer, the body or a file it
+  /// is answered from is not in the recording, or who sent it was refused for who he is (no login, a role,
+  /// another station operates).
   std::size_t left_out = 0;
 };
 

@@ -50,6 +50,12 @@ std::pair<Mark, bool> Progress::observe(const StoredMessage& message) {
             },
             mark) &&
         !numbered(
+            message, "cycle_request", cycle_request_,
+            [](const auto& v) {
+              return Place{v.number, static_cast<std::uint64_t>(v.caller)};
+            },
+            mark) &&
+        !numbered(
             message, "stream_request", stream_request_,
             [](const auto& v) {
               return Place{0, v.request};

@@ -53,6 +53,7 @@ class Progress {
   idl::stream::InputLog input_log_;
   idl::stream::StreamRequest stream_request_;
   idl::channel::AuxiliaryRequest auxiliary_request_;
+  idl::channel::CycleRequest cycle_request_;
   idl::plc::AuxiliaryDone auxiliary_done_;
 };
 

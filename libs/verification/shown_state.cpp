@@ -34,9 +34,11 @@ bool is(const StoredMessage& message, const char* handle, T& value) {
 }  // namespace
 
 bool is_shown(const bus::TopicEntry& topic) {
-  static const std::set<std::string> handles = {
-      "announcement", "service_state", "alarm",        "cluster",      "channel_state", "feedback_frame",
-      "plc_outputs",  "tool_table",    "work_offsets", "program_list", "parameter_set", "plc_image"};
+  static const std::set<std::string> handles = {"announcement",      "service_state",     "alarm",
+                                                "cluster",           "channel_state",     "feedback_frame",
+                                                "plc_outputs",       "tool_table",        "work_offsets",
+                                                "program_list",      "parameter_set",     "plc_image",
+                                                "measurement_state", "measurement_result"};
   return handles.contains(topic.handle);
 }
 
@@ -50,6 +52,8 @@ void ShownState::observe(const StoredMessage& message) {
   idl::parameters::ParameterSet set;
   idl::parameters::ToolTable tools;
   idl::parameters::WorkOffsets offsets;
+  idl::measurement::MeasurementState measurement;
+  idl::measurement::MeasurementResult result;
   idl::program::ProgramList programs;
   idl::plc::Image image;
   if (is(message, "announcement", announcement)) {
@@ -90,10 +94,13 @@ void ShownState::observe(const StoredMessage& message) {
               {"spindle_speed", feedback.spindle_speed}};
     feedback_ = std::move(feedback);
   } else if (is(message, "plc_outputs", outputs)) {
+    auto channels = Json::array();
+    for (const auto& control : outputs.channels) channels.push_back(bus::to_json(control));
     plc_ = {{"emergency_stop", outputs.emergency_stop},
             {"feed_hold", outputs.feed_hold},
             {"coolant", outputs.coolant},
-            {"spindle_speed", outputs.spindle_speed}};
+            {"spindle_speed", outputs.spindle_speed},
+            {"channels", std::move(channels)}};
   } else if (is(message, "parameter_set", set)) {
     revisions_["parameters"] = set.revision;
     revisions_["pending"] = set.pending.size();
@@ -108,6 +115,10 @@ void ShownState::observe(const StoredMessage& message) {
   } else if (is(message, "program_list", programs)) {
     revisions_["programs"] = programs.revision;
     newest_["/api/programs"] = bus::to_json(programs);
+  } else if (is(message, "measurement_state", measurement)) {
+    measurement_ = bus::to_json(measurement);
+  } else if (is(message, "measurement_result", result)) {
+    measurement_result_ = bus::to_json(result);
   } else if (is(message, "plc_image", image)) {
     newest_["/api/plc/image"] = bus::to_json(image);
   }
@@ -196,6 +207,7 @@ Json ShownState::document() const {
   json["axes"] = axes();
   if (!drive_.is_null()) json["drive"] = drive_;
   if (!plc_.is_null()) json["plc"] = plc_;
+  if (!measurement_.is_null()) json["measurement"] = measurement_;
   auto& revisions = json["revisions"] = Json::object();
   for (const auto& [what, revision] : revisions_) revisions[what] = revision;
   return as_sent(json);
@@ -204,6 +216,11 @@ Json ShownState::document() const {
 std::map<std::string, Json> ShownState::answers() const {
   std::map<std::string, Json> answers;
   for (const auto& [path, answer] : newest_) answers[path] = as_sent(answer);
+  if (!measurement_.is_null()) {
+    Json measurement = {{"state", measurement_}};
+    if (!measurement_result_.is_null()) measurement["result"] = measurement_result_;
+    answers["/api/measurement"] = as_sent(measurement);
+  }
   auto list = Json::array();
   for (const auto& [number, state] : channels_) list.push_back(state);
   answers["/api/channels"] = as_sent({{"channels", std::move(list)}});
@@ -245,7 +262,7 @@ std::string shown_difference(const Json& expected, const Json& shown, const std:
       if (auto found = shown_difference(value, shown[name], below(name)); !found.empty()) return found;
     }
     for (const auto& [name, value] : shown.items())
-      if (!expected.contains(name)) return differs(name + " is shown, but nothing tells of it");
+      if (!expected.contains(name)) return differs(name + " is shown, but no topic has it");
     return "";
   }
   if (expected.is_array() && shown.is_array() && expected.size() == shown.size()) {

@@ -44,7 +44,7 @@ class ShownState {
   std::map<std::uint16_t, bus::Json> channels_;
   std::map<std::string, std::uint64_t> revisions_;
   std::map<std::string, bus::Json> newest_;  ///< of the topics that are read as they are, by path
-  bus::Json cluster_, drive_, plc_;
+  bus::Json cluster_, drive_, plc_, measurement_, measurement_result_;
   idl::service::Cluster plan_;
   idl::stream::FeedbackFrame feedback_;
   std::vector<double> commanded_, actual_;  ///< the newest row

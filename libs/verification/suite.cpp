@@ -2,12 +2,13 @@
 #include "verification/suite.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
+#include <limits>
 #include <stdexcept>
 
 #include "machine/services.hpp"
 #include "machine/yaml.hpp"
+#include "machine/yaml_reader.hpp"
 
 namespace trunnion::verification {
 namespace {
@@ -20,11 +21,11 @@ constexpr int plotted_rows = 60;  // before and after the first difference
 class Parser {
  public:
   explicit Parser(const std::string& file)
-      : file_(file), directory_(std::filesystem::path(file).parent_path()) {}
+      : file_(file), reader_(file), directory_(std::filesystem::path(file).parent_path()) {}
 
   Suite parse(const std::string& text) {
     const auto document = machine::parse_yaml(text, file_);
-    check_keys(document, {"title", "timeout", "tests"});
+    reader_.only(document, {"title", "timeout", "tests"});
     Suite suite;
     if (const auto title = document["title"]) suite.title = scalar(file_, title);
     if (const auto timeout = document["timeout"]) {
@@ -41,29 +42,9 @@ class Parser {
   }
 
  private:
-  void check_keys(const YAML::Node& node, const std::vector<std::string>& known) const {
-    if (!node.IsMap()) throw std::runtime_error(at(file_, node) + "expected keys with values");
-    for (const auto& pair : node) {
-      const auto key = scalar(file_, pair.first);
-      if (std::ranges::find(known, key) != known.end()) continue;
-      std::string list;
-      for (const auto& name : known) list.append(list.empty() ? "" : ", ").append(name);
-      throw std::runtime_error(
-          at(file_, pair.first).append("unknown key '").append(key).append("', known are ").append(list));
-    }
-  }
-
   double number(const YAML::Node& node) const {
-    const auto text = scalar(file_, node);
-    std::size_t used = 0;
-    double value = 0;
-    try {
-      value = std::stod(text, &used);
-    } catch (const std::exception&) {
-    }
-    if (used == 0 || used != text.size() || !std::isfinite(value))
-      throw std::runtime_error(at(file_, node) + "'" + text + "' is not a number");
-    return value;
+    constexpr double largest = std::numeric_limits<double>::max();
+    return reader_.number(node, {-largest, largest});
   }
 
   std::vector<std::string> list(const YAML::Node& node) const {
@@ -83,7 +64,8 @@ class Parser {
   std::string path(const std::string& text) const { return (directory_ / text).lexically_normal().string(); }
 
   SuiteEntry entry(const YAML::Node& node) const {
-    check_keys(node, {"recording", "machine", "vendor", "services", "executables", "tolerances", "require"});
+    reader_.only(node,
+                 {"recording", "machine", "vendor", "services", "executables", "tolerances", "require"});
     SuiteEntry entry;
     entry.place = at(file_, node);
     if (!node["recording"]) throw std::runtime_error(entry.place + "'recording' is missing");
@@ -130,6 +112,7 @@ class Parser {
   }
 
   std::string file_;
+  machine::YamlReader reader_;
   std::filesystem::path directory_;
 };
 
@@ -158,7 +141,9 @@ std::vector<SuiteTest> tests_of(
     std::vector<std::string> services = entry.services;
     if (services.empty())
       for (const auto& process : processes)
-        if (std::ranges::find(services, process.service) == services.end())
+        if (const auto* definition = machine::find_service(process.service);
+            (definition == nullptr || !definition->not_verified) &&
+            std::ranges::find(services, process.service) == services.end())
           services.push_back(process.service);
     for (const auto& service : services) add(service);
     for (const auto& [service, features] : entry.required)

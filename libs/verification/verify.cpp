@@ -11,6 +11,7 @@
 #include "contracts/topics.hpp"
 #include "service/node.hpp"
 #include "verification/answers.hpp"
+#include "verification/repetitions.hpp"
 #include "verification/verify_gateway.hpp"
 #include "verification/verify_place.hpp"
 #include "verification/verify_plan.hpp"
@@ -47,6 +48,7 @@ class Feeding {
 
   // Empty when everything came, else what did not.
   std::string run() {
+    bool cyclic_under_way = false;
     for (const auto& step : plan_.steps) {
       if (!wait_for(step.needs)) return missing(step.needs);
       auto& to = writer(*step.message->topic);
@@ -55,7 +57,11 @@ class Feeding {
                                         : process_.ended();
       if (began_ == 0 && is_cyclic(*step.message->topic)) began_ = service::monotonic_seconds();
       drain();
+      // What came before must not be overtaken: a request when the axes have come to rest is one that is
+      // accepted.
+      if (step.apart && cyclic_under_way) await_taken();
       to.write(step.message->cdr);
+      cyclic_under_way = !step.apart;
       if (step.apart) await_taken();
     }
     if (!wait_for(plan_.end)) return missing(plan_.end);
@@ -160,7 +166,7 @@ class Feeding {
       if (progress_.reached(need)) continue;
       const auto at = progress_.at(need.track);
       if (!is_own(*need.track.topic))
-        return "the service has not told of taking " + need.track.topic->handle + " number " +
+        return "the service has not reported that it has taken " + need.track.topic->handle + " number " +
                std::to_string(need.place.minor);
       return "the service wrote nothing more of " + need.track.topic->handle + " after " +
              std::to_string(at.minor) + ", the recording has it up to " + std::to_string(need.place.minor);
@@ -186,7 +192,8 @@ class Feeding {
 }  // namespace
 
 VerifyResult verify(const VerifyOptions& options) {
-  const auto recording = load_recording(options.recording);
+  auto recording = load_recording(options.recording);
+  drop_repetitions(recording.messages);
   if (options.service == "gateway") return verify_gateway(options, recording);
   const auto plan = plan_verification(recording, options.service, options.channel);
 
@@ -201,6 +208,8 @@ VerifyResult verify(const VerifyOptions& options) {
     result.seconds = feeding.seconds();
     produced = std::move(feeding.produced());
   }
+  if (const auto lost = missing_feedback(plan); !result.problem.empty() && !lost.empty())
+    result.problem += "; " + lost;
   result.inputs = plan.steps.size();
   result.outputs = produced.size();
   result.cycles = plan.cycles;

@@ -13,6 +13,7 @@
 #include "service/node.hpp"
 #include "storage/crc32.hpp"
 #include "verification/gateway_plan.hpp"
+#include "verification/repetitions.hpp"
 #include "verification/shown_state.hpp"
 #include "verification/verify_place.hpp"
 
@@ -151,7 +152,8 @@ class Verification {
                                : line.sender == Sender::FOREIGN_PAGE ? "Origin: http://elsewhere.invalid\r\n"
                                                                      : "";
     auto answering = std::async(std::launch::async, [&] {
-      return http_client::request(port_, line.method, line.target, request.body, origin);
+      const auto user = line.user.empty() ? "" : "Authorization: Bearer " + line.user + "\r\n";
+      return http_client::request(port_, line.method, line.target, request.body, origin + user);
     });
     while (answering.wait_for(std::chrono::seconds(0)) != std::future_status::ready) {
       bus_.signal().wait(short_wait);
@@ -256,7 +258,7 @@ VerifyResult verify_gateway(const VerifyOptions& options, const StoredRecording&
     const VerifyPlace place(options.domain);
     const auto port = http_client::free_port();
     auto arguments = command_line(options, recording, plan.outputs, place);
-    arguments.insert(arguments.end(), {"--port", std::to_string(port)});
+    arguments.insert(arguments.end(), {"--port", std::to_string(port), "--verified"});
     bus::Bus bus(bus::Vendor::cyclonedds, {place.domain()}, {stream_frames});
     cluster::ChildProcess process(child_options(std::move(arguments), place));
     Verification verification(options, plan, bus, process, port);
@@ -266,6 +268,7 @@ VerifyResult verify_gateway(const VerifyOptions& options, const StoredRecording&
     result.outputs = verification.produced().size();
     if (result.problem.empty())
       result.problem = unexpected_alarm(recording.messages, verification.produced(), options.service);
+    drop_repetitions(verification.produced());
     produced = by_line(verification.produced(), verification.lines(), true);
   }
   result.inputs = plan.steps.size() - result.samples;

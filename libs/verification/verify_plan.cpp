@@ -2,12 +2,16 @@
 #include "verification/verify_plan.hpp"
 
 #include <algorithm>
+#include <map>
+#include <optional>
+#include <set>
 #include <stdexcept>
 
 #include "bus/codec.hpp"
 #include "contracts/topics.hpp"
 #include "machine/parameter_constants.hpp"
 #include "machine/parameters.hpp"
+#include "machine/services.hpp"
 #include "verification/stage_plan.hpp"
 #include "verification/tick_plan.hpp"
 
@@ -56,8 +60,10 @@ class Ownership {
     if (handle == "stream_request") return bus::decode(message.cdr, stream_) && stream_.channel == channel_;
     if (handle == "auxiliary_request")
       return bus::decode(message.cdr, auxiliary_) && auxiliary_.channel == channel_;
+    if (handle == "cycle_request") return bus::decode(message.cdr, cycle_) && cycle_.channel == channel_;
     if (handle == "channel_reply") {
       if (!bus::decode(message.cdr, reply_)) return false;
+      if (reply_.client == 1u + channel_) return true;  // outputs of the PLC that it has taken
       const auto found = request_channels_.find({reply_.client, reply_.number});
       return found != request_channels_.end() && found->second == channel_;
     }
@@ -71,7 +77,66 @@ class Ownership {
   MessageRows rows_;
   idl::stream::StreamRequest stream_;
   idl::channel::AuxiliaryRequest auxiliary_;
+  idl::channel::CycleRequest cycle_;
   idl::channel::ChannelReply reply_;
+};
+
+// When the inputs of a channel took effect. It answers a request, and says of outputs of the PLC that changed
+// something (as client 1 + its number, with their tick), before it computes the next cycle: by one clock,
+// that of its own outputs. Outputs that others replaced before it read them had no effect.
+class TimesOfEffect {
+ public:
+  TimesOfEffect(const StoredRecording& recording, std::uint16_t channel) : channel_(channel) {
+    std::vector<const StoredMessage*> by_time;
+    for (const auto& message : recording.messages) by_time.push_back(&message);
+    std::stable_sort(by_time.begin(), by_time.end(),
+                     [](const auto* a, const auto* b) { return a->time < b->time; });
+    for (const auto* message : by_time) take(*message);
+    for (const auto* message : by_time) see(*message);
+  }
+  std::uint64_t of(const StoredMessage& message) const {
+    const auto found = effects_.find(&message);
+    return found == effects_.end() ? message.time : std::max(message.time, found->second - 1);
+  }
+  bool had_none(const StoredMessage& message) const { return replaced_.contains(&message); }
+
+ private:
+  using Control = std::pair<bool, idl::plc::ChannelControl>;
+
+  // What the channel says it has taken: of the outputs of that tick the newest then.
+  void take(const StoredMessage& message) {
+    if (message.topic->handle == "plc_outputs" && bus::decode(message.cdr, outputs_)) {
+      newest_[outputs_.tick] = &message;
+    } else if (message.topic->handle == "channel_reply" && bus::decode(message.cdr, reply_)) {
+      if (reply_.client != 1u + channel_)
+        answered_.try_emplace({reply_.client, reply_.number}, message.time);
+      else if (const auto outputs = newest_.find(reply_.number); outputs != newest_.end())
+        effects_.try_emplace(outputs->second, message.time);
+    }
+  }
+  void see(const StoredMessage& message) {
+    if (message.topic->handle == "channel_request" && bus::decode(message.cdr, request_)) {
+      const auto found = answered_.find({request_.client, request_.number});
+      if (found != answered_.end()) effects_[&message] = found->second;
+    } else if (message.topic->handle == "plc_outputs" && bus::decode(message.cdr, outputs_)) {
+      Control control(outputs_.feed_hold, channel_ < outputs_.channels.size() ? outputs_.channels[channel_]
+                                                                              : idl::plc::ChannelControl{});
+      if (!in_force_ || effects_.contains(&message))
+        in_force_ = std::move(control);
+      else if (control != *in_force_)
+        replaced_.insert(&message);
+    }
+  }
+
+  std::uint16_t channel_;
+  std::map<std::pair<std::uint64_t, std::uint64_t>, std::uint64_t> answered_;
+  std::map<std::uint64_t, const StoredMessage*> newest_;  // outputs by their tick
+  std::optional<Control> in_force_;
+  std::map<const StoredMessage*, std::uint64_t> effects_;
+  std::set<const StoredMessage*> replaced_;
+  idl::channel::ChannelReply reply_;
+  idl::channel::ChannelRequest request_;
+  idl::plc::Outputs outputs_;
 };
 
 // In the order of the recording, each input once the service has written what it had written before it.
@@ -79,21 +144,28 @@ class OrderedPlan {
  public:
   OrderedPlan(const StoredRecording& recording, const std::string& service, std::uint16_t channel,
               VerifyPlan& plan)
-      : recording_(recording), service_(service), ownership_(recording, service, channel), plan_(plan) {}
+      : recording_(recording),
+        service_(service),
+        channel_(channel),
+        ownership_(recording, service, channel),
+        plan_(plan) {}
 
   void make() {
-    std::vector<const StoredMessage*> order;
+    std::vector<std::pair<std::uint64_t, const StoredMessage*>> order;
+    std::optional<TimesOfEffect> effects;
+    if (service_ == "channel") effects.emplace(recording_, channel_);
     for (const auto& message : recording_.messages)
-      if (!plan_.seed || is_to_come(message)) order.push_back(&message);
+      if ((!plan_.seed || is_to_come(message)) && !(effects && effects->had_none(message)))
+        order.emplace_back(effects ? effects->of(message) : message.time, &message);
     if (plan_.seed)
       for (const auto* message : plan_.seed->needed_to_start(recording_, false))
         if (is_input(*message) && !plan_.topics.contains(message->topic->handle))
           plan_.steps.push_back({message, {}, true});
     std::stable_sort(order.begin(), order.end(),
-                     [](const auto* a, const auto* b) { return a->time < b->time; });
+                     [](const auto& a, const auto& b) { return a.first < b.first; });
     Progress progress;
     std::map<Track, Place> raised;  // by outputs since the last step
-    for (const auto* message : order) {
+    for (const auto& [time, message] : order) {
       if (plan_.topics.contains(message->topic->handle) && ownership_.owns(*message)) {
         if (plan_.seed && !plan_.seed->covers(*message)) continue;
         plan_.expected.push_back(*message);
@@ -133,6 +205,7 @@ class OrderedPlan {
 
   const StoredRecording& recording_;
   const std::string& service_;
+  const std::uint16_t channel_;
   Ownership ownership_;
   VerifyPlan& plan_;
   MessageRows rows_;
@@ -197,6 +270,10 @@ VerifyPlan plan_verification(const StoredRecording& recording, const std::string
     }
   }
   if (service == "channel" && has_several_channels(recording)) plan.ignored.insert("auxiliary_request.cycle");
+  if (const auto* definition = machine::find_service(service);
+      definition != nullptr && definition->not_verified)
+    throw std::runtime_error("service " + service +
+                             " is not verified: what it writes depends on its own clock");
   if (plan.expected.empty())
     throw std::runtime_error(
         "the recording has no output of service " + service +
@@ -229,6 +306,22 @@ std::size_t VerifyPlan::drop_unrecorded(std::vector<StoredMessage>& produced) co
     return found == recorded.end() || rows.span().first >= found->second.second ||
            rows.span().first + rows.span().count <= found->second.first;
   });
+}
+
+std::string missing_feedback(const VerifyPlan& plan) {
+  MessageRows rows;
+  std::uint64_t end = 0;
+  for (const auto& step : plan.steps) {
+    if (step.message->topic->handle != "feedback_frame" ||
+        !rows.load(*step.message->topic, step.message->cdr))
+      continue;
+    const auto& span = rows.span();
+    if (end != 0 && span.first > end)
+      return "the recording misses cycles " + std::to_string(end) + " to " + std::to_string(span.first - 1) +
+             " of feedback_frame";
+    end = span.first + span.count;
+  }
+  return "";
 }
 
 std::map<std::pair<std::uint32_t, std::uint32_t>, std::string> raised_alarms(

@@ -54,6 +54,10 @@ VerifyPlan plan_verification(StoredRecording&&, const std::string&,
 VerifyPlan surroundings(const StoredRecording& recording, const std::string& service,
                         std::uint16_t channel = 0);
 
+/// The first cycles of the drive's feedback that the recorder has lost between those of `plan`, in one line;
+/// empty when it has them all.
+std::string missing_feedback(const VerifyPlan& plan);
+
 /// Alarms that `service` raises in `messages`: number, part and text of the first.
 std::map<std::pair<std::uint32_t, std::uint32_t>, std::string> raised_alarms(
     const std::vector<StoredMessage>& messages, const std::string& service);

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "volumetric/volumetric_compensation.hpp"
 
+#include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
 #include "geometry/angle.hpp"
-#include "geometry/decompositions.hpp"
 
 namespace trunnion::volumetric {
 namespace {

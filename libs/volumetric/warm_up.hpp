@@ -32,6 +32,10 @@ using HeatSources = std::array<HeatSource, heat_source_count>;
 /// First-order warm-up: dT/dt = (rise_per_speed * |speed| + constant_rise - T) / time_constant.
 class WarmUp {
  public:
+  WarmUp() = default;
+  /// Continues from these temperatures.
+  explicit WarmUp(const Temperatures& rise) : rise_(rise) {}
+
   /// Advances by `dt` s at `speeds` (mm/s, deg/s, 1/min; any sign). Backward Euler, whose bits do not depend
   /// on the host's exponential function and whose error over a warm-up is below dt / time_constant.
   void step(const HeatSources& sources, const std::array<double, heat_source_count>& speeds, double dt);

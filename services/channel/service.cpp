@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "service.hpp"
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -8,6 +9,7 @@
 
 #include "machine/alarm_constants.hpp"
 #include "machine/parameter_constants.hpp"
+#include "machine/service_constants.hpp"
 #include "service/damage_alarm.hpp"
 #include "snapshot/fields.hpp"
 #include "storage/file.hpp"
@@ -20,6 +22,7 @@ namespace trunnion::channel {
 namespace {
 constexpr double history_pause = 1.0;   // without feedback: longer than a drive that lives is ever silent
 constexpr double record_seconds = 0.2;  // between two records of the executed line
+constexpr double cycle_timeout = 3.0;   // of the service of a cycle, to say that it has the call
 constexpr double text_timeout = 0.5;    // without the text that motion waits for, before the alarm
 }  // namespace
 
@@ -34,12 +37,14 @@ ChannelService::ChannelService(service::Node& node)
       offsets_(node.bus().reader(topics::work_offsets)),
       programs_(node.bus().reader(topics::program_list)),
       done_(node.bus().reader(topics::auxiliary_done)),
+      cycle_replies_(node.bus().reader(topics::cycle_reply)),
       outputs_(node.bus().reader(topics::plc_outputs)),
       alarm_reader_(node.bus().reader(topics::alarm)),
       cluster_reader_(node.bus().reader(topics::cluster)),
       state_writer_(node.bus().writer(topics::channel_state)),
       variables_writer_(node.bus().writer(topics::variables)),
       auxiliary_writer_(node.bus().writer(topics::auxiliary_request)),
+      cycle_writer_(node.bus().writer(topics::cycle_request)),
       stream_writer_(node.bus().writer(topics::stream_request)),
       hand_over_file_(node.options().state_directory + "/channel-" + std::to_string(node.options().channel) +
                       ".handover"),
@@ -48,8 +53,13 @@ ChannelService::ChannelService(service::Node& node)
       record_file_(node.options().state_directory + "/channel-" + std::to_string(node.options().channel) +
                    ".program"),
       record_(record_file_) {
+  const auto& services = node.options().machine.services;
+  core_.set_cycle_service(std::any_of(services.begin(), services.end(), [](const auto& s) {
+    return s.service == machine::service::measurement.name;
+  }));
   replicas_ = stream::ReplicaWatch(node.options().machine.services, service::monotonic_seconds());
   if (!replicas_.replicas().empty()) progress_reader_.emplace(node.bus().reader(topics::stage_progress));
+  if (node.options().virtual_time) recording_reader_.emplace(node.bus().reader(topics::recording_progress));
   std::ifstream boot(node.options().state_directory + "/cluster.boot");
   std::getline(boot, boot_);
   read_bodies();
@@ -98,7 +108,9 @@ void ChannelService::read_record() {
 // The line is written now and then, the beginning and the end of a program at once.
 void ChannelService::keep_record() {
   const double now = service::monotonic_seconds();
-  if (core_.program_under_way() == (kept_.line != 0) && now - kept_at_ < record_seconds) return;
+  if (core_.program_under_way() == (kept_.line != 0) && core_.parts() == kept_.parts &&
+      now - kept_at_ < record_seconds)
+    return;
   const auto program = core_.running_program();
   if (program == kept_) return;
   record_.put(write_record(program));
@@ -184,22 +196,35 @@ void ChannelService::publish_variables(const language::VariableStore& variables)
 void ChannelService::save_variables() {
   const auto* variables = core_.take_variables();
   if (variables == nullptr) return;
-  publish_variables(*variables);
   const auto channel = static_cast<std::uint32_t>(node_.options().channel);
   try {
     const auto text = write_variables(*variables, boot_);
-    if (text == saved_variables_) return;
-    storage::write_kept(variables_file_, text);
-    saved_variables_ = text;
-    node_.alarms().release(alarm::storage_failed, channel);
+    if (text != saved_variables_) {
+      storage::write_kept(variables_file_, text);
+      saved_variables_ = text;
+      node_.alarms().release(alarm::storage_failed, channel);
+    }
   } catch (const storage::StorageError& e) {
     node_.alarms().raise(alarm::storage_failed, channel, e.what());
   }
+  publish_variables(*variables);  // what is published survives a kill
 }
 
 void ChannelService::change_tables() {
   if (auto reply = table_client_.poll()) core_.on_table_changed(reply->accepted ? "" : reply->reason);
   if (auto request = core_.take_table_request()) table_client_.send(std::move(*request));
+}
+
+void ChannelService::watch_cycle() {
+  const double now = service::monotonic_seconds();
+  if (!core_.cycle_unheard()) {
+    cycle_unheard_since_ = -1;
+  } else if (cycle_unheard_since_ < 0) {
+    cycle_unheard_since_ = now;
+  } else if (now - cycle_unheard_since_ > cycle_timeout) {
+    core_.give_up_cycle();
+    cycle_unheard_since_ = -1;
+  }
 }
 
 void ChannelService::start_stream() {
@@ -232,7 +257,7 @@ void ChannelService::watch_alarms() {
   }
   idl::plc::Outputs outputs;
   while (outputs_.take(outputs)) {
-    plc_hold_ = outputs.feed_hold;
+    take_outputs(outputs);
     news = true;
   }
   if (!news) return;
@@ -240,6 +265,22 @@ void ChannelService::watch_alarms() {
   core_.set_hold(!holding_alarms_.empty() ? holding_alarms_.begin()->second
                  : plc_hold_              ? "Feed hold of the PLC"
                                           : "");
+}
+
+// A recording must tell at which cycle it took effect, as of a request: the answer is that of a client that
+// no other process has, and the number is the tick of the outputs.
+void ChannelService::take_outputs(const idl::plc::Outputs& outputs) {
+  const auto channel = static_cast<std::size_t>(node_.options().channel);
+  const auto control =
+      channel < outputs.channels.size() ? outputs.channels[channel] : idl::plc::ChannelControl{};
+  if (plc_hold_ == outputs.feed_hold && core_.control() == control) return;
+  plc_hold_ = outputs.feed_hold;
+  core_.set_control(control);
+  idl::channel::ChannelRequest own;
+  own.client = 1 + channel;
+  own.number = outputs.tick;
+  requests_.reply(own, {0, 0, true, 0, "", core_.link().next()});
+  changed_ = true;
 }
 
 // Replicas: a start waits for both; in virtual time neither is left farther behind than twice what may be
@@ -263,6 +304,20 @@ void ChannelService::watch_replicas() {
   }
   core_.set_replicas(replicas_.may_start(now),
                      node_.options().virtual_time ? replicas_.floor() : stream::ReplicaWatch::everywhere);
+}
+
+// Virtual time has no clock to keep up with, so a recording of it is complete on any computer.
+void ChannelService::watch_recorders() {
+  if (!recording_reader_) return;
+  idl::stream::RecordingProgress progress;
+  while (recording_reader_->take(progress)) recorders_.update(progress);
+  const auto next = core_.link().next() + core_.machine().stream(true).batch;
+  auto limit = recorders_.limit(next, service::monotonic_seconds());
+  if (next > limit && recording_reader_->matched() == 0) {  // the last recorder has ended
+    recorders_ = {};
+    limit = RecorderWatch::everywhere;
+  }
+  core_.set_limit(limit);
 }
 
 void ChannelService::answer_requests() {
@@ -306,6 +361,8 @@ void ChannelService::drain() {
   idl::plc::AuxiliaryDone done;
   while (done_.take(done))
     if (done.channel == node_.options().channel) core_.on_auxiliary_done(done);
+  CycleReply cycle;
+  while (cycle_replies_.take(cycle)) core_.on_cycle_reply(cycle);
   idl::service::Cluster cluster;
   while (cluster_reader_.take(cluster)) core_.set_ready(cluster.ready);
   watch_alarms();
@@ -361,6 +418,7 @@ void ChannelService::pump() {
   }
   recover();
   watch_replicas();
+  watch_recorders();
   answer_requests();
   fetch_text();
   core_.advance();
@@ -370,10 +428,12 @@ void ChannelService::pump() {
     ++frames_out_;
   }
   if (const auto auxiliary = core_.take_auxiliary()) auxiliary_writer_.write(*auxiliary);
+  if (const auto cycle = core_.take_cycle_request()) cycle_writer_.write(*cycle);
   change_tables();
   save_variables();
   if (core_.recovered()) keep_record();
   watch_text();
+  watch_cycle();
   for (const auto& event : core_.take_events()) {
     const auto channel = static_cast<std::uint32_t>(node_.options().channel);
     if (event.alarm == nullptr) {

@@ -9,6 +9,7 @@
 #include "service/parameter_client.hpp"
 #include "service/request.hpp"
 #include "src/channel_core.hpp"
+#include "src/recorder_watch.hpp"
 #include "stream/replica_watch.hpp"
 
 namespace trunnion::channel {
@@ -39,9 +40,12 @@ class ChannelService : public service::Service {
   void read_record();
   void keep_record();
   void watch_text();
+  void watch_cycle();
   void read_hand_over();
   void watch_alarms();
+  void take_outputs(const idl::plc::Outputs& outputs);
   void watch_replicas();
+  void watch_recorders();
   void publish();
 
   service::Node& node_;
@@ -54,14 +58,18 @@ class ChannelService : public service::Service {
   bus::Reader<idl::parameters::WorkOffsets> offsets_;
   bus::Reader<idl::program::ProgramList> programs_;
   bus::Reader<idl::plc::AuxiliaryDone> done_;
+  bus::Reader<CycleReply> cycle_replies_;
   bus::Reader<idl::plc::Outputs> outputs_;
   bus::Reader<idl::service::Alarm> alarm_reader_;
   bus::Reader<idl::service::Cluster> cluster_reader_;
   stream::ReplicaWatch replicas_;
   std::optional<bus::Reader<idl::stream::StageProgress>> progress_reader_;  ///< of a machine with replicas
+  RecorderWatch recorders_;
+  std::optional<bus::Reader<idl::stream::RecordingProgress>> recording_reader_;  ///< in virtual time
   bus::Writer<idl::channel::ChannelState> state_writer_;
   bus::Writer<idl::channel::Variables> variables_writer_;
   bus::Writer<idl::channel::AuxiliaryRequest> auxiliary_writer_;
+  bus::Writer<CycleRequest> cycle_writer_;
   bus::Writer<idl::stream::StreamRequest> stream_writer_;
   std::optional<bus::Writer<idl::stream::PathFrame>> frame_writer_;
   std::optional<bus::Reader<idl::stream::FeedbackFrame>> feedback_reader_;
@@ -77,7 +85,7 @@ class ChannelService : public service::Service {
   std::string record_file_;
   RecordKeeper record_;
   RunningProgram kept_;
-  double kept_at_ = 0, text_missing_since_ = 0;
+  double kept_at_ = 0, text_missing_since_ = 0, cycle_unheard_since_ = -1;
   bool record_failed_ = false;
   bool plc_hold_ = false;
   bool have_tools_ = false, have_offsets_ = false, have_programs_ = false;

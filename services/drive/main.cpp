@@ -22,7 +22,7 @@ std::unique_ptr<SimulatedHardware> hardware_of(const machine::MachineConfig& con
   if (truth.probe)
     probe.emplace(ProbeSetup{outline.design, truth::make_geometry(truth.geometry, outline, file),
                              *truth.probe, truth.solids});
-  return std::make_unique<SimulatedHardware>(truth.drives, probe, truth.geometry.beam);
+  return std::make_unique<SimulatedHardware>(truth.drives, probe, truth.geometry.beam, truth.spindle_drives);
 }
 
 class SimulatedDrive : public DriveService {

@@ -9,6 +9,7 @@
 #include <cstring>
 #include <filesystem>
 
+#include "machine/service_constants.hpp"
 #include "service/damage_alarm.hpp"
 #include "snapshot/fields.hpp"
 #include "src/timeouts.hpp"
@@ -20,6 +21,9 @@
 
 namespace trunnion::drive {
 namespace {
+// Of virtual time at once: 10 s at 1 ms. A timer of hours would keep the drive from its heartbeat and from
+// whatever starts meanwhile.
+constexpr int most_idle_steps = 10000;
 constexpr double idle_feedback = 0.1;      // s between two feedback messages while nothing moves
 constexpr std::size_t most_applied = 256;  // inputs that one feedback message can name
 
@@ -60,6 +64,7 @@ void DriveService::start() {
     configure(*parameters_.newest());
     restore();
   }
+  restore_kept();
   const auto memory = core_.memory();
   encoders_.open(bytes_of(memory));
   const auto& p = *parameters_.find(revision_);
@@ -105,6 +110,16 @@ void DriveService::restore() {
   if (unreferenced_.empty() && kept.state != KeptState::good)
     service::report_damage(node_.alarms(), 0, encoders_.path(), {kept.state, "", 0, kept.problem},
                            "cycle numbers");
+}
+
+void DriveService::restore_kept() {
+  const auto now = core_.hardware().kept();
+  if (now.empty()) return;
+  simulation_.emplace(node_.options().state_directory + "/simulation.bin", "simulation", now.size());
+  // A snapshot has it already. Without a file, or with a damaged one, the machine is cold.
+  if (const auto kept = simulation_->load(); node_.snapshot() == nullptr && !kept.content.empty())
+    core_.hardware().restore_kept(kept.content);
+  simulation_->open(core_.hardware().kept());
 }
 
 void DriveService::watch_references() {
@@ -207,12 +222,13 @@ void DriveService::drain() {
     plc_seen_ = now;
     core_.set_enables(plc_.axis_enable, plc_.emergency_stop);
     core_.set_spindle_speed(plc_.spindle_speed);
+    core_.set_spindle_orientation(plc_.spindle_orient);
     core_.set_probe(plc_.probe_on);
     changed_ = true;
   }
   idl::service::ServiceState state;
   while (services_->take(state))
-    if (state.service == "plc") plc_seen_ = now;
+    if (state.service == machine::service::plc.name) plc_seen_ = now;
   idl::service::Alarm alarm;
   while (alarms_->take(alarm))
     if (alarm.active && alarm.reaction == idl::service::Reaction::AXIS_STOP &&
@@ -238,10 +254,13 @@ void DriveService::send() {
   core_.fill(feedback_);
   feedback_.applied.swap(applied_);
   applied_.clear();
-  writer_->write(feedback_);
-  ++frames_out_;
+  // Stored before it is published: a drive that continued from less than the channels know would use cycles
+  // again.
   const auto memory = core_.memory();
   encoders_.save(bytes_of(memory));
+  if (simulation_) simulation_->save(core_.hardware().kept());
+  writer_->write(feedback_);
+  ++frames_out_;
   last_sent_ = service::monotonic_seconds();
   changed_ = false;
 }
@@ -261,6 +280,11 @@ void DriveService::send_samples() {
   if (tester == nullptr || !tester->ready()) return;
   tester->fill(samples_);
   samples_writer_->write(samples_);
+}
+
+// Nothing moves: time passes as far as the PLC asked for its timers and the spindle.
+bool DriveService::time_passes() const {
+  return !core_.any_active() && have_plc_ && core_.tick() < plc_.run_until_tick;
 }
 
 void DriveService::run_virtual() {
@@ -283,10 +307,11 @@ void DriveService::run_virtual() {
         (core_.any_active() || core_.mode() != Mode::FOLLOWING || core_.needs_time()))
       drain();
   }
-  // Nothing moves: time passes as far as the PLC asked for its timers and the spindle.
-  while (!core_.any_active() && have_plc_ && core_.tick() < plc_.run_until_tick) {
+  for (int i = 0; i < most_idle_steps && time_passes(); ++i) {
     core_.step();
     changed_ = true;
+    // The PLC itself has asked for this time: its silence counts when that is over.
+    plc_seen_ = running_time_.now();
   }
   if (core_.rows() > 0) send();
 }
@@ -332,6 +357,7 @@ void DriveService::pump() {
 }
 
 double DriveService::period() const {
+  if (core_.configured() && node_.options().virtual_time && time_passes()) return 0;
   if (!core_.configured() || node_.options().virtual_time) return 0.02;
   if (core_.hardware().is_clock()) return core_.period();
   return std::max(0.0, next_tick_ - service::monotonic_seconds());

@@ -29,10 +29,12 @@ class DriveService : public service::Service {
  private:
   void start();
   void restore();
+  void restore_kept();
   void watch_references();
   void continue_from_snapshot();
   bool parameters_are_here();
   void drain();
+  bool time_passes() const;
   void run_virtual();
   void run_real();
   void send();
@@ -44,7 +46,8 @@ class DriveService : public service::Service {
   service::Node& node_;
   service::ParameterClient parameters_;
   storage::RetainedPair encoders_;  ///< as an absolute encoder would, it survives kill -9 of the process
-  std::vector<machine::AxisInfo> unreferenced_;  ///< axes of alarm 115
+  std::optional<storage::RetainedPair> simulation_;  ///< what the hardware keeps besides positions
+  std::vector<machine::AxisInfo> unreferenced_;      ///< axes of alarm 115
   DriveCore core_;
   std::optional<bus::Reader<idl::stream::AxisFrame>> frames_;
   std::optional<bus::Reader<idl::stream::StreamRequest>> requests_;

@@ -27,7 +27,7 @@ constexpr double watch_period = 0.05;  // s between two messages of a watch list
 bool is_read_only(OnlineAction action) {
   return action <= OnlineAction::END_WATCH ||
          (action >= OnlineAction::START_TRACE && action <= OnlineAction::READ_SOURCE) ||
-         action == OnlineAction::LOAD_STATUS;
+         action >= OnlineAction::LOAD_STATUS;
 }
 
 std::uint64_t steady_time() {
@@ -71,7 +71,7 @@ ActiveSources active_sources(const service::Node& node, const std::string& boot)
       active.stored.emplace();
       return active;
     }
-  const auto stored = ProgramStore(node.options().state_directory + programs_file).load(active.problem);
+  const auto stored = ProgramStore(node.options().state_directory + programs_file).load(active.kept);
   try {
     active.files = read_sources(directory);
   } catch (const std::runtime_error&) {
@@ -105,9 +105,14 @@ OnlineService::OnlineService(service::Node& node, PlcCore& core, RoundRecorder& 
 
 Programs OnlineService::start() {
   sources_ = active_sources(node_, boot_);
+  const auto path = node_.options().state_directory + programs_file;
+  service::report_damage(node_.alarms(), 1, path, sources_.kept,
+                         "PLC programs that were loaded while it ran");
+  if (sources_.kept.state == storage::KeptState::previous) storage::repair_kept(path, sources_.kept);
   store_.discard();  // of a process that ended while programs were loaded
   auto programs = translate(sources_.files, node_.options().machine.simulated(), sources_.directory);
   values_.replace(programs.variables, core_);
+  uses_ = programs.uses;
   return programs;
 }
 
@@ -150,6 +155,8 @@ bool OnlineService::answer(const Request& request, std::int64_t source_time, dou
     requests_.reply(request, read_source(request));
   } else if (request.action == OnlineAction::LOAD_STATUS) {
     requests_.reply(request, load_.status(request.first));
+  } else if (request.action == OnlineAction::LIST_USES) {
+    requests_.reply(request, list_uses(request));
   } else if (request.action == OnlineAction::LIST_VARIABLES) {
     requests_.reply(request, list(request, now));
   } else if (is_read_only(request.action)) {
@@ -241,6 +248,7 @@ std::string OnlineService::take_over(const Request& request) {
   core_.take_over(load_.programs(), load_.change());
   modbus_ = load_.modbus();
   values_.replace(load_.programs().variables, core_);
+  uses_ = load_.programs().uses;
   task_times_.reset();
   load_.end();
   synchronizing_ = std::async(std::launch::async, [store = store_] {
@@ -264,6 +272,25 @@ idl::plc::OnlineReply OnlineService::list(const Request& request, double now) {
   reply.accepted = true;
   for (const auto& time : task_times_.shown(core_.statement_budgets())) plc_online::add(time, reply);
   return reply;
+}
+
+idl::plc::OnlineReply OnlineService::list_uses(const Request& request) const {
+  constexpr std::size_t page = 128;
+  if (request.paths.size() != 1) return reply_of("one path is needed");
+  try {
+    const auto uses = uses_.of(request.paths[0]);
+    Reply reply;
+    reply.accepted = true;
+    reply.total = static_cast<std::uint32_t>(uses.size());
+    for (std::size_t i = request.first; i < uses.size() && reply.uses.size() < page; ++i) {
+      const auto& [file, use] = uses[i];
+      reply.uses.push_back({file.substr(file.find_last_of('/') + 1).substr(0, 120), use.at.line,
+                            use.at.column, use.reads, use.writes, use.calls, use.element.substr(0, 120)});
+    }
+    return reply;
+  } catch (const std::runtime_error& e) {
+    return reply_of(e.what());
+  }
 }
 
 idl::plc::OnlineReply OnlineService::read_source(const Request& request) const {

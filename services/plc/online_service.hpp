@@ -25,7 +25,7 @@ struct ActiveSources {
   std::string directory;
   std::optional<StoredPrograms> stored;  ///< when they were loaded online
   std::uint32_t delivered = 0;           ///< CRC-32 of the sources of the machine's directory
-  std::string problem;                   ///< of the file of the state directory
+  storage::Kept kept;                    ///< the file of the state directory
 };
 /// Programs that were loaded online run until the machine's directory has others at a start of the cluster.
 /// Throws std::runtime_error and storage::StorageError.
@@ -79,6 +79,7 @@ class OnlineService {
   bool answer(const Request& request, std::int64_t source_time, double now);
   Reply change(const Request& request);
   Reply read_source(const Request& request) const;
+  Reply list_uses(const Request& request) const;
   Reply list(const Request& request, double now);
   std::string take_over(const Request& request);
   void start_compiling();
@@ -93,6 +94,7 @@ class OnlineService {
   st::ModbusFile modbus_;
   ProgramStore store_;
   OnlineValues values_{st::Variables()};
+  st::Uses uses_;
   ProgramLoad load_;
   TaskTimes task_times_;
   std::future<Translated> worker_;

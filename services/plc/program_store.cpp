@@ -6,7 +6,6 @@
 
 #include "bus/json.hpp"
 #include "storage/file.hpp"
-#include "storage/kept_file.hpp"
 
 namespace trunnion::plc {
 namespace {
@@ -26,17 +25,17 @@ SourceFiles files_of(const bus::Json& json) {
 
 }  // namespace
 
-std::optional<StoredPrograms> ProgramStore::load(std::string& problem) const {
-  const auto kept = storage::read_kept(path_);
-  problem = kept.problem;
-  if (kept.content.empty()) return std::nullopt;
+std::optional<StoredPrograms> ProgramStore::load(storage::Kept& found) const {
+  found = storage::read_kept(path_);
+  if (found.content.empty()) return std::nullopt;
   try {
-    const auto json = bus::Json::parse(kept.content);
+    const auto json = bus::Json::parse(found.content);
     return StoredPrograms{json.at("boot").get<std::string>(), json.at("delivered").get<std::uint32_t>(),
                           json.at("changes").get<std::uint32_t>(), files_of(json.at("active")),
                           files_of(json.at("previous"))};
   } catch (const bus::Json::exception& e) {
-    problem = path_ + ": " + e.what();
+    found.state = storage::KeptState::unusable;
+    found.problem = e.what();
     return std::nullopt;
   }
 }

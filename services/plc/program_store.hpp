@@ -6,6 +6,7 @@
 #include <string>
 
 #include "programs.hpp"
+#include "storage/kept_file.hpp"
 
 namespace trunnion::plc {
 
@@ -21,8 +22,8 @@ class ProgramStore {
   /// `path` without directory: plc.programs
   explicit ProgramStore(std::string path) : path_(std::move(path)) {}
 
-  /// Nothing when no programs were loaded. `problem` says what is damaged. Throws storage::StorageError.
-  std::optional<StoredPrograms> load(std::string& problem) const;
+  /// Nothing when no programs were loaded or none can be read; `found` says so. Throws storage::StorageError.
+  std::optional<StoredPrograms> load(storage::Kept& found) const;
   /// On the disk, but not in force. Not cyclic.
   void prepare(const StoredPrograms& programs) const;
   /// prepare()d ones are in force: two renames.

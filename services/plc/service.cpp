@@ -16,6 +16,7 @@ namespace {
 
 constexpr std::size_t most_applied = 256;  // inputs that one message of the log can name
 constexpr double outputs_period = 0.2;     // s between two messages to the drive
+constexpr double longest_input = 0.05;     // s of taking the drive's feedback without anything else
 constexpr double log_period = 0.02;        // s between two progress messages
 constexpr double image_period = 0.1;       // s, fastest publication of the image
 constexpr double drive_timeout = 0.15;     // s for which PLC time continues by the clock without feedback
@@ -46,7 +47,8 @@ PlcService::PlcService(service::Node& node)
       log_(node.bus().writer(topics::plc_input_log)),
       resets_(node.bus().writer(topics::alarm_reset)),
       panel_(node.bus(), topics::panel_request, topics::panel_reply),
-      modbus_(node) {
+      modbus_(node),
+      orders_(node, core_) {
   try {
     auto programs = online_.start();
     for (const auto& warning : programs.warnings) std::cerr << warning << "\n";
@@ -96,6 +98,7 @@ void PlcService::programs_changed() {
   node_.alarms().clear(alarm::plc_program, 0);
   node_.alarms().clear(alarm::plc_modbus, 0);
   modbus_.change(online_.modbus());
+  orders_.programs_changed();
 }
 
 service::SnapshotAnswer PlcService::snapshot() {
@@ -147,6 +150,7 @@ void PlcService::continue_from_snapshot() {
 void PlcService::configure() {
   online_.each([&](PlcCore& core) { core.configure(*parameters_.newest(), node_.options().virtual_time); });
   rounds_.record(StepKind::PARAMETERS, parameters_.newest()->revision);
+  orders_.configure(*parameters_.newest());
   period_ = parameters_.newest()->integer(parameter::interpolation_cycle) * 1e-6;
   if (node_.snapshot() == nullptr || continued_) return;
   continue_from_snapshot();
@@ -189,7 +193,9 @@ void PlcService::publish_inputs(double now) {
 
 void PlcService::take_inputs() {
   using idl::stream::Input;
-  while (feedback_.take(frame_)) {
+  // Virtual time may run faster than the programs: the process shows that it lives in between.
+  const double began = service::monotonic_seconds();
+  while (service::monotonic_seconds() - began < longest_input && feedback_.take(frame_)) {
     ++frames_in_;
     online_.each([&](PlcCore& core) { core.set_feedback(frame_); });
     rounds_.record(frame_);
@@ -204,6 +210,7 @@ void PlcService::take_inputs() {
   while (channels_.take(state)) {
     applied(Input::CHANNEL_STATE, channels_.info().source_timestamp);
     online_.each([&](PlcCore& core) { core.set_channel(state); });
+    orders_.set_channel(state);
     rounds_.record(StepKind::CHANNEL_STATE, state);
   }
   idl::channel::AuxiliaryRequest request;
@@ -267,6 +274,7 @@ void PlcService::pump() {
   publish_inputs(now);
   retained_->save(boot_, core_.memory());
   modbus_.pump(core_, now);
+  orders_.pump(now);
   publish(now);
 }
 

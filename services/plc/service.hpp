@@ -7,6 +7,7 @@
 
 #include "modbus_service.hpp"
 #include "online_service.hpp"
+#include "order_service.hpp"
 #include "plc_core.hpp"
 #include "retained_memory.hpp"
 #include "round_recorder.hpp"
@@ -72,6 +73,7 @@ class PlcService : public service::Service {
   bus::Writer<idl::service::AlarmReset> resets_;
   service::RequestServer<idl::plc::PanelRequest, idl::plc::PanelReply> panel_;
   ModbusService modbus_;
+  OrderService orders_;
 
   std::map<std::tuple<std::uint32_t, std::uint32_t, std::uint32_t>, idl::service::Alarm> active_alarms_;
   idl::stream::FeedbackFrame frame_;

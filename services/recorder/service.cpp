@@ -16,14 +16,17 @@
 #include <thread>
 
 #include "bus/bus.hpp"
+#include "bus/codec.hpp"
 #include "bus/json.hpp"
 #include "bus/registry.hpp"
 #include "contracts/topics.hpp"
 #include "flight_recorder.hpp"
 #include "message_queue.hpp"
 #include "part_files.hpp"
+#include "reading_progress.hpp"
 #include "recording/stream_tally.hpp"
 #include "service/node.hpp"
+#include "service/request.hpp"
 #include "snapshot_requests.hpp"
 #include "topic_source.hpp"
 
@@ -35,12 +38,14 @@ constexpr double cluster_seconds = 5.0;  // the same when a launcher publishes t
 // A wake-up for every message would cost as much processor time as a stage of the stream. Writers keep a
 // thousand batches.
 constexpr auto pause = std::chrono::milliseconds(20);
-constexpr double snapshot_seconds = 1.0;  // waiting time for the states of the services
+constexpr double snapshot_seconds = 3.0;  // waiting time for the states of the services
+constexpr double repeat_seconds = 0.5;    // after which a service that has not answered is asked again
 constexpr int most_requests = 5;          // of the first states
 constexpr auto request_pause = std::chrono::milliseconds(20);
 // After the start of a part: what was written into the part before has been taken by then.
 constexpr double part_pause = 0.05;
-constexpr int priority = 10;  // the recorder can wait, the stream cannot
+constexpr int most_at_once = 256;  // messages of one topic
+constexpr int priority = 10;       // the recorder can wait, the stream cannot
 
 volatile sig_atomic_t stop_requested = 0;
 
@@ -64,23 +69,30 @@ std::vector<const bus::TopicEntry*> chosen_topics(const std::vector<std::string>
     result.push_back(entry);
   }
   if (names.empty())
-    for (const auto& entry : bus::all_topics()) result.push_back(&entry);
+    for (const auto& entry : bus::all_topics())
+      if (entry.description.name != topics::recording_progress.name) result.push_back(&entry);
   return result;
 }
 
 // All topics of the recording, by the numbers that messages name.
 class Sources {
  public:
-  Sources(bus::Backend& backend, const std::vector<const bus::TopicEntry*>& entries, bus::Signal* signal)
-      : backend_(backend), sequences_(entries.size()) {
-    for (const auto* entry : entries) topics_.emplace_back(backend, *entry, signal);
+  Sources(bus::Bus& bus, const std::vector<const bus::TopicEntry*>& entries, bus::Signal* signal)
+      : backend_(bus.backend()),
+        progress_writer_(bus.writer(topics::recording_progress)),
+        sequences_(entries.size()) {
+    for (const auto* entry : entries) topics_.emplace_back(backend_, *entry, signal);
   }
+  ~Sources() { progress_writer_.write(progress_.ended()); }
+  Sources(const Sources&) = delete;
+  Sources& operator=(const Sources&) = delete;
 
   void begin(std::int64_t now) {
     for (auto& topic : topics_) topic.begin(now);
   }
-  /// Takes the messages that have arrived; true when there were any.
-  bool drain(MessageQueue& queue);
+  enum class Drained { nothing, all, some };
+  /// Takes messages that have arrived. `some`: there may be more of a topic, so it is behind the writers.
+  Drained drain(MessageQueue& queue);
 
   // Of the topics that carry the stream:
   bool all_have_writers() const {
@@ -105,29 +117,38 @@ class Sources {
 
  private:
   bus::Backend& backend_;
+  bus::Writer<idl::stream::RecordingProgress> progress_writer_;
+  ReadingProgress progress_{service::make_client_id()};
+  idl::stream::FeedbackFrame feedback_;
   std::vector<TopicSource> topics_;
   std::vector<std::uint32_t> sequences_;
   std::vector<bus::DiscoveredWriter> writers_;
   Message message_;
 };
 
-bool Sources::drain(MessageQueue& queue) {
+Sources::Drained Sources::drain(MessageQueue& queue) {
   if (backend_.discover(writers_))
     for (auto& topic : topics_) topic.see(writers_);
-  bool any = false;
+  auto drained = Drained::nothing;
   bus::SampleInfo info;
   for (std::size_t i = 0; i < topics_.size(); ++i) {
     // A bounded number at a time, so that one busy topic does not delay the others.
-    for (int n = 0; n < 256 && topics_[i].take(message_.cdr, info); ++n) {
-      any = true;
+    int n = 0;
+    for (; n < most_at_once && topics_[i].take(message_.cdr, info); ++n) {
+      drained = std::max(drained, Drained::all);
       message_.topic = static_cast<std::uint16_t>(i);
       message_.sequence = ++sequences_[i];
       message_.source_time = info.source_timestamp;
+      if (topics_[i].is_feedback() && bus::decode(message_.cdr, feedback_))
+        progress_.read(feedback_, message_.cdr.size());
       queue.push(message_);
     }
+    if (n == most_at_once) drained = Drained::some;
   }
-  if (any) queue.wake();
-  return any;
+  if (!queue.crowded())
+    if (const auto progress = progress_.take()) progress_writer_.write(*progress);
+  if (drained != Drained::nothing) queue.wake();
+  return drained;
 }
 
 // The thread that compresses and writes. It derives the figures of the stream from the bytes it writes.
@@ -161,6 +182,9 @@ class FileThread {
 
  private:
   void run() {
+    // Compression can wait, the stream cannot. Whoever takes the messages must come in time and has little to
+    // do. In Linux the priority is that of the calling thread.
+    setpriority(PRIO_PROCESS, 0, priority);
     std::vector<Message> messages;
     while (queue_.pop_all(messages, 0.2)) {
       const double now = service::monotonic_seconds();
@@ -243,7 +267,12 @@ void take_snapshots(bus::Bus& bus, Sources& sources, MessageQueue& queue, Snapsh
   const double until = service::monotonic_seconds() + snapshot_seconds;
   for (int asked = 0; asked < most_requests; ++asked) {
     snapshots.ask();
+    double repeated = service::monotonic_seconds() + repeat_seconds;
     while (stop_requested == 0 && !snapshots.answered_by(services) && service::monotonic_seconds() < until) {
+      if (service::monotonic_seconds() >= repeated) {
+        snapshots.repeat();
+        repeated += repeat_seconds;
+      }
       sources.drain(queue);
       bus.signal().wait(0.002);
     }
@@ -256,6 +285,15 @@ struct Losses {
   std::uint64_t dropped = 0, overwritten = 0;
   bool none() const { return dropped == 0 && overwritten == 0; }
 };
+
+void report(const Losses& losses) {
+  if (losses.dropped != 0)
+    std::cerr << "trunnion-recorder: error: " << losses.dropped
+              << " messages dropped: the disk was slower than the stream\n";
+  if (losses.overwritten != 0)
+    std::cerr << "trunnion-recorder: error: " << losses.overwritten
+              << " messages overwritten: the recorder had too little processor time\n";
+}
 
 void print_summary(const Options& options, const FileThread& thread, const Losses& losses) {
   const auto& tally = thread.tally();
@@ -297,11 +335,6 @@ void print_summary(const Options& options, const FileThread& thread, const Losse
     if (tally.cycles(handle) != 0)
       std::cout << "  " << handle << ": " << tally.cycles(handle) << " cycles, " << tally.lost(handle)
                 << " lost\n";
-  if (losses.dropped != 0)
-    std::cout << "  " << losses.dropped << " messages dropped: the disk was slower than the stream\n";
-  if (losses.overwritten != 0)
-    std::cout << "  " << losses.overwritten
-              << " messages overwritten: the recorder had too little processor time\n";
   if (destination.unwritten() != 0)
     std::cout << "  " << destination.unwritten() << " messages not written: " << destination.problem()
               << "\n";
@@ -319,14 +352,11 @@ int record(const Options& options) {
                            {"domain", std::to_string(options.network.domain)},
                            {"contract", topics::contract_hash},
                            {"version", TRUNNION_VERSION}}};
-  // A recorder that displaces a stage from the processor whenever packets arrive slows the stream. Writers
-  // keep a thousand batches, much longer than the recorder waits for the processor.
-  setpriority(PRIO_PROCESS, 0, priority);
   bus::use_clock_offset(options.network.clock_offset);
   FileThread file(options, header, queue);
   bus::Gathering gathering;
   bus::Bus bus(options.vendor, options.network);
-  std::optional<Sources> sources(std::in_place, bus.backend(), entries, &gathering);
+  std::optional<Sources> sources(std::in_place, bus, entries, &gathering);
   SnapshotRequests snapshots(bus);
   const bool verifiable = std::any_of(entries.begin(), entries.end(), [](const auto* entry) {
     return entry->description.name == topics::service_snapshot.name;
@@ -341,7 +371,8 @@ int record(const Options& options) {
   std::uint32_t parts = 1;
   while (stop_requested == 0 &&
          (options.duration <= 0 || service::monotonic_seconds() - started < options.duration)) {
-    if (sources->drain(queue)) {
+    const auto drained = sources->drain(queue);
+    if (drained != Sources::Drained::nothing) {
       if (queue.dropped() != 0 && reported == 0) {
         reported = queue.dropped();
         std::cerr << "trunnion-recorder: warning: messages are dropped: the disk is slower than the stream\n";
@@ -352,17 +383,18 @@ int record(const Options& options) {
     if (options.last > 0 && verifiable) snapshots.ask_at(now + std::max(1.0, options.last / 2));
     parts = file.started();
     if (verifiable) snapshots.run(now);
-    std::this_thread::sleep_for(pause);
+    if (drained != Sources::Drained::some) std::this_thread::sleep_for(pause);
   }
   // Messages that have arrived by now belong to the recording; a running stream must not extend it without
   // limit.
   const double until = service::monotonic_seconds() + 2;
-  while (sources->drain(queue) && service::monotonic_seconds() < until) {
+  while (sources->drain(queue) != Sources::Drained::nothing && service::monotonic_seconds() < until) {
   }
   const Losses losses{queue.dropped(), sources->overwritten()};
   sources.reset();
   file.join();
   print_summary(options, file, losses);
+  report(losses);
   return losses.none() && file.destination().problem().empty() ? 0 : 1;
 }
 

@@ -26,6 +26,8 @@ void SnapshotRequests::ask() {
   next_ = 0;
 }
 
+void SnapshotRequests::repeat() { requests_.write(request_); }
+
 void SnapshotRequests::ask_at(double when) { next_ = next_ == 0 ? when : std::min(next_, when); }
 
 void SnapshotRequests::run(double now) {

@@ -17,6 +17,8 @@ class SnapshotRequests {
 
   /// Everything from now on is in the recording: asks every service.
   void ask();
+  /// The same request once more: a reader that was not known yet has not had it.
+  void repeat();
   /// Asks at `when`, seconds of the caller's clock, unless it is going to earlier.
   void ask_at(double when);
   /// Call several times a second: asks when it is time, and a while after another process has come, whose

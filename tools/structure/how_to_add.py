@@ -138,8 +138,29 @@ def add_parameter(s):
 
 def add_g_code(s):
     s.follow("A G code")
-    # G4.1 dwells as G4 does: the same row with another number, and the same function.
-    s.edit("libs/language/codes.cpp", r'^    GCode\{40, (.*?)"G4 P500"\},\n', r'\g<0>    GCode{41, \g<1>"G4.1 P500"},\n')
+    # G4.1 waits a second: a row, and a function of the handler.
+    s.edit("libs/language/codes.cpp", r'^    GCode\{40, (.*?)::dwell>(.*?)"G4 P500"\},\n', r'\g<0>    GCode{41, \g<1>::wait>\g<2>"G4.1"},\n')
+    s.edit("libs/language/positioning.hpp", r"^  Fault dwell\([^\n]*\n", r"\g<0>  Fault wait(std::uint16_t at);  ///< G4.1\n", named="positioning")
+    s.edit("libs/language/positioning.cpp", r"^Fault Positioning::check_machine_coordinates", "Fault Positioning::wait(std::uint16_t) {\n"
+           "  output_.push(CommandKind::dwell).dwell_seconds = 1;\n  return {};\n}\n\n\\g<0>", named="positioning")
+
+
+def add_operator_command(s):
+    s.follow("An operator command")
+    s.edit("idl/channel.idl", r"(enum CommandKind \{[^}]*SET_PARTS)", r"\g<1>, SET_LOT")
+    s.edit("idl/channel.idl", r"^      uint32 parts; *// SET_PARTS\n", r"\g<0>      uint32 lot;                        // SET_LOT\n")
+    s.edit("idl/operator_commands.yaml", r"^panel:", '  - {command: SET_LOT, route: lot, word: lot, busy: true, about: "Set the number of the lot",\n'
+           '     fields: [{name: lot, argument: NUMBER, about: "Number of the lot", minimum: 0, maximum: 1000}]}\n\n\\g<0>')
+    s.edit("libs/commands/command_table.hpp", r"^  parts\n", "  parts,\n  lot\n", named="libs/commands")
+    file = "libs/commands/channel_request.cpp"
+    s.edit(file, r"^    case Into::parts:\n      request.parts =(.*?)break;\n", r"\g<0>    case Into::lot:\n      request.lot =\g<1>break;\n", named="libs/commands")
+    s.edit(file, r"^    case Into::parts:\n      return request.parts;\n", r"\g<0>    case Into::lot:\n      return request.lot;\n", named="libs/commands")
+    s.edit("services/channel/src/channel_commands.cpp", r"^    case CommandKind::SET_PARTS:", r"    case CommandKind::SET_LOT:\n      return {};\n\g<0>")
+    for part in ("operator_commands.yaml", "state_table_test.cpp"):
+        if part not in s.paragraph: sys.exit(f"CONTRIBUTING.md: the paragraph does not name {part}")
+    arguments = ["tools/generate_api.py"]
+    s.run(sys.executable, *arguments)
+    if "/lot" not in s.read("gateway/openapi.json"): sys.exit("openapi.json: the command is missing")
 
 
 def add_stage(s):
@@ -177,7 +198,7 @@ def main():
     p.add_argument("--source", required=True), p.add_argument("--scratch", required=True), p.add_argument("--cmake", default="cmake")
     args = p.parse_args()
     s = Scratch(os.path.abspath(args.source), os.path.abspath(args.scratch))
-    for add in (add_topic, add_parameter, add_g_code, add_stage): add(s)
+    for add in (add_topic, add_parameter, add_g_code, add_operator_command, add_stage): add(s)
     s.run(sys.executable, "tools/structure/check_structure.py")
     s.run(sys.executable, "tools/generate_docs.py", "--check", expect=1)
     s.run(sys.executable, "tools/generate_docs.py")
@@ -189,7 +210,8 @@ def main():
     if "trunnion/thermal/spindle_growth/1" not in s.read("build/release/generated/contracts/topics.md"): sys.exit("topics.md: the topic is missing")
     # The objects alone: an archive or a program would build the libraries again, for nothing that the compiler does not say.
     sources = ((f"services/{STAGE}", f"trunnion_{STAGE}_core", f"{STAGE}_core.cpp"), (f"services/{STAGE}", f"trunnion-{STAGE}", "main.cpp"),
-               (f"services/{STAGE}", f"trunnion-{STAGE}", "service.cpp"), ("libs/language", "trunnion_language", "codes.cpp"))
+               (f"services/{STAGE}", f"trunnion-{STAGE}", "service.cpp"), ("libs/language", "trunnion_language", "codes.cpp"),
+               ("libs/language", "trunnion_language", "positioning.cpp"), ("libs/commands", "trunnion_commands", "channel_request.cpp"))
     s.run(*build, *sorted({object_of(s, *source) for source in sources}))
     shutil.rmtree(s.root)
 

@@ -58,6 +58,18 @@ class Cluster(unittest.TestCase):
         with self.assertRaisesRegex(trunnion.Refused, "is being recorded"):
             stored.start()
         stored.stop(name)
+        table = stored.table(name)
+        columns = [self.channel.column(letter) for letter in "XYZ"]
+        self.assertEqual(columns, [0, 1, 2])
+        with self.assertRaisesRegex(trunnion.Error, "no axis W"):
+            self.channel.column("W")
+        commanded, actual = (list(zip(*(table[f"{what}[{i}]"] for i in columns))) for what in ("commanded", "actual"))
+        contour = trunnion.contour_errors(commanded, actual)
+        following = [math.dist(one, other) for one, other in zip(commanded, actual)]
+        self.assertEqual(len(contour), len(table["cycle"]))
+        # The same cycle of the commanded path is one of the points that the contour error looks at.
+        self.assertTrue(all(one <= other for one, other in zip(contour, following)))
+        self.assertLess(max(contour), max(following))
         content = stored.download(name)
         self.assertEqual((content[:5], content[-7:-3]), (b"\x89MCAP", b"MCAP"))
         stored.delete(name)
@@ -119,6 +131,21 @@ class Cluster(unittest.TestCase):
         with self.assertRaisesRegex((trunnion.ProgramStopped, trunnion.Refused), "wrong.nc:3"):
             self.channel.run("wrong.nc", timeout=60)
 
+    def test_a_plan_takes_as_long_as_the_program(self):
+        plan = self.machine.programs.plan("square.nc")
+        self.assertTrue(plan.complete)
+        self.assertIsNone(plan.alarm)
+        self.assertEqual([plan.at(0.4), plan.at(plan.seconds - 0.4)], [3, 6])
+        # The square begins where the axes are at rest, X0 Y0, so cycles are the plan's.
+        self.channel.run("square.nc")
+        before = self.channel.state.cycle
+        samples = self.channel.run("square.nc", ["feed"])
+        executed = (self.channel.state.cycle - before) * self.machine.period
+        self.assertAlmostEqual(plan.seconds, executed, delta=0.3)
+        self.assertGreater(len(samples), 0)
+        with self.assertRaisesRegex(trunnion.Refused, "no program missing.nc"):
+            self.machine.programs.plan("missing.nc")
+
     def test_mdi_of_several_lines_ends_at_the_first_error(self):
         self.channel.mdi("G90 G54 G0 X11\nG1 X12 F3000\n\nG0 X13.5", timeout=60)
         self.assertAlmostEqual(self.channel.state.position("X"), 13.5, places=3)
@@ -140,6 +167,10 @@ class Cluster(unittest.TestCase):
         self.machine.stream.wait(lambda state: not state["plc"]["emergency_stop"], 10)
         self.machine.reset_alarms()
         self.machine.stream.wait(lambda state: not state["alarms"], 10)
+        past = self.machine.alarm_history("130")[0]
+        self.assertEqual(past.number, 130)
+        self.assertGreaterEqual(past.cleared, past.raised)
+        self.assertEqual(self.machine.alarm_history("no such text"), [])
 
     def test_a_program_that_takes_too_long_goes_on(self):
         self.machine.programs.upload("slow.nc", "G21 G90 G54\nG1 X300 F10\nM30\n", replace=True)

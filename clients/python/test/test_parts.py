@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """The parts that need no cluster: units, WebSocket frames, patches, signals, a server that is none."""
+import http.server
+import json
+import math
 import random
 import socket
 import struct
@@ -7,6 +10,7 @@ import threading
 import unittest
 
 import trunnion
+from trunnion.http import Http
 from trunnion.stream import merge_patch
 from trunnion.units import convert
 from trunnion.websocket import Frames, frame
@@ -135,6 +139,67 @@ class SignalNames(unittest.TestCase):
         self.assertTrue(numpy.array_equal(signals.array(), [[2.0, 5.0]]))
 
 
+class ContourErrors(unittest.TestCase):
+    def test_of_a_circle_it_is_the_difference_of_the_radii_however_far_the_axes_lag_behind(self):
+        # 50 mm in 2000 steps: a chord is within 50 (1 - cos(pi / 2000)) = 6.2e-5 mm of the circle.
+        steps, lag, chord = 2000, 40, 6.2e-5
+        circle = lambda radius, i: (radius * math.cos(2 * math.pi * i / steps), radius * math.sin(2 * math.pi * i / steps))
+        commanded = [circle(50, i) for i in range(lag, lag + 2 * steps)]  # twice around
+        actual = [circle(49.9, i) for i in range(2 * steps)]
+        for error in trunnion.contour_errors(commanded, actual)[lag:]:
+            self.assertTrue(0.1 - chord <= error <= 0.1 + 1e-9, error)
+        self.assertGreater(math.dist(commanded[100], actual[100]), 6)  # the following error: 40 steps of 0.157 mm
+
+    def test_a_cut_corner_is_the_distance_to_the_nearer_side(self):
+        commanded = [(x, 0, 0) for x in range(11)] + [(10, y, 0) for y in range(1, 11)]
+        start = [(0, 0, 0)] * 3  # the axes lag behind by three cycles
+        actual = start + [(x, 0, 0) for x in range(8)] + [(8, 0.5, 0), (9, 1, 0), (9.75, 2, 0)] + [(10, y, 0) for y in range(1, 8)]
+        self.assertEqual(trunnion.contour_errors(commanded, actual), [0] * 11 + [0.5, 1, 0.25] + [0] * 7)
+
+    def test_points_that_are_no_pairs_are_refused(self):
+        self.assertEqual(trunnion.contour_errors([], []), [])
+        self.assertEqual(trunnion.contour_errors([(1, 2)], [(1, 4)]), [2])
+        with self.assertRaisesRegex(ValueError, "2 commanded points and 1 actual"):
+            trunnion.contour_errors([(0, 0), (1, 1)], [(0, 0)])
+
+
+class Refusals(unittest.TestCase):
+    def test_the_reason_is_the_one_that_the_gateway_gives_in_any_of_its_forms(self):
+        bodies = {
+            "/reason": {"accepted": False, "alarm": 141, "reason": "no program A.NC"},
+            "/error": {"error": "no such path"},
+            # RFC 9457, as of the programs of the PLC, measurements and the right to operate.
+            "/detail": {"type": "about:blank", "title": "Conflict", "status": 409, "detail": "panel.st is being loaded"},
+            "/none": {},
+        }
+
+        class Handler(http.server.BaseHTTPRequestHandler):
+            def do_GET(self):
+                content = json.dumps(bodies[self.path]).encode()
+                self.send_response(409)
+                self.send_header("Content-Length", str(len(content)))
+                self.end_headers()
+                self.wfile.write(content)
+
+            def log_message(self, *arguments):
+                pass
+
+        with http.server.HTTPServer(("127.0.0.1", 0), Handler) as server:
+            thread = threading.Thread(target=server.serve_forever)
+            thread.start()
+            gateway = Http(f"http://127.0.0.1:{server.server_port}")
+            for path, reason, alarm in (
+                ("/reason", "no program A.NC", 141), ("/error", "no such path", 0), ("/detail", "panel.st is being loaded", 0),
+                ("/none", "the gateway answered 409", 0),
+            ):
+                with self.subTest(path=path), self.assertRaises(trunnion.Refused) as refused:
+                    gateway.get(path)
+                self.assertIn(reason, str(refused.exception))
+                self.assertEqual(refused.exception.alarm, alarm)
+            server.shutdown()
+            thread.join()
+
+
 class NoGateway(unittest.TestCase):
     def test_a_port_where_nothing_listens(self):
         with socket.socket() as free:
@@ -157,7 +222,7 @@ class NoGateway(unittest.TestCase):
             thread.join()
 
     def test_a_url_of_another_kind(self):
-        for url in ("https://localhost", "ftp://x", "http://"):
+        for url in ("ftp://x", "http://", "https://"):
             with self.subTest(url=url), self.assertRaises(ValueError):
                 trunnion.connect(url)
 

@@ -9,13 +9,14 @@
 Needs the standard library only, from Python 3.11 on.
 """
 from .channel import Channel
-from .data import Alarm, ChannelState, Parameter, Program, Tool
+from .contour import contour_errors
+from .data import Alarm, ChannelState, Parameter, PastAlarm, Plan, Program, Tool
 from .errors import Error, NotConnected, ProgramStopped, Refused, TimedOut
 from .machine import Machine, connect
 from .recordings import Recording, Recordings, StoredRecordings
 from .signals import Signals
 
 __all__ = [
-    "Alarm", "Channel", "ChannelState", "Error", "Machine", "NotConnected", "Parameter", "Program", "ProgramStopped", "Recording",
-    "Recordings", "Refused", "Signals", "StoredRecordings", "TimedOut", "Tool", "connect",
+    "Alarm", "Channel", "ChannelState", "Error", "Machine", "NotConnected", "Parameter", "PastAlarm", "Plan", "Program", "ProgramStopped",
+    "Recording", "Recordings", "Refused", "Signals", "StoredRecordings", "TimedOut", "Tool", "connect", "contour_errors",
 ]

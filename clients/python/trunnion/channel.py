@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any, Literal
 
 from .data import Alarm, ChannelState, Mode, from_json
-from .errors import NotConnected, ProgramStopped, Refused
+from .errors import Error, NotConnected, ProgramStopped, Refused
 from .signals import Signals
 
 if TYPE_CHECKING:
@@ -29,6 +29,13 @@ class Channel:
     def state(self) -> ChannelState:
         """The newest state. Raises NotConnected when the channel has not reported."""
         return self._in(self._machine.stream.state)
+
+    def column(self, letter: str) -> int:
+        """The number of an axis in the tables of recordings, as i of "actual[i]". Raises Error when the channel has none."""
+        state = self.state
+        if letter not in state.letters:
+            raise Error(f"channel {self.number} has no axis {letter}, but {state.letters}")
+        return sorted(map(int, self._machine.stream.state["axes"])).index(state.axes[state.letters.index(letter)])
 
     def command(self, command: str, **fields: Any) -> None:
         """Any operator command of docs/operator-commands.md, for example command("dry-run", on=True). Raises Refused."""

@@ -2,6 +2,7 @@
 """Values that the gateway gives, as documented in its interface (/api/openapi.json)."""
 from __future__ import annotations
 
+import bisect
 import dataclasses
 from typing import Any, Literal, TypeVar
 
@@ -86,6 +87,39 @@ class Alarm:
     def key(self) -> tuple[int, int, int, int]:
         """The same for the same alarm; differs when it was raised again."""
         return self.instance, self.number, self.part, self.occurrences
+
+
+@dataclasses.dataclass(frozen=True)
+class PastAlarm:
+    """An alarm that there was. Times are ISO 8601; `cleared` is None while it is active."""
+
+    number: int
+    severity: Literal["HINT", "WARNING", "ERROR", "EMERGENCY"]
+    source: str
+    text: str
+    part: int
+    occurrences: int
+    raised: str
+    cleared: str | None = None
+
+
+@dataclasses.dataclass(frozen=True)
+class Plan:
+    """What a stored program will do, at feed override 100 % and without the times of M, S and T; s and mm."""
+
+    program: str
+    revision: int
+    seconds: float
+    complete: bool
+    moves: int
+    lines: dict[str, list[float]]
+    path: dict[str, list[float]]
+    alarm: str | None = None
+
+    def at(self, seconds: float) -> int:
+        """The line that is executed at this time after the start."""
+        index = bisect.bisect_right(self.lines["begin"], seconds)
+        return int(self.lines["line"][max(0, index - 1)]) if self.lines["line"] else 0
 
 
 @dataclasses.dataclass(frozen=True)

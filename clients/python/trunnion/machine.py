@@ -8,7 +8,7 @@ import urllib.parse
 from typing import Any
 
 from .channel import Channel
-from .data import Alarm, Parameter, Program, Tool, from_json
+from .data import Alarm, Parameter, PastAlarm, Plan, Program, Tool, from_json
 from .errors import Error, NotConnected, Refused
 from .http import Http
 from .recordings import Recordings, StoredRecordings
@@ -97,6 +97,10 @@ class Programs:
         """The text of a program. Raises Refused when it is not stored."""
         return self._http.request("GET", self._path(name))
 
+    def plan(self, name: str, channel: int = 0) -> Plan:
+        """Its motion, planned as the channel will. Raises Refused when it is not stored."""
+        return from_json(Plan, self._http.get(f"{self._path(name)}/plan?channel={channel}"))
+
     def delete(self, name: str) -> None:
         """Removes a program. Raises Refused, for example while a channel executes it."""
         self._http.send("DELETE", self._path(name))
@@ -110,8 +114,8 @@ class Programs:
 class Machine:
     """A connection to a gateway: `with trunnion.connect() as machine:`."""
 
-    def __init__(self, url: str, timeout: float, token: str | None = None):
-        self.http = Http(url, timeout, token)
+    def __init__(self, url: str, timeout: float, token: str | None = None, ca: str | None = None):
+        self.http = Http(url, timeout, token, ca)
         self.parameters = Parameters(self.http)
         self.programs = Programs(self.http)
         self.stream = Stream(self.http)
@@ -162,6 +166,11 @@ class Machine:
         found = [from_json(Alarm, one) for one in self.stream.state.get("alarms", {}).values()]
         return sorted(found, key=lambda alarm: (alarm.since, alarm.number))
 
+    def alarm_history(self, search: str = "", limit: int = 2000) -> list[PastAlarm]:
+        """Alarms that there were, the newest first; `search`: part of number, text or source."""
+        found = self.http.get(f"/api/alarms/history?limit={limit}&search={urllib.parse.quote(search)}")
+        return [from_json(PastAlarm, one) for one in found["alarms"]]
+
     def reset_alarms(self) -> None:
         """Requests every service to clear the alarms whose cause is gone."""
         self.http.send("POST", "/api/alarms/reset")
@@ -187,9 +196,10 @@ class Machine:
         return [from_json(Tool, one) for one in self.http.get("/api/tools")["tools"]]
 
 
-def connect(url: str = "http://localhost:8080", timeout: float = 10.0, token: str | None = None) -> Machine:
+def connect(url: str = "http://localhost:8080", timeout: float = 10.0, token: str | None = None, ca: str | None = None) -> Machine:
     """Connects to the gateway of a machine.
 
-    timeout: seconds to wait for an answer. token: of `trunnion user token`, where users log in. Raises NotConnected when it does not answer.
+    timeout: seconds to wait for an answer. token: of `trunnion user token`, where users log in. ca: PEM file of the certificate of a
+    machine with `tls: on`, for https. Raises NotConnected when it does not answer.
     """
-    return Machine(url, timeout, token)
+    return Machine(url, timeout, token, ca)

@@ -126,6 +126,13 @@ class StoredRecordings:
         """The MCAP file. Raises Refused when there is none."""
         return self._http.request("GET", self._path(name))
 
+    def table(self, name: str) -> dict[str, list[float]]:
+        """Its executed cycles by column: cycle, commanded[i] and actual[i] of each axis of the drive in mm or degrees, velocity[i]
+        and torque[i], which are known once in a batch of cycles and nan in the others. Raises Refused when there is none."""
+        lines = self._http.request("GET", f"{self._path(name)}/table").decode().splitlines()
+        columns = zip(*(line.split(",") for line in lines[1:]))
+        return {title: [float(value or "nan") for value in column] for title, column in zip(lines[0].split(","), columns)}
+
     def delete(self, name: str) -> None:
         """Deletes it. Raises Refused, for example while it is being made."""
         etag = next((one["etag"] for one in self.list() if one["name"] == name), "")

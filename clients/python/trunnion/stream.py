@@ -32,7 +32,7 @@ class Stream:
     """Follows the state in a thread of its own until close()."""
 
     def __init__(self, http: Http):
-        self._socket = WebSocket(http.host, http.port, "/api/stream", SILENCE, http.headers)
+        self._socket = WebSocket(http.host, http.port, "/api/stream", SILENCE, http.headers, http.tls)
         self._changed = threading.Condition()
         self._state: dict[str, Any] = {}
         self._sequence = -1

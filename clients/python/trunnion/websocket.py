@@ -6,6 +6,7 @@ import base64
 import hashlib
 import os
 import socket
+import ssl
 import struct
 
 from .errors import NotConnected
@@ -83,14 +84,17 @@ class Frames:
 
 
 class WebSocket:
-    """An open connection. receive() and send() may be called from two threads."""
+    """An open connection. close() may be called from another thread than receive()."""
 
-    def __init__(self, host: str, port: int, path: str, timeout: float, headers: dict[str, str] | None = None):
-        """timeout: seconds; a silence of this length counts as a lost connection."""
+    def __init__(self, host: str, port: int, path: str, timeout: float, headers: dict[str, str] | None = None,
+                 tls: ssl.SSLContext | None = None):
+        """timeout: seconds; a silence of this length counts as a lost connection. tls: None for clear text."""
         try:
             self._socket = socket.create_connection((host, port), timeout)
+            if tls is not None:
+                self._socket = tls.wrap_socket(self._socket, server_hostname=host)
         except OSError as error:
-            raise NotConnected(f"http://{host}:{port} does not answer: {error}") from error
+            raise NotConnected(f"{'https' if tls else 'http'}://{host}:{port} does not answer: {error}") from error
         self._frames = Frames()
         try:
             self._open(host, port, path, headers or {})
@@ -115,6 +119,8 @@ class WebSocket:
         lines = head.decode("latin-1").split("\r\n")
         fields = {name.strip().lower(): value.strip() for name, _, value in (line.partition(":") for line in lines[1:])}
         expected = base64.b64encode(hashlib.sha1((key + _MAGIC).encode()).digest()).decode()
+        if " 308 " in f"{lines[0]} ":
+            raise NotConnected("this gateway is reached by https:// only")
         if " 101 " not in f"{lines[0]} " or fields.get("sec-websocket-accept") != expected:
             raise NotConnected(f"the gateway opened no stream: {lines[0]}")
         self._frames.add(rest)
@@ -134,14 +140,11 @@ class WebSocket:
             if opcode == _CLOSE:
                 raise NotConnected("the gateway has closed the stream")
 
-    def send(self, text: str) -> None:
-        """Sends a text message."""
-        self._write(frame(_TEXT, text.encode(), os.urandom(4)))
-
     def close(self) -> None:
         """Ends the connection; receive() in another thread then raises NotConnected."""
         try:
-            self._socket.shutdown(socket.SHUT_RDWR)
+            # Of the socket itself: that of TLS would let the other thread read what is encrypted as if it were not.
+            socket.socket.shutdown(self._socket, socket.SHUT_RDWR)
         except OSError:
             pass
         self._socket.close()

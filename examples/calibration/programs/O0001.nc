@@ -1,6 +1,6 @@
 %001 (calibration of two rotary axes: measures a sphere at 8 teaching points of either axis, RTCP off)
 (Inputs, docs/calibration-programs.md:)
-(#52000 type 0 1 2; #52002 #52003 first and second rotary axis: 4 A, 5 B, 6 C; #52004 safe height; #52005 #52006 #52007 F1 F2 F3;)
+(#52000 type 0 1 2; #52001 order of the axes in the report 0 1; #52002 #52003 first and second rotary axis: 4 A, 5 B, 6 C; #52004 safe height; #52005 #52006 #52007 F1 F2 F3;)
 (#52008 radius of the sphere; #52009 tool length; #52010 tool radius; #52011 Z of the retract plane, machine coordinates;)
 (#52012 side that is left out, as Q of P002; #52013 permitted range of the repeatability check, vacant 0.005 mm;)
 (teaching points i = 0 .. 7 of the first axis: #[52100+i] X, #[52110+i] Y, #[52120+i] Z, #[52130+i] first, #[52140+i] second)
@@ -9,6 +9,7 @@
 G21 G17 G90 G94 G40 G80 G49 G54
 #52999=0
 IF [[#52000 NE 0] && [#52000 NE 1] && [#52000 NE 2]] THEN #3000=31 (#52000, the calibration type, must be 0, 1 or 2)
+IF [[#52001 NE #0] && [#52001 NE 0] && [#52001 NE 1]] THEN #3000=43 (#52001, the order of the axes in the report, must be 0 or 1)
 IF [[#52002 LT 4] || [#52002 GT 6] || [#52003 LT 4] || [#52003 GT 6]] THEN #3000=32 (#52002 #52003, the rotary axes, must be 4, 5 or 6)
 IF [#52002 EQ #52003] THEN #3000=33 (#52002 and #52003 must be two axes)
 IF [[#52004 LT 1] || [#52004 GT 100]] THEN #3000=34 (#52004, the safe height, must be 1 to 100 mm)

@@ -5,7 +5,7 @@ import { createWriteStream, mkdtempSync, rmSync, writeFileSync } from "node:fs";
 import { readFile } from "node:fs/promises";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
-import { channelState, check, eventually, inaccessible, openPage, overflowing, post, shot } from "./harness.mjs";
+import { appears, channelState, check, eventually, inaccessible, openPage, overflowing, post, shot } from "./harness.mjs";
 
 const hand = { delay: 120 };  // ms a key
 
@@ -38,7 +38,7 @@ async function sampling(page, url) {
   await page.getByRole("button", { name: "Start sampling" }).click();
   await page.getByText("waits for the trigger").waitFor();
   await mdi("G1 X10 F3000");
-  check("below the level the trigger waits", await page.getByText("waits for the trigger").isVisible());
+  check("below the level the trigger waits", await appears(page.getByText("waits for the trigger")));
   await mdi("G1 X60");
   await mdi("G4 P3000");
   await page.locator("[data-test=rows]").waitFor();

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the tests of the page share: the cluster, the browser, and what must hold of every view.
-import { spawn } from "node:child_process";
+import { execFileSync, spawn } from "node:child_process";
 import { appendFileSync, cpSync, mkdirSync, mkdtempSync, rmSync } from "node:fs";
+import { get } from "node:https";
 import { createRequire } from "node:module";
 import { createServer } from "node:net";
 import { tmpdir } from "node:os";
@@ -35,14 +36,24 @@ function freePort() {
   });
 }
 
+/** `what` is a text, or a function that says more once it has failed. */
 export async function eventually(what, condition, seconds = 10) {
   const until = Date.now() + seconds * 1000;
   for (;;) {
     const result = await condition();
     if (result) return result;
-    if (Date.now() > until) throw new Error(`not within ${seconds} s: ${what}`);
+    if (Date.now() > until) throw new Error(`not within ${seconds} s: ${typeof what === "function" ? await what() : what}`);
     await new Promise((resolve) => setTimeout(resolve, 50));
   }
+}
+
+/** Whether it comes to be seen; what a page shows may come a moment after what was waited for. */
+export const appears = (locator) => locator.waitFor({ timeout: 10000 }).then(() => true, () => false);
+
+/** As a hand does it: over the key, when nothing moves it any more, and down; `page.mouse.up()` lets it go. */
+export async function pressDown(page, key) {
+  await key.hover();
+  await page.mouse.down();
 }
 
 export function check(what, condition) {
@@ -50,22 +61,28 @@ export function check(what, condition) {
   console.log(`ok   ${what}`);
 }
 
-/** `settings` are further lines of machine.yaml; `ready` is a path that answers when the gateway does. */
-export async function startCluster({ settings = "", ready = "api/channels/0" } = {}) {
+/** Whether `url` answers by TLS, whoever's its certificate is. */
+const answersByTls = (url) =>
+  new Promise((resolve) => get(url, { rejectUnauthorized: false }, (answer) => resolve(answer.resume().statusCode === 200)).on("error", () => resolve(false)));
+
+/** `settings` are further lines of machine.yaml; `ready` is a path that answers when the gateway does; `tls` makes a certificate. */
+export async function startCluster({ settings = "", ready = "api/channels/0", tls = false } = {}) {
   const port = await freePort();
   const machine = join(scratch, "machine");
   cpSync(MACHINE, machine, { recursive: true });
   appendFileSync(join(machine, "machine.yaml"), settings);
   mkdirSync(state);
+  if (tls) execFileSync(process.env.TRUNNION, ["certificate", machine, "--state", state]);
   start(FAKE_CLUSTER, ["51"]).stdout.on("data", (text) => (cluster += text));
   const gateway = ["--machine", machine, "--state", state, "--domain", "51", "--web", WEB, "--port", String(port)];
   start(GATEWAY, [...gateway, "--instance", "20"]);
-  const url = `http://127.0.0.1:${port}/`;
-  await eventually("the gateway answers", () => fetch(`${url}${ready}`).then((r) => r.ok, () => false));
+  const url = `${tls ? "https" : "http"}://127.0.0.1:${port}/`;
+  const answers = tls ? answersByTls : (target) => fetch(target).then((r) => r.ok, () => false);
+  await eventually("the gateway answers", () => answers(`${url}${ready}`));
   return url;
 }
 
-export const killGateway = () => children[1].kill("SIGKILL");
+export const signalGateway = (signal) => children[1].kill(signal);
 
 export function launch() {
   return chromium.launch({

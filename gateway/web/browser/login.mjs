@@ -4,7 +4,7 @@
 import { execFileSync } from "node:child_process";
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
-import { check, cluster, coveredStops, eventually, inaccessible, openPage, runTest, shot, state } from "./harness.mjs";
+import { appears, check, cluster, coveredStops, eventually, inaccessible, openPage, pressDown, runTest, shot, state } from "./harness.mjs";
 
 const hand = { delay: 120 };  // ms a key
 const idle = 12;  // s, as in the settings below
@@ -43,9 +43,7 @@ async function logOut(page, words, name) {
 
 /** Stops the machine as a hand does: on press. */
 async function press(page, name) {
-  const box = await page.getByRole("button", { name }).boundingBox();
-  await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
-  await page.mouse.down();
+  await pressDown(page, page.getByRole("button", { name }));
   await page.mouse.up();
 }
 
@@ -74,7 +72,7 @@ async function first(page, words) {
   check("a wrong password is refused and the form stays", (await page.getByLabel(words.password).inputValue()) === "");
   await logIn(page, words, "admin", readFileSync(join(state, "initial-password"), "utf8").trim());
   await page.locator(".positions").waitFor();
-  check("the administrator of the first start logs in", await page.getByRole("button", { name: `${words.logout} admin` }).isVisible());
+  check("the administrator of the first start logs in", await appears(page.getByRole("button", { name: `${words.logout} admin` })));
   await logOut(page, words, "admin");
   check("and logs out", (await page.locator(".positions").count()) === 0);
 }
@@ -98,8 +96,15 @@ async function operator(page, words) {
   await shot(page, "login-operator");
   await go(page, words.setup);
   await page.getByLabel("G54 X").waitFor();
-  check("so is a work offset", (await page.getByLabel("G54 X").isDisabled()) && (await page.getByRole("note").filter({ hasText: words.operator }).isVisible()));
+  check("so is a work offset", (await page.getByLabel("G54 X").isDisabled()) && (await appears(page.getByRole("note").filter({ hasText: words.operator }))));
   check("and its undo", await page.getByRole("button", { name: words.undo }).isDisabled());
+  await page.getByRole("tab", { name: "Kinematics" }).click();
+  const measurement = page.getByRole("region", { name: "Measurement" });
+  await measurement.getByText("1 of 1 poses are complete").waitFor();
+  for (const name of ["Start measurement", "Write result", "Discard"])
+    check(`a measurement is the setter's and the builder's: ${name} is dark`, await measurement.getByRole("button", { name }).isDisabled());
+  await page.getByRole("table", { name: "Poses" }).waitFor();
+  check("and its result is everybody's", true);
   const findings = await inaccessible(page);
   check(`what is dark has names ${findings}`, findings.length === 0);
   await logOut(page, words, "ann");
@@ -118,12 +123,18 @@ async function setter(page, words) {
   await page.locator('[data-parameter="000010"]').click();
   await page.getByText(words.builder).waitFor();
   check("one of the machine builder is dark and says why", await field.isDisabled());
+  await go(page, words.setup);
+  await page.getByRole("tab", { name: "Kinematics" }).click();
+  const measurement = page.getByRole("region", { name: "Measurement" });
+  await measurement.getByRole("note").filter({ hasText: words.builder }).waitFor();
+  check("a setter discards a result", await measurement.getByRole("button", { name: "Discard" }).isEnabled());
+  check("and who may write it is said", await measurement.getByRole("button", { name: "Write result" }).isDisabled());
 }
 
 async function timeOut(page, words) {
   // The page goes on asking for the state, which is nobody's doing.
   await page.getByRole("form", { name: words.title }).waitFor({ timeout: (idle + 6) * 1000 });
-  check("a session without a request ends, and the page says so", await page.getByText(words.over).isVisible());
+  check("a session without a request ends, and the page says so", await appears(page.getByText(words.over)));
   const covered = await coveredStops(page);
   check(`the keys that stop stay free ${covered}`, covered.length === 0);
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Operating a real cluster by roles and names: MDI of several lines, alarms with cause and remedy in every view, and the
 // keys that stop.
-import { channelState, check, coveredStops, eventually, openPage, post, shot } from "./harness.mjs";
+import { channelState, check, coveredStops, eventually, openPage, post, pressDown, shot } from "./harness.mjs";
 
 const hand = { delay: 120 };  // ms a key
 const views = ["Operate", "3D", "Programs", "Setup", "Parameters", "Analysis", "Diagnosis"];
@@ -17,6 +17,21 @@ async function mdi(page, url) {
   await eventually("the last of several MDI lines is executed", async () => close(await machineX(url), 13.25), 20);
   await eventually("the field is empty again", async () => (await field.inputValue()) === "");
   check("several MDI lines are executed one after the other", true);
+
+  await field.fill("#100=1.5\n#512=-[2/3]");
+  await page.getByRole("button", { name: "Execute" }).click();
+  await page.getByRole("tab", { name: "Variables" }).click();
+  const variables = page.getByRole("region", { name: "Variables" });
+  await variables.getByRole("row", { name: "#100 1.5" }).waitFor();
+  await page.getByRole("searchbox", { name: "Number of a variable" }).pressSequentially("512", hand);
+  await variables.getByRole("row", { name: "#512 -0.666666" }).waitFor();
+  check("macro variables are shown and found by their number", (await variables.getByRole("row", { name: "#100 1.5" }).count()) === 0);
+  await shot(page, "variables");
+  await page.getByRole("searchbox", { name: "Number of a variable" }).fill("");
+  await page.getByRole("tab", { name: "Tool path" }).click();
+  const load = page.getByRole("meter", { name: /^Load of X/ });
+  const percent = Number(await load.getAttribute("aria-valuenow"));
+  check(`an axis shows its load: ${percent} %`, percent >= 0 && percent <= 100 && (await page.getByRole("meter").count()) === (await channelState(url)).axes.length);
 
   await field.fill("G0 X14\n?? X15\nG0 X16");
   await page.getByRole("button", { name: "Execute" }).click();
@@ -39,9 +54,7 @@ async function alarmsAndStops(page, url) {
   check("stop and hold are free before anything happened", (await coveredStops(page)).length === 0);
 
   // On press: the pointer goes down and does not come up again before the order has acted.
-  const box = await stop.boundingBox();
-  await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
-  await page.mouse.down();
+  await pressDown(page, stop);
   await page.locator("[data-test=estop-engaged]").waitFor();
   check("the emergency stop acts on press", true);
   await page.mouse.up();
@@ -60,6 +73,15 @@ async function alarmsAndStops(page, url) {
   await page.getByRole("button", { name: "Recover" }).click();
   await page.locator("[data-test=estop]").waitFor();
   await eventually("the alarms are gone", async () => /No alarms/.test(await alarms.innerText()));
+  await page.getByRole("button", { name: "Diagnosis", exact: true }).click();
+  await page.getByRole("button", { name: "History", exact: true }).click();
+  const past = page.locator("[data-test=alarm-history] li");
+  await page.getByRole("searchbox", { name: "Number, text or source" }).fill("130");
+  await eventually("the history has the emergency stop", async () => /^130\s.*\s\d{4}-\d\d-\d\d \d\d:\d\d:\d\d · lasted 0:\d\d:\d\d · plc/s.test(await past.first().innerText()));
+  check(`the history has when the alarm was raised and how long it lasted: ${(await past.first().innerText()).replaceAll(/\s+/g, " ")}`, true);
+  await shot(page, "alarm-history");
+  await page.getByRole("searchbox", { name: "Number, text or source" }).fill("");
+  await page.getByRole("button", { name: "Operate", exact: true }).click();
   check("recovery leads back", true);
 
   // A question does not cover them either, and the machine can be held while it waits.
@@ -69,12 +91,12 @@ async function alarmsAndStops(page, url) {
   await fetch(`${url}api/programs/page_test.nc`, { method: "PUT", body: "G0 X0\nM30\n" });
   const listed = () => fetch(`${url}api/programs`).then((answer) => answer.json());
   await eventually("the program is listed", async () => (await listed()).programs.some((one) => one.name === "page_test.nc"));
-  await upload("G1 X100 F20\nG1 X-100\nM30\n");
+  await upload("G1 X100 F1\nG1 X-100\nM30\n");  // hours of motion: a cluster in virtual time may be fast
   const question = page.getByRole("alertdialog", { name: /page_test.nc is stored already/ });
   await question.waitFor();
   check("a question covers no key that stops", (await coveredStops(page)).length === 0);
   await question.getByRole("button", { name: "Replace" }).click();
-  await eventually("the program is replaced", async () => (await (await fetch(`${url}api/programs/page_test.nc`)).text()).includes("F20"));
+  await eventually("the program is replaced", async () => (await (await fetch(`${url}api/programs/page_test.nc`)).text()).includes("F1"));
   await page.getByRole("button", { name: "Select…" }).click();
   await page.getByRole("button", { name: /^page_test.nc/ }).click();
   await page.getByRole("button", { name: "Auto", exact: true }).click();
@@ -84,15 +106,20 @@ async function alarmsAndStops(page, url) {
   await eventually("the running time counts", async () => /\d:\d\d:\d\d/.test(await page.locator("[data-test=elapsed]").innerText()));
   await eventually("distance to go is shown", async () => (await page.locator("[data-test=to-go-X]").innerText()) !== "0.000");
   await page.getByRole("button", { name: "Parameters", exact: true }).click();
-  const at = await hold.boundingBox();
-  await page.mouse.move(at.x + at.width / 2, at.y + at.height / 2);
-  await page.mouse.down();
+  await page.locator("[data-test=view-parameters][aria-current=page]").waitFor();
+  await pressDown(page, hold);
   await eventually("feed hold in another view holds on press", async () => (await channelState(url)).state === "HELD");
   await page.mouse.up();
   check("feed hold acts on press in every view", true);
   await page.getByRole("button", { name: "Operate", exact: true }).click();
   await page.getByRole("button", { name: "Reset", exact: true }).click();
   await eventually("reset", async () => (await channelState(url)).state === "IDLE");
+  await page.locator("[data-test=functions]").click();
+  await page.getByRole("textbox", { name: "Set the count of parts" }).pressSequentially("41", { delay: 120 });
+  await page.getByRole("button", { name: "Set", exact: true }).click();
+  await eventually("the count of parts is set", async () => (await channelState(url)).parts === 41);
+  await eventually("and shown", async () => (await page.locator("[data-test=parts]").innerText()) === "41");
+  await page.getByRole("tab", { name: "Tool path" }).click();
   await page.getByRole("button", { name: "Select…" }).click();
   await page.getByRole("button", { name: /^rtcp.nc/ }).click();
   await eventually("another program is selected", async () => (await channelState(url)).program === "rtcp.nc");
@@ -103,8 +130,28 @@ async function alarmsAndStops(page, url) {
   await page.getByRole("button", { name: "Back to text" }).click();
 }
 
+async function storedText(page, url) {
+  const line = `G0 X1 (${"-".repeat(290)})`;  // 298 columns; the panel has room for fewer than 100
+  await fetch(`${url}api/programs/page_long.nc`, { method: "PUT", body: `${line}\nM30\n` });
+  await page.getByRole("button", { name: "Select…" }).click();
+  await page.getByRole("button", { name: /^page_long.nc/ }).click();
+  const shown = page.getByRole("region", { name: "Program text" }).getByText(line);
+  await shown.waitFor();
+  const cut = await shown.evaluate((element) => element.scrollWidth > element.clientWidth && getComputedStyle(element).textOverflow === "ellipsis");
+  check("a line that is longer than the panel ends in a sign", cut);
+  check("and can be read whole", (await shown.getAttribute("title")) === line);
+
+  await fetch(`${url}api/programs/page_long.nc`, { method: "PUT", body: "G0 X2 (newer)\nM30\n" });
+  await page.getByRole("region", { name: "Program text" }).getByText("G0 X2 (newer)").waitFor();
+  check("a newer text of the selected program is shown", true);
+  await post(url, "channels/0/select", { program: "rtcp.nc" });
+  await eventually("another program is selected", async () => (await channelState(url)).program === "rtcp.nc");
+  await fetch(`${url}api/programs/page_long.nc`, { method: "DELETE" });
+}
+
 export async function operate(browser, url) {
   const page = await openPage(browser, url);
+  await storedText(page, url);
   await mdi(page, url);
   await alarmsAndStops(page, url);
   check(`operating logs no errors ${page.complaints}`, page.complaints.length === 0);

@@ -1,21 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 // One station operates: two browsers at a machine without users.
-import { check, coveredStops, eventually, inaccessible, openPage, overflowing, runTest, shot } from "./harness.mjs";
+import { check, coveredStops, eventually, inaccessible, openPage, overflowing, pressDown, runTest, shot } from "./harness.mjs";
 
 const operator = (page) => page.locator("[data-test=operator]").innerText();
 const name = (page) => page.locator("[data-test=operator]");
 
 async function press(page, key) {
-  const box = await page.getByRole("button", { name: key }).boundingBox();
-  await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
-  await page.mouse.down();
+  await pressDown(page, page.getByRole("button", { name: key }));
   await page.mouse.up();
 }
 
 async function twoBrowsers(browser, url) {
   const one = await openPage(browser, url);
   const other = await openPage(browser, url);
-  await name(one).filter({ hasText: "Nobody operates" }).waitFor();
+  await name(one).filter({ hasText: "No station operates" }).waitFor();
   check("nobody operates at the start", true);
   await one.getByRole("button", { name: "Auto", exact: true }).click();
   await name(one).filter({ hasText: "You operate" }).waitFor();
@@ -48,12 +46,12 @@ async function twoBrowsers(browser, url) {
   check("the right is taken over, and the one before is told", await dark(one, "Cycle start"));
   await shot(one, "operating-taken-over");
   await other.getByRole("button", { name: "Give back" }).click();
-  await name(one).filter({ hasText: "Nobody operates" }).waitFor();
+  await name(one).filter({ hasText: "No station operates" }).waitFor();
   check("and given back", !(await dark(one, "Reset")));
   await other.getByRole("button", { name: "Reset", exact: true }).click();
   await name(one).filter({ hasText: /operates$/ }).waitFor();
   await other.context().close();
-  await eventually("a browser that is closed loses the right", async () => (await operator(one)) === "Nobody operates", 25);
+  await eventually("a browser that is closed loses the right", async () => (await operator(one)) === "No station operates", 25);
   check("a browser that is closed loses the right when its lease ends", true);
   check(`no errors ${one.complaints}`, one.complaints.length === 0);
   await one.context().close();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The programs of the PLC on a real cluster: source with live values, search, force and release, trace, task times, new
 // programs; in English, Chinese and German.
-import { check, eventually, inaccessible, openPage, overflowing, post, shot, smallTargets } from "./harness.mjs";
+import { appears, check, eventually, inaccessible, openPage, overflowing, post, shot, smallTargets } from "./harness.mjs";
 
 const forces = (url) => fetch(`${url}api/plc/forces`).then(async (answer) => (await answer.json()).values.map(({ path }) => path));
 
@@ -16,40 +16,41 @@ async function english(browser, url) {
   const source = page.getByRole("region", { name: "main.st" });
   await source.getByText("PROGRAM main").waitFor();
   check("the source that runs is shown", true);
-  await page.locator('[data-path="main.changer.Q"], [data-path^="main."]').first().waitFor();
-  const beside = source.locator(".plc-line").filter({ hasText: "is_m3 := code = 3" });
-  await beside.getByText(/is_m3 = FALSE/).waitFor();
+  await page.locator('[data-path^="main."]').first().waitFor();
+  const beside = source.locator(".plc-line").filter({ hasText: "code := SEL(m_strobe_0" });
+  await beside.scrollIntoViewIfNeeded();
   await beside.getByText(/code = 65535/).waitFor();
+  await beside.getByText(/m_code_0 = 0/).waitFor();
   check("with the live values of a line beside it", true);
   await page.getByRole("combobox", { name: "File" }).selectOption("fast.st");
   await page.getByRole("region", { name: "fast.st" }).getByText("PROGRAM fast").waitFor();
   check("another file can be chosen", true);
   await page.getByRole("combobox", { name: "File" }).selectOption("main.st");
 
-  await page.getByRole("searchbox", { name: "Find a variable" }).pressSequentially("probe_start.pt", { delay: 120 });
-  await page.getByRole("button", { name: "Watch main.probe_start.PT" }).click();
-  await page.getByRole("searchbox", { name: "Find a variable" }).fill("main.speed");
-  await page.getByRole("button", { name: "Watch main.speed" }).click();
+  await page.getByRole("searchbox", { name: "Find a variable" }).pressSequentially("probe.start.pt", { delay: 120 });
+  await page.getByRole("button", { name: "Watch main.probe.start.PT" }).click();
+  await page.getByRole("searchbox", { name: "Find a variable" }).fill("main.spindle.programmed");
+  await page.getByRole("button", { name: "Watch main.spindle.programmed" }).click();
   const watched = page.getByRole("region", { name: "Watched variables" }).first();
-  await watched.getByRole("row").filter({ hasText: "main.probe_start.PT" }).getByText("T#100ms").waitFor();
+  await watched.getByRole("row").filter({ hasText: "main.probe.start.PT" }).getByText("T#100ms").waitFor();
   check("a variable that is found is watched", true);
-  const value = page.getByRole("textbox", { name: "Value to force main.speed to" });
+  const value = page.getByRole("textbox", { name: "Value to force main.spindle.programmed to" });
   await value.fill("abc");
   await value.press("Enter");
-  await page.getByRole("alertdialog", { name: /Force main.speed to abc/ }).getByRole("button", { name: "Force" }).click();
+  await page.getByRole("alertdialog", { name: /Force main.spindle.programmed to abc/ }).getByRole("button", { name: "Force" }).click();
   await page.locator(".notice.refused").filter({ hasText: "write a whole number 0 .. 65535" }).waitFor();
   check("a wrong value is refused with what is expected", (await forces(url)).length === 0);
   await value.fill("1234");
   await value.press("Enter");
-  await page.getByRole("alertdialog", { name: /Force main.speed to 1234/ }).getByRole("button", { name: "Force" }).click();
+  await page.getByRole("alertdialog", { name: /Force main.spindle.programmed to 1234/ }).getByRole("button", { name: "Force" }).click();
   await eventually("it is forced", async () => (await forces(url)).length === 1);
-  await watched.getByRole("row").filter({ hasText: "main.speed" }).getByText("1234").waitFor();
+  await watched.getByRole("row").filter({ hasText: "main.spindle.programmed" }).getByText("1234").waitFor();
   await watched.locator("[data-test=plc-forces]").filter({ hasText: "1 forced" }).waitFor();
-  check("a forced value has its mark", await watched.getByRole("row").filter({ hasText: "main.speed" }).getByText("forced", { exact: true }).isVisible());
+  check("a forced value has its mark", await appears(watched.getByRole("row").filter({ hasText: "main.spindle.programmed" }).getByText("forced", { exact: true })));
   await shot(page, "plc-programs");
   for (const [what, found] of [["nothing is cut", await overflowing(page)], ["touch targets of 48 px", await smallTargets(page)], ["axe-core", await inaccessible(page)]])
     check(`PLC programs: ${what} ${found}`, found.length === 0);
-  await page.getByRole("button", { name: "Release main.speed" }).click();
+  await page.getByRole("button", { name: "Release main.spindle.programmed" }).click();
   await eventually("it is released", async () => (await forces(url)).length === 0);
   check("and is released", true);
 
@@ -71,7 +72,7 @@ async function english(browser, url) {
     check(`task times: ${what} ${found}`, found.length === 0);
   await page.getByRole("button", { name: "Uses", exact: true }).click();
   const used = page.getByRole("region", { name: "Uses" }).last().getByRole("row");
-  await used.filter({ hasText: "written" }).filter({ hasText: "speed :=" }).first().waitFor();
+  await used.filter({ hasText: "written" }).filter({ hasText: "programmed :=" }).first().waitFor();
   check("the cross reference has the line that writes a variable", true);
   await page.getByRole("button", { name: "Inputs", exact: true }).click();
   const key = page.getByRole("switch", { name: "Switch feed_hold_button" });
@@ -89,12 +90,55 @@ async function english(browser, url) {
   await page.getByRole("button", { name: "Release feed_hold_button" }).click();
   await eventually("and released", async () => (await forces(url)).length === 0);
   check("an input is switched by hand and given back", true);
+  await simulator(page, url);
   await page.getByRole("button", { name: "Trace", exact: true }).click();
   await load(page, url);
   await page.getByRole("button", { name: "Registers and services" }).click();
   await page.getByRole("region", { name: "PLC registers" }).first().waitFor();
   check(`the PLC's view logs no errors ${page.complaints}`, page.complaints.length === 0);
   await page.context().close();
+}
+
+// The devices of configs/machines/ac-table/plc/devices.yaml, by their names.
+async function simulator(page, url) {
+  const agree = (path, value) => page.getByRole("alertdialog", { name: new RegExp(`^Force ${path} to ${value}\\?`) }).getByRole("button", { name: "Force" }).click();
+  const device = (name) => page.getByRole("row").filter({ has: page.getByRole("cell", { name, exact: true }) });
+  await page.getByRole("combobox", { name: "feed_override: position" }).selectOption("50");
+  await agree("%X120", "9");
+  await device("feed override rotary switch").getByText("value 50").waitFor();
+  check("a rotary switch is turned to a position by what stands there", true);
+  const wheel = device("handwheel handwheel");
+  await wheel.getByText(/counter \d+/).waitFor();
+  const counter = Number(/counter (\d+)/.exec(await wheel.innerText())[1]);
+  await page.getByRole("button", { name: "Turn handwheel by 10", exact: true }).click();
+  await agree("%X127", String((counter + 10) % 256));
+  await wheel.getByText(`counter ${(counter + 10) % 256}`).waitFor();
+  await page.getByRole("button", { name: "Turn handwheel by -1", exact: true }).click();
+  await wheel.getByText(`counter ${(counter + 9) % 256}`).waitFor();
+  check("the handwheel is turned to and fro, after one question", true);
+  // Without waiting for the values between.
+  for (let i = 0; i < 5; ++i) await page.getByRole("button", { name: "Turn handwheel by 1", exact: true }).click();
+  await wheel.getByText(`counter ${(counter + 14) % 256}`).waitFor();
+  check("five counts one after the other are five", true);
+  await page.getByRole("combobox", { name: "magazine: place" }).selectOption("3");
+  await agree("simulation.device_magazine.place", "3");
+  await device("magazine magazine").getByText("place 3").first().waitFor();
+  check("the magazine is brought to a place", true);
+  await page.getByRole("switch", { name: "Switch coolant: fault" }).click();
+  await agree("%R60.5", "TRUE");
+  await page.getByRole("switch", { name: "Switch coolant: fault", checked: true }).waitFor();
+  check("a device has its fault", (await forces(url)).includes("%R60.5"));
+  for (const [what, found] of [["nothing is cut", await overflowing(page)], ["touch targets of 48 px", await smallTargets(page)], ["axe-core", await inaccessible(page)]])
+    check(`simulated devices: ${what} ${found}`, found.length === 0);
+  await shot(page, "plc-simulator");
+  // A bit that no program writes stays as the hand has left it.
+  await page.getByRole("switch", { name: "Switch coolant: fault" }).click();
+  await agree("%R60.5", "FALSE");
+  await page.getByRole("switch", { name: "Switch coolant: fault", checked: false }).waitFor();
+  for (const name of ["feed_override: position", "handwheel: counts", "magazine: place", "coolant: fault"]) await page.getByRole("button", { name: `Release ${name}` }).click();
+  await eventually("all are given back", async () => (await forces(url)).length === 0);
+  await device("magazine magazine").getByText("place 3").first().waitFor();
+  check("the magazine stays where the hand has left it", true);
 }
 
 const programs = (url) => fetch(`${url}api/plc/programs`).then((answer) => answer.json());

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Programs: typed at the speed of a hand, checked while they are typed, kept over a reload, saved with their revision.
 import { readFile } from "node:fs/promises";
-import { channelState, check, eventually, openPage, overflowing, shot } from "./harness.mjs";
+import { appears, channelState, check, eventually, openPage, overflowing, shot } from "./harness.mjs";
 
 const hand = { delay: 120 };  // ms a key
 const stored = async (url, name) => fetch(`${url}api/programs/${name}`).then(async (answer) => ({ status: answer.status, tag: answer.headers.get("etag"), text: await answer.text() }));
@@ -36,7 +36,7 @@ async function typing(page, url) {
   check("the error is named with line, column and alarm while one types", /1107/.test(await error.innerText()));
   check("and marked in the text", (await page.locator(".cm-lintRange-error").innerText()) === "Q4");
   check("codes are coloured", (await page.locator(".nc-code").allInnerTexts()).includes("G54"));
-  check("the outline shows the tool change", await page.getByRole("button", { name: /T1 M6/ }).isVisible());
+  check("the outline shows the tool change", await appears(page.getByRole("button", { name: /T1 M6/ })));
   await error.click();
   await page.keyboard.press("End");
   for (let i = 0; i < 7; ++i) await page.keyboard.press("Backspace");
@@ -49,7 +49,7 @@ async function typing(page, url) {
   await list.getByRole("button", { name: /page-a.nc/ }).click();
   const lines = async () => (await page.locator(".cm-line").allInnerTexts()).join("\n");
   await eventually("the text is there", async () => (await lines()).includes("G1 X2 F100"));
-  check("text that is not saved is there after a reload, and said to be not saved", await page.locator("[data-test=not-saved]").isVisible());
+  check("text that is not saved is there after a reload, and said to be not saved", await appears(page.locator("[data-test=not-saved]")));
   check("nothing was stored meanwhile", (await stored(url, "page-a.nc")).status === 404);
 
   await page.route("**/api/programs/page-a.nc", (route) => (route.request().method() === "PUT" ? route.abort() : route.continue()));

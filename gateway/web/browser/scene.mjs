@@ -10,11 +10,40 @@ const open = async (page) => {
   await page.locator("[data-test=segments]").waitFor();
 };
 
-async function run(url, program) {
+async function select(url, program) {
   await post(url, "channels/0/mode", { mode: "AUTO" });
-  await post(url, "channels/0/select", { program });
-  await eventually("the program is selected", async () => (await channelState(url)).program === program);
+  await eventually(`${program} is selected`, async () => (await post(url, "channels/0/select", { program })).ok);
+  await eventually(`${program} is shown`, async () => (await channelState(url)).program === program);
+}
+
+async function run(url, program) {
+  await select(url, program);
   await eventually("the program starts", async () => (await post(url, "channels/0/cycle-start")).ok);
+}
+
+const shownSeconds = async (page) => (await page.locator("[data-test=remaining]").innerText()).split(":").reduce((sum, part) => 60 * sum + Number(part), 0);
+/** Of the cone, whole ones: other parts of the test may have changed parameters. */
+const plannedSeconds = async (url) => Math.floor((await fetch(`${url}api/programs/nas979_cone.nc/plan`).then((answer) => answer.json())).seconds);
+
+/** At a small override the program takes long enough to be watched in virtual time; its rapids are as fast as ever. */
+async function remainingTime(page, url) {
+  const seconds = () => shownSeconds(page);
+  await select(url, "nas979_cone.nc");
+  const planned = await plannedSeconds(url);
+  await eventually("the cone is planned", async () => (await seconds()) === planned, 20);
+  await post(url, "channels/0/override", { kind: "feed", value: 0.002 });
+  await run(url, "nas979_cone.nc");
+  await eventually("it runs", async () => (await channelState(url)).state === "RUNNING");
+  const left = [];
+  while (new Set(left).size < 5 && left.length < 200 && (await channelState(url)).state !== "IDLE") {
+    left.push(await seconds());
+    await page.waitForTimeout(50);
+  }
+  const different = left.filter((one, i) => one !== left[i - 1]);
+  check(`the remaining time counts down: ${different}`, different.length > 2 && different.every((one, i) => i === 0 || one < different[i - 1]));
+  await post(url, "channels/0/reset");
+  await post(url, "channels/0/override", { kind: "feed", value: 1 });
+  await eventually("all of it is planned again", async () => (await seconds()) === planned);
 }
 
 async function growing(browser, url) {
@@ -30,17 +59,32 @@ async function growing(browser, url) {
   await page.getByRole("button", { name: "3D", exact: true }).last().click();
   await open(page);
   check("and is loaded with the 3D view", requested.some((one) => one.includes("viewer")));
+  const { bodies } = await fetch(`${url}api/bodies/0`).then((answer) => answer.json());
+  const drawnBodies = await page.locator("[data-test=scene]").evaluate((canvas) => Number(canvas.dataset.bodies));
+  check(`the ${bodies.length} bodies of the machine are drawn`, bodies.length > 1 && drawnBodies === bodies.length);
+  // What the program will do is shown before it is started.
+  await select(url, "nas979_cone.nc");
+  const programmed = () => page.locator("[data-test=scene]").evaluate((canvas) => Number(canvas.dataset.programmed ?? 0));
+  await eventually("the programmed path is drawn", async () => (await programmed()) > 100, 20);
+  const planned = await plannedSeconds(url);
+  // That of the program before is shown until the new one is planned.
+  await eventually(`the planned time is shown: ${planned} s`, async () => (await shownSeconds(page)) === planned, 20);
+  check(`the planned time is shown: ${planned} s`, true);
+  await page.getByRole("button", { name: "Fit" }).click();
+  await page.waitForTimeout(300);
+  await shot(page, "scene-programmed");
   const before = await segments(page);
   await run(url, "nas979_cone.nc");
-  await eventually("the executed path grows", async () => (await segments(page)) > before + 100, 30);
+  await eventually("the executed path grows", async () => (await segments(page)) > before + 30, 30);
   check("the executed path grows", true);
   await eventually("the program ends", async () => (await channelState(url)).state === "IDLE", 60);
   await page.waitForTimeout(300);
-  for (const name of ["Front", "Right", "Top", "Space"]) {
+  for (const name of ["Front", "Right", "Top", "Space", "Whole"]) {
     const drawn = await frames(page);
     await page.getByRole("button", { name, exact: true }).click();
     await eventually(`the view ${name} is drawn`, async () => (await frames(page)) > drawn);
   }
+  await shot(page, "scene-whole");
   await page.getByRole("button", { name: "Fit" }).click();
   await page.waitForTimeout(400);
   await shot(page, "scene-path");
@@ -62,23 +106,27 @@ async function growing(browser, url) {
     document.dispatchEvent(new Event("visibilitychange"));
   });
   await eventually("it is drawn again when the tab is shown", async () => (await frames(page)) > hidden);
+  await remainingTime(page, url);
   check(`the 3D view logs no errors ${page.complaints}`, page.complaints.length === 0);
   await page.context().close();
 }
 
-/** Passes the stream on, and puts a long path into one of its messages. */
+/** Passes the stream on, and puts a long path into its messages, a part into each: one of all would take the stream longer than
+ *  the silence that counts as its loss. */
 async function many(browser, url, rows) {
   const page = await openPage(browser, null);
-  let sent = false;
+  const point = (i) => [80 * Math.cos(i / 50) * (1 - i / rows / 2), 80 * Math.sin(i / 50) * (1 - i / rows / 2), -i / 2000, 0, 0];
+  const part = 10_000;
+  let sent = 0;
   await page.routeWebSocket(/api\/stream/, (socket) => {
     const server = socket.connectToServer();
     socket.onMessage((message) => server.send(message));
     server.onMessage((text) => {
       const message = JSON.parse(text);
-      if (sent || !("changes" in message)) return socket.send(text);
-      sent = true;
-      const points = Array.from({ length: rows }, (_, i) => [80 * Math.cos(i / 50) * (1 - i / rows / 2), 80 * Math.sin(i / 50) * (1 - i / rows / 2), -i / 2000, 0, 0]);
-      message.changes.trace = { first: 1, since: points.map((_, i) => i), axes: [0, 1, 2, 3, 4], rows: points };
+      if (sent >= rows || !("changes" in message)) return socket.send(text);
+      const points = Array.from({ length: Math.min(part, rows - sent) }, (_, i) => point(sent + i));
+      message.changes.trace = { first: 1 + sent, since: points.map((_, i) => i), axes: [0, 1, 2, 3, 4], rows: points };
+      sent += points.length;
       socket.send(JSON.stringify(message));
     });
   });

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Setup on a real cluster: work offsets from the present position and by deltas, tools, tilted planes, and the undo.
-import { channelState, check, eventually, openPage, overflowing, post, shot } from "./harness.mjs";
+import { appears, channelState, check, eventually, openPage, overflowing, post, shot } from "./harness.mjs";
 
 const hand = { delay: 120 };  // ms a key
 const offsets = (url) => fetch(`${url}api/work-offsets`).then((answer) => answer.json());
@@ -123,7 +123,7 @@ async function planes(page, url) {
   // X (20 0 0) times Y (0 20 10) is (0 -200 400), as a unit vector (0 -0.4472 0.8944).
   await eventually("the plane has its normal", async () => (await page.locator("[data-test=plane-normal]").innerText()).replace(/\u2212/g, "-") === "0.0000 -0.4472 0.8944");
   check("a plane is taught by three positions, with the keyboard alone", true);
-  check("and said to wait for the reset", await page.getByText(/takes effect at the next reset/).isVisible());
+  check("and said to wait for the reset", await appears(page.getByText(/takes effect at the next reset/)));
   await shot(page, "setup-planes");
   const cut = await overflowing(page);
   check(`the planes fit ${cut}`, cut.length === 0);

@@ -11,6 +11,8 @@ export interface Answer<T = unknown> {
   body: T | undefined;
   /** Why not, in words for the operator; empty when ok. */
   reason: string;
+  /** ETag of what was read, for putIfSame(). */
+  tag?: string;
 }
 
 interface Refusal {
@@ -53,7 +55,7 @@ async function call<T>(
     const response = await fetch(path, { method, body, headers: type ? { "Content-Type": type, ...more } : more });
     const parsed: unknown = await response.json().catch(() => undefined);
     if (response.status === 401) onUnknown();
-    return answerOf<T>(response.status, parsed);
+    return { ...answerOf<T>(response.status, parsed), tag: response.headers.get("ETag") ?? "" };
   } catch {
     return { ok: false, status: 0, body: undefined, reason: text.peek().noConnection };
   }
@@ -61,9 +63,12 @@ async function call<T>(
 
 export const get = <T>(path: string) => call<T>("GET", path);
 export const remove = (path: string, headers: Record<string, string> = {}) => call("DELETE", path, undefined, undefined, headers);
-export const post = (path: string, body: object = {}) =>
-  call("POST", path, JSON.stringify(body), "application/json");
+export const post = <T = unknown>(path: string, body: object = {}) =>
+  call<T>("POST", path, JSON.stringify(body), "application/json");
 export const put = (path: string, body: object) => call("PUT", path, JSON.stringify(body), "application/json");
+/** Status 412, and nothing is changed, when what had this tag has been changed since. */
+export const putIfSame = (path: string, body: object, tag = "") =>
+  call("PUT", path, JSON.stringify(body), "application/json", tag ? { "If-Match": tag } : {});
 export const upload = (name: string, file: Blob) =>
   call("PUT", `/api/programs/${encodeURIComponent(name)}`, file, "text/plain");
 

@@ -68,6 +68,8 @@ export interface ChannelState {
   workpiece: number[];
   /** mm, deg */
   distance_to_go: number[];
+  /** machined since it was set: ends of programs by M2 and M30, tests left out */
+  parts: number;
   /** counts resets; parameters with activation Reset take effect at each */
   reset_count: number;
   /** parameter revision in use */
@@ -117,6 +119,50 @@ export interface AxisPosition {
 /** The state of one channel, with a row for each axis. */
 export type ChannelWithPositions = ChannelState & { positions: AxisPosition[]; };
 
+/** An axis with its place when every axis is at zero; mm, machine coordinates. */
+export interface CarryingAxis {
+  /** X, Y, Z, A, B, C, U, V or W */
+  axis: string;
+  rotary: boolean;
+  /** Unit vector in which it moves, or about which it turns, what it carries */
+  direction: number[];
+  /** Of a rotary axis: a point of it */
+  point: number[];
+}
+
+/** A convex body; lengths in mm. */
+export interface MachineBody {
+  name: string;
+  side: "tool" | "workpiece";
+  /** So many axes of that side carry it, counted from the base; 0: it is on the base */
+  depth: number;
+  /** It goes when another tool is put into the spindle */
+  tool: boolean;
+  /** Of its centre, of a hull: of its origin, with every axis at zero; machine coordinates */
+  position: number[];
+  /** Matrix of its directions, row after row */
+  rotation: number[];
+  /** The axis of a cylinder is Z */
+  shape: "box" | "cylinder" | "sphere" | "hull";
+  /** box: lengths in X, Y and Z; cylinder: diameter and height; sphere: diameter; hull: nothing */
+  size: number[];
+  /** Of a hull */
+  points?: number[][];
+}
+
+export interface MachineBodies {
+  channel: number;
+  /** The machine has no bodies.yaml */
+  derived: boolean;
+  /** Which axes carry the workpiece and which the tool: [w C' A' b X Y Z (S) t] */
+  structure: string;
+  /** From the base outwards */
+  workpiece_side: CarryingAxis[];
+  /** From the base outwards */
+  tool_side: CarryingAxis[];
+  bodies: MachineBody[];
+}
+
 /** An active alarm. */
 export interface Alarm {
   /** who raised it */
@@ -135,6 +181,28 @@ export interface Alarm {
   occurrences: number;
   /** When the gateway saw it first, ISO 8601 */
   since: string;
+}
+
+/** An alarm, and when it was raised and cleared. */
+export interface PastAlarm {
+  /** who raised it */
+  instance: number;
+  /** docs/alarms.md */
+  number: number;
+  /** axis, channel or service it is about, 0 when none */
+  part: number;
+  severity: Severity;
+  reaction: Reaction;
+  /** service name */
+  source: string;
+  text: string;
+  /** stream cycle it was raised at */
+  cycle: number;
+  occurrences: number;
+  /** When the gateway heard of it, ISO 8601 */
+  raised: string;
+  /** ISO 8601; not there while it is active */
+  cleared?: string;
 }
 
 /** What is known of one service: its heartbeat, else its announcement, else what the launcher expects. */
@@ -207,7 +275,26 @@ export interface DriveState {
   spindle_speed: number[];
 }
 
+export interface ChannelControl {
+  /** no cycle start and no MDI line; what runs continues */
+  start_inhibit: boolean;
+  /** no jog, handwheel and reference return; what moves is stopped */
+  manual_inhibit: boolean;
+  /** the overrides below are in force, and orders to change them are refused */
+  sets_overrides: boolean;
+  /** 0..1.5 */
+  feed_override: number;
+  /** 0..1 */
+  rapid_override: number;
+  /** 0.5..1.5 */
+  spindle_override: number;
+  /** of the inhibits, for the operator; empty = the programs give none */
+  reason: string;
+}
+
 export interface PlcState {
+  /** What the PLC inhibits, by the number of the channel; those that are not in it have no inhibit */
+  channels?: ChannelControl[];
   emergency_stop: boolean;
   feed_hold: boolean;
   coolant: number[];
@@ -247,6 +334,7 @@ export interface MachineState {
   trace?: Trace;
   revisions: Revisions;
   operating?: Operating;
+  measurement?: MeasurementState;
 }
 
 export interface Parameter {
@@ -410,6 +498,43 @@ export interface ProgramCheck {
   path: ProgramPath;
 }
 
+/** Tool tip on the part: point i is reached in line[i], the first one is the start. Machine coordinates less G54, rotary tables at zero. Between the points the path is within the tolerance of straight lines. */
+export interface PlannedPath {
+  /** mm */
+  x: number[];
+  /** mm */
+  y: number[];
+  /** mm */
+  z: number[];
+  /** Line of the program */
+  line: number[];
+  /** In rapid traverse */
+  rapid: boolean[];
+  /** From the start */
+  seconds: number[];
+  /** mm */
+  tolerance: number;
+}
+
+/** What a stored program will do, at feed override 100 %. */
+export interface ProgramPlan {
+  /** Name in the store */
+  program: string;
+  revision: number;
+  channel: number;
+  /** False: the time for planning was over before the end; seconds and path are those until there */
+  complete: boolean;
+  /** Time of the motion, dwells included */
+  seconds: number;
+  /** Rapids, lines, arcs, dwells and what is executed between them */
+  moves: number;
+  /** Why it cannot be executed further: line and cause */
+  alarm?: string;
+  /** When the program comes to which line, in the order of execution; of more than 20000 the shortest stretches are left out */
+  lines: { line: number[]; begin: number[]; };
+  path: PlannedPath;
+}
+
 export interface RecordingList {
   recordings: RecordingEntry[];
   /** Name of the one that is being recorded; empty = none */
@@ -535,6 +660,26 @@ export interface PlcTasks {
   tasks: PlcTask[];
 }
 
+export interface PlcUse {
+  file: string;
+  /** from 1 */
+  line: number;
+  /** from 1 */
+  column: number;
+  reads: boolean;
+  writes: boolean;
+  /** of a function block */
+  calls: boolean;
+  /** of a diagram: POU, network and element */
+  element: string;
+}
+
+export interface PlcUses {
+  total: number;
+  offset: number;
+  uses: PlcUse[];
+}
+
 export type PlcLoadPhase = "NO_LOAD" | "WRITING" | "COMPILING" | "WITH_ERRORS" | "COMPILED" | "COMPARING";
 
 export interface PlcPrograms {
@@ -577,6 +722,240 @@ export interface PlcLoad {
   messages: string[];
 }
 
+export type MeasurementPhase = "NOTHING" | "PLANNING" | "REPEATABILITY" | "MEASURING" | "RETRACTING" | "ESTIMATING" | "WAITING" | "WRITING" | "STOPPING" | "INTERRUPTED" | "FINISHED";
+
+export interface MeasurementState {
+  /** 0 */
+  set: number;
+  /** counts the measurements, 0 = there was none */
+  measurement: number;
+  channel: number;
+  phase: MeasurementPhase;
+  /** started it */
+  who: string;
+  /** of the start, ISO 8601, UTC */
+  time: string;
+  /** planned */
+  poses: number;
+  /** poses with all their touches */
+  complete: number;
+  /** being planned or measured, as "A-60 C0" */
+  pose: string;
+  /** executed part of planning and measuring, 0..1 */
+  progress: number;
+  /** mm, range of five touches; negative = not measured yet */
+  repeatability: number;
+  /** what it waits for or has done, one line */
+  detail: string;
+  /** INTERRUPTED: number of the alarm that is the cause, 0 = none */
+  alarm: number;
+  /** INTERRUPTED: phase, cause and what is kept, one line */
+  error: string;
+  /** WAITING: a vector changes by more than its tolerance; empty = none does */
+  tolerance_alarm: string;
+  /** such a result cannot be confirmed */
+  tolerance_needs_reset: boolean;
+  may_continue: boolean;
+  may_confirm: boolean;
+  /** FINISHED: parameters were written, active after a reset of the channel */
+  written: boolean;
+}
+
+export interface MeasurementPose {
+  /** deg, A B C U V W */
+  angles: number[];
+  /** mm, X Y Z of each touch, as latched */
+  touches: number[];
+  /** mm, measured: machine coordinates of the ball in the sphere; empty = no result yet */
+  centre: number[];
+  /** mm, expected less measured centre */
+  difference: number[];
+  /** mm, measured less computed centre with the new vectors */
+  residual: number[];
+  /** mm, measured */
+  diameter: number;
+}
+
+export interface MeasurementVector {
+  /** the rotary axis that the vector places */
+  axis: string;
+  /** mm, offset with correction */
+  before: number[];
+  /** mm */
+  after: number[];
+  /** mm, 95 % */
+  uncertainty: number[];
+  /** unit vector, ideal */
+  direction_before: number[];
+  /** unit vector, measured */
+  direction_after: number[];
+}
+
+export interface MeasurementChange {
+  /** of the parameter */
+  number: number;
+  /** in the catalogue's unit */
+  before: number;
+  after: number;
+}
+
+export interface MeasurementResult {
+  /** 0 */
+  set: number;
+  measurement: number;
+  /** complete ones, in the order of the plan */
+  poses: MeasurementPose[];
+  /** what follows is there */
+  valid: boolean;
+  vectors: MeasurementVector[];
+  /** parameters that a confirmation writes */
+  changes: MeasurementChange[];
+  /** mm, of an offset vector */
+  largest_change: number;
+  /** mm, standard deviation of a touch by the residuals */
+  touch_deviation: number;
+  protocol: string;
+}
+
+export interface Measurement {
+  state: MeasurementState;
+  result?: MeasurementResult;
+}
+
+export interface MeasurementAccepted {
+  accepted: true;
+  /** Its number */
+  measurement: number;
+}
+
+/** How one rotary axis is measured. */
+export interface MeasurementRange {
+  /** Below end_deg; both in the travel */
+  start_deg: number;
+  end_deg: number;
+  /** Of this axis */
+  points: number;
+  /** Of the other rotary axis */
+  other_deg: number;
+  /** Of the first touch on the equator */
+  touch_start_deg: number;
+  /** What becomes of the component along the axis */
+  normalization?: number;
+  /** For normalization 1 to 3 */
+  normalized_value_mm?: number;
+}
+
+/** Inputs of a measurement of the kinematics, by the keys of docs/calibration.md. */
+export interface MeasurementInputs {
+  plane: "G17" | "G18" | "G19" | "active";
+  transformation?: string;
+  mode: "measure_only" | "correct" | "only_correct";
+  calibrate_probe: boolean;
+  positioning: "paraxial" | "circular";
+  reference: "without" | "measure" | "adapt";
+  /** Work offset of the reference */
+  zero_offset_mm: number[];
+  sphere: { centre_mm: number[]; diameter_mm: number; shaft?: number[]; shaft_diameter_mm?: number; };
+  probe: { length_mm: number; length_uncertainty_mm: number; ball_diameter_mm: number; on_m: number; off_m: number; };
+  /** Before and after the expected touch */
+  measuring_path_mm: number;
+  /** Largest distance of a centre from the expected one */
+  confidence_range_mm: number;
+  /** By their letters */
+  axes: Record<string, MeasurementRange>;
+  /** Of both axes together in addition */
+  further_poses: number;
+  /** Largest change of an offset vector */
+  vector_tolerance_mm?: number;
+  tolerance_alarm: "acknowledge" | "reset";
+  directions: "report" | "write";
+  settings: { touches: number; diameter_tolerance_mm: number; least_triangle_angle_deg: number; least_swept_angle_deg: number; rotary_feed_deg_per_min: number; circle_feed_mm_per_min: number; positioning_feed_mm_per_min: number; first_touch_feed_mm_per_min: number; measuring_feed_mm_per_min: number; repeatability_mm: number; transformation_active: boolean; };
+}
+
+export interface MeasurementOffer {
+  channel: number;
+  inputs: MeasurementInputs;
+  /** Of each rotary axis that has a travel, by its letter: lowest and highest angle */
+  travel: Record<string, number[]>;
+}
+
+/** The last calibration, before and after its change. */
+export interface Calibration {
+  /** In the journal */
+  time: string;
+  /** In the journal */
+  who: string;
+  changes: MeasurementChange[];
+  /** POST: values that wait for a reset or a restart */
+  pending?: number;
+}
+
+export interface ManualReading {
+  /** Of the field in readings */
+  name: string;
+  about: string;
+}
+
+export interface ManualStep {
+  /** Positions of the rotary axes */
+  at: string;
+  /** Instrument */
+  use: string;
+  /** What to touch and how */
+  do: string;
+  readings: ManualReading[];
+}
+
+export interface ManualVector {
+  /** Letter of the rotary axis */
+  axis: string;
+  /** X, Y, Z */
+  offset_mm: number[];
+}
+
+export interface ManualGuide {
+  channel: number;
+  kind: "ac-table" | "bc-head" | "ac-head" | "hybrid";
+  title: string;
+  /** Before the calibration */
+  checks: string[];
+  steps: ManualStep[];
+  /** Of the instruments */
+  values: ManualReading[];
+  /** Names that may be absent */
+  optional: string[];
+  /** Of the check, nine */
+  poses: string[];
+  /** Active ones, with their corrections */
+  vectors: ManualVector[];
+}
+
+export interface ManualChange {
+  /** of the parameter */
+  number: number;
+  name: string;
+  /** mm */
+  after: number;
+}
+
+export interface ManualAcceptance {
+  name: string;
+  value_mm: number;
+  limit_mm: number;
+}
+
+export interface ManualEvaluation {
+  before: ManualVector[];
+  after: ManualVector[];
+  changes: ManualChange[];
+  /** Displacements: all are within their limits */
+  accepted?: boolean;
+  /** Displacements */
+  acceptance?: ManualAcceptance[];
+  /** Values that wait for a reset or a restart */
+  pending: number;
+}
+
 /** Bodies of POST /api/channels/{channel}/..., by the last part of the path. */
 export interface ChannelCommands {
   "cycle-start": Record<string, never>;
@@ -601,4 +980,5 @@ export interface ChannelCommands {
   "reference": { axis: string | number; };
   "handwheel": { axis: string | number; counts: number; increment: number; };
   "handwheel-offset": { on: boolean; };
+  "parts": { parts: number; };
 }

@@ -29,6 +29,12 @@ export function duration(seconds: number): string {
   return `${Math.floor(s / 3600)}:${two(Math.floor(s / 60) % 60)}:${two(s % 60)}`;
 }
 
+/** Date and time of day of an ISO 8601 instant, in the browser's zone. */
+export function dateAndTime(iso: string): string {
+  const date = new Date(iso);
+  return Number.isNaN(date.getTime()) ? "" : date.toLocaleString("sv-SE");
+}
+
 /** The time of day of an ISO 8601 instant, in the browser's zone. */
 export function timeOfDay(iso: string): string {
   const date = new Date(iso);

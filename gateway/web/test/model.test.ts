@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 import { expect, test } from "vitest";
 import {
-  type Alarm, axisRows, canStart, type Channel, channelNumbers, emptyState, emptyStream, failingLine, receive, recoverySteps, sortedAlarms,
+  type Alarm, axisRows, canStart, type Channel, channelNumbers, emptyState, emptyStream, failingLine, inhibition, receive, recoverySteps,
+  sortedAlarms,
 } from "../src/state/model";
 
 const channel = {
@@ -44,11 +45,13 @@ test("alarms: the worst first, then the oldest", () => {
 
 test("a row takes its following error from the drive's axis of that logical number and its unit from the letter", () => {
   const error = { following_error: 0.1, following_peak: 0.2 };
-  const axes = { "5": { commanded: 3, actual: 2.9, ...error, position: 2.9, velocity: 0, torque: 0, enabled: true } };
+  const axes = { "5": { commanded: 3, actual: 2.9, ...error, position: 2.9, velocity: 0, torque: -0.3, enabled: true } };
   const rows = axisRows({ ...emptyState, axes }, channel);
   expect(rows.map((row) => row.unit)).toEqual(["mm", "mm", "deg"]);
   expect(rows[2]).toMatchObject({ letter: "C", machine: 3, workpiece: 13, distanceToGo: 0.5, followingError: 0.1 });
   expect(rows[0]!.followingError).toBeUndefined();
+  expect(rows[0]!.load).toBeUndefined();
+  expect(rows[2]!.load).toBe(0.3);
 });
 
 test("cycle start: not without a program, not while running, not under an emergency stop, but always to go on", () => {
@@ -57,6 +60,16 @@ test("cycle start: not without a program, not while running, not under an emerge
   });
   expect(canStart(plc(false), channel)).toBe(true);
   expect(canStart(plc(true), channel)).toBe(false);
+  const inhibited = (start_inhibit: boolean, manual_inhibit: boolean, reason: string) => {
+    const state = plc(false);
+    const control = { start_inhibit, manual_inhibit, sets_overrides: false, feed_override: 1, rapid_override: 1, spindle_override: 1, reason };
+    return { ...state, plc: { ...state.plc, channels: [control] } };
+  };
+  expect(canStart(inhibited(true, false, "the door is open"), channel)).toBe(false);
+  expect(canStart(inhibited(false, true, "the door is open"), channel)).toBe(true);
+  expect(inhibition(inhibited(true, false, "the door is open"), channel, "start", "PLC")).toBe("the door is open");
+  expect(inhibition(inhibited(true, false, "the door is open"), channel, "manual", "PLC")).toBe("");
+  expect(inhibition(inhibited(false, true, ""), channel, "manual", "PLC")).toBe("PLC");
   expect(canStart(emptyState, { ...channel, program: "" })).toBe(false);
   expect(canStart(emptyState, { ...channel, state: "RUNNING" })).toBe(false);
   expect(canStart(emptyState, { ...channel, mode: "JOG" })).toBe(false);

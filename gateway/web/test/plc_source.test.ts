@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import { expect, test } from "vitest";
-import { declared, devices, inputBits, Paths, sourceLines, uses } from "../src/plc/source";
+import { declared, devices, inputBits, Paths, sourceLines } from "../src/plc/source";
 
 const source = `(* main task
    of two lines: ignored *)
@@ -44,27 +44,6 @@ test("instances of a function block are those that have all of its variables", (
   expect(paths.instances([])).toEqual([]);
 });
 
-test("the cross reference has every line that names a variable, and whether it writes it", () => {
-  const text = `PROGRAM main
-VAR door : BOOL; counter : Counter; n : INT; END_VAR
-door := %X16.0; // door
-IF door THEN n := 1; ELSE n := 2; END_IF;
-counter(step := 1, n => n);
-END_PROGRAM
-FUNCTION_BLOCK Counter
-VAR_INPUT step : UDINT; END_VAR
-VAR_OUTPUT n : UDINT; END_VAR
-n := n + step;
-END_FUNCTION_BLOCK
-`;
-  const paths = new Paths(["main.door", "main.n", "main.counter.step", "main.counter.n"]);
-  const found = (path: string) => uses(path, [{ name: "main.st", text }], paths).map(({ line, writes }) => [line, writes]);
-  expect(found("main.door")).toEqual([[2, false], [3, true], [4, false]]);
-  expect(found("main.n")).toEqual([[2, false], [4, true], [5, true]]);
-  expect(found("main.counter.n")).toEqual([[9, false], [10, true]]);
-  expect(found("%X16.0")).toEqual([[3, false]]);
-});
-
 test("inputs are those that sources and devices name", () => {
   const text = "PROGRAM main VAR closed AT %X16.0 : BOOL; END_VAR x := %IX2.7 OR %Y1.0; (* %X9.9 %X9.0 *)";
   const everywhere = ["emergency_stop_button", "reset_button", "feed_hold_button"].map((name, bit) => ({ address: `%X0.${bit}`, name }));
@@ -83,4 +62,13 @@ test("a step of a chart is shown with its state", () => {
 </step></pou></project>`);
   expect(lines[3]).toMatchObject({ names: ["fill.X", "fill.T"], unit: "main", kind: "PROGRAM" });
   expect(lines[4]!.names).toEqual([]);
+});
+
+test("a register with a name is found by it, a variable of the program before it", () => {
+  const paths = new Paths(["main.m_code_0", "main.code"]);
+  expect(paths.find("fin_0", "main")).toBe("fin_0");
+  expect(paths.find("PROBE_CONTACT", "main")).toBe("probe_contact");
+  expect(paths.find("m_code_0", "main")).toBe("main.m_code_0");
+  expect(paths.find("m_code_1", "main")).toBe("m_code_1");
+  expect(paths.find("fin_x", "main")).toBeUndefined();
 });

@@ -36,7 +36,13 @@ test("the browser's language is used where the page has it, else English", () =>
 });
 
 test("every machine alarm has cause and remedy; alarms of the language name theirs in the text", () => {
-  expect(explanation({ number: 130 }, languages.en)?.remedy).toBe(alarmCatalogue[130]!.remedy);
+  for (const [number, languagesOfOne] of Object.entries(alarmCatalogue)) {
+    expect(Object.keys(languagesOfOne), number).toEqual(Object.keys(languages));
+    const shown = Object.values(languages).map((texts) => explanation({ number: Number(number) }, texts)!);
+    expect(new Set(shown.map((one) => one.cause)).size, `${number}: cause`).toBe(3);
+    expect(new Set(shown.map((one) => one.remedy)).size, `${number}: remedy`).toBe(3);
+  }
+  expect(explanation({ number: 130 }, languages.de)?.cause).toContain("Not-Halt");
   expect(explanation({ number: 1107 }, languages.de)).toEqual({ cause: "", remedy: languages.de.languageRemedy });
   expect(explanation({ number: 9999 }, languages.en)).toBeUndefined();
 });

@@ -2,11 +2,13 @@
 // Memory does not grow with the length of a program.
 #include <gtest/gtest.h>
 
+#include <numbers>
 #include <ostream>
 #include <streambuf>
 
 #include "analysis/check_program.hpp"
 #include "analysis/default_machine.hpp"
+#include "analysis/program_run.hpp"
 #include "testing_support/allocation_count.hpp"
 
 namespace trunnion::analysis {
@@ -16,6 +18,8 @@ namespace {
 class LongText : public language::TextSource {
  public:
   explicit LongText(std::uint64_t repetitions) : end_(repetitions * part_.size()) {}
+  LongText(std::uint64_t repetitions, std::string_view part, std::string_view last)
+      : part_(part), last_(last), end_(repetitions * part_.size()) {}
   language::ReadResult read(std::uint64_t offset, char* buffer, std::size_t capacity) override {
     const std::uint64_t size = end_ + last_.size();
     if (offset >= size) return {language::ReadStatus::end, 0};
@@ -69,6 +73,39 @@ TEST(LongProgram, FiftyMegabytesAllocateNoMoreThanFiveKilobytes) {
       EXPECT_GT(much.written, 9000 * little.written);
     }
   }
+}
+
+// A circle of R5 in chords of 0.1 mm at the programmed feed, then a corner, where the least time is solved.
+std::string circle_and_corner() {
+  std::string text;
+  for (int k = 1; k <= 314; ++k) {
+    char line[60];
+    const double angle = 2 * std::numbers::pi * k / 314;
+    std::snprintf(line, sizeof line, "G1 X%.4f Y%.4f F3000\n", 5 * std::cos(angle), 5 * std::sin(angle));
+    text += line;
+  }
+  return text + "G1 X7\nX5\n";
+}
+
+TEST(LongProgram, PlanningTakesNoMoreMemoryForMoreBlocks) {
+  const std::string part = circle_and_corner();
+  constexpr std::uint64_t circles = 250, early = 100, blocks_of_one = 316;
+  LongText text(circles, part, "M30\n");
+  auto tables = tool_tables::load_machine_tables(std::string(MACHINES_DIRECTORY) + "/ac-table");
+  tables.offsets.offsets.clear();
+  channel_setup::ChannelSetup machine(tables);
+  const std::size_t before = testing_support::live_bytes;
+  std::size_t most_early = 0, most = 0;
+  const PlanReport report = plan_program(text, machine, {}, [&](const PlannedCycle& cycle) {
+    most = std::max(most, testing_support::live_bytes - before);
+    if (cycle.setpoint->line < early * blocks_of_one) most_early = most;
+  });
+  ASSERT_TRUE(report.result.good) << report.result.alarm;
+  EXPECT_EQ(report.result.blocks, circles * blocks_of_one);
+  // The tables that the planner itself holds are some megabytes.
+  EXPECT_GT(most_early, 1'000'000u);
+  EXPECT_EQ(most, most_early);
+  EXPECT_LT(most, 100'000'000u);
 }
 
 }  // namespace

@@ -33,13 +33,14 @@ TEST(PlaceCost, names_lines_time_axis_and_limit) {
   EXPECT_EQ(places[0].first_line, 7U);
   EXPECT_EQ(places[0].last_line, 9U);
   EXPECT_NEAR(places[0].begin, 0.1, 1e-12);
+  EXPECT_NEAR(places[0].end, 0.2, 1e-12);
   EXPECT_NEAR(places[0].lost, 0.05, 1e-12);
   EXPECT_EQ(places[0].axis, 1U);
   EXPECT_EQ(places[0].limit, BindingLimit::jerk);
 }
 
 TEST(PlaceCost, a_place_is_one_line_of_text) {
-  CostlyPlace place{12, 18, 3.21, 0.1234, 2, BindingLimit::jerk, 0.981};
+  CostlyPlace place{12, 18, 3.21, 3.4, 0.1234, 2, BindingLimit::jerk, 0.981};
   EXPECT_EQ(to_text(place), "12-18: 0.123 s lost from 3.210 s on, axis Z uses 98 % of its jerk on average");
   place.last_line = 12;
   place.limit = BindingLimit::velocity;

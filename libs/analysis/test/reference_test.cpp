@@ -6,6 +6,7 @@
 
 #include "analysis/lower_bound.hpp"
 #include "analysis/reference_paths.hpp"
+#include "testing_support/rounds.hpp"
 
 namespace trunnion::analysis {
 namespace {
@@ -58,7 +59,7 @@ TEST(Reference, a_dense_path_runs_at_its_feed) {
 }
 
 TEST(Reference, limits_hold_under_any_overrides_and_holds) {
-  for (std::uint64_t seed = 1; seed <= 24; ++seed) {
+  for (std::uint64_t seed = 1; seed <= testing_support::rounds(24); ++seed) {
     std::mt19937_64 random(seed);
     const ReferencePath p = seed % 4 == 0   ? wavy_cap(20)
                             : seed % 4 == 1 ? dense_three_axis(20)

@@ -21,6 +21,7 @@
 
 #include "bus/endpoint.hpp"
 #include "bus/security.hpp"
+#include "loopback_bind.hpp"
 
 #ifndef TRUNNION_CYCLONE_PLUGINS
 #define TRUNNION_CYCLONE_PLUGINS ""
@@ -385,6 +386,7 @@ class Participants {
       return participant;
     }
     dds_set_log_sink(print_log, nullptr);
+    bind_to_loopback(network.interface_address.starts_with("127.") && !network.multicast);
     dds_create_domain(network.domain, configuration(network).c_str());
     const auto participant = dds_create_participant(network.domain, participant_qos(network).get(), nullptr);
     if (participant < 0) fail("participant in domain " + std::to_string(network.domain), participant);

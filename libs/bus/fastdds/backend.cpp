@@ -2,11 +2,9 @@
 // Fast DDS 2.9 back end: one TopicDataType that carries CDR bytes. UDP only (shared memory leaves stale
 // segments after kill -9), no TypeObjects, short heartbeats so that a late joiner gets the history at once.
 #include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
-#include <fastdds/rtps/writer/WriterDiscoveryInfo.h>
 #include <fastrtps/utils/IPLocator.h>
 #include <fastdds/dds/domain/DomainParticipant.hpp>
 #include <fastdds/dds/domain/DomainParticipantFactory.hpp>
-#include <fastdds/dds/domain/DomainParticipantListener.hpp>
 #include <fastdds/dds/publisher/DataWriter.hpp>
 #include <fastdds/dds/publisher/Publisher.hpp>
 #include <fastdds/dds/subscriber/DataReader.hpp>
@@ -17,13 +15,12 @@
 #include <fastdds/dds/topic/TypeSupport.hpp>
 
 #include <cstring>
-#include <map>
-#include <mutex>
 #include <sstream>
 #include <stdexcept>
 
 #include "bus/endpoint.hpp"
 #include "bus/security.hpp"
+#include "discovery.hpp"
 
 namespace trunnion::bus {
 namespace {
@@ -31,7 +28,6 @@ namespace {
 using namespace eprosima::fastdds::dds;
 using eprosima::fastrtps::rtps::InstanceHandle_t;
 using eprosima::fastrtps::rtps::SerializedPayload_t;
-using eprosima::fastrtps::rtps::WriterDiscoveryInfo;
 using eprosima::fastrtps::types::ReturnCode_t;
 using DdsTopic = eprosima::fastdds::dds::Topic;  // not our own Topic
 
@@ -134,43 +130,6 @@ class Writer : public RawWriter {
   Publisher* publisher_;
   DataWriter* writer_;
   Bytes buffer_;
-};
-
-WriterId id_of(const InstanceHandle_t& handle) {
-  WriterId id;
-  for (std::size_t i = 0; i < id.size(); ++i) id[i] = handle.value[i];
-  return id;
-}
-
-// Called by the vendor's threads, which take no other lock while they hold this one.
-class Discovery : public DomainParticipantListener {
- public:
-  void on_publisher_discovery(DomainParticipant*, WriterDiscoveryInfo&& found) override {
-    const WriterId id = id_of(InstanceHandle_t(found.info.guid()));
-    const std::lock_guard lock(mutex_);
-    changed_ = true;
-    if (found.status == WriterDiscoveryInfo::REMOVED_WRITER) {
-      writers_.erase(id);
-      return;
-    }
-    const auto& data = found.info.m_qos.m_userData.data_vec();
-    writers_[id] = {id,
-                    found.info.topicName().to_string(),
-                    found.info.typeName().to_string(),
-                    {data.begin(), data.end()}};
-  }
-  bool take_changes(std::vector<DiscoveredWriter>& writers) {
-    const std::lock_guard lock(mutex_);
-    if (!std::exchange(changed_, false)) return false;
-    writers.clear();
-    for (const auto& [id, writer] : writers_) writers.push_back(writer);
-    return true;
-  }
-
- private:
-  std::mutex mutex_;
-  bool changed_ = false;
-  std::map<WriterId, DiscoveredWriter> writers_;
 };
 
 class Reader : public RawReader, DataReaderListener {

@@ -3,6 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <set>
+#include <sstream>
 #include <thread>
 
 #include "bus/bus.hpp"
@@ -103,6 +107,37 @@ INSTANTIATE_TEST_SUITE_P(Vendors, BusOverVendors,
                            return std::string(to_string(vendors.param.writer)) + "_to_" +
                                   to_string(vendors.param.reader);
                          });
+
+/// The local addresses of the UDP sockets of this process, as /proc/net/udp writes them.
+std::vector<std::string> udp_addresses() {
+  std::set<std::string> inodes;
+  for (const auto& entry : std::filesystem::directory_iterator("/proc/self/fd")) {
+    std::error_code gone;
+    const auto target = std::filesystem::read_symlink(entry.path(), gone).string();
+    if (target.starts_with("socket:[")) inodes.insert(target.substr(8, target.size() - 9));
+  }
+  std::vector<std::string> addresses;
+  std::ifstream table("/proc/net/udp");
+  std::string line;
+  std::getline(table, line);
+  while (std::getline(table, line)) {
+    std::istringstream fields(line);
+    std::string field, local, inode;
+    for (int i = 0; i < 10 && fields >> field; ++i) {
+      if (i == 1) local = field;
+      if (i == 9) inode = field;
+    }
+    if (inodes.contains(inode)) addresses.push_back(local.substr(0, local.find(':')));
+  }
+  return addresses;
+}
+
+TEST(Bus, AnUnsecuredDomainOfOneHostIsNotReachableFromOthers) {
+  const Bus cyclone(Vendor::cyclonedds, {77}), fast(Vendor::fastdds, {77});
+  const auto addresses = udp_addresses();
+  EXPECT_GE(addresses.size(), 4u) << "each vendor receives discovery and data";
+  for (const auto& address : addresses) EXPECT_EQ(address, "0100007F") << "127.0.0.1, the lowest byte first";
+}
 
 }  // namespace
 }  // namespace trunnion::bus

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// What the vendors' threads call: nothing is locked in a listener.
 #include <dlfcn.h>
 #include <gtest/gtest.h>
 #include <pthread.h>
@@ -6,6 +7,7 @@
 #include <chrono>
 #include <thread>
 
+#include "../fastdds/discovery.hpp"
 #include "bus/endpoint.hpp"
 
 namespace {
@@ -62,6 +64,65 @@ TEST(Signal, NoNotificationIsLostBetweenTwoThreads) {
   }
   other.join();
   EXPECT_EQ(done, rounds);
+}
+
+TEST(Discovery, HearingOfAWriterTakesNoLockAndTheThreadThatAsksKnowsTheWritersThatAreLeft) {
+  using eprosima::fastrtps::rtps::WriterDiscoveryInfo;
+  Discovery discovery;
+  std::vector<DiscoveredWriter> writers;
+  EXPECT_FALSE(discovery.take_changes(writers));
+  const auto hear = [&](std::uint8_t number, const char* topic,
+                        WriterDiscoveryInfo::DISCOVERY_STATUS status) {
+    eprosima::fastrtps::rtps::WriterProxyData data(1, 1);
+    eprosima::fastrtps::rtps::GUID_t guid;
+    guid.entityId.value[3] = number;
+    data.guid(guid);
+    data.topicName(topic);
+    data.typeName("a_type");
+    data.m_qos.m_userData.setValue({'a', number});
+    WriterDiscoveryInfo found(data);
+    found.status = status;
+    const long before = locks_of_this_thread;
+    discovery.on_publisher_discovery(nullptr, std::move(found));
+    EXPECT_EQ(locks_of_this_thread, before);
+  };
+  hear(1, "one", WriterDiscoveryInfo::DISCOVERED_WRITER);
+  hear(2, "two", WriterDiscoveryInfo::DISCOVERED_WRITER);
+  hear(3, "three", WriterDiscoveryInfo::DISCOVERED_WRITER);
+  hear(2, "two", WriterDiscoveryInfo::REMOVED_WRITER);
+  hear(3, "three again", WriterDiscoveryInfo::CHANGED_QOS_WRITER);
+  ASSERT_TRUE(discovery.take_changes(writers));
+  ASSERT_EQ(writers.size(), 2u);
+  EXPECT_EQ(writers[0].topic, "one");
+  EXPECT_EQ(writers[0].wire_type, "a_type");
+  EXPECT_EQ(writers[0].user_data, "a\x01");
+  EXPECT_EQ(writers[1].topic, "three again") << "the newest that was heard of a writer";
+  EXPECT_FALSE(discovery.take_changes(writers)) << "nothing has changed";
+  EXPECT_EQ(writers.size(), 2u);
+  hear(1, "one", WriterDiscoveryInfo::REMOVED_WRITER);  // is still on the list when the object ends
+}
+
+TEST(Discovery, NothingOfSeveralThreadsIsLost) {
+  Discovery discovery;
+  constexpr int threads = 4, each = 500;
+  std::vector<std::thread> vendors;
+  for (int t = 0; t < threads; ++t)
+    vendors.emplace_back([&discovery, t] {
+      for (int n = 0; n < each; ++n) {
+        eprosima::fastrtps::rtps::WriterProxyData data(1, 1);
+        eprosima::fastrtps::rtps::GUID_t guid;
+        guid.entityId.value[1] = static_cast<std::uint8_t>(t);
+        guid.entityId.value[2] = static_cast<std::uint8_t>(n / 256);
+        guid.entityId.value[3] = static_cast<std::uint8_t>(n % 256);
+        data.guid(guid);
+        discovery.on_publisher_discovery(nullptr, eprosima::fastrtps::rtps::WriterDiscoveryInfo(data));
+      }
+    });
+  std::vector<DiscoveredWriter> writers;
+  for (int look = 0; look < 100; ++look) discovery.take_changes(writers);
+  for (auto& vendor : vendors) vendor.join();
+  discovery.take_changes(writers);
+  EXPECT_EQ(writers.size(), static_cast<std::size_t>(threads * each));
 }
 
 }  // namespace

@@ -4,6 +4,10 @@
 #include "calibration/chain_change.hpp"
 #include "calibration/protocol.hpp"
 #include "geometry/test/machines.hpp"
+#include "machine/chain_parameters.hpp"
+#include "machine/chain_section.hpp"
+#include "machine/parameter_constants.hpp"
+#include "machine/yaml.hpp"
 #include "testing_support/refusal.hpp"
 #include "true_machine.hpp"
 
@@ -159,11 +163,11 @@ TEST(KinematicsMeasurement, GoesOnAfterThePosesThatWereTouchedAndRefusesOthers) 
   EXPECT_EQ(told, all.size());
   std::swap(done[2], done[3]);
   EXPECT_THAT(fault([&] { touch_poses(in, machine.measured, plan, again, done); }),
-              testing::HasSubstr("is planned; start again without --resume"));
+              testing::HasSubstr("is planned; start again"));
   done.resize(2);
   done[1].positions.pop_back();
   EXPECT_THAT(fault([&] { touch_poses(in, machine.measured, plan, again, done); }),
-              testing::HasSubstr("has 9 touches, 10 are planned; start again without --resume"));
+              testing::HasSubstr("has 9 touches, 10 are planned; start again"));
 }
 
 TEST(KinematicsMeasurement, TheShaftOfTheSphereIsNotTouched) {
@@ -212,6 +216,107 @@ TEST(KinematicsMeasurement, NormalizationKeepsOrSetsTheComponentOfTheRootVector)
               testing::HasSubstr("normalizations do not fix"));
 }
 
+// The chain of the nutating machine as machine.yaml has it, with two named corrections.
+constexpr const char* named_chain = R"(- elements:
+    - {name: TABLE_OFFSET, offset: [10, 20, 0]}
+    - {name: CORR_C_OFFSET, correction: [0.1, 0, 0]}
+    - {name: C_AXIS, rotary: C, direction: [0, 0, -1]}
+    - {name: X_AXIS, linear: X}
+    - {name: Y_AXIS, linear: Y}
+    - {name: Z_AXIS, linear: Z}
+    - {name: B_AXIS, rotary: B, direction: [0, 0.7071067811865476, 0.7071067811865476]}
+    - {name: CORR_SP1_OFFSET, correction: [0, 0, 0]}
+    - {name: SP1_OFFSET, offset: [-0.1, 0.2, -190]}
+)";
+
+// Both chains put the ball into the sphere at the same positions of X, Y and Z; each has its own place of the
+// sphere in the workpiece frame.
+void expect_same_motion(const ChainParameters& found, const Vec3& found_sphere, const ChainParameters& real,
+                        const Vec3& real_sphere) {
+  const auto a = geometry::make(found), b = geometry::make(real);
+  for (double angle = -80; angle <= 80; angle += 16) {
+    const Angles angles{angle, angle, -2.5 * angle};
+    EXPECT_LT(
+        (a.machine_from_tip(found_sphere, angles, 150) - b.machine_from_tip(real_sphere, angles, 150)).norm(),
+        1e-6)
+        << angle;
+  }
+}
+
+TEST(KinematicsMeasurement, NamedCorrectionsTakeWhatIsFoundAndTheOffsetsStay) {
+  machine::Parameters parameters;
+  parameters.values = machine::read_chain_parameters(machine::parse_yaml(named_chain, "m"), "m");
+  const auto model = machine::chain_parameters(parameters, 0);
+  const auto named = named_corrections(parameters, 0);
+  EXPECT_EQ(std::count(named.begin(), named.end(), true), 2);
+  auto real = model;
+  real.head_2->offset += Vec3(0.2, 0, -0.3);
+  real.table_2->offset += Vec3(-0.15, 0.25, 0);
+  const TrueMachine machine(real, model);
+  auto in = inputs_of(machine);
+  in.sphere = Vec3(60, 80, -300);
+  const auto plan = std::get<MeasurementPlan>(plan_measurement(in, machine.measured));
+  const auto touched =
+      touch_virtually(machine.report, in, machine.measured, plan, nominal(in), sphere_at(in, in.sphere));
+  const auto result = evaluate(in, machine.measured, touched, named);
+  for (const auto slot : {metrology::Slot::table_2, metrology::Slot::head_2}) {
+    const auto &before = *axis_at(model, slot), &after = *axis_at(result.after, slot);
+    EXPECT_EQ(after.offset, before.offset);
+    EXPECT_LT(
+        (after.offset + after.correction - axis_at(real, slot)->offset - axis_at(real, slot)->correction)
+            .norm(),
+        1e-6);
+  }
+  expect_same_motion(result.after, result.sphere, real, in.sphere);
+  // The protocol's vectors are offset and correction together, before and after.
+  for (const auto& vector : result.vectors) {
+    const auto &before = *axis_at(model, vector.slot), &now = *axis_at(real, vector.slot);
+    EXPECT_LT((vector.before - before.offset - before.correction).norm(), 1e-12);
+    EXPECT_LT((vector.after - now.offset - now.correction).norm(), 1e-6);
+  }
+  // Only 040960 .. 962 and 040969 .. 971 are written.
+  const auto written = changed_parameters(result.before, result.after, 0);
+  EXPECT_FALSE(written.empty());
+  for (const auto& [number, value] : written)
+    EXPECT_TRUE((number >= 40960 && number <= 40962) || (number >= 40969 && number <= 40971)) << number;
+}
+
+TEST(KinematicsMeasurement, AnOpenChainTakesWhatIsFoundAsCorrectionsAndDoesNotEndWhereItBegan) {
+  const auto model = geometry::cb_head();
+  auto real = model;
+  real.head_2->offset += Vec3(0.2, 0, -0.3);
+  real.head_1->offset += Vec3(0.1, -0.25, 0);
+  const TrueMachine machine(real, model);
+  auto in = inputs_of(machine);
+  in.sphere = Vec3(60, 80, -300);
+  // 0 of each axis keeps the change across it, 10 more open the chain.
+  for (auto& range : in.axes) range.normalization = 10;
+  const auto result = machine.measure(in, {}, in.sphere);
+  EXPECT_TRUE(result.after.open);
+  for (const auto slot : {metrology::Slot::head_1, metrology::Slot::head_2}) {
+    EXPECT_EQ(axis_at(result.after, slot)->offset, axis_at(model, slot)->offset);
+    EXPECT_LT(
+        (axis_at(result.after, slot)->correction - axis_at(real, slot)->offset + axis_at(model, slot)->offset)
+            .norm(),
+        1e-6);
+  }
+  expect_same_motion(result.after, result.sphere, real, in.sphere);
+  // The corrections move the workpiece frame: with every axis at zero the tip is by their sum elsewhere.
+  Vec3 sum = Vec3::Zero();
+  for (const auto* axis : {&result.after.head_1, &result.after.head_2}) sum += (*axis)->correction;
+  EXPECT_LT((geometry::make(result.after).tip_from_machine(Vec3::Zero(), {}, 150) -
+             geometry::make(model).tip_from_machine(Vec3::Zero(), {}, 150) + sum)
+                .norm(),
+            1e-9);
+  const auto written = changed_parameters(result.before, result.after, 0);
+  EXPECT_EQ(written.at(parameter::chain_open.number(0)).value, 1);
+  for (const auto& [number, value] : written)
+    EXPECT_TRUE(number == parameter::chain_open.number(0) || (number >= 40960 && number <= 40980)) << number;
+  in.axes[0].normalization = 0;
+  EXPECT_THAT(fault([&] { machine.measure(in, {}, in.sphere); }),
+              testing::HasSubstr("the chain is open for all axes or for none"));
+}
+
 TEST(KinematicsMeasurement, AdaptPutsAnotherHeadsEndWhereTheReferenceHadIt) {
   auto real = geometry::cb_head(), model = real;
   real.origin = Vec3(0.4, -0.2, 0.1);  // the other head sits elsewhere on its flange
@@ -222,13 +327,14 @@ TEST(KinematicsMeasurement, AdaptPutsAnotherHeadsEndWhereTheReferenceHadIt) {
   const auto plan = std::get<MeasurementPlan>(plan_measurement(in, machine.measured));
   const auto touched =
       touch_virtually(machine.report, in, machine.measured, plan, nominal(in), sphere_at(in, in.sphere));
-  ReferenceMeasurement reference{in.sphere, Vec3::Zero()};
-  const auto result = evaluate(in, machine.measured, touched, {}, reference);
+  in.reference_measurement = {in.sphere, Vec3::Zero()};
+  const auto result = evaluate(in, machine.measured, touched);
   EXPECT_LT((result.after.origin - real.origin).norm(), 1e-6);
-  reference.zero_offset.x() = 5;
-  EXPECT_THAT(fault([&] { evaluate(in, machine.measured, touched, {}, reference); }),
+  in.reference_measurement->zero_offset.x() = 5;
+  EXPECT_THAT(fault([&] { evaluate(in, machine.measured, touched); }),
               testing::HasSubstr("is not the one of the reference, 5.0000 0.0000 0.0000 mm"));
-  EXPECT_THAT(fault([&] { evaluate(in, machine.measured, touched, {}, std::nullopt); }),
+  in.reference_measurement.reset();
+  EXPECT_THAT(fault([&] { evaluate(in, machine.measured, touched); }),
               testing::HasSubstr("no reference was measured"));
 }
 

@@ -104,6 +104,30 @@ INSTANTIATE_TEST_SUITE_P(Kinds, ManualCalibration,
                          });
 
 // The manual's SPLEN = -(Z1 + d/2) - SPOFFBx is for a touch on top; its own text touches the lowest point.
+std::vector<std::string> names_in(const ManualGuide& guide) {
+  std::vector<std::string> names;
+  for (const auto& step : guide.steps)
+    for (const auto& [name, about] : step.readings) names.push_back(name);
+  for (const auto& [name, about] : guide.values) names.push_back(name);
+  return names;
+}
+
+TEST(ManualCalibration, EveryLanguageHasTheSameStepsAndReadings) {
+  for (const auto kind :
+       {ManualKind::ac_table, ManualKind::bc_head, ManualKind::ac_head, ManualKind::hybrid}) {
+    const auto& english = guide_of(kind);
+    EXPECT_GE(english.steps.size(), 4u);
+    for (const auto language : {GuideLanguage::german, GuideLanguage::chinese}) {
+      const auto& other = guide_of(kind, language);
+      EXPECT_NE(other.title, english.title);
+      EXPECT_EQ(other.checks.size(), english.checks.size());
+      EXPECT_EQ(other.steps.size(), english.steps.size());
+      EXPECT_EQ(names_in(other), names_in(english));
+      EXPECT_EQ(other.optional, english.optional);
+    }
+  }
+}
+
 TEST(ManualFormula, TheHeadLengthTakesTheArborsRadiusOffWhenTheArborIsTouchedFromBelow) {
   const auto real = real_of(ManualKind::bc_head);
   const TrueMachine machine(real, real);

@@ -46,7 +46,7 @@ TEST_P(MeasuringProgram, NeverComesNearerToSphereOrShaftThanTheMeasuringPath) {
     const Vec3 centre = chain.machine_from_tip(in.sphere, pose.angles, in.probe_length);
     const Vec3 shaft = (chain.jacobian(in.sphere, pose.angles, in.probe_length).tip * *in.shaft).normalized();
     const auto text =
-        measuring_program(in, machine.measured, pose, centre, {approach_position(in, pose, centre)}, 7);
+        measuring_program(in, machine.measured, pose, centre, {approach_position(in, pose, centre)}, {7});
     EXPECT_THAT(text, testing::HasSubstr("#52999=7\n"));
     const auto moves = moves_of(text);
     arcs += moves.size() > 4 * pose.directions.size();

@@ -9,6 +9,7 @@
 #include <fstream>
 #include <numbers>
 
+#include "reading.hpp"
 #include "tool_tables/tables.hpp"
 
 namespace trunnion::channel_setup {
@@ -31,6 +32,16 @@ TEST(ChannelSetup, ReadsAxesToolsOffsetsAndTravelOfAMachineFolder) {
   EXPECT_EQ(setup.travel(language::X).positive, 400);
 }
 
+// `check` without a machine, and every machine whose builder says nothing, look for interference alike.
+TEST(ChannelSetup, CutterCompensationOfAMachineHasTheDefaultsOfTheLanguage) {
+  const language::CutterSettings own,
+      of_machine = ChannelSetup(tool_tables::load_machine_tables(ac_table)).cutter_settings();
+  EXPECT_TRUE(own.interference_check);
+  EXPECT_EQ(of_machine.interference_check, own.interference_check);
+  EXPECT_EQ(of_machine.check_blocks, own.check_blocks);
+  EXPECT_EQ(of_machine.feed_at_contour, own.feed_at_contour);
+}
+
 TEST(ChannelSetup, WearCountsInTheToolLength) {
   auto tables = tool_tables::load_machine_tables(ac_table);
   tables.tools.tools[0].length_wear = -0.25;
@@ -40,6 +51,32 @@ TEST(ChannelSetup, WearCountsInTheToolLength) {
   EXPECT_EQ(tool->length, 100);
   EXPECT_EQ(tool->length_wear, -0.25);
   EXPECT_EQ(tool->radius, tables.tools.tools[0].radius);
+}
+
+TEST(ChannelSetup, ASpeedAboveTheHighestOfTheSpindleOfTheChannelIsRefused) {
+  auto tables = tool_tables::load_machine_tables(ac_table);
+  const auto first = ChannelSetup(tables).tapping_spindle().axis.value();
+  const auto alarm = [&](const std::string& text) {
+    ChannelSetup setup(tables);
+    return test::read(setup, text);
+  };
+  tables.parameters.values.erase(100948 + 1000u * first);
+  EXPECT_EQ(alarm("S99999 M3").alarm, 0u) << "no limit is stated";
+  tables.parameters.values[100948 + 1000u * first].value = 12000;
+  EXPECT_EQ(alarm("S12000 M3").alarm, 0u);
+  EXPECT_EQ(alarm("S12000 M3\nG1 X1 F100 S12001").line, 2u);
+  EXPECT_EQ(alarm("S12001").text,
+            "speed above the highest of the spindle: S12001, at most 12000 1/min (10a948)");
+  EXPECT_EQ(alarm("G96 S12001 M3").alarm, 0u) << "m/min";
+  EXPECT_EQ(alarm("G92 S20000").alarm, 0u) << "a limit of a program above that of the machine";
+  // Another spindle of the machine, which 040913 gives to the channel.
+  const std::uint32_t second = first + 10u;
+  tables.parameters.values[100000 + 1000 * second].text = "S2";
+  tables.parameters.values[100001 + 1000 * second].value = 10;
+  tables.parameters.values[100948 + 1000 * second].value = 6000;
+  EXPECT_EQ(alarm("S6001").alarm, 0u);
+  tables.parameters.values[40913].value = second;
+  EXPECT_EQ(alarm("S6001").alarm, 1126u);
 }
 
 // HNC-8: 040007 (U) = -2 makes U the spindle that G84 J4 taps with. Further letters are the spindles behind

@@ -86,6 +86,11 @@ TEST(DerivedBodies, ATableWhereTheLastRotaryAxisIsAndASpindleNose) {
   // The table's face is at the point of C, Z -516.0118; it is 40 mm high.
   EXPECT_NEAR(set.bodies[0].position.z(), -516.0118 - 20, 1e-9);
   EXPECT_NEAR(set.bodies[1].position.z(), 75, 1e-9) << "150 mm above the spindle face";
+  auto one = geometry::ac_table();
+  one.table_1 = one.table_2;
+  one.table_2.reset();
+  EXPECT_EQ(derived_bodies(std::get<MachineLinks>(MachineLinks::make(one))).bodies.size(), 1u)
+      << "its point may slide along C: nothing is known of its height";
   const auto head = std::get<MachineLinks>(MachineLinks::make(geometry::cb_head()));
   EXPECT_EQ(derived_bodies(head).bodies.size(), 1u) << "nothing is known of what is under the workpiece";
 }

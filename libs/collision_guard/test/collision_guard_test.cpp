@@ -13,6 +13,7 @@
 #include "analysis/program_run.hpp"
 #include "language/text_source.hpp"
 #include "machine/chain_parameters.hpp"
+#include "testing_support/rounds.hpp"
 #include "tool_tables/machine_tables.hpp"
 #include "truth/random_source.hpp"
 
@@ -132,7 +133,7 @@ TEST(CollisionGuard, NoSampleOfARandomProgramIsNearerThanTheClearance) {
   CollisionGuard guard(machine.setup, CollisionMode::stop, {"bodies.yaml", workshop});
   guard.configure(machine.tables.parameters, 0);
   int stopped = 0, ended = 0, would_touch = 0;
-  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+  for (std::uint64_t seed = 1; seed <= testing_support::rounds(60); ++seed) {
     const auto text = random_program(seed);
     double least = 1e9;
     language::StringSource source(text);
@@ -159,8 +160,8 @@ TEST(CollisionGuard, NoSampleOfARandomProgramIsNearerThanTheClearance) {
       would_touch += free < 2 ? 1 : 0;
     }
   }
-  EXPECT_GE(stopped, 8);
-  EXPECT_GT(ended, 3);
+  EXPECT_GE(static_cast<std::uint64_t>(stopped), testing_support::rounds(8));
+  EXPECT_GE(static_cast<std::uint64_t>(ended), testing_support::rounds(4));
   EXPECT_GE(would_touch, stopped - 2) << "of " << stopped;
 }
 

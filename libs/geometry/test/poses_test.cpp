@@ -6,15 +6,12 @@
 
 #include "geometry/orientation.hpp"
 #include "machines.hpp"
+#include "testing_support/rounds.hpp"
 
 namespace trunnion::geometry {
 namespace {
 
-#ifdef __SANITIZE_ADDRESS__
-constexpr int poses = 20'000;  // the sanitizers look for other faults, twenty times slower
-#else
-constexpr int poses = 1'000'000;
-#endif
+constexpr int poses = testing_support::sanitized ? 20'000 : 1'000'000;
 
 // splitmix64: small, seeded, the same everywhere.
 class Random {

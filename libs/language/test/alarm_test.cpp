@@ -200,6 +200,8 @@ std::vector<Wrong> wrong_programs() {
       {text_behind_statement, "#3006=1 #1=2", 1, 9, ": #1"},
       {tool_undefined, "#2007=1", 1, 1, ": #2007"},
       {tool_unknown, "T4 M6\nT99 M6", 2, 1, ": T99"},
+      {spindle_speed_above, "S50000 M3\nG4 P1 S50001", 2, 7, ": S50001, at most 50000 1/min (10a948)"},
+      {spindle_speed_above, "#1=50000\nM3 S[#1+0.5]", 2, 4, ": S, at most 50000 1/min (10a948)"},
   };
   for (const Wrong& motion : wrong_motion()) wrong.push_back(motion);
   return wrong;
@@ -208,6 +210,7 @@ std::vector<Wrong> wrong_programs() {
 TestMachine machine_without_w() {
   TestMachine machine;
   machine.axis_mask = 0b011111111;
+  machine.highest_speed = 50000;
   machine.lengths = {{1, 50.0}};
   machine.cycle_m_codes[3] = 130;
   machine.tools[1] = {50, 0, 5, 0};

@@ -43,9 +43,10 @@ struct Stepper {
   /// The next command, end or alarm; working when the program goes on without one.
   Step next(Command& command) {
     Step step = Step::pending;
-    while (step == Step::pending || step == Step::position) {
+    while (step == Step::pending || step == Step::position || step == Step::answer) {
       step = interpreter.next(command);
       if (step == Step::position) interpreter.set_position(skip);
+      if (step == Step::answer) interpreter.answer(0);
     }
     if (step == Step::command && command.kind == CommandKind::skip) skip = command.target;
     return step;

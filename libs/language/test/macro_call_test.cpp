@@ -105,6 +105,7 @@ TEST(MacroCall, WhatIsWrongWithACycleCalledByNameIsAnAlarmWithItsColumn) {
   fault("CYCLE9960(1,\"A\",3,4,5,6,7,8,9,10,11,12,13,14,15,16,17,18,19,20,21,22)",
         AlarmNumber::too_many_arguments, 67);
   fault("CYCLE9960(1,\"A)", AlarmNumber::bracket_open, 13);
+  fault("CYCLE9960(1,", AlarmNumber::bracket_open, 13);
   fault("CYCLE9960(1 2)", AlarmNumber::bracket_open, 13);
   fault("CYCLE9960(1", AlarmNumber::bracket_open, 12);
   fault("CYCLE9960", AlarmNumber::operand_missing, 10);

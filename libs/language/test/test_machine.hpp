@@ -34,6 +34,7 @@ struct TestMachine : Environment {
   std::uint16_t axis_mask = 0b111111111;
   std::optional<std::uint16_t> spindles;  // nothing: every letter that is no axis
   double deviation = 0.1;
+  double highest_speed = 0;
   double off_y = 0.1028;
   std::array<double, 3> centre = {-200.3605, -190.1897, -516.0118};
   std::map<std::string, std::unique_ptr<TextSource>, std::less<>> programs;
@@ -60,6 +61,7 @@ struct TestMachine : Environment {
   std::uint16_t spindle_axes() const override {
     return spindles.value_or(static_cast<std::uint16_t>(~axis_mask));
   }
+  double highest_spindle_speed() const override { return highest_speed; }
   AxisValues approach() const override { return last_way; }
   bool diameter_programming() const override { return diameter; }
   double scaling_unit() const override { return factor_unit; }
@@ -180,6 +182,7 @@ inline Interpretation run(Environment& machine, TextSource& text, const AxisValu
     result.last = interpreter.next(command);
     if (result.last == Step::command) result.commands.push_back(command);
     if (result.last == Step::position) interpreter.set_position(result.commands.back().target);
+    if (result.last == Step::answer) interpreter.answer(0);
   } while (result.last != Step::end && result.last != Step::alarm && result.commands.size() < most);
   result.alarm = interpreter.alarm();
   result.modal = interpreter.modal();
@@ -219,8 +222,8 @@ struct SlowSource : TextSource {
 
 /// One command in a short form, for comparing streams: kind, the axes that are not 0, and what the kind adds.
 inline std::string brief(const Command& command) {
-  static constexpr const char* kinds[] = {"rapid", "line", "arc",  "dwell", "T",     "S",      "M",
-                                          "frame", "end",  "skip", "tap",   "table", "message"};
+  static constexpr const char* kinds[] = {"rapid", "line", "arc",  "dwell", "T",     "S",       "M",
+                                          "frame", "end",  "skip", "tap",   "table", "message", "cycle"};
   const auto number = [](double value) {
     char text[40];
     std::snprintf(text, sizeof text, "%.10g", std::abs(value) < 1e-12 ? 0.0 : value);
@@ -281,6 +284,7 @@ inline std::string brief(const Command& command) {
       }
       break;
     case CommandKind::message:
+    case CommandKind::cycle:
     case CommandKind::end:
       text += " " + std::to_string(command.number);
       break;

@@ -193,5 +193,57 @@ TEST(SystemVariables, EveryRangeOfTheTableIsApartFromTheOthers) {
   }
 }
 
+// The answers of the service, one after the other; then the rest of the program.
+std::vector<std::string> answered(
+    TestMachine& machine, const std::string& text, std::vector<double> answers,
+    const std::function<void()>& before_answer = [] {}) {
+  StringSource source(text);
+  Interpreter interpreter(machine);
+  interpreter.start(source, {}, {});
+  Interpretation result;
+  Command command;
+  std::size_t next = 0;
+  do {
+    result.last = interpreter.next(command);
+    if (result.last == Step::command) result.commands.push_back(command);
+    if (result.last != Step::answer) continue;
+    EXPECT_EQ(interpreter.next(command), Step::answer) << "nothing is read before the answer";
+    before_answer();
+    interpreter.answer(next < answers.size() ? answers[next] : 0);
+    ++next;
+  } while (result.last != Step::end && result.last != Step::alarm);
+  result.alarm = interpreter.alarm();
+  return stream(result);
+}
+
+TEST(Variables, ACalledCycleIsAnsweredBeforeTheNextBlockAndItsAnswerIsRead) {
+  TestMachine machine;
+  EXPECT_THAT(answered(machine, "G0 X1\n#3100=9960\nG0 X[10+#3100]\n#3100=0\nG0 X[20+#3100]\nM30\n", {1, 0}),
+              ElementsAre("rapid X1", "cycle 9960", "rapid X11", "cycle 0", "rapid X20", "end 30"));
+}
+
+TEST(Variables, APartThatTheServiceHasChangedIsReadAgain) {
+  TestMachine machine;
+  int texts = 0;
+  const auto store = [&] {
+    machine.programs["O99601"] =
+        std::make_unique<StringSource>(texts++ == 0 ? "G0 X5\nM99\n" : "G0 X7 Y1\nG0 Y0\nM99\n");
+  };
+  // The text before lives on, as the channel's does; the machine of the test forgets it.
+  EXPECT_THAT(
+      answered(machine, "#3100=9960\nWHILE [#3100 EQ 1]\nM98 P99601\n#3100=0\nENDW\nM30\n", {1, 1, 0}, store),
+      ElementsAre("cycle 9960", "rapid X5", "cycle 0", "rapid X7 Y1", "rapid X7", "cycle 0", "end 30"));
+}
+
+TEST(Variables, ACycleIsNotCalledInCutterCompensationNorByAWrongNumber) {
+  TestMachine machine;
+  machine.tools[1] = {0, 0, 2, 0};
+  const auto result = run(machine, "G41 D1 G1 X10 F100\n#3100=9960\nM30\n");
+  EXPECT_EQ(result.alarm.number, AlarmNumber::compensation_active);
+  EXPECT_EQ(result.alarm.line, 2u);
+  EXPECT_EQ(run(machine, "#3100=-1\nM30\n").alarm.number, AlarmNumber::variable_value);
+  EXPECT_EQ(run(machine, "#3100=10000\nM30\n").alarm.number, AlarmNumber::variable_value);
+}
+
 }  // namespace
 }  // namespace trunnion::language::test

@@ -55,5 +55,19 @@ TEST(GatewaySettings, APortOutOfRangeIsNamedWithItsPlace) {
   }
 }
 
+TEST(GatewaySettings, TlsIsOffOnWithTheStateDirectoryOrHasTwoFiles) {
+  EXPECT_FALSE(read("name: mill").tls.on);
+  EXPECT_FALSE(read("tls: off").tls.on);
+  EXPECT_TRUE(read("tls: on").tls.on);
+  EXPECT_TRUE(read("tls: on").tls.certificate.empty());
+  const auto named = read("tls: {certificate: mill.pem, key: mill.key}").tls;
+  EXPECT_TRUE(named.on);
+  EXPECT_EQ(named.certificate, "mill.pem");
+  EXPECT_EQ(named.key, "mill.key");
+  for (const auto* wrong : {"tls: perhaps", "tls: {certificate: mill.pem}", "tls: {key: mill.key}",
+                            "tls: {certificate: mill.pem, key: mill.key, more: 1}", "tls: [on]"})
+    EXPECT_THROW(read(wrong), std::runtime_error) << wrong;
+}
+
 }  // namespace
 }  // namespace trunnion::machine

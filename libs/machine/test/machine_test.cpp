@@ -81,7 +81,7 @@ TEST(Machine, ErrorsOfTheHardwareNameLineAndColumn) {
   EXPECT_EQ(error_of("name: m\nhardware: hal\nhal: {file: x.hal, queue: 1}\n" + all_services),
             "machine.yaml:3:27: error: queue must be 2 .. 256 setpoint rows");
   EXPECT_EQ(error_of("name: m\nhardware: hal\nhal: {file: x.hal, depth: 1}\n" + all_services),
-            "machine.yaml:3:20: error: unknown key 'depth'");
+            "machine.yaml:3:20: error: unknown key 'depth'; the keys are file, queue");
   EXPECT_EQ(
       error_of("name: m\ntime: virtual\nhardware: hal\nhal: {file: x.hal}\n" + all_services),
       "machine.yaml:2:7: error: time must be 'real' with 'hardware: hal': HAL's servo thread is the clock");
@@ -90,8 +90,10 @@ TEST(Machine, ErrorsOfTheHardwareNameLineAndColumn) {
 TEST(Machine, ErrorsNameLineAndColumn) {
   EXPECT_EQ(error_of("name: m\ndomain: 101\n" + all_services),
             "machine.yaml:2:9: error: domain must be 0 .. 100");
-  EXPECT_EQ(error_of("name: m\ncolour: red\n" + all_services),
-            "machine.yaml:2:1: error: unknown key 'colour'");
+  EXPECT_TRUE(error_of("name: m\ncolour: red\n" + all_services)
+                  .starts_with("machine.yaml:2:1: error: unknown key 'colour'; the keys are name, title,"));
+  EXPECT_EQ(error_of("name: m\nport: 1\nport: 2\n" + all_services),
+            "machine.yaml:3:1: error: 'port' is there twice");
   EXPECT_EQ(error_of("name: m\nservices:\n  - {service: coffee}\n"),
             "machine.yaml:3:5: error: unknown service 'coffee'");
   EXPECT_EQ(error_of("name: m\nport: many\n" + all_services),

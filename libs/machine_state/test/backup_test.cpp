@@ -7,7 +7,9 @@
 #include <random>
 #include <thread>
 
+#include "machine_state/archive.hpp"
 #include "state_fixture.hpp"
+#include "storage/kept_text.hpp"
 
 namespace trunnion::machine_state {
 namespace {
@@ -85,6 +87,10 @@ TEST_F(BackupTest, ADamagedBackupIsRefusedAndTheStateStays) {
 }
 
 TEST_F(BackupTest, ANewerFormatOrANameThatLeadsElsewhereIsRefused) {
+  const std::string manifest = "{\"format\": " + std::to_string(backup_format + 1) + "}\n";
+  EXPECT_EQ(refusal(write_tar({{"MANIFEST.json", storage::seal("MANIFEST.json", 1, manifest)}})),
+            "the backup has format " + std::to_string(backup_format + 1) + ", and this version reads up to " +
+                std::to_string(backup_format) + ": install a newer version");
   auto backup = taken();
   backup.files["../evil"] = "x";
   EXPECT_THAT(refusal(write_backup(backup)), HasSubstr("unexpected file: ../evil"));

@@ -3,12 +3,10 @@
 
 #include <gmock/gmock.h>
 
-#include <Eigen/Geometry>
 #include <algorithm>
 
-#include "geometry/test/machines.hpp"
 #include "metrology/sphere.hpp"
-#include "truth/random_source.hpp"
+#include "wrong_machines.hpp"
 
 namespace trunnion::metrology {
 namespace {
@@ -19,46 +17,6 @@ using geometry::Machine;
 
 constexpr double tool_length = 120;
 const Vec3 sphere(90, 70, -310);
-
-std::vector<Machine> kinds() {
-  return {{"AC table", geometry::ac_table()},
-          {"BC table", geometry::bc_table()},
-          {"CB head", geometry::cb_head()},
-          {"AC head", geometry::ca_head()},
-          {"B head C table", geometry::b_head_c_table()},
-          {"nutating B head C table", geometry::nutating_b_head_c_table()},
-          {"A table", geometry::a_table()}};
-}
-
-double between(truth::RandomSource& random, double low, double high) {
-  return low + (high - low) * random.uniform();
-}
-
-// A machine as it is: its axes are up to 0.3 mrad off.
-ChainParameters as_built(ChainParameters p, truth::RandomSource& random) {
-  for (const Slot slot : all_slots)
-    if (auto& axis = axis_at(p, slot))
-      for (double& d : axis->direction) d += between(random, -3e-4, 3e-4);
-  return p;
-}
-
-// What the control believes: every offset 0.5 mm and every direction 0.1 degrees wrong, but the components
-// that slide along an axis, which are a convention.
-ChainParameters believed(ChainParameters p, truth::RandomSource& random) {
-  std::array<Vec3, slot_count> kept{};
-  kept.fill(Vec3::Zero());
-  for (const auto& condition : free_components(p))
-    for (std::size_t s = 0; s < slot_count; ++s) kept[s] += condition.coefficient[s].cwiseAbs();
-  for (const Slot slot : all_slots) {
-    auto& axis = axis_at(p, slot);
-    if (!axis) continue;
-    for (int c = 0; c < 3; ++c)
-      if (kept[index_of(slot)][c] == 0) axis->offset[c] += random.uniform() < 0.5 ? -0.5 : 0.5;
-    const Vec3 about = axis->direction.normalized().unitOrthogonal();
-    axis->direction = Eigen::AngleAxisd(0.1 * M_PI / 180, about) * axis->direction.normalized();
-  }
-  return p;
-}
 
 // Eight angles of each axis, the other at a quarter of its range.
 std::vector<Angles> poses_of(const ChainParameters& p) {
@@ -170,12 +128,8 @@ TEST_P(EveryKind, TheUncertaintyIsHonest) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Machines, EveryKind, testing::ValuesIn(kinds()), [](const auto& machine) {
-  std::string name;
-  for (const char* c = machine.param.name; *c != 0; ++c)
-    if (*c != ' ') name += *c;
-  return name;
-});
+INSTANTIATE_TEST_SUITE_P(Machines, EveryKind, testing::ValuesIn(kinds()),
+                         [](const auto& machine) { return test_name(machine.param); });
 
 TEST(KinematicFit, KeepsTheFreeComponentsOfTheManual) {
   const auto names = [](const ChainParameters& p) {
@@ -239,6 +193,25 @@ TEST(KinematicFit, TheUncertaintyOfTheToolLengthIsThatOfTheLengthOfTheHead) {
   for (const auto& axis : fit.axes)
     if (axis.slot == Slot::head_2) {
       EXPECT_NEAR(axis.offset.standard.z(), 0.003, 1e-6);
+    }
+}
+
+// A tool length that is known by touches only: variance 1/8 of that of a touch.
+TEST(KinematicFit, TheUncertaintyOfACalibratedLengthIsThatOfItsTouches) {
+  const auto truth = geometry::cb_head();
+  truth::RandomSource noise(3);
+  const auto poses = touched(truth, noise);
+  const auto with = [&](double cofactor) {
+    FitOptions options;
+    options.tool_length_cofactor = cofactor;
+    return std::get<KinematicFit>(fit_kinematics(truth, poses, tool_length, options));
+  };
+  const auto plain = with(0), calibrated = with(0.125);
+  for (std::size_t i = 0; i < plain.axes.size(); ++i)
+    if (plain.axes[i].slot == Slot::head_2) {
+      const double before = plain.axes[i].offset.standard.z();
+      EXPECT_NEAR(calibrated.axes[i].offset.standard.z(),
+                  std::hypot(before, plain.touch_deviation * std::sqrt(0.125)), 1e-6);
     }
 }
 

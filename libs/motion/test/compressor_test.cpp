@@ -8,6 +8,7 @@
 #include <random>
 
 #include "circle_points.hpp"
+#include "testing_support/rounds.hpp"
 
 namespace trunnion::motion {
 namespace {
@@ -115,7 +116,7 @@ TEST(Compressor, dense_circles_are_true_to_size_at_any_tolerance) {
 
 // Independent of the compressor: every place of a piece against the whole polyline near its line.
 TEST(Compressor, no_place_is_farther_from_the_polyline_than_the_tolerance) {
-  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+  for (std::uint64_t seed = 1; seed <= testing_support::rounds(20); ++seed) {
     const auto points = random_program(seed);
     const auto blocks = compress(points);
     double worst = 0, turn = 0;

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <functional>
 #include <random>
+#include <tuple>
 
 #include "motion_fixture.hpp"
 
@@ -15,8 +16,9 @@ namespace {
 
 using canonical::Transformation;
 
-// A winding line with waves of random lengths in Z, its points rounded: smooth to kinked.
-std::vector<AxisValues> relief(std::uint64_t seed, int count) {
+// A winding line with waves of random lengths in Z, its points rounded: smooth to kinked. With five axes the
+// tool tilts and the table turns along it.
+std::vector<AxisValues> relief(std::uint64_t seed, int count, bool five_axis = false) {
   std::mt19937_64 random(seed);
   std::uniform_real_distribution<double> unit(0, 1);
   const double grain = std::pow(10, -2 - static_cast<int>(random() % 3)), step = 0.03 + 0.1 * unit(random);
@@ -27,6 +29,10 @@ std::vector<AxisValues> relief(std::uint64_t seed, int count) {
     const double u = step * k;
     AxisValues p{u, 4 * std::sin(0.2 * u), 0};
     for (const auto& [number, phase, height] : waves) p[2] += height / number * std::sin(number * u + phase);
+    if (five_axis) {
+      p[canonical::A] = 20 + 10 * std::sin(0.3 * u);
+      p[canonical::C] = 2 * u + 30 * std::sin(0.1 * u);
+    }
     for (double& v : p) v = std::round(v / grain) * grain;
     points.push_back(p);
   }
@@ -41,29 +47,47 @@ std::vector<Command> program_of(const std::vector<AxisValues>& points, double fe
   return program;
 }
 
-Limits strong() { return uniform_limits(500, 3000, 1); }
+Limits strong() {
+  Limits limits = uniform_limits(500, 3000, 1);
+  for (std::size_t i = canonical::A; i <= canonical::C; ++i) limits.axes[i] = {360, 360, 3000, 60000};
+  return limits;
+}
 
-void expect_limits(const std::vector<Setpoint>& setpoints, const AxisValues& start, const Limits& limits) {
+constexpr double relief_tool = 100;
+
+void expect_limits(const std::vector<Setpoint>& setpoints, const AxisValues& start, const Limits& limits,
+                   const geometry::Chain* chain = nullptr) {
   Motion motion;
   motion.setpoints = setpoints;
-  const Ratios ratios = axis_ratios(motion, start, limits, nullptr, 0);
+  const Ratios ratios = axis_ratios(motion, start, limits, chain, relief_tool);
   EXPECT_LE(ratios.velocity, 1.001);
   EXPECT_LE(ratios.acceleration, 1.001);
   EXPECT_LE(ratios.jerk, 1.001);
 }
 
-class PlannedRelief : public ::testing::TestWithParam<std::uint64_t> {};
-INSTANTIATE_TEST_SUITE_P(seeds, PlannedRelief, ::testing::Range<std::uint64_t>(0, 40));
+/// A trajectory that knows all of the path `points`, with five axes through the chain of an AC table.
+struct KnownPath {
+  KnownPath(const std::vector<AxisValues>& points, bool five_axis)
+      : chain(ac_table()), used(five_axis ? &chain : nullptr), t(strong(), used, cycle) {
+    t.start(points.front(), five_axis ? Transformation::rtcp : Transformation::none, relief_tool);
+    for (const Command& command : program_of(points, 6000)) EXPECT_TRUE(t.push(command));
+    t.finish();
+  }
+  const geometry::Chain chain;
+  const geometry::Chain* used;
+  Trajectory t;
+};
+
+class PlannedRelief : public ::testing::TestWithParam<std::tuple<std::uint64_t, bool>> {};
+INSTANTIATE_TEST_SUITE_P(seeds_three_and_five_axes, PlannedRelief,
+                         ::testing::Combine(::testing::Range<std::uint64_t>(0, 40), ::testing::Bool()));
 
 // Every 10 to 300 cycles another override, a hold, a retrace, or a reset, which ends the run.
 TEST_P(PlannedRelief, limits_hold_under_overrides_holds_retraces_and_resets) {
-  const std::uint64_t seed = GetParam();
-  const auto points = relief(seed, 400);
-  const Limits limits = strong();
-  Trajectory t(limits, nullptr, cycle);
-  t.start(points.front(), Transformation::none, 0);
-  for (const Command& command : program_of(points, 6000)) ASSERT_TRUE(t.push(command));
-  t.finish();
+  const auto [seed, five_axis] = GetParam();
+  const auto points = relief(seed, 400, five_axis);
+  KnownPath path(points, five_axis);
+  Trajectory& t = path.t;
   std::mt19937_64 random(seed + 1000);
   std::vector<Setpoint> setpoints;
   double feed = 1;
@@ -88,19 +112,19 @@ TEST_P(PlannedRelief, limits_hold_under_overrides_holds_retraces_and_resets) {
   if (!resets) {
     EXPECT_EQ(t.position(), points.back());
   }
-  expect_limits(setpoints, points.front(), limits);
+  expect_limits(setpoints, points.front(), strong(), path.used);
 }
+
+class HeldRelief : public ::testing::TestWithParam<std::uint64_t> {};
+INSTANTIATE_TEST_SUITE_P(seeds, HeldRelief, ::testing::Range<std::uint64_t>(0, 40));
 
 // Without its jerk at the plan's own limits a stop from the programmed 100 mm/s takes 2 sqrt(v / J) = 82 ms
 // at J = 60000 mm/s3; it reaches sqrt(v J) = 2449 mm/s2 of 3000. At its limits a plan of least time leaves
 // jerk in one direction only. With a quarter of the jerk, the stop takes twice as long: 164 cycles.
-TEST_P(PlannedRelief, a_hold_stops_as_with_a_quarter_of_the_jerk_at_least) {
+TEST_P(HeldRelief, a_hold_stops_as_with_a_quarter_of_the_jerk_at_least) {
   const std::uint64_t seed = GetParam();
-  const auto points = relief(seed, 400);
-  Trajectory t(strong(), nullptr, cycle);
-  t.start(points.front(), Transformation::none, 0);
-  for (const Command& command : program_of(points, 6000)) ASSERT_TRUE(t.push(command));
-  t.finish();
+  KnownPath path(relief(seed, 400), false);
+  Trajectory& t = path.t;
   for (int k = 0; k < 300 + static_cast<int>(17 * seed); ++k) t.step(1, 1, false);
   int cycles = 0;
   AxisValues before{};
@@ -114,12 +138,10 @@ TEST_P(PlannedRelief, a_hold_stops_as_with_a_quarter_of_the_jerk_at_least) {
 
 // Holds of 1 to 40 cycles, 1 to 90 cycles apart: most end while the motion still brakes.
 TEST_P(PlannedRelief, limits_hold_when_holds_end_before_the_standstill) {
-  const std::uint64_t seed = GetParam();
-  const auto points = relief(seed, 600);
-  Trajectory t(strong(), nullptr, cycle);
-  t.start(points.front(), Transformation::none, 0);
-  for (const Command& command : program_of(points, 6000)) ASSERT_TRUE(t.push(command));
-  t.finish();
+  const auto [seed, five_axis] = GetParam();
+  const auto points = relief(seed, 600, five_axis);
+  KnownPath path(points, five_axis);
+  Trajectory& t = path.t;
   std::mt19937_64 random(seed + 2000);
   std::vector<Setpoint> setpoints;
   bool hold = false;
@@ -129,7 +151,7 @@ TEST_P(PlannedRelief, limits_hold_when_holds_end_before_the_standstill) {
     hold = !hold;
   }
   EXPECT_EQ(t.position(), points.back());
-  expect_limits(setpoints, points.front(), strong());
+  expect_limits(setpoints, points.front(), strong(), path.used);
 }
 
 // 5 mm to and fro at F100. At 3000 mm/s2 and 60000 mm/s3 its 1.67 mm/s are reached in 2 sqrt(v / J) = 10.5 ms

@@ -6,6 +6,7 @@
 #include <random>
 
 #include "motion_fixture.hpp"
+#include "testing_support/rounds.hpp"
 
 namespace trunnion::motion::test {
 namespace {
@@ -120,7 +121,7 @@ TEST(Retrace, five_thousand_blocks_can_be_gone_back_over_and_no_block_is_lost_fo
 
 TEST(Retrace, turning_at_any_cycle_under_any_override_keeps_the_limits_through_a_chain) {
   const geometry::Chain chain = ac_table();
-  for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+  for (std::uint64_t seed = 1; seed <= testing_support::rounds(12); ++seed) {
     std::mt19937_64 random(seed);
     Limits limits = uniform_limits(200, 2000, 1 + static_cast<int>(seed % 10));
     const bool rtcp = seed % 2 == 0;

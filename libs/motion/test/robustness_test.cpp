@@ -5,6 +5,7 @@
 #include <random>
 
 #include "motion_fixture.hpp"
+#include "testing_support/rounds.hpp"
 
 namespace trunnion::motion::test {
 namespace {
@@ -231,7 +232,7 @@ TEST(Robustness, blocks_shorter_than_a_cycle_do_not_starve) {
 
 // Rapids and feeds in turn; every override and the hold change at random cycles.
 TEST(Robustness, rapids_under_random_overrides_and_holds_keep_the_limits) {
-  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+  for (std::uint64_t seed = 1; seed <= testing_support::rounds(10); ++seed) {
     std::mt19937_64 random(seed);
     std::uniform_real_distribution<double> unit(-1, 1);
     const Limits limits = uniform_limits(150, 2000, static_cast<int>(1 + random() % 40));
@@ -271,7 +272,7 @@ TEST(Robustness, rapids_under_random_overrides_and_holds_keep_the_limits) {
 // stopped.
 TEST(Robustness, jogs_let_go_of_at_any_cycle_under_any_override_keep_the_limits_and_the_travel) {
   const Limits limits = uniform_limits(100, 1000, 20);
-  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+  for (std::uint64_t seed = 1; seed <= testing_support::rounds(10); ++seed) {
     std::mt19937_64 random(seed);
     Trajectory t(limits, nullptr, cycle);
     Motion result;

@@ -8,6 +8,7 @@
 #include <random>
 
 #include "motion_fixture.hpp"
+#include "testing_support/rounds.hpp"
 
 namespace trunnion::motion::test {
 namespace {
@@ -235,8 +236,8 @@ TEST(Trajectory, override_that_changes_at_any_cycle_keeps_the_limits_and_the_pat
         {points.back()[0] + size * (0.5 + unit(random)), points.back()[1] + size * unit(random)});
     program.push_back(line_to(points.back(), 6000 + 3000 * unit(random)));
   }
-  for (int seed = 0; seed < 10; ++seed) {
-    std::mt19937_64 changes(static_cast<std::uint64_t>(seed));
+  for (std::uint64_t seed = 0; seed < testing_support::rounds(10); ++seed) {
+    std::mt19937_64 changes(seed);
     double value = 1;
     Trajectory t(limits, nullptr, cycle);
     const Motion result = run(t, program, 1000000, [&](std::size_t) {

@@ -17,7 +17,10 @@ namespace {
 using machine::YamlReader;
 
 constexpr machine::Limits seconds{0.001, 3600}, place_count{2, 255}, position{-1e5, 1e5};
-constexpr std::size_t most_devices = 256;
+constexpr std::size_t most_devices = 256, most_positions = 64;
+constexpr machine::Limits byte_value{0, 255};
+constexpr const char* type_names =
+    "actuator, switch, magazine, position_switch, key, rotary_switch, handwheel";
 
 enum class KeyKind : std::uint8_t { read_bit, flag, time, count, input_bit, input_byte };
 
@@ -90,8 +93,8 @@ class DeviceReader {
       if (!names_.insert(key).second) reader_.fail(entry.first, "'" + name + "' is there twice");
       device(name, entry.second, variables, calls);
     }
-    if (!variables.empty())
-      out_.program = "PROGRAM simulation\nVAR\n" + variables + "END_VAR\n" + calls + "END_PROGRAM\n";
+    if (!variables.empty()) variables = "VAR\n" + variables + "END_VAR\n";
+    if (!calls.empty()) out_.program = "PROGRAM simulation\n" + variables + calls + "END_PROGRAM\n";
     return std::move(out_);
   }
 
@@ -108,10 +111,11 @@ class DeviceReader {
   void device(const std::string& name, const YAML::Node& node, std::string& variables, std::string& calls) {
     YAML::Node values;
     std::string type;
-    reader_.each(node, "one of actuator, switch, magazine, position_switch",
+    reader_.each(node, std::string("one of ") + type_names,
                  [&](const std::string& key, const YAML::Node& value) {
-                   if (key != "position_switch" && std::none_of(device_types().begin(), device_types().end(),
-                                                                [&](const auto& t) { return key == t.name; }))
+                   if (!is_panel(key) && key != "position_switch" &&
+                       std::none_of(device_types().begin(), device_types().end(),
+                                    [&](const auto& t) { return key == t.name; }))
                      return false;
                    if (!type.empty())
                      reader_.fail(value, "'" + type + "' is there already: one device, one type");
@@ -119,8 +123,10 @@ class DeviceReader {
                    values = value;
                    return true;
                  });
-    if (type.empty())
-      reader_.fail(node, "a type is missing: one of actuator, switch, magazine, position_switch");
+    if (type.empty()) reader_.fail(node, std::string("a type is missing: one of ") + type_names);
+    if (type == "key") return key(values);
+    if (type == "rotary_switch") return rotary_switch(values, calls);
+    if (type == "handwheel") return handwheel(name, values, variables, calls);
     if (type == "position_switch") return position_switch(values);
     const auto& found = *std::find_if(device_types().begin(), device_types().end(),
                                       [&](const auto& t) { return type == t.name; });
@@ -181,8 +187,9 @@ class DeviceReader {
   }
 
   // An address of area X that nothing else writes.
-  std::string input(const YAML::Node& node, bool bit) {
-    const auto text = reader_.text(node);
+  std::string input(const YAML::Node& node, bool bit) { return claim(node, reader_.text(node), bit); }
+
+  std::string claim(const YAML::Node& node, const std::string& text, bool bit) {
     const auto address = address_of(text);
     if (!address || address->area != Area::x || (address->bit >= 0) != bit)
       reader_.fail(node, "'" + text + "' is no " + (bit ? "input bit as X16.0" : "input byte as X20") +
@@ -209,6 +216,61 @@ class DeviceReader {
     if (found.low > found.high) reader_.fail(values, "'from' is above 'to'");
     found.input = *address_of(input(on, true));
     out_.switches.push_back(found);
+  }
+
+  static bool is_panel(const std::string& type) {
+    return type == "key" || type == "rotary_switch" || type == "handwheel";
+  }
+
+  // Pressed by the page or a test: nothing of the machine moves it.
+  void key(const YAML::Node& values) {
+    bool has_input = false;
+    reader_.each(values, "input, lamp", [&](const std::string& name, const YAML::Node& value) {
+      if (name == "input") return input(value, true), has_input = true;
+      return name == "lamp" && (read_bit(value), true);
+    });
+    if (!has_input) reader_.fail(values, "'input' is missing");
+  }
+
+  // The value of its position; of one that it does not have, the last.
+  void rotary_switch(const YAML::Node& values, std::string& calls) {
+    std::string position, value, cases;
+    reader_.each(values, "position, values, value", [&](const std::string& name, const YAML::Node& node) {
+      if (name == "position") return position = input(node, false), true;
+      if (name == "value") return value = input(node, false), true;
+      if (name != "values") return false;
+      const auto numbers = reader_.numbers(node, most_positions, byte_value);
+      for (std::size_t i = 0; i < numbers.size(); ++i) {
+        if (numbers[i] != std::floor(numbers[i])) reader_.fail(node[i], "expected a whole number");
+        cases.append("  ").append(std::to_string(i)).append(": %@ := ");
+        cases.append(std::to_string(std::lround(numbers[i]))).append(";\n");
+      }
+      return true;
+    });
+    if (position.empty() || value.empty() || cases.empty())
+      reader_.fail(values, "a rotary switch has 'position', 'values' and 'value'");
+    for (auto at = cases.find('@'); at != std::string::npos; at = cases.find('@'))
+      cases.replace(at, 1, value);
+    calls.append("CASE %").append(position).append(" OF\n").append(cases).append("END_CASE;\n");
+  }
+
+  void handwheel(const std::string& name, const YAML::Node& values, std::string& variables,
+                 std::string& calls) {
+    std::string turned, low, high;
+    reader_.each(values, "turned, counter", [&](const std::string& key, const YAML::Node& node) {
+      if (key == "turned") return turned = input(node, false), true;
+      if (key != "counter") return false;
+      low = input(node, false);
+      const auto next = address_of(low)->index + 1u;
+      if (next >= info(Area::x).count)
+        reader_.fail(node, "the counter has two bytes: the second one leaves area X");
+      high = claim(node, "X" + std::to_string(next), false);
+      return true;
+    });
+    if (turned.empty() || low.empty()) reader_.fail(values, "a handwheel has 'turned' and 'counter'");
+    variables.append("  device_").append(name).append(" : SIM_HANDWHEEL;\n");
+    calls.append("device_").append(name).append("(turned := %").append(turned).append(", low => %");
+    calls.append(low).append(", high => %").append(high).append(");\n");
   }
 
   YamlReader reader_;

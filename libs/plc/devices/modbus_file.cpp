@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <set>
 
 #include "machine/yaml.hpp"
@@ -44,7 +43,7 @@ class ModbusReader {
       if (device.name.empty() || device.name.size() > 32 || !names.insert(device.name).second)
         reader_.fail(entry.first, "a device has a name of its own, of at most 32 bytes");
       reader_.each(entry.second, device_keys, [&](const std::string& key, const YAML::Node& value) {
-        if (key == "host") return device.host = host(value), true;
+        if (key == "host") return device.host = reader_.host(value), true;
         if (key == "port") return device.port = whole(value, {1, 65535}), true;
         if (key == "unit") return device.unit = whole(value, {0, 255}), true;
         if (key == "period_ms") return device.period = whole(value, {1, 60000}) / 1000.0, true;
@@ -60,7 +59,7 @@ class ModbusReader {
   void server(const YAML::Node& node) {
     auto& server = out_.server.emplace();
     reader_.each(node, server_keys, [&](const std::string& key, const YAML::Node& value) {
-      if (key == "host") return server.host = host(value), true;
+      if (key == "host") return server.host = reader_.host(value), true;
       if (key == "port") return server.port = whole(value, {1, 65535}), true;
       if (key == "timeout_ms") return server.timeout = whole(value, {10, 60000}) / 1000.0, true;
       if (key == "inputs") return server.inputs = blocks(value, true, true), true;
@@ -68,17 +67,8 @@ class ModbusReader {
     });
   }
 
-  std::string host(const YAML::Node& node) const {
-    auto text = reader_.text(node);
-    if (text.empty() || text.size() > 253)
-      reader_.fail(node, "expected an address or the name of a computer");
-    return text;
-  }
-
   std::uint16_t whole(const YAML::Node& node, machine::Limits limits) const {
-    const double number = reader_.number(node, limits);
-    if (number != std::floor(number)) reader_.fail(node, "expected a whole number");
-    return static_cast<std::uint16_t>(number);
+    return static_cast<std::uint16_t>(reader_.whole(node, limits));
   }
 
   std::vector<ModbusBlock> blocks(const YAML::Node& node, bool input, bool serves) {
@@ -195,7 +185,7 @@ std::vector<std::string> changes_of(const ModbusFile& running, const ModbusFile&
     if (other == nullptr)
       lines.push_back("Modbus: the device '" + device.name + "' is no longer asked" + held);
     else if (*other != device)
-      lines.push_back("Modbus: the device '" + device.name + "' changes: it is connected anew");
+      lines.push_back("Modbus: the device '" + device.name + "' changes: it is connected again");
   }
   for (const auto& device : next.devices)
     if (named(running, device.name) == nullptr)

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "plc/semantics/type.hpp"
 
@@ -47,6 +48,8 @@ constexpr std::array rows = std::to_array<FunctionRow>({
     {"LIMIT", selection, 3, 3, "MN IN MX", "IN, but at least MN and at most MX"},
     {"MUX", selection, 2, many, "", "argument number K of those behind it, from 0; the last one beyond"},
     {"MOVE", move, 1, 1, "IN", "the value"},
+    {"MOV", ladder, 1, 1, "S", "the value; with D it is written there"},
+    {"DISAS", ladder, 3, 3, "N D S", "N bytes of S, the low one first, into N registers from D on"},
     {"LEN", string, 1, 1, "IN", "length of the string, in bytes or, of WSTRING, characters"},
     {"LEFT", string, 2, 2, "IN L", "the first L"},
     {"RIGHT", string, 2, 2, "IN L", "the last L"},
@@ -67,7 +70,24 @@ constexpr std::array rows = std::to_array<FunctionRow>({
     {"SUB_DT_DT", time, 2, 2, "IN1 IN2", "TIME between"},
     {"MUL_TIME", time, 2, 2, "IN1 IN2", "TIME times a number"},
     {"DIV_TIME", time, 2, 2, "IN1 IN2", "TIME divided by a number"},
-    {"PLC_TIME", clock, 0, 0, "", "LTIME since the start of the PLC, the same within one scan"},
+    {"ADD_LTIME", time, 2, 2, "IN1 IN2", "sum of two LTIME"},
+    {"SUB_LTIME", time, 2, 2, "IN1 IN2", "difference of two LTIME"},
+    {"MUL_LTIME", time, 2, 2, "IN1 IN2", "LTIME times a number"},
+    {"DIV_LTIME", time, 2, 2, "IN1 IN2", "LTIME divided by a number"},
+    {"ADD_LTOD_LTIME", time, 2, 2, "IN1 IN2", "as ADD_TOD_TIME"},
+    {"ADD_LDT_LTIME", time, 2, 2, "IN1 IN2", "as ADD_DT_TIME"},
+    {"SUB_LDATE_LDATE", time, 2, 2, "IN1 IN2", "as SUB_DATE_DATE"},
+    {"SUB_LTOD_LTIME", time, 2, 2, "IN1 IN2", "as SUB_TOD_TIME"},
+    {"SUB_LTOD_LTOD", time, 2, 2, "IN1 IN2", "as SUB_TOD_TOD"},
+    {"SUB_LDT_LTIME", time, 2, 2, "IN1 IN2", "as SUB_DT_TIME"},
+    {"SUB_LDT_LDT", time, 2, 2, "IN1 IN2", "as SUB_DT_DT"},
+    {"TO_BIG_ENDIAN", order_of_bytes, 1, 1, "IN", "the bytes in reverse order"},
+    {"TO_LITTLE_ENDIAN", order_of_bytes, 1, 1, "IN", "the bytes in their order"},
+    {"FROM_BIG_ENDIAN", order_of_bytes, 1, 1, "IN", "the bytes in reverse order"},
+    {"FROM_LITTLE_ENDIAN", order_of_bytes, 1, 1, "IN", "the bytes in their order"},
+    {"IS_VALID", validation, 1, 1, "IN", "IN is neither infinite nor NaN"},
+    {"IS_VALID_BCD", validation, 1, 1, "IN", "every four bits of IN are a decimal digit"},
+    {"PLC_TIME", clock, 0, 0, "", "LTIME for which the PLC has run, the same within one scan"},
     {"ASSERT_TRUE", test, 1, 1, "IN", "the test fails unless IN"},
     {"ASSERT_FALSE", test, 1, 1, "IN", "the test fails when IN"},
     {"ASSERT_EQ", test, 2, 2, "ACTUAL EXPECTED", "the test fails unless both are equal"},
@@ -86,16 +106,29 @@ const FunctionRow* find_function(std::string_view upper) {
   return found == rows.end() ? nullptr : &*found;
 }
 
+std::optional<ConversionName> conversion_name(const std::string& upper,
+                                              const std::function<bool(const std::string&)>& is_type) {
+  using enum ConversionKind;
+  if (upper == "TRUNC") return ConversionName{truncation, "", "DINT"};
+  // The name of a type may contain these words too.
+  for (const auto& [word, kind] : {std::pair{std::string("BCD_TO_"), from_bcd},
+                                   {"TO_BCD_", to_bcd},
+                                   {"TRUNC_", truncation},
+                                   {"TO_", plain}})
+    for (auto at = upper.find(word); at != std::string::npos; at = upper.find(word, at + 1)) {
+      if (at > 0 && upper[at - 1] != '_') continue;
+      ConversionName result{kind, at == 0 ? "" : upper.substr(0, at - 1), upper.substr(at + word.size())};
+      if ((at == 0 || is_type(result.from)) && is_type(result.to)) return result;
+    }
+  return std::nullopt;
+}
+
 bool is_standard_function(const std::string& upper) {
-  if (find_function(upper) != nullptr || upper == "TRUNC" || upper == "NOT" || upper == "AND" ||
-      upper == "OR" || upper == "XOR" || upper == "MOD")
-    return true;
-  const auto at = upper.find("_TO_");
-  const auto is_type = [](const std::string& name) {
-    return name == "STRING" || name == "WSTRING" || elementary(name) != nullptr;
-  };
-  if (upper.rfind("TO_", 0) == 0) return is_type(upper.substr(3));
-  return at != std::string::npos && is_type(upper.substr(0, at)) && is_type(upper.substr(at + 4));
+  constexpr auto operators = std::to_array<std::string_view>({"NOT", "AND", "OR", "XOR", "MOD"});
+  return find_function(upper) != nullptr || std::ranges::count(operators, upper) > 0 ||
+         conversion_name(upper, [](const std::string& name) {
+           return name == "STRING" || name == "WSTRING" || elementary(name) != nullptr;
+         });
 }
 
 }  // namespace trunnion::st

@@ -2,6 +2,8 @@
 // The names of the standard functions (IEC 61131-3:2013, 6.6.2.5).
 #pragma once
 
+#include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -16,10 +18,13 @@ enum class FunctionGroup {
   shift,
   selection,
   string,
-  time,  ///< operators on times and dates as functions
+  time,            ///< operators on times and dates as functions
+  order_of_bytes,  ///< TO_BIG_ENDIAN ...
+  validation,      ///< IS_VALID, IS_VALID_BCD
   move,
-  clock,  ///< PLC_TIME
-  test,   ///< ASSERT_..., ADVANCE
+  ladder,  ///< of the manuals' ladder, with the target as an argument
+  clock,   ///< PLC_TIME
+  test,    ///< ASSERT_..., ADVANCE
 };
 
 struct FunctionRow {
@@ -32,7 +37,19 @@ struct FunctionRow {
 
 std::span<const FunctionRow> standard_functions();
 const FunctionRow* find_function(std::string_view upper);
-/// Also conversions like DINT_TO_INT.
+
+enum class ConversionKind { plain, truncation, from_bcd, to_bcd };
+
+/// The parts of the name of a conversion: INT_TO_REAL, TO_REAL, REAL_TRUNC_INT, TRUNC_INT, WORD_BCD_TO_UINT
+/// ...
+struct ConversionName {
+  ConversionKind kind = ConversionKind::plain;
+  std::string from, to;  ///< types, in capitals; `from` is empty when the name does not say it
+};
+/// Nothing when it is none. `is_type` says which types there are.
+std::optional<ConversionName> conversion_name(const std::string& upper,
+                                              const std::function<bool(const std::string&)>& is_type);
+/// Also conversions.
 bool is_standard_function(const std::string& upper);
 
 extern const char* const standard_blocks_text;  ///< library/standard_blocks.st

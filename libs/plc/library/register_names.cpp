@@ -31,7 +31,11 @@ std::vector<NamedRegister> parse_register_table(const std::string& yaml, const s
       auto address = *first;
       const int step = channels ? channel_blocks[i] : stride == "bit" ? 0 : i * std::stoi(stride);
       address.index = static_cast<std::uint16_t>(address.index + step);
-      if (stride == "bit") address.bit = static_cast<std::int8_t>(address.bit + i);
+      if (stride == "bit") {
+        const int width = info(address.area).bits, bit = address.bit + i;
+        address.index = static_cast<std::uint16_t>(address.index + bit / width);
+        address.bit = static_cast<std::int8_t>(bit % width);
+      }
       if (address.index >= info(address.area).count || address.bit >= info(address.area).bits)
         throw std::runtime_error(machine::at(file, node) + "'" + name + "' leaves the image");
       auto full = count > 0 ? name + "_" + std::to_string(i) : name;
@@ -60,18 +64,15 @@ std::string moved_register(const RegisterAddress& address) {
     return other.area == address.area && other.index == address.index &&
            (other.bit < 0 || address.bit < 0 || other.bit == address.bit);
   };
-  const auto text = [](const RegisterAddress& at) {
-    return std::string("%") + info(at.area).letter + std::to_string(at.index) +
-           (at.bit >= 0 ? "." + std::to_string(at.bit) : "");
-  };
   const NamedRegister* moved = nullptr;
   for (const auto& one : register_table()) {
     if (meets(one.address)) return "";
     if (moved == nullptr && one.before && meets(*one.before)) moved = &one;
   }
   if (moved == nullptr) return "";
-  return text(address) + " was " + moved->name +
-         " in versions up to 0.3; nothing reads or writes it now: use the name, or " + text(moved->address);
+  return register_text(address) + " was " + moved->name +
+         " in versions up to 0.3; nothing reads or writes it now: use the name, or " +
+         register_text(moved->address);
 }
 
 const RegisterNames& interface_registers() {

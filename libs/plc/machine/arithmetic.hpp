@@ -57,6 +57,30 @@ inline std::uint64_t rotated_left(std::uint64_t value, std::uint64_t count, unsi
   return count == 0 ? value : narrowed(value << count, bits) | (value >> (bits - count));
 }
 
+/// Binary coded decimals: four bits for each digit.
+inline constexpr unsigned bcd_digits = 16, bcd_bits = 4;
+inline std::uint64_t from_bcd(std::uint64_t digits) {
+  std::uint64_t value = 0;
+  for (unsigned i = bcd_digits; i-- > 0;) value = value * 10 + ((digits >> (i * bcd_bits)) & 15u);
+  return value;
+}
+inline std::uint64_t to_bcd(std::uint64_t value) {
+  std::uint64_t digits = 0;
+  for (unsigned i = 0; i < bcd_digits; ++i, value /= 10) digits |= value % 10 << (i * bcd_bits);
+  return digits;
+}
+inline bool is_bcd(std::uint64_t digits) {
+  for (unsigned i = 0; i < bcd_digits; ++i)
+    if (((digits >> (i * bcd_bits)) & 15u) > 9) return false;
+  return true;
+}
+
+/// The bytes of the low bits in reverse order, with sign or zeros extended.
+inline std::uint64_t bytes_swapped(std::uint64_t value, unsigned n) {
+  const unsigned bits = n & 127u;
+  return narrowed(__builtin_bswap64(value) >> (64 - bits), n);
+}
+
 template <class T>
 T computed(MathFunction function, T x, T y) {
   switch (function) {

@@ -84,6 +84,8 @@ std::vector<std::uint8_t> encode(const ByteCode& code);
 /// verified.
 std::optional<ByteCode> decode(std::span<const std::uint8_t> bytes);
 
+/// Statements of one run of a task: more are a fault.
+inline constexpr std::int64_t task_budget = 100000;
 inline constexpr std::uint32_t most_cells = 1u << 20;
 inline constexpr std::uint32_t most_instructions = 1u << 22;
 

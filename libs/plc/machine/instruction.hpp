@@ -52,10 +52,14 @@ namespace trunnion::st {
   X(return_, -, -, -)                                                                                  \
   X(check_index, w, r, d)      /* a = (b - low) * stride; a fault outside low .. high */               \
   X(check_range, r, d, -)      /* a fault outside low .. high */                                       \
-  X(now, w, -, -)              /* ns since the start of the PLC */                                     \
+  X(now, w, -, -)              /* ns for which the PLC has run */                                      \
   X(string_make, r, r, i)      /* n: StringFunction; a: address of the result, c: its length limit */  \
   X(string_query, w, r, -)     /* n: StringFunction; b: first of its arguments */                      \
-  X(assert_, r, x, -)          /* a fault when a is 0 */
+  X(assert_, r, x, -)          /* a fault when a is 0 */                                               \
+  X(from_bcd, w, r, -)         /* a = value of the 16 decimal digits of b */                           \
+  X(to_bcd, w, r, -)           /* a = the last 16 decimal digits of b */                               \
+  X(is_bcd, w, r, -)           /* a = every digit of b is below 10 */                                  \
+  X(swap_bytes, w, r, -)       /* n: as narrow; the bytes of b in reverse order */
 // clang-format on
 
 enum class Op : std::uint16_t {

@@ -411,6 +411,18 @@ Fault Machine::execute(std::size_t entry, std::int64_t now, std::int64_t budget,
       case Op::now:
         m[in.a] = static_cast<std::uint64_t>(now);
         continue;
+      case Op::from_bcd:
+        m[in.a] = from_bcd(m[in.b]);
+        continue;
+      case Op::to_bcd:
+        m[in.a] = to_bcd(m[in.b]);
+        continue;
+      case Op::is_bcd:
+        m[in.a] = is_bcd(m[in.b]);
+        continue;
+      case Op::swap_bytes:
+        m[in.a] = bytes_swapped(m[in.b], in.n);
+        continue;
       case Op::string_make:
         left -= 4;
         if (!make_string(static_cast<StringFunction>(in.n & ~wide_flag), (in.n & wide_flag) != 0, memory_,

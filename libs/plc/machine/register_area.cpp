@@ -67,4 +67,9 @@ std::optional<RegisterAddress> parse_register(std::string_view text, const char*
   return address;
 }
 
+std::string register_text(const RegisterAddress& at) {
+  return std::string("%") + info(at.area).letter + std::to_string(at.index) +
+         (at.is_bit() ? "." + std::to_string(at.bit) : "");
+}
+
 }  // namespace trunnion::st

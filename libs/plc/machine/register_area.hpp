@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <string_view>
 
 namespace trunnion::st {
@@ -50,6 +51,8 @@ struct RegisterAddress {
   Area area = Area::x;
   std::uint16_t index = 0;
   std::int8_t bit = -1;  ///< -1: the whole register
+  bool is_bit() const { return bit >= 0; }
+  bool operator==(const RegisterAddress&) const = default;
 };
 
 /// The decimal digits of a register's number or bit, at most four, so nothing overflows; nullopt for other
@@ -59,6 +62,9 @@ std::optional<int> register_number(std::string_view text);
 /// X0.3, G300, IX0.3 (= X), QX0.3 (= Y), MX0.3 (= R), IB5, QB5, MB5, MW7 (= W), MD7 (= D); capitals, without
 /// percent sign. On failure `problem` says why.
 std::optional<RegisterAddress> parse_register(std::string_view text, const char** problem);
+
+/// %X0.3, %G300
+std::string register_text(const RegisterAddress& at);
 
 /// A register of the image that a program uses. Its cell is `address_of`.
 struct UsedRegister {

@@ -101,6 +101,8 @@ class Verifier {
       case Op::d_round:
       case Op::d_truncate:
         return in.n < 256 && width(in.n & 127u);
+      case Op::swap_bytes:
+        return in.n < 256 && width(in.n & 127u) && (in.n & 127u) >= 8;
       case Op::shift_left:
       case Op::shift_right:
       case Op::rotate_left:

@@ -15,6 +15,7 @@ namespace {
 
 enum class PartKind {
   step,
+  macro_step,
   jump,
   transition,
   selection_divergence,
@@ -26,6 +27,7 @@ enum class PartKind {
 
 const std::map<std::string_view, PartKind> part_kinds = {
     {"step", PartKind::step},
+    {"macroStep", PartKind::macro_step},
     {"jumpStep", PartKind::jump},
     {"transition", PartKind::transition},
     {"selectionDivergence", PartKind::selection_divergence},
@@ -41,7 +43,9 @@ struct Part {
   PartKind kind = PartKind::step;
   Node node;
   std::vector<std::size_t> from;  ///< what its connections come from
-  std::size_t index = 0;          ///< of a step or a transition
+  std::size_t index = 0;          ///< of a step or a transition; of a macro step the step at its end
+  std::size_t first = 0;          ///< of a macro step: the step at its beginning
+  std::string scope;              ///< of the body it is in: local ids begin with it
 };
 
 class ChartReader {
@@ -49,8 +53,11 @@ class ChartReader {
   ChartReader(Document& document, Node body) : document_(document), body_(body) {}
 
   Chart run() {
-    for (const auto node : children(body_)) read(node);
+    for (const auto node : children(body_)) read(node, "");
     for (auto& part : parts_) connect(part);
+    if (!failed())
+      for (auto& part : parts_)
+        if (part.kind == PartKind::macro_step) find_ends(part);
     if (failed()) return std::move(chart_);
     for (const auto& part : parts_) follow(part);
     if (!failed()) check_initial_steps();
@@ -61,19 +68,19 @@ class ChartReader {
  private:
   bool failed() const { return document_.diagnostics().errors() > errors_; }
 
-  void read(Node node) {
+  void read(Node node, const std::string& scope) {
     const auto name = local_name(node);
     if (name == "comment" || name == "documentation" || name == "vendorElement") return;
     const auto found = part_kinds.find(name);
     if (found == part_kinds.end())
       return document_.error(node, "'" + std::string(name) +
-                                       "' is not available in a sequential function chart: step, jumpStep, "
-                                       "transition, actionBlock, divergences and convergences are");
+                                       "' is not available in a sequential function chart: step, macroStep, "
+                                       "jumpStep, transition, actionBlock, divergences and convergences are");
     const auto id = attribute(node, "localId");
-    if (id.empty() || !by_id_.emplace(id, parts_.size()).second)
+    if (id.empty() || !by_id_.emplace(scope + id, parts_.size()).second)
       return document_.error(node, id.empty() ? "the attribute localId is missing"
                                               : "there are two elements with localId " + id);
-    Part part{found->second, node, {}, 0};
+    Part part{found->second, node, {}, 0, 0, scope};
     if (part.kind == PartKind::step) {
       if (!document_.name(node, "name")) return;
       part.index = chart_.steps.size();
@@ -86,13 +93,42 @@ class ChartReader {
       chart_.transitions.push_back({node, 0, {}, {}});
     }
     parts_.push_back(part);
+    if (part.kind != PartKind::macro_step) return;
+    const auto inner = child(child(node, "body"), "SFC");
+    if (!inner) return document_.error(node, "the macro step has no body in SFC");
+    if (++depth_ > deepest_element) return document_.error(node, "macro steps are nested too deeply");
+    for (const auto one : children(inner)) read(one, scope + id + "/");
+    --depth_;
+  }
+
+  /// A macro step stands for its chart: what leads to it leads to the step that has nothing before it, what
+  /// comes from it comes from the step that has nothing behind it (IEC 60848:2013, 7.6).
+  void find_ends(Part& macro) {
+    const auto scope = macro.scope + attribute(macro.node, "localId") + "/";
+    std::vector<std::size_t> first, last;
+    for (std::size_t i = 0; i < parts_.size(); ++i) {
+      const auto& part = parts_[i];
+      if (part.scope != scope || part.kind != PartKind::step) continue;
+      if (part.from.empty()) first.push_back(part.index);
+      const bool leads_on = std::any_of(parts_.begin(), parts_.end(), [&](const Part& other) {
+        return other.kind != PartKind::action_block &&
+               std::find(other.from.begin(), other.from.end(), i) != other.from.end();
+      });
+      if (!leads_on) last.push_back(part.index);
+    }
+    if (first.size() != 1 || last.size() != 1)
+      return document_.error(macro.node,
+                             "a macro step has one step without connection to one before it and one with "
+                             "nothing behind it; here are " +
+                                 std::to_string(first.size()) + " and " + std::to_string(last.size()));
+    macro.first = first[0], macro.index = last[0];
   }
 
   void connect(Part& part) {
     for (const auto point : children(part.node, "connectionPointIn"))
       for (const auto connection : children(point, "connection")) {
         const auto id = attribute(connection, "refLocalId");
-        const auto found = by_id_.find(id);
+        const auto found = by_id_.find(part.scope + id);
         if (found == by_id_.end())
           document_.error(connection, "there is no element with localId " + id);
         else
@@ -113,6 +149,9 @@ class ChartReader {
       case PartKind::step:
         transitions_before(part, part, part.index, 0);
         break;
+      case PartKind::macro_step:
+        transitions_before(part, part, part.first, 0);
+        break;
       case PartKind::jump: {
         const auto name = attribute(part.node, "targetName");
         const auto found = by_name_.find(upper_case(name));
@@ -132,7 +171,7 @@ class ChartReader {
   void steps_before(const Part& at, const Part& transition, std::vector<std::size_t>& steps, int depth) {
     for (const auto i : at.from) {
       const auto& part = parts_[i];
-      if (part.kind == PartKind::step) {
+      if (part.kind == PartKind::step || part.kind == PartKind::macro_step) {
         steps.push_back(part.index);
       } else if (part.kind == PartKind::transition || part.kind == PartKind::selection_convergence) {
         return document_.error(transition.node,
@@ -154,7 +193,8 @@ class ChartReader {
       if (part.kind == PartKind::transition) {
         auto& after = chart_.transitions[part.index].after;
         if (std::find(after.begin(), after.end(), target) == after.end()) after.push_back(target);
-      } else if (part.kind == PartKind::step || part.kind == PartKind::simultaneous_convergence) {
+      } else if (part.kind == PartKind::step || part.kind == PartKind::macro_step ||
+                 part.kind == PartKind::simultaneous_convergence) {
         return document_.error(step.node,
                                "two steps follow each other; a transition is missing between them");
       } else if ((part.kind != PartKind::selection_convergence &&
@@ -252,6 +292,7 @@ class ChartReader {
   Chart chart_;
   std::vector<Part> parts_;
   std::map<std::string, std::size_t> by_id_, by_name_;
+  int depth_ = 0;
   const std::size_t errors_ = document_.diagnostics().errors();
 };
 

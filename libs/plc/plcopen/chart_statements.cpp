@@ -177,16 +177,18 @@ class ChartWriter {
       terms.push_back(timer + ".Q");
   }
 
-  std::optional<Tokens> condition(const ChartTransition& transition) {
+  std::optional<ChartCondition> condition(const ChartTransition& transition) {
     const auto holder = child(transition.node, "condition");
     if (const auto reference = child(holder, "reference")) {
       const auto found = parts_.transitions.find(upper_case(attribute(reference, "name")));
       if (found != parts_.transitions.end()) return found->second;
-      return document_.name(reference, "name");  // a variable
+      if (auto variable = document_.name(reference, "name")) return ChartCondition{{}, std::move(*variable)};
+      return std::nullopt;
     }
-    if (const auto written = child(holder, "inline")) return chart_condition(document_, written);
-    document_.error(transition.node,
-                    "the transition has no condition: a reference, or an expression in Structured Text");
+    if (const auto written = child(holder, "inline"))
+      return chart_condition(document_, written, attribute(written, "name"), names_, body_statements_,
+                             declarations_);
+    document_.error(transition.node, "the transition has no condition: a reference, or a body");
     return std::nullopt;
   }
 
@@ -194,27 +196,39 @@ class ChartWriter {
     std::vector<Tokens> taken;
     for (const auto& one : chart_.transitions) {
       auto when = condition(one);
-      if (!when) when = words("FALSE", one.node);
+      if (!when) when = ChartCondition{{}, words("FALSE", one.node)};
+      const auto others = taken.size();
+      std::string enabled;
+      for (const auto i : one.before) enabled += (enabled.empty() ? "" : " AND ") + step(i) + ".X";
+      const auto not_others = [&] {
+        for (std::size_t i = 0; i < others; ++i) {
+          const auto& other = chart_.transitions[i].before;
+          if (std::none_of(one.before.begin(), one.before.end(), [&](std::size_t step) {
+                return std::find(other.begin(), other.end(), step) != other.end();
+              }))
+            continue;
+          write("NOT", one.node);
+          append(statements_, taken[i]);
+          write("AND", one.node);
+        }
+      };
+      if (!when->statements.empty()) {
+        append(statements_, when->value);
+        write(":= FALSE; IF", one.node);
+        not_others();
+        write(enabled + " THEN", one.node);
+        append(statements_, std::move(when->statements));
+        write("; END_IF;", one.node);
+      }
       taken.push_back(own("@transition " + std::to_string(one.number), TokenKind::identifier, one.node));
       append(statements_, own("@define", TokenKind::symbol, one.node));
       append(statements_, taken.back());
       write(":=", one.node);
-      for (std::size_t i = 0; i + 1 < taken.size(); ++i) {
-        const auto& other = chart_.transitions[i].before;
-        if (std::none_of(one.before.begin(), one.before.end(), [&](std::size_t step) {
-              return std::find(other.begin(), other.end(), step) != other.end();
-            }))
-          continue;
-        write("NOT", one.node);
-        append(statements_, taken[i]);
-        write("AND", one.node);
-      }
+      not_others();
       write("(", one.node);
-      append(statements_, std::move(*when));
+      append(statements_, std::move(when->value));
       write(")", one.node);
       append(statements_, own("@when", TokenKind::symbol, one.node));
-      std::string enabled;
-      for (const auto i : one.before) enabled += (enabled.empty() ? "" : " AND ") + step(i) + ".X";
       write(enabled + ";", one.node);
     }
     // A step that is left and entered at once stays active.
@@ -251,17 +265,43 @@ ChartBody chart_body(Document& document, const Chart& chart, const ChartParts& p
   return ChartWriter(document, chart, parts, names, statements).run();
 }
 
-std::optional<Tokens> chart_condition(Document& document, Node body) {
-  const auto text = child(body, "ST");
-  if (!text) {
-    document.error(body, "a condition is an expression in Structured Text (ST)");
+std::optional<ChartCondition> chart_condition(Document& document, Node body, const std::string& name,
+                                              std::set<std::string>& names,
+                                              const std::function<Tokens(Node)>& statements,
+                                              Tokens& declarations) {
+  if (const auto text = child(body, "ST")) {
+    auto tokens = document.content(text);
+    if (!tokens.empty() && tokens.front().text == ":=") tokens.erase(tokens.begin());
+    if (!tokens.empty() && tokens.back().text == ";") tokens.pop_back();
+    if (!is_expression(tokens, document.at(body), document.diagnostics())) return std::nullopt;
+    return ChartCondition{{}, std::move(tokens)};
+  }
+  if (children(body).empty()) {
+    document.error(body, "the transition has no condition: a body in ST, LD, FBD or IL");
     return std::nullopt;
   }
-  auto tokens = document.content(text);
-  if (!tokens.empty() && tokens.front().text == ":=") tokens.erase(tokens.begin());
-  if (!tokens.empty() && tokens.back().text == ";") tokens.pop_back();
-  if (!is_expression(tokens, document.at(body), document.diagnostics())) return std::nullopt;
-  return tokens;
+  const auto before = document.diagnostics().errors();
+  ChartCondition condition{statements(body), {}};
+  if (document.diagnostics().errors() > before) return std::nullopt;
+  auto result = (name.empty() ? std::string("transition") : name) + "_condition";
+  while (!names.insert(upper_case(result)).second) result += "_";
+  append(declarations, document.words("VAR " + result + " : BOOL; END_VAR", body));
+  condition.value = document.words(result, body);
+  bool found = false;
+  const auto wanted = upper_case(name);
+  for (std::size_t i = 0; i < condition.statements.size(); ++i) {
+    auto& token = condition.statements[i];
+    const bool is_part = i > 0 && condition.statements[i - 1].text == ".";
+    if (wanted.empty() || token.kind != TokenKind::identifier || token.upper != wanted || is_part) continue;
+    token.text = result;
+    token.upper = upper_case(result);
+    found = true;
+  }
+  if (found) return condition;
+  document.error(body, name.empty()
+                           ? "the condition needs a name, to which its coil or output variable writes"
+                           : "nothing in the condition writes to '" + name + "', the name of the transition");
+  return std::nullopt;
 }
 
 }  // namespace trunnion::st::plcopen

@@ -16,10 +16,16 @@ struct ChartBody {
   Tokens statements;
 };
 
+/// The condition of a transition.
+struct ChartCondition {
+  Tokens statements;  ///< of a diagram: to be executed before
+  Tokens value;       ///< expression
+};
+
 /// What a chart refers to by name, in capitals.
 struct ChartParts {
-  std::map<std::string, Tokens> actions;      ///< statements
-  std::map<std::string, Tokens> transitions;  ///< conditions
+  std::map<std::string, Tokens> actions;  ///< statements
+  std::map<std::string, ChartCondition> transitions;
 };
 
 /// One execution of the result is one evolution of the chart: the actions of the active steps are executed,
@@ -30,8 +36,12 @@ struct ChartParts {
 ChartBody chart_body(Document& document, const Chart& chart, const ChartParts& parts,
                      std::set<std::string>& names, const std::function<Tokens(Node)>& statements);
 
-/// The condition of a transition as an expression: of a body in Structured Text, also with := before and ;
-/// behind. Nothing when it is none, which is reported.
-std::optional<Tokens> chart_condition(Document& document, Node body);
+/// The condition in a body: in Structured Text an expression, also with := before and ; behind; in other
+/// languages what is written to a variable with the name of the transition. `declarations` gets that
+/// variable. Nothing when it is none, which is reported.
+std::optional<ChartCondition> chart_condition(Document& document, Node body, const std::string& name,
+                                              std::set<std::string>& names,
+                                              const std::function<Tokens(Node)>& statements,
+                                              Tokens& declarations);
 
 }  // namespace trunnion::st::plcopen

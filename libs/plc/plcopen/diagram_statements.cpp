@@ -197,7 +197,29 @@ class StatementWriter {
       if (source.is_function() && is_further_output(source, in.sources[0].output)) return;
       if (enable(source) != nullptr && in.sources[0].output != "ENO") when = value_name(source, ".ENO");
     }
+    if (in.sources.size() == 1 && converts(elements_[in.sources[0].element], in.sources[0].output) &&
+        e.storage == Storage::none)
+      return move_converted(e, input(in), when);
     assign(e, e.value, input(in), when);
+  }
+
+  /// The target D of the manuals' ladder, which takes the low bits of the value.
+  static bool converts(const Element& e, const std::string& output) {
+    return e.is_function() && output == "D" && is_standard_function(upper_case(e.name));
+  }
+
+  void move_converted(const Element& e, Tokens value, const Tokens& when) {
+    if (!when.empty()) {
+      write("IF", e.node);
+      write(when);
+      write("THEN", e.node);
+    }
+    write("MOV(", e.node);
+    write(std::move(value));
+    write(",", e.node);
+    write(e.value);
+    write(");", e.node);
+    if (!when.empty()) write("END_IF;", e.node);
   }
 
   void leave(const Element& e) {
@@ -221,7 +243,9 @@ class StatementWriter {
       if (upper_case(input.name) == "EN" && (!input.sources.empty() || input.expression)) return &input;
     return nullptr;
   }
+  static bool is_disassembly(const Element& e) { return e.is_function() && upper_case(e.name) == "DISAS"; }
   static bool is_further_output(const Element& e, const std::string& output) {
+    if (is_disassembly(e) && output == "D") return true;
     if (output.empty() || output == "ENO" || output == "OUT" || output == upper_case(e.name)) return false;
     for (const auto& one : e.outputs)
       if (const auto name = upper_case(one.name); name != "ENO") return name != output;
@@ -251,8 +275,9 @@ class StatementWriter {
   }
 
   static bool returns_nothing(const Element& e) {
-    return std::all_of(e.outputs.begin(), e.outputs.end(),
-                       [](const Output& output) { return upper_case(output.name) == "ENO"; });
+    return is_disassembly(e) || std::all_of(e.outputs.begin(), e.outputs.end(), [](const Output& output) {
+             return upper_case(output.name) == "ENO";
+           });
   }
 
   /// The call of the block, or the expression of an operator.
@@ -260,7 +285,8 @@ class StatementWriter {
     const auto upper = upper_case(e.name);
     const bool infix = e.is_function() && is_operator(upper);
     const bool inverts = e.is_function() && upper == "NOT";
-    const bool by_position = e.is_function() && (infix || inverts || is_standard_function(upper));
+    const bool by_position =
+        e.is_function() && !is_disassembly(e) && (infix || inverts || is_standard_function(upper));
     auto result = infix             ? Tokens{}
                   : inverts         ? words("NOT (", e.node)
                   : e.is_function() ? words(e.name + "(", e.node)

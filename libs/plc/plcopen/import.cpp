@@ -4,6 +4,7 @@
 #include <set>
 
 #include "plc/plcopen/chart_statements.hpp"
+#include "plc/plcopen/configuration.hpp"
 #include "plc/plcopen/declarations.hpp"
 #include "plc/plcopen/diagram_statements.hpp"
 #include "plc/plcopen/instruction_list.hpp"
@@ -34,26 +35,14 @@ class Import {
     append(words_, data_types(document_, child(types, "dataTypes")));
     for (const auto one : children(child(types, "pous"), "pou")) pou(one);
     place(child(root, "instances"), "");
-    for (const auto one : children(child(child(root, "instances"), "configurations"), "configuration")) {
-      globals(one);
-      for (const auto resource : children(one, "resource")) {
-        globals(resource);
-        for (const auto task : children(resource, "task"))
-          document_.diagnostics().warning(
-              document_.at(task),
-              "tasks of the file have no effect: PROGRAM fast runs every ms, PROGRAM main every 10 ms");
-      }
-    }
+    for (const auto one : children(child(child(root, "instances"), "configurations"), "configuration"))
+      append(words_, configuration_words(document_, one));
     return std::move(words_);
   }
 
  private:
   void place(Node node, std::string text) { places_.push_back({document_.at(node), std::move(text)}); }
   void write(const std::string& text, Node node) { append(words_, document_.words(text, node)); }
-
-  void globals(Node holder) {
-    for (const auto list : children(holder, "globalVars")) append(words_, variable_list(document_, list));
-  }
 
   void pou(Node node) {
     const auto name = document_.name(node, "name");
@@ -147,7 +136,9 @@ class Import {
     }
     for (const auto transition : children(child(pou, "transitions"), "transition")) {
       place(transition, pou_ + ", transition '" + attribute(transition, "name") + "'");
-      if (auto condition = chart_condition(document_, child(transition, "body")))
+      if (auto condition =
+              chart_condition(document_, child(transition, "body"), attribute(transition, "name"), names_,
+                              statements, all.declarations))
         parts.transitions[upper_case(attribute(transition, "name"))] = std::move(*condition);
     }
     if (document_.diagnostics().errors() > before) return;

@@ -3,11 +3,19 @@
 #pragma once
 
 #include <algorithm>
+#include <map>
+#include <optional>
 #include <vector>
 
 #include "plc/machine/byte_code.hpp"
 
 namespace trunnion::st {
+
+/// A loop of the source, by its Op::loop.
+struct Loop {
+  Position at;
+  std::optional<std::int64_t> runs;  ///< of its body at most; nothing: not known
+};
 
 class Emitter {
  public:
@@ -55,13 +63,20 @@ class Emitter {
   /// The last instruction writes to the cell `to` instead, when it has written the temporary `from`.
   bool redirect(std::int32_t from, std::int32_t to);
 
+  /// Op::loop at the end of the statement at `at`; at most `runs` runs of the body lead to it.
+  void loop(std::size_t target, Position at, std::optional<std::int64_t> runs = std::nullopt) {
+    loops_[add(Op::loop, static_cast<std::int32_t>(target))] = {at, runs};
+  }
+
   std::vector<Instruction>& code() { return code_; }
+  const std::map<std::size_t, Loop>& loops() const { return loops_; }
   const std::vector<LineEntry>& lines() const { return lines_; }
   std::uint32_t frame() const { return frame_; }
 
  private:
   std::vector<Instruction> code_;
   std::vector<LineEntry> lines_;
+  std::map<std::size_t, Loop> loops_;
   std::uint32_t first_, next_, frame_;
   std::size_t last_target_ = 0;  ///< of a jump
 };

@@ -32,6 +32,7 @@ class Lowering {
   Value literal_time(const Expression& e);
   Value typed(const Expression& e);
   Value name(const Expression& e, const Type* expected);
+  Value access(const Expression& e);
   Value member(const Expression& e);
   Value part(const Expression& e);
   Value index(const Expression& e);
@@ -65,6 +66,11 @@ class Lowering {
   Place moved(Place place, std::int32_t cells) const;
   bool check_writable(const Value& target, Position at);
   void mark_written(const Value& target);
+  /// The expression is that of a variable or a part of one; `value` is its value.
+  void note(const Expression& e, const Value& value, Reference access);
+  void note_read(const Expression& root, const Value& value);
+  /// The value of what is written or called: no reading of it.
+  Value target(const Expression& e);
   void check_range(const Type& type, const Value& value, std::int32_t cell);
 
   // calls
@@ -75,8 +81,14 @@ class Lowering {
   bool bind(const Pou& pou, const Expression& e, bool is_block, std::vector<const Argument*>& bound);
   std::int32_t reference(const Argument& argument, const Variable& parameter);
   std::optional<Value> standard_function(const Expression& e, const Type* expected);
+  std::optional<Value> ladder_function(const Expression& e);
+  Value move_converted(const Expression& to, const Value& value);
+  Value disassemble(const Expression& count, const Expression& to, const Value& value, Position at);
   std::optional<Value> conversion(const Expression& e, const std::string& name);
   Value converted_to(const Value& value, const Type& to, bool truncate, Position at);
+  Value converted_digits(const Value& value, const Type& to, bool from_digits, Position at);
+  Value byte_order(bool reverse, const Value& value, const Expression& e);
+  Value validity(bool digits, const Value& value, const Expression& e);
   Value selection(const std::string& name, const Expression& e, std::vector<Value> values);
   Value shift(const std::string& name, const std::vector<Value>& values, const Expression& e);
   Value string_function(const std::string& name, const std::vector<Value>& values, const Expression& e);
@@ -118,6 +130,8 @@ class Lowering {
     Position at;
   };
   std::vector<Jump> jumps_;
+  const Expression* target_ = nullptr;    ///< root of what is written
+  const Expression* accessed_ = nullptr;  ///< the whole of a.b[i] while its parts are translated
 };
 
 }  // namespace trunnion::st

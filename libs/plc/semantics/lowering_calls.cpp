@@ -31,6 +31,7 @@ Value Lowering::call(const Expression& e, const Type* expected) {
     if (pou_ != nullptr)
       if (const auto found = pou_->names.find(callee.name); found != pou_->names.end())
         variable = found->second;
+    if (variable == nullptr && in_test()) variable = unit_.find_instance(callee.name);
     if (variable == nullptr) return false;
     return variable->type->kind == Kind::block ||
            (unit_.find_pou(callee.name) == nullptr && !is_standard_function(callee.name));
@@ -43,7 +44,7 @@ Value Lowering::call(const Expression& e, const Type* expected) {
           if (unit_.translated(callee.name, callee.at) == nullptr) return error();
           return call_function(*pou, e);
         case PouKind::program:
-          if (!in_test())
+          if (!in_test() || unit_.is_configured(*pou))
             return failed(callee.at,
                           "the program '" + callee.text + "' is run by its task; only a TEST calls it");
           if (unit_.translated(callee.name, callee.at) == nullptr) return error();
@@ -54,11 +55,15 @@ Value Lowering::call(const Expression& e, const Type* expected) {
                                        callee.text + "; and call name(...)");
       }
     }
+    if (auto value = ladder_function(e)) return *value;
     if (auto value = standard_function(e, expected)) return *value;
     return failed(callee.at, "there is no function '" + callee.text + "'");
   }
-  const auto instance = expression(callee);
+  const auto instance = target(callee);
   if (instance.is_error()) return instance;
+  auto access = writing();
+  access.calls = true;
+  note(callee, instance, access);
   if (instance.type->kind != Kind::block)
     return failed(callee.at, "'" + callee.text + "' is " + instance.type->name + " and cannot be called");
   call_block(instance, e);
@@ -117,8 +122,11 @@ bool Lowering::bind(const Pou& pou, const Expression& e, bool is_block, std::vec
 
 /// The address of the variable that VAR_IN_OUT refers to.
 std::int32_t Lowering::reference(const Argument& argument, const Variable& parameter) {
-  const auto value = expression(*argument.value);
+  const auto value = target(*argument.value);
   if (value.is_error()) return 0;
+  auto access = writing();
+  access.reads = true;
+  note(*argument.value, value, access);
   const auto at = argument.value->at;
   if (!check_writable(value, at)) return 0;
   if (value.place.bit >= 0 || value.place.form != 0) {
@@ -212,8 +220,9 @@ Value Lowering::call_function(Pou& function, const Expression& e) {
     if (!is_parameter(variable, function)) continue;
     const auto* argument = bound[i++];
     if (argument == nullptr || variable.section != VariableSection::output) continue;
-    const auto target = expression(*argument->value);
+    const auto target = this->target(*argument->value);
     if (!check_writable(target, argument->value->at)) continue;
+    note(*argument->value, target, writing());
     Value output;
     output.type = variable.type;
     output.place = {Place::Base::absolute, base + variable.place.offset, 0, -1, 0, 0, false, ""};
@@ -269,8 +278,9 @@ void Lowering::call_block(const Value& instance, const Expression& e) {
     if (!is_parameter(variable, pou)) continue;
     const auto* argument = bound[i++];
     if (argument == nullptr || variable.section != VariableSection::output) continue;
-    const auto target = expression(*argument->value);
+    const auto target = this->target(*argument->value);
     if (!check_writable(target, argument->value->at)) continue;
+    note(*argument->value, target, writing());
     store(target, converted(place_of(variable), *target.type, argument->value->at));
   }
 }

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// X_TO_Y, TO_Y, TRUNC (IEC 61131-3:2013, 6.6.2.5.3).
+// X_TO_Y, TO_Y, TRUNC, BCD (IEC 61131-3:2013, tables 22 to 27).
 #include <cmath>
 #include <optional>
 
+#include "plc/library/functions.hpp"
 #include "plc/machine/arithmetic.hpp"
 #include "plc/semantics/lowering.hpp"
 
@@ -17,29 +18,11 @@ bool timed(Kind kind) { return is_duration(kind) || is_date(kind); }
 }  // namespace
 
 std::optional<Value> Lowering::conversion(const Expression& e, const std::string& name) {
-  const Type* from = nullptr;
-  const Type* to = nullptr;
-  bool truncate = false;
-  if (name == "TRUNC") {
-    truncate = true;
-    to = elementary(Kind::dint);
-  } else if (name.rfind("TO_", 0) == 0) {
-    to = unit_.named_type(name.substr(3));
-  } else if (const auto cut = name.find("_TRUNC_"); cut != std::string::npos) {
-    truncate = true;
-    from = unit_.named_type(name.substr(0, cut));
-    to = unit_.named_type(name.substr(cut + 7));
-    if (from == nullptr) return std::nullopt;
-  } else {
-    // The name of a type of one's own may contain _TO_ too.
-    for (auto at = name.find("_TO_"); at != std::string::npos && to == nullptr;
-         at = name.find("_TO_", at + 1)) {
-      from = unit_.named_type(name.substr(0, at));
-      if (from != nullptr) to = unit_.named_type(name.substr(at + 4));
-    }
-    if (from == nullptr) return std::nullopt;
-  }
-  if (to == nullptr) return std::nullopt;
+  const auto parts =
+      conversion_name(name, [&](const std::string& type) { return unit_.named_type(type) != nullptr; });
+  if (!parts) return std::nullopt;
+  const auto* from = parts->from.empty() ? nullptr : unit_.named_type(parts->from);
+  const auto* to = unit_.named_type(parts->to);
   if (e.arguments.size() != 1)
     return failed(e.at, e.parts[0]->text + " has 1 argument, not " + std::to_string(e.arguments.size()));
   auto value = expression(*e.arguments[0].value, from);
@@ -50,11 +33,32 @@ std::optional<Value> Lowering::conversion(const Expression& e, const std::string
                 : converted(value, *from, e.arguments[0].at);
     if (value.is_error()) return value;
   } else if (value.type->kind == Kind::integer_literal) {
-    value = converted(value, *elementary(Kind::lint), e.at);
+    const bool digits = parts->kind == ConversionKind::from_bcd,
+               number = parts->kind == ConversionKind::to_bcd;
+    value = converted(value, *elementary(digits ? Kind::lword : number ? Kind::ulint : Kind::lint), e.at);
   } else if (value.type->kind == Kind::real_literal) {
     value = converted(value, *elementary(Kind::lreal), e.at);
   }
-  return converted_to(value, *to, truncate, e.at);
+  if (parts->kind == ConversionKind::from_bcd || parts->kind == ConversionKind::to_bcd)
+    return converted_digits(value, *to, parts->kind == ConversionKind::from_bcd, e.at);
+  return converted_to(value, *to, parts->kind == ConversionKind::truncation, e.at);
+}
+
+/// Between unsigned integers and bit strings of decimal digits; digits that do not fit are cut off.
+Value Lowering::converted_digits(const Value& value, const Type& to, bool from_digits, Position at) {
+  const auto holds_digits = [](Kind kind) { return is_bits(kind) && kind != Kind::boolean; };
+  const auto holds_number = [](Kind kind) { return is_integer(kind) && !is_signed(kind); };
+  const auto from = value.type->kind;
+  if (from_digits ? !holds_digits(from) || !holds_number(to.kind)
+                  : !holds_number(from) || !holds_digits(to.kind))
+    return failed(at, "decimal digits are converted between BYTE .. LWORD and USINT .. ULINT, not from " +
+                          value.type->name + " to " + to.name);
+  const auto source = cell(value);
+  auto result = temporary(elementary(to.kind));
+  const auto target = result.place.offset;
+  emit_.add(from_digits ? Op::from_bcd : Op::to_bcd, target, source);
+  if (bits(to.kind) < 64) emit_.add(Op::narrow, target, target, 0, cell_form(to.kind));
+  return result;
 }
 
 Value Lowering::converted_to(const Value& value, const Type& to, bool truncate, Position at) {
@@ -64,6 +68,13 @@ Value Lowering::converted_to(const Value& value, const Type& to, bool truncate, 
   };
   if (truncate && !is_real(from))
     return failed(at, "TRUNC is for REAL and LREAL, not for " + value.type->name);
+  if (truncate && !is_integer(to.kind)) return failed(at, "TRUNC gives an integer, not " + to.name);
+  const auto is_string_of_bits = [](Kind kind) { return is_bits(kind) && kind != Kind::boolean; };
+  const bool transfers =
+      (is_real(from) && is_string_of_bits(to.kind)) || (is_string_of_bits(from) && is_real(to.kind));
+  if (transfers && bits(from) != bits(to.kind))
+    return failed(at, "there is no conversion from " + value.type->name + " to " + to.name +
+                          "; REAL and DWORD, LREAL and LWORD exchange their bits, integers their value");
   if (from == Kind::integer_literal) return converted(value, to, at);
   if (from == Kind::string) {
     const bool number = is_integer(to.kind) || (is_bits(to.kind) && to.kind != Kind::boolean);
@@ -119,6 +130,8 @@ Value Lowering::converted_to(const Value& value, const Type& to, bool truncate, 
                                     : Op::equal,
               target, source, zero);
     emit_.add(Op::not_, target, target);
+  } else if (transfers) {
+    emit_.add(Op::move, target, source);
   } else if (whole(from) && whole(to.kind)) {
     emit_.add(Op::narrow, target, source, 0, cell_form(to.kind));
   } else if (is_real(from) && (whole(to.kind) || is_duration(to.kind))) {

@@ -69,14 +69,14 @@ Value Lowering::expression(const Expression& e, const Type* expected) {
       const auto address = parse_register(e.name, &problem);
       if (!address) return failed(e.at, "'" + e.text + "': " + problem);
       unit_.warn_moved(*address, e.at);
-      return unit_.register_value(*address, nullptr, e.at);
+      auto value = unit_.register_value(*address, nullptr, e.at);
+      note_read(e, value);
+      return value;
     }
     case Expression::Kind::member:
-      return member(e);
     case Expression::Kind::part:
-      return part(e);
     case Expression::Kind::index:
-      return index(e);
+      return access(e);
     case Expression::Kind::unary:
       return unary(e, expected);
     case Expression::Kind::binary:

@@ -103,9 +103,15 @@ std::optional<Value> Lowering::standard_function(const Expression& e, const Type
                                       : "**",
                       false);
     case FunctionGroup::time:
+      if (name.substr(3) == "_LTIME") {
+        values[0] = converted(values[0], *elementary(Kind::ltime), e.at);
+        if (name == "ADD_LTIME" || name == "SUB_LTIME")
+          values[1] = converted(values[1], *elementary(Kind::ltime), e.at);
+      }
+      if (values[0].is_error() || values[1].is_error()) return error();
       return fold_all(name.rfind("ADD", 0) == 0   ? "+"
                       : name.rfind("SUB", 0) == 0 ? "-"
-                      : name == "MUL_TIME"        ? "*"
+                      : name.rfind("MUL", 0) == 0 ? "*"
                                                   : "/",
                       false);
     case FunctionGroup::comparison:
@@ -153,7 +159,12 @@ std::optional<Value> Lowering::standard_function(const Expression& e, const Type
       return selection(name, e, std::move(values));
     case FunctionGroup::string:
       return string_function(name, values, e);
+    case FunctionGroup::order_of_bytes:
+      return byte_order(name.ends_with("BIG_ENDIAN"), values[0], e);
+    case FunctionGroup::validation:
+      return validity(name == "IS_VALID_BCD", values[0], e);
     case FunctionGroup::move:
+    case FunctionGroup::ladder:
       return values[0];
     case FunctionGroup::clock: {
       auto result = temporary(elementary(Kind::ltime));
@@ -187,6 +198,44 @@ Value Lowering::math_function(MathFunction function, const std::vector<Value>& v
   auto result = temporary(type);
   emit_.add(single ? Op::math_f : Op::math, result.place.offset, cells[0],
             values.size() > 1 ? cells[1] : cells[0], static_cast<std::uint16_t>(function));
+  return result;
+}
+
+/// The PLC has the low byte first.
+Value Lowering::byte_order(bool reverse, const Value& value, const Expression& e) {
+  const auto kind = value.type->kind;
+  if (!is_integer(kind) && !is_bits(kind) && !is_real(kind) && !is_duration(kind))
+    return failed(e.at,
+                  e.parts[0]->text + (value.is_literal()
+                                          ? " needs a typed literal, as WORD#16#FF"
+                                          : " is for integers, bit strings, REAL, LREAL and times, not for " +
+                                                value.type->name));
+  if (!reverse || bits(kind) <= 8) return value;
+  const auto source = cell(value);
+  auto result = temporary(elementary(kind));
+  const auto form = is_integer(kind) ? cell_form(kind) : static_cast<std::uint16_t>(bits(kind));
+  emit_.add(Op::swap_bytes, result.place.offset, source, 0, form);
+  return result;
+}
+
+Value Lowering::validity(bool digits, const Value& value, const Expression& e) {
+  const auto kind = value.type->kind;
+  const bool single = kind == Kind::real;
+  if (digits ? !is_bits(kind) || kind == Kind::boolean : !is_real(kind))
+    return failed(e.at,
+                  e.parts[0]->text +
+                      (digits ? " is for BYTE .. LWORD, not for " : " is for REAL and LREAL, not for ") +
+                      value.type->name);
+  const auto source = cell(value);
+  auto result = temporary(elementary(Kind::boolean));
+  const auto target = result.place.offset;
+  if (digits) {
+    emit_.add(Op::is_bcd, target, source);
+  } else {  // of infinite values and NaN the difference is NaN, which equals nothing
+    const auto zero = emit_.temporary();
+    emit_.add(single ? Op::subtract_f : Op::subtract_d, zero, source, source);
+    emit_.add(single ? Op::equal_f : Op::equal_d, target, zero, zero);
+  }
   return result;
 }
 

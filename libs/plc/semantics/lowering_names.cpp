@@ -23,15 +23,16 @@ Value Lowering::literal_integer(const Expression& e) {
 
 Value Lowering::literal_time(const Expression& e) {
   std::string problem;
-  const auto prefix = e.name;
-  const bool is_duration = prefix == "T" || prefix == "TIME" || prefix == "LT" || prefix == "LTIME";
+  const bool is_long = e.name[0] == 'L';
+  const auto prefix = is_long ? e.name.substr(1) : e.name;
+  const bool is_duration = prefix == "T" || prefix == "TIME";
   const auto value = is_duration                                  ? parse_duration(e.text, problem)
                      : prefix == "D" || prefix == "DATE"          ? parse_date(e.text, problem)
                      : prefix == "TOD" || prefix == "TIME_OF_DAY" ? parse_time_of_day(e.text, problem)
                                                                   : parse_date_and_time(e.text, problem);
-  if (!value) return failed(e.at, prefix + "#" + e.text + ": " + problem);
-  const auto kind = is_duration                         ? (prefix[0] == 'L' ? Kind::ltime : Kind::time)
-                    : prefix == "D" || prefix == "DATE" ? Kind::date
+  if (!value) return failed(e.at, e.name + "#" + e.text + ": " + problem);
+  const auto kind = is_duration                                  ? (is_long ? Kind::ltime : Kind::time)
+                    : prefix == "D" || prefix == "DATE"          ? Kind::date
                     : prefix == "TOD" || prefix == "TIME_OF_DAY" ? Kind::tod
                                                                  : Kind::dt;
   return constant_integer(elementary(kind), *value);
@@ -72,10 +73,14 @@ Value Lowering::variable_value(Variable& variable) {
 
 Value Lowering::name(const Expression& e, const Type* expected) {
   if (const auto found = defined_.find(e.name); found != defined_.end()) return found->second;
+  const auto noted = [&](Value value) {
+    note_read(e, value);
+    return value;
+  };
   if (pou_ != nullptr)
     if (const auto found = pou_->names.find(e.name); found != pou_->names.end())
-      return variable_value(*found->second);
-  if (auto* global = unit_.find_global(e.name)) return variable_value(*global);
+      return noted(variable_value(*found->second));
+  if (auto* global = unit_.find_global(e.name)) return noted(variable_value(*global));
   if (expected != nullptr && expected->kind == Kind::enumeration)
     if (const auto* enumerator = expected->enumerator(e.name))
       return constant_integer(expected, enumerator->value);
@@ -83,9 +88,10 @@ Value Lowering::name(const Expression& e, const Type* expected) {
   if (const auto* enumerator = unit_.find_enumerator(e.name, &type))
     return constant_integer(type, enumerator->value);
   if (const auto found = unit_.registers().find(e.name); found != unit_.registers().end())
-    return unit_.register_value(found->second, nullptr, e.at);
+    return noted(unit_.register_value(found->second, nullptr, e.at));
+  if (auto* instance = in_test() ? unit_.find_instance(e.name) : nullptr) return variable_value(*instance);
   if (auto* pou = unit_.find_pou(e.name)) {
-    if (pou->declaration->kind == PouKind::program && in_test()) {
+    if (pou->declaration->kind == PouKind::program && in_test() && !unit_.is_configured(*pou)) {
       if (unit_.translated(e.name, e.at) == nullptr) return error();
       Value value;
       value.type = &pou->type;

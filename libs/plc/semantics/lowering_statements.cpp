@@ -6,6 +6,19 @@
 
 namespace trunnion::st {
 
+namespace {
+
+/// How often FOR runs its body.
+std::int64_t runs_of(std::int64_t from, std::int64_t to, std::int64_t by) {
+  if (by > 0 ? to < from : from < to) return 0;
+  const auto distance = by > 0 ? static_cast<std::uint64_t>(to) - static_cast<std::uint64_t>(from)
+                               : static_cast<std::uint64_t>(from) - static_cast<std::uint64_t>(to);
+  const auto step = by > 0 ? static_cast<std::uint64_t>(by) : 0 - static_cast<std::uint64_t>(by);
+  return static_cast<std::int64_t>(std::min<std::uint64_t>(distance / step, std::uint64_t{1} << 62)) + 1;
+}
+
+}  // namespace
+
 void Lowering::body(const Statements& statements) {
   for (const auto& s : statements) statement(*s);
   finish_jumps();
@@ -119,7 +132,7 @@ void Lowering::assign(const Statement& s) {
     failed(s.target->at, "a call cannot be assigned to");
     return;
   }
-  const auto target = expression(*s.target);
+  const auto target = this->target(*s.target);
   // The value is checked too when the target is wrong: both errors are of use.
   const auto value = expression(*s.value, target.is_error() ? nullptr : target.type);
   if (target.is_error() || value.is_error() || !check_writable(target, s.target->at)) return;
@@ -127,6 +140,7 @@ void Lowering::assign(const Statement& s) {
     failed(s.target->at, "a function block cannot be assigned to; set its inputs");
     return;
   }
+  note(*s.target, target, writing());
   store(target, converted(value, *target.type, s.value->at));
 }
 
@@ -238,7 +252,8 @@ void Lowering::case_statement(const Statement& s) {
 
 // The next value is kept in 64 bits, so the loop also ends when the variable's type has no value behind `to`.
 void Lowering::for_statement(const Statement& s) {
-  const auto variable = expression(*s.target);
+  const auto variable = target(*s.target);
+  note(*s.target, variable, writing());
   const auto kind = variable.is_error() ? Kind::dint : variable.type->kind;
   bool good = !variable.is_error() && check_writable(variable, s.target->at);
   if (good && !is_integer(kind)) {
@@ -294,7 +309,10 @@ void Lowering::for_statement(const Statement& s) {
   for (const auto& inner : s.body) statement(*inner);
   emit_.jump_to_here(loops_.back().continues);
   emit_.add(Op::add, next, next, step);
-  emit_.add(Op::loop, static_cast<std::int32_t>(start));
+  std::optional<std::int64_t> runs;
+  if (from.is_constant && to.is_constant && by.is_constant && by.integer != 0)
+    runs = runs_of(from.integer, to.integer, by.integer);
+  emit_.loop(start, s.at, runs);
   emit_.jump_to_here(leave);
   // Behind a loop that came to its end the variable is one step further, unless its type ends before.
   if (!type->ranged) put();
@@ -311,7 +329,7 @@ void Lowering::while_statement(const Statement& s) {
   loops_.emplace_back();
   for (const auto& inner : s.body) statement(*inner);
   emit_.jump_to_here(loops_.back().continues);
-  emit_.add(Op::loop, static_cast<std::int32_t>(start));
+  emit_.loop(start, s.at);
   emit_.jump_to_here(leave);
   emit_.jump_to_here(loops_.back().exits);
   loops_.pop_back();
@@ -324,7 +342,7 @@ void Lowering::repeat_statement(const Statement& s) {
   emit_.jump_to_here(loops_.back().continues);
   const auto test = condition(*s.value, "UNTIL");
   const auto leave = emit_.add(Op::jump_if, 0, test);
-  emit_.add(Op::loop, static_cast<std::int32_t>(start));
+  emit_.loop(start, s.at);
   emit_.jump_to_here(leave);
   emit_.jump_to_here(loops_.back().exits);
   loops_.pop_back();

@@ -108,8 +108,10 @@ const Type* elementary(Kind kind) {
 }
 
 const Type* elementary(std::string_view upper) {
-  if (upper == "TOD") return elementary(Kind::tod);
-  if (upper == "DT") return elementary(Kind::dt);
+  // Dates count nanoseconds in 64 bits, so the long ones are the same.
+  if (upper == "LDATE") return elementary(Kind::date);
+  if (upper == "TOD" || upper == "LTOD" || upper == "LTIME_OF_DAY") return elementary(Kind::tod);
+  if (upper == "DT" || upper == "LDT" || upper == "LDATE_AND_TIME") return elementary(Kind::dt);
   for (const auto& r : type_rows)
     if (upper == r.name && r.kind < Kind::string) return elementary(r.kind);
   return nullptr;

@@ -23,10 +23,12 @@ void Unit::run() {
     for (const auto& block : tree_.globals)
       if (block.constant == constants) declare_globals(block);
   build_types();
+  declare_instances();
   for (const auto& declaration : tree_.pous)
     if (const auto found = pous.find(declaration.name);
         found != pous.end() && found->second.declaration == &declaration && !is_library(declaration.at))
       translated(declaration.name, declaration.at);
+  add_tasks();
   finish();
 }
 
@@ -278,19 +280,25 @@ void Unit::translate(Pou& pou) {
   lowering.body(pou.declaration->body);
   pou.frame = lowering.emitter().frame();
   pou.initial.resize(pou.frame, 0);
-  pou.routine = add_routine(std::move(lowering.emitter().code()), lowering.emitter().lines(), pou.frame);
+  pou.routine = add_routine(lowering.emitter(), pou.frame);
   pou.type.cells = pou.frame;
   pou.type.initial = pou.initial;
   blocks_.push_back({&pou});
   pou.type.block = &blocks_.back();
   order.push_back(&pou);
   if (!is_library(pou.declaration->at)) warn_unused(pou);
-  if (pou.declaration->kind == PouKind::function_block) return;
+  if (pou.declaration->kind == PouKind::function_block || is_configured(pou)) return;
   pou.base = allocate(pou.initial);
   if (is_function) return;
-  for (const auto timer : pou.timers) code.timers.push_back(pou.base + timer);
-  for (const auto& cells : pou.retained) code.retained.push_back({pou.base + cells.first, cells.count});
   const bool is_test = pou.declaration->kind == PouKind::test;
+  if (is_test) {
+    for (const auto timer : pou.timers) code.timers.push_back(pou.base + timer);
+    for (const auto& cells : pou.retained) code.retained.push_back({pou.base + cells.first, cells.count});
+  } else {
+    Variable variable;
+    variable.name = pou.declaration->name, variable.text = pou.declaration->text;
+    add_instance(pou, std::move(variable), pou.base, false);
+  }
   code.entries.push_back(
       {is_test ? pou.declaration->text : pou.declaration->name, pou.routine, pou.base, is_test});
 }
@@ -303,14 +311,15 @@ void Unit::warn_unused(const Pou& pou) {
       diagnostics_.warning(variable.at, "the variable '" + variable.text + "' is not used");
 }
 
-std::uint32_t Unit::add_routine(std::vector<Instruction> body, const std::vector<LineEntry>& lines,
-                                std::uint32_t frame) {
+std::uint32_t Unit::add_routine(Emitter& emitter, std::uint32_t frame) {
+  auto& body = emitter.code();
   const auto entry = static_cast<std::uint32_t>(code.code.size());
+  for (const auto& [loop, about] : emitter.loops()) loops[entry + static_cast<std::uint32_t>(loop)] = about;
   for (auto& in : body)
     if (in.op == Op::jump || in.op == Op::jump_if || in.op == Op::jump_if_not || in.op == Op::loop)
       in.a += static_cast<std::int32_t>(entry);
   code.code.insert(code.code.end(), body.begin(), body.end());
-  for (const auto& line : lines) code.lines.push_back({entry + line.instruction, line.at});
+  for (const auto& line : emitter.lines()) code.lines.push_back({entry + line.instruction, line.at});
   code.routines.push_back({entry, static_cast<std::uint32_t>(code.code.size()), frame});
   return static_cast<std::uint32_t>(code.routines.size() - 1);
 }

@@ -11,6 +11,8 @@
 #include <vector>
 
 #include "plc/machine/byte_code.hpp"
+#include "plc/semantics/emitter.hpp"
+#include "plc/semantics/reference.hpp"
 #include "plc/semantics/value.hpp"
 #include "plc/syntax/ast.hpp"
 
@@ -52,6 +54,12 @@ struct Block {
   Pou* pou = nullptr;
 };
 
+/// The variables of a program in memory. Without CONFIGURATION each program has one of its own name.
+struct Instance {
+  Variable variable;  ///< its type is that of the program
+  const Pou* pou = nullptr;
+};
+
 /// The translation of one set of sources.
 class Unit {
  public:
@@ -86,8 +94,7 @@ class Unit {
   std::uint32_t allocate(const std::vector<std::uint64_t>& initial);
   std::uint32_t string_constant(const std::string& text);
   std::int32_t range_entry(Range range);
-  std::uint32_t add_routine(std::vector<Instruction> code, const std::vector<LineEntry>& lines,
-                            std::uint32_t frame);
+  std::uint32_t add_routine(Emitter& emitter, std::uint32_t frame);
   bool is_library(Position at) const { return at.file < library_files_; }
   /// Calls visit(pou, offset) for every instance of a function block in a variable of the type.
   static void each_block(const Type& type, std::uint32_t offset,
@@ -97,6 +104,14 @@ class Unit {
   std::deque<Variable> globals;
   std::map<std::string, Pou, std::less<>> pous;
   std::vector<Pou*> order;  ///< of translation
+  std::deque<Instance> instances;
+  std::vector<Reference> references;    ///< of bodies that are not the library's
+  std::map<std::uint32_t, Loop> loops;  ///< by their Op::loop
+
+  /// An instance that a CONFIGURATION declares.
+  Variable* find_instance(const std::string& upper);
+  /// Whether a CONFIGURATION says where the program runs, so that its name alone names no variables.
+  bool is_configured(const Pou& pou) const;
 
   static constexpr std::uint32_t clock_offset_cell = image_cells;  ///< ns that a test has advanced the time
 
@@ -116,6 +131,9 @@ class Unit {
   bool locate(Variable& variable, const VariableDeclaration& declaration);
   void retain(const RegisterAddress& first, std::uint32_t count, Position at);
   void warn_unused(const Pou& pou);
+  void declare_instances();
+  Instance& add_instance(const Pou& pou, Variable variable, std::uint32_t base, bool retain);
+  void add_tasks();
   void list_cells(const Expression& list, const Type& type, Pou* context, std::vector<std::uint64_t>& cells);
   void structure_cells(const Expression& list, const Type& type, Pou* context,
                        std::vector<std::uint64_t>& cells);
@@ -136,6 +154,9 @@ class Unit {
   std::set<std::pair<std::uint32_t, int>> moved_;  ///< address and bit, warned of
   std::map<std::uint32_t, bool> used_registers_;   ///< address -> written
   std::deque<Block> blocks_;
+  std::map<std::string, Variable*, std::less<>> instance_names_;
+  std::deque<PouDeclaration> task_declarations_;
+  std::deque<Pou> tasks_;
 };
 
 }  // namespace trunnion::st

@@ -153,11 +153,39 @@ struct TypeDeclaration {
   ExpressionPtr initial;
 };
 
+/// TASK name (INTERVAL := T#1ms, PRIORITY := 0);
+struct TaskDeclaration {
+  std::string name, text;
+  Position at;
+  ExpressionPtr interval, priority;
+};
+
+/// PROGRAM name WITH task : type (input := value, output => variable);
+struct ProgramConfiguration {
+  std::string name, text;
+  Position at;
+  std::string task, task_text;  ///< empty: without WITH
+  Position task_at;
+  std::string type, type_text;
+  Position type_at;
+  bool retain = false;
+  ExpressionPtr call;  ///< of the instance with its connections
+};
+
+/// CONFIGURATION with its one RESOURCE; their global variables are among those of the sources.
+struct ConfigurationDeclaration {
+  std::string text;
+  Position at;
+  std::vector<TaskDeclaration> tasks;
+  std::vector<ProgramConfiguration> programs;
+};
+
 /// Everything that the sources declare.
 struct SourceTree {
   std::vector<TypeDeclaration> types;
   std::vector<VariableBlock> globals;
   std::vector<PouDeclaration> pous;
+  std::vector<ConfigurationDeclaration> configurations;
 };
 
 }  // namespace trunnion::st

@@ -51,7 +51,13 @@ ExpressionPtr ExpressionParser::unary() {
   auto node = make(Expression::Kind::unary, now().at);
   take();
   node->name = minus ? "-" : "NOT";
-  node->parts.push_back(unary());
+  if (inverts && is_symbol("(") && ahead().upper == "IN" && ahead(2).text == ":=") {  // the call form
+    for (int i = 0; i < 3; ++i) take();
+    node->parts.push_back(expression());
+    expect_symbol(")", "behind the argument");
+  } else {
+    node->parts.push_back(unary());
+  }
   return node;
 }
 
@@ -96,6 +102,7 @@ ExpressionPtr ExpressionParser::primary() {
         node->text = token.upper == "TRUE" ? "1" : "0";
         return node;
       }
+      if (is_called_operator()) return operator_call();
       if (is_keyword()) fail("a value or a variable");
       if (ahead().kind == TokenKind::symbol && ahead().text == "#") return typed_literal();
       return designator();
@@ -104,6 +111,46 @@ ExpressionPtr ExpressionParser::primary() {
     default:
       fail("a value or a variable");
   }
+}
+
+/// The call form of an operator that is a word: AND(a, b, c) is a AND b AND c.
+bool ExpressionParser::is_called_operator() const {
+  return (is_word("AND") || is_word("OR") || is_word("XOR") || is_word("MOD")) &&
+         ahead().kind == TokenKind::symbol && ahead().text == "(";
+}
+
+ExpressionPtr ExpressionParser::operator_call() {
+  const auto op = take();
+  auto given = arguments();
+  const bool pair = op.upper == "MOD";
+  if (given.size() < 2 || (pair && given.size() > 2)) {
+    diagnostics_.error(op.at, op.text + " has 2 " + (pair ? "" : "or more ") + "arguments, not " +
+                                  std::to_string(given.size()));
+    throw Abandoned{};
+  }
+  std::vector<ExpressionPtr> operands(given.size());
+  for (std::size_t i = 0; i < given.size(); ++i) {
+    auto& argument = given[i];
+    auto at = argument.name.empty() ? i : std::size_t{0};
+    while (!argument.name.empty() && at < operands.size() && argument.name != "IN" + std::to_string(at + 1))
+      ++at;
+    if (argument.output || at == operands.size() || operands[at] != nullptr) {
+      diagnostics_.error(argument.at, op.text +
+                                          " has no free parameter for this argument; they are IN1 .. IN" +
+                                          std::to_string(operands.size()));
+      throw Abandoned{};
+    }
+    operands[at] = std::move(argument.value);
+  }
+  auto result = std::move(operands[0]);
+  for (std::size_t i = 1; i < operands.size(); ++i) {
+    auto node = make(Expression::Kind::binary, op.at);
+    node->name = op.upper;
+    node->parts.push_back(std::move(result));
+    node->parts.push_back(std::move(operands[i]));
+    result = std::move(node);
+  }
+  return result;
 }
 
 ExpressionPtr ExpressionParser::typed_literal() {

@@ -5,244 +5,236 @@
 #include <map>
 
 namespace trunnion::st {
-namespace {
 
-class Parser : public StatementParser {
- public:
-  Parser(std::vector<Token> tokens, SourceTree& tree, Diagnostics& diagnostics)
-      : StatementParser(std::move(tokens), diagnostics), tree_(tree) {}
-
-  void run() {
-    while (now().kind != TokenKind::end) {
-      try {
-        declaration();
-      } catch (const Abandoned&) {
-        recover();
-      }
+void DeclarationParser::run() {
+  while (now().kind != TokenKind::end) {
+    try {
+      declaration();
+    } catch (const Abandoned&) {
+      recover();
     }
   }
+}
 
- private:
-  void declaration() {
-    if (accept_word("TYPE")) return type_block();
-    if (is_word("VAR_GLOBAL")) return tree_.globals.push_back(variable_block());
-    if (is_word("PROGRAM")) return pou(PouKind::program, "END_PROGRAM", "a program");
-    if (is_word("FUNCTION")) return pou(PouKind::function, "END_FUNCTION", "a function");
-    if (is_word("FUNCTION_BLOCK"))
-      return pou(PouKind::function_block, "END_FUNCTION_BLOCK", "a function block");
-    if (is_word("TEST")) return pou(PouKind::test, "END_TEST", "a test");
-    fail("PROGRAM, FUNCTION, FUNCTION_BLOCK, TEST, TYPE or VAR_GLOBAL");
-  }
+void DeclarationParser::declaration() {
+  if (accept_word("TYPE")) return type_block();
+  if (is_word("VAR_GLOBAL")) return tree_.globals.push_back(variable_block());
+  if (is_word("PROGRAM")) return pou(PouKind::program, "END_PROGRAM", "a program");
+  if (is_word("FUNCTION")) return pou(PouKind::function, "END_FUNCTION", "a function");
+  if (is_word("FUNCTION_BLOCK"))
+    return pou(PouKind::function_block, "END_FUNCTION_BLOCK", "a function block");
+  if (is_word("TEST")) return pou(PouKind::test, "END_TEST", "a test");
+  if (at_configuration()) return configuration();
+  fail("PROGRAM, FUNCTION, FUNCTION_BLOCK, TEST, TYPE, VAR_GLOBAL or CONFIGURATION");
+}
 
-  // To behind the end of a declaration, or to the next one.
-  void recover() {
-    for (; now().kind != TokenKind::end; take()) {
-      for (const auto* end : {"END_PROGRAM", "END_FUNCTION", "END_FUNCTION_BLOCK", "END_TEST", "END_TYPE"})
-        if (is_word(end)) {
-          take();
-          return;
-        }
-      for (const auto* start : {"PROGRAM", "FUNCTION", "FUNCTION_BLOCK", "TEST", "TYPE", "VAR_GLOBAL"})
-        if (is_word(start)) return;
-    }
-  }
-
-  void type_block() {
-    while (!is_word("END_TYPE")) {
-      TypeDeclaration declaration;
-      const auto name = expect_name("the name of a type or END_TYPE");
-      declaration.name = name.upper;
-      declaration.text = name.text;
-      declaration.at = name.at;
-      expect_symbol(":", "behind the name of the type");
-      declaration.type = type_spec();
-      if (accept_symbol(":=")) declaration.initial = initializer();
-      if (declaration.type->kind == TypeSpec::Kind::structure)
-        accept_symbol(";");
-      else
-        expect_symbol(";", "behind the type");
-      tree_.types.push_back(std::move(declaration));
-    }
-    take();
-  }
-
-  TypeSpecPtr type_spec() {
-    const Depth depth(*this);
-    auto spec = std::make_unique<TypeSpec>();
-    spec->at = now().at;
-    if (accept_symbol("(")) {
-      enumeration(*spec);
-    } else if (accept_word("STRUCT")) {
-      spec->kind = TypeSpec::Kind::structure;
-      while (!is_word("END_STRUCT")) variable_list(spec->fields, spec->own_types, spec->own_initials, false);
-      take();
-    } else if (accept_word("ARRAY")) {
-      spec->kind = TypeSpec::Kind::array;
-      expect_symbol("[", "before the limits of the array");
-      do {
-        auto& dimension = spec->dimensions.emplace_back();
-        dimension.low = expression();
-        expect_symbol("..", "between the limits of the array");
-        dimension.high = expression();
-      } while (accept_symbol(","));
-      expect_symbol("]", "behind the limits of the array");
-      expect_word("OF", "before the type of the elements");
-      spec->element = type_spec();
-    } else if (is_word("STRING") || is_word("WSTRING")) {
-      spec->name = take().upper;
-      spec->kind = TypeSpec::Kind::string;
-      if (accept_symbol("[")) {
-        spec->length = expression();
-        expect_symbol("]", "behind the length of the string");
-      } else if (accept_symbol("(")) {
-        spec->length = expression();
-        expect_symbol(")", "behind the length of the string");
-      }
-    } else {
-      const auto name = expect_name("a type");
-      spec->name = name.upper;
-      spec->text = name.text;
-      if (is_symbol("(")) {
+// To behind the end of a declaration, or to the next one.
+void DeclarationParser::recover() {
+  for (; now().kind != TokenKind::end; take()) {
+    for (const auto* end :
+         {"END_PROGRAM", "END_FUNCTION", "END_FUNCTION_BLOCK", "END_TEST", "END_TYPE", "END_CONFIGURATION"})
+      if (is_word(end)) {
         take();
-        spec->low = expression();
-        expect_symbol("..", "between the limits of the subrange");
-        spec->high = expression();
-        expect_symbol(")", "behind the subrange");
+        return;
       }
-    }
-    return spec;
+    for (const auto* start : {"PROGRAM", "FUNCTION", "FUNCTION_BLOCK", "TEST", "TYPE", "VAR_GLOBAL"})
+      if (is_word(start)) return;
+    if (at_configuration()) return;
   }
+}
 
-  void enumeration(TypeSpec& spec) {
-    spec.kind = TypeSpec::Kind::enumeration;
-    do {
-      auto& value = spec.enumerators.emplace_back();
-      const auto name = expect_name("the name of an enumerated value");
-      value.name = name.upper;
-      value.text = name.text;
-      value.at = name.at;
-      if (accept_symbol(":=")) value.value = expression();
-    } while (accept_symbol(","));
-    expect_symbol(")", "behind the enumerated values");
+void DeclarationParser::type_block() {
+  while (!is_word("END_TYPE")) {
+    TypeDeclaration declaration;
+    const auto name = expect_name("the name of a type or END_TYPE");
+    declaration.name = name.upper;
+    declaration.text = name.text;
+    declaration.at = name.at;
+    expect_symbol(":", "behind the name of the type");
+    declaration.type = type_spec();
+    if (accept_symbol(":=")) declaration.initial = initializer();
+    if (declaration.type->kind == TypeSpec::Kind::structure)
+      accept_symbol(";");
+    else
+      expect_symbol(";", "behind the type");
+    tree_.types.push_back(std::move(declaration));
   }
+  take();
+}
 
-  // a, b AT %X0.0 : TYPE := value;
-  void variable_list(std::vector<VariableDeclaration>& variables, std::vector<TypeSpecPtr>& types,
-                     std::vector<ExpressionPtr>& initials, bool locations) {
-    const auto first = variables.size();
-    do {
-      auto& variable = variables.emplace_back();
-      const auto name = expect_name("the name of a variable");
-      variable.name = name.upper;
-      variable.text = name.text;
-      variable.at = name.at;
-      if (is_word("AT")) {
-        if (!locations) fail("':' (a field has no address)");
-        take();
-        if (now().kind != TokenKind::direct) fail("an address like %R10.0 behind AT");
-        variable.location_at = now().at;
-        variable.location = take().text;
-      }
-    } while (accept_symbol(","));
-    expect_symbol(":", "before the type of the variable");
-    types.push_back(type_spec());
-    Expression* initial = nullptr;
-    if (accept_symbol(":=")) {
-      initials.push_back(initializer());
-      initial = initials.back().get();
-    }
-    expect_symbol(";", "behind the declaration");
-    for (auto i = first; i < variables.size(); ++i) {
-      variables[i].type = types.back().get();
-      variables[i].initial = initial;
-    }
-  }
-
-  VariableBlock variable_block() {
-    static const std::map<std::string_view, VariableSection> sections = {
-        {"VAR", VariableSection::local},
-        {"VAR_INPUT", VariableSection::input},
-        {"VAR_OUTPUT", VariableSection::output},
-        {"VAR_IN_OUT", VariableSection::in_out},
-        {"VAR_TEMP", VariableSection::temporary},
-        {"VAR_GLOBAL", VariableSection::global},
-        {"VAR_EXTERNAL", VariableSection::external}};
-    VariableBlock block;
-    block.at = now().at;
-    block.section = sections.at(take().upper);
-    for (;;) {
-      if (accept_word("RETAIN"))
-        block.retain = true;
-      else if (accept_word("CONSTANT"))
-        block.constant = true;
-      else if (!accept_word("NON_RETAIN"))
-        break;
-    }
-    while (!is_word("END_VAR")) {
-      if (now().kind == TokenKind::end || at_pou_end()) fail("END_VAR");
-      try {
-        variable_list(block.variables, block.types, block.initials, true);
-      } catch (const Abandoned&) {
-        std::erase_if(block.variables, [](const auto& v) { return v.type == nullptr; });
-        while (now().kind != TokenKind::end && !is_word("END_VAR") && !at_pou_end() && !accept_symbol(";"))
-          take();
-      }
-    }
+TypeSpecPtr DeclarationParser::type_spec() {
+  const Depth depth(*this);
+  auto spec = std::make_unique<TypeSpec>();
+  spec->at = now().at;
+  if (accept_symbol("(")) {
+    enumeration(*spec);
+  } else if (accept_word("STRUCT")) {
+    spec->kind = TypeSpec::Kind::structure;
+    while (!is_word("END_STRUCT")) variable_list(spec->fields, spec->own_types, spec->own_initials, false);
     take();
-    return block;
-  }
-
-  bool at_pou_end() const {
-    return is_word("END_PROGRAM") || is_word("END_FUNCTION") || is_word("END_FUNCTION_BLOCK") ||
-           is_word("END_TEST") || is_word("VAR");
-  }
-
-  void pou(PouKind kind, std::string_view end, std::string_view what) {
-    PouDeclaration pou;
-    pou.kind = kind;
-    take();
-    if (kind == PouKind::test && now().kind == TokenKind::string) {
-      const auto name = take();
-      pou.name = "TEST " + name.text;
-      pou.text = name.text;
-      pou.at = name.at;
-    } else {
-      const auto name = expect_name("the name of " + std::string(what));
-      pou.name = kind == PouKind::test ? "TEST " + name.text : name.upper;
-      pou.text = name.text;
-      pou.at = name.at;
+  } else if (accept_word("ARRAY")) {
+    spec->kind = TypeSpec::Kind::array;
+    expect_symbol("[", "before the limits of the array");
+    do {
+      auto& dimension = spec->dimensions.emplace_back();
+      dimension.low = expression();
+      expect_symbol("..", "between the limits of the array");
+      dimension.high = expression();
+    } while (accept_symbol(","));
+    expect_symbol("]", "behind the limits of the array");
+    expect_word("OF", "before the type of the elements");
+    spec->element = type_spec();
+  } else if (is_word("STRING") || is_word("WSTRING")) {
+    spec->name = take().upper;
+    spec->kind = TypeSpec::Kind::string;
+    if (accept_symbol("[")) {
+      spec->length = expression();
+      expect_symbol("]", "behind the length of the string");
+    } else if (accept_symbol("(")) {
+      spec->length = expression();
+      expect_symbol(")", "behind the length of the string");
     }
-    if (is_symbol(":")) {
-      if (kind != PouKind::function) fail("declarations (only a function has a result type)");
+  } else {
+    const auto name = expect_name("a type");
+    spec->name = name.upper;
+    spec->text = name.text;
+    if (is_symbol("(")) {
       take();
-      pou.result = type_spec();
+      spec->low = expression();
+      expect_symbol("..", "between the limits of the subrange");
+      spec->high = expression();
+      expect_symbol(")", "behind the subrange");
     }
-    accept_symbol(";");
-    while (now().kind == TokenKind::identifier && now().upper.rfind("VAR", 0) == 0 &&
-           (ahead().kind != TokenKind::symbol)) {
-      if (is_word("VAR_GLOBAL")) {
-        tree_.globals.push_back(variable_block());
-        continue;
-      }
-      static const std::string_view sections[] = {"VAR",        "VAR_INPUT", "VAR_OUTPUT",
-                                                  "VAR_IN_OUT", "VAR_TEMP",  "VAR_EXTERNAL"};
-      if (std::find(std::begin(sections), std::end(sections), now().upper) == std::end(sections)) break;
-      pou.blocks.push_back(variable_block());
-    }
-    pou.body = statements({"END_PROGRAM", "END_FUNCTION", "END_FUNCTION_BLOCK", "END_TEST"});
-    pou.end = now().at;
-    expect_word(end, "at the end of " + std::string(what));
-    accept_symbol(";");
-    tree_.pous.push_back(std::move(pou));
   }
+  return spec;
+}
 
-  SourceTree& tree_;
-};
+void DeclarationParser::enumeration(TypeSpec& spec) {
+  spec.kind = TypeSpec::Kind::enumeration;
+  do {
+    auto& value = spec.enumerators.emplace_back();
+    const auto name = expect_name("the name of an enumerated value");
+    value.name = name.upper;
+    value.text = name.text;
+    value.at = name.at;
+    if (accept_symbol(":=")) value.value = expression();
+  } while (accept_symbol(","));
+  expect_symbol(")", "behind the enumerated values");
+}
 
-}  // namespace
+// a, b AT %X0.0 : TYPE := value;
+void DeclarationParser::variable_list(std::vector<VariableDeclaration>& variables,
+                                      std::vector<TypeSpecPtr>& types, std::vector<ExpressionPtr>& initials,
+                                      bool locations) {
+  const auto first = variables.size();
+  do {
+    auto& variable = variables.emplace_back();
+    const auto name = expect_name("the name of a variable");
+    variable.name = name.upper;
+    variable.text = name.text;
+    variable.at = name.at;
+    if (is_word("AT")) {
+      if (!locations) fail("':' (a field has no address)");
+      take();
+      if (now().kind != TokenKind::direct) fail("an address like %R10.0 behind AT");
+      variable.location_at = now().at;
+      variable.location = take().text;
+    }
+  } while (accept_symbol(","));
+  expect_symbol(":", "before the type of the variable");
+  types.push_back(type_spec());
+  Expression* initial = nullptr;
+  if (accept_symbol(":=")) {
+    initials.push_back(initializer());
+    initial = initials.back().get();
+  }
+  expect_symbol(";", "behind the declaration");
+  for (auto i = first; i < variables.size(); ++i) {
+    variables[i].type = types.back().get();
+    variables[i].initial = initial;
+  }
+}
+
+VariableBlock DeclarationParser::variable_block() {
+  static const std::map<std::string_view, VariableSection> sections = {
+      {"VAR", VariableSection::local},
+      {"VAR_INPUT", VariableSection::input},
+      {"VAR_OUTPUT", VariableSection::output},
+      {"VAR_IN_OUT", VariableSection::in_out},
+      {"VAR_TEMP", VariableSection::temporary},
+      {"VAR_GLOBAL", VariableSection::global},
+      {"VAR_EXTERNAL", VariableSection::external}};
+  VariableBlock block;
+  block.at = now().at;
+  block.section = sections.at(take().upper);
+  for (;;) {
+    if (accept_word("RETAIN"))
+      block.retain = true;
+    else if (accept_word("CONSTANT"))
+      block.constant = true;
+    else if (!accept_word("NON_RETAIN"))
+      break;
+  }
+  while (!is_word("END_VAR")) {
+    if (now().kind == TokenKind::end || at_pou_end()) fail("END_VAR");
+    try {
+      variable_list(block.variables, block.types, block.initials, true);
+    } catch (const Abandoned&) {
+      std::erase_if(block.variables, [](const auto& v) { return v.type == nullptr; });
+      while (now().kind != TokenKind::end && !is_word("END_VAR") && !at_pou_end() && !accept_symbol(";"))
+        take();
+    }
+  }
+  take();
+  return block;
+}
+
+bool DeclarationParser::at_pou_end() const {
+  return is_word("END_PROGRAM") || is_word("END_FUNCTION") || is_word("END_FUNCTION_BLOCK") ||
+         is_word("END_TEST") || is_word("VAR");
+}
+
+void DeclarationParser::pou(PouKind kind, std::string_view end, std::string_view what) {
+  PouDeclaration pou;
+  pou.kind = kind;
+  take();
+  if (kind == PouKind::test && now().kind == TokenKind::string) {
+    const auto name = take();
+    pou.name = "TEST " + name.text;
+    pou.text = name.text;
+    pou.at = name.at;
+  } else {
+    const auto name = expect_name("the name of " + std::string(what));
+    pou.name = kind == PouKind::test ? "TEST " + name.text : name.upper;
+    pou.text = name.text;
+    pou.at = name.at;
+  }
+  if (is_symbol(":")) {
+    if (kind != PouKind::function) fail("declarations (only a function has a result type)");
+    take();
+    pou.result = type_spec();
+  }
+  accept_symbol(";");
+  while (now().kind == TokenKind::identifier && now().upper.rfind("VAR", 0) == 0 &&
+         (ahead().kind != TokenKind::symbol)) {
+    if (is_word("VAR_GLOBAL")) {
+      tree_.globals.push_back(variable_block());
+      continue;
+    }
+    static const std::string_view sections[] = {"VAR",        "VAR_INPUT", "VAR_OUTPUT",
+                                                "VAR_IN_OUT", "VAR_TEMP",  "VAR_EXTERNAL"};
+    if (std::find(std::begin(sections), std::end(sections), now().upper) == std::end(sections)) break;
+    pou.blocks.push_back(variable_block());
+  }
+  pou.body = statements({"END_PROGRAM", "END_FUNCTION", "END_FUNCTION_BLOCK", "END_TEST"});
+  pou.end = now().at;
+  expect_word(end, "at the end of " + std::string(what));
+  accept_symbol(";");
+  tree_.pous.push_back(std::move(pou));
+}
 
 void parse(std::vector<Token> tokens, SourceTree& tree, Diagnostics& diagnostics) {
-  Parser(std::move(tokens), tree, diagnostics).run();
+  DeclarationParser(std::move(tokens), tree, diagnostics).run();
 }
 
 bool is_expression(std::vector<Token> tokens, Position at, Diagnostics& diagnostics) {
@@ -264,7 +256,7 @@ bool is_expression(std::vector<Token> tokens, Position at, Diagnostics& diagnost
 }
 
 void parse(std::string_view source, std::uint16_t file, SourceTree& tree, Diagnostics& diagnostics) {
-  Parser(tokenize(source, file, diagnostics), tree, diagnostics).run();
+  DeclarationParser(tokenize(source, file, diagnostics), tree, diagnostics).run();
 }
 
 }  // namespace trunnion::st

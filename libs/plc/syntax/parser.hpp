@@ -49,6 +49,8 @@ class TokenReader {
   /// How the current word is named in a message.
   std::string found() const;
   bool is_keyword() const;
+  /// CONFIGURATION is a name elsewhere.
+  bool at_configuration() const { return is_word("CONFIGURATION") && ahead().kind == TokenKind::identifier; }
   /// Nesting of expressions, types and statements; throws Abandoned beyond a limit.
   class Depth {
    public:
@@ -88,6 +90,8 @@ class ExpressionParser : public TokenReader {
   ExpressionPtr primary();
   ExpressionPtr make(Expression::Kind kind, Position at) const;
   ExpressionPtr typed_literal();
+  bool is_called_operator() const;
+  ExpressionPtr operator_call();
 };
 
 class StatementParser : public ExpressionParser {
@@ -108,6 +112,32 @@ class StatementParser : public ExpressionParser {
   bool at_declaration() const;
   void recover(std::initializer_list<std::string_view> ends);
   std::vector<CaseLabel> labels();
+};
+
+class DeclarationParser : public StatementParser {
+ public:
+  DeclarationParser(std::vector<Token> tokens, SourceTree& tree, Diagnostics& diagnostics)
+      : StatementParser(std::move(tokens), diagnostics), tree_(tree) {}
+
+  void run();
+
+ private:
+  void declaration();
+  void recover();
+  void type_block();
+  TypeSpecPtr type_spec();
+  void enumeration(TypeSpec& spec);
+  void variable_list(std::vector<VariableDeclaration>& variables, std::vector<TypeSpecPtr>& types,
+                     std::vector<ExpressionPtr>& initials, bool locations);
+  VariableBlock variable_block();
+  bool at_pou_end() const;
+  void pou(PouKind kind, std::string_view end, std::string_view what);
+  void configuration();
+  void resource(ConfigurationDeclaration& configuration, std::string_view end);
+  void task(ConfigurationDeclaration& configuration);
+  void program_configuration(ConfigurationDeclaration& configuration);
+
+  SourceTree& tree_;
 };
 
 }  // namespace trunnion::st

@@ -31,7 +31,7 @@ bool StatementParser::at_declaration() const {
   for (const auto* word : {"PROGRAM", "FUNCTION", "FUNCTION_BLOCK", "TEST", "TYPE", "VAR_GLOBAL",
                            "END_PROGRAM", "END_FUNCTION", "END_FUNCTION_BLOCK", "END_TEST"})
     if (is_word(word)) return true;
-  return false;
+  return at_configuration();
 }
 
 // To behind the next ';', or to the end of the enclosing statement.

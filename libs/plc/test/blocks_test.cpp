@@ -39,6 +39,49 @@ TEST(Counters, CountRisingEdges) {
   EXPECT_EQ(trace("CTUD", "CU := x, CD := y, PV := 1", "CV", "0101001", "0001010"), "0 1 1 1 1 0 1 ");
   EXPECT_EQ(trace("CTUD", "CU := x, CD := y, PV := 1", "QU", "0101001", "0001010"), "0111101");
   EXPECT_EQ(trace("CTUD", "CU := x, CD := y, PV := 1", "QD", "0101001", "0001010"), "1000010");
+  // R and LD prevail over edges, R over LD; an edge that they hide is not counted afterwards.
+  EXPECT_EQ(trace("CTUD", "CU := x, R := y, PV := 2", "CV", "0101011101", "0000011000"),
+            "0 1 1 2 2 0 0 0 0 1 ");
+  EXPECT_EQ(trace("CTUD", "CU := x, R := y, PV := 2", "QU", "0101011101", "0000011000"), "0001100000");
+  EXPECT_EQ(trace("CTUD", "CU := x, R := y, PV := 2", "QD", "0101011101", "0000011000"), "1000011110");
+  EXPECT_EQ(trace("CTUD", "CD := x, LD := y, PV := 2", "CV", "0101011101", "1000011000"),
+            "2 1 1 0 0 2 2 2 2 1 ");
+  EXPECT_EQ(trace("CTUD", "CD := x, LD := y, PV := 2", "QU", "0101011101", "1000011000"), "1000011110");
+  EXPECT_EQ(trace("CTUD", "CD := x, LD := y, PV := 2", "QD", "0101011101", "1000011000"), "0001100000");
+  EXPECT_EQ(trace("CTUD", "CU := x, R := y, LD := y, PV := 2", "CV", "0101", "0001"), "0 1 1 0 ");
+}
+
+// Two more edges at the limit do not pass it.
+TEST(Counters, OfEveryTypeCountUpToItsLimits) {
+  struct Limits {
+    const char *suffix, *low, *above_low, *below_high, *high;
+  };
+  for (const auto& limits : {Limits{"", "-32768", "-32767", "32766", "32767"},
+                             {"_INT", "-32768", "-32767", "32766", "32767"},
+                             {"_DINT", "-2147483648", "-2147483647", "2147483646", "2147483647"},
+                             {"_LINT", "-9223372036854775808", "-9223372036854775807", "9223372036854775806",
+                              "9223372036854775807"},
+                             {"_UDINT", "0", "1", "4294967294", "4294967295"},
+                             {"_ULINT", "0", "1", "18446744073709551614", "18446744073709551615"}}) {
+    SCOPED_TRACE(limits.suffix);
+    const auto last = [&](const std::string& block, const std::string& call, const std::string& start) {
+      Translated program("VAR x : BOOL; b : " + block + limits.suffix + "; END_VAR", "b(" + call + ");");
+      program.set("b.CV", start);
+      std::string values;
+      for (const char* x : {"1", "0", "1", "0", "1"}) {
+        program.set("x", x);
+        EXPECT_EQ(program.scan(), "");
+        if (*x == '1') values += program.get("b.CV") + " ";
+      }
+      return values + program.get(block == "CTUD" ? "b.QU" : "b.Q");
+    };
+    const auto up = std::string(limits.high) + " " + limits.high + " " + limits.high + " TRUE";
+    EXPECT_EQ(last("CTU", "CU := x, PV := " + std::string(limits.high), limits.below_high), up);
+    EXPECT_EQ(last("CTUD", "CU := x, PV := " + std::string(limits.high), limits.below_high), up);
+    const auto down = std::string(limits.low) + " " + limits.low + " " + limits.low;
+    EXPECT_EQ(last("CTD", "CD := x", limits.above_low), down + " TRUE");
+    EXPECT_EQ(last("CTUD", "CD := x, PV := " + std::string(limits.high), limits.above_low), down + " FALSE");
+  }
 }
 
 // Scans at 0, 10, 20 ... ms; 20 ms are reached in the second scan behind the edge.
@@ -53,6 +96,25 @@ TEST(Timers, FollowTheDiagramsOfTheStandard) {
   EXPECT_EQ(trace("TP", "IN := x, PT := T#20ms", "ET", "0111100"),
             "T#0ms T#0ms T#10ms T#20ms T#20ms T#0ms T#0ms ");
   EXPECT_EQ(trace("TON", "IN := x, PT := T#0s", "Q", "010"), "010");
+}
+
+TEST(Timers, OfLtimeAreTheSame) {
+  for (const char* suffix : {"_TIME", "_LTIME"}) {
+    const std::string time = std::string(suffix) == "_TIME" ? "T#20ms" : "LT#20ms";
+    const auto of = [&](const std::string& block, const char* inputs) {
+      return trace(block + suffix, "IN := x, PT := " + time, "Q", inputs);
+    };
+    EXPECT_EQ(of("TON", "0111100110"), "0001100000");
+    EXPECT_EQ(of("TOF", "0110000100"), "0111100111");
+    EXPECT_EQ(of("TP", "0100110111"), "0110110110");
+  }
+  Translated program("VAR t : TON_LTIME; END_VAR", "t(IN := TRUE, PT := LT#10ms1ns);");
+  program.scan(), program.scan();
+  EXPECT_EQ(program.get("t.Q"), "FALSE");
+  EXPECT_EQ(program.get("t.ET"), "LT#10ms");
+  EXPECT_EQ(program.run.machine().next_timer_end(10000000), 10000001);
+  program.scan();
+  EXPECT_EQ(program.get("t.Q"), "TRUE");
 }
 
 TEST(Timers, AreKnownToTheService) {
@@ -108,6 +170,32 @@ TEST(Pid, LimitsReversesFiltersAndKeepsItsPeriod) {
                      "done := PID(1000, 0, r, out);");
   reverse.scan();
   EXPECT_EQ(reverse.get("out"), "-1000");
+}
+
+// S3+13 is retained: another PLC, or one whose time began again, may have left any value.
+TEST(Pid, ComputesWhateverTimeItsRegistersHaveKept) {
+  for (const char* kept : {"5000000", "-5000000", "2147483647", "-2147483648"}) {
+    Translated program("VAR r : ARRAY[0..15] OF DINT; out : DINT; done : BOOL; END_VAR",
+                       "done := PID(1000, 0, r, out);");
+    program.set("r[5]", "100"), program.set("r[10]", "25"), program.set("r[13]", kept);
+    EXPECT_EQ(program.scan(), "");
+    EXPECT_EQ(program.get("done"), "TRUE") << kept;
+    EXPECT_EQ(program.get("out"), "1000") << kept;  // e - e1 = 1000
+  }
+}
+
+// 2^31 ms are 2147483648 ms. Computed at 2147483640 ms, each third scan from there on is 30 ms later.
+TEST(Pid, KeepsItsPeriodBeyondTwentyFiveDays) {
+  Translated program("VAR r : ARRAY[0..15] OF DINT; out : DINT; done : BOOL; END_VAR",
+                     "done := PID(1000, 0, r, out);");
+  program.set("r[10]", "25");
+  program.scan();
+  std::string computed;
+  for (int i = 0; i < 10; ++i) {
+    EXPECT_EQ(program.scan(i == 0 ? std::int64_t{2147483640} * 1000000 : default_period), "");
+    computed += program.get("done") == "TRUE" ? "1" : "0";
+  }
+  EXPECT_EQ(computed, "1001001001");
 }
 
 }  // namespace

@@ -144,6 +144,86 @@ TEST(Chart, ActionsMayBeInOtherLanguagesAndTransitionsHaveNames) {
   EXPECT_TRUE(logic.is("rest.X"));
 }
 
+TEST(Chart, ConditionsMayBeLaddersAndFunctionBlockDiagrams) {
+  DiagramText ladder, blocks;
+  ladder.coil("go", {ladder.contact("b", {ladder.contact("a", {ladder.rail()})})});
+  blocks.out("back",
+             {blocks.block("GE", "", {{"IN1", {blocks.in("n")}}, {"IN2", {blocks.in("3")}}}, {"OUT"})});
+  ChartText chart;
+  chart.step(1, "rest", {4}, true);
+  chart.add("transition", 2, "", {1}, "<condition><reference name=\"go\"/></condition>");
+  chart.step(3, "work", {2});
+  chart.add("transition", 4, "", {3},
+            "<condition><inline name=\"back\">" + blocks.blocks() + "</inline></condition>");
+  chart.action(5, 3,
+               "<action qualifier=\"N\"><inline>" + ChartText::st("n := n + 1;") + "</inline></action>");
+  LoadedChart logic(program(chart, bits,
+                            "<transitions><transition name=\"go\"><body>" + ladder.ladder() +
+                                "</body></transition></transitions>"));
+  logic.set("a", true);
+  logic.scan();
+  EXPECT_EQ(logic.active({"rest", "work"}), "rest");
+  logic.set("b", true);
+  logic.scan();
+  EXPECT_EQ(logic.active({"rest", "work"}), "work");
+  logic.set("a", false);
+  logic.scan(2);
+  EXPECT_EQ(logic.active({"rest", "work"}), "work");
+  logic.scan();  // n is 3
+  EXPECT_EQ(logic.active({"rest", "work"}), "rest");
+}
+
+TEST(Chart, AMacroStepStandsForItsChart) {
+  ChartText inside;
+  inside.step(1, "first", {});
+  inside.transition(2, "b", {1});
+  inside.step(3, "second", {2});
+  ChartText chart;
+  chart.step(1, "rest", {4}, true);
+  chart.transition(2, "a", {1});
+  chart.add("macroStep", 3, "name=\"work\"", {2}, "<body>" + inside.body() + "</body>");
+  chart.transition(4, "NOT a", {3});
+  LoadedChart logic(program(chart, bits));
+  const std::vector<std::string> all = {"rest", "first", "second"};
+  logic.set("a", true);
+  logic.scan();
+  EXPECT_EQ(logic.active(all), "first");
+  logic.set("a", false);
+  logic.scan();
+  EXPECT_EQ(logic.active(all), "first") << "the macro step ends with its last step only";
+  logic.set("b", true);
+  logic.scan();
+  EXPECT_EQ(logic.active(all), "second");
+  logic.scan();
+  EXPECT_EQ(logic.active(all), "rest");
+}
+
+TEST(Chart, WrongConditionsAndMacroStepsAreNamed) {
+  const auto with = [](const std::string& element) {
+    ChartText chart;
+    chart.step(1, "rest", {2}, true);
+    chart.text += element;
+    return chart_message(program(chart, bits));
+  };
+  DiagramText ladder;
+  ladder.coil("q", {ladder.contact("a", {ladder.rail()})});
+  const auto transition = [&](const std::string& name) {
+    return "<transition localId=\"2\">" + ChartText::point({1}) + "<condition><inline name=\"" + name +
+           "\">" + ladder.ladder() + "</inline></condition></transition>";
+  };
+  EXPECT_THAT(with(transition("go")),
+              HasSubstr("nothing in the condition writes to 'go', the name of the transition"));
+  EXPECT_THAT(with(transition("")), HasSubstr("the condition needs a name"));
+  ChartText two;
+  two.step(1, "x", {});
+  two.step(2, "y", {});
+  EXPECT_THAT(
+      with("<transition localId=\"2\">" + ChartText::point({3}) + "</transition><macroStep localId=\"3\">" +
+           ChartText::point({2}) + "<body>" + two.body() + "</body></macroStep>"),
+      HasSubstr("here are 2 and 2"));
+  EXPECT_THAT(with("<macroStep localId=\"2\"/>"), HasSubstr("the macro step has no body in SFC"));
+}
+
 TEST(Chart, WrongOnesSayWhichElement) {
   const auto with = [](const std::function<void(ChartText&)>& change) {
     ChartText chart;
@@ -185,8 +265,8 @@ TEST(Chart, WrongOnesSayWhichElement) {
       with([](ChartText& c) { c.transition(7, "n", {3}), c.add("jumpStep", 8, "targetName=\"rest\"", {7}); });
   EXPECT_THAT(message, HasSubstr("INT"));
   EXPECT_THAT(message, HasSubstr("(POU 'main', transition with localId 7)"));
-  EXPECT_THAT(with([](ChartText& c) { c.add("macroStep", 7, "name=\"m\"", {}); }),
-              HasSubstr("'macroStep' is not available in a sequential function chart"));
+  EXPECT_THAT(with([](ChartText& c) { c.add("leftPowerRail", 7, "", {}); }),
+              HasSubstr("'leftPowerRail' is not available in a sequential function chart"));
 }
 
 }  // namespace

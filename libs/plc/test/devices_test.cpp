@@ -153,6 +153,38 @@ END_TEST
 )");
 }
 
+TEST(SimulatedDevices, ARotarySwitchHasTheValueOfItsPositionAndAHandwheelCountsBothWays) {
+  expect_passed(
+      "feed: {rotary_switch: {position: X30, values: [100, 0, 50], value: X31}}\n"
+      "wheel: {handwheel: {turned: X32, counter: X33}}\nstart: {key: {input: X35.0, lamp: Y5.0}}\n",
+      R"(
+TEST 'the value follows the position'
+simulation();
+ASSERT_EQ(%X31, 100);
+%X30 := 2;
+simulation();
+ASSERT_EQ(%X31, 50);
+%X30 := 3;
+simulation();
+ASSERT_EQ(%X31, 50); // it has no such position
+END_TEST
+TEST 'three back, then 300 forwards'
+%X32 := 253;
+simulation();
+ASSERT_EQ(%X34, 255); // 65533
+ASSERT_EQ(%X33, 253);
+%X32 := 97; // 100 more
+simulation();
+%X32 := 197;
+simulation();
+%X32 := 41; // 100 more again
+simulation();
+ASSERT_EQ(%X34, 1); // 297
+ASSERT_EQ(%X33, 41);
+END_TEST
+)");
+}
+
 TEST(SimulatedDevices, PositionSwitchesAreNoPartOfTheProgram) {
   const auto devices =
       read_devices("limit:\n  position_switch: {axis: X, from: -500, to: -495.5, on: X22.3}\n",
@@ -197,6 +229,13 @@ TEST(SimulatedDevices, AWrongLineIsNamedWithItsPlace) {
       {"a:\n  position_switch: {axis: X, from: 3, on: X16.0}\n", "'axis', 'from', 'to' and 'on'"},
       {"a:\n  position_switch: {axis: X, from: 3, to: 2, on: X16.0}\n", "'from' is above 'to'"},
       {"a: {switch: {command: Y1.0, on: X1.0}, actuator: {}}\n", "one device, one type"},
+      {"a: {key: {lamp: Y1.0}}\n", "devices.yaml:1:10: error: 'input' is missing"},
+      {"a: {key: {input: Y1.0}}\n", "devices.yaml:1:18: error: 'Y1.0' is no input bit"},
+      {"a: {rotary_switch: {position: X1, values: [1, 2.5], value: X2}}\n", "1:47: error: expected a whole"},
+      {"a: {rotary_switch: {position: X1, values: [256], value: X2}}\n", "256 is not within 0 .. 255"},
+      {"a: {rotary_switch: {position: X1, value: X2}}\n", "'position', 'values' and 'value'"},
+      {"a: {handwheel: {turned: X1, counter: X511}}\n", "1:38: error: the counter has two bytes"},
+      {"a: {handwheel: {turned: X1, counter: X0}}\n", "1:38: error: X1 is written by another device"},
   };
   for (const auto& c : cases) {
     try {

@@ -14,7 +14,7 @@ struct Wrong {
   const char* message;  ///< line:column: error: sentence
 };
 
-constexpr const char* before =
+constexpr const char* program_before =
     "FUNCTION twice : INT VAR_INPUT v : INT; END_VAR twice := 2 * v; END_FUNCTION "
     "TYPE Point : STRUCT x, y : INT; END_STRUCT; Color : (red, green); END_TYPE\n"
     "PROGRAM main VAR i : INT; d : DINT; u : UINT; ul : ULINT; b : BOOL; w : WORD; by1 : BYTE; r : REAL; l : "
@@ -143,6 +143,30 @@ const Wrong programs[] = {
      "3:6: error: '-' would leave UINT, which has no negative values; convert to a signed type"},
     {true, "sub := 11;", "3:8: error: 11 is outside 0 .. 10 of INT (0..10)"},
     {true, "i := INT_TO_FOO(1);", "3:6: error: there is no function 'INT_TO_FOO'"},
+    {true, "w := REAL_TO_WORD(r);",
+     "3:6: error: there is no conversion from REAL to WORD; REAL and DWORD, LREAL and LWORD exchange their "
+     "bits, "
+     "integers their value"},
+    {true, "r := LWORD_TO_REAL(16#0);",
+     "3:6: error: there is no conversion from LWORD to REAL; REAL and DWORD, LREAL and LWORD exchange their "
+     "bits, "
+     "integers their value"},
+    {true, "w := TRUNC_WORD(r);", "3:6: error: TRUNC gives an integer, not WORD"},
+    {true, "i := BCD_TO_INT(w);",
+     "3:6: error: decimal digits are converted between BYTE .. LWORD and USINT .. ULINT, not from WORD to "
+     "INT"},
+    {true, "w := TO_BCD_WORD(i);",
+     "3:6: error: decimal digits are converted between BYTE .. LWORD and USINT .. ULINT, not from INT to "
+     "WORD"},
+    {true, "b := IS_VALID(i);", "3:6: error: IS_VALID is for REAL and LREAL, not for INT"},
+    {true, "b := IS_VALID_BCD(u);", "3:6: error: IS_VALID_BCD is for BYTE .. LWORD, not for UINT"},
+    {true, "i := TO_BIG_ENDIAN(1);", "3:6: error: TO_BIG_ENDIAN needs a typed literal, as WORD#16#FF"},
+    {true, "s := TO_BIG_ENDIAN(s);",
+     "3:6: error: TO_BIG_ENDIAN is for integers, bit strings, REAL, LREAL and times, not for STRING[5]"},
+    {true, "b := AND(b);", "3:6: error: AND has 2 or more arguments, not 1"},
+    {true, "i := MOD(i, i, i);", "3:6: error: MOD has 2 arguments, not 3"},
+    {true, "b := OR(IN1 := b, IN3 := b);",
+     "3:19: error: OR has no free parameter for this argument; they are IN1 .. IN2"},
     {true, "i := p.x.y;", "3:10: error: INT has no members; '.y' needs a structure or a function block"},
     {true, "i := ABS(s);", "3:6: error: ABS is for numbers, not for STRING[5]"},
     {true, "d := d MOD r;", "3:8: error: MOD is for integers, not for LREAL"},
@@ -152,7 +176,8 @@ const Wrong programs[] = {
     {true, "t := t * t;", "3:8: error: '*' between TIME and TIME is not defined"},
     {true, "t := t + 1;", "3:8: error: '+' between TIME and a whole number is not defined"},
     {false, "VAR i : INT; END_VAR",
-     "1:1: error: expected PROGRAM, FUNCTION, FUNCTION_BLOCK, TEST, TYPE or VAR_GLOBAL, found 'VAR'"},
+     "1:1: error: expected PROGRAM, FUNCTION, FUNCTION_BLOCK, TEST, TYPE, VAR_GLOBAL or CONFIGURATION, found "
+     "'VAR'"},
     {false, "PROGRAM main VAR i : INT; i := 1; END_PROGRAM",
      "1:29: error: expected ':' before the type of the variable, found ':='"},
     {false, "PROGRAM main VAR i : INTT; END_VAR END_PROGRAM", "1:22: error: there is no type 'INTT'"},
@@ -246,7 +271,7 @@ const Wrong programs[] = {
 TEST(Errors, SayWhereAndWhat) {
   for (const auto& wrong : programs) {
     const auto source =
-        wrong.body ? std::string(before) + wrong.text + "\nEND_PROGRAM\n" : std::string(wrong.text);
+        wrong.body ? std::string(program_before) + wrong.text + "\nEND_PROGRAM\n" : std::string(wrong.text);
     const auto result = compile({{"w.st", source}}, interface_registers());
     EXPECT_FALSE(result.good()) << wrong.text;
     std::string first;

@@ -274,8 +274,8 @@ TEST(Expressions, OfBitStringsKeepTheirWidth) {
       const auto a = random() & mask, b = random() & mask;
       const auto n = random() % static_cast<unsigned>(bits + 4);
       const auto r = n % static_cast<unsigned>(bits);
-      const auto rotated = [&](std::uint64_t v, std::uint64_t by) {
-        return by == 0 ? v : ((v << by) | (v >> (static_cast<unsigned>(bits) - by))) & mask;
+      const auto rotated = [mask, width = static_cast<unsigned>(bits)](std::uint64_t v, std::uint64_t by) {
+        return by == 0 ? v : ((v << by) | (v >> (width - by))) & mask;
       };
       Translated program(std::string("VAR a, b, r1, r2, r3, r4, r5, r6 : ") + name + "; n : UINT; END_VAR",
                          "r1 := a AND NOT b XOR (a OR b); r2 := SHL(a, n); r3 := SHR(a, n); r4 := ROL(a, n); "

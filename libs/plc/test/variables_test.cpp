@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <map>
 #include <random>
 #include <set>
 
@@ -62,9 +63,31 @@ TEST(Variables, RegistersAreFoundByAddressAndByNameWithTheirUnit) {
   const Variables variables;
   EXPECT_EQ(variables.find("spindle_speed_1").unit, "1/min");
   EXPECT_EQ(variables.find("%G2972").address, variables.find("spindle_speed_1").address);
-  for (const auto* printed : {"%G2960.3", "%F2636.10", "%G2621.0", "%G2622.0", "%K15.6", "%W50", "%B31",
-                              "%B188", "%B197", "%B204", "%X4.5", "%Y485.1", "%G420", "%G160.11"})
-    EXPECT_EQ(variables.find(printed).path, printed);
+  // As the manuals print them, and their names.
+  const std::map<std::string, std::string> named = {{"%G2960.3", "external_reset"},
+                                                    {"%F2636.10", "lathe_0"},
+                                                    {"%F2716.10", "lathe_1"},
+                                                    {"%G2621.0", "jog_exchanged_0"},
+                                                    {"%G2622.0", "handwheel_exchanged_0"},
+                                                    {"%K15.6", "slave_off_switch"},
+                                                    {"%W50", "pid_spindle_output"},
+                                                    {"%B30", "pid_target"},
+                                                    {"%B31", "pid_sample"},
+                                                    {"%B44", "pid_output"},
+                                                    {"%B188", "lathe_tool_0"},
+                                                    {"%B197", "milling_tool_0"},
+                                                    {"%B204", "milling_tool_1"},
+                                                    {"%X4.5", "probe_contact"},
+                                                    {"%Y485.1", "pid_start"},
+                                                    {"%G420", "pid_feedback_5"},
+                                                    {"%G160.11", "slave_off_2"},
+                                                    {"%G220", "control_mode_2"}};
+  for (const auto& [printed, name] : named) {
+    const auto at = variables.find(printed);
+    EXPECT_EQ(at.path, printed);
+    EXPECT_EQ(variables.find(name).address, at.address) << name;
+    EXPECT_EQ(variables.find(name).bit, at.bit) << name;
+  }
   EXPECT_TRUE(variables.find("%K15.6").retained);
 }
 

@@ -66,9 +66,9 @@ Location register_location(const std::string& path, const RegisterAddress& addre
 }
 
 std::string register_text(std::uint32_t cell, int bit) {
-  const auto at = register_at(cell);
-  return std::string("%") + info(at.area).letter + std::to_string(at.index) +
-         (bit >= 0 ? "." + std::to_string(bit) : "");
+  auto at = register_at(cell);
+  at.bit = static_cast<std::int8_t>(bit);
+  return register_text(at);
 }
 
 const NamedRegister* named_register(std::uint32_t cell, int bit) {
@@ -96,6 +96,21 @@ std::int64_t register_number_of(const Location& at, std::uint64_t value) {
   const auto& area = info(register_at(at.address).area);
   const auto form = static_cast<unsigned>(area.bits) | (area.is_signed ? signed_flag : 0u);
   return at.bit >= 0 ? as_signed(value) : as_signed(narrowed(value, form));
+}
+
+SymbolInPath symbol_in(const std::vector<Symbol>& symbols, const std::string& upper) {
+  SymbolInPath best;
+  for (const auto& symbol : symbols)
+    if (begins_path(upper, upper_case(symbol.path)) && symbol.path.size() > best.end)
+      best = {&symbol, symbol.path.size()};
+  if (best.symbol != nullptr) return best;
+  for (const auto& symbol : symbols) {
+    const auto dot = symbol.path.find('.');
+    if (dot == std::string::npos || !begins_path(upper, upper_case(symbol.path.substr(dot + 1)))) continue;
+    if (best.symbol != nullptr) refuse(upper, "several programs have it; write program.variable");
+    best = {&symbol, symbol.path.size() - dot - 1};
+  }
+  return best;
 }
 
 Variables::Variables(const Compilation& compilation)
@@ -130,21 +145,7 @@ Location Variables::find(const std::string& path) const {
     if (!address) refuse(path, problem);
     return with_retention(register_location(path, *address));
   }
-  const Symbol* best = nullptr;
-  for (const auto& symbol : symbols_)
-    if (begins_path(upper, upper_case(symbol.path)) &&
-        (best == nullptr || symbol.path.size() > best->path.size()))
-      best = &symbol;
-  auto behind = best != nullptr ? best->path.size() : 0;
-  // A name without its program when only one program has it.
-  if (best == nullptr)
-    for (const auto& symbol : symbols_) {
-      const auto dot = symbol.path.find('.');
-      if (dot == std::string::npos || !begins_path(upper, upper_case(symbol.path.substr(dot + 1)))) continue;
-      if (best != nullptr) refuse(path, "several programs have it; write program.variable");
-      best = &symbol;
-      behind = symbol.path.size() - dot - 1;
-    }
+  const auto [best, behind] = symbol_in(symbols_, upper);
   if (best == nullptr) {
     const auto found = interface_registers().find(upper);
     for (const auto& constant : constants_)

@@ -29,6 +29,14 @@ std::uint64_t value_cell(const Location& at, std::uint64_t cell);
 /// The number that a register gets so that its variable has the value.
 std::int64_t register_number_of(const Location& at, std::uint64_t value);
 
+struct SymbolInPath {
+  const Symbol* symbol = nullptr;
+  std::size_t end = 0;  ///< in the path, behind its name
+};
+/// The variable that a path in capitals begins with: program.variable, or variable when only one program has
+/// it. Throws std::runtime_error when several have it.
+SymbolInPath symbol_in(const std::vector<Symbol>& symbols, const std::string& upper);
+
 class Variables {
  public:
   /// Only registers.

@@ -272,6 +272,36 @@ TEST_F(Flow, ASkipMoveIsPushedByTheCallerAndItsResultComesBeforeTheNextBlock) {
   EXPECT_EQ(flow.alarm_number(), number(AlarmNumber::not_resumable));
 }
 
+TEST_F(Flow, ACalledCycleNeedsTheAxesAtRestAndKeepsItsPlaceAndItsVariables) {
+  const std::string program =
+      "G90 F6000\nG1 X10\nG65 P9010 A3 B4\nG1 X[20+#3100]\nM30\nO9010\n#3100=12\nM99\n";
+  start(program);
+  ASSERT_EQ(run(), FlowState::command);
+  ASSERT_EQ(flow.pending().kind, CommandKind::cycle);
+  EXPECT_EQ(flow.pending().number, 12u);
+  EXPECT_EQ(x(), 10);
+  EXPECT_EQ(flow.main_line(), 3u) << "the line that calls the macro";
+  EXPECT_EQ(flow.locals()[1].number, 3);
+  EXPECT_EQ(flow.locals()[2].number, 4);
+  EXPECT_FALSE(flow.locals()[3].given);
+  flow.cycle_answered(1);
+  EXPECT_EQ(run(), FlowState::command);
+  EXPECT_EQ(flow.pending().kind, CommandKind::end);
+  EXPECT_EQ(x(), 21);
+
+  // Behind it nothing is found again: the service has gone on.
+  Entry entry;
+  entry.restart = {3, 0.5, trajectory->position()};
+  start(program, entry);
+  EXPECT_EQ(run(), FlowState::alarm);
+  EXPECT_EQ(flow.alarm_number(), number(AlarmNumber::not_resumable));
+  Entry line;
+  line.line = 4;
+  start(program, line);
+  EXPECT_EQ(run(), FlowState::alarm);
+  EXPECT_EQ(flow.machine_alarm(), &alarm::search_failed);
+}
+
 TEST_F(Flow, ATapIsAMoveOnlyWhileTappingAndCannotBeRestartedInTheThread) {
   const std::string program = "G90 G94 S400 M3\nG0 Z5\nG99 G84 X0 Y0 Z-10 R2 F500\nG80\n";
   start(program);

@@ -45,7 +45,8 @@ TEST(Polyline, FindsTheNearestPieceOfRandomPaths) {
       const Vec3 p = 1.5 * point();
       double best = std::numeric_limits<double>::infinity();
       for (std::size_t i = 0; i < path.pieces().size(); ++i) {
-        const Vec3 a = path.begin_of(i), d = path.pieces()[i].end - a;
+        const Vec3& a = path.begin_of(i);
+        const Vec3 d = path.pieces()[i].end - a;
         const double t = std::clamp((p - a).dot(d) / d.squaredNorm(), 0.0, 1.0);
         best = std::min(best, (p - a - t * d).norm());
       }

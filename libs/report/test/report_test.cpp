@@ -29,11 +29,12 @@ class ReportOfARun : public testing::Test {
     run.program = straight;
   }
   void TearDown() override { std::filesystem::remove(file); }
-  Report report() {
+  Report report(TrueTip true_tip = {}) {
     cycles = test::record_run(run);
     ReportInputs inputs;
     inputs.program_name = "program.nc";
     inputs.program_text = run.program;
+    inputs.true_tip = std::move(true_tip);
     return make_report(file, inputs);
   }
   std::uint64_t cycles = 0;
@@ -53,6 +54,26 @@ TEST_F(ReportOfARun, ALineWithoutErrorHasNone) {
   EXPECT_EQ(r.machine, "ac-table");
 }
 
+// The line is cut along X by 50 mm. The true machine is 4 um off across it, and 2 um more while X goes down.
+TEST_F(ReportOfARun, TheTrueTipIsThatOfTheGivenGeometryAndOfTheDirectionOfApproach) {
+  EXPECT_EQ(report().true_feed.cycles, 0u) << "no geometry is given";
+  run.program = "G54 G90 G61\nG0 X10 Y5 Z10\nG1 X60 F3000\nG1 X10\nM30\n";
+  const auto there =
+      report([](const language::AxisValues& loads, const std::array<int, 9>& approach, double length) {
+        EXPECT_EQ(length, 0) << "no tool is called";
+        // Work zero of ac_table(): (0, 0, -380).
+        return Vec3(loads[0], loads[1] + 0.004 - (approach[0] < 0 ? 0.002 : 0), loads[2]);
+      });
+  EXPECT_LT(there.actual_feed.largest, 1e-9);
+  EXPECT_EQ(there.true_feed.cycles, there.actual_feed.cycles);
+  EXPECT_NEAR(there.true_feed.largest, 0.004, 1e-9);
+  // Half of the cycles each: sqrt((4^2 + 2^2) / 2) = 3.162 um, but for the cycles at the corner.
+  EXPECT_NEAR(there.true_feed.rms, 0.003162, 0.000010);
+  EXPECT_NE(terminal_text(there).find("Contour error, true tip"), std::string::npos);
+  EXPECT_EQ(nlohmann::json::parse(json_text(there))["contour_error"]["true_tip_feed"]["max_mm"],
+            there.true_feed.largest);
+}
+
 // 3 um of Y are across the line, 5 um of X along it: only the first is a contour error.
 TEST_F(ReportOfARun, OnlyTheDistanceFromThePathCounts) {
   run.encoder_error = [](std::uint64_t, std::array<double, 5>& axes) {
@@ -65,6 +86,18 @@ TEST_F(ReportOfARun, OnlyTheDistanceFromThePathCounts) {
   EXPECT_GE(r.actual_feed.largest, 0.003 - 1e-12);
   EXPECT_LE(r.actual_feed.largest, std::hypot(0.003, 0.005) + 1e-12);
   EXPECT_LT(r.commanded_feed.largest, 1e-9);
+}
+
+// Y goes 5 mm to its line and stays there: with 20 um of play its load stops 10 um before. So does Z, which
+// comes from below. On the line along X the load is off by 10 um in both directions across it.
+TEST_F(ReportOfARun, ThePlayOfAnAxisIsAContourErrorBehindItsEncoder) {
+  run.program = "G54 G90 G61\nG0 X10 Y5 Z8\nG1 Z10 F3000\nG1 X60 F3000\nM30\n";
+  EXPECT_LT(report().actual_feed.largest, 1e-9);
+  run.play = {0, 0.02, 0.02, 0, 0};
+  const auto r = report();
+  EXPECT_NEAR(r.actual_feed.largest, std::hypot(0.01, 0.01), 1e-9);
+  EXPECT_LT(r.commanded_feed.largest, 1e-9);
+  EXPECT_EQ(r.actual_feed.cycles, r.commanded_feed.cycles);
 }
 
 TEST_F(ReportOfARun, OneBadCycleIsTheLargestAndIsNamed) {

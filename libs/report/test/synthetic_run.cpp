@@ -3,8 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <array>
-
 #include "bus/codec.hpp"
 #include "bus/registry.hpp"
 #include "channel_setup/channel_setup.hpp"
@@ -138,6 +136,8 @@ std::uint64_t record_run(const RunOptions& options) {
 
   idl::parameters::ParameterSet set;
   set.revision = 1;
+  for (std::uint32_t a = 0; a < options.play.size(); ++a)
+    if (options.play[a] > 0) set.values.push_back({100910 + 1000 * a, options.play[a], ""});
   for (const auto& [number, value] : tables.parameters.values)
     set.values.push_back({number, value.value, value.text});
   file.write(topics::parameter_set, set, start_time - 3);

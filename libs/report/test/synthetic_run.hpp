@@ -3,6 +3,7 @@
 // told.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <string>
 
@@ -19,10 +20,11 @@ struct RunOptions {
   std::string program;
   /// Changes the position the encoders show, mm and deg: axes X Y Z A C of cycle n after the start.
   std::function<void(std::uint64_t n, std::array<double, 5>& axes)> encoder_error;
-  int skipped_frame = -1;  ///< this gantry frame is left out of the recording
-  int late_frames = 0;     ///< the recording begins so many path frames late
-  bool replicas = false;   ///< every kinematics frame comes twice
-  bool cut_off = false;    ///< the file ends without a summary
+  std::array<double, 5> play{};  ///< 10a910 of X Y Z A C, mm and deg
+  int skipped_frame = -1;        ///< this gantry frame is left out of the recording
+  int late_frames = 0;           ///< the recording begins so many path frames late
+  bool replicas = false;         ///< every kinematics frame comes twice
+  bool cut_off = false;          ///< the file ends without a summary
 };
 
 inline constexpr std::uint64_t first_cycle = 1000, frame_cycles = 8;

@@ -14,6 +14,7 @@ MachineOutline machine() {
   auto m = outline(geometry::ac_table());
   m.drives = {"X", "Y2", "C"};
   m.turning = {"C"};
+  m.spindles = {"S"};
   return m;
 }
 
@@ -58,10 +59,77 @@ drives:
   EXPECT_DOUBLE_EQ(drives.at("C").motor.resolution, 10e-6 * degrees);
 }
 
+TEST(DriveSection, ASpindleHasTheTorqueOfItsCurveAtEverySpeed) {
+  const auto spindles =
+      parse_truth("spindle_drives: {S: {inertia_kg_m2: 0.05, torque_Nm: [[0, 80], [1500, 80], [6000, 20]]}}",
+                  "truth.yaml", machine())
+          .spindle_drives;
+  const auto& s = spindles.at("S");
+  EXPECT_EQ(s.inertia, 0.05);
+  EXPECT_EQ(s.torque_at(-700), 80);
+  // Half way from 1500 to 6000 1/min: the mean of 80 and 20 Nm.
+  EXPECT_DOUBLE_EQ(s.torque_at(3750), 50);
+  EXPECT_DOUBLE_EQ(s.torque_at(-3750), 50);
+  EXPECT_EQ(s.torque_at(9000), 20);
+}
+
+TEST(DriveSection, ASeededMachineHasDrawnDrivesOnDemandAndItsOwnEntriesReplaceThem) {
+  const std::string geometry = "random: {grade: worn_trunnion, seed: 7";
+  EXPECT_TRUE(parse_truth(geometry + "}", "truth.yaml", machine()).drives.empty());
+  EXPECT_TRUE(parse_truth(geometry + ", drives: false}", "truth.yaml", machine()).drives.empty());
+  const auto drawn = parse_truth(geometry + ", drives: true}", "truth.yaml", machine());
+  ASSERT_EQ(drawn.drives.size(), 3u);
+  EXPECT_FALSE(drawn.geometry.beam) << "the machine has no slave";
+  // Backlash of C in deg: 6 um at a radius of 100 mm are 60 urad, within a factor of 0.4 .. 1.6.
+  const double backlash = drawn.drives.at("C").mechanics->backlash * std::numbers::pi / 180 * 1e6;
+  EXPECT_GT(backlash, 0.4 * 60);
+  EXPECT_LT(backlash, 1.6 * 60);
+  EXPECT_NE(drawn.drives.at("X").mechanics->load_share, drawn.drives.at("Y2").mechanics->load_share);
+  EXPECT_EQ(drawn.drives.at("X").mechanics->load_share,
+            parse_truth(geometry + ", drives: true}", "truth.yaml", machine())
+                .drives.at("X")
+                .mechanics->load_share);
+  const auto replaced =
+      parse_truth("drives: {X: {mechanics: {load_share: 0.6}}}\n" + geometry + ", drives: true}",
+                  "truth.yaml", machine());
+  EXPECT_EQ(replaced.drives.at("X").mechanics->load_share, 0.6);
+  EXPECT_EQ(replaced.drives.at("X").mechanics->coulomb, 0) << "the whole entry, not a part of it";
+  EXPECT_EQ(replaced.drives.at("Y2").mechanics->coulomb, drawn.drives.at("Y2").mechanics->coulomb);
+}
+
+TEST(DriveSection, ASeededGantryHasADrawnBeamBetweenTheEndsOfItsOtherAxis) {
+  auto m = machine();
+  m.gantry = 1;
+  const auto beam = [&](int seed, const char* more = "") {
+    return *parse_truth(
+                "random: {grade: new_gantry, drives: true, seed: " + std::to_string(seed) + "}\n" + more,
+                "truth.yaml", m)
+                .geometry.beam;
+  };
+  EXPECT_EQ(beam(1).axis, 1u);
+  EXPECT_EQ(beam(1).master_foot, Vec3(-400, 0, 0));
+  EXPECT_EQ(beam(1).slave_foot, Vec3(400, 0, 0));
+  double squares = 0;
+  for (int seed = 1; seed <= 400; ++seed) squares += std::pow(beam(seed).misalignment * 1e3, 2);
+  // The deviation of new_gantry is 40 um; of 400 squares the mean is known to 7 %.
+  EXPECT_NEAR(squares / 400, 40 * 40, 0.25 * 40 * 40);
+  EXPECT_EQ(beam(1, "beam: {axis: Y, slave_foot_mm: [900, 0, 0], misalignment_um: 7}").misalignment, 0.007);
+  EXPECT_FALSE(parse_truth("random: {grade: new_gantry}", "truth.yaml", m).geometry.beam);
+}
+
 TEST(DriveSection, EveryFaultIsOneLineWithItsPlace) {
   const std::vector<std::pair<std::string, std::string>> faults{
       {"drives: {Y: {}}", "1:10: error: unknown key 'Y'; the keys are X, Y2, C"},
       {"drives: {X: {feedback: load}}", "1:14: error: unknown key 'feedback'"},
+      {"spindle_drives: {X: {}}", "1:18: error: unknown key 'X'; the keys are S"},
+      {"spindle_drives: {S: {inertia_kg_m2: 1}}", "1:21: error: 'torque_Nm' is missing"},
+      {"spindle_drives: {S: {inertia_kg_m2: 0, torque_Nm: [[0, 1]]}}",
+       "1:37: error: 0 is not within 1e-06 .. 10000"},
+      {"spindle_drives: {S: {inertia_kg_m2: 1, torque_Nm: [[0, 1], [0, 2]]}}",
+       "1:60: error: the speeds of the torque curve must rise"},
+      {"spindle_drives: {S: {inertia_kg_m2: 1, torque_Nm: [5]}}",
+       "1:52: error: expected a point [1/min, Nm]"},
+      {"random: {grade: new_machine, drives: some}", "1:38: error: 'some' is none of false, true"},
       {"drives: {X: {mechanics: {load_share: 1}}}", "1:38: error: 1 is not within 0.02 .. 0.98"},
       {"drives: {X: {mechanics: {locked_frequency_Hz: 400}}}", "1:25: error: the resonance"},
       {"drives: {X: {mechanics: {coulomb: 0.1, breakaway: 0.05}}}",

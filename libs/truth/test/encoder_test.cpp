@@ -3,8 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 namespace trunnion::truth {
 namespace {
@@ -69,10 +71,8 @@ TEST(Encoder, TwoDistanceCodedMarksGiveThePositionFromAnyPlaceInBothDirections) 
         const double end = start + direction * 22;
         move(e, start, end);
         ASSERT_TRUE(e.reference()) << start;
-        // The reading, counted from the reference, is the position; an inverted scale has its marks in its
-        // own direction.
-        const double expected = inverted ? *e.reference() : end;
-        EXPECT_NEAR(inverted ? *e.reference() : e.reading() + *e.reference(), expected, 2e-4) << start;
+        // A scale mounted the wrong way round counts down: its counts are minus the position.
+        EXPECT_NEAR((inverted ? -1 : 1) * (e.reading() + *e.reference()), end, 2e-4) << start;
       }
   }
 }
@@ -88,6 +88,44 @@ TEST(Encoder, EveryGapOfADistanceCodedScaleIsThereOnce) {
   }
   EXPECT_FALSE(decode_gap(t, 10)) << "no gap without an increment";
   EXPECT_FALSE(decode_gap(t, 10.11)) << "5.5 increments: pulses are missing";
+}
+
+// The marks that each motion passes, one after the other, by their positions.
+TEST(Encoder, EveryMarkIsLatchedOnceWhereverAMotionBeginsOrTurns) {
+  for (const auto kind : {EncoderKind::incremental, EncoderKind::distance_coded}) {
+    EncoderTruth t;
+    t.kind = kind;
+    t.mark_spacing = 20, t.mark_increment = 0.02, t.first_mark = -600, t.resolution = 1e-4;
+    std::vector<double> marks;
+    for (long n = 2; n < 80; ++n)
+      marks.push_back(kind == EncoderKind::distance_coded ? distance_coded_mark(t, n)
+                                                          : t.first_mark + static_cast<double>(n) * 20);
+    double at = -500;
+    auto e = encoder(t, at);
+    std::uint64_t passed = 0;
+    double newest = 0;
+    // Steps of up to 15 mm pass no, one or two marks; some end on a mark: it belongs to the way that comes
+    // from below and to the one that leaves it downwards.
+    for (int i = 0; i < 3000; ++i) {
+      double to = i % 7 == 0 ? marks[static_cast<std::size_t>(20 + i % 11)]
+                             : at + (i % 13 == 0 ? 15.0 : 0.8) * std::sin(0.1 * i);
+      to = std::clamp(to, -550.0, 150.0);
+      const auto mark_count = passed;
+      for (const double mark : marks)
+        if (mark > std::min(at, to) && mark <= std::max(at, to)) {
+          // Upwards the highest is the newest one, downwards the lowest.
+          if (to > at || mark_count == passed) newest = mark;
+          ++passed;
+        }
+      e.move(to);
+      ASSERT_EQ(e.marks(), passed) << i;
+      if (passed > 0) {
+        ASSERT_NEAR(e.mark_latch(), newest + 500, 1e-4) << i;
+      }
+      at = to;
+    }
+    EXPECT_GT(passed, 300u);
+  }
 }
 
 TEST(Encoder, InterpolationErrorsOfASignalHaveTheirHarmonics) {

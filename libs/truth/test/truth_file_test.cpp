@@ -99,7 +99,7 @@ TEST(TruthFile, EveryFaultIsOneLineWithItsPlace) {
   const std::vector<std::pair<std::string, std::string>> faults{
       {"axis: {}",
        "1:1: error: unknown key 'axis'; the keys are structure, random, axes, spindle, beam, drives, "
-       "instruments, probe, solids"},
+       "spindle_drives, instruments, probe, solids"},
       {"axes: {X: {EXY: []}}",
        "1:12: error: unknown key 'EXY'; the keys are reference_point_mm, thermal, EXX"},
       {"axes: {B: {}}", "1:11: error: the machine has no linear or rotary axis 'B' in its kinematic chain"},

@@ -139,6 +139,15 @@ TEST(GatewayPlan, WhatNobodyWaitedForIsNotSentAgain) {
   EXPECT_EQ(plan.requests.size(), 1u);
 }
 
+TEST(GatewayPlan, AnUndoFromTheJournalThatIsNotInARecordingIsNotSentAgain) {
+  auto recording = one_order();
+  recording.messages.push_back(
+      stored(topics::operator_request, operator_line("/api/measurement/undo", "{}", 7, 5, 1), 24));
+  const auto plan = plan_gateway(recording);
+  EXPECT_EQ(plan.requests.size(), 1u);
+  EXPECT_EQ(plan.left_out, 1u);
+}
+
 TEST(GatewayPlan, ItLooksAroundAlarmsAndEverySoOften) {
   auto recording = shown_recording();
   idl::service::Alarm alarm{};

@@ -38,6 +38,23 @@ TEST(ShownState, IsTheNewestOfEachTopic) {
   EXPECT_EQ(document["revisions"]["parameters"], 1);
 }
 
+TEST(ShownState, TheMeasurementIsInTheStreamAndItsResultIsReadBesideIt) {
+  auto recording = shown_recording();
+  EXPECT_FALSE(shown_of(recording).contains("measurement")) << "a machine without the service";
+  idl::measurement::MeasurementState state;
+  state.measurement = 3, state.phase = idl::measurement::Phase::WAITING, state.poses = 5;
+  idl::measurement::MeasurementResult result;
+  result.measurement = 3, result.touch_deviation = 0.001;
+  recording.messages.push_back(stored(topics::measurement_state, state, 11));
+  recording.messages.push_back(stored(topics::measurement_result, result, 12));
+  EXPECT_EQ(shown_of(recording)["measurement"]["phase"], "WAITING");
+  ShownState shown;
+  for (const auto& message : recording.messages) shown.observe(message);
+  const auto answer = shown.answers().at("/api/measurement");
+  EXPECT_EQ(answer["state"]["poses"], 5);
+  EXPECT_EQ(answer["result"]["touch_deviation"], 0.001);
+}
+
 TEST(ShownState, AxesAreTheLastRowOfTheFeedbackUnderTheirLogicalNumbers) {
   StoredRecording recording;
   idl::parameters::ParameterSet set;
@@ -104,7 +121,7 @@ TEST(ShownState, ADifferenceIsNamedByItsPathAndBothValues) {
   EXPECT_EQ(shown_difference(expected, shown), "document: axes is not shown");
   shown = expected;
   shown["channels"]["1"] = 1;
-  EXPECT_EQ(shown_difference(expected, shown), "channels: 1 is shown, but nothing tells of it");
+  EXPECT_EQ(shown_difference(expected, shown), "channels: 1 is shown, but no topic has it");
 }
 
 }  // namespace

@@ -57,7 +57,7 @@ TEST(Suite, WhatIsWrongIsOneLineWithItsPlace) {
       {"tests:\n  - {services: [drive]}", "dir/suite.yaml:2:5: error: 'recording' is missing"},
       {"tests:\n  - {recording: ''}", "dir/suite.yaml:2:17: error: 'recording' is empty"},
       {"tests:\n  - {recording: a, service: drive}",
-       "dir/suite.yaml:2:20: error: unknown key 'service', known are recording"},
+       "dir/suite.yaml:2:20: error: unknown key 'service'; the keys are recording"},
       {"tests:\n  - {recording: a, services: [drives]}",
        "dir/suite.yaml:2:31: error: there is no service 'drives'"},
       {"tests:\n  - {recording: a, services: [plc]}", "has no service 'plc'"},
@@ -68,7 +68,7 @@ TEST(Suite, WhatIsWrongIsOneLineWithItsPlace) {
       {"timeout: 0\ntests: [{recording: a}]", "1:10: error: timeout must be above 0"},
       {"tests: [{recording: a, services: [kinematics], require: {compensation: all}}]", "is not verified"},
       {"tests: {", "dir/suite.yaml:"},
-      {"- 1", "1:1: error: expected keys with values"},
+      {"- 1", "1:1: error: expected 'key: value' with the keys title, timeout, tests"},
   };
   for (const auto& [text, error] : wrong) EXPECT_THAT(error_of(text), HasSubstr(error)) << text;
 }

@@ -236,6 +236,19 @@ TEST(OrderedPlan, FeedsEachInputOnceTheServiceHasWrittenWhatItHadWrittenBefore) 
   EXPECT_TRUE(plan.end.empty()) << "nothing was written after the last input";
 }
 
+TEST(OrderedPlan, NamesTheFirstCyclesOfTheFeedbackThatTheRecorderHasLost) {
+  StoredRecording recording;
+  recording.messages = {parameters(1, 1), stored(topics::path_frame, path_frame(0, true, true), 3),
+                        stored(topics::feedback_frame, feedback_frame(0, 8), 5),
+                        stored(topics::feedback_frame, feedback_frame(8, 0), 6),
+                        stored(topics::feedback_frame, feedback_frame(8, 8), 7)};
+  EXPECT_EQ(missing_feedback(plan_verification(recording, "channel", 0)), "");
+  recording.messages.push_back(stored(topics::feedback_frame, feedback_frame(40, 8), 8));
+  recording.messages.push_back(stored(topics::feedback_frame, feedback_frame(64, 8), 9));
+  EXPECT_EQ(missing_feedback(plan_verification(recording, "channel", 0)),
+            "the recording misses cycles 16 to 39 of feedback_frame");
+}
+
 TEST(TickPlan, GivesTheDriveItsInputsAtTheTicksAtWhichTheyTookEffect) {
   // The PLC's order was written before the second frame and taken behind it, at tick 8.
   StoredRecording recording;
@@ -386,6 +399,33 @@ TEST(OrderedPlan, AChannelIsFedAndComparedWithItsOwn) {
   const auto plan = plan_verification(recording, "channel", 1);
   EXPECT_EQ(plan.cycles, 8u);
   EXPECT_TRUE(plan.ignored.contains("auxiliary_request.cycle"));
+}
+
+// The reader of a state keeps the newest alone: a channel that gets its processor late misses the others.
+TEST(OrderedPlan, OutputsThatOthersReplacedBeforeTheChannelReadThemAreNotFed) {
+  const auto outputs = [](bool hold) {
+    idl::plc::Outputs made;
+    made.tick = 7;  // nothing moves, so all are of one tick
+    made.feed_hold = hold;
+    return made;
+  };
+  idl::channel::ChannelReply taken;
+  taken.client = 2, taken.number = 7, taken.accepted = true;  // of channel 1
+  StoredRecording recording;
+  recording.messages = {
+      parameters(1, 1),
+      stored(topics::feedback_frame, feedback_frame(0, 8), 5),
+      stored(topics::plc_outputs, outputs(false), 10),  // the first: there is nothing to differ from
+      stored(topics::plc_outputs, outputs(true), 20),   // replaced by the next, which changes nothing
+      stored(topics::plc_outputs, outputs(false), 21),
+      stored(topics::plc_outputs, outputs(true), 30),
+      stored(topics::channel_reply, taken, 31),
+      stored(topics::plc_outputs, outputs(true), 40),  // published again
+  };
+  std::string fed;
+  for (const auto& step : plan_verification(recording, "channel", 1).steps)
+    if (step.message->topic->handle == "plc_outputs") fed += std::to_string(step.message->time) + " ";
+  EXPECT_EQ(fed, "10 21 30 40 ");
 }
 
 TEST(Answers, AddressesTheRecordedReplyToWhoAsksNow) {

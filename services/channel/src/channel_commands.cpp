@@ -16,8 +16,8 @@ using idl::channel::CommandKind;
 namespace {
 
 /// Of an override, to whole percents within its limits.
-void step(double& override_, double by, double minimum, double maximum) {
-  override_ = std::clamp(std::round(100 * (override_ + by)) / 100, minimum, maximum);
+double stepped(double override_, double by, double minimum, double maximum) {
+  return std::clamp(std::round(100 * (override_ + by)) / 100, minimum, maximum);
 }
 
 }  // namespace
@@ -35,6 +35,42 @@ Answer ChannelCore::startable() const {
   if (link().drive_mode() == DriveMode::OFF) return refuse(alarm::not_ready, "The drives are off");
   if (link().drive_mode() == DriveMode::HOMING)
     return refuse(alarm::not_ready, "An axis searches its reference: wait until it has found it");
+  return {};
+}
+
+Answer ChannelCore::may_start() const {
+  if (!control_.start_inhibit) return {};
+  return refuse(
+      alarm::not_ready,
+      "No cycle start: " + (control_.reason.empty() ? "the machine's PLC inhibits it" : control_.reason));
+}
+
+Answer ChannelCore::may_move_by_hand() const {
+  if (!control_.manual_inhibit) return {};
+  return refuse(
+      alarm::not_ready,
+      "No manual motion: " + (control_.reason.empty() ? "the machine's PLC inhibits it" : control_.reason));
+}
+
+// A jog stops at once; an axis that searches its reference is stopped by the PLC with its enable.
+void ChannelCore::set_control(const idl::plc::ChannelControl& control) {
+  const bool inhibited = control.manual_inhibit && !control_.manual_inhibit;
+  control_ = control;
+  if (inhibited) {
+    manual_.stop();
+    stop_jog();
+  }
+  if (!control_.sets_overrides) return;
+  switches_.feed_override = std::clamp(control_.feed_override, 0.0, 1.5);
+  switches_.rapid_override = std::clamp(control_.rapid_override, 0.0, 1.0);
+  switches_.spindle_override = std::clamp(control_.spindle_override, 0.5, 1.5);
+}
+
+Answer ChannelCore::set_override(double& override_, double fraction) {
+  if (control_.sets_overrides)
+    return refuse(alarm::request_invalid,
+                  "The override switches of the machine's panel are in force: turn them");
+  override_ = fraction;
   return {};
 }
 
@@ -70,23 +106,20 @@ Answer ChannelCore::handle(const ChannelRequest& request) {
     case CommandKind::HANDWHEEL:
       return turn_handwheel(request);
     case CommandKind::FEED_OVERRIDE:
-      switches_.feed_override = request.fraction;
-      return {};
+      return set_override(switches_.feed_override, request.fraction);
     case CommandKind::RAPID_OVERRIDE:
-      switches_.rapid_override = request.fraction;
-      return {};
+      return set_override(switches_.rapid_override, request.fraction);
     case CommandKind::SPINDLE_OVERRIDE:
-      switches_.spindle_override = request.fraction;
-      return {};
+      return set_override(switches_.spindle_override, request.fraction);
     case CommandKind::FEED_OVERRIDE_STEP:
-      step(switches_.feed_override, request.fraction, 0, 1.5);
-      return {};
+      return set_override(switches_.feed_override,
+                          stepped(switches_.feed_override, request.fraction, 0, 1.5));
     case CommandKind::RAPID_OVERRIDE_STEP:
-      step(switches_.rapid_override, request.fraction, 0, 1);
-      return {};
+      return set_override(switches_.rapid_override,
+                          stepped(switches_.rapid_override, request.fraction, 0, 1));
     case CommandKind::SPINDLE_OVERRIDE_STEP:
-      step(switches_.spindle_override, request.fraction, 0.5, 1.5);
-      return {};
+      return set_override(switches_.spindle_override,
+                          stepped(switches_.spindle_override, request.fraction, 0.5, 1.5));
     case CommandKind::SINGLE_BLOCK:
       switches_.single_block = request.on;
       return {};
@@ -95,6 +128,9 @@ Answer ChannelCore::handle(const ChannelRequest& request) {
       return {};
     case CommandKind::RETRACE:
       return retrace(request.on);
+    case CommandKind::SET_PARTS:
+      parts_ = request.parts;
+      return {};
     case CommandKind::DRY_RUN:
     case CommandKind::AXIS_LOCK:
     case CommandKind::AUXILIARY_LOCK:
@@ -132,6 +168,7 @@ Answer ChannelCore::select(const std::string& name) {
 }
 
 Answer ChannelCore::cycle_start() {
+  if (auto answer = may_start(); !answer.accepted) return answer;
   if (auto answer = startable(); !answer.accepted) return answer;
   if (states_.in<Idle>()) {
     if (mode_ != Mode::AUTO)
@@ -165,6 +202,7 @@ Answer ChannelCore::continue_after_interruption() {
 
 Answer ChannelCore::reference(std::uint8_t index) {
   if (mode_ != Mode::REF) return refuse(alarm::request_invalid, "Reference return needs mode REF");
+  if (auto answer = may_move_by_hand(); !answer.accepted) return answer;
   auto move = manual_.reference(index);
   if (auto* refusal = std::get_if<Refusal>(&move)) return refuse(std::move(*refusal));
   const auto number = machine_.channel_axes().number[index];
@@ -185,6 +223,7 @@ Answer ChannelCore::reference(std::uint8_t index) {
 Answer ChannelCore::jog(const ChannelRequest& request) {
   if (mode_ != Mode::JOG) return refuse(alarm::request_invalid, "Jog needs mode JOG");
   if (auto error = manual_.jog_error(request.axis, request.speed)) return refuse(std::move(*error));
+  if (auto answer = may_move_by_hand(); !answer.accepted) return answer;
   if (states_.busy()) return refuse(alarm::request_invalid, "The channel is busy");
   adopt_position();
   auto move = manual_.jog(request.axis, request.speed, request.increment, machine_start_);
@@ -241,6 +280,7 @@ void ChannelCore::reset() {
     stop_activity();
   else
     states_.end();
+  end_cycle();
   leave_temporary_program();
   if (stream_.idle()) drop_offset();
   apply_parameters();

@@ -17,6 +17,7 @@ ChannelCore::ChannelCore(std::uint16_t channel, bool virtual_time)
       machine_(channel),
       stream_(channel),
       handshake_(channel),
+      cycle_call_(channel),
       manual_(machine_),
       program_path_(machine_),
       manual_path_(machine_),
@@ -75,6 +76,7 @@ void ChannelCore::set_offsets(const idl::parameters::WorkOffsets& offsets) { mac
 
 void ChannelCore::set_programs(const idl::program::ProgramList& programs) {
   programs_ = programs;
+  settle_cycle();
   if (!states_.in<Idle>()) return;
   for (const auto& entry : programs_.programs)
     if (entry.name == selected_.name) selected_ = entry;
@@ -86,6 +88,7 @@ RunningProgram ChannelCore::running_program() const {
     program = {selected_.name, selected_.revision, selected_.crc32,
                std::max<std::uint32_t>(progress_.executed.line, 1)};
   program.ended = ended_;
+  program.parts = parts_;
   return program;
 }
 
@@ -137,6 +140,7 @@ void ChannelCore::stop_activity() {
   keep_variables();
   if (states_.is(Activity::program) && preparing == nullptr) states_.forget_suspended();
   states_.end();
+  end_cycle();
   leave_temporary_program();
   restart_.reset();
   jog_obstacle_.reset();
@@ -164,6 +168,7 @@ void ChannelCore::finish(bool program_end) {
     end_snapshot();
   }
   states_.end();
+  end_cycle();
   leave_temporary_program();
   restart_.reset();
   if (reset) drop_offset();
@@ -178,6 +183,11 @@ void ChannelCore::leave_temporary_program() {
   selected_ = {};
   for (const auto& entry : programs_.programs)
     if (entry.name == name) selected_ = entry;
+}
+
+// A program that is suspended for MDI has not ended.
+void ChannelCore::end_cycle() {
+  if (states_.in<Idle>()) cycle_call_.end();
 }
 
 // What a program does at rest behind its last motion is written nowhere: the drive keeps a snapshot in which

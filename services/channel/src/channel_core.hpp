@@ -22,6 +22,7 @@
 #include "channel_states.hpp"
 #include "collision_guard/collision_guard.hpp"
 #include "contracts/types.hpp"
+#include "cycle_call.hpp"
 #include "exact_stop_check.hpp"
 #include "hand_over.hpp"
 #include "machine/alarm_definition.hpp"
@@ -75,7 +76,11 @@ class ChannelCore {
   /// The kept variables of the last time.
   void set_variables(const language::VariableStore& variables) { *variables_ = variables; }
   /// The program under way when the control was switched off: a start from its line is offered.
-  void set_interrupted(const RunningProgram& program) { interrupted_ = program, ended_ = program.ended; }
+  void set_interrupted(const RunningProgram& program) {
+    interrupted_ = program, ended_ = program.ended, parts_ = program.parts;
+  }
+  /// Machined since the count was set.
+  std::uint32_t parts() const { return parts_; }
   /// `collision: warn` or `stop` of machine.yaml; without it nothing is checked.
   void guard(machine::CollisionMode mode, const collision_guard::BodiesText& bodies);
   void set_programs(const idl::program::ProgramList& programs);
@@ -87,13 +92,26 @@ class ChannelCore {
   void on_auxiliary_done(const idl::plc::AuxiliaryDone& done);
   /// The answer to the request of take_table_request(); `reason` is empty when the table was changed.
   void on_table_changed(const std::string& reason);
+  /// A service of the machine carries out the cycles of programs.
+  void set_cycle_service(bool present) { cycle_service_ = present; }
+  /// The answer to the request of take_cycle_request().
+  void on_cycle_reply(const CycleReply& reply);
+  /// Whether the service has not said that it has received the call for which the program waits.
+  bool cycle_unheard() const { return cycle_call_.unheard(); }
+  /// It is given up: the program ends with an alarm.
+  void give_up_cycle();
   /// Alarms that stop motion, or the PLC's feed hold: `why` is empty when there is none.
   void set_hold(const std::string& why);
+  /// What the PLC decides of this channel; its overrides stay when it sets them no longer.
+  void set_control(const idl::plc::ChannelControl& control);
+  const idl::plc::ChannelControl& control() const { return control_; }
   /// Logical numbers of the axes whose position is not known: a reference return gives them their reference.
   void set_unreferenced(std::set<std::uint16_t> axes) { unreferenced_ = std::move(axes); }
   void set_ready(bool ready) { ready_ = ready; }
   /// As StreamWriter::set_replicas().
   void set_replicas(bool may_start, std::uint64_t floor) { stream_.set_replicas(may_start, floor); }
+  /// As StreamWriter::set_limit().
+  void set_limit(std::uint64_t limit) { stream_.set_limit(limit); }
   Answer handle(const idl::channel::ChannelRequest& request);
   std::optional<ChunkWanted> wanted() const;
   void deliver(const std::string& name, std::uint64_t offset, std::vector<std::uint8_t> data);
@@ -107,6 +125,7 @@ class ChannelCore {
   std::optional<idl::parameters::ParameterRequest> take_table_request() {
     return handshake_.take_table_request();
   }
+  std::optional<CycleRequest> take_cycle_request() { return cycle_call_.take_request(); }
   /// The variables, when a program or an MDI line has ended since the last time.
   const language::VariableStore* take_variables() {
     return std::exchange(variables_news_, false) ? variables_.get() : nullptr;
@@ -146,6 +165,9 @@ class ChannelCore {
   Answer refuse(const machine::AlarmDefinition& alarm, std::string reason) const;
   Answer refuse(Refusal refusal) const { return refuse(*refusal.alarm, std::move(refusal.reason)); }
   Answer startable() const;
+  Answer may_start() const;
+  Answer may_move_by_hand() const;
+  Answer set_override(double& override_, double fraction);
   Answer set_mode(Mode mode);
   Answer select(const std::string& name);
   Answer cycle_start();
@@ -189,6 +211,7 @@ class ChannelCore {
   void stop_activity();
   void end_snapshot();
   void leave_temporary_program();
+  void end_cycle();
   void finish(bool program_end);
   void keep_variables();
   void apply_parameters();
@@ -211,7 +234,12 @@ class ChannelCore {
   // channel_requests.cpp: what a program asks of the rest of the control.
   void run_pending(FlowState state);
   void execute(const language::Command& command);
+  void count_part();
   void begin_auxiliary(const program_execution::AuxiliaryFunction& function);
+
+  void begin_cycle(const language::Command& command);
+  void settle_cycle();
+  void refuse_cycle(const std::string& reason);
 
   // channel_cycles.cpp: moves that a skip input ends, and those a spindle follows.
   void begin_skip();
@@ -262,6 +290,8 @@ class ChannelCore {
   ChannelStates states_;
   StreamWriter stream_;
   AuxiliaryHandshake handshake_;
+  CycleCall cycle_call_;
+  bool cycle_service_ = false;
   ManualMotion manual_;
   // The program's motion stays planned while the axes are moved by MDI, by hand or to the program's start.
   ChannelPath program_path_, manual_path_;
@@ -280,6 +310,7 @@ class ChannelCore {
   Switches switches_;
   bool ready_ = false, recovered_ = false;
   std::string external_hold_;
+  idl::plc::ChannelControl control_;
   std::set<std::uint16_t> unreferenced_;
   std::uint32_t reset_count_ = 0;
 
@@ -288,7 +319,8 @@ class ChannelCore {
   std::optional<RestartPoint> restart_;  // of the program, until it is reached
   AxisValues program_start_{};           // machine coordinates
   std::uint64_t ended_ = 0;              // newest cycle of the drive's snapshot when a program ended
-  RunningProgram interrupted_;           // before this process started, by the end of the control
+  std::uint32_t parts_ = 0;
+  RunningProgram interrupted_;  // before this process started, by the end of the control
   Mdi mdi_;
   AxisValues machine_start_{};  // of the path at rest, in machine coordinates
   PathProgress progress_;

@@ -17,9 +17,11 @@ struct ChannelFields {
     template <class Self, class Visit>
     static void fields(Self& self, Visit&& visit) {
       auto& c = self.core;
-      visit("link", c.stream_.link()), visit("handshake", c.handshake_), visit("lock", c.lock_);
+      visit("link", c.stream_.link()), visit("handshake", c.handshake_), visit("cycle_call", c.cycle_call_),
+          visit("lock", c.lock_);
       visit("mode", c.mode_), visit("switches", c.switches_), visit("ready", c.ready_);
-      visit("hold", c.external_hold_), visit("reset_count", c.reset_count_), visit("selected", c.selected_);
+      visit("hold", c.external_hold_), visit("control", c.control_), visit("reset_count", c.reset_count_),
+          visit("selected", c.selected_);
       visit("program_start", c.program_start_), visit("interrupted", c.interrupted_);
       visit("modal", c.mdi_.modal), visit("position", c.machine_start_), visit("progress", c.progress_);
       visit("tool", c.tool_), visit("spindle_programmed", c.spindle_programmed_);
@@ -32,7 +34,8 @@ bus::Json ChannelCore::explicit_state(std::string& why_not) const {
     why_not = "the channel waits for the drive";
   else if (!states_.in<Idle>())
     why_not = "the channel is " + states_.name();
-  else if (!link().at_rest() || !handshake_.at_rest() || !manual_.offset_at_rest() || next_parameters_)
+  else if (!link().at_rest() || !handshake_.at_rest() || !cycle_call_.at_rest() ||
+           !manual_.offset_at_rest() || next_parameters_)
     why_not = "the channel comes to rest";
   else if (mdi_.frames_kept)
     why_not = "the coordinate frames of the MDI lines since the last program or reset are in no snapshot";
@@ -41,6 +44,7 @@ bus::Json ChannelCore::explicit_state(std::string& why_not) const {
   state["offset_on"] = manual_.offset_on();
   state["offset"] = manual_.offset();
   state["ended"] = ended_;
+  state["parts"] = parts_;
   state["skips"] = snapshot::written(program_flow_.skips());
   state["variables"] = write_variables(*variables_, this_boot);
   if (const auto* executed = stream_.executed()) state["executed"] = snapshot::written(*executed);
@@ -55,6 +59,7 @@ void ChannelCore::continue_from(const bus::Json& state) {
   std::vector<program_execution::SkipResult> skips;
   snapshot::read(state.at("skips"), skips);
   ended_ = state.value("ended", std::uint64_t{0});
+  parts_ = state.value("parts", std::uint32_t{0});
   program_flow_.set_skips(std::move(skips));
   *variables_ = {};
   read_variables(state.at("variables").get<std::string>(), "snapshot", this_boot, *variables_);

@@ -13,7 +13,7 @@ void ChannelCore::on_feedback(const idl::stream::FeedbackFrame& feedback) {
   skip_.on_feedback(feedback, machine_.channel_axes(), machine_.columns());
   exact_stop_.on_feedback(feedback);
   remember_executed();
-  if (first) handshake_.continue_numbers(link.epoch());
+  if (first) handshake_.continue_numbers(link.epoch()), cycle_call_.continue_numbers(link.epoch());
   const auto mode = link.drive_mode();
   if (link.state() == LinkState::lost)
     interrupt("The drive was restarted");

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a program asks of the rest of the control while the axes are at rest: the PLC, the tables, the
-// operator.
+// operator, the services that carry out cycles.
+#include <algorithm>
+
 #include "channel_core.hpp"
 #include "language/codes.hpp"
 #include "machine/alarm_constants.hpp"
@@ -12,7 +14,25 @@ using program_execution::AuxiliaryKind;
 
 namespace {
 constexpr std::uint32_t program_stop = 0, optional_stop = 1, tool_change = 6;  // M0, M1, M6
+// Results of measuring programs, docs/calibration-programs.md; the last one says that they are complete.
+constexpr std::uint32_t first_user = 50000, first_result = 52150, last_result = 52199,
+                        complete_result = 52999;
+
+CycleRequest cycle_request(const language::Command& command, const ProgramFlow& flow) {
+  CycleRequest request;
+  request.cycle = command.number;
+  request.line = flow.main_line();
+  request.tool_length = command.modal.tool_length;
+  const auto add = [&](std::uint32_t number, const language::Value& value) {
+    if (value.given) request.numbers.push_back(number), request.values.push_back(value.number);
+  };
+  for (std::uint32_t i = 0; i < language::local_variables; ++i) add(i, flow.locals()[i]);
+  const auto& user = flow.variables().user;
+  for (auto i = first_result; i <= last_result; ++i) add(i, user[i - first_user]);
+  add(complete_result, user[complete_result - first_user]);
+  return request;
 }
+}  // namespace
 
 // The axes are at rest and the drive has executed everything: what stopped the flow is handled now.
 void ChannelCore::run_pending(FlowState state) {
@@ -64,6 +84,9 @@ void ChannelCore::execute(const language::Command& command) {
     case language::CommandKind::table:
       handshake_.begin_table(table_request(command, number_, tool_table_));
       states_.wait();
+      return;
+    case language::CommandKind::cycle:
+      begin_cycle(command);
       return;
     case language::CommandKind::message:
       event(alarm::program_message, program_name() + ":" + std::to_string(command.line) + ": message " +
@@ -121,11 +144,18 @@ void ChannelCore::on_auxiliary_done(const idl::plc::AuxiliaryDone& done) {
   // T only selects a tool; M6 puts it into the spindle.
   if (auxiliary && command.number == tool_change) tool_ = command.modal.tool;
   if (command.kind == language::CommandKind::end) {
+    count_part();
     finish(true);
     return;
   }
   const bool stop = auxiliary && (command.number == program_stop || command.number == optional_stop);
   states_.end_wait(stop || !external_hold_.empty());
+}
+
+// What was only tested, and a program of a command, is no part.
+void ChannelCore::count_part() {
+  const bool tested = switches_.dry_run || switches_.auxiliary_lock || lock_.any();
+  if (states_.is(Activity::program) && !tested && !is_temporary(selected_.name)) ++parts_;
 }
 
 void ChannelCore::on_table_changed(const std::string& reason) {
@@ -136,6 +166,53 @@ void ChannelCore::on_table_changed(const std::string& reason) {
     return;
   }
   flow().finish_pending();
+  states_.end_wait(!external_hold_.empty());
+}
+
+// The axes are at rest, and nothing is read ahead before the answer.
+void ChannelCore::begin_cycle(const language::Command& command) {
+  if (!cycle_service_) {
+    refuse_cycle("this machine has no service `measurement`: add it to machine.yaml");
+    return;
+  }
+  auto request = cycle_request(command, flow());
+  request.program = program_name();
+  const auto position = machine_position();
+  request.machine.assign(position.begin(), position.end());
+  cycle_call_.begin(std::move(request));
+  states_.wait();
+}
+
+void ChannelCore::on_cycle_reply(const CycleReply& reply) {
+  cycle_call_.take(reply);
+  settle_cycle();
+}
+
+void ChannelCore::give_up_cycle() {
+  if (cycle_call_.unheard()) refuse_cycle("the service `measurement` does not answer");
+}
+
+void ChannelCore::refuse_cycle(const std::string& reason) {
+  event(alarm::cycle_refused, program_name() + ":" + std::to_string(flow().main_line()) + ": " + reason);
+  stop_activity();
+}
+
+// The list of programs may come after the answer: a call must not read an older text.
+void ChannelCore::settle_cycle() {
+  if (!cycle_call_.answer()) return;
+  const auto answer = *cycle_call_.answer();
+  if (answer.outcome == CycleOutcome::REFUSED) {
+    refuse_cycle(answer.reason);
+    return;
+  }
+  const bool call = answer.outcome == CycleOutcome::CALL;
+  const auto& stored = programs_.programs;
+  if (call && std::none_of(stored.begin(), stored.end(), [&](const auto& entry) {
+        return entry.name == answer.program && entry.revision >= answer.revision;
+      }))
+    return;
+  cycle_call_.close();
+  flow().cycle_answered(call ? 1 : 0);
   states_.end_wait(!external_hold_.empty());
 }
 

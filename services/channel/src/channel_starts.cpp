@@ -69,6 +69,7 @@ void ChannelCore::begin_manual(Activity activity) {
 Answer ChannelCore::start_mdi(const std::string& line) {
   if (mode_ != Mode::MDI) return refuse(alarm::request_invalid, "An MDI line needs mode MDI");
   if (states_.busy()) return refuse(alarm::request_invalid, "The channel is busy");
+  if (auto answer = may_start(); !answer.accepted) return answer;
   if (auto answer = startable(); !answer.accepted) return answer;
   apply_parameters();
   adopt_position();

@@ -15,6 +15,7 @@ std::string ChannelCore::detail() const {
   if (preparing != nullptr && held) return "cycle start: " + words_of(preparing->preparation, machine_start_);
   if (running && states_.is(Activity::program) && program_flow_.searching())
     return "searching line " + std::to_string(executed.line);
+  if (cycle_call_.open()) return "waits for the measurement of the kinematics";
   if (waits_for_text()) return "waiting for the text of the program";
   if (running && preparing != nullptr && preparing->approaching) return "approaching the program";
   if (running && states_.interpreting() &&
@@ -102,6 +103,7 @@ const idl::channel::ChannelState& ChannelCore::state() {
   s.workpiece.resize(index.size());
   s.distance_to_go.resize(index.size());
   if (machine_.configured()) show_positions();
+  s.parts = parts_;
   s.reset_count = reset_count_;
   s.revision = machine_.revision();
   s.frames_ahead =

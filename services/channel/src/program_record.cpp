@@ -12,8 +12,16 @@
 namespace trunnion::channel {
 namespace {
 
-constexpr const char* head = "trunnion program 2";
-constexpr const char* first_head = "trunnion program 1\n";  // up to version 0.3, without `ended`
+// The formats so far, each with one line more than the one before: the second has `ended`, the third `parts`.
+constexpr const char* head = "trunnion program ";
+constexpr int newest_format = 3;
+constexpr std::size_t first_lines = 6;
+
+int format_of(const std::string& text) {
+  for (int format = 1; format <= newest_format; ++format)
+    if (text.starts_with(head + std::to_string(format) + "\n")) return format;
+  return 0;
+}
 
 template <class Number>
 Number number_of(const std::string& text, const std::string& file, int line) {
@@ -28,33 +36,36 @@ Number number_of(const std::string& text, const std::string& file, int line) {
 }  // namespace
 
 std::string write_record(const RunningProgram& program) {
-  std::string text = head;
+  std::string text = head + std::to_string(newest_format);
   for (const auto number : {program.revision, std::uint64_t{program.crc}, std::uint64_t{program.line}})
     text += "\n" + std::to_string(number);
-  text += "\n" + program.name + "\n" + std::to_string(program.ended) + "\n";
+  text += "\n" + program.name + "\n" + std::to_string(program.ended) + "\n" + std::to_string(program.parts) +
+          "\n";
   return text + std::to_string(storage::crc32(text)) + "\n";
 }
 
 RunningProgram read_record(const std::string& text, const std::string& file) {
   std::istringstream in(text);
-  const bool first_format = text.starts_with(first_head);
-  const std::size_t size = first_format ? 6 : 7;
+  const int format = format_of(text);
+  const std::size_t size = first_lines + static_cast<std::size_t>(std::max(format, 1)) - 1;
   std::vector<std::string> lines(size);
   for (std::size_t i = 0; i < size; ++i)
     if (!std::getline(in, lines[i]) || in.eof())
       throw std::runtime_error(file + ":" + std::to_string(i + 1) + ":1: the file ends here");
-  if (lines[0] != head && !first_format) throw std::runtime_error(file + ":1:1: '" + head + "' expected");
+  if (format == 0)
+    throw std::runtime_error(file + ":1:1: '" + head + std::to_string(newest_format) + "' expected");
   RunningProgram program;
   program.revision = number_of<std::uint64_t>(lines[1], file, 2);
   program.crc = number_of<std::uint32_t>(lines[2], file, 3);
   program.line = number_of<std::uint32_t>(lines[3], file, 4);
   program.name = lines[4];
-  if (!first_format) program.ended = number_of<std::uint64_t>(lines[5], file, 6);
+  if (format >= 2) program.ended = number_of<std::uint64_t>(lines[5], file, 6);
+  if (format >= 3) program.parts = number_of<std::uint32_t>(lines[6], file, 7);
   const auto last = static_cast<int>(size);
   const auto sum = number_of<std::uint32_t>(lines.back(), file, last);
   const auto summed = text.size() - std::min(text.size(), lines.back().size() + 1);
   if (in.peek() != std::istringstream::traits_type::eof() || sum != storage::crc32(text.substr(0, summed)) ||
-      (!first_format && write_record(program) != text))
+      (format == newest_format && write_record(program) != text))
     throw std::runtime_error(file + ":" + std::to_string(last) + ":1: the check sum is wrong");
   return program;
 }

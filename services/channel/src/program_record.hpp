@@ -14,6 +14,7 @@ struct RunningProgram {
   std::uint32_t crc = 0;
   std::uint32_t line = 0;   ///< newest that was executed; 0 = no program is under way
   std::uint64_t ended = 0;  ///< cycle up to which every program has ended; 0 = none has
+  std::uint32_t parts = 0;  ///< machined since the count was set
   bool operator==(const RunningProgram&) const = default;
 
   template <class Self, class Visit>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "stream_link.hpp"
 
-#include <algorithm>
 #include <utility>
 
 namespace trunnion::channel {
@@ -11,19 +10,23 @@ using idl::stream::StreamRequestKind;
 void StreamLink::on_feedback(const idl::stream::FeedbackFrame& feedback) {
   mode_ = feedback.mode;
   tick_ = feedback.tick;
-  executed_ = std::max(executed_, feedback.first + feedback.count);
+  const auto executed = feedback.first + feedback.count;
+  // A drive that has lost what it published last counts cycles again that this epoch has used.
+  const bool counts_again = executed < executed_;
+  executed_ = executed;
   positions_ = feedback.position;
   // The first feedback of a drive that has just started applies its parameters, and no input that could have
   // switched it off.
-  drive_restarted_ =
-      feedback.applied.size() == 1 && feedback.applied[0].input == idl::stream::Input::PARAMETER_SET;
+  drive_restarted_ = counts_again || (feedback.applied.size() == 1 &&
+                                      feedback.applied[0].input == idl::stream::Input::PARAMETER_SET);
   for (const auto& echo : feedback.channels) {
     if (echo.channel != channel_) continue;
     echo_active_ = echo.active;
     const bool forgotten = echo.request < answered_;
     drive_restarted_ = drive_restarted_ || forgotten;
     answered_ = echo.request;
-    if (forgotten && state_ == LinkState::idle) new_epoch_ = true;  // it knows no epoch of ours
+    if ((forgotten || counts_again) && state_ == LinkState::idle) new_epoch_ = true;
+    if (counts_again && state_ == LinkState::requested) state_ = LinkState::lost;
     if (echo.snapshot.valid) snapshot_ = echo.snapshot;
     if (!echo.states.empty()) states_ = echo.states;
     if (!asked_) {  // a process before this one may have: numbers and epochs continue from its newest

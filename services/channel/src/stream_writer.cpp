@@ -18,6 +18,7 @@ bool StreamWriter::may_write(std::uint32_t count, std::uint64_t ahead) {
   if (!link_.credit(count, ahead)) return false;
   if (link_.starts()) motion_start_ = link_.next();
   const auto end = link_.next() + count, distance = 2 * ahead;
+  if (end > limit_) return false;
   return end <= distance || end - distance <= std::max(floor_, motion_start_);
 }
 

@@ -38,11 +38,13 @@ class StreamWriter {
   /// The replicas of every stage are in step, or a start has to wait. `floor` is the cycle the slowest of
   /// them computes next; nothing is written farther than twice `ahead` beyond it.
   void set_replicas(bool may_start, std::uint64_t floor) { may_start_ = may_start, floor_ = floor; }
+  /// Nothing is written beyond the cycle `limit`, up to which recorders read in time.
+  void set_limit(std::uint64_t limit) { limit_ = limit; }
   /// Asks the drive for a place in the stream, once the replicas are in step.
   void start();
 
-  /// Credit of the drive and of the replicas for `count` more cycles, at most `ahead` beyond the executed
-  /// one.
+  /// Credit of the drive, of the replicas and of the recorders for `count` more cycles, at most `ahead`
+  /// beyond the executed one.
   bool may_write(std::uint32_t count, std::uint64_t ahead);
   /// An empty batch, from the next cycle on.
   void open(idl::stream::PathFrame& batch) const;
@@ -75,7 +77,7 @@ class StreamWriter {
   std::uint16_t channel_;
   StreamLink link_;
   bool may_start_ = true;
-  std::uint64_t floor_ = ~0ull, motion_start_ = 0;
+  std::uint64_t floor_ = ~0ull, limit_ = ~0ull, motion_start_ = 0;
   int equal_cycles_ = 0;
   AxisValues last_setpoint_{};
   std::vector<WrittenSetpoint> written_;

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <map>
 
 #include "fake_drive.hpp"
 
@@ -35,6 +36,11 @@ struct Channel : ::testing::Test {
   FakeDrive drive{3};
   std::unique_ptr<ChannelCore> core;
   std::string text;
+  struct Subprogram {
+    std::string text;
+    std::uint64_t revision = 0;
+  };
+  std::map<std::string, Subprogram> subprograms;  ///< stored beside it
   std::vector<ChannelEvent> events;
   std::vector<idl::channel::AuxiliaryRequest> auxiliaries;
   bool answer_plc = true;
@@ -65,6 +71,8 @@ struct Channel : ::testing::Test {
     idl::program::ProgramList list;
     list.programs.push_back({"part.nc", 3, text.size(), 77,
                              static_cast<std::uint32_t>(std::count(text.begin(), text.end(), '\n'))});
+    for (const auto& [name, one] : subprograms)
+      list.programs.push_back({name, one.revision, one.text.size(), 78, 1});
     core->set_programs(list);
   }
   Answer ask(const ChannelRequest& request) { return core->handle(request); }
@@ -111,17 +119,22 @@ struct Channel : ::testing::Test {
     ASSERT_TRUE(ask(CommandKind::SET_MODE).accepted);
     ASSERT_TRUE(ask(CommandKind::SELECT_PROGRAM, "part.nc").accepted);
   }
-  void round() {
+  /// A round up to the first frame.
+  void begin_round() {
     core->advance();
-    if (const auto chunk = core->wanted())
+    if (const auto chunk = core->wanted()) {
+      const auto other = subprograms.find(chunk->name);
+      const auto& from = other == subprograms.end() ? text : other->second.text;
       core->deliver(
           chunk->name, chunk->offset,
-          {text.begin() + static_cast<long>(chunk->offset),
-           text.begin() + static_cast<long>(std::min(text.size(), chunk->offset + ProgramText::chunk_size))});
+          {from.begin() + static_cast<long>(chunk->offset),
+           from.begin() + static_cast<long>(std::min(from.size(), chunk->offset + ProgramText::chunk_size))});
+    }
     core->advance();
     if (const auto request = core->take_stream_request()) drive.request(*request);
-    idl::stream::PathFrame frame;
-    while (core->produce(frame)) drive.put(frame);
+  }
+  /// A round from behind the last frame on.
+  void end_round() {
     if (const auto auxiliary = core->take_auxiliary();
         auxiliary && auxiliary->kind != idl::channel::AuxiliaryKind::NO_AUXILIARY) {
       auxiliaries.push_back(*auxiliary);
@@ -129,6 +142,12 @@ struct Channel : ::testing::Test {
     }
     for (auto& event : core->take_events()) events.push_back(event);
     core->on_feedback(drive.run(cycles_per_round));
+  }
+  void round() {
+    begin_round();
+    idl::stream::PathFrame frame;
+    while (core->produce(frame)) drive.put(frame);
+    end_round();
   }
   void run(int rounds = 100000) {
     for (int i = 0; i < rounds; ++i) {

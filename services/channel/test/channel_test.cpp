@@ -244,6 +244,23 @@ TEST_F(Channel, AnMdiLineRunsAndKeepsItsModalStateForTheNext) {
   EXPECT_EQ(answer.reason.substr(0, 8), "MDI:1:4:") << answer.reason;
 }
 
+TEST_F(Channel, AnMdiLineWithASpeedAboveTheHighestOfTheSpindleIsRefused) {
+  parameters->values[105000].text = "S";
+  parameters->values[105001].value = 10;  // a spindle
+  parameters->values[105948].value = 4000;
+  begin();
+  ask(CommandKind::SET_MODE, "", 0, 0, Mode::MDI);
+  const auto answer = ask(CommandKind::MDI_LINE, "M3 S4001");
+  EXPECT_FALSE(answer.accepted);
+  EXPECT_EQ(answer.alarm, 1126u);
+  EXPECT_EQ(answer.reason,
+            "MDI:1:4: speed above the highest of the spindle: S4001, at most 4000 1/min (10a948)");
+  EXPECT_EQ(core->state().spindle_programmed, 0);
+  EXPECT_TRUE(ask(CommandKind::MDI_LINE, "M3 S4000").accepted);
+  run();
+  EXPECT_EQ(core->state().spindle_programmed, 4000);
+}
+
 /// MDI lines one after the other, and where X and Y are behind each.
 struct MdiLines : Channel {
   std::vector<std::pair<double, double>> after(const std::vector<std::string>& lines) {

@@ -84,7 +84,7 @@ TEST(HandOver, DamageIsReadOrRefused) {
     try {
       read_hand_over(text, "file", "b", read);
     } catch (const std::runtime_error& e) {
-      ASSERT_THAT(e.what(), testing::StartsWith("file:"));
+      ASSERT_THAT(e.what(), ::testing::StartsWith("file:"));
     }
   }
 }

@@ -71,6 +71,39 @@ TEST_F(OperatorCommands, AreRefusedInAProgramUnlessTheTableSaysThatBusyDoesNotMa
   EXPECT_GE(refused, 8);
 }
 
+TEST_F(OperatorCommands, StepsOfAnOverrideAddUpAndEndAtItsLimits) {
+  struct Row {
+    CommandKind step;
+    double idl::channel::ChannelState::*shown;
+    double least, most;
+  };
+  const auto step = [&](const Row& row, double by) {
+    auto request = valid(row.step);
+    request.fraction = by;
+    EXPECT_TRUE(ask(request).accepted);
+    return core->state().*row.shown;
+  };
+  for (const Row& row :
+       {Row{CommandKind::FEED_OVERRIDE_STEP, &idl::channel::ChannelState::feed_override, 0, 1.5},
+        Row{CommandKind::RAPID_OVERRIDE_STEP, &idl::channel::ChannelState::rapid_override, 0, 1},
+        Row{CommandKind::SPINDLE_OVERRIDE_STEP, &idl::channel::ChannelState::spindle_override, 0.5, 1.5}}) {
+    begin_anew();
+    ASSERT_EQ(core->state().*row.shown, 1);
+    // Two in a row, sent before either is shown, are both done: 1 - 0.1 - 0.1.
+    auto first = valid(row.step);
+    first.fraction = -0.1;
+    EXPECT_TRUE(ask(first).accepted);
+    EXPECT_EQ(step(row, -0.1), 0.8);
+    EXPECT_EQ(step(row, 0.1), 0.9);
+    for (int i = 0; i < 11; ++i) step(row, -0.1);
+    EXPECT_EQ(core->state().*row.shown, row.least);
+    EXPECT_DOUBLE_EQ(step(row, 0.05), row.least + 0.05);
+    for (int i = 0; i < 16; ++i) step(row, 0.1);
+    EXPECT_EQ(core->state().*row.shown, row.most);
+    EXPECT_DOUBLE_EQ(step(row, -0.05), row.most - 0.05);
+  }
+}
+
 TEST_F(OperatorCommands, OutsideTheirLimitsAreRefusedAndChangeNothing) {
   set(Mode::JOG);
   auto request = valid(CommandKind::JOG_AXIS);

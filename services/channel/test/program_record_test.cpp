@@ -7,13 +7,15 @@ namespace trunnion::channel {
 namespace {
 
 TEST(ProgramRecord, ComesBackAsItWas) {
-  const RunningProgram program{"part 7.nc", 12, 0xfffffffeu, 3000000000u, 1ull << 40};
+  const RunningProgram program{"part 7.nc", 12, 0xfffffffeu, 3000000000u, 1ull << 40, 4000000000u};
   EXPECT_EQ(read_record(write_record(program), "f"), program);
   EXPECT_EQ(read_record(write_record({}), "f"), RunningProgram{});
 }
 
-TEST(ProgramRecord, OfTheVersionBeforeIsRead) {
-  // Checksum of the five lines before it, by Python's zlib.crc32.
+TEST(ProgramRecord, OfTheVersionsBeforeIsRead) {
+  // Checksums of the lines before them, by Python's zlib.crc32.
+  EXPECT_EQ(read_record("trunnion program 2\n12\n77\n40\npart.nc\n900\n825921896\n", "f"),
+            (RunningProgram{"part.nc", 12, 77, 40, 900}));
   EXPECT_EQ(read_record("trunnion program 1\n12\n77\n40\npart.nc\n1426826806\n", "f"),
             (RunningProgram{"part.nc", 12, 77, 40, 0}));
   EXPECT_THROW(read_record("trunnion program 1\n12\n77\n41\npart.nc\n1426826806\n", "f"), std::runtime_error);

@@ -118,5 +118,36 @@ TEST_F(Channel, AChannelThatWaitsForItsTextReportsIt) {
   EXPECT_FALSE(core->waits_for_text());
 }
 
+TEST_F(Channel, APartIsAProgramThatEndsByM2OrM30AndIsNoTest) {
+  const auto parts_after = [&](const std::string& text) {
+    load(text);
+    EXPECT_TRUE(ask(CommandKind::CYCLE_START).accepted);
+    run();
+    EXPECT_EQ(core->run_state(), RunState::IDLE);
+    return core->state().parts;
+  };
+  EXPECT_EQ(parts_after("G90\nG1 X5 F6000\nM30\n"), 1u);
+  EXPECT_EQ(parts_after("G90\nG1 X0 F6000\nM2\n"), 2u);
+  EXPECT_EQ(parts_after("G90\nG1 X5 F6000\n"), 2u) << "it ends where its text ends";
+  ask(CommandKind::DRY_RUN, "", 1);
+  EXPECT_EQ(parts_after("G90\nG1 X0 F6000\nM30\n"), 2u);
+  ask(CommandKind::DRY_RUN, "", 0);
+  ask(CommandKind::AUXILIARY_LOCK, "", 1);
+  EXPECT_EQ(parts_after("G90\nG1 X5 F6000\nM30\n"), 2u);
+  ask(CommandKind::AUXILIARY_LOCK, "", 0);
+  load("G90\nG1 X50 F6000\nM30\n");
+  cycles_per_round = 8;
+  ask(CommandKind::CYCLE_START);
+  run(5);
+  ASSERT_EQ(core->run_state(), RunState::RUNNING);
+  ask(CommandKind::RESET);
+  run();
+  EXPECT_EQ(core->state().parts, 2u) << "reset";
+  ASSERT_TRUE(ask({.command = CommandKind::SET_PARTS, .parts = 41}).accepted);
+  EXPECT_EQ(parts_after("G90\nG1 X0 F6000\nM30\n"), 42u);
+  // The next process continues the count of the one before.
+  EXPECT_EQ(core->running_program().parts, 42u);
+}
+
 }  // namespace
 }  // namespace trunnion::channel

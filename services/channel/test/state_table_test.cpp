@@ -24,6 +24,7 @@ struct Bench : testing::Channel {
     begin();
     cycles_per_round = 8;
     answer_plc = false;
+    core->set_cycle_service(true);
   }
   void TestBody() override {}
 
@@ -49,6 +50,14 @@ struct Bench : testing::Channel {
   }
   void finish_function(bool failed) {
     if (!auxiliaries.empty()) core->on_auxiliary_done({0, auxiliaries.back().number, failed});
+  }
+  /// The service that carries out a called cycle answers.
+  void answer_cycle(CycleOutcome outcome) {
+    CycleReply reply;
+    while (const auto request = core->take_cycle_request()) reply.number = request->number;
+    reply.outcome = outcome, reply.reason = "no contact";
+    if (outcome == CycleOutcome::CALL) reply.program = "part.nc";
+    core->on_cycle_reply(reply);
   }
   void drive_mode(DriveMode to) {
     drive.mode = to;
@@ -119,6 +128,7 @@ std::vector<State> states() {
        }},
       {"Waiting program", "Waiting program", [](Bench& b) { b.start("M8\n" + path); }},
       {"Waiting table", "Waiting program", [](Bench& b) { b.start("G10 L2 P1 X5\n" + path); }},
+      {"Waiting cycle", "Waiting program", [](Bench& b) { b.start("#3100=9960\n" + path); }},
       {"Waiting MDI", "Waiting MDI", [](Bench& b) { b.mode(Mode::MDI), b.mdi("M8"), b.rounds(3); }},
       {"Waiting preparing", "Waiting preparing",
        [](Bench& b) {
@@ -208,6 +218,7 @@ std::vector<Event> events() {
       command("AUXILIARY_LOCK", CommandKind::AUXILIARY_LOCK, 1),
       command("AXIS_LOCK", CommandKind::AXIS_LOCK, 1),
       command("BLOCK_SKIP", CommandKind::BLOCK_SKIP, 1),
+      {"SET_PARTS", [](Bench& b) { return b.ask({.command = CommandKind::SET_PARTS, .parts = 7}); }},
       command("HANDWHEEL_OFFSET", CommandKind::HANDWHEEL_OFFSET, 1),
       command("FEED_OVERRIDE", CommandKind::FEED_OVERRIDE, 0.5),
       command("RAPID_OVERRIDE", CommandKind::RAPID_OVERRIDE, 0.5),
@@ -223,6 +234,10 @@ std::vector<Event> events() {
       {"PLC: function failed", [](Bench& b) { return silently([&] { b.finish_function(true); }); }},
       {"table changed", [](Bench& b) { return silently([&] { b.core->on_table_changed(""); }); }},
       {"table refused", [](Bench& b) { return silently([&] { b.core->on_table_changed("disk full"); }); }},
+      {"cycle: part to call", [](Bench& b) { return silently([&] { b.answer_cycle(CycleOutcome::CALL); }); }},
+      {"cycle: finished", [](Bench& b) { return silently([&] { b.answer_cycle(CycleOutcome::FINISHED); }); }},
+      {"cycle: refused", [](Bench& b) { return silently([&] { b.answer_cycle(CycleOutcome::REFUSED); }); }},
+      {"cycle: not answered", [](Bench& b) { return silently([&] { b.core->give_up_cycle(); }); }},
       {"drive stopped", [](Bench& b) { return silently([&] { b.drive_mode(DriveMode::HELD); }); }},
       {"drives off", [](Bench& b) { return silently([&] { b.drive_mode(DriveMode::OFF); }); }},
       {"drive restarted",

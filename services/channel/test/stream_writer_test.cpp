@@ -87,6 +87,20 @@ TEST_F(Writer, WritesNoFartherThanTwoLeadsBeyondTheSlowestReplica) {
   EXPECT_TRUE(writer.may_write(8, lead));
 }
 
+TEST_F(Writer, WritesNoFartherThanRecordersRead) {
+  become_active();
+  writer.set_limit(24);
+  std::uint64_t written = 0;
+  while (writer.may_write(8, lead)) {
+    drive.put(batch(8, 0.1));
+    written += 8;
+    writer.link().on_feedback(drive.run());
+  }
+  EXPECT_EQ(written, 24u);
+  writer.set_limit(32);
+  EXPECT_TRUE(writer.may_write(8, lead));
+}
+
 TEST_F(Writer, ABatchNamesItsCyclesItsFrameAndTheRevision) {
   become_active();
   const auto first = batch(4, 0.5);
@@ -117,6 +131,30 @@ TEST_F(Writer, AHoldEndsWhenTheSetpointsHaveBeenEqualForMoreThanThreeCycles) {
   EXPECT_EQ(frame.count, 4u);
   EXPECT_EQ(writer.link().state(), LinkState::ending);
   EXPECT_FALSE(writer.may_write(8, lead));
+}
+
+TEST_F(Writer, ADriveThatCountsCyclesAgainGetsANewEpoch) {
+  // Killed after it had published the last cycles and before it stored them: the numbers of requests agree.
+  become_active();
+  auto frame = batch(8, 0.1);
+  const auto last = batch(16, 0, true);
+  drive.put(frame), drive.put(last);
+  writer.link().on_feedback(drive.run());
+  ASSERT_EQ(writer.link().state(), LinkState::idle);
+  const auto epoch = writer.link().epoch();
+  drive.next = 5;
+  writer.link().on_feedback(drive.run(0));
+  EXPECT_EQ(writer.link().executed(), 5u) << "the credit counts from where the drive is";
+  EXPECT_TRUE(writer.link().drive_restarted());
+  writer.start();
+  auto request = writer.link().take_request();
+  ASSERT_TRUE(request);
+  EXPECT_EQ(request->kind, idl::stream::StreamRequestKind::NEW_EPOCH);
+  EXPECT_EQ(request->epoch, epoch + 1);
+  // While the request is on its way: what it asked for is void.
+  drive.next = 4;
+  writer.link().on_feedback(drive.run(0));
+  EXPECT_EQ(writer.link().state(), LinkState::lost);
 }
 
 TEST_F(Writer, EqualSetpointsWithoutAHoldDoNotEndTheMotion) {

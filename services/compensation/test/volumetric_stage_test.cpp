@@ -128,6 +128,40 @@ TEST(VolumetricStage, TheToolLengthOfTheBatchIsUsed) {
   EXPECT_NEAR(out[3 * 799 + 1], -2 * 0.0174533, 1e-7);
 }
 
+// X with a slave (logical axis 6) that has a backlash of its own, so that it is a column of this stage; the
+// coordinates of the slave count the opposite way in the second machine.
+TEST(VolumetricStage, TheSlaveOfAGantryIsCorrectedWithItsMaster) {
+  for (const double mirrored : {0.0, 1.0}) {
+    auto p = reversal_of_20_um();
+    Set set{p};
+    p.values[100000] = {0, "X"}, p.values[101000] = {0, "Y"}, p.values[102000] = {0, "Z"};
+    p.values[106000] = {0, "X2"};
+    set(10050, 1), set(10051, 6);
+    set(106100, 1), set(106101, 0), set(106127, mirrored), set(106129, 100);
+    set(306000, 1), set(306001, 0.004), set(306002, 1);
+    CompensationCore core;
+    core.configure(p, 0);
+    idl::stream::AxisFrame in, out;
+    in.axes = {0, 1, 2};
+    const auto x = there_and_back(800);
+    in.setpoints = rows_of_x(x);
+    in.count = static_cast<std::uint32_t>(x.size());
+    core.process(in, {}, out);
+    ASSERT_EQ(out.axes, (std::vector<std::uint16_t>{0, 1, 2, 6}));
+    const double sign = mirrored == 1 ? -1 : 1;
+    for (const std::size_t row : {399u, 799u}) {
+      // The true X is 30 um too far after a negative approach, 10 um after a positive one.
+      const double correction = row == 399 ? -0.030 : -0.010;
+      EXPECT_NEAR(out.setpoints[4 * row] - x[row], correction, 1e-7);
+      // The backlash adds to the slave where it moves in its own positive direction: with its master, or
+      // against it.
+      const bool up = (row == 799) != (mirrored == 1);
+      EXPECT_NEAR(out.setpoints[4 * row + 3], sign * (x[row] + correction) + 100 + (up ? 0 : -0.004), 1e-7)
+          << mirrored << ", row " << row;
+    }
+  }
+}
+
 TEST(VolumetricStage, ACycleAllocatesNothing) {
   auto p = reversal_of_20_um();
   Set set{p};

@@ -61,6 +61,10 @@ void prepare_environment(const std::string& directory) {
   fs::create_directories(fifo);
   setenv("RTAPI_FIFO_PATH", (fifo + "/socket").c_str(), 0);
   setenv("HAL_RTMOD_DIR", "/usr/lib/linuxcnc/modules", 0);
+  // A .hal file finds trunnion-hal-io beside this program.
+  const auto own = fs::read_symlink("/proc/self/exe").parent_path().string();
+  const char* path = std::getenv("PATH");
+  setenv("PATH", (path == nullptr ? own : own + ":" + path).c_str(), 1);
   if (getuid() != 0) return;
   const passwd* nobody = getpwnam("nobody");
   if (nobody == nullptr || std::getenv("RTAPI_UID") != nullptr) return;

@@ -21,6 +21,12 @@ struct ProbeSetup {
   std::vector<truth::Solid> solids;
 };
 
+/// What a restart of the drive's process does not change.
+struct ProbeMemory {
+  truth::Temperatures temperatures{};
+  truth::TouchMemory touches;
+};
+
 class ProbeInput {
  public:
   explicit ProbeInput(const ProbeSetup& setup);
@@ -31,6 +37,11 @@ class ProbeInput {
   /// allocation but at an edge. A probe that is switched on in contact has no edge.
   void step(const SetpointRow& row, double period, const std::vector<SimulatedAxis>& servos,
             const std::vector<SimulatedSpindle>& spindles, EncoderRowSink& rows);
+  ProbeMemory memory() const { return {warm_up_.temperatures(), probe_.memory()}; }
+  void restore(const ProbeMemory& memory) {
+    warm_up_ = truth::WarmUp(memory.temperatures);
+    probe_.restore(memory.touches);
+  }
   /// The signal of the probe.
   bool on() const { return probe_.signal(); }
 

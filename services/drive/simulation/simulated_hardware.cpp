@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "simulated_hardware.hpp"
 
+#include <cstring>
+
 #include "machine/parameter_constants.hpp"
 #include "snapshot/fields.hpp"
 
@@ -32,8 +34,11 @@ void SimulatedHardware::configure(const machine::Parameters& p, const std::vecto
       if (link.active() && link.has(i)) linked_[i] = 1;
   test_.configure(p, axes, period);
   spindles_.resize(spindles.size());
-  for (std::size_t i = 0; i < spindles.size(); ++i)
-    spindles_[i].configure(p.get(parameter::maximum_acceleration, spindles[i].number), period);
+  for (std::size_t i = 0; i < spindles.size(); ++i) {
+    const auto truth = spindle_truth_.find(spindles[i].name);
+    spindles_[i].configure(p.get(parameter::maximum_acceleration, spindles[i].number), period,
+                           truth == spindle_truth_.end() ? nullptr : &truth->second);
+  }
   skip_inputs_.configure(p, axes);
   if (probe_) probe_->configure(p, axes);
   encoder_.resize(axes.size());
@@ -52,6 +57,18 @@ bus::Json SimulatedHardware::explicit_state() const { return snapshot::written(*
 void SimulatedHardware::continue_from(const bus::Json& state) {
   snapshot::read(state, *this);
   test_.continue_test();
+}
+
+std::span<const std::uint8_t> SimulatedHardware::kept() {
+  if (!probe_) return {};
+  kept_ = probe_->memory();
+  return {reinterpret_cast<const std::uint8_t*>(&kept_), sizeof kept_};
+}
+
+void SimulatedHardware::restore_kept(std::span<const std::uint8_t> kept) {
+  if (!probe_ || kept.size() != sizeof kept_) return;
+  std::memcpy(&kept_, kept.data(), sizeof kept_);
+  probe_->restore(kept_);
 }
 
 void SimulatedHardware::status(DriveStatus& out) const {

@@ -22,11 +22,12 @@ namespace trunnion::drive {
 class SimulatedHardware : public DriveHardware {
  public:
   /// `truth`: the drives of truth.yaml; the other axes are ServoAxis. `probe`: its touch probe. `beam`: of
-  /// the gantry of channel 0.
+  /// the gantry of channel 0. `spindles`: the motors of spindles, by name.
   explicit SimulatedHardware(std::map<std::string, truth::DriveTruth> truth = {},
                              const std::optional<ProbeSetup>& probe = {},
-                             const std::optional<volumetric::BeamErrors>& beam = {})
-      : truth_(std::move(truth)), beam_(beam) {
+                             const std::optional<volumetric::BeamErrors>& beam = {},
+                             std::map<std::string, truth::SpindleTruth> spindles = {})
+      : truth_(std::move(truth)), spindle_truth_(std::move(spindles)), beam_(beam) {
     if (probe) probe_.emplace(*probe);
   }
 
@@ -35,6 +36,8 @@ class SimulatedHardware : public DriveHardware {
   void restore(std::span<const double> positions, std::span<const std::uint8_t> homed) override;
   bus::Json explicit_state() const override;
   void continue_from(const bus::Json& state) override;
+  std::span<const std::uint8_t> kept() override;
+  void restore_kept(std::span<const std::uint8_t> kept) override;
   void status(DriveStatus& out) const override;
   bool enabled() const override { return !faults_.any(); }
   bool running_out() const override { return faults_.running(); }
@@ -70,6 +73,7 @@ class SimulatedHardware : public DriveHardware {
   std::vector<SimulatedAxis> servos_;
   std::vector<std::uint8_t> homed_;
   std::map<std::string, truth::DriveTruth> truth_;  // by the name of the axis
+  std::map<std::string, truth::SpindleTruth> spindle_truth_;
   std::optional<volumetric::BeamErrors> beam_;
   std::vector<GantryLink> links_;
   std::vector<std::uint8_t> linked_;  // the axis is one of an active link
@@ -78,6 +82,7 @@ class SimulatedHardware : public DriveHardware {
   SkipInputs skip_inputs_;
   ServoTest test_;
   std::optional<ProbeInput> probe_;
+  ProbeMemory kept_;
   std::vector<double> encoder_, angle_;  // of the row that is handed over
 };
 

@@ -50,6 +50,9 @@ void DriveCore::configure(const machine::Parameters& p, bool virtual_time) {
   spindle_axes_ = machine::spindles(p);
   spindles_.resize(spindle_axes_.size());
   row_.spindles.resize(spindle_axes_.size());
+  orientations_.resize(spindle_axes_.size());
+  for (std::size_t i = 0; i < spindle_axes_.size(); ++i)
+    orientations_[i].configure(orientation_settings(p, spindle_axes_[i].number), dt_);
   hardware_->configure(p, axes_, spindle_axes_, dt_);
   if (first)
     place_at_hardware();
@@ -419,7 +422,8 @@ void DriveCore::exchange() {
     const double acceleration = row_.controlled ? (velocity - axis.velocity) / dt_ : 0;
     axis = {command_[i], velocity, acceleration};
   }
-  for (std::size_t i = 0; i < spindles_.size(); ++i) row_.spindles[i] = spindles_[i].setpoint();
+  for (std::size_t i = 0; i < spindles_.size(); ++i)
+    row_.spindles[i] = orientations_[i].step(spindles_[i].setpoint(), status_.spindles[i], row_.controlled);
   if (testing() && (mode_ == Mode::OFF || mode_ == Mode::BRAKING || mode_ == Mode::HELD))
     hardware_->tester()->end(idl::servo::TestPhase::ENDED_BY_STOP);
   hardware_->exchange(row_, status_, rows_);

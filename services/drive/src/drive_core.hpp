@@ -18,6 +18,7 @@
 #include "machine/alarm_definition.hpp"
 #include "machine/axes.hpp"
 #include "spindle_coupling.hpp"
+#include "spindle_orientation.hpp"
 #include "stream/frame_window.hpp"
 
 namespace trunnion::drive {
@@ -85,6 +86,12 @@ class DriveCore {
   void set_spindle_speed(const std::vector<double>& speed) {
     for (std::size_t i = 0; i < spindles_.size(); ++i)
       spindles_[i].demand_speed(i < speed.size() ? speed[i] : 0);
+  }
+
+  /// Spindles that turn to their orientation angle and are held there; not while they are coupled.
+  void set_spindle_orientation(const std::vector<std::uint8_t>& orient) {
+    for (std::size_t i = 0; i < orientations_.size(); ++i)
+      orientations_[i].demand(i < orient.size() && orient[i] != 0);
   }
 
   /// With the probe on, a rising edge of skip input 1 outside a skip move stops the axes and is an alarm.
@@ -268,6 +275,7 @@ class DriveCore {
 
   std::vector<machine::AxisInfo> spindle_axes_;
   std::vector<SpindleCoupling> spindles_;
+  std::vector<SpindleOrientation> orientations_;
 
   std::vector<DriveEvent> events_;
   ExecutedRows rows_;

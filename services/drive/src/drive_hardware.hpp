@@ -134,6 +134,11 @@ class DriveHardware {
   /// After the first configure(): continues as the hardware that gave `state`. Not cyclic. Throws
   /// nlohmann::json::exception when it is of another shape.
   virtual void continue_from(const bus::Json& /*state*/) {}
+  /// What the machine itself keeps while no process controls it, besides its positions: temperatures of a
+  /// simulation. Always as many bytes; empty: nothing. Valid until the next call. Cyclic: no allocation.
+  virtual std::span<const std::uint8_t> kept() { return {}; }
+  /// After the first configure(): what kept() of an earlier process gave. Not cyclic.
+  virtual void restore_kept(std::span<const std::uint8_t> /*kept*/) {}
   /// The machine now, without a period; not cyclic.
   virtual void status(DriveStatus& out) const = 0;
 

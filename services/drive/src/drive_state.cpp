@@ -24,7 +24,8 @@ struct DriveState {
       visit("settle", c.settle_), visit("homing", c.homing_), visit("homing_axis", c.homing_axis_);
       visit("return_from", c.return_from_), visit("return_to", c.return_to_);
       visit("return_periods", c.return_periods_), visit("return_done", c.return_done_);
-      visit("spindles", c.spindles_), visit("reported", c.reported_);
+      visit("spindles", c.spindles_), visit("orientations", c.orientations_);
+      visit("reported", c.reported_);
       // Written where there is something: recordings of machines without gantries have no such state.
       constexpr bool reads = !std::is_const_v<Core>;
       if (reads || !c.homing_members_.empty()) visit("homing_members", c.homing_members_);

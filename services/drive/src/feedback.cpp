@@ -24,6 +24,9 @@ void DriveCore::fill(idl::stream::FeedbackFrame& out) {
   }
   out.spindle_speed.resize(spindles_.size());
   for (std::size_t i = 0; i < spindles_.size(); ++i) out.spindle_speed[i] = status_.spindles[i].speed;
+  out.spindle_oriented.resize(spindles_.size());
+  for (std::size_t i = 0; i < spindles_.size(); ++i)
+    out.spindle_oriented[i] = orientations_[i].oriented(status_.spindles[i]) ? 1 : 0;
   out.starved = starved_;
   out.skip_inputs = status_.skip_inputs;
   out.channels.resize(channels_.size());

@@ -277,6 +277,26 @@ TEST_F(HomedGantry, DistanceCodedScalesAreFoundAfterTwoMarksWithoutASwitch) {
   EXPECT_TRUE(move(feedback.position[1], 10));
 }
 
+// Scales on the loads that count down, and parameters that say so (10a931).
+TEST_F(HomedGantry, DistanceCodedScalesMountedTheWrongWayRoundGiveTheSamePlace) {
+  for (const char* const name : {"Y1", "Y2"}) {
+    auto& scale = truth[name].load.emplace();
+    scale.kind = truth::EncoderKind::distance_coded;
+    scale.first_mark = -2000, scale.inverted = true;
+  }
+  both(920, 1), both(922, 2), both(930, 1), both(931, 1);
+  beam = beam_of(20);
+  build(-100, -100);
+  release();
+  EXPECT_LT(home(), 1e-9);
+  EXPECT_EQ(alarms(), Numbers{});
+  for (const std::size_t side : {1u, 2u}) {
+    EXPECT_GT(feedback.position[side], -100) << "it has moved upwards";
+    EXPECT_LT(feedback.position[side], -100 + 45) << "two gaps of about 10 mm and what braking takes";
+  }
+  EXPECT_NEAR(error(), 0, 0.001);
+}
+
 TEST_F(HomedGantry, AnAbsoluteScaleOnTheLoadNeedsNoHoming) {
   for (const char* const name : {"Y1", "Y2"}) {
     truth[name].motor.kind = truth::EncoderKind::incremental;

@@ -87,6 +87,36 @@ TEST_F(Probe, TheEdgeIsLatchedAtTheTouchWithinThePeriod) {
   EXPECT_EQ(edges.size(), 1u);
 }
 
+// The Z axis grows by 100 um/K and warms up by 1 K within seconds; every touch has noise of its own. A
+// second process that takes over what the first keeps finds the next touches at the same places; one that
+// does not, at others.
+TEST_F(Probe, WhatItKeepsLetsANewProcessGoOnWithTheSameTemperaturesAndNoise) {
+  truth::GeometryTruth errors;
+  errors.heat[2].constant_rise = 1, errors.heat[2].time_constant = 1, errors.heat[2].shift = {0, 0, 0.1};
+  auto of = setup(errors);
+  of.probe.repeatability = 0.005, of.probe.pre_travel = 0.03;
+  const auto touch = [&] {
+    const auto before = edges.size();
+    at({100, 0, -80, 0});
+    at({100, 0, -85, 0});
+    at({100, 0, -80, 0});
+    return edges.size() == before + 1 ? edges.back().position[2] : std::nan("");
+  };
+  make(of);
+  servos[2].place(-80);
+  for (int i = 0; i < 5; ++i) touch();
+  const auto kept = input->memory();
+  EXPECT_EQ(kept.touches.touches, 5u);
+  const double first = touch(), second = touch();
+  ASSERT_TRUE(std::isfinite(first) && std::isfinite(second));
+  make(of);
+  input->restore(kept);
+  EXPECT_EQ(touch(), first);
+  EXPECT_EQ(touch(), second);
+  make(of);
+  EXPECT_NE(touch(), first) << "a cold machine with the first number of the seed";
+}
+
 TEST_F(Probe, SwitchedOffItGivesNothingAndSwitchedOnInContactNoEdge) {
   make(setup());
   at({100, 0, -84, 0}, false);

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Files on a real disk: refused and killed writers.
 #include <gtest/gtest.h>
-#include <signal.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <filesystem>
 #include <random>
 
 #include "file_storage.hpp"
+#include "testing_support/killed_process.hpp"
 
 namespace trunnion::parameters {
 namespace {
@@ -54,14 +53,13 @@ TEST_F(FileStorageTest, AfterAKillAtAnyMomentAFileIsOldOrNew) {
   std::mt19937 random(20);
   int seen[2] = {0, 0};
   for (int round = 0; round < 60; ++round) {
-    const pid_t writer = fork();
-    if (writer == 0) {
+    testing_support::kill_while(random, 3, [&](auto done) {
       FileStorage mine(directory_);
-      for (int i = round;; ++i) mine.replace({{"f", texts[i % 2]}});
-    }
-    usleep(random() % 5000);
-    kill(writer, SIGKILL);
-    waitpid(writer, nullptr, 0);
+      for (int i = round;; ++i) {
+        mine.replace({{"f", texts[i % 2]}});
+        done();
+      }
+    });
     const auto text = storage.read("f");
     ASSERT_TRUE(text == texts[0] || text == texts[1]) << "round " << round;
     ASSERT_TRUE(storage.damaged().empty()) << storage.damaged().begin()->second.problem;

@@ -6,17 +6,6 @@
 
 namespace trunnion::plc {
 
-std::optional<Address> parse_address(std::string_view text) {
-  const bool percent = text.starts_with('%');
-  if (percent) text.remove_prefix(1);
-  // Not the names of the standard. Without percent sign T1 or D2 may be a name of the program.
-  const std::string_view letters = percent ? "XYFGRBWDTCKP" : "XYFGRB";
-  if (text.empty() || letters.find(text[0]) == std::string_view::npos) return std::nullopt;
-  const auto found = st::parse_register(text, nullptr);
-  if (!found) return std::nullopt;
-  return Address{found->area, found->index, found->bit};
-}
-
 namespace {
 
 // The register in the array of its area; each has its own type of number.

@@ -5,6 +5,8 @@
 #include <limits>
 
 namespace trunnion::plc {
+
+using il::deepest_nesting, il::Op, il::Operand;
 namespace {
 
 std::int32_t saturate(std::int64_t value) {
@@ -87,7 +89,7 @@ bool off_delay(Timer& timer, bool input, std::int32_t preset, std::uint64_t now)
 
 }  // namespace
 
-std::uint64_t execute(const Program& program, Registers& registers, Blocks& blocks, std::uint64_t now) {
+std::uint64_t execute(const il::Program& program, Registers& registers, Blocks& blocks, std::uint64_t now) {
   struct Frame {
     Op op;
     std::int32_t result;

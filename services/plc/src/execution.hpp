@@ -4,13 +4,14 @@
 
 #include <optional>
 
-#include "program.hpp"
+#include "address.hpp"
+#include "plc/instruction_list/program.hpp"
 
 namespace trunnion::plc {
 
 /// One pass. `now` is PLC time in ms; timers and edges remember in `blocks`. Allocates nothing and always
 /// ends. Returns how many instructions it has executed.
-std::uint64_t execute(const Program& program, Registers& registers, Blocks& blocks, std::uint64_t now);
+std::uint64_t execute(const il::Program& program, Registers& registers, Blocks& blocks, std::uint64_t now);
 
 /// PLC time in ms at which the next running timer after `now` runs out.
 std::optional<std::uint64_t> next_timer_end(const Blocks& blocks, std::uint64_t now);

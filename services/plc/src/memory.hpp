@@ -4,10 +4,13 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <type_traits>
 
 #include "contracts/types.hpp"
+#include "plc/instruction_list/program.hpp"
 #include "plc/machine/machine.hpp"
 
 namespace trunnion::plc {
@@ -16,7 +19,7 @@ using idl::channel::AuxiliaryKind;
 
 inline constexpr std::size_t register_count = 512, block_register_count = 3360;
 inline constexpr std::size_t channel_count = 8, spindle_count = 8;
-inline constexpr std::size_t timer_count = 256, counter_count = 256, edge_count = 512;
+using il::counter_count, il::edge_count, il::timer_count;
 
 /// The register image; idl/plc.idl defines the areas, libs/plc/machine/register_area.hpp their sizes.
 struct Registers {
@@ -89,7 +92,7 @@ struct Handshake {
   }
 };
 
-inline constexpr std::size_t program_cells = 4096;  ///< of the variables of Structured Text
+inline constexpr std::size_t program_cells = 8192;  ///< of the variables of Structured Text
 
 /// The variables of the programs in Structured Text and the fault that has stopped them. All zero without
 /// such programs.
@@ -114,6 +117,11 @@ struct ProgramVariables {
   st::Progress main;  ///< of the main task, which is spread over scans
   std::array<std::uint64_t, program_cells> values{};
 
+  /// Only the cells that are used: what an assignment copies besides counts for nothing.
+  void assign(const ProgramVariables& other) {
+    std::memcpy(static_cast<void*>(this), &other,
+                offsetof(ProgramVariables, values) + other.cells * sizeof(std::uint64_t));
+  }
   bool operator==(const ProgramVariables& other) const {
     return layout == other.layout && identity == other.identity && fault == other.fault &&
            cells == other.cells && main == other.main &&
@@ -154,9 +162,9 @@ struct Memory {
   Registers registers;
   Blocks blocks;
   std::array<Handshake, channel_count> handshakes{};
-  std::uint64_t now_us = 0;                             ///< PLC time
+  std::uint64_t now_us = 0;                             ///< PLC time: how long it has run, over all starts
   std::uint64_t scans = 0;                              ///< whole milliseconds of it that were scanned
-  std::uint64_t tick = 0;                               ///< drive tick that belongs to now_us
+  std::uint64_t tick = 0;                               ///< drive tick that belongs to now_us; 0: none yet
   std::array<double, spindle_count> spindle_command{};  ///< 1/min, signed
   std::array<std::uint64_t, spindle_count>
       spindle_since{};  ///< PLC time in ms of the last change of the command
@@ -185,9 +193,11 @@ struct View {
     }
   };
   std::array<Channel, channel_count> channels{};
-  std::array<double, spindle_count> spindle_actual{};  ///< 1/min
-  std::uint32_t spindles_received = 0;                 ///< entries of spindle_actual
-  std::uint64_t executed = 0;                          ///< cycles of the stream
+  std::array<double, spindle_count> spindle_actual{};     ///< 1/min
+  std::uint32_t spindles_received = 0;                    ///< entries of spindle_actual
+  std::array<bool, spindle_count> orients{}, oriented{};  ///< an orientation is demanded; the drive holds it
+  std::array<std::uint64_t, spindle_count> orient_since{};  ///< PLC time in ms at which it was demanded
+  std::uint64_t executed = 0;                               ///< cycles of the stream
   bool drive_seen = false;
   bool stopped_waiting = false;  ///< waiting for the drive's confirmation of a standstill
   bool changed = true;           ///< an input, since the image was stable
@@ -195,6 +205,8 @@ struct View {
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
     visit("channels", self.channels), visit("spindle_actual", self.spindle_actual);
+    visit("orients", self.orients), visit("oriented", self.oriented);
+    visit("orient_since", self.orient_since);
     visit("spindles_received", self.spindles_received), visit("executed", self.executed);
     visit("drive_seen", self.drive_seen), visit("stopped_waiting", self.stopped_waiting);
     visit("changed", self.changed);
@@ -213,5 +225,6 @@ struct Snapshot {
   }
 };
 static_assert(std::is_trivially_copyable_v<Snapshot>);
+static_assert(sizeof(Snapshot) <= 131072, "Round.start of idl/plc.idl has it");
 
 }  // namespace trunnion::plc

@@ -21,6 +21,7 @@ std::int64_t percent(double fraction) { return std::llround(fraction * 100); }
 }  // namespace
 
 PlcCore::PlcCore() {
+  done_.reserve(2 * channel_count);  // one of a channel finishes, and another is asked for again
   const auto name = [](const char* text) { return interface_address(text); };
   emergency_button_ = name("emergency_stop_button"), reset_button_ = name("reset_button");
   drive_present_ = name("drive_present"), drives_on_ = name("drives_on");
@@ -49,10 +50,12 @@ PlcCore::PlcCore() {
                                channel_symbols_[c].spindle_override})
       store(memory_.registers, address, 100);  // until the channel publishes its values
   }
+  find_control();
   for (std::size_t s = 0; s < spindle_count; ++s) {
     const auto of = [s](const char* text) { return interface_address(text, s); };
-    spindle_symbols_[s] = {of("spindle_at_speed"), of("spindle_actual"), of("spindle_speed"),
-                           of("spindle_enable"), of("spindle_counterclockwise")};
+    spindle_symbols_[s] = {of("spindle_at_speed"), of("spindle_actual"), of("spindle_oriented"),
+                           of("spindle_speed"),    of("spindle_enable"), of("spindle_counterclockwise"),
+                           of("spindle_orient")};
   }
 }
 
@@ -71,7 +74,7 @@ void PlcCore::configure(const machine::Parameters& parameters, bool virtual_time
   view_.changed = view_.changed || !continues;
 }
 
-void PlcCore::load(Program fast, Program main, StructuredText structured) {
+void PlcCore::load(il::Program fast, il::Program main, StructuredText structured) {
   fast_ = std::move(fast);
   main_ = std::move(main);
   structured_ = std::move(structured);
@@ -82,6 +85,7 @@ void PlcCore::load(Program fast, Program main, StructuredText structured) {
 
 void PlcCore::load(Programs programs) {
   set_position_switches(std::move(programs.switches));
+  messages_ = std::move(programs.messages);
   load(std::move(programs.fast), std::move(programs.main), std::move(programs.structured));
 }
 
@@ -108,6 +112,9 @@ void PlcCore::restore(const Memory& memory) {
 }
 
 void PlcCore::power_up(const Memory& memory) {
+  // Retained timers and controllers have kept times of it. The drive's ticks begin anew: tick stays 0.
+  memory_.now_us = memory.now_us, memory_.scans = memory.scans;
+  memory_.spindle_since.fill(memory.scans);
   auto& kept = memory_.registers;
   kept.b = memory.registers.b, kept.c = memory.registers.c;
   kept.k = memory.registers.k, kept.p = memory.registers.p;
@@ -200,6 +207,8 @@ void PlcCore::set_feedback(const idl::stream::FeedbackFrame& frame) {
   const auto spindles = std::min(spindle_count, frame.spindle_speed.size());
   view_.spindles_received = static_cast<std::uint32_t>(spindles);
   std::copy_n(frame.spindle_speed.begin(), spindles, view_.spindle_actual.begin());
+  for (std::size_t s = 0; s < spindle_count; ++s)
+    view_.oriented[s] = s < frame.spindle_oriented.size() && frame.spindle_oriented[s] != 0;
   input(drive_present_, 1);
   input(probe_contact_, frame.skip_inputs & 1);
   input(drives_on_, !frame.enabled.empty() && std::all_of(frame.enabled.begin(), frame.enabled.end(),
@@ -233,6 +242,8 @@ std::string PlcCore::panel(const idl::plc::PanelRequest& request) {
       if (request.value > 255) return "value " + std::to_string(request.value) + " is outside 0 .. 255";
       input({Area::x, static_cast<std::uint16_t>(request.address), -1}, request.value);
       break;
+    case PanelRequestKind::CHANNEL_ANSWER:
+      return order_answered(request);
   }
   return "";
 }
@@ -286,7 +297,10 @@ void PlcCore::check_spindles() {
   auto& r = memory_.registers;
   for (std::size_t s = 0; s < spindle_count; ++s) {
     const auto& symbols = spindle_symbols_[s];
-    const bool on = plc::load(r, symbols.enable) != 0 && !emergency_stop();
+    const bool orients = plc::load(r, symbols.orient) != 0 && !emergency_stop();
+    if (orients && !view_.orients[s]) view_.orient_since[s] = memory_.scans, view_.oriented[s] = false;
+    view_.orients[s] = orients;
+    const bool on = plc::load(r, symbols.enable) != 0 && !orients && !emergency_stop();
     const double speed = on ? plc::load(r, symbols.speed) : 0;
     const double command = plc::load(r, symbols.counterclockwise) != 0 && speed > 0 ? -speed : speed;
     if (command != memory_.spindle_command[s]) {
@@ -294,6 +308,7 @@ void PlcCore::check_spindles() {
       memory_.spindle_since[s] = memory_.scans;
     }
     input(symbols.at_speed, at_speed(s));
+    input(symbols.oriented, orients && (view_.oriented[s] || s >= spindles_));
   }
 }
 
@@ -325,9 +340,10 @@ void PlcCore::scan(bool main, bool present) {
   }
   apply_forces();
   if (trace_ != nullptr) trace_->after_scan(memory_);
+  if (orders_ != nullptr) orders_->after_scan(memory_.registers, memory_.now_us);
 }
 
-void PlcCore::run_task(TaskName task, const Program& program) {
+void PlcCore::run_task(TaskName task, const il::Program& program) {
   if (has_program_fault()) return;
   if (times_ != nullptr) times_->begin_task();
   std::uint64_t executed = 0;
@@ -353,7 +369,7 @@ std::array<std::uint64_t, 3> PlcCore::statement_budgets() const {
 void PlcCore::settle() {
   for (int i = 0; i < most_settling; ++i) {
     const auto before = memory_.registers;
-    if (memory_.program.cells > 0) settling_ = memory_.program;
+    if (memory_.program.cells > 0) settling_.assign(memory_.program);
     scan(true, true);
     if (memory_.registers == before && memory_.program == settling_) break;
   }
@@ -362,16 +378,18 @@ void PlcCore::settle() {
 
 void PlcCore::advance(std::uint64_t tick) {
   if (!loaded_ || !configured()) return;
-  if (tick < memory_.tick || (memory_.tick == 0 && memory_.scans == 0)) memory_.tick = tick;
+  if (tick < memory_.tick || memory_.tick == 0) memory_.tick = tick;
   memory_.now_us += (tick - memory_.tick) * period_us_;
   memory_.tick = tick;
   const auto now = memory_.now_us / 1000;
   if (now - memory_.scans > most_catch_up) memory_.scans = now - most_catch_up;
+  // A timer of a task that runs in every scan has ended for that task after these scans, not for the others.
+  const bool ended = structured_.timer_due(now);
   while (memory_.scans < now) {
     ++memory_.scans;
     scan(memory_.scans % main_period == 0 || continues_main(), false);
   }
-  if (view_.changed || timer_due(memory_.blocks, now) || structured_.timer_due(now)) settle();
+  if (view_.changed || ended || timer_due(memory_.blocks, now) || structured_.timer_due(now)) settle();
   view_.changed = false;
 }
 
@@ -410,9 +428,12 @@ idl::plc::Outputs PlcCore::outputs() const {
   bool spindle_moves = false;
   for (std::size_t s = 0; s < spindles_; ++s) {
     outputs.spindle_speed.push_back(outputs.emergency_stop ? 0 : memory_.spindle_command[s]);
+    outputs.spindle_orient.push_back(view_.orients[s] ? 1 : 0);
     spindle_moves =
-        spindle_moves || (!at_speed(s) && memory_.scans - memory_.spindle_since[s] < spindle_timeout);
+        spindle_moves || (!at_speed(s) && memory_.scans - memory_.spindle_since[s] < spindle_timeout) ||
+        (view_.orients[s] && !view_.oriented[s] && memory_.scans - view_.orient_since[s] < spindle_timeout);
   }
+  set_control(outputs);
   outputs.run_until_tick = memory_.tick;
   if (period_us_ > 0) {
     auto until = next_timer_end(memory_.blocks, memory_.scans);
@@ -444,7 +465,11 @@ idl::plc::Image PlcCore::image() const {
   return image;
 }
 
-std::vector<idl::plc::AuxiliaryDone> PlcCore::take_done() { return std::exchange(done_, {}); }
+std::vector<idl::plc::AuxiliaryDone> PlcCore::take_done() {
+  auto result = done_;
+  done_.clear();  // keeps its memory: a scan allocates nothing
+  return result;
+}
 
 std::vector<idl::plc::AuxiliaryDone> PlcCore::all_done() const {
   std::vector<idl::plc::AuxiliaryDone> result;

@@ -6,12 +6,13 @@
 #include <optional>
 #include <vector>
 
+#include "address.hpp"
 #include "contracts/types.hpp"
 #include "execution.hpp"
 #include "machine/parameters.hpp"
+#include "panel_orders.hpp"
 #include "programs.hpp"
 #include "scan_trace.hpp"
-#include "symbols.hpp"
 #include "task_times.hpp"
 
 namespace trunnion::plc {
@@ -21,6 +22,8 @@ inline constexpr std::uint64_t most_catch_up =
     200;                                  ///< scans at once; older ones are skipped, timers stay correct
 inline constexpr int most_settling = 16;  ///< scans at the same time until the image is stable
 
+inline constexpr std::size_t message_words = st::most_messages / 16;
+
 class PlcCore {
  public:
   PlcCore();
@@ -29,7 +32,7 @@ class PlcCore {
   void configure(const machine::Parameters& parameters, bool virtual_time);
   bool configured() const { return period_us_ > 0; }
   /// No programs: the outputs are safe (emergency stop).
-  void load(Program fast, Program main, StructuredText structured = {});
+  void load(il::Program fast, il::Program main, StructuredText structured = {});
   void load(Programs programs);
   /// Between two scans: `next` runs from now on, with the values of the variables that `change` moves, with
   /// all registers, and with the forces whose variable is kept. Afterwards `next` has what ran before. A
@@ -40,8 +43,8 @@ class PlcCore {
   /// After a restart of the process in a running cluster: everything as it was.
   /// After load().
   void restore(const Memory& memory);
-  /// After a restart of the cluster: only retained registers, RETAIN variables and permanent forces. After
-  /// load().
+  /// After a restart of the cluster: only retained registers, RETAIN variables, permanent forces and the time
+  /// of the PLC. After load().
   void power_up(const Memory& memory);
   const Memory& memory() const { return memory_; }
   /// Valid after take_done() has returned the finished functions.
@@ -78,8 +81,10 @@ class PlcCore {
   void set_trace(ScanTrace* trace) { trace_ = trace; }
   /// Measures every scan from now on; null for none. It must outlive its use.
   void set_task_times(TaskTimes* times) { times_ = times; }
+  /// Is told of every scan from now on; null for none. It must outlive its use.
+  void set_orders(PanelOrders* orders) { orders_ = orders; }
   /// As of a copy that only computes: nobody is told of its scans.
-  void scan_unseen() { trace_ = nullptr, times_ = nullptr; }
+  void scan_unseen() { trace_ = nullptr, times_ = nullptr, orders_ = nullptr; }
   /// The most statements of each task in one scan, by TaskName; 0: an instruction list, which always ends.
   std::array<std::uint64_t, 3> statement_budgets() const;
 
@@ -89,6 +94,12 @@ class PlcCore {
   idl::plc::Image image() const;
   /// Functions finished since the last call, and finished ones that are requested again.
   std::vector<idl::plc::AuxiliaryDone> take_done();
+  /// Whether the programs show the message of this number, below most_messages.
+  bool shows_message(std::size_t number) const;
+  /// The bits of all messages: message n is bit n % 16 of word n / 16.
+  std::array<std::uint16_t, message_words> shown_messages() const;
+  /// messages.yaml, by their numbers.
+  const st::MessageFile& messages() const { return messages_; }
   /// Every finished function: for a restarted process, whose publications are lost.
   std::vector<idl::plc::AuxiliaryDone> all_done() const;
   bool emergency_stop() const;
@@ -101,14 +112,23 @@ class PlcCore {
     Address m_strobe, s_strobe, t_strobe, m_code, s_value, t_code;
     Address feed_override, rapid_override, spindle_override, tool, fin, fin_failed;
   };
+  struct ControlSymbols {
+    Address start_inhibit, manual_inhibit, sets_overrides, feed_override, rapid_override, spindle_override;
+    Address refused, alarm;
+  };
   struct SpindleSymbols {
-    Address at_speed, actual, speed, enable, counterclockwise;
+    Address at_speed, actual, oriented, speed, enable, counterclockwise, orient;
   };
   void input(Address address, std::int64_t value);
   void scan(bool main, bool present);
-  void run_task(TaskName task, const Program& program);
+  void run_task(TaskName task, const il::Program& program);
   bool continues_main() const { return memory_.program.main.interrupted != 0; }
   void settle();
+  void find_control();
+  void set_control(idl::plc::Outputs& outputs) const;
+  bool controls() const;
+  idl::plc::ChannelControl control(std::size_t channel) const;
+  std::string order_answered(const idl::plc::PanelRequest& request);
   void apply_forces();
   void drop_forces_of_variables();
   void actuate_switches(const std::vector<double>& position);
@@ -118,11 +138,13 @@ class PlcCore {
   bool at_speed(std::size_t spindle) const;
   bool at_standstill(std::size_t channel) const;
 
-  Program fast_, main_;
+  il::Program fast_, main_;
   StructuredText structured_;
   bool loaded_ = false, virtual_time_ = false;
   std::array<ChannelSymbols, channel_count> channel_symbols_;
+  std::array<ControlSymbols, channel_count> control_symbols_;
   std::array<SpindleSymbols, spindle_count> spindle_symbols_;
+  std::array<Address, st::most_messages> message_bits_;
   Address emergency_button_, reset_button_, drive_present_, drives_on_, alarm_active_, alarm_stops_,
       probe_contact_;
   Address emergency_stop_, feed_hold_, axes_enable_, probe_on_, external_reset_;
@@ -133,6 +155,7 @@ class PlcCore {
   std::vector<std::uint8_t> axis_exists_;
   std::vector<std::string> axis_names_;  ///< in the order of the drive's feedback
   std::vector<st::PositionSwitch> switches_;
+  st::MessageFile messages_;
   std::size_t spindles_ = 0;
   std::uint64_t period_us_ = 0;
   std::int64_t main_part_ = StructuredText::most_statements;  ///< statements of the main task in one scan
@@ -141,6 +164,7 @@ class PlcCore {
   ProgramVariables settling_;  ///< before the scan
   ScanTrace* trace_ = nullptr;
   TaskTimes* times_ = nullptr;
+  PanelOrders* orders_ = nullptr;
   std::vector<idl::plc::AuxiliaryDone> done_;
 };
 

@@ -11,6 +11,7 @@ void PlcCore::take_over(Programs& next, const st::Changeover& change) {
   const auto old = memory_.program;
   std::swap(fast_, next.fast), std::swap(main_, next.main);
   std::swap(structured_, next.structured), std::swap(switches_, next.switches);
+  std::swap(messages_, next.messages);
   structured_.reset(memory_.program);
   // Programs with an error never ran; the corrected ones find their variables.
   if (!loaded_ && structured_.fits(old)) memory_.program = old;

@@ -20,11 +20,11 @@ void ProgramLoad::begin() {
 }
 
 std::string ProgramLoad::write(const std::string& name, std::string_view data) {
-  if (phase_ != Phase::WRITING) return "no load has begun, or its sources are complete; begin a load";
+  if (phase_ != Phase::WRITING) return "no load has started, or its sources are complete; start a load";
   if (!st::is_source(name) || name.find('/') != std::string::npos)
     return "'" + name +
-           "': sources are .st files (not *_test.st), .xml files, fast.il, main.il, devices.yaml and "
-           "modbus.yaml";
+           "': sources are .st files (not *_test.st), .xml files, fast.il, main.il, devices.yaml, "
+           "messages.yaml and modbus.yaml";
   auto found =
       std::find_if(files_.begin(), files_.end(), [&](const auto& file) { return file.name == name; });
   if (found == files_.end()) {
@@ -40,7 +40,7 @@ std::string ProgramLoad::write(const std::string& name, std::string_view data) {
 }
 
 std::string ProgramLoad::start_compiling() {
-  if (phase_ != Phase::WRITING) return "no load has begun, or its sources are complete; begin a load";
+  if (phase_ != Phase::WRITING) return "no load has started, or its sources are complete; start a load";
   phase_ = Phase::COMPILING;
   return "";
 }

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "compiler.hpp"
 #include "plc/compile.hpp"
+#include "plc/instruction_list/compiler.hpp"
 #include "plc/library/register_names.hpp"
 #include "storage/crc32.hpp"
 
@@ -51,16 +51,19 @@ Programs translate(SourceFiles files, bool simulated, const std::string& directo
     sources.push_back({path(file->name), std::move(devices.program)});
     programs.switches = std::move(devices.switches);
   }
+  if (const auto* file = find(files, "messages.yaml"))
+    programs.messages = st::read_messages(file->text, path(file->name));
+  st::Compilation compiled;
   if (!sources.empty()) {
-    const auto compiled = st::compile(sources, st::interface_registers());
+    compiled = st::compile(sources, st::interface_registers());
     programs.warnings = compiled.lines();
     if (!compiled.good()) throw std::runtime_error(joined(programs.warnings));
     structured.code = compiled.code;
     structured.layout = compiled.layout();
     programs.variables = st::Variables(compiled);
   }
-  Compiler compiler(interface_symbols());
-  Program* lists[] = {&programs.fast, &programs.main};
+  il::Compiler compiler(il::interface_symbols());
+  il::Program* lists[] = {&programs.fast, &programs.main};
   const char* names[] = {"fast", "main"};
   for (std::size_t i = 0; i < 2; ++i) {
     const auto name = std::string(names[i]) + ".il";
@@ -74,8 +77,11 @@ Programs translate(SourceFiles files, bool simulated, const std::string& directo
     if (list == nullptr && !structured.entries[i])
       throw std::runtime_error(path(name) +
                                ": error: cannot be opened, and no .st or .xml file has PROGRAM " + names[i]);
-    if (list != nullptr) *lists[i] = compiler.compile(list->text, path(name));
+    if (list == nullptr) continue;
+    *lists[i] = compiler.compile(list->text, path(name));
+    st::add_uses(compiled, path(name), *lists[i]);
   }
+  programs.uses = st::Uses(compiled);
   for (const auto& warning : compiler.warnings()) programs.warnings.push_back(warning);
   for (std::size_t e = 0; simulated && structured.code && e < structured.code->entries.size(); ++e)
     if (structured.code->entries[e].name == "SIMULATION")

@@ -6,8 +6,10 @@
 #include <vector>
 
 #include "plc/devices/device_file.hpp"
+#include "plc/devices/message_file.hpp"
+#include "plc/instruction_list/program.hpp"
+#include "plc/tools/uses.hpp"
 #include "plc/tools/variables.hpp"
-#include "program.hpp"
 #include "structured_text.hpp"
 
 namespace trunnion::plc {
@@ -21,10 +23,12 @@ using SourceFiles = std::vector<SourceFile>;
 
 /// What a PLC runs.
 struct Programs {
-  Program fast, main;  ///< instruction lists
+  il::Program fast, main;  ///< instruction lists
   StructuredText structured;
   std::vector<st::PositionSwitch> switches;
+  st::MessageFile messages;
   st::Variables variables;
+  st::Uses uses;
   std::vector<std::string> warnings;
 };
 

@@ -75,6 +75,7 @@ std::uint64_t state_digest(const Snapshot& snapshot) {
   for (const auto& channel : view.channels)
     digest.add(channel.seen), digest.add(channel.active), digest.add(channel.resets);
   for (const double speed : view.spindle_actual) digest.add(speed);
+  digest.add(view.orients), digest.add(view.oriented), digest.add(view.orient_since);
   digest.add(view.spindles_received), digest.add(view.executed), digest.add(view.drive_seen);
   digest.add(view.stopped_waiting), digest.add(view.changed);
   return digest.value();

@@ -4,23 +4,22 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "address.hpp"
-
 namespace trunnion::plc {
 namespace {
 
 constexpr std::int64_t millisecond = 1000000;  // ns
-
-Address address_of(const st::UsedRegister& used) { return {used.area, used.index, -1}; }
 
 }  // namespace
 
 StructuredText::StructuredText(StructuredPrograms programs) : programs_(std::move(programs)) {
   const auto cells = programs_.code->initial.size() - st::image_cells;
   if (cells > program_cells)
-    throw std::runtime_error("the PLC programs need " + std::to_string(cells) +
-                             " cells of memory, and there are " + std::to_string(program_cells));
+    throw std::runtime_error(
+        "the variables of the PLC programs need " + std::to_string(cells) +
+        " cells of 64 bits, and there are " + std::to_string(program_cells) +
+        ": shorten arrays and strings, and use as few instances of function blocks as needed");
   machine_.emplace(programs_.code);
+  transfer_ = RegisterTransfer(programs_.code->registers);
   identity_ = programs_.code->identity();
 }
 
@@ -84,19 +83,13 @@ void StructuredText::put(std::uint32_t cell, std::uint64_t value, ProgramVariabl
 
 void StructuredText::run(TaskName task, Registers& registers, ProgramVariables& variables, std::uint64_t now,
                          std::int64_t part) {
-  auto memory = machine_->memory();
-  for (const auto& used : programs_.code->registers)
-    memory[st::address_of(used.area, used.index)] =
-        static_cast<std::uint64_t>(std::int64_t{load(registers, address_of(used))});
+  transfer_.load(registers, machine_->memory());
   const auto entry = *programs_.entries[static_cast<std::size_t>(task)];
   const auto time = static_cast<std::int64_t>(now) * millisecond;
   const auto fault = task == TaskName::main
                          ? machine_->run_part(entry, time, most_statements, part, variables.main)
                          : machine_->run(entry, time, most_statements);
-  for (const auto& used : programs_.code->registers)
-    if (used.written)
-      store(registers, address_of(used),
-            static_cast<std::int64_t>(memory[st::address_of(used.area, used.index)]));
+  transfer_.store(machine_->memory(), registers);
   give(variables);
   if (fault.kind == st::FaultKind::none) return;
   variables.fault = {static_cast<std::uint32_t>(fault.kind),

@@ -10,6 +10,7 @@
 
 #include "memory.hpp"
 #include "plc/machine/machine.hpp"
+#include "register_transfer.hpp"
 
 namespace trunnion::plc {
 
@@ -26,7 +27,7 @@ struct StructuredPrograms {
 
 class StructuredText {
  public:
-  static constexpr std::int64_t most_statements = 100000;  ///< of one task in one scan
+  static constexpr std::int64_t most_statements = st::task_budget;  ///< of one task in one scan
 
   StructuredText() = default;
   /// Throws std::runtime_error when the variables exceed the memory, std::invalid_argument for wrong byte
@@ -71,6 +72,7 @@ class StructuredText {
   StructuredPrograms programs_;
   std::uint64_t identity_ = 0;
   std::optional<st::Machine> machine_;
+  RegisterTransfer transfer_;
 };
 
 }  // namespace trunnion::plc

@@ -3,12 +3,12 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "compiler.hpp"
 #include "execution.hpp"
+#include "plc/instruction_list/compiler.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace trunnion::plc;
-  Compiler compiler(interface_symbols());
+  trunnion::il::Compiler compiler(trunnion::il::interface_symbols());
   try {
     const auto program = compiler.compile({reinterpret_cast<const char*>(data), size}, "f");
     static Registers registers;
@@ -16,7 +16,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     registers = {};
     blocks = {};
     for (std::uint64_t now = 0; now < 3; ++now) execute(program, registers, blocks, now * 100);
-  } catch (const CompileError&) {
+  } catch (const trunnion::il::CompileError&) {
   }
   return 0;
 }

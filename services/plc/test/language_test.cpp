@@ -3,8 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "compiler.hpp"
 #include "execution.hpp"
+#include "plc/instruction_list/compiler.hpp"
 
 namespace trunnion::plc {
 namespace {
@@ -13,29 +13,29 @@ namespace {
 class Task {
  public:
   explicit Task(const std::string& source) {
-    Compiler compiler(interface_symbols());
+    il::Compiler compiler(il::interface_symbols());
     program_ = compiler.compile(source, "t.il");
   }
   Task& at(std::uint64_t now) {
     execute(program_, registers, blocks_, now);
     return *this;
   }
-  std::int32_t get(const char* address) const { return load(registers, *parse_address(address)); }
-  void put(const char* address, std::int64_t value) { store(registers, *parse_address(address), value); }
+  std::int32_t get(const char* address) const { return load(registers, *il::parse_address(address)); }
+  void put(const char* address, std::int64_t value) { store(registers, *il::parse_address(address), value); }
   const Blocks& blocks() const { return blocks_; }
 
   Registers registers;
 
  private:
-  Program program_;
+  il::Program program_;
   Blocks blocks_;
 };
 
 std::string error_of(const std::string& source) {
   try {
-    Compiler compiler(interface_symbols());
+    il::Compiler compiler(il::interface_symbols());
     compiler.compile(source, "t.il");
-  } catch (const CompileError& e) {
+  } catch (const il::CompileError& e) {
     return e.what();
   }
   return "";

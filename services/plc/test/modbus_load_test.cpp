@@ -57,7 +57,7 @@ TEST(ModbusLoad, SaysBeforeWhichConnectionsBeginAndEnd) {
   EXPECT_EQ(
       messages(other + "server:\n  outputs:\n    - {table: discrete_inputs, address: 0, count: 1, at: Y0}\n",
                running),
-      (std::vector<std::string>{"Modbus: the device 'pump' changes: it is connected anew",
+      (std::vector<std::string>{"Modbus: the device 'pump' changes: it is connected again",
                                 "Modbus: the server is new"}));
 }
 

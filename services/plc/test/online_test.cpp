@@ -174,7 +174,8 @@ TEST(Comparison, NamesEachRegisterAndVariableThatDiffersOnce) {
   auto text = std::string(counting);
   text.replace(text.find("%Y17.0 := %X16.1"), 16, "%Y17.0 := NOT %X16.1");
   auto next = programs_of(text);
-  OnlineComparison comparison(plc.core, std::move(next), st::Changeover(plc.variables, next.variables));
+  const st::Changeover changeover(plc.variables, next.variables);
+  OnlineComparison comparison(plc.core, std::move(next), changeover);
   // At rest it is found before anything happens: what one more scan would change.
   ASSERT_EQ(comparison.differences(), 1u) << testing::PrintToString(comparison.lines());
   EXPECT_EQ(comparison.lines()[0], "tick 1020, register Y17: 0 and 1");

@@ -21,7 +21,7 @@ machine::Parameters parameters() {
 
 /// The PLC with a drive in virtual time beside it: while nothing moves, time continues to run_until_tick.
 struct Bench {
-  explicit Bench(const std::string& machine = "ac-table", bool drive_answers = true) {
+  explicit Bench(const std::string& machine = "two-channel", bool drive_answers = true) {
     core.configure(parameters(), true);
     load_programs(std::string(TRUNNION_MACHINES) + "/" + machine + "/plc", core);
     if (drive_answers) feedback();
@@ -37,6 +37,9 @@ struct Bench {
     frame.spindle_speed.assign(speed.begin(), speed.end());
     frame.enabled = {1, 1};
     frame.skip_inputs = skip_inputs;
+    const auto outputs = core.outputs();
+    for (std::size_t s = 0; s < outputs.spindle_orient.size() && s < 2; ++s)
+      frame.spindle_oriented.push_back(outputs.spindle_orient[s] != 0 && speed[s] == 0 ? 1 : 0);
     core.set_feedback(frame);
     step();
   }
@@ -125,7 +128,7 @@ TEST(Handshake, M4TurnsTheOtherWayAndM5WaitsForStandstill) {
 }
 
 TEST(TouchProbe, M40SwitchesItOnAndTheContactIsAnInputOfTheFastTask) {
-  Bench bench;
+  Bench bench("ac-table");
   bench.request(M, 40);
   EXPECT_TRUE(bench.core.outputs().probe_on);
   EXPECT_FALSE(bench.done());
@@ -144,8 +147,24 @@ TEST(TouchProbe, M40SwitchesItOnAndTheContactIsAnInputOfTheFastTask) {
   EXPECT_FALSE(bench.core.outputs().probe_on);
 }
 
+TEST(TouchProbe, TheFirstOfTwoChannelsHasItAndTheSecondRefusesIt) {
+  Bench bench("two-channel");
+  bench.request(M, 40, 0, 1);
+  ASSERT_TRUE(bench.done());
+  EXPECT_TRUE(bench.finished.back().failed);
+  EXPECT_FALSE(bench.core.outputs().probe_on);
+  bench.request(M, 40);
+  EXPECT_TRUE(bench.core.outputs().probe_on);
+  EXPECT_EQ(bench.run(), 100u) << "until the receiver has started";
+  ASSERT_TRUE(bench.done());
+  EXPECT_FALSE(bench.finished.back().failed);
+  bench.request(M, 41);
+  EXPECT_TRUE(bench.done());
+  EXPECT_FALSE(bench.core.outputs().probe_on);
+}
+
 TEST(TouchProbe, M70FailsInContact) {
-  Bench bench;
+  Bench bench("ac-table");
   bench.skip_inputs = 1;
   bench.feedback();
   bench.request(M, 70);
@@ -165,6 +184,47 @@ TEST(Handshake, AnotherSWithTurningSpindleWaitsForTheNewSpeed) {
   bench.run();
   EXPECT_TRUE(bench.done());
   EXPECT_GE(bench.speed[0], 380);
+}
+
+// M19 of a turning spindle: 200 1/min at 2 1/min in a tick are 100 ticks.
+TEST(Handshake, M19IsFinishedWhenTheDriveHoldsTheSpindleAtItsAngle) {
+  Bench bench("ac-table");
+  bench.request(S, 0, 200);
+  bench.request(M, 3);
+  bench.run();
+  bench.request(M, 19);
+  EXPECT_FALSE(bench.done());
+  EXPECT_EQ(bench.core.outputs().spindle_orient[0], 1);
+  EXPECT_EQ(bench.core.outputs().spindle_speed[0], 0);
+  const auto time = bench.run();
+  EXPECT_TRUE(bench.done());
+  EXPECT_FALSE(bench.finished.back().failed);
+  EXPECT_GE(time, 95u) << "it is not finished while the spindle turns";
+  bench.request(M, 19);
+  EXPECT_TRUE(bench.done()) << "it is held already";
+  bench.request(M, 3);
+  EXPECT_EQ(bench.core.outputs().spindle_orient[0], 0);
+}
+
+// Arm 300, drawbar 200, rotation 400, drawbar 200, arm 300 ms. T1 is before the arm; T5 is 4 places of 150 ms
+// away.
+TEST(ToolChanger, M6TakesTheTimeOfItsMovementsWithTheMagazineInPlaceOrNot) {
+  Bench bench("ac-table");
+  bench.request(T, 1);
+  bench.request(M, 6);
+  EXPECT_NEAR(static_cast<double>(bench.run()), 1400, 12);
+  EXPECT_TRUE(bench.done());
+  EXPECT_FALSE(bench.finished.back().failed);
+  bench.request(T, 5);
+  EXPECT_TRUE(bench.done()) << "the program goes on while the magazine turns";
+  bench.request(M, 6);
+  EXPECT_NEAR(static_cast<double>(bench.run()), 600 + 1400, 12);
+  EXPECT_TRUE(bench.done());
+  bench.request(T, 5);
+  bench.request(M, 6);
+  EXPECT_TRUE(bench.done()) << "the tool is in the spindle";
+  bench.request(T, 30);
+  EXPECT_TRUE(bench.finished.back().failed) << "the magazine has 24 places";
 }
 
 TEST(Handshake, M6TakesExactlyTheChangersTimeOnAStandingSpindle) {
@@ -375,7 +435,7 @@ TEST(Restart, AProcessThatComesBackGoesOnWhereItWas) {
   bench.run();
   bench.request(M, 6);  // 500 1/min first come down, then the changer's time: interrupt it within
   const auto target = bench.core.outputs();
-  Bench fresh("ac-table", false);
+  Bench fresh("two-channel", false);
   fresh.core.restore(bench.core.memory());
   EXPECT_EQ(fresh.core.outputs(), target);
   fresh.tick = bench.tick, fresh.speed = bench.speed, fresh.number = bench.number,

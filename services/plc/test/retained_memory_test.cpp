@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
-#include <signal.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <cstddef>
@@ -11,6 +9,7 @@
 
 #include "retained_memory.hpp"
 #include "testing_support/damage.hpp"
+#include "testing_support/killed_process.hpp"
 
 namespace trunnion::plc {
 namespace {
@@ -90,18 +89,15 @@ TEST(RetainedMemory, AKillWhileTheSizeChangesLosesNothing) {
       RetainedMemory before(path, 10);
       before.save("boot", memory);
     }
-    const pid_t writer = fork();
-    if (writer == 0) {
+    testing_support::kill_while(random, 4, [&](auto done) {
       RetainedMemory retained(path, 10);
       retained.save("boot", memory);
       for (std::uint32_t cells = 2000;; cells = cells == 10 ? 2000 : 10) {
         memory.program.cells = cells;
         retained.resize(cells, "boot", memory);
+        done();
       }
-    }
-    usleep(300 + random() % 3000);
-    kill(writer, SIGKILL);
-    waitpid(writer, nullptr, 0);
+    });
     const auto found = RetainedMemory(path, 10).load();
     ASSERT_TRUE(found.kept) << "round " << round << " " << found.problem;
     EXPECT_EQ(found.kept->memory.registers.b[1], 5);
@@ -151,19 +147,16 @@ TEST(RetainedMemory, AfterAKillAtAnyMomentASlotIsWhole) {
   std::mt19937 random(7);
   std::int32_t newest = 0;
   for (int round = 0; round < 25; ++round) {
-    const pid_t writer = fork();
-    if (writer == 0) {
+    testing_support::kill_while(random, 20, [&](auto done) {
       RetainedMemory retained(path);
       Memory memory;
       if (const auto found = retained.load(); found.kept) memory = found.kept->memory;
       for (;;) {
         for (auto& b : memory.registers.b) ++b;  // all alike in a whole slot
         retained.save("", memory);
+        done();
       }
-    }
-    usleep(500 + random() % 4000);
-    kill(writer, SIGKILL);
-    waitpid(writer, nullptr, 0);
+    });
     const auto found = RetainedMemory(path).load();
     const auto& kept = found.kept;
     if (!kept) continue;
@@ -183,14 +176,10 @@ TEST(RetainedMemory, AfterKillsDuringTheFirstWritesNothingIsLost) {
   memory.registers.b[3] = 33;
   RetainedMemory(path).save("", memory);
   for (int round = 0; round < 150; ++round) {
-    const pid_t writer = fork();
-    if (writer == 0) {
+    testing_support::kill_while(random, 2, [&](auto done) {
       RetainedMemory retained(path);
-      for (;;) retained.save("", memory);
-    }
-    usleep(200 + random() % 1500);
-    kill(writer, SIGKILL);
-    waitpid(writer, nullptr, 0);
+      for (;; done()) retained.save("", memory);
+    });
     const auto found = RetainedMemory(path).load();
     ASSERT_EQ(found.state, storage::KeptState::good) << "round " << round << " " << found.problem;
     ASSERT_EQ(found.kept->memory.registers.b[3], 33);

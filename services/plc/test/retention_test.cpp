@@ -7,6 +7,7 @@
 
 #include <filesystem>
 #include <random>
+#include <string>
 
 #include "retained_memory.hpp"
 #include "running_core.hpp"
@@ -139,6 +140,85 @@ TEST(Retention, InputsAndOutputsAreNotKept) {
         refusal("main.il", std::string("VAR RETAIN\na AT ") + address + " : BOOL\nEND_VAR\nLD a\nST R0.0\n"),
         testing::HasSubstr("main.il:2:6: error: RETAIN is not for this area"));
   }
+}
+
+// The second start of a cluster, whose drive counts its ticks from 700 on.
+struct Started {
+  Started(const std::string& main, const Memory& kept) {
+    auto programs = programs_of(main);
+    variables = programs.variables;
+    core.configure(axis_parameters(), true);
+    core.load(std::move(programs));
+    core.power_up(kept);
+    core.advance(700);
+  }
+  std::string value(const std::string& path) const {
+    const auto at = variables.find(path);
+    std::vector<std::uint64_t> cells(at.type->cells);
+    copy_value(core.memory(), place_of(at), cells);
+    return st::value_text(*at.type, cells);
+  }
+  PlcCore core;
+  st::Variables variables;
+};
+
+TEST(Retention, TheTimeOfThePlcContinuesBehindANewStart) {
+  const std::string source =
+      "PROGRAM main VAR now : LTIME; END_VAR VAR RETAIN on : TON; off : TOF; END_VAR\n"
+      "now := PLC_TIME(); on(IN := TRUE, PT := T#3s); off(IN := on.ET < T#1s, PT := T#2s);\nEND_PROGRAM\n";
+  Running before(source);
+  before.pass(2000);
+  ASSERT_EQ(before.value("main.now"), "LT#2s");
+  ASSERT_EQ(before.value("main.on.ET"), "T#2s");
+  Started after(source, before.core.memory());
+  EXPECT_EQ(after.value("main.now"), "LT#2s") << "no time has passed between the last scan and the first";
+  EXPECT_EQ(after.value("main.on.ET"), "T#2s");
+  EXPECT_EQ(after.value("main.off.ET"), "T#1s");
+  EXPECT_EQ(after.core.outputs().run_until_tick, 700u + 1000u) << "both timers end at 3 s";
+  for (std::uint64_t tick = 700; tick < 1699; ++tick) after.core.advance(tick);
+  EXPECT_EQ(after.value("main.on.Q"), "FALSE");
+  EXPECT_EQ(after.value("main.off.Q"), "TRUE");
+  after.core.advance(1700);
+  EXPECT_EQ(after.value("main.on.Q"), "TRUE");
+  EXPECT_EQ(after.value("main.off.Q"), "FALSE");
+  // A process that is killed before its first scan of the new start.
+  PlcCore killed;
+  killed.configure(axis_parameters(), true);
+  killed.load(programs_of(source));
+  killed.power_up(before.core.memory());
+  PlcCore restarted;
+  restarted.configure(axis_parameters(), true);
+  restarted.load(programs_of(source));
+  restarted.restore(killed.memory());
+  restarted.advance(5000);
+  EXPECT_EQ(restarted.memory().now_us, 2000000u);
+}
+
+// Error 10, KP 1, TI 10 s: I grows by 0.01 in 10 ms, from 0.
+TEST(Retention, ARetainedControllerContinuesBehindANewStart) {
+  const std::string source =
+      "PROGRAM main VAR RETAIN pid : PID_CONTROL; END_VAR pid(AUTO := TRUE, SP := 10.0, TI := LT#10s);\n"
+      "END_PROGRAM\n";
+  Running before(source);
+  before.pass(2000);
+  ASSERT_NEAR(std::stod(before.value("main.pid.OUT")), 2.0, 1e-9);
+  Started after(source, before.core.memory());
+  EXPECT_NEAR(std::stod(after.value("main.pid.OUT")), 2.0, 1e-9);
+  after.core.advance(710);
+  EXPECT_NEAR(std::stod(after.value("main.pid.OUT")), 2.01, 1e-9);
+}
+
+// The manual's PID keeps the time of its last computation in a register of area B.
+TEST(Retention, ThePidOfTheManualsContinuesBehindANewStart) {
+  const std::string source =
+      "PROGRAM main VAR r AT %B420 : ARRAY[0..15] OF DINT; out : DINT; count : INT; END_VAR\n"
+      "r[5] := 100; r[10] := 30; IF PID(1000, 0, r, out) THEN count := count + 1; END_IF;\nEND_PROGRAM\n";
+  Running before(source);
+  before.pass(6000);
+  Started after(source, before.core.memory());
+  const auto first = std::stoi(after.value("main.count"));
+  for (std::uint64_t tick = 701; tick <= 1000; ++tick) after.core.advance(tick);
+  EXPECT_EQ(std::stoi(after.value("main.count")) - first, 10);
 }
 
 TEST(Retention, IsShownWithTheVariables) {

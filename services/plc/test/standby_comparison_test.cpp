@@ -6,7 +6,7 @@
 
 #include <random>
 
-#include "compiler.hpp"
+#include "plc/instruction_list/compiler.hpp"
 #include "round_recorder.hpp"
 
 namespace trunnion::plc {
@@ -40,7 +40,7 @@ std::shared_ptr<const machine::Parameters> revised_parameters(std::uint64_t revi
 
 PlcCore core_with(const std::string& program) {
   PlcCore core;
-  Compiler compiler(interface_symbols());
+  il::Compiler compiler(il::interface_symbols());
   auto fast = compiler.compile("LD X16.1\nST Y17.0\n", "fast.il");
   core.load(std::move(fast), compiler.compile(program, "main.il"));
   return core;

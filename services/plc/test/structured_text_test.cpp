@@ -14,6 +14,7 @@
 #include "program_files.hpp"
 #include "retained_memory.hpp"
 #include "round.hpp"
+#include "running_core.hpp"
 
 namespace trunnion::plc {
 namespace {
@@ -55,6 +56,14 @@ PlcCore core_of_directory(const std::string& directory, const machine::Parameter
 // The variables of a program: their addresses are its own.
 bool is_free_for_programs(const std::string& name) {
   return name.starts_with("R") || name.starts_with("W") || name.starts_with("G30") || name.starts_with("G31");
+}
+
+// The lamps and switches of the operator panels, which the instruction list does not have, and what they
+// order while no key is pressed: speed and increment of the jog, overrides that are not in force, the
+// handwheel.
+bool is_of_panel(const std::string& name) {
+  return name.starts_with("X1") || name.starts_with("Y1") || (name >= "G2564" && name <= "G2571") ||
+         (name >= "G2644" && name <= "G2651");
 }
 
 // Whatever happens to both, in the same order at the same ticks, every register of the interface, every
@@ -118,7 +127,7 @@ void expect_same_logic(const std::string& list_directory, const std::string& mac
       both([&](PlcCore& core) { core.advance(tick); });
       ASSERT_EQ(text.outputs(), list.outputs()) << "seed " << seed << " step " << step;
       for (const auto& index : changes(list.memory().registers, text.memory().registers))
-        ASSERT_TRUE(is_free_for_programs(register_name(index)))
+        ASSERT_TRUE(is_free_for_programs(register_name(index)) || is_of_panel(register_name(index)))
             << register_name(index) << ", seed " << seed << " step " << step;
       const auto done = list.take_done();
       ASSERT_EQ(text.take_done(), done) << "seed " << seed << " step " << step;
@@ -126,10 +135,6 @@ void expect_same_logic(const std::string& list_directory, const std::string& mac
     }
     EXPECT_GT(finished, 20u) << "seed " << seed;
   }
-}
-
-TEST(StructuredText, TheLogicOfTheAcTableIsThatOfTheInstructionList) {
-  expect_same_logic("one_channel", "ac-table", 1);
 }
 
 TEST(StructuredText, TheLogicOfTwoChannelsIsThatOfTheInstructionList) {
@@ -294,6 +299,79 @@ TEST(StructuredText, AProgramWithoutEndIsStoppedWithItsPlace) {
   EXPECT_EQ(core.program_fault().substr(0, 8), "main.st:");
 }
 
+TEST(StructuredText, AFastTaskWithoutEndIsStoppedInItsFirstScanWithItsPlace) {
+  PlcCore core;
+  core.configure(without_spindle(), true);
+  core.load(translate(
+      {{"fast.st",
+        "PROGRAM fast\nVAR n : DINT; END_VAR\nWHILE TRUE DO\n  n := n + 1;\nEND_WHILE;\nEND_PROGRAM\n"},
+       {"main.st", "PROGRAM main\naxes_enable := TRUE; %W7 := %W7 + 1;\nEND_PROGRAM\n"}},
+      true));
+  core.advance(1000);
+  EXPECT_TRUE(core.emergency_stop());
+  EXPECT_NE(core.program_fault().find("error: more than 100000 statements in one run in the fast task; "),
+            std::string::npos)
+      << core.program_fault();
+  EXPECT_TRUE(core.program_fault().starts_with("fast.st:3:") ||
+              core.program_fault().starts_with("fast.st:4:"))
+      << core.program_fault();
+  core.advance(1100);
+  EXPECT_EQ(core.memory().registers.w[7], 0) << "the main task does not run behind the fault";
+}
+
+// The array takes a cell for each element; the rest is what the same program needs besides.
+TEST(StructuredText, VariablesTakeAsManyCellsAsThereAreAndAnErrorSaysWhatToDo) {
+  const auto source = [](std::size_t elements) {
+    return "PROGRAM main\nVAR a : ARRAY[1.." + std::to_string(elements) + "] OF INT; END_VAR\na[" +
+           std::to_string(elements) + "] := a[1] + 7;\nEND_PROGRAM\n";
+  };
+  const auto most = program_cells - (Running(source(1000)).core.memory().program.cells - 1000);
+  ASSERT_GT(most, 8000u);
+  Running plc(source(most));
+  EXPECT_EQ(plc.core.memory().program.cells, program_cells);
+  EXPECT_EQ(plc.value("main.a[" + std::to_string(most) + "]"), "7");
+  try {
+    Running(source(most + 1));
+    FAIL() << "too many cells are accepted";
+  } catch (const std::runtime_error& e) {
+    EXPECT_STREQ(e.what(),
+                 "the variables of the PLC programs need 8193 cells of 64 bits, and there are 8192: shorten "
+                 "arrays and strings, and use as few instances of function blocks as needed");
+  }
+}
+
+// 3 ms are 12 ticks of 250 us, 3 of 1 ms, and end in the second of 2 ms. The fast task runs once each ms.
+TEST(StructuredText, TheTasksFollowTheInterpolationCycle) {
+  struct Cycle {
+    std::int64_t us;
+    std::uint64_t ticks_of_timer, ticks_of_100_ms;
+  };
+  for (const auto& [us, ticks_of_timer, ticks_of_100_ms] :
+       {Cycle{250, 12, 400}, {1000, 3, 100}, {2000, 2, 50}}) {
+    SCOPED_TRACE(us);
+    auto parameters = without_spindle();
+    parameters.values[1] = {static_cast<double>(us), ""};  // 000001
+    PlcCore core;
+    core.configure(parameters, true);
+    core.load(translate({{"fast.st", "PROGRAM fast\n%W7 := %W7 + 1;\nEND_PROGRAM\n"},
+                         {"main.st",
+                          "PROGRAM main\nVAR t : TON; END_VAR\nt(IN := TRUE, PT := T#3ms); %Y16.0 := t.Q;\n"
+                          "END_PROGRAM\n"}},
+                        true));
+    core.advance(1000);
+    EXPECT_EQ(core.outputs().run_until_tick, 1000 + ticks_of_timer);
+    for (std::uint64_t tick = 1001; tick < 1000 + ticks_of_timer; ++tick) core.advance(tick);
+    EXPECT_EQ(core.memory().registers.y[16], 0);
+    core.advance(1000 + ticks_of_timer);
+    EXPECT_EQ(core.memory().registers.y[16], 1);
+    const auto scans = core.memory().scans;
+    const auto runs = core.memory().registers.w[7];
+    for (std::uint64_t i = 1; i <= ticks_of_100_ms; ++i) core.advance(1000 + ticks_of_timer + i);
+    EXPECT_EQ(core.memory().scans - scans, 100u);
+    EXPECT_EQ(core.memory().registers.w[7] - runs, 100);
+  }
+}
+
 TEST(StructuredText, TheStateDigestSeesEveryVariable) {
   auto core = core_of(counting);
   core.advance(0);
@@ -311,7 +389,7 @@ TEST(StructuredText, RetainedFilesChangeTheirSizeWithTheProgramAndLeaveNothingBe
   std::filesystem::create_directories(directory);
   const auto path = (directory / "plc.image").string();
   Memory memory;
-  std::vector<std::size_t> sizes = {0, 7, 3, 0, 4096};
+  std::vector<std::size_t> sizes = {0, 7, 3, 0, 4096, 5000, program_cells};
   for (std::size_t i = 0; i < sizes.size(); ++i) {
     const auto cells = sizes[i];
     const auto found = RetainedMemory(path, cells).load();

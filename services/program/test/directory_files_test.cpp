@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Programs on a real disk: large ones in little memory, killed writers.
 #include <gtest/gtest.h>
-#include <signal.h>
 #include <sys/resource.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <filesystem>
@@ -12,6 +10,7 @@
 
 #include "directory_files.hpp"
 #include "program_store.hpp"
+#include "testing_support/killed_process.hpp"
 
 namespace trunnion::program {
 namespace {
@@ -70,19 +69,16 @@ TEST_F(DirectoryFilesTest, AfterAKillAtAnyMomentAProgramIsOldOrNew) {
   std::mt19937 random(11);
   int seen[2] = {0, 0};
   for (int round = 0; round < 40; ++round) {
-    const pid_t writer = fork();
-    if (writer == 0) {
+    testing_support::kill_while(random, 3, [&](auto done) {
       DirectoryFiles programs(directory_ + "/programs");
       for (int i = round;; ++i) {
         const auto& text = texts[i % 2];
         programs.create(".copy");
         programs.append(".copy", 0, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
         programs.publish(".copy", "p");
+        done();
       }
-    }
-    usleep(500 + random() % 5000);
-    kill(writer, SIGKILL);
-    waitpid(writer, nullptr, 0);
+    });
     // A store that knows nothing yet, because the writer above is none.
     for (const auto* index : {"/programs.yaml", "/programs.yaml.previous"})
       std::filesystem::remove(directory_ + index);

@@ -56,6 +56,11 @@ std::uint64_t MessageQueue::dropped() const {
   return dropped_;
 }
 
+bool MessageQueue::crowded() const {
+  const std::lock_guard lock(mutex_);
+  return bytes_ + taken_ > most_bytes_ / 2;
+}
+
 std::size_t MessageQueue::most_used() const {
   const std::lock_guard lock(mutex_);
   return most_used_;

@@ -34,6 +34,8 @@ class MessageQueue {
   void close();
 
   std::uint64_t dropped() const;
+  /// More than half of the bound is in use: the disk is slower than the stream.
+  bool crowded() const;
   std::size_t most_used() const;  ///< bytes
 
  private:

@@ -65,6 +65,18 @@ TEST(MessageQueue, WhatIsBeingWrittenStillCountsAgainstTheBound) {
   EXPECT_TRUE(queue.push(second));
 }
 
+TEST(MessageQueue, IsCrowdedUntilWhatFilledHalfOfItIsWritten) {
+  MessageQueue queue(1000);
+  auto m = message(1, 500);
+  queue.push(m);
+  EXPECT_TRUE(queue.crowded());
+  std::vector<Message> taken;
+  queue.pop_all(taken, 0);
+  EXPECT_TRUE(queue.crowded()) << "it is being written";
+  queue.pop_all(taken, 0);
+  EXPECT_FALSE(queue.crowded());
+}
+
 TEST(MessageQueue, GivesBuffersBack) {
   MessageQueue queue(1 << 20);
   auto m = message(1, 5000);

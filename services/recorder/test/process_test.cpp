@@ -248,8 +248,8 @@ TEST_P(RecorderProcess, AFullDiskIsOneLine) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Vendors, RecorderProcess,
-                         testing::Values(std::pair{bus::Vendor::cyclonedds, 65u},
-                                         std::pair{bus::Vendor::fastdds, 70u}),
+                         testing::Values(std::pair{bus::Vendor::cyclonedds, 56u},
+                                         std::pair{bus::Vendor::fastdds, 14u}),
                          [](const auto& it) { return std::string(bus::to_string(it.param.first)); });
 
 TEST(RecorderCommandLine, NamesATopicThatDoesNotExist) {

@@ -3,6 +3,7 @@ O9001 (A corner and an arc with the tool tip, both rotary axes turning)
 G21 G17 G90 G54 G94 G64
 T1 M6
 S6000 M3
+M8
 G0 X0 Y0 A0 C0
 G43.4 H1
 G1 X2 Y1 A2 C3 F6000
@@ -19,6 +20,7 @@ S600 M3
 G99 G84 X0 Y0 Z14 R18 F900
 G80
 G28 Z20
+M9
 M5
 M30
 %

@@ -1,6 +1,9 @@
 %
 O9001 (Left channel: lines and a circle)
 G21 G17 G90 G54
+(The touch probe on and off)
+M40
+M41
 T1 M6
 S5000 M3
 G0 X0 Y0 Z2

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Which variables a line of Structured Text names, so that their values can be shown beside it.
-import { inputNames } from "./input_catalogue";
+import { inputNames, registerNames } from "./input_catalogue";
 
 export interface SourceLine {
   text: string;
@@ -17,8 +17,10 @@ const comment = /\(\*[\s\S]*?\*\)|\/\*[\s\S]*?\*\/|\/\/[^\n]*|'(?:\$.|[^'\n])*'/
 /** Comments and strings become blanks of the same length, so that lines stay lines. */
 const blanked = (source: string) => source.replace(comment, (text) => text.replace(/[^\n]/g, " "));
 
-/** Of PLCopen XML: the steps of charts, each with whether it is active and for how long. */
-function chartLines(source: string): SourceLine[] {
+const isXml = (source: string) => /^\s*(?:\uFEFF)?<\?xml|^\s*<(?:\w+:)?project\b/.test(source);
+
+/** Of PLCopen XML: the variables of contacts, coils and connections, and of steps whether they are active and for how long. */
+function documentLines(source: string): SourceLine[] {
   let unit = "";
   let kind: SourceLine["kind"] = "";
   return source.split("\n").map((text) => {
@@ -28,12 +30,14 @@ function chartLines(source: string): SourceLine[] {
       kind = pou.includes('pouType="program"') ? "PROGRAM" : pou.includes('pouType="functionBlock"') ? "FUNCTION_BLOCK" : "";
     }
     const step = /<(?:\w+:)?step\s[^>]*\bname="(\w+)"/.exec(text)?.[1];
-    return { text, names: step === undefined ? [] : [`${step}.X`, `${step}.T`], unit, kind };
+    const inside = [...text.matchAll(/<(?:\w+:)?(?:variable|expression)>([^<]*)</g)].flatMap(([, one]) => blanked(one!).match(nameOf) ?? []);
+    const names = step === undefined ? [...new Set(inside)] : [`${step}.X`, `${step}.T`];
+    return { text, names, unit, kind };
   });
 }
 
 export function sourceLines(source: string): SourceLine[] {
-  if (/^\s*(?:\uFEFF)?<\?xml|^\s*<(?:\w+:)?project\b/.test(source)) return chartLines(source);
+  if (isXml(source)) return documentLines(source);
   const lines = source.split("\n");
   const code = blanked(source).split("\n");
   let unit = "";
@@ -53,6 +57,11 @@ export function sourceLines(source: string): SourceLine[] {
   });
 }
 
+const registerOf = (upper: string): string | undefined => {
+  const name = upper.toLowerCase();
+  return registerNames.has(name) || (/_\d+$/.test(name) && registerNames.has(name.replace(/\d+$/, ""))) ? name : undefined;
+};
+
 /** Paths of the variables of the PLC, found whatever the case. */
 export class Paths {
   private readonly byName = new Map<string, string>();
@@ -60,10 +69,10 @@ export class Paths {
     for (const path of paths) this.byName.set(path.toUpperCase(), path);
   }
 
-  /** Of a name within `prefix`, which is the program or an instance of a function block; else as it is. */
+  /** Of a name within `prefix`, which is the program or an instance of a function block; of a register as it is. */
   find(name: string, prefix: string): string | undefined {
     const upper = name.replaceAll(" ", "").toUpperCase();
-    return this.byName.get(`${prefix.toUpperCase()}.${upper}`) ?? this.byName.get(upper) ?? (upper.startsWith("%") ? upper : undefined);
+    return this.byName.get(`${prefix.toUpperCase()}.${upper}`) ?? this.byName.get(upper) ?? (upper.startsWith("%") ? upper : registerOf(upper));
   }
 
   /** Instances of a function block: what has every one of `names`, which the block declares. */
@@ -79,12 +88,22 @@ export class Paths {
     }
     return [...prefixes].sort();
   }
+
+  /** Where the variables of a unit are: of a program under its name, or, as those of a function block, in its instances. */
+  prefixes(program: string, names: readonly string[]): string[] {
+    const begins = `${program.toUpperCase()}.`;
+    return program !== "" && [...this.byName.keys()].some((path) => path.startsWith(begins)) ? [program] : this.instances(names);
+  }
 }
 
-/** Names that a function block declares as elementary variables, without those of a place (AT) and of functions within. */
-export function declared(source: string, block: string): string[] {
+/** Names that a program or function block declares as elementary variables, without those of a place (AT) and of functions within. */
+export function declared(source: string, unit: string): string[] {
+  if (isXml(source)) {
+    const pou = new RegExp(`<(?:\\w+:)?pou\\s[^>]*\\bname="${unit}"[\\s\\S]*?</(?:\\w+:)?interface>`).exec(source)?.[0] ?? "";
+    return [...pou.matchAll(/<(?:\w+:)?variable\s+name="(\w+)"\s*>\s*<(?:\w+:)?type>\s*<(?:\w+:)?(?:BOOL|[SDLU]{0,2}INT|L?REAL|[DL]?WORD|BYTE|L?TIME)\s*\//g)].map(([, name]) => name!);
+  }
   const code = blanked(source);
-  const body = new RegExp(`FUNCTION_BLOCK\\s+${block}\\b([\\s\\S]*?)END_FUNCTION_BLOCK`, "i").exec(code)?.[1] ?? "";
+  const body = new RegExp(`(?:PROGRAM|FUNCTION_BLOCK)\\s+${unit}\\b([\\s\\S]*?)END_(?:PROGRAM|FUNCTION_BLOCK)`, "i").exec(code)?.[1] ?? "";
   const names: string[] = [];
   for (const section of body.matchAll(/\bVAR(?:_INPUT|_OUTPUT)?\b(?!\s+CONSTANT)([\s\S]*?)END_VAR/gi))
     for (const line of section[1]!.matchAll(/([\w, \n]+?)\s*:\s*(?:BOOL|[SDLU]{0,2}INT|L?REAL|[DL]?WORD|BYTE|L?TIME|STRING)\b/gi))
@@ -95,36 +114,6 @@ export function declared(source: string, block: string): string[] {
 export interface Source {
   name: string;
   text: string;
-}
-
-export interface Use {
-  file: string;
-  /** From 1. */
-  line: number;
-  text: string;
-  writes: boolean;
-}
-
-/** Every line that names the variable: in its program, in the function blocks whose instance it is in, elsewhere by its path. */
-export function uses(path: string, sources: readonly Source[], paths: Paths): Use[] {
-  const wanted = path.toUpperCase();
-  const found: Use[] = [];
-  for (const { name: file, text: source } of sources) {
-    if (!file.endsWith(".st")) continue;
-    const code = blanked(source).split("\n");
-    const instances = new Map<string, string[]>();
-    sourceLines(source).forEach(({ text, names, unit, kind }, index) => {
-      if (kind === "FUNCTION_BLOCK" && !instances.has(unit)) instances.set(unit, paths.instances(declared(source, unit)));
-      const prefixes = kind === "PROGRAM" ? [unit] : kind === "FUNCTION_BLOCK" ? instances.get(unit)! : [""];
-      const name = names.find((one) => prefixes.some((prefix) => paths.find(one, prefix)?.toUpperCase() === wanted));
-      if (name === undefined) return;
-      const written = new RegExp(`(?:^|;|\\bTHEN|\\bELSE|\\bDO|=>|:)\\s*${name.replace(/[.*+?^${}()|[\]\\]/g, "\\$&")}\\s*(?::=|;|$|,|\\))`, "i");
-      const line = code[index] ?? "";
-      const writes = written.test(line.replace(/=>\s*/g, "=> ")) && (line.includes(":=") || line.includes("=>"));
-      found.push({ file, line: index + 1, text: text.trim(), writes });
-    });
-  }
-  return found;
 }
 
 export interface InputBit {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the 3D view draws besides the positions, read from the gateway: chain, travel, tools, workpiece zero.
 import { get, type Parameter, type Tool, type WorkOffset } from "../api";
+import type { MachineBodies } from "../contract";
 import type { Channel } from "../state/model";
 import { Chain, type Vector } from "./chain";
 
@@ -12,6 +13,8 @@ export interface MachineData {
   offsets: WorkOffset[];
   /** Seconds of an interpolation cycle. */
   period: number;
+  /** Undefined when they cannot be read, as with an error in bodies.yaml. */
+  bodies: MachineBodies | undefined;
 }
 
 const channelBase = (channel: number) => 40000 + 1000 * channel;
@@ -19,11 +22,12 @@ const travelOffset = { high: 6, low: 7 };
 
 /** Undefined when the parameters cannot be read. */
 export async function readMachine(channel: Channel): Promise<MachineData | undefined> {
-  const [parameters, tools, offsets, period] = await Promise.all([
+  const [parameters, tools, offsets, period, bodies] = await Promise.all([
     get<{ parameters: Parameter[] }>("/api/parameters?class=channel&limit=10000"),
     get<{ tools: Tool[] }>("/api/tools"),
     get<{ offsets: WorkOffset[] }>("/api/work-offsets"),
     get<Parameter>("/api/parameters/1"),
+    get<MachineBodies>(`/api/bodies/${channel.channel}`),
   ]);
   if (!parameters.ok || !parameters.body) return undefined;
   const base = channelBase(channel.channel);
@@ -42,6 +46,7 @@ export async function readMachine(channel: Channel): Promise<MachineData | undef
     tools: new Map((tools.body?.tools ?? []).map((tool) => [tool.number, tool])),
     offsets: offsets.body?.offsets ?? [],
     period: Number(period.body?.value ?? 1000) / 1e6,
+    bodies: bodies.ok ? bodies.body : undefined,
   };
 }
 

@@ -7,14 +7,16 @@ import {
   type Object3D, OrthographicCamera, Quaternion, Scene, Vector3, WebGLRenderer,
 } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
+import type { PlannedPath } from "../contract";
 import type { Channel } from "../state/model";
 import type { History } from "../state/history";
+import { DrawnBodies, isDrawn } from "./bodies";
 import type { Angles, Vector } from "./chain";
 import { type MachineData, toolLength } from "./machine_data";
 import { PathBuffer } from "./path";
 
 export type FixedView = "front" | "right" | "top" | "space";
-export type Layer = "machine" | "travel" | "path";
+export type Layer = "machine" | "travel" | "programmed" | "path";
 
 /** What a drawn path may be beside the executed one, in pixels. */
 const finePixels = 0.4;
@@ -50,17 +52,21 @@ export class Viewer {
   private readonly controls: OrbitControls;
   private readonly path = new PathBuffer();
   private readonly pathLines: LineSegments;
+  private readonly programmed: LineSegments;
   private readonly workpiece = new Group();
   private readonly machine = new Group();
   private readonly travel: LineSegments;
   private readonly zero: Object3D;
   private readonly part = new CylinderGeometry(1, 1, 1, 32);
   private readonly tool: Mesh;
+  /** Of bodies.yaml; in place of what is drawn from the chain: arms, pivots, tables. */
+  private readonly bodies: DrawnBodies | undefined;
   private readonly arms: Mesh[] = [];
   private readonly pivots: Mesh[] = [];
   private readonly tables: Mesh[] = [];
   private readonly resize: ResizeObserver;
   private readonly materials: Record<"body" | "pivot" | "table" | "tool", MeshLambertMaterial>;
+  private readonly edges = new LineBasicMaterial({ transparent: true, opacity: 0.7 });
   private uploaded = 0;
   private simplifiedFor = 0;
   private turning = false;
@@ -76,7 +82,7 @@ export class Viewer {
     ColorManagement.enabled = false;
     this.renderer.outputColorSpace = LinearSRGBColorSpace;
     this.renderer.setPixelRatio(Math.min(2, window.devicePixelRatio));
-    const material = () => new MeshLambertMaterial({ side: DoubleSide });
+    const material = () => new MeshLambertMaterial({ side: DoubleSide, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1 });
     this.materials = { body: material(), pivot: material(), table: material(), tool: material() };
     this.materials.table.transparent = true;
     this.materials.table.opacity = 0.55;
@@ -91,6 +97,8 @@ export class Viewer {
     geometry.setIndex(new BufferAttribute(this.path.drawn, 1));
     this.pathLines = new LineSegments(geometry, new LineBasicMaterial({ vertexColors: true }));
     this.pathLines.frustumCulled = false;
+    this.programmed = new LineSegments(new BufferGeometry(), [new LineBasicMaterial(), new LineBasicMaterial({ transparent: true, opacity: 0.35 })]);
+    this.programmed.frustumCulled = false;
 
     const { low, high } = data.travel;
     const extent = new Vector3().subVectors(vector(high), vector(low));
@@ -100,7 +108,7 @@ export class Viewer {
     this.zero = new AxesHelper(this.size / 5);
     this.zero.renderOrder = 1;
     this.workpiece.matrixAutoUpdate = false;
-    this.workpiece.add(this.pathLines, this.zero);
+    this.workpiece.add(this.programmed, this.pathLines, this.zero);
 
     const mesh = (which: keyof Viewer["materials"]) => {
       const made = new Mesh(this.part, this.materials[which]);
@@ -108,11 +116,20 @@ export class Viewer {
       return made;
     };
     this.tool = mesh("tool");
-    const still: Angles = [0, 0, 0, 0, 0, 0];
-    const head = data.chain.headAt([0, 0, 0], still, 0);
-    for (let i = 0; i <= head.pivots.length; ++i) this.arms.push(mesh("body"));
-    for (let i = 0; i < head.pivots.length; ++i) this.pivots.push(mesh("pivot"));
-    for (let i = 0; i < Math.max(1, data.chain.tablePivots(still).length); ++i) this.tables.push(mesh("table"));
+    if (isDrawn(data.bodies)) {
+      // The tool and the path are seen through the spindle.
+      this.materials.body.transparent = true;
+      this.materials.body.opacity = 0.4;
+      this.bodies = new DrawnBodies(data.bodies, ({ side, tool }) => this.materials[tool ? "tool" : side === "tool" ? "body" : "table"], this.edges);
+      this.machine.add(this.bodies.group);
+      this.canvas.dataset.bodies = String(data.bodies.bodies.length);
+    } else {
+      const still: Angles = [0, 0, 0, 0, 0, 0];
+      const head = data.chain.headAt([0, 0, 0], still, 0);
+      for (let i = 0; i <= head.pivots.length; ++i) this.arms.push(mesh("body"));
+      for (let i = 0; i < head.pivots.length; ++i) this.pivots.push(mesh("pivot"));
+      for (let i = 0; i < Math.max(1, data.chain.tablePivots(still).length); ++i) this.tables.push(mesh("table"));
+    }
     this.scene.add(this.workpiece, this.machine, this.travel);
 
     this.controls = new OrbitControls(this.camera, canvas);
@@ -139,6 +156,8 @@ export class Viewer {
     set(this.materials.pivot, "accent");
     set(this.materials.table, "pressed-line");
     set(this.materials.tool, "warn");
+    for (const material of this.programmed.material as LineBasicMaterial[]) material.color.set(new Color(colour("accent")));
+    this.edges.color.set(new Color(colour("text")));
     (this.travel.material as LineBasicMaterial).color.set(new Color(colour("dim")));
     this.ask();
   }
@@ -155,6 +174,24 @@ export class Viewer {
     this.ask();
   }
 
+  /** The path that a program will take; `zero`: G54 of X Y Z, which its points count from. */
+  program(path: PlannedPath | undefined, zero: Vector): void {
+    const count = path?.x.length ?? 0;
+    const points = new Float32Array(3 * count);
+    for (let i = 0; i < count; ++i) [path!.x, path!.y, path!.z].forEach((column, axis) => (points[3 * i + axis] = column[i]! + zero[axis]!));
+    const pairs = (rapid: boolean) => Array.from({ length: Math.max(0, count - 1) }, (_, i) => i).filter((i) => path!.rapid[i + 1] === rapid).flatMap((i) => [i, i + 1]);
+    const [feeds, rapids] = [pairs(false), pairs(true)];
+    const geometry = new BufferGeometry();
+    geometry.setAttribute("position", new BufferAttribute(points, 3));
+    geometry.setIndex([...feeds, ...rapids]);
+    geometry.addGroup(0, feeds.length, 0);
+    geometry.addGroup(feeds.length, rapids.length, 1);
+    this.programmed.geometry.dispose();
+    this.programmed.geometry = geometry;
+    this.canvas.dataset.programmed = String(Math.max(0, count - 1));
+    this.ask();
+  }
+
   get segments(): number {
     return this.path.segments;
   }
@@ -164,7 +201,7 @@ export class Viewer {
   }
 
   show(layer: Layer, on: boolean): void {
-    ({ machine: this.machine, travel: this.travel, path: this.pathLines } as Record<Layer, Object3D>)[layer].visible = on;
+    ({ machine: this.machine, travel: this.travel, programmed: this.programmed, path: this.pathLines } as Record<Layer, Object3D>)[layer].visible = on;
     this.ask();
   }
 
@@ -180,17 +217,20 @@ export class Viewer {
     this.fit();
   }
 
-  /** The executed path, or the travel while there is none, fills the picture. */
-  fit(): void {
+  /** The executed path fills the picture, before it the programmed one; with `whole`, and without a path, the machine. */
+  fit(whole = false): void {
     this.scene.updateMatrixWorld();
     const box = new Box3();
-    if (this.path.segments > 0) {
+    const programmed = this.programmed.geometry.getAttribute("position");
+    if (!whole && this.path.segments === 0 && programmed?.count > 1) {
+      box.setFromBufferAttribute(programmed as BufferAttribute).applyMatrix4(this.workpiece.matrixWorld).expandByScalar(this.size / 20);
+    } else if (!whole && this.path.segments > 0) {
       const { points, count } = this.path;
       const point = new Vector3();
       for (let i = 0; i < count; ++i) box.expandByPoint(point.fromArray(points, 3 * i).applyMatrix4(this.workpiece.matrixWorld));
       box.expandByScalar(this.size / 20);
     } else {
-      box.setFromObject(this.travel);
+      box.setFromObject(this.bodies?.group ?? this.travel);
     }
     const centre = box.getCenter(new Vector3());
     this.camera.position.add(centre.clone().sub(this.controls.target));
@@ -241,6 +281,8 @@ export class Viewer {
     spanCylinder(this.tool, vector(head.tip), vector(head.face), cutting);
 
     this.workpiece.matrix.copy(this.matrixOf(angles));
+    const value = (letter: string) => channel.machine[channel.letters.indexOf(letter)] ?? 0;
+    this.bodies?.place(value, this.workpiece.matrix, tool !== undefined);
     const pivots = chain.tablePivots(angles);
     this.tables.forEach((mesh, i) => {
       const pivot = pivots[i];

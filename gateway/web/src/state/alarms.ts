@@ -13,5 +13,5 @@ export interface Explanation {
 /** Undefined for a number that is not in the catalogue. Alarms of the NC language (1000 .. 1999) name place and cause. */
 export function explanation(alarm: Pick<Alarm, "number">, text: Texts): Explanation | undefined {
   if (alarm.number >= 1000 && alarm.number < 2000) return { cause: "", remedy: text.languageRemedy };
-  return alarmCatalogue[alarm.number];
+  return alarmCatalogue[alarm.number]?.[text.languageCode];
 }

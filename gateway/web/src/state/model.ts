@@ -62,6 +62,8 @@ export interface AxisRow {
   workpiece: number;
   distanceToGo: number;
   followingError: number | undefined;
+  /** Share of the rated torque, whatever its direction. */
+  load: number | undefined;
   enabled: boolean | undefined;
 }
 
@@ -79,6 +81,7 @@ export function axisRows(state: MachineState, channel: ChannelState): AxisRow[] 
       workpiece: channel.workpiece[index] ?? 0,
       distanceToGo: channel.distance_to_go[index] ?? 0,
       followingError: axis?.following_error,
+      load: axis && Math.abs(axis.torque),
       enabled: axis?.enabled,
     };
   });
@@ -120,9 +123,17 @@ export function recoverySteps(state: MachineState): RecoveryStep[] {
   return steps;
 }
 
+/** Why the machine's PLC lets the channel do nothing of this kind; empty when it inhibits nothing. */
+export function inhibition(state: MachineState, channel: ChannelState, kind: "start" | "manual", unexplained: string): string {
+  const control = state.plc?.channels?.[channel.channel];
+  const inhibits = kind === "start" ? control?.start_inhibit : control?.manual_inhibit;
+  return inhibits ? control?.reason || unexplained : "";
+}
+
 /** Whether cycle start can do anything now; the channel itself decides, this only greys the button. */
 export function canStart(state: MachineState, channel: ChannelState): boolean {
   if (state.plc?.emergency_stop || channel.needs_reset) return false;
+  if (inhibition(state, channel, "start", "-")) return false;
   if (state.cluster && !state.cluster.ready) return false;
   if (holdingAlarms(state).length > 0) return false;
   if (channel.axes.some((number) => state.axes[String(number)]?.enabled === false)) return false;

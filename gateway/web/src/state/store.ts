@@ -134,8 +134,11 @@ export function command<Route extends keyof ChannelCommands>(
   return number === null ? Promise.resolve(false) : commandTo(number, what, route, body);
 }
 
-// The gateway sends something at least twice a second, so silence of this length means that it is gone.
-const silenceMilliseconds = 1800;
+// The gateway sends something every 0.3 s at the latest, so silence of this length means that it is gone.
+const silenceMilliseconds = 900;
+// Of these the last part counts with an idle page only: what came while it was busy is heard first.
+const idleMilliseconds = 200;
+const connectMilliseconds = 5000;
 const reconnectMilliseconds = 700;
 
 /** Connects and keeps connecting for as long as the page lives. */
@@ -152,11 +155,11 @@ export function connect(): void {
     if (connection.value === "live") connection.value = "lost";
     setTimeout(connect, reconnectMilliseconds);
   };
-  const heard = () => {
+  const heard = (quiet = silenceMilliseconds) => {
     clearTimeout(silence);
-    silence = setTimeout(end, silenceMilliseconds);
+    silence = setTimeout(() => (silence = setTimeout(end, idleMilliseconds)), quiet - idleMilliseconds);
   };
-  heard();
+  heard(connectMilliseconds);
   opened.onmessage = (event: MessageEvent<string>) => {
     const message = JSON.parse(event.data) as Message | OrderAnswer;
     if ("answer" in message) {

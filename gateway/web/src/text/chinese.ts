@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 import { chineseAccess } from "./chinese_access";
 import { chineseAnalysis } from "./chinese_analysis";
+import { chineseMeasurement } from "./chinese_measurement";
+import { chineseMeasuring } from "./chinese_measuring";
 import { chinesePlc } from "./chinese_plc";
 import type { Texts } from "./texts";
 
 export const chinese: Texts = {
+  languageCode: "zh",
   languageName: "中文",
   language: "语言",
   theme: "颜色",
@@ -55,6 +58,10 @@ export const chinese: Texts = {
   elapsed: "运行时间",
   elapsedAbout: "程序启动以来的机床时间，包括保持",
   elapsedPartAbout: "打开本页面以来的程序机床时间：程序在此之前已启动",
+  remaining: "剩余时间",
+  remainingAbout: "按规划计算的程序剩余时间，不含 M、S、T 和换刀",
+  planned: "规划时间",
+  plannedAbout: "按规划计算的所选程序从参考点起的时间，不含 M、S、T 和换刀",
   modeAUTO: "自动",
   modeMDI: "MDI",
   modeJOG: "手动",
@@ -74,6 +81,13 @@ export const chinese: Texts = {
   remedy: "处理",
   languageRemedy: "修改文本所指的程序行，然后重新启动。",
   resetAlarms: "清除报警",
+  activeAlarms: "当前",
+  alarmHistory: "历史",
+  searchAlarms: "编号、文本或来源",
+  lasted: (time: string) => `持续 ${time}`,
+  stillActive: "未清除",
+  noPastAlarms: "没有报警记录。",
+  moreAlarms: "显示更多",
   alarmReset: "清除报警",
   times: (count) => `${count} 次`,
   leftInLine: (program, line) => `${program} 停在第 ${line} 行：用任意行启动可从该行继续。`,
@@ -214,7 +228,17 @@ export const chinese: Texts = {
   toolPathAbout: "实际位置的刀具轨迹",
   plots: "曲线",
   functions: "功能",
+  variables: "变量",
+  findVariable: "变量号",
+  noVariables: "所有变量均为空，或没有此编号的变量。",
+  moreVariables: (count) => `另有 ${count} 个：请输入编号的一部分`,
+  variablesAbout: "最近的程序或 MDI 行留下的值；可用 MDI 赋值：#100=1.5",
+  loadOf: (letter) => `${letter} 轴负载（额定转矩的 %）`,
   clear: "清空",
+  parts: "工件数",
+  setParts: "设置工件计数",
+  setKey: "设置",
+  zeroParts: "清零",
   startFromLine: "任意行启动",
   line: "行",
   lineNumber: "行号",
@@ -260,7 +284,8 @@ export const chinese: Texts = {
   sceneRight: "右视",
   sceneTop: "俯视",
   sceneSpace: "立体",
-  sceneFit: "全部",
+  sceneFit: "适合窗口",
+  sceneWhole: "整机",
   sceneFollow: "跟随刀具",
   sceneLoading: "正在加载三维视图…",
   sceneMissing: "此浏览器不能显示三维视图（缺少 WebGL）。",
@@ -271,6 +296,8 @@ export const chinese: Texts = {
   sceneMachine: "机床",
   sceneTravel: "行程",
   scenePath: "轨迹",
+  sceneProgrammed: "编程轨迹",
+  scenePlanned: (program: string, time: string) => `${program}：规划 ${time}`,
   sceneShow: "显示内容",
 
   parameters: "参数",
@@ -389,6 +416,8 @@ export const chinese: Texts = {
 
   ...chineseAccess,
   ...chineseAnalysis,
+  ...chineseMeasurement,
+  ...chineseMeasuring,
   ...chinesePlc,
   services: "服务",
   aliveOf: (alive, total) => `${alive} / ${total} 在线`,

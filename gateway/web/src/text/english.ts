@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 import { englishAccess } from "./english_access";
 import { englishAnalysis } from "./english_analysis";
+import { englishMeasurement } from "./english_measurement";
+import { englishMeasuring } from "./english_measuring";
 import { englishPlc } from "./english_plc";
 // Every text of the page, in English. It defines the keys; the other languages have the same ones (texts.ts).
 export const english = {
   // The page as a whole
+  languageCode: "en",
   languageName: "English",
   language: "Language",
   theme: "Colours",
@@ -56,6 +59,10 @@ export const english = {
   elapsed: "Running time",
   elapsedAbout: "Machine time of the program since its start, holds included",
   elapsedPartAbout: "Machine time of the program since this page was opened: its start was before",
+  remaining: "Remaining",
+  remainingAbout: "Time of the program that is left, as planned: without M, S, T and tool changes",
+  planned: "Planned time",
+  plannedAbout: "Time of the selected program from the reference position, as planned: without M, S, T and tool changes",
   modeAUTO: "AUTO",
   modeMDI: "MDI",
   modeJOG: "JOG",
@@ -76,6 +83,13 @@ export const english = {
   remedy: "Remedy",
   languageRemedy: "Correct the line that the text names, then start again.",
   resetAlarms: "Reset alarms",
+  activeAlarms: "Active",
+  alarmHistory: "History",
+  searchAlarms: "Number, text or source",
+  lasted: (time: string) => `lasted ${time}`,
+  stillActive: "active",
+  noPastAlarms: "There was no alarm.",
+  moreAlarms: "Show more",
   alarmReset: "Alarm reset",
   times: (count: number) => `${count} times`,
   leftInLine: (program: string, line: number) => `${program} was left in line ${line}: start from a line continues there.`,
@@ -222,7 +236,17 @@ export const english = {
   toolPathAbout: "Tool path of the actual positions",
   plots: "Plots",
   functions: "Functions",
+  variables: "Variables",
+  findVariable: "Number of a variable",
+  noVariables: "Every variable is vacant, or none has this number.",
+  moreVariables: (count: number) => `and ${count} more: enter a part of the number`,
+  variablesAbout: "As the last program or MDI line has left them; set one by MDI: #100=1.5",
+  loadOf: (letter: string) => `Load of ${letter} in % of the rated torque`,
   clear: "Clear",
+  parts: "Parts",
+  setParts: "Set the count of parts",
+  setKey: "Set",
+  zeroParts: "To 0",
   startFromLine: "Start from a line",
   line: "Line",
   lineNumber: "number",
@@ -271,6 +295,7 @@ export const english = {
   sceneTop: "Top",
   sceneSpace: "Space",
   sceneFit: "Fit",
+  sceneWhole: "Whole",
   sceneFollow: "Follow the tool",
   sceneLoading: "Loading the 3D view…",
   sceneMissing: "This browser shows no 3D view (WebGL is missing).",
@@ -281,6 +306,8 @@ export const english = {
   sceneMachine: "Machine",
   sceneTravel: "Travel",
   scenePath: "Path",
+  sceneProgrammed: "Programmed",
+  scenePlanned: (program: string, time: string) => `${program}: ${time} planned`,
   sceneShow: "What is shown",
 
   // Parameters
@@ -403,6 +430,8 @@ export const english = {
 
   ...englishAccess,
   ...englishAnalysis,
+  ...englishMeasurement,
+  ...englishMeasuring,
   ...englishPlc,
 
   // Diagnosis

@@ -17,7 +17,7 @@ export const englishAccess = {
   sessionOver: "The session is over. Log in again.",
   youOperate: "You operate",
   otherOperates: (name: string) => `${name} operates`,
-  nobodyOperates: "Nobody operates",
+  nobodyOperates: "No station operates",
   operateHere: "Operate here",
   takeOverRight: "Take over",
   askForRight: "Ask to operate",

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 import { germanAccess } from "./german_access";
 import { germanAnalysis } from "./german_analysis";
+import { germanMeasurement } from "./german_measurement";
+import { germanMeasuring } from "./german_measuring";
 import { germanPlc } from "./german_plc";
 import type { Texts } from "./texts";
 
 export const german: Texts = {
+  languageCode: "de",
   languageName: "Deutsch",
   language: "Sprache",
   theme: "Farben",
@@ -55,6 +58,10 @@ export const german: Texts = {
   elapsed: "Laufzeit",
   elapsedAbout: "Maschinenzeit des Programms seit dem Start, mit Halten",
   elapsedPartAbout: "Maschinenzeit des Programms, seit diese Seite offen ist: der Start war davor",
+  remaining: "Restzeit",
+  remainingAbout: "Restliche Zeit des Programms nach Plan: ohne M, S, T und Werkzeugwechsel",
+  planned: "Geplante Zeit",
+  plannedAbout: "Zeit des angewählten Programms ab der Referenzposition nach Plan: ohne M, S, T und Werkzeugwechsel",
   modeAUTO: "AUTO",
   modeMDI: "MDI",
   modeJOG: "JOG",
@@ -74,6 +81,13 @@ export const german: Texts = {
   remedy: "Abhilfe",
   languageRemedy: "Die im Text genannte Zeile berichtigen, dann neu starten.",
   resetAlarms: "Alarme löschen",
+  activeAlarms: "Aktiv",
+  alarmHistory: "Verlauf",
+  searchAlarms: "Nummer, Text oder Quelle",
+  lasted: (time: string) => `Dauer ${time}`,
+  stillActive: "aktiv",
+  noPastAlarms: "Es gab keinen Alarm.",
+  moreAlarms: "Mehr anzeigen",
   alarmReset: "Alarme löschen",
   times: (count) => `${count}-mal`,
   leftInLine: (program, line) => `${program} wurde in Zeile ${line} verlassen: Start ab Zeile setzt dort fort.`,
@@ -214,7 +228,17 @@ export const german: Texts = {
   toolPathAbout: "Werkzeugbahn der Istpositionen",
   plots: "Kurven",
   functions: "Funktionen",
+  variables: "Variablen",
+  findVariable: "Nummer einer Variablen",
+  noVariables: "Alle Variablen sind leer, oder keine hat diese Nummer.",
+  moreVariables: (count) => `und ${count} weitere: einen Teil der Nummer eingeben`,
+  variablesAbout: "Wie das letzte Programm oder die letzte MDI-Zeile sie hinterlassen hat; setzen durch MDI: #100=1.5",
+  loadOf: (letter) => `Last von ${letter} in % des Nennmoments`,
   clear: "Leeren",
+  parts: "Teile",
+  setParts: "Teilezähler setzen",
+  setKey: "Setzen",
+  zeroParts: "Auf 0",
   startFromLine: "Start ab Zeile",
   line: "Zeile",
   lineNumber: "Nummer",
@@ -261,6 +285,7 @@ export const german: Texts = {
   sceneTop: "Oben",
   sceneSpace: "Raum",
   sceneFit: "Einpassen",
+  sceneWhole: "Gesamt",
   sceneFollow: "Werkzeug folgen",
   sceneLoading: "Die 3D-Ansicht wird geladen…",
   sceneMissing: "Dieser Browser zeigt keine 3D-Ansicht (WebGL fehlt).",
@@ -271,6 +296,8 @@ export const german: Texts = {
   sceneMachine: "Maschine",
   sceneTravel: "Verfahrweg",
   scenePath: "Bahn",
+  sceneProgrammed: "Programmiert",
+  scenePlanned: (program: string, time: string) => `${program}: ${time} geplant`,
   sceneShow: "Was gezeigt wird",
 
   parameters: "Parameter",
@@ -389,6 +416,8 @@ export const german: Texts = {
 
   ...germanAccess,
   ...germanAnalysis,
+  ...germanMeasurement,
+  ...germanMeasuring,
   ...germanPlc,
   services: "Dienste",
   aliveOf: (alive, total) => `${alive} von ${total} aktiv`,

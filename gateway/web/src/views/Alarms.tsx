@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
+import { useSignal } from "@preact/signals";
 import { timeOfDay } from "../format";
+import { alarmText } from "../plc/messages";
 import { explanation } from "../state/alarms";
 import { sortedAlarms } from "../state/model";
 import { machine, request } from "../state/store";
 import { text } from "../text/texts";
+import { AlarmHistory } from "./AlarmHistory";
 
 export function AlarmList() {
   const t = text.value;
@@ -23,7 +26,7 @@ export function AlarmList() {
           return (
             <li key={`${alarm.instance}/${alarm.number}/${alarm.part}`} class={alarm.severity.toLowerCase()}>
               <b class="digits">{alarm.number}</b>
-              <span>{alarm.text}</span>
+              <span>{alarmText(alarm)}</span>
               {why && (
                 <dl>
                   {why.cause && <><dt>{t.cause}</dt><dd>{why.cause}</dd></>}
@@ -42,10 +45,17 @@ export function AlarmList() {
   );
 }
 
+/** The active alarms, or those that there were. */
 export function Alarms() {
+  const past = useSignal(false);
+  const t = text.value;
   return (
-    <section class="alarms" aria-label={text.value.alarms}>
-      <AlarmList />
+    <section class="alarms" aria-label={t.alarms}>
+      <div class="segments" role="group" aria-label={t.alarms}>
+        <button aria-pressed={!past.value} onClick={() => (past.value = false)}>{t.activeAlarms}</button>
+        <button aria-pressed={past.value} onClick={() => (past.value = true)}>{t.alarmHistory}</button>
+      </div>
+      {past.value ? <AlarmHistory /> : <AlarmList />}
     </section>
   );
 }

@@ -2,6 +2,7 @@
 // The alarm strip below the state bar, in every view: how many alarms there are, the first one with its cause and
 // remedy, and what leads back after a stop. Its place is always reserved, so that nothing moves when an alarm comes.
 import { useSignal } from "@preact/signals";
+import { alarmText } from "../plc/messages";
 import { explanation } from "../state/alarms";
 import { holdingAlarms, type RecoveryStep, recoverySteps, sortedAlarms } from "../state/model";
 import { channelList, channelName, channels, machine, request, tell } from "../state/store";
@@ -82,7 +83,7 @@ export function Attention() {
       <div class="first" role="alert">
         {first && (
           <>
-            <p class="digits" title={first.text}><b>{first.number}</b> {first.text}</p>
+            <p class="digits" title={alarmText(first)}><b>{first.number}</b> {alarmText(first)}</p>
             {why?.cause && <p title={why.cause}>{t.cause}: {why.cause}</p>}
             {why && <p title={why.remedy}>{t.remedy}: {why.remedy}</p>}
           </>

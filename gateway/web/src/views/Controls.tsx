@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-import { type Mode, canStart } from "../state/model";
+import { type Mode, canStart, inhibition } from "../state/model";
 import { channel, channelList, channelName, command, machine, stop } from "../state/store";
 import { text, type Texts } from "../text/texts";
 import { Guard } from "./Guard";
@@ -66,6 +66,7 @@ export function Controls() {
   const one = channel.value;
   if (!one) return null;
   const t = text.value;
+  const inhibited = inhibition(machine.value, one, "start", t.inhibitedByPlc);
   return (
     <section class={`controls ${channelList.value.length > 1 ? "several" : ""}`} aria-label={t.operation}>
       <Guard needs="operator">
@@ -87,13 +88,14 @@ export function Controls() {
           <button
             class="start"
             data-test="cycle-start"
-            title="Ctrl+Enter"
+            title={inhibited || "Ctrl+Enter"}
             aria-disabled={!canStart(machine.value, one)}
             onClick={() => void command(t.cycleStart, "cycle-start", {})}
           >
             {t.cycleStart}
           </button>
         </Guard>
+        {inhibited && <p class="dim" role="status" data-test="start-inhibited">{inhibited}</p>}
         {channelList.value.length > 1 && (
           <button
             class="hold"

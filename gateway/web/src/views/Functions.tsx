@@ -9,6 +9,7 @@ import { Guard } from "./Guard";
 
 const increments = [0.001, 0.01, 0.1, 1];
 const line = signal("");
+const parts = signal("");
 const wheelAxis = signal(0);
 const wheelIncrement = signal(0.01);
 
@@ -60,6 +61,37 @@ function FromLine({ offered }: { offered: number }) {
         {t.searchLine}
       </button>
       {offered > 0 && <span class="dim">{t.offeredLine(offered)}</span>}
+    </form>
+  );
+}
+
+/** Parts that were machined; the operator sets the count, to 0 for a new order. */
+function Parts({ count }: { count: number }) {
+  const t = text.value;
+  const set = (parts: number) => void command(t.setParts, "parts", { parts });
+  return (
+    <form
+      class="row"
+      aria-label={t.parts}
+      onSubmit={(event) => {
+        event.preventDefault();
+        if (parts.value.trim() === "") return;
+        set(Number(parts.value));
+        parts.value = "";
+      }}
+    >
+      <b class="digits" data-test="parts">{count}</b>
+      <input
+        class="short digits"
+        data-test="parts-wanted"
+        inputMode="numeric"
+        aria-label={t.setParts}
+        placeholder={t.lineNumber}
+        value={parts.value}
+        onInput={(event) => (parts.value = event.currentTarget.value)}
+      />
+      <button type="submit" data-test="set-parts">{t.setKey}</button>
+      <button type="button" data-test="zero-parts" onClick={() => set(0)}>{t.zeroParts}</button>
     </form>
   );
 }
@@ -161,6 +193,8 @@ export function Functions() {
             ))}
           </div>
         </div>
+        <h3>{t.parts}</h3>
+        <Parts count={one.parts} />
         <h3>{t.handwheel}</h3>
         <Handwheel />
         <div class="row">

@@ -3,6 +3,7 @@
 // over it (style.css keeps it above everything else).
 import { duration } from "../format";
 import { cyclePeriod } from "../state/cycle_period";
+import { plan, remaining } from "../state/plan";
 import { channel, channelList, channelName, channelNumber, channels, chooseChannel, holdAll, machine, runTime, stop } from "../state/store";
 import { text } from "../text/texts";
 import { Operator } from "./OperatingRight";
@@ -51,6 +52,21 @@ function Elapsed({ number }: { number: number }) {
   );
 }
 
+/** Of the selected program: its planned time before it is started, then what is left of it. */
+function Remaining() {
+  const [planned, left] = [plan.value, remaining.value];
+  const one = channel.value;
+  if (!planned || planned.alarm !== undefined || left === undefined || !one) return null;
+  const t = text.value;
+  const begun = one.suspended || (one.mode === "AUTO" && one.state !== "IDLE");
+  return (
+    <span class="elapsed digits" title={begun ? t.remainingAbout : t.plannedAbout}>
+      <span class="dim">{begun ? t.remaining : t.planned}</span>
+      <b data-test="remaining">{!planned.complete && "> "}{duration(left)}</b>
+    </span>
+  );
+}
+
 export function Header() {
   const state = machine.value;
   const one = channel.value;
@@ -86,6 +102,7 @@ export function Header() {
             <span class="dim digits">{one.lines_total > 0 && t.lineOf(one.line, one.lines_total)}</span>
           </div>
           <Elapsed number={one.channel} />
+          <Remaining />
         </>
       )}
       <div class="stops">

@@ -4,7 +4,7 @@ import { useEffect, useMemo } from "preact/hooks";
 import { get } from "../api";
 import type { Parameter } from "../contract";
 import { JogHold } from "../state/jog";
-import { type AxisRow, axisRows } from "../state/model";
+import { type AxisRow, axisRows, inhibition } from "../state/model";
 import { channel, channelNumber, commandTo, machine, renewJog, stop } from "../state/store";
 import { text } from "../text/texts";
 
@@ -56,7 +56,8 @@ export function Jog() {
   if (!one) return null;
   const t = text.value;
   const reference = one.mode === "REF";
-  const usable = one.mode === "JOG" || reference;
+  const inhibited = inhibition(machine.value, one, "manual", t.inhibitedByPlc);
+  const usable = (one.mode === "JOG" || reference) && !inhibited;
 
   const direction = ({ index: axis, number, letter, unit }: AxisRow, sign: 1 | -1) => {
     const used = Math.min(speed.value, limits.value[number] ?? speed.value);
@@ -65,7 +66,7 @@ export function Jog() {
       <button
         class="direction"
         disabled={!usable}
-        title={`${used} ${unit}/min`}
+        title={inhibited || `${used} ${unit}/min`}
         aria-label={sign > 0 ? t.jogPlus(letter) : t.jogMinus(letter)}
         data-test={`jog-${letter}${sign > 0 ? "+" : "-"}`}
         onPointerDown={(event) => {
@@ -92,6 +93,7 @@ export function Jog() {
 
   return (
     <section class={`jog ${usable ? "" : "idle"}`} aria-label={t.jog}>
+      {inhibited && <p class="dim" role="status" data-test="jog-inhibited">{inhibited}</p>}
       <div class="pad">
         {axisRows(machine.value, one).map((row) => (
           <div class="jog-axis" key={row.index}>
@@ -101,6 +103,8 @@ export function Jog() {
                 class="home"
                 data-test={`reference-${row.letter}`}
                 aria-label={t.referenceAxis(row.letter)}
+                title={inhibited}
+                disabled={!usable}
                 onClick={() => void commandTo(one.channel, t.modeReference, "reference", { axis: row.index })}
               >
                 ⌂ {row.letter}

@@ -5,8 +5,8 @@ import type { ComponentType } from "preact";
 import { useEffect } from "preact/hooks";
 import { text } from "../text/texts";
 
-/** `load` is always the same function for the same place. */
-export function Later({ load }: { load: () => Promise<ComponentType> }) {
+/** `load` is always the same function for the same place; `part`: inside a view, which is the main part of the page. */
+export function Later({ load, part = false }: { load: () => Promise<ComponentType>; part?: boolean }) {
   const loaded = useSignal<{ View: ComponentType } | null>(null);
   const failed = useSignal(false);
   useEffect(() => {
@@ -20,9 +20,6 @@ export function Later({ load }: { load: () => Promise<ComponentType> }) {
     };
   }, [load]);
   if (loaded.value) return <loaded.value.View />;
-  return (
-    <main class="empty">
-      <p role="status">{failed.value ? text.value.viewMissing : text.value.loading}</p>
-    </main>
-  );
+  const said = <p role="status">{failed.value ? text.value.viewMissing : text.value.loading}</p>;
+  return part ? <section>{said}</section> : <main class="empty">{said}</main>;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What another set of parameters has that this machine has not, before it is taken over.
 import { useSignal } from "@preact/signals";
-import { type Answer, get, put } from "../api";
+import { type Answer, get, put, putIfSame } from "../api";
 import type { Parameter } from "../contract";
 import { limits, title, unit } from "../format";
 import { type ComparedRow, importBodies, type ParameterFile, sixDigits, storedValue, type Verdict } from "../state/parameter_file";
@@ -21,18 +21,34 @@ export interface Comparison {
 }
 
 const mostRows = 500;
+const attempts = 8, betweenAttempts = 200;  // ms
+
+const readAll = () => get<{ parameters: Parameter[] }>("/api/parameters?limit=100000");
 
 export async function allParameters(): Promise<Parameter[] | undefined> {
-  const answer = await get<{ parameters: Parameter[] }>("/api/parameters?limit=100000");
+  const answer = await readAll();
   if (!answer.body) tell(`${text.peek().parameters}: ${answer.reason}`, true);
   return answer.body?.parameters;
 }
 
-async function sendAll(bodies: ReturnType<typeof importBodies>): Promise<Answer> {
+type Value = ReturnType<typeof storedValue>;
+
+/** Stores rows while the parameters have the values of `before`, and nothing else may come between. */
+async function sendAll(rows: ComparedRow[], before: Map<number, Value>): Promise<Answer> {
   let answer: Answer = { ok: true, status: 200, body: undefined, reason: "" };
-  for (const values of bodies) {
-    answer = await put("/api/parameters", { values });
-    if (!answer.ok) return answer;
+  // Others may be written all the time, as temperatures are: then the values are read and compared again.
+  for (let attempt = 0; attempt < attempts; ++attempt) {
+    const now = await readAll();
+    if (!now.body) return now;
+    if (now.body.parameters.some((one) => before.has(one.number) && storedValue(one) !== before.get(one.number))) return changedSince();
+    const [first, ...rest] = importBodies(rows);
+    if (first) answer = await putIfSame("/api/parameters", { values: first }, now.tag);
+    if (answer.status === 412) {
+      await new Promise((resolve) => setTimeout(resolve, betweenAttempts));
+      continue;
+    }
+    for (const values of rest) if (answer.ok) answer = await put("/api/parameters", { values });
+    return answer;
   }
   return answer;
 }
@@ -40,18 +56,12 @@ async function sendAll(bodies: ReturnType<typeof importBodies>): Promise<Answer>
 /** Stores every row that differs; the whole can be taken back. */
 async function takeOver(what: string, rows: ComparedRow[]): Promise<Answer> {
   const wanted = rows.filter(({ verdict }) => verdict === "differs");
-  const answer = await sendAll(importBodies(wanted));
+  const before = new Map(wanted.map(({ number, parameter }) => [number, storedValue(parameter!)]));
+  const answer = await sendAll(wanted, before);
   if (!answer.ok) return answer;
   const after = new Map(wanted.map(({ number, there, parameter }) => [number, parameter!.type === "text" ? there : Number(there)]));
   const back = wanted.map((row) => ({ ...row, there: String(storedValue(row.parameter!)) }));
-  remember({
-    what,
-    undo: async () => {
-      const now = await allParameters();
-      const changed = now?.some((one) => after.has(one.number) && storedValue(one) !== after.get(one.number));
-      return changed ? changedSince() : sendAll(importBodies(back));
-    },
-  });
+  remember({ what, undo: () => sendAll(back, after) });
   return answer;
 }
 

@@ -2,7 +2,7 @@
 // One parameter: what it does, its limits, and its new value.
 import { useSignal } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
-import { type Answer, get, put } from "../api";
+import { type Answer, get, put, putIfSame } from "../api";
 import type { Parameter } from "../contract";
 import { limits, title, unit } from "../format";
 import { sixDigits, storedValue } from "../state/parameter_file";
@@ -33,7 +33,7 @@ async function change(parameter: Parameter, body: { value: number } | { text: st
     undo: async () => {
       const now = await read();
       if (!now.body) return now;
-      return storedValue(now.body) === after ? put(pathOf(parameter.number), bodyOf(before)) : changedSince();
+      return storedValue(now.body) === after ? putIfSame(pathOf(parameter.number), bodyOf(before), now.tag) : changedSince();
     },
   });
   return answer;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // What is done with the programs of the PLC beside watching them, one at a time.
 import { signal, useSignal } from "@preact/signals";
-import { useEffect, useMemo } from "preact/hooks";
+import { useEffect } from "preact/hooks";
 import type { PlcPrograms } from "../contract";
 import { runningSources } from "../plc/load";
-import { Paths, type Source } from "../plc/source";
+import type { Source } from "../plc/source";
 import type { Live } from "../plc/watch";
 import { text } from "../text/texts";
 import { PlcSimulator } from "./PlcSimulator";
@@ -31,7 +31,6 @@ export function PlcTools({ chosen, programs, all, live, watch }: Props) {
   const t = text.value;
   const sources = useSignal<Source[]>([]);
   useEffect(() => void runningSources(programs).then((found) => (sources.value = found)), [programs.crc32, programs.changes]);
-  const paths = useMemo(() => new Paths(all), [all]);
   const names: Record<Tool, string> = { trace: t.plcTrace, tasks: t.plcTasks, uses: t.plcUses, simulator: t.plcSimulator };
   return (
     <section class="plc-tools" aria-label={names[tool.value]}>
@@ -42,7 +41,7 @@ export function PlcTools({ chosen, programs, all, live, watch }: Props) {
       </div>
       {tool.value === "trace" && <PlcTrace paths={chosen} />}
       {tool.value === "tasks" && <PlcTasks />}
-      {tool.value === "uses" && <PlcUses chosen={chosen} sources={sources.value} paths={paths} />}
+      {tool.value === "uses" && <PlcUses chosen={chosen} sources={sources.value} version={`${programs.crc32} ${programs.changes}`} />}
       {tool.value === "simulator" && <PlcSimulator sources={sources.value} all={all} live={live} watch={watch} />}
     </section>
   );

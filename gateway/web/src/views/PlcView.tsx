@@ -9,6 +9,7 @@ import { type Live, PlcWatch } from "../plc/watch";
 import { tell } from "../state/store";
 import { text } from "../text/texts";
 import { Guard, GuardNote } from "./Guard";
+import { PlcDiagram } from "./PlcDiagram";
 import { PlcLoad } from "./PlcLoad";
 import { PlcTools } from "./PlcTools";
 import { ask } from "./Question";
@@ -49,21 +50,31 @@ function Source({ programs, paths, live, watch }: { programs: PlcPrograms; paths
     });
     instance.value = "";
   }, [file.value, programs.crc32]);
+  const drawn = useSignal(true);
+  const isDrawn = drawn.value && file.value.endsWith(".xml");
   const lines = useMemo(() => sourceLines(content.value), [content.value]);
-  const blocks = useMemo(
-    () => [...new Set(lines.filter(({ kind }) => kind === "FUNCTION_BLOCK").map(({ unit }) => unit))].flatMap((block) => paths.instances(declared(content.value, block))),
+  // Of each unit the prefixes of its variables; one that is a program of its own name needs no choice.
+  const prefixes = useMemo(
+    () => new Map(lines.filter(({ kind }) => kind !== "").map(({ kind, unit }) => [unit, kind] as const)
+      .map(([unit, kind]) => [unit, paths.prefixes(kind === "PROGRAM" ? unit : "", declared(content.value, unit))] as const)),
     [lines, paths],
   );
-  const prefix = (kind: string, unit: string) => (kind === "PROGRAM" ? unit : kind === "FUNCTION_BLOCK" ? instance.value || blocks[0] || "" : "");
+  const blocks = [...prefixes].flatMap(([unit, list]) => (list.length === 1 && list[0] === unit ? [] : list));
+  const prefix = (unit: string) => {
+    const list = prefixes.get(unit) ?? [];
+    return list.includes(instance.value) ? instance.value : (list[0] ?? "");
+  };
   const named = useMemo(
-    () => lines.map((line) => [...new Set(line.names.flatMap((name) => paths.find(name, prefix(line.kind, line.unit)) ?? []))]),
-    [lines, paths, instance.value, blocks],
+    () => lines.map((line) => [...new Set(line.names.flatMap((name) => paths.find(name, prefix(line.unit)) ?? []))]),
+    [lines, paths, instance.value, prefixes],
   );
   const height = 24;  // px of a line, as in the style sheet
   const first = Math.max(0, Math.floor(top.value / height) - 4);
   const last = first + 60;
   const wanted = named.slice(first, last).flat();
-  useEffect(() => watch(wanted), [wanted.join(" ")]);
+  useEffect(() => {
+    if (!isDrawn) watch(wanted);
+  }, [wanted.join(" "), isDrawn]);
   return (
     <section class="plc-source" aria-label={t.plcSource}>
       <div class="title">
@@ -71,14 +82,17 @@ function Source({ programs, paths, live, watch }: { programs: PlcPrograms; paths
         <select aria-label={t.plcFile} value={file.value} onChange={(event) => (file.value = event.currentTarget.value)}>
           {programs.files.map(({ name }) => <option key={name}>{name}</option>)}
         </select>
-        {blocks.length > 0 && (
+        {file.value.endsWith(".xml") && (
+          <button aria-pressed={drawn.value} onClick={() => (drawn.value = !drawn.value)}>{t.plcDrawing}</button>
+        )}
+        {!isDrawn && blocks.length > 0 && (
           <select aria-label={t.plcInstance} value={instance.value || blocks[0]} onChange={(event) => (instance.value = event.currentTarget.value)}>
             {blocks.map((name) => <option key={name}>{name}</option>)}
           </select>
         )}
         <span class="dim">{programs.delivered ? t.plcDelivered : t.plcLoadedOnline(programs.changes)}</span>
       </div>
-      <div class="plc-code" ref={place} tabIndex={0} role="region" aria-label={file.value} onScroll={(event) => (top.value = event.currentTarget.scrollTop)}>
+      {isDrawn ? <PlcDiagram source={content.value} paths={paths} live={live} watch={watch} /> : <div class="plc-code" ref={place} tabIndex={0} role="region" aria-label={file.value} onScroll={(event) => (top.value = event.currentTarget.scrollTop)}>
         {lines.map((line, index) => (
           <div class="plc-line" key={index}>
             <span class="dim digits">{index + 1}</span>
@@ -93,7 +107,7 @@ function Source({ programs, paths, live, watch }: { programs: PlcPrograms; paths
             )}
           </div>
         ))}
-      </div>
+      </div>}
     </section>
   );
 }

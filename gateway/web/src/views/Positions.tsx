@@ -8,6 +8,23 @@ import { text } from "../text/texts";
 /** Which coordinates are the large digits. */
 const large = signal<"workpiece" | "machine">("workpiece");
 
+function Load({ letter, load = 0 }: { letter: string; load?: number }) {
+  const percent = Math.round(100 * load);
+  return (
+    <div
+      class={`load ${load > 1 ? "bad" : load > 0.8 ? "warn" : ""}`}
+      role="meter"
+      aria-label={text.value.loadOf(letter)}
+      aria-valuemin={0}
+      aria-valuemax={100}
+      aria-valuenow={Math.min(100, percent)}
+      title={`${text.value.loadOf(letter)}: ${percent}`}
+    >
+      <i style={{ width: `${Math.min(100, percent)}%` }} />
+    </div>
+  );
+}
+
 export function Positions() {
   const one = channel.value;
   if (!one) return null;
@@ -43,6 +60,7 @@ export function Positions() {
               <dt title={t.followingError}>{t.followingErrorShort}</dt>
               <dd>{row.followingError === undefined ? "–" : millimetres(row.followingError, 4)}</dd>
             </dl>
+            <Load letter={row.letter} load={row.load} />
           </div>
         ))}
       </div>

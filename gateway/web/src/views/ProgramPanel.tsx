@@ -17,6 +17,9 @@ const text = signal<ProgramText | null>(null);
 const loaded = signal("");
 const loading = signal(false);
 
+/** As it is stored now: the text is that of this revision. */
+const newestOf = (name: string) => programs.value.find((entry) => entry.name === name);
+
 /** Fetches the text once per program and revision. */
 async function load(name: string, revision: number): Promise<void> {
   const key = `${name}/${revision}`;
@@ -84,11 +87,11 @@ export function ProgramPanel() {
   useEffect(() => void refreshPrograms(), [listRevision]);
   useSignalEffect(() => {
     const now = channel.value;
-    if (now) void load(now.program, now.program_revision);
+    if (now) void load(now.program, newestOf(now.program)?.revision ?? now.program_revision);
   });
   if (!one) return null;
   const t = texts.value;
-  const newest = programs.value.find((entry) => entry.name === one.program);
+  const newest = newestOf(one.program);
   const older = newest !== undefined && newest.revision !== one.program_revision;
   return (
     <section class="program-panel" aria-label={t.program}>

@@ -71,7 +71,9 @@ export function ProgramView({ text, line, failing }: { text: ProgramText; line: 
             key={number}
           >
             <span class="number digits">{number}</span>
-            <span class="text" data-test={number === line ? "current-line" : undefined}>{text.line(number)}</span>
+            <span class="text" data-test={number === line ? "current-line" : undefined} title={text.line(number)}>
+              {text.line(number)}
+            </span>
           </div>
         ))}
       </div>

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 import { signal, useSignal } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
+import { duration } from "../format";
 import { speedColour } from "../scene/path";
 import type { FixedView, Layer, Viewer } from "../scene/viewer";
 import { colour, shownTheme } from "../state/preferences";
+import { plan } from "../state/plan";
 import { channel, channelNumber, history, machine } from "../state/store";
 import { text, type Texts } from "../text/texts";
 
@@ -11,9 +13,9 @@ const views: [FixedView, keyof Texts & `scene${string}`][] = [
   ["front", "sceneFront"], ["right", "sceneRight"], ["top", "sceneTop"], ["space", "sceneSpace"],
 ];
 const layers: [Layer, keyof Texts & `scene${string}`][] = [
-  ["machine", "sceneMachine"], ["travel", "sceneTravel"], ["path", "scenePath"],
+  ["machine", "sceneMachine"], ["travel", "sceneTravel"], ["programmed", "sceneProgrammed"], ["path", "scenePath"],
 ];
-const shown = signal<Record<Layer, boolean>>({ machine: true, travel: true, path: true });
+const shown = signal<Record<Layer, boolean>>({ machine: true, travel: true, programmed: true, path: true });
 const following = signal(false);
 const scaleColours = Array.from({ length: 9 }, (_, i) => `rgb(${speedColour(i / 8).join()})`).join();
 
@@ -63,7 +65,12 @@ export function SceneView() {
         if (facts.peek().segments !== made.segments || facts.peek().scale !== made.scale)
           facts.value = { segments: made.segments, scale: made.scale };
       };
-      stops.push(machine.subscribe(follow), shownTheme.subscribe(() => made.paint(colour)), () => made.dispose());
+      const zero = data.offsets.find((offset) => offset.channel === number && offset.index === 0)?.values ?? [];
+      const programmed = () => {
+        made.program(plan.value?.channel === number ? plan.value.path : undefined, [zero[0] ?? 0, zero[1] ?? 0, zero[2] ?? 0]);
+        if (made.segments === 0) made.fit();
+      };
+      stops.push(plan.subscribe(programmed), machine.subscribe(follow), shownTheme.subscribe(() => made.paint(colour)), () => made.dispose());
     };
     void open();
     return () => {
@@ -74,6 +81,7 @@ export function SceneView() {
   }, [number, parameters, tools, work_offsets, resets]);
 
   const t = text.value;
+  const planned = plan.value;
   return (
     <main class="scene" aria-label={t.scene}>
       <canvas ref={canvas} key={[number, parameters, tools, work_offsets, resets].join()} tabIndex={0} role="img" aria-label={t.scenePicture} data-test="scene" />
@@ -83,6 +91,7 @@ export function SceneView() {
             <button key={name} data-test={`look-${name}`} onClick={() => viewer.current?.look(name)}>{t[title] as string}</button>
           ))}
           <button data-test="look-fit" onClick={() => viewer.current?.fit()}>{t.sceneFit}</button>
+          <button data-test="look-whole" onClick={() => viewer.current?.fit(true)}>{t.sceneWhole}</button>
         </div>
         <div class="segments" role="group" aria-label={t.sceneShow}>
           {layers.map(([layer, title]) => (
@@ -116,6 +125,8 @@ export function SceneView() {
           <span data-test="segments">{t.sceneSegments(facts.value.segments)}</span>
           <span class="scale" style={{ background: `linear-gradient(90deg, ${scaleColours})` }} />
           <span>{t.sceneSpeed(facts.value.scale)}</span>
+          {planned && <span>{t.scenePlanned(planned.program, (planned.complete ? "" : "> ") + duration(planned.seconds))}</span>}
+          {planned?.alarm !== undefined && <span class="warn" role="status" data-test="plan-alarm">{planned.alarm}</span>}
         </div>
       )}
     </main>

@@ -4,8 +4,9 @@ import { text } from "../text/texts";
 import { Functions } from "./Functions";
 import { Plots } from "./Plots";
 import { ToolPath } from "./ToolPath";
+import { Variables } from "./Variables";
 
-const shown = signal<"path" | "plots" | "functions">("path");
+const shown = signal<"path" | "plots" | "functions" | "variables">("path");
 
 export function SidePanel() {
   const t = text.value;
@@ -32,9 +33,20 @@ export function SidePanel() {
           >
             {t.functions}
           </button>
+          <button
+            role="tab"
+            aria-selected={shown.value === "variables"}
+            data-test="variables"
+            onClick={() => (shown.value = "variables")}
+          >
+            {t.variables}
+          </button>
         </div>
       </div>
-      {shown.value === "path" ? <ToolPath /> : shown.value === "plots" ? <Plots /> : <Functions />}
+      {shown.value === "path" && <ToolPath />}
+      {shown.value === "plots" && <Plots />}
+      {shown.value === "functions" && <Functions />}
+      {shown.value === "variables" && <Variables />}
     </section>
   );
 }

@@ -30,6 +30,7 @@ export function Technology() {
         </div>
       </div>
       <div class="modal" role="group" aria-label={t.activeCodes}>
+        <span class="dim">{t.parts} {one.parts}</span>
         {one.modal.map((code) => (
           <span key={code}>{code}</span>
         ))}

@@ -111,12 +111,15 @@ int main(int argc, char** argv) {
   all.add(topics::feedback_frame);
   all.add(topics::stream_request);
   all.add(topics::stage_progress);
+  all.add(topics::recording_progress);
   all.add(topics::channel_state);
   all.add(topics::variables);
   all.add(topics::channel_request);
   all.add(topics::channel_reply);
   all.add(topics::auxiliary_request);
   all.add(topics::auxiliary_done);
+  all.add(topics::cycle_request);
+  all.add(topics::cycle_reply);
   all.add(topics::plc_outputs);
   all.add(topics::plc_image);
   all.add(topics::plc_input_log);
@@ -135,6 +138,10 @@ int main(int argc, char** argv) {
   all.add(topics::program_list);
   all.add(topics::program_request);
   all.add(topics::program_reply);
+  all.add(topics::measurement_request);
+  all.add(topics::measurement_reply);
+  all.add(topics::measurement_state);
+  all.add(topics::measurement_result);
   all.add(topics::announcement);
   all.add(topics::service_state);
   all.add(topics::alarm);

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+// Orders while the gateway sends large recordings or takes large programs.
+#include <cmath>
+
+#include "bus/codec.hpp"
+#include "bus/registry.hpp"
+#include "contracts/topics.hpp"
+#include "gateway_fixture.hpp"
+#include "hold_times.hpp"
+#include "recording/file_stream.hpp"
+#include "recording/mcap_writer.hpp"
+
+namespace trunnion::gateway {
+namespace {
+
+constexpr std::uint64_t million = 1'000'000;
+
+/// A recording of `million` cycles of five axes on sine curves, 16 in a message.
+void write_recording(const std::string& file) {
+  constexpr std::uint64_t batch = 16;
+  constexpr std::uint16_t axes = 5;
+  recording::FileSink sink(file);
+  recording::Writer writer(sink, {});
+  const auto* entry = bus::find_topic(topics::feedback_frame.name);
+  const auto channel = writer.add_channel(entry->description.name, entry->type, entry->schema);
+  idl::stream::FeedbackFrame frame{};
+  frame.count = batch, frame.axis_count = axes;
+  frame.velocity.assign(axes, 12.5), frame.torque.assign(axes, 0.25);
+  frame.commanded.resize(batch * axes), frame.actual.resize(batch * axes);
+  for (frame.first = 0; frame.first < million; frame.first += batch) {
+    for (std::uint64_t i = 0; i < batch * axes; ++i) {
+      const auto cycle = static_cast<double>(frame.first + i / axes);
+      frame.commanded[i] = 100 * std::sin(1e-3 * cycle + static_cast<double>(i % axes));
+      frame.actual[i] = frame.commanded[i] - 0.01;
+    }
+    bus::Bytes message;
+    bus::encode(frame, message);
+    writer.write(channel, frame.first, frame.first, message);
+  }
+  writer.finish();
+}
+
+// The times are printed, not judged: a test runs beside others.
+TEST_F(Gateway, OrdersAreAnsweredDuringThreeDownloadsOfAMillionCycles) {
+  std::filesystem::create_directories(state_ + "/recordings");
+  write_recording(state_ + "/recordings/million.mcap");
+  const auto begun = std::chrono::steady_clock::now();
+  const auto table = get("/api/recordings/million.mcap/table");
+  const std::chrono::duration<double> lasted = std::chrono::steady_clock::now() - begun;
+  EXPECT_EQ(table.status, 200);
+  EXPECT_NE(table.body.find("\n" + std::to_string(million - 1) + ","), std::string::npos);
+  EXPECT_TRUE(table.body.ends_with("\r\n0\r\n\r\n")) << "the body has its end";
+
+  const auto alone = hold_times(port_, [n = 0]() mutable { return ++n <= 200; });
+  std::atomic<int> under_way = 3;
+  std::vector<std::thread> downloads;
+  for (int i = 0; i < 3; ++i)
+    downloads.emplace_back([&] {
+      EXPECT_EQ(get("/api/recordings/million.mcap/table").status, 200);
+      --under_way;
+    });
+  const auto busy = hold_times(port_, [&] { return under_way > 0; });
+  for (auto& download : downloads) download.join();
+  ASSERT_FALSE(alone.empty());
+  ASSERT_FALSE(busy.empty());
+  std::printf(
+      "a million cycles, %zu MB as CSV: %.2f s; p99 of a hold: %.1f ms, with three downloads %.1f ms of "
+      "%zu\n",
+      table.body.size() >> 20, lasted.count(), p99(alone), p99(busy), busy.size());
+}
+
+// The program service writes another program to a slow disk meanwhile.
+TEST_F(Gateway, AnUploadWaitsLongerThanAnOrderForTheProgramService) {
+  const std::string text(40 * million, 'N');
+  Response answer;
+  std::thread upload([&] {
+    auto server = http_client::Server(port_);
+    server.timeout = 60;
+    answer = http_client::request(server, "PUT", "/api/programs/SLOW.NC", text);
+  });
+  EXPECT_TRUE(eventually([&] { return cluster([](auto& c) { return c.largest_write; }) > 0; }));
+  cluster([](auto&) { std::this_thread::sleep_for(std::chrono::seconds(3)); });  // an order has 2 s
+  upload.join();
+  EXPECT_EQ(answer.status, 200) << answer.body;
+}
+
+// The times are printed, not judged: a test runs beside others.
+TEST_F(Gateway, OrdersAreAnsweredDuringFourUploadsOf100Megabytes) {
+  std::string text;
+  while (text.size() < 100 * million) text += "G1 X" + std::to_string(text.size() % 1000) + " Y10.25 F1800\n";
+  const auto alone = hold_times(port_, [n = 0]() mutable { return ++n <= 200; });
+  std::atomic<int> under_way = 4;
+  std::vector<std::thread> uploads;
+  const auto begun = std::chrono::steady_clock::now();
+  for (int i = 0; i < 4; ++i)
+    uploads.emplace_back([&, i] {
+      auto server = http_client::Server(port_);
+      server.timeout = 60;  // the other side takes it all before it answers
+      EXPECT_EQ(
+          http_client::request(server, "PUT", "/api/programs/U" + std::to_string(i) + ".NC", text).status,
+          200);
+      --under_way;
+    });
+  // While all four go on: the fake cluster counts the lines of what is complete, and answers nobody
+  // meanwhile.
+  const auto busy = hold_times(port_, [&] { return under_way == 4; });
+  for (auto& upload : uploads) upload.join();
+  const std::chrono::duration<double> lasted = std::chrono::steady_clock::now() - begun;
+  ASSERT_FALSE(alone.empty());
+  ASSERT_FALSE(busy.empty());
+  for (int i = 0; i < 4; ++i)
+    EXPECT_EQ(cluster([&](auto& c) { return c.programs["U" + std::to_string(i) + ".NC"].size(); }),
+              text.size());
+  std::printf("four uploads of 100 MB: %.1f s; p99 of a hold: %.1f ms, with them %.1f ms of %zu\n",
+              lasted.count(), p99(alone), p99(busy), busy.size());
+}
+
+}  // namespace
+}  // namespace trunnion::gateway

@@ -1,0 +1,10 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+namespace trunnion::bus {
+
+/// Whether the domains of Cyclone DDS that this process makes from now on receive on the loopback interface
+/// only.
+void bind_to_loopback(bool only);
+
+}  // namespace trunnion::bus

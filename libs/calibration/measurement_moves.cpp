@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "calibration/measurement_moves.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "text/quantity.hpp"
+
+namespace trunnion::calibration {
+namespace {
+
+constexpr double step = 5;          // deg, of a proposed range
+constexpr double least_range = 10;  // deg
+
+void add_probe_and_sphere(collision::MachineBodies& bodies, const std::vector<truth::Solid>& solids,
+                          const std::optional<truth::TouchProbeTruth>& given, const MeasurementInputs& in) {
+  truth::TouchProbeTruth probe;
+  probe.length = in.probe_length, probe.ball_radius = in.ball_diameter / 2;
+  const auto& all = bodies.set.bodies;
+  if (std::none_of(all.begin(), all.end(), [](const auto& body) { return body.tool; }))
+    collision::add_probe(bodies.links, given.value_or(probe), bodies.set);
+  if (std::none_of(solids.begin(), solids.end(),
+                   [](const auto& s) { return std::holds_alternative<truth::SphereGauge>(s); }))
+    collision::add_solids(bodies.links, {truth::SphereGauge{in.sphere, in.sphere_diameter / 2}}, bodies.set);
+  // Over the sphere the ball is one measuring path from it, less what the sphere is beside its place.
+  bodies.set.clearance = std::min(bodies.set.clearance, in.measuring_path / 4);
+}
+
+}  // namespace
+
+MeasurementMoves::MeasurementMoves(collision::MachineBodies bodies, const std::vector<truth::Solid>& solids,
+                                   const std::optional<truth::TouchProbeTruth>& probe,
+                                   const MeasurementInputs& in, const MeasuredMachine& measured)
+    : inputs_(in),
+      measured_(measured),
+      travel_(measured.outline.axes),
+      chain_(std::get<geometry::Chain>(geometry::Chain::make(measured.model))) {
+  add_probe_and_sphere(bodies, solids, probe, in);
+  auto touching = bodies.set;
+  for (const auto& body : bodies.set.bodies)
+    if (body.link == bodies.links.workpiece() && std::holds_alternative<collision::Sphere>(body.shape))
+      for (const auto& tool : bodies.set.bodies)
+        if (tool.tool && std::holds_alternative<collision::Sphere>(tool.shape))
+          touching.allowed.emplace_back(tool.name, body.name);
+  moving_.emplace(bodies.links, std::move(bodies.set));
+  touching_.emplace(bodies.links, std::move(touching));
+}
+
+Vec3 MeasurementMoves::centre(const PlannedPose& pose) const {
+  return chain_.machine_from_tip(inputs_.sphere, pose.angles, inputs_.probe_length);
+}
+collision::AxisPosition MeasurementMoves::approach(const PlannedPose& pose) const {
+  return approach_position(inputs_, pose, centre(pose));
+}
+
+std::string MeasurementMoves::fault_at(const PlannedPose& pose) const {
+  auto at = approach(pose);
+  if (const auto contact = moving_->first_contact(at, at))
+    return moving_->text_of(contact->pair) + " over the sphere";
+  const double reach = inputs_.measuring_path;
+  std::size_t touches = 0;
+  const auto meets = [&](const Vec3& to) {
+    auto next = at;
+    for (int i = 0; i < 3; ++i) next[static_cast<std::size_t>(i)] = to[i];
+    const auto contact = touching_->first_contact(at, next);
+    at = next;
+    return contact ? touching_->text_of(contact->pair) + " at touch " + std::to_string(touches + 1) : "";
+  };
+  for (const auto& to : measuring_steps(inputs_, measured_, pose, centre(pose))) {
+    if (auto fault = meets(to.to); !fault.empty()) return fault;
+    if (!to.touch) continue;
+    // As far as the expected touch and a quarter of the measuring path beyond.
+    if (auto fault = meets(to.to - 1.25 * reach * to.direction); !fault.empty()) return fault;
+    if (auto fault = meets(to.to); !fault.empty()) return fault;
+    ++touches;
+  }
+  return "";
+}
+
+Way MeasurementMoves::way(const AxisPosition& from, const AxisPosition& to) const {
+  auto found = collision::find_way(*moving_, travel_, from, to);
+  if (const auto* fault = std::get_if<std::string>(&found)) throw std::runtime_error(*fault);
+  auto way = std::get<std::vector<collision::AxisPosition>>(std::move(found));
+  way.erase(way.begin());
+  return way;
+}
+
+AxisPosition MeasurementMoves::check(const PlannedPose& pose, const AxisPosition& from) const {
+  const auto name = "pose " + pose_name(pose.angles, measured_.model) + ": ";
+  if (const auto fault = fault_at(pose); !fault.empty()) throw std::runtime_error(name + fault);
+  try {
+    way(from, approach(pose));
+  } catch (const std::runtime_error& e) {
+    throw std::runtime_error(name + e.what());
+  }
+  return approach(pose);
+}
+
+bool MeasurementMoves::reachable(const Angles& angles) const {
+  // One pose: both ends of a range that is no wider than it must be.
+  const auto plan = plan_pose(inputs_, measured_, angles);
+  const auto* pose = std::get_if<PlannedPose>(&plan);
+  return pose != nullptr && fault_at(*pose).empty();
+}
+
+MeasurementInputs MeasurementMoves::proposal() const {
+  auto out = inputs_;
+  for (auto& range : out.axes) {
+    const auto at = [&](double angle) {
+      Angles angles{};
+      for (const auto& other : inputs_.axes) angles[other.angle] = range.other;
+      angles[range.angle] = angle;
+      return reachable(angles);
+    };
+    const double middle = std::clamp(0.0, range.start, range.end);
+    const std::string name = std::string("axis ") + "ABCUVW"[range.angle];
+    if (!at(middle))
+      throw std::runtime_error(name + ": the sphere cannot be measured at " + text::quantity(middle, "deg"));
+    double low = middle, high = middle;
+    while (low - step >= range.start && at(low - step)) low -= step;
+    while (high + step <= range.end && at(high + step)) high += step;
+    if (high - low < least_range)
+      throw std::runtime_error(name + ": the sphere can be measured from " + text::quantity(low) + " to " +
+                               text::quantity(high, "deg") + " only; put it elsewhere");
+    range.start = low, range.end = high;
+  }
+  return out;
+}
+
+}  // namespace trunnion::calibration
