@@ -20,6 +20,7 @@
 #include <tuple>
 
 #include "bus/endpoint.hpp"
+#include "bus/endpoint_log.hpp"
 #include "bus/security.hpp"
 #include "loopback_bind.hpp"
 
@@ -430,10 +431,12 @@ class CycloneBackend : public Backend {
     Participants::of_this_process().release(network_, participant_);
   }
   std::unique_ptr<RawWriter> writer(const TopicDescription& topic, const EndpointQos& qos) override {
+    log_endpoint(network_.identity, true, topic.name);
     return std::make_unique<Writer>(participant_, topic, qos);
   }
   std::unique_ptr<RawReader> reader(const TopicDescription& topic, const EndpointQos& qos,
                                     Signal* signal) override {
+    log_endpoint(network_.identity, false, topic.name);
     return std::make_unique<Reader>(participant_, topic, qos, signal);
   }
   bool discover(std::vector<DiscoveredWriter>& writers) override {

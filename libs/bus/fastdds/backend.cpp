@@ -19,6 +19,7 @@
 #include <stdexcept>
 
 #include "bus/endpoint.hpp"
+#include "bus/endpoint_log.hpp"
 #include "bus/security.hpp"
 #include "discovery.hpp"
 
@@ -193,7 +194,7 @@ void secure(DomainParticipantQos& qos, const NetworkSettings& network) {
 
 class FastBackend : public Backend {
  public:
-  explicit FastBackend(const NetworkSettings& network) {
+  explicit FastBackend(const NetworkSettings& network) : identity_(network.identity) {
     using namespace eprosima::fastdds::rtps;
     DomainParticipantQos qos = PARTICIPANT_QOS_DEFAULT;
     auto udp = std::make_shared<UDPv4TransportDescriptor>();
@@ -228,10 +229,12 @@ class FastBackend : public Backend {
     DomainParticipantFactory::get_instance()->delete_participant(participant_);
   }
   std::unique_ptr<RawWriter> writer(const TopicDescription& description, const EndpointQos& qos) override {
+    log_endpoint(identity_, true, description.name);
     return std::make_unique<Writer>(publisher_, topic(description), qos, description.keyed);
   }
   std::unique_ptr<RawReader> reader(const TopicDescription& description, const EndpointQos& qos,
                                     Signal* signal) override {
+    log_endpoint(identity_, false, description.name);
     return std::make_unique<Reader>(subscriber_, topic(description), qos, description.keyed, signal);
   }
   bool discover(std::vector<DiscoveredWriter>& writers) override { return discovery_.take_changes(writers); }
@@ -249,6 +252,7 @@ class FastBackend : public Backend {
     return result;
   }
 
+  const std::string identity_;
   Discovery discovery_;
   DomainParticipant* participant_;
   Publisher* publisher_;

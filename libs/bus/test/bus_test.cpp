@@ -139,5 +139,35 @@ TEST(Bus, AnUnsecuredDomainOfOneHostIsNotReachableFromOthers) {
   for (const auto& address : addresses) EXPECT_EQ(address, "0100007F") << "127.0.0.1, the lowest byte first";
 }
 
+TEST(Bus, WhatIsOpenedIsLoggedWithItsIdentityWhenAskedFor) {
+  const auto file =
+      std::filesystem::temp_directory_path() / ("trunnion-endpoints-" + std::to_string(getpid()));
+  setenv("TRUNNION_ENDPOINTS", file.c_str(), 1);
+  for (const auto vendor : {Vendor::cyclonedds, Vendor::fastdds}) {
+    NetworkSettings network{77};
+    network.identity = to_string(vendor);
+    Bus bus(vendor, network);
+    bus.writer(topics::alarm);
+    bus.reader(topics::feedback_frame);
+  }
+  unsetenv("TRUNNION_ENDPOINTS");
+  {
+    Bus bus(Vendor::cyclonedds, {77});
+    bus.reader(topics::alarm);
+  }
+  std::ostringstream logged;
+  logged << std::ifstream(file).rdbuf();
+  std::string expected;
+  for (const std::string vendor : {"cyclonedds", "fastdds"})
+    expected += vendor + " writes " + topics::alarm.name + "\n" + vendor + " reads " +
+                topics::feedback_frame.name + "\n";
+  EXPECT_EQ(logged.str(), expected);
+  std::filesystem::remove(file);
+  setenv("TRUNNION_ENDPOINTS", "/nowhere/endpoints", 1);
+  Bus bus(Vendor::cyclonedds, {77});
+  EXPECT_THROW(bus.reader(topics::alarm), std::runtime_error);
+  unsetenv("TRUNNION_ENDPOINTS");
+}
+
 }  // namespace
 }  // namespace trunnion::bus
