@@ -10,6 +10,13 @@ class GatewayAlarms : public Gateway {
   json history(const std::string& query = "") {
     return json::parse(get("/api/alarms/history" + query).body)["alarms"];
   }
+  bool file_contains(const std::string& text) {
+    return eventually([&] {
+      std::ifstream file(state_ + "/alarms.jsonl");
+      const std::string all{std::istreambuf_iterator<char>(file), {}};
+      return all.find(text) != std::string::npos;
+    });
+  }
   void restart() {
     process_.reset();
     auto arguments = command_line(port_, web_);
@@ -28,6 +35,7 @@ TEST_F(GatewayAlarms, AreInTheHistoryWithTheirTimesAndAfterARestart) {
   EXPECT_EQ(history("?search=nothing").size(), 0u);
   EXPECT_EQ(get("/api/alarms/history?limit=x").status, 400);
 
+  ASSERT_TRUE(file_contains("\"number\":102"));
   restart();
   ASSERT_TRUE(eventually([&] { return json::parse(get("/api/alarms").body)["alarms"].size() == 1; }));
   ASSERT_EQ(history().size(), 1u) << "the alarm that is still active is the same one";
@@ -37,11 +45,7 @@ TEST_F(GatewayAlarms, AreInTheHistoryWithTheirTimesAndAfterARestart) {
   const auto cleared = history();
 
   // What a kill in the middle of a line leaves is left out.
-  ASSERT_TRUE(eventually([&] {
-    std::ifstream file(state_ + "/alarms.jsonl");
-    const std::string text{std::istreambuf_iterator<char>(file), {}};
-    return text.find("\"cleared\":\"2") != std::string::npos;
-  }));
+  ASSERT_TRUE(file_contains("\"cleared\":\"2"));
   std::ofstream(state_ + "/alarms.jsonl", std::ios::app) << "{\"id\":2,\"num";
   restart();
   EXPECT_EQ(history(), cleared);

@@ -37,7 +37,7 @@ class Linked {
   /// Exchanges like the PLC until it is true.
   template <class Condition>
   bool until(Condition condition) {
-    for (int i = 0; i < 1000; ++i) {
+    for (int i = 0; i < 12000; ++i) {  // a minute at least, which only ends a hang
       link.exchange(registers);
       for (std::size_t b = 0; b < register_count; ++b) registers.x[b] = link.inputs().in(registers.x[b], b);
       if (condition()) return true;
@@ -70,7 +70,7 @@ TEST(ModbusDevice, ExchangesBitsAndWords) {
   EXPECT_EQ(plc.link.problem(0), "");
   ASSERT_TRUE(plc.until([&] {
     const std::lock_guard lock(device.mutex);
-    return device.coils[8];
+    return device.coils[8] && device.holding_registers[23] != 0;  // the output that is written last
   }));
   const std::lock_guard lock(device.mutex);
   std::string coils;
