@@ -66,7 +66,8 @@ class Cluster {
   /// Takes part in a cluster that somebody else starts and stops.
   explicit Cluster(const bus::NetworkSettings& network) : owned_(false) { join(network); }
   ~Cluster() {
-    states_.reset(), alarms_.reset(), feedback_.reset(), clusters_.reset(), resets_.reset(), client_.reset();
+    states_.reset(), alarms_.reset(), feedback_.reset(), clusters_.reset(), resets_.reset();
+    progress_.reset(), client_.reset();
     if (!owned_) return;
     try {
       cluster::stop_cluster(cluster_.run);
@@ -103,6 +104,8 @@ class Cluster {
         expected_cycle = frame.first + frame.count;
       }
       feedback = frame;
+      ++feedback_messages_;
+      report_progress();
       if (on_frame) on_frame(frame);
       for (std::uint32_t i = 0; i < frame.count && keep_rows; ++i)
         rows.emplace_back(frame.commanded.begin() + i * frame.axis_count,
@@ -110,7 +113,8 @@ class Cluster {
     }
     while (clusters_->take(list_)) have_cluster_ = true;
   }
-  bool until(const std::function<bool()>& condition, double seconds = 20) {
+  /// The limit only ends a hang: nothing may depend on it.
+  bool until(const std::function<bool()>& condition, double seconds = 60) {
     const double end = service::monotonic_seconds() + seconds;
     while (service::monotonic_seconds() < end) {
       drain();
@@ -168,6 +172,10 @@ class Cluster {
   }
   /// Returns when the state is one that was published after the start.
   void cycle_start(std::uint16_t channel = 0) {
+    if (sees_every_cycle()) {
+      report_progress();
+      EXPECT_TRUE(until([&] { return progress_->matched() == static_cast<int>(channels.size()); }));
+    }
     client_->channel(channel, CommandKind::CYCLE_START);
     EXPECT_TRUE(newer_state(channel));
   }
@@ -177,6 +185,24 @@ class Cluster {
     drain();
     const auto before = state_count[channel];
     return until([&] { return state_count[channel] >= before + 2; });
+  }
+  /// In virtual time: waits until the drive has nothing more to do and the channel has said where it stands.
+  /// The drive goes on until the servos have settled, and a message without a cycle says that it has not.
+  bool rests(std::uint16_t channel = 0) {
+    drain();
+    const auto before = feedback_messages_;
+    return until([&] {
+             return feedback_messages_ >= before + 2 && feedback.count == 0 &&
+                    std::none_of(feedback.channels.begin(), feedback.channels.end(),
+                                 [](const auto& echo) { return echo.active; });
+           }) &&
+           newer_state(channel);
+  }
+  /// `rows`, of which this process must not have missed one.
+  const Rows& every_row() {
+    EXPECT_EQ(lost_frames, 0u) << "this process got no processor";
+    std::erase_if(rows, [](const auto& row) { return row.empty(); });
+    return rows;
   }
   bool finish(std::uint16_t channel = 0, double seconds = 60) {
     const bool ended = until(
@@ -208,6 +234,10 @@ class Cluster {
   Rows rows;  ///< one for each cycle, empty when this process has not seen it
   bool keep_rows = false;
   std::function<void(const idl::stream::FeedbackFrame&)> on_frame;  ///< sees every frame
+  /// In virtual time channels wait for this process as they do for a recorder, so that it misses no cycle
+  /// while it keeps rows or watches frames. It must drain() without long breaks: after 0.7 s they go on
+  /// alone, which is close to the second for which the drive waits for a setpoint.
+  bool paces = true;
   std::uint64_t expected_cycle = 0, lost_frames = 0;
 
  private:
@@ -217,6 +247,20 @@ class Cluster {
     const std::string line{std::istreambuf_iterator<char>(file), {}};
     const std::string domain = "--domain" + std::string(1, '\0') + std::to_string(cluster_.run.domain) + '\0';
     return line.find(domain) != std::string::npos;
+  }
+
+  bool sees_every_cycle() const { return paces && list_.virtual_time && (keep_rows || on_frame); }
+
+  /// Half of the 1024 batches that a writer keeps for its readers, of 16 cycles each.
+  static constexpr std::uint64_t cycles_ahead = 1024 / 2 * 16;
+
+  void report_progress() {
+    if (!sees_every_cycle()) return;
+    if (!progress_) progress_.emplace(client_->bus().writer(topics::recording_progress));
+    const auto cycles = expected_cycle + cycles_ahead;
+    if (cycles < reported_cycles_ + cycles_ahead / 8) return;
+    reported_cycles_ = cycles;
+    progress_->write({static_cast<std::uint64_t>(getpid()), cycles});
   }
 
   void join(const bus::NetworkSettings& network) {
@@ -240,6 +284,8 @@ class Cluster {
   std::optional<bus::Reader<idl::stream::FeedbackFrame>> feedback_;
   std::optional<bus::Reader<idl::service::Cluster>> clusters_;
   std::optional<bus::Writer<idl::service::AlarmReset>> resets_;
+  std::optional<bus::Writer<idl::stream::RecordingProgress>> progress_;
+  std::uint64_t reported_cycles_ = 0, feedback_messages_ = 0;
   std::uint64_t resets_sent_ = 0;
   idl::service::Cluster list_;
   bool have_cluster_ = false;

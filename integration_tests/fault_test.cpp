@@ -40,7 +40,7 @@ TEST_P(KillInMotion, StopsNamesTheServiceBecomesReadyAndTheProgramGoesOn) {
     return cluster.feedback.mode == DriveMode::HELD ||
            std::none_of(channels.begin(), channels.end(), [](const auto& channel) { return channel.active; });
   })) << cluster.told();
-  cluster.until([] { return false; }, 0.1);  // the state with that position arrives
+  ASSERT_TRUE(cluster.rests()) << cluster.told();
   for (const auto& s : cluster.list().services)
     if (s.service != victim) {
       EXPECT_EQ(s.pid, pids[s.service]) << s.service << " was not restarted";
@@ -51,7 +51,7 @@ TEST_P(KillInMotion, StopsNamesTheServiceBecomesReadyAndTheProgramGoesOn) {
     })) << "the page is served again";
   }
   const auto stopped_at = cluster.channels[0].machine;
-  cluster.until([] { return false; }, 0.3);
+  ASSERT_TRUE(cluster.rests()) << cluster.told();
   for (std::size_t i = 0; i < stopped_at.size(); ++i)
     EXPECT_NEAR(cluster.channels[0].machine[i], stopped_at[i], 0.05) << "stands still";
 
@@ -76,8 +76,7 @@ TEST_P(KillInMotion, StopsNamesTheServiceBecomesReadyAndTheProgramGoesOn) {
       << " " << cluster.active_alarms();
   ASSERT_TRUE(cluster.until([&] { return cluster.state() == RunState::RUNNING; })) << cluster.told();
   ASSERT_TRUE(cluster.finish()) << cluster.told();
-  cluster.until([] { return false; },
-                0.2);  // the encoders settle on the commanded position, states are published
+  ASSERT_TRUE(cluster.rests()) << cluster.told();  // the encoders settle on the commanded position
   // Tip at X0 Y0 Z80 of G54 (Z -380) with A0 C0: the spindle face is the tool's 100 mm above it.
   const auto& machine = cluster.channels[0].machine;
   EXPECT_NEAR(machine[0], 0, 0.02);

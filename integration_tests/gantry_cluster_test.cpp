@@ -51,7 +51,12 @@ class Bridge : public Cluster {
     key(true);
     jog(error() - distance);
     key(false);
-    EXPECT_NEAR(error(), distance, settled);
+    EXPECT_TRUE(error_becomes(distance)) << error();
+  }
+  /// Of an axis that is at rest, mm.
+  bool error_becomes(double expected) {
+    const auto is_there = [&] { return std::abs(error() - expected) <= settled; };
+    return until(is_there) && rests() && is_there();
   }
   void press() {
     client().panel(PanelRequestKind::PRESS_EMERGENCY_STOP);
@@ -61,18 +66,18 @@ class Bridge : public Cluster {
     client().panel(PanelRequestKind::RELEASE_EMERGENCY_STOP);
     client().panel(PanelRequestKind::RESET_EMERGENCY_STOP);
     ASSERT_TRUE(until([&] { return feedback.mode == DriveMode::FOLLOWING; })) << told();
-    until([] { return false; }, 0.3);
+    ASSERT_TRUE(rests()) << told();
   }
   void kill_service(const std::string& name) {
     const auto pid = service(name)->pid;
     ASSERT_EQ(kill(pid, SIGKILL), 0);
     ASSERT_TRUE(until([&] { return service(name)->pid != pid && ready(); })) << told();
-    until([] { return false; }, 0.3);
+    ASSERT_TRUE(rests()) << told();
   }
   void reset() {
     ASSERT_TRUE(until([&] {
       reset_alarms();
-      until([] { return false; }, 0.1);
+      newer_state();
       return active_alarms().empty();
     })) << told();
   }
@@ -96,12 +101,13 @@ TEST(GantryCluster, TheReleaseOfTheEmergencyStopAlignsBelowTheLimitAndRefusesAbo
   bridge.misalign(0.12);
   EXPECT_EQ(bridge.active_alarms(), "");
   ASSERT_TRUE(bridge.runs(to_and_fro)) << bridge.told();
-  EXPECT_NEAR(bridge.error(), 0.12, settled) << "kept until the release";
+  EXPECT_TRUE(bridge.error_becomes(0.12)) << bridge.error() << " mm, "
+                                          << "kept until the release";
   const double master = bridge.feedback.position[1];
   bridge.press();
-  EXPECT_NEAR(bridge.error(), 0.12, settled);
+  EXPECT_TRUE(bridge.error_becomes(0.12)) << bridge.error();
   bridge.release();
-  EXPECT_NEAR(bridge.error(), 0, settled);
+  EXPECT_TRUE(bridge.error_becomes(0)) << bridge.error();
   EXPECT_NEAR(bridge.feedback.position[1], master, settled) << "the master stays";
   // Above the limit.
   bridge.reset();
@@ -109,7 +115,8 @@ TEST(GantryCluster, TheReleaseOfTheEmergencyStopAlignsBelowTheLimitAndRefusesAbo
   ASSERT_TRUE(bridge.until([&] { return bridge.has_alarm(121, "axis 2"); })) << bridge.told();
   bridge.press();
   bridge.release();
-  EXPECT_NEAR(bridge.error(), 0.3, settled) << "nothing moved";
+  EXPECT_TRUE(bridge.error_becomes(0.3)) << bridge.error() << " mm, "
+                                         << "nothing moved";
   EXPECT_TRUE(bridge.has_alarm(121, "was not moved")) << bridge.told();
   bridge.reset_alarms();
   bridge.until([] { return false; }, 0.5);
@@ -126,7 +133,7 @@ TEST(GantryCluster, TheReleaseOfTheEmergencyStopAlignsBelowTheLimitAndRefusesAbo
   bridge.misalign(0.05);
   bridge.press();
   bridge.release();
-  EXPECT_NEAR(bridge.error(), 0, settled);
+  EXPECT_TRUE(bridge.error_becomes(0)) << bridge.error();
   EXPECT_TRUE(bridge.runs(to_and_fro)) << bridge.told();
 }
 
@@ -136,27 +143,28 @@ TEST(GantryCluster, AKilledServiceChangesNothingOfAGantryAtRest) {
     Bridge bridge("gantry-cb-head");
     // Aligned.
     bridge.kill_service(victim);
-    EXPECT_NEAR(bridge.error(), 0, settled);
+    EXPECT_TRUE(bridge.error_becomes(0)) << bridge.error();
     ASSERT_TRUE(bridge.runs(to_and_fro)) << bridge.told();
-    EXPECT_NEAR(bridge.error(), 0, settled);
+    EXPECT_TRUE(bridge.error_becomes(0)) << bridge.error();
     // The slave taken off: the PLC keeps the key's input no longer, and the slave is coupled where it is.
     bridge.key(true);
     bridge.jog(-0.3);
     bridge.kill_service(victim);
-    EXPECT_NEAR(bridge.error(), 0.3, settled);
+    EXPECT_TRUE(bridge.error_becomes(0.3)) << bridge.error();
     bridge.key(true);
     bridge.jog(0.2);
     bridge.key(false);
-    EXPECT_NEAR(bridge.error(), 0.1, settled);
+    EXPECT_TRUE(bridge.error_becomes(0.1)) << bridge.error();
     // Out of tolerance.
     bridge.misalign(0.4);
     bridge.kill_service(victim);
-    EXPECT_NEAR(bridge.error(), 0.4, settled) << "nothing aligns it";
+    EXPECT_TRUE(bridge.error_becomes(0.4)) << bridge.error() << " mm, "
+                                           << "nothing aligns it";
     ASSERT_TRUE(bridge.until([&] { return bridge.has_alarm(121); })) << bridge.told();
     bridge.misalign(0.1);
     bridge.press();
     bridge.release();
-    EXPECT_NEAR(bridge.error(), 0, settled);
+    EXPECT_TRUE(bridge.error_becomes(0)) << bridge.error();
     EXPECT_TRUE(bridge.runs(to_and_fro)) << bridge.told();
   }
 }
@@ -204,7 +212,8 @@ TEST(GantryCluster, ASecondRunIsTheFirstBitForBitAndARestartKeepsTheSides) {
     if (run == 1) {
       bridge.misalign(0.3);
     } else {
-      EXPECT_NEAR(bridge.error(), 0.3, settled) << "above the limit: not aligned when it is switched on";
+      EXPECT_TRUE(bridge.error_becomes(0.3)) << bridge.error() << " mm, "
+                                             << "above the limit: not aligned when it is switched on";
       ASSERT_TRUE(bridge.until([&] { return bridge.has_alarm(121); })) << bridge.told();
     }
   }

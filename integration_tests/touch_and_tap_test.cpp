@@ -26,8 +26,8 @@ Rows touch(const std::string& vendor) {
   cluster.start_text("G90 G54 G49\nG0 X20 Y0\nG31 L2 X80 F600\nG1 X#5061 F3000\nM30\n");
   EXPECT_TRUE(cluster.finish()) << cluster.told();
   EXPECT_EQ(cluster.active_alarms(), "");
-  cluster.until([&] { return cluster.rows.back()[0] < 30.6; }, 5);
-  return cluster.rows;
+  EXPECT_TRUE(cluster.until([&] { return cluster.rows.back()[0] < 30.6; })) << cluster.rows.back()[0];
+  return cluster.every_row();
 }
 
 TEST(TouchAndTap, ATouchEndsTheMoveTheLeadBehindItAndTheProgramGoesBackToTheLatchedPlace) {
@@ -56,7 +56,7 @@ TEST(TouchAndTap, TheSpindleFollowsTheToolIntoTheThreadAndOutAgain) {
   cluster.start_text("G90 G54 G49 G94\nG0 Z20\nS600 M3\nG99 G84 X0 Y0 Z-12 R2 F900\nG80 M5\nG0 Z20\nM30\n");
   ASSERT_TRUE(cluster.finish()) << cluster.told();
   EXPECT_EQ(cluster.active_alarms(), "");
-  cluster.until([] { return false; }, 0.3);
+  EXPECT_TRUE(cluster.rests()) << cluster.told();
   // G54 has Z -380. The hole is where the tool is below R, and its first row gives the angle of R.
   const double r = -378;
   double turns = 0, error = 0;
