@@ -4,24 +4,27 @@
 # What every target of ours is compiled with. Fused multiply-add would make the stream depend on the
 # compiler's choice of instruction, so contraction is off everywhere.
 add_library(trunnion_options INTERFACE)
-target_compile_options(trunnion_options INTERFACE -Wall -Wextra -Wshadow -Wnon-virtual-dtor -ffp-contract=off)
+# A name of another source that is compiled in the same unit (CMake's unity build) may be a local one here.
+target_compile_options(trunnion_options INTERFACE -Wall -Wextra $<$<CXX_COMPILER_ID:GNU>:-Wshadow=local> -Wnon-virtual-dtor
+  -ffp-contract=off)
 option(TRUNNION_SANITIZE "Build with the address and undefined-behaviour sanitizers" OFF)
 if(TRUNNION_SANITIZE)
   add_compile_options(-fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer)
   add_link_options(-fsanitize=address,undefined)
   # Eigen would allocate in another way under the sanitizer than in the library OMPL, which frees what we allocate.
   add_compile_definitions(EIGEN_MALLOC_ALREADY_ALIGNED=1)
-  set(trunnion_test_timeout 900)
+  set(trunnion_test_timeout 1800)
 else()
-  set(trunnion_test_timeout 120)
+  set(trunnion_test_timeout 600)
 endif()
 option(TRUNNION_THREAD_SANITIZE "Build with the thread sanitizer" OFF)
 if(TRUNNION_THREAD_SANITIZE)
   add_compile_options(-fsanitize=thread -fno-omit-frame-pointer)
   add_link_options(-fsanitize=thread)
-  set(trunnion_test_timeout 900)
+  set(trunnion_test_timeout 1800)
 endif()
 option(TRUNNION_FUZZ "Build the libFuzzer targets (needs clang)" OFF)
+set(TRUNNION_FUZZ_SECONDS 6 CACHE STRING "How long the test of a fuzzer searches")
 if(TRUNNION_FUZZ)
   # Without coverage of the libraries themselves a fuzzer searches blindly.
   add_compile_options(-fsanitize=fuzzer-no-link)
@@ -144,7 +147,7 @@ function(trunnion_benchmark name)
 endfunction()
 
 # trunnion_fuzzer(name SOURCES a_fuzz.cpp CORPUS dir [LINK libs...]): a libFuzzer target; only with TRUNNION_FUZZ. The
-# test runs for 6 s; a longer search is the program's own: fuzz/bin/<name> corpus-directory.
+# test runs for TRUNNION_FUZZ_SECONDS; a longer search is the program's own: fuzz/bin/<name> corpus-directory.
 function(trunnion_fuzzer name)
   cmake_parse_arguments(ARG "" "CORPUS" "SOURCES;LINK" ${ARGN})
   if(TRUNNION_FUZZ)
@@ -155,8 +158,8 @@ function(trunnion_fuzzer name)
     target_link_libraries(${name} PRIVATE trunnion_options trunnion_testing_support ${ARG_LINK})
     add_dependencies(fuzzers ${name})
     add_test(NAME ${name} WORKING_DIRECTORY ${CMAKE_BINARY_DIR}
-      COMMAND ${name} -max_total_time=6 -seed=1 -len_control=0 -timeout=10 -verbosity=0 ${found} ${ARG_CORPUS})
-    set_tests_properties(${name} PROPERTIES LABELS fuzz TIMEOUT 120)
+      COMMAND ${name} -max_total_time=${TRUNNION_FUZZ_SECONDS} -seed=1 -len_control=0 -timeout=10 -verbosity=0 ${found} ${ARG_CORPUS})
+    set_tests_properties(${name} PROPERTIES LABELS fuzz TIMEOUT 600)
   endif()
 endfunction()
 
