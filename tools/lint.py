@@ -5,7 +5,8 @@
     tools/lint.py BUILD [FILE...]    of the named files only, with those that are compiled together with them
 
 --within SECONDS begins no further file after that time: the sources that were changed last come first, and the last
-line says how many were not read.
+line says how many were not read. What is clean is remembered by its content (tools/memory.py) once it is compiled in
+BUILD, and not read again; TRUNNION_FORGET=1 reads all.
 
 Any finding is an error. clang-tidy excludes tests, benchmarks and fuzzers: they include the test framework and would
 nearly double the time. Sources that are compiled together (CMake's unity build) are checked together, so that the
@@ -22,6 +23,8 @@ import re
 import subprocess
 import sys
 import time
+
+from memory import Build, Memory
 
 EXCLUDED = re.compile(r'(^|/)(test|bench|integration_tests)/')
 NOISE = re.compile(r'warnings? generated|Suppressed|Use -header-filter|Use -system-headers')
@@ -72,8 +75,9 @@ def repeated_includes(files):
 
 
 def commands(build, wanted):
-    """What holds the wanted sources (paths from the root): its folder with a compilation database, {file: starts}."""
-    chosen, database = {}, []
+    """What holds the wanted sources (paths from the root): its folder with a compilation database, {file: starts},
+    {file: the object that the build makes of it}."""
+    chosen, objects, database = {}, {}, []
     with open(f'{build}/compile_commands.json') as text:
         entries = json.load(text)
     folder = os.path.abspath(f'{build}/lint')
@@ -98,12 +102,13 @@ def commands(build, wanted):
         else:
             file, starts = unit, [(1, unit)]
         chosen[file] = starts
+        objects[file] = re.search(r' -o (\S+)', entry['command']).group(1)
         database.append({'directory': entry['directory'], 'file': file, 'command': command})
     if left:
         sys.exit(f'lint: not compiled by {build}: {", ".join(sorted(left))}')
     with open(f'{folder}/compile_commands.json', 'w') as text:
         json.dump(database, text)
-    return folder, chosen
+    return folder, chosen, objects
 
 
 def tidy(folder, file, starts):
@@ -111,6 +116,31 @@ def tidy(folder, file, starts):
     errors = '\n'.join(line for line in done.stderr.splitlines() if not NOISE.search(line))
     text = re.sub(re.escape(file) + r':(\d+)', lambda m: place(starts, int(m.group(1))), done.stdout + errors)
     return done.returncode, text.strip()
+
+
+class Clean:
+    """What was found clean."""
+
+    def __init__(self, build, objects):
+        self.build, self.objects, self.memory, self.known = Build(build), objects, Memory('lint'), 0
+        self.rules = [self.build.content(os.path.realpath(file)) for file in ('.clang-tidy', __file__)]
+
+    def key(self, file):
+        """None when it is not known what the file includes."""
+        compiled = self.build.compiled(self.objects[file])
+        if compiled is None:
+            return None
+        return self.build.digest(self.build.tools, *self.rules, self.build.command(self.objects[file]), compiled)
+
+    def has(self, file):
+        key = self.key(file)
+        found = key is not None and self.memory.has(key)
+        self.known += found
+        return found
+
+    def add(self, file):
+        if (key := self.key(file)) is not None:
+            self.memory.add(key, file)
 
 
 def newest_first(files):
@@ -142,31 +172,36 @@ def main():
         wanted = [file for file in tracked('*.cpp') if not EXCLUDED.search(file)]
     repeated = repeated_includes([*wanted, *(f for f in tracked('*.hpp') if whole)])
     print('\n'.join(repeated), end='\n' if repeated else '', flush=True)
-    folder, files = commands(build, wanted)
+    folder, files, objects = commands(build, wanted)
     failed, unread = bool(repeated), itertools.count()
+    clean = Clean(build, objects)
+    ahead = [file for file in newest_first(files) if not clean.has(file)]
 
     def read(file):
-        if time.monotonic() < end:
-            return tidy(folder, file, files[file])
-        next(unread)
-        return 0, ''
+        if time.monotonic() >= end:
+            next(unread)
+            return 0, ''
+        code, text = tidy(folder, file, files[file])
+        if code == 0 and not text:
+            clean.add(file)
+        return code, text
 
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-        for done, (code, text) in enumerate(pool.map(read, newest_first(files)), 1):
+        for done, (code, text) in enumerate(pool.map(read, ahead), 1):
             failed |= code != 0
             if text:
                 print(text, flush=True)
             if sys.stdout.isatty():
-                print(f'[{done}/{len(files)}]', end='\r', flush=True)
+                print(f'[{done}/{len(ahead)}]', end='\r', flush=True)
     if failed:
         sys.exit('lint: findings, see above')
     left = next(unread)
-    if left == len(files):
+    if left and left == len(ahead):
         sys.exit(f'lint: nothing was read within {given.within:.0f} s')
     if left:
         print(f'lint: clean as far as it was read: {left} of {len(files)} files were not, after {given.within:.0f} s')
     else:
-        print('lint: clean')
+        print(f'lint: {len(files)} files clean, {clean.known} of them remembered')
 
 
 if __name__ == '__main__':
