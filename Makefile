@@ -1,21 +1,33 @@
 # SPDX-License-Identifier: Apache-2.0
 # make run    builds everything and mills the NAS 979 cone on the AC trunnion machine; the report is in out/
+# make check  while one works: build, format, lint and unit tests of what changed
 # make test   everything that must hold
+# make nightly  what takes longer: whole lint, sanitizers, fuzzers, faults, recordings, soak (tools/nightly.sh)
 PRESET ?= release
 BUILD := build/$(PRESET)
 TRUNNION := $(BUILD)/bin/trunnion
 JOBS := $(shell nproc)
+FUZZ_SECONDS ?= 6
 
 # Ninja shows how many of how many steps are done, and for how long it has been at it.
 export NINJA_STATUS := [%f/%t, %es]$(subst ,, )
 
-.PHONY: run test build product configure packages unit sanitize threads fuzz lint format bench faults soak recordings package clean
+.PHONY: run check test build product configure packages sanitize threads fuzz lint format generate bench faults soak recordings \
+  nightly coverage package clean
 
 run: product
 	$(TRUNNION) run ac-table nas979_cone --report out
 
+# Tests in real time come last, one at a time.
 test: build
-	ctest --test-dir $(BUILD) --output-on-failure -j $(JOBS)
+	ctest --test-dir $(BUILD) --output-on-failure -j $(JOBS) -LE realtime
+	ctest --test-dir $(BUILD) --output-on-failure -L realtime
+
+# What is remembered as good with the same content (tools/memory.py) is not done again.
+check: configure
+	@cmake --build --preset check
+	tools/lint.py $(BUILD)
+	tools/run_tests.py $(BUILD) unit -L unit
 
 # `make run` alone needs no package that only tests use.
 packages:
@@ -35,7 +47,7 @@ product:
 
 # $(call cmake_configure,PRESET)
 cmake_configure = mkdir -p build; echo "Configuring build/$(1)"; \
-  cmake --preset $(1) > build/$(1)-configure.log || { cat build/$(1)-configure.log; exit 1; }
+  cmake --preset $(1) -DTRUNNION_FUZZ_SECONDS=$(FUZZ_SECONDS) > build/$(1)-configure.log || { cat build/$(1)-configure.log; exit 1; }
 
 # The unit tests under the address and undefined-behaviour sanitizers. PART=foreign: those of what reads bytes that others have
 # written - programs, configuration, files of the state directory, recordings, the network.
@@ -45,21 +57,20 @@ foreign := access bus commands error_tables gateway_core http_client language ma
 sanitize: packages
 	@$(call cmake_configure,sanitize)
 	cmake --build --preset sanitize $(if $(PART),--target $(addsuffix _test,$($(PART))))
-	ctest --test-dir build/sanitize --output-on-failure -j $(JOBS) -L unit \
-	  $(if $(PART),-R '^($(subst $() ,|,$(strip $($(PART)))))_test$$')
+	tools/run_tests.py build/sanitize sanitize -L unit $(if $(PART),-R '^($(subst $() ,|,$(strip $($(PART)))))_test$$')
 
 # The tests of bus, service shell, stream and Modbus under the thread sanitizer. The DDS libraries are not instrumented, so
 # what they do among themselves cannot be judged.
 threads: packages
 	@$(call cmake_configure,threads)
 	cmake --build --preset threads
-	TSAN_OPTIONS=ignore_noninstrumented_modules=1 ctest --test-dir build/threads --output-on-failure -j $(JOBS) -R '^(bus|service|stream|plc_modbus)_test$$'
+	TSAN_OPTIONS=ignore_noninstrumented_modules=1 tools/run_tests.py build/threads threads -R '^(bus|service|stream|plc_modbus)_test$$'
 
-# A short run of every fuzzer, in the same build directory: the libraries are compiled once for both.
+# A run of FUZZ_SECONDS of every fuzzer, in the same build directory: the libraries are compiled once for both.
 fuzz: packages
 	@$(call cmake_configure,sanitize)
 	cmake --build --preset fuzz
-	ctest --test-dir build/sanitize --output-on-failure -j $(JOBS) -L fuzz
+	tools/run_tests.py build/sanitize fuzz -L fuzz
 
 # Needs the generated headers, not the programs. WITHIN=seconds: no file is begun after that time.
 lint: configure
@@ -68,6 +79,13 @@ lint: configure
 
 format:
 	git ls-files '*.cpp' '*.hpp' | xargs clang-format-14 -i
+
+# All that is generated and committed.
+generate: configure
+	@cmake --build --preset $(PRESET) --target contracts_generated operator_commands_generated
+	cp $(BUILD)/generated/contracts/topics.md $(BUILD)/generated/commands/operator-commands.md docs/
+	tools/generate_docs.py
+	tools/generate_api.py
 
 bench: build
 	for program in $(BUILD)/bin/*_bench; do $$program $(BENCH_OPTIONS) || exit 1; done
@@ -87,6 +105,19 @@ soak: build
 # Recordings of every machine in every state of use, on other vendors and in real time, verified. Half an hour.
 recordings: build
 	TRUNNION_ALL_RECORDINGS=1 $(BUILD)/bin/recordings_test
+
+# Continues where an interrupted run of the same commit was.
+nightly:
+	tools/nightly.sh
+
+# Line coverage of the unit tests, by source: build/coverage.txt.
+coverage:
+	@deploy/install-packages.sh nightly
+	@$(call cmake_configure,coverage)
+	cmake --build --preset coverage
+	ctest --test-dir build/coverage --output-on-failure -j $(JOBS) -L unit
+	gcovr --root . --object-directory build/coverage --filter 'libs/|services/|gateway/|deploy/' --exclude '.*/(test|bench)/.*' \
+	  -j $(JOBS) --print-summary --output build/coverage.txt
 
 # Debian packages, in build/release/packages.
 package: build

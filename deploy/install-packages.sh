@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# install-packages.sh [run|test]: installs what building and running Trunnion needs on Debian 12 (run), or what its tests,
-# benchmarks and checks need besides (test, the default). Does nothing when all of it is there.
+# install-packages.sh [run|test|nightly]: installs what building and running Trunnion needs on Debian 12 (run), what its tests,
+# benchmarks and checks need besides (test, the default), or also what `make nightly` needs. Does nothing when all of it is
+# there.
 set -euo pipefail
 
 packages=(
@@ -13,14 +14,15 @@ packages=(
 )
 case "${1:-test}" in
   run) ;;
-  test)
+  test | nightly)
     packages+=(
       clang-14 clang-tidy-14 clang-format-14 clang-tools-14 libclang-rt-14-dev
       linuxcnc-uspace linuxcnc-uspace-dev  # for machines behind its HAL: docs/hal.md
       chromium curl file libxml2-utils iproute2 iptables util-linux openssl hostname systemd locales
     )
+    [ "${1:-}" != nightly ] || packages+=(gcovr)
     ;;
-  *) echo "usage: $0 [run|test]" >&2; exit 2 ;;
+  *) echo "usage: $0 [run|test|nightly]" >&2; exit 2 ;;
 esac
 
 # Another Node.js than Debian's (18) will do from version 18 on.
