@@ -14,6 +14,15 @@ stop_jobs() {  # a recorder, a trace
 }
 trap 'stop_jobs; stop_cluster; rm -rf "$work"' EXIT
 fail() { echo "$*" >&2; exit 1; }
+# wait_until WHAT COMMAND...: until COMMAND succeeds. The limit only ends a hang: a busy computer takes its time.
+wait_until() {
+  local what=$1 end=$((SECONDS + 60))
+  shift
+  until "$@"; do
+    [ "$SECONDS" -lt "$end" ] || fail "not within 60 s: $what"
+    sleep 0.05
+  done
+}
 # start_cluster MACHINE [OPTION...]: in virtual time, with the state in $work/state, and sets $domain and $port of the gateway.
 start_cluster() {
   local machine=$1
@@ -24,18 +33,44 @@ start_cluster() {
   port=$(sed -n 's/.*"port": *\([0-9]*\).*/\1/p' "$work/up")
   [ -n "$domain" ] || fail "$(cat "$work/up")"
 }
-# await_idle: the program of channel 0 has ended.
-await_idle() {
-  for _ in $(seq 600); do
-    "$trunnion" topic echo channel_state --count 1 --json --domain "$domain" > "$work/state.json"
-    case $(cat "$work/state.json") in *'"state":"IDLE"'*) return ;; esac
-    sleep 0.1
-  done
-  fail "the program does not end: $(cat "$work/state.json")"
+# await_alarm PATTERN: leaves the list of alarms in $work/alarms.
+has_alarm() { "$trunnion" alarms --domain "$domain" > "$work/alarms" || true; grep -q -- "$1" "$work/alarms"; }
+await_alarm() { wait_until "there is an alarm '$1'" has_alarm "$1"; }
+# await_state STATE: of channel 0.
+has_state() {
+  "$trunnion" topic echo channel_state --count 1 --json --domain "$domain" > "$work/state.json" 2>&1 &&
+    grep -q "\"state\":\"$1\"" "$work/state.json"
 }
+await_state() { wait_until "channel 0 is $1" has_state "$1"; }
+# await_idle: the program of channel 0 has ended.
+await_idle() { await_state IDLE; }
+# select_program NAME: on channel 0, to which the list with a program that was stored just now may still be on its way.
+is_selected() { "$trunnion" channel select "$1" --domain "$domain" 2> "$work/select"; }
+select_program() { wait_until "channel 0 takes the program $1" is_selected "$1"; }
 # run_to_end PROGRAM: a stored program on channel 0, to its end, or the alarm that has ended it.
 run_to_end() {
-  "$trunnion" channel select "$1" --domain "$domain"
+  select_program "$1"
   "$trunnion" channel start --domain "$domain"
   await_idle
+}
+# start_recording FILE SAID [OPTION...]: from when it returns everything is recorded; $recorder is the process of the command.
+start_recording() {
+  local said=$2
+  "$trunnion" record "$1" --domain "$domain" "${@:3}" > "$said" 2>&1 &
+  recorder=$!
+  wait_until "the recording begins" begins_or_ends "$said"
+  grep -q '^recording ' "$said" || fail "$(cat "$said")"
+}
+begins_or_ends() { grep -q '^recording ' "$1" || ! kill -0 "$recorder" 2> /dev/null; }
+# end_recording SAID: fails when something was lost.
+end_recording() {
+  kill -INT "$recorder"
+  wait "$recorder" || fail "$(cat "$1")"
+}
+# reset_and_settle PARAMETER...: a reset of channel 0, after which none of these has a value that waits to become active.
+is_pending() { "$trunnion" param get "$@" --json --domain "$domain" > "$work/pending" && grep -q '"pending": *true' "$work/pending"; }
+is_settled() { ! is_pending "$@" && [ -s "$work/pending" ]; }
+reset_and_settle() {
+  "$trunnion" channel reset --domain "$domain" > "$work/reset"
+  wait_until "parameters $* are active" is_settled "$@"
 }

@@ -41,8 +41,7 @@ refused "'fast.none': there is no such variable" watch fast.none --count 1
 
 plc force coolant_0=TRUE fast.counter.hours=9 --list > "$work/forces"
 is forces "$(cat "$work/forces")" "$(printf '%%G2968.0 = TRUE\nfast.counter.hours = 9')"
-"$trunnion" alarms --domain "$domain" > "$work/alarms" || true
-grep -q "2 of the PLC's values are forced" "$work/alarms" || fail "$(cat "$work/alarms")"
+await_alarm "2 of the PLC's values are forced"
 mdi "M9"
 is mark "$(plc watch coolant_0 fast.counter.hours --count 1)" "coolant_0 = TRUE (forced)  fast.counter.hours = 9 (forced)"
 refused "'fast.counter.hours': 'x' is no UDINT: write a whole number 0 .. 4294967295" force fast.counter.hours=x
@@ -51,7 +50,8 @@ pid=$("$trunnion" status --domain "$domain" --json | "$python" -c 'import json, 
 text = json.load(sys.stdin)
 print(next(s["pid"] for s in text["services"] if s["service"] == "plc"))')
 kill -KILL "$pid"
-for _ in $(seq 100); do plc force --list > "$work/forces" 2> /dev/null && break; sleep 0.1; done
+lists_forces() { plc force --list > "$work/forces" 2> /dev/null; }
+wait_until "the PLC answers after a kill" lists_forces
 is "forces after a kill" "$(wc -l < "$work/forces")" 2
 plc force --release
 is released "$(plc force --list)" "Nothing is forced"
@@ -67,23 +67,20 @@ assert scan["statements"] >= fast["statements"] > 0 and main["statement_budget"]
   fail "$(cat "$work/tasks")"
 
 # From here on everything is recorded.
-"$trunnion" record "$work/r.mcap" --domain "$domain" > "$work/record" 2>&1 &
-recorder=$!
-for _ in $(seq 100); do [ -s "$work/r.mcap" ] && break; sleep 0.1; done
+start_recording "$work/r.mcap" "$work/record"
 mdi "G53 G1 X1 F3000"
 plc force feed_hold=TRUE
-"$trunnion" mdi "G53 G1 X2 F3000" --domain "$domain" > /dev/null 2>&1 &
-held=$!
-sleep 1
+! mdi "G53 G1 X2 F3000" 2> "$work/error" || fail "the axes move against the forced feed hold"
+grep -q "Feed hold of the PLC" "$work/error" || fail "$(cat "$work/error")"
 plc force --release feed_hold
-"$trunnion" channel start --domain "$domain" > /dev/null 2>&1 || true
-wait $held || true
 
 # Every scan: the counter of the program rises by one from row to row.
 n=$(plc watch fast.counter.n --count 1 | sed 's/.* = //')
 plc trace fast.counter.n coolant_0 --scans 300 --when "fast.counter.n>$((n + 20))" --output "$work/trace.csv" &
 trace=$!
-sleep 0.5
+# A second trace is refused while one is armed; this one would be in any case, for its path.
+is_armed() { ! plc trace fast.none > "$work/out" 2>&1 && grep -q "another client traces" "$work/out"; }
+wait_until "the trace is armed" is_armed
 mdi "G53 G1 X30 F3000"
 wait $trace || fail "the trace"
 "$python" - "$work/trace.csv" "$n" <<'END' || fail "$(head -5 "$work/trace.csv")"
@@ -122,8 +119,7 @@ plc load --undo --accept-differences > /dev/null
 is "lamp again" "$(plc watch ready_lamp --count 1)" "ready_lamp = TRUE"
 mdi "G53 G1 X10 F3000"
 
-kill -INT $recorder
-wait $recorder || fail "$(cat "$work/record")"
+end_recording "$work/record"
 "$trunnion" verify --service plc --recording "$work/r.mcap" --machine "$work/m" > "$work/verify" 2>&1 || fail "$(cat "$work/verify")"
 is "lines of the journal" "$("$python" -c 'import json, sys
 print(*[json.loads(line)["what"] for line in open(sys.argv[1])])' "$work/state/plc.jsonl")" "force release force release load load load"
@@ -136,8 +132,7 @@ damage() { printf 'x' | dd of="$work/state/$1" bs=1 seek=40 conv=notrunc status=
 alarms() { "$trunnion" alarms --domain "$domain"; }
 damage plc.programs
 start_cluster "$work/m"
-alarms > "$work/alarms"
-grep -q "153.*plc.programs is damaged .*PLC programs that were loaded while it ran of generation" "$work/alarms" || fail "$(cat "$work/alarms")"
+await_alarm "153.*plc.programs is damaged .*PLC programs that were loaded while it ran of generation"
 plc programs | grep -q "loaded" || fail "$(plc programs)"
 "$trunnion" alarms --reset --domain "$domain" > /dev/null
 stop_cluster
@@ -147,7 +142,6 @@ stop_cluster
 damage plc.programs
 damage plc.programs.previous
 start_cluster "$work/m"
-alarms > "$work/alarms"
-grep -q "154.*plc.programs is damaged .*are lost" "$work/alarms" || fail "$(cat "$work/alarms")"
+await_alarm "154.*plc.programs is damaged .*are lost"
 plc programs | grep -q "machine's directory" || fail "$(plc programs)"
 stop_cluster

@@ -3,25 +3,18 @@
 # program_commands.sh TRUNNION: the commands for stored programs on a running cluster, as a user calls them.
 set -euo pipefail
 trunnion=$1
-work=$(mktemp -d)
-domain=
-trap '[ -z "$domain" ] || "$trunnion" down --domain "$domain" > /dev/null; rm -rf "$work"' EXIT
-fail() { echo "$1"; exit 1; }
-# refused TEXT COMMAND...: status 1 and one line with TEXT.
-refused() {
-  local status=0 text=$1
+. "$(dirname "$0")/cluster.sh"
+# is_refused TEXT COMMAND...: status 1 and one line with TEXT.
+is_refused() {
+  local text=$1
   shift
+  status=0
   "$trunnion" "$@" > "$work/out" 2> "$work/err" || status=$?
-  [ $status = 1 ] && grep -q -- "$text" "$work/err" || fail "$*: status $status, $(cat "$work/err")"
+  [ $status = 1 ] && grep -q -- "$text" "$work/err"
 }
+refused() { is_refused "$@" || fail "${*:2}: status $status, $(cat "$work/err")"; }
 
-for wanted in 81 82 83 84 85 86; do
-  if "$trunnion" up ac-table --time virtual --domain $wanted --state "$work/state" --port $((20000 + wanted)) > "$work/up" 2>&1; then
-    domain=$wanted
-    break
-  fi
-done
-[ -n "$domain" ] || fail "$(cat "$work/up")"
+start_cluster ac-table
 here=(--domain "$domain")
 
 printf 'G21 G90 G54\nG0 X5\nG1 Y10 F1000\nM30\n' > "$work/part.nc"
@@ -59,27 +52,27 @@ status=0
 "$trunnion" program check calls "${here[@]}" > "$work/out" 2>&1 || status=$?
 [ $status = 1 ] && grep -q "calls.nc:2.*1709" "$work/out" || fail "tool 17 is not there: $(cat "$work/out")"
 curl -fsS -X PUT -H "Content-Type: application/json" -d "{\"length\": 80, \"length_wear\": 0, \"radius\": 5, \"radius_wear\": 0, \"name\": \"drill\"}" \
-  "http://127.0.0.1:$((20000 + domain))/api/tools/17" > "$work/out" || fail "$(cat "$work/out")"
+  "http://127.0.0.1:$port/api/tools/17" > "$work/out" || fail "$(cat "$work/out")"
 "$trunnion" program check calls "${here[@]}" > "$work/out" 2>&1 || fail "tool 17 is there: $(cat "$work/out")"
 "$trunnion" param set 100007 -100 "${here[@]}" > "$work/out"
-"$trunnion" channel reset "${here[@]}"
+reset_and_settle 100007
 status=0
 "$trunnion" program check calls "${here[@]}" > "$work/out" 2>&1 || status=$?
 [ $status = 1 ] && grep -q "O99.nc:1" "$work/out" || fail "X-150 is within -100? $(cat "$work/out")"
 
-# A program that a channel executes stays.
+# A program that a channel executes stays. What the store knows of the channel is seen by a change to a name that is taken.
 printf 'G21 G90 G54\nG0 X5\nM0\nM30\n' > "$work/held.nc"
 "$trunnion" program put "$work/held.nc" "${here[@]}" > "$work/out"
 "$trunnion" channel mode auto "${here[@]}"
-"$trunnion" channel select held "${here[@]}"
+select_program held
 "$trunnion" channel start "${here[@]}"
-sleep 1
+wait_until "the store knows that held.nc is executed" is_refused "is being executed by channel 0" program rename held part.nc "${here[@]}"
 refused "is being executed by channel 0" program delete held "${here[@]}"
 "$trunnion" program put "$work/held.nc" --replace "${here[@]}" > "$work/out"  # the same text is no change
 echo "(later)" >> "$work/held.nc"
 refused "is being executed by channel 0" program put "$work/held.nc" --replace "${here[@]}"
 "$trunnion" channel reset "${here[@]}"
-sleep 1
+wait_until "the store knows that held.nc has ended" is_refused "exists already" program rename held part.nc "${here[@]}"
 "$trunnion" program rename held other.nc "${here[@]}" > "$work/out"
 "$trunnion" program delete other "${here[@]}" > "$work/out"
 refused "there is no stored program held" program delete held "${here[@]}"
