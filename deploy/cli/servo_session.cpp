@@ -23,8 +23,8 @@ using servo_analysis::AxisTrace;
 namespace {
 
 constexpr const char* servo_program = "servo-test.tmp.nc";
-constexpr double servo_answer_time = 5, longest_motion = 600;  // s of wall time
-constexpr std::size_t columns = 8;                             // of a sample of idl/servo.idl
+constexpr double servo_answer_time = 30, longest_motion = 600;  // s of wall time
+constexpr std::size_t columns = 8;                              // of a sample of idl/servo.idl
 
 std::atomic<bool> interrupted{false};
 
@@ -252,14 +252,18 @@ void ServoSession::end_test(SessionResult* result) {
   requests_->write(end);
   --number_;
   SessionResult unused;
-  const double until = service::monotonic_seconds() + 1;
-  // A test that was ended by a vibration says nothing new at its end.
+  // The last samples come with the end; nobody waits long for them when the result is not needed.
+  const double until = service::monotonic_seconds() + (result != nullptr ? servo_answer_time : 1);
   bool ended = false;
   while (!ended && service::monotonic_seconds() < until) {
     ended = take_samples(result != nullptr ? *result : unused);
-    if (result != nullptr && result->phase == TestPhase::ENDED_BY_VIBRATION) break;
+    // A test that was ended by a vibration, or by a stop, says nothing new at its end.
+    if (result != nullptr)
+      ended = ended || result->phase == TestPhase::ENDED_BY_VIBRATION ||
+              result->phase == TestPhase::ENDED_BY_STOP;
     pause();
   }
+  if (result != nullptr && !ended) result->lost = true;
   ++number_;
 }
 

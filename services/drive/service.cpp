@@ -210,8 +210,8 @@ void DriveService::drain() {
   idl::servo::TestRequest test;
   while (test_requests_->take(test)) {
     applied(Input::SERVO_TEST_REQUEST, identity(*test_requests_));
-    request_test(test);
-    test_seen_ = now;
+    // The requests of other clients are no sign of the one whose test is running.
+    if (request_test(test)) test_seen_ = now;
   }
   if (auto* tester = core_.hardware().tester();
       tester != nullptr && tester->running() && now - test_seen_ > servo_test_timeout)
@@ -265,14 +265,15 @@ void DriveService::send() {
   changed_ = false;
 }
 
-void DriveService::request_test(const idl::servo::TestRequest& request) {
+bool DriveService::request_test(const idl::servo::TestRequest& request) {
   auto reason = core_.request_test(request);
-  if (reason.empty()) return;
+  if (reason.empty()) return true;
   samples_ = {};
   samples_.client = request.client, samples_.number = request.number;
   samples_.phase = idl::servo::TestPhase::REFUSED;
   samples_.reason = reason.substr(0, 240);
   samples_writer_->write(samples_);
+  return false;
 }
 
 void DriveService::send_samples() {

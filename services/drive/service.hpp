@@ -39,7 +39,7 @@ class DriveService : public service::Service {
   void run_real();
   void send();
   void send_samples();
-  void request_test(const idl::servo::TestRequest& request);
+  bool request_test(const idl::servo::TestRequest& request);
   void applied(idl::stream::Input input, std::uint64_t identity);
   void configure(const machine::Parameters& parameters);
 
