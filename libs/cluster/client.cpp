@@ -11,7 +11,7 @@
 
 namespace trunnion::cluster {
 namespace {
-constexpr double timeout = 3;  // s for an answer
+constexpr double timeout = 15;  // s for an answer
 constexpr std::uint16_t every_channel = 65535;
 }  // namespace
 
@@ -74,7 +74,7 @@ idl::plc::PanelReply Client::panel(idl::plc::PanelRequestKind kind) {
 }
 
 void Client::wait_for_all_services(const std::function<int()>& matched) {
-  constexpr std::chrono::seconds longest(3);
+  constexpr std::chrono::seconds longest(10);
   auto clusters = bus_.reader(topics::cluster);
   idl::service::Cluster cluster;
   bool known = false;

@@ -37,14 +37,18 @@ class Client {
   /// Resets the alarms of the whole machine; returns when the services have had time to answer.
   void reset_alarms();
   /// For an endpoint of a topic that every service and the launcher have: waits until `matched` counts all
-  /// that run; 3 s at most.
+  /// that run; 10 s at most.
   void wait_for_all_services(const std::function<int()>& matched);
   /// Stores `text` under `name` in chunks.
   void upload(const std::string& name, const std::string& text);
   std::string download(const std::string& name);
   /// The newest state of a topic, waiting up to `timeout` seconds for the first.
   template <class T>
-  T newest(const bus::Topic<T>& topic, double timeout = 5);
+  T newest(const bus::Topic<T>& topic, double timeout = 30);
+  /// Of a topic with history that is written all the time: one that was written after this call began. That
+  /// of a host whose clock is not ours counts after 5 s.
+  template <class T>
+  T present(const bus::Topic<T>& topic);
 
  private:
   bus::Bus bus_;
@@ -64,6 +68,23 @@ T Client::newest(const bus::Topic<T>& topic, double timeout) {
     std::this_thread::sleep_for(std::chrono::milliseconds(2));
   }
   throw std::runtime_error(std::string("no process publishes ") + topic.name);
+}
+
+template <class T>
+T Client::present(const bus::Topic<T>& topic) {
+  constexpr double clocks = 5, longest = 30;  // s
+  const auto began = bus::source_time();
+  auto reader = bus_.reader(topic);
+  T value;
+  bool any = false;
+  const double start = service::monotonic_seconds();
+  while (service::monotonic_seconds() - start < (any ? clocks : longest)) {
+    while (reader.take(value)) any = true;
+    if (any && reader.info().source_timestamp >= began) return value;
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
+  if (!any) throw std::runtime_error(std::string("no process publishes ") + topic.name);
+  return value;
 }
 
 }  // namespace trunnion::cluster
