@@ -37,7 +37,7 @@ struct ChannelOptions {
 // Of the axes, in the order of their indices.
 std::string letters_of(cluster::Client& client, std::uint16_t channel) {
   auto reader = client.bus().reader(topics::channel_state);
-  const double until = service::monotonic_seconds() + 2;
+  const double until = service::monotonic_seconds() + 30;
   idl::channel::ChannelState newest;
   while (service::monotonic_seconds() < until) {
     while (reader.take(newest))

@@ -16,8 +16,8 @@ using idl::measurement::MeasurementState;
 using idl::measurement::Operation;
 using idl::measurement::Phase;
 
-constexpr double heard_within = 3;   // s: of the start
-constexpr double answer_within = 5;  // s: planning of the poses before the answer
+constexpr double heard_within = 15;   // s: of the start
+constexpr double answer_within = 30;  // s: planning of the poses before the answer
 constexpr std::size_t most_user = 48;
 
 bool at_end(Phase phase) {
