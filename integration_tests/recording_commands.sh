@@ -5,13 +5,13 @@ set -euo pipefail
 trunnion=$1/trunnion
 golden=$2/gantry-cb-head/recordings/golden.mcap
 work=$(mktemp -d)
-trap 'rm -rf "$work"; kill $(jobs -p) 2> /dev/null || true' EXIT
+trap 'kill $(jobs -p) 2> /dev/null || true; rm -rf "$work"' EXIT
 fail() { echo "$1"; exit 1; }
 
 # What is replayed and recorded again is the same, every message of it.
-"$1/trunnion-recorder" --output "$work/again.mcap" --machine gantry-cb-head --domain "$3" --duration 30 > "$work/log" &
+"$1/trunnion-recorder" --output "$work/again.mcap" --machine gantry-cb-head --domain "$3" --duration 300 > "$work/log" &
 recorder=$!
-"$trunnion" replay "$golden" --domain "$3" --wait --linger 1 > "$work/replay"
+"$trunnion" replay "$golden" --domain "$3" --wait --linger 5 > "$work/replay"
 kill -TERM $recorder
 wait $recorder || fail "the recorder lost something: $(cat "$work/log")"
 "$trunnion" diff "$golden" "$work/again.mcap" > "$work/diff" || fail "$(cat "$work/diff")"

@@ -31,6 +31,7 @@ struct ReplayArguments {
 
 constexpr int stream_frames = 4096;   // that a writer of the stream keeps, for late joiners
 constexpr double match_timeout = 60;  // s for a first reader
+constexpr double match_pause = 1;     // s without a reader of another topic
 
 volatile sig_atomic_t stop_requested = 0;
 
@@ -67,12 +68,20 @@ int run_replay(const Common& common, const ReplayArguments& arguments) {
       std::this_thread::sleep_for(
           std::chrono::duration<double>(std::min(0.05, std::max(0.0, until - service::monotonic_seconds()))));
   };
-  const auto anybody = [&] {
-    return std::any_of(writers.begin(), writers.end(), [](const auto& w) { return w.second->matched() > 0; });
+  // A reader of many topics is discovered topic by topic; what has no history would be lost to the last ones.
+  const auto matched = [&] {
+    return static_cast<std::size_t>(std::count_if(writers.begin(), writers.end(),
+                                                  [](const auto& w) { return w.second->matched() > 0; }));
   };
-  for (double waited = 0; arguments.wait && stop_requested == 0 && !anybody() && waited < match_timeout;
-       waited += 0.01)
+  std::size_t known = 0;
+  double since = service::monotonic_seconds();
+  for (;;) {
+    if (!arguments.wait || stop_requested != 0) break;
+    if (const auto now = matched(); now != known) known = now, since = service::monotonic_seconds();
+    const double unchanged = service::monotonic_seconds() - since;
+    if (known == writers.size() || unchanged > (known > 0 ? match_pause : match_timeout)) break;
     pause(0.01);
+  }
   const double began = service::monotonic_seconds();
   std::size_t written = 0;
   for (const auto& d : due) {
