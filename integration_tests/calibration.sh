@@ -109,12 +109,7 @@ cp "$2/calibration/truth.yaml" "$work/hand"
 start_cluster "$work/hand"
 hand() { "$trunnion" calibrate manual "$work/hand" --domain "$domain" --write "$@"; }
 offsets() {
-  "$trunnion" channel reset --domain "$domain"
-  for _ in $(seq 100); do
-    "$trunnion" param get 040433 040435 040436 040437 --json --domain "$domain" > "$work/offsets.json"
-    grep -q '"pending": *true' "$work/offsets.json" || break
-    sleep 0.1
-  done
+  reset_and_settle 040433 040435 040436 040437
   "$trunnion" param get 040433 040435 040436 040437 --domain "$domain"
 }
 offsets > "$work/delivered"

@@ -5,6 +5,17 @@
 set -euo pipefail
 trunnion=$1 python=$3
 . "$(dirname "$0")/cluster.sh"
+have_values() { # NUMBER=VALUE...
+  "$trunnion" param get "${@%=*}" --json --domain "$domain" > "$work/values"
+  "$python" - "$work/values" "$@" << 'PYTHON' 2> "$work/error"
+import json, sys
+values = {row["number"]: row["value"] for row in json.load(open(sys.argv[1]))}
+for setting in sys.argv[2:]:
+    number, value = setting.split("=")
+    # The uncertainty that the protocol states is 0.3 to 1.1 um.
+    assert abs(values[number] - float(value)) < 0.002, (number, values[number], value)
+PYTHON
+}
 # measured NAME POSITION INPUTS TRUTH NUMBER=VALUE...: the parameters become the values.
 measured() {
   local machine=$work/$1 position=$2 inputs=$3 truth=$4
@@ -24,20 +35,8 @@ YAML
   start_cluster "$machine"
   "$trunnion" calibrate kinematics "$machine" --on-machine --inputs "$work/inputs.yaml" --write --domain "$domain" > "$work/log" 2>&1 ||
     fail "$machine: $(cat "$work/log")"
-  "$trunnion" channel reset --domain "$domain" > /dev/null
-  for _ in $(seq 100); do
-    "$trunnion" param get "${@%=*}" --json --domain "$domain" > "$work/values"
-    "$python" - "$work/values" "$@" << 'PYTHON' 2> "$work/error" && break
-import json, sys
-values = {row["number"]: row["value"] for row in json.load(open(sys.argv[1]))}
-for setting in sys.argv[2:]:
-    number, value = setting.split("=")
-    # The uncertainty that the protocol states is 0.3 to 1.1 um.
-    assert abs(values[number] - float(value)) < 0.002, (number, values[number], value)
-PYTHON
-    sleep 0.1
-  done
-  [ ! -s "$work/error" ] || fail "$machine: $(cat "$work/error" "$work/log")"
+  reset_and_settle "${@%=*}"
+  have_values "$@" || fail "$machine: $(cat "$work/error" "$work/log")"
   sed -i 's/^mode: .*/mode: measure_only/' "$work/inputs.yaml"
   "$trunnion" calibrate kinematics "$machine" --on-machine --inputs "$work/inputs.yaml" --domain "$domain" > "$work/log" 2>&1 ||
     fail "$machine: $(cat "$work/log")"

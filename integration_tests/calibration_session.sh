@@ -25,14 +25,7 @@ up() {
 calibrate() { "$trunnion" calibrate "$@" --domain "$domain" > "$work/out" 2> "$work/error"; }
 measure() { calibrate kinematics "$machine" --on-machine --inputs "$inputs" "$@"; }
 values() { "$trunnion" param get 040432 040433 040435 040436 040437 --domain "$domain"; }
-# Parameters that were written become active a moment after a reset.
-settle() {
-  "$trunnion" channel reset --domain "$domain" > "$work/log"
-  for _ in $(seq 100); do
-    "$trunnion" param get 040432 040433 040435 040436 040437 --json --domain "$domain" | grep -q '"pending": *true' || return 0
-    sleep 0.1
-  done
-}
+settle() { reset_and_settle 040432 040433 040435 040436 040437; }
 # stopped PATTERN POSES: it ended in one line (behind those of the progress), and nothing was written.
 stopped() {
   [ "$(grep -c '^trunnion: ' "$work/error")" = 1 ] || fail "$1: not one line"
@@ -40,26 +33,15 @@ stopped() {
   [ "$(values)" = "$before" ] || fail "$1: parameters were changed"
 }
 phase() { "$trunnion" calibrate status --json --domain "$domain" | python3 -c 'import json, sys; print(json.load(sys.stdin)["state"]["phase"])'; }
-await() {
-  for _ in $(seq 600); do
-    [ "$(phase)" = "$1" ] && return
-    sleep 0.1
-  done
-  fail "not $1 but $(phase)"
+has_phase() { [ "$(phase)" = "$1" ]; }
+is_cleared() {
+  "$trunnion" channel reset --domain "$domain" > "$work/log" 2>&1 || true
+  "$trunnion" alarms --reset --domain "$domain" > "$work/log" 2>&1 || true
+  "$trunnion" alarms --domain "$domain" > "$work/log"
+  # The probe may be in contact, and then it cannot be switched on.
+  grep -q 'no alarms' "$work/log" && "$trunnion" mdi "G53 G1 Z0 F3000" --domain "$domain" > "$work/log" 2>&1
 }
-clear_machine() {
-  for _ in $(seq 100); do
-    "$trunnion" channel reset --domain "$domain" > "$work/log" 2>&1 || true
-    "$trunnion" alarms --reset --domain "$domain" > "$work/log" 2>&1 || true
-    "$trunnion" alarms --domain "$domain" > "$work/log"
-    if grep -q 'no alarms' "$work/log"; then
-      # The probe may be in contact, and then it cannot be switched on.
-      "$trunnion" mdi "G53 G1 Z0 F3000" --domain "$domain" > "$work/log" 2>&1 && return
-    fi
-    sleep 0.1
-  done
-  fail "alarms stay: $(cat "$work/log")"
-}
+clear_machine() { wait_until "the machine is without alarms, the probe away" is_cleared; }
 probe='ball_radius_mm: 3, length_mm: 60, pre_travel_um: 8, delay_ms: 1'
 
 echo "A probe that repeats badly"
@@ -92,11 +74,9 @@ echo "SIGINT: the channel is held; refused until it is reset; then the rest"
 : > "$work/error"
 measure --write &
 measuring=$!
-for _ in $(seq 600); do
-  [ "$(grep -c '^pose ' "$work/error")" -ge 2 ] && break
-  kill -0 $measuring 2> /dev/null || fail "ended early"
-  sleep 0.05
-done
+two_poses_or_end() { [ "$(grep -c '^pose ' "$work/error")" -ge 2 ] || ! kill -0 $measuring 2> /dev/null; }
+wait_until "two poses are measured" two_poses_or_end
+kill -0 $measuring 2> /dev/null || fail "ended early"
 pid=$(pgrep -P $measuring trunnion || echo $measuring)
 kill -INT "$pid"
 if wait $measuring; then fail "not stopped"; fi
@@ -141,10 +121,10 @@ if measure; then fail "two measurements at a time"; fi
 grep -q 'a measurement is under way: abort it first' "$work/error" || fail "no reason"
 calibrate abort || fail "abort"
 [ "$(phase)" = INTERRUPTED ] || fail "$(phase)"
-"$trunnion" alarms --domain "$domain" | grep -q '^ *180 ' || fail "no alarm"
+await_alarm '^ *180 '
 clear_machine
 calibrate continue --detach || fail "continue"
-await WAITING
+wait_until "the result waits" has_phase WAITING
 calibrate discard || fail "discard"
 [ "$(phase)" = NOTHING ] || fail "$(phase)"
 near 040433 0.21

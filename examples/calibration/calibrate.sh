@@ -13,8 +13,7 @@ cp "$here/truth.yaml" "$machine"
 # The parameters become active a moment after the reset.
 reset() {
   "$trunnion" channel reset --domain "$domain"
-  for _ in $(seq 100); do
-    "$trunnion" param get 040433 040435 040436 040437 --json --domain "$domain" | grep -q '"pending": *true' || break
+  while "$trunnion" param get 040433 040435 040436 040437 --json --domain "$domain" | grep -q '"pending": *true'; do
     sleep 0.1
   done
   "$trunnion" param get 040433 040435 040436 040437 --domain "$domain"
