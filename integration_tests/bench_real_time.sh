@@ -33,7 +33,7 @@ BENCH_OF_TEST=$$ "$trunnion" bench --real-time --rounds 1 --program "$work/long.
   > "$work/starved.json" 2> "$work/error" &
 bench=$!
 stage=
-for _ in $(seq 400); do
+for _ in $(seq 1200); do
   for process in $(pgrep trunnion-kinema); do
     if grep -qzx "BENCH_OF_TEST=$$" "/proc/$process/environ" 2> /dev/null; then stage=$process; fi
   done
@@ -41,8 +41,8 @@ for _ in $(seq 400); do
   sleep 0.05
 done
 [ -n "$stage" ] || { echo "no stage"; cat "$work/error"; exit 1; }
-# The motion takes 3.6 s, whenever it begins.
-for _ in 1 2 3 4 5 6 7 8; do
+# The motion takes 3.6 s, whenever it begins; the stage ends with the benchmark.
+while :; do
   sleep 0.9
   kill -STOP "$stage" 2> /dev/null || break
   sleep 0.3

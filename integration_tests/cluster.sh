@@ -36,6 +36,11 @@ start_cluster() {
 # await_alarm PATTERN: leaves the list of alarms in $work/alarms.
 has_alarm() { "$trunnion" alarms --domain "$domain" > "$work/alarms" || true; grep -q -- "$1" "$work/alarms"; }
 await_alarm() { wait_until "there is an alarm '$1'" has_alarm "$1"; }
+# reset_alarms: of the whole machine; none is left.
+reset_alarms() {
+  "$trunnion" alarms --reset --domain "$domain" > "$work/alarms" || true
+  await_alarm 'no alarms'
+}
 # await_state STATE: of channel 0.
 has_state() {
   "$trunnion" topic echo channel_state --count 1 --json --domain "$domain" > "$work/state.json" 2>&1 &&

@@ -33,13 +33,6 @@ grep -q "machine.yaml:[0-9]*:[0-9]*: .*collision must be 'off', 'warn' or 'stop'
 sed -i 's/^collision: .*/collision: stop/' "$work/m/machine.yaml"
 
 alarms() { "$trunnion" alarms --domain "$domain" > "$work/alarms"; cat "$work/alarms"; }
-wait_for() {
-  for _ in $(seq 300); do
-    "$@" > /dev/null 2>&1 && return 0
-    sleep 0.1
-  done
-  return 1
-}
 stopped() {
   alarms > /dev/null
   grep -q "$expected" "$work/alarms"
@@ -50,10 +43,10 @@ for vendor in cyclonedds fastdds; do
   start_cluster "$work/m" --vendor $vendor
   run() { "$trunnion" channel "$@" --domain "$domain" > "$work/answer" 2>&1; }
   run mode auto && run select down.nc && run start || fail "$vendor: $(cat "$work/answer")"
-  wait_for stopped || fail "$vendor: $(alarms)"
+  wait_until "$vendor: the program is stopped before the table" stopped
   grep "$expected" "$work/alarms" | sed 's/^.*down.nc/down.nc/; s/  .*//' > "$work/alarm-$vendor"
   "$trunnion" alarms --reset --domain "$domain" > /dev/null
-  wait_for cleared || fail "$vendor: the alarm stays: $(alarms)"
+  wait_until "$vendor: the alarm goes with its reset" cleared
   # Up is away; the table is still in the way down.
   "$trunnion" mdi "G53 G0 Z-200" --domain "$domain" > "$work/answer" 2>&1 || fail "$vendor: $(cat "$work/answer")"
   if "$trunnion" mdi "G53 G0 Z-410" --domain "$domain" > "$work/answer" 2>&1; then fail "$vendor: MDI into the table"; fi

@@ -21,11 +21,8 @@ squareness X_Y 10
 END
 compensation import "$work/tables" > "$work/log"
 "$trunnion" channel reset --domain "$domain"
-for _ in $(seq 100); do
-  compensation show > "$work/shown"
-  ! grep -q 'no tables' "$work/shown" && break
-  sleep 0.1
-done
+has_tables() { compensation show > "$work/shown" && ! grep -q 'no tables' "$work/shown"; }
+wait_until "the tables are active" has_tables
 grep -q '^pitch  *X_X  *direction 1, 3 points, 0.000 .. 200.000 mm: 0.000 .. 40.000 um$' "$work/shown" || fail "$(cat "$work/shown")"
 grep -q '^squareness  *X_Y  *10.000 0.001 deg$' "$work/shown" || fail "$(cat "$work/shown")"
 compensation show --json | "$python" -c 'import json, sys; t = json.load(sys.stdin); assert t[0]["largest"] == 40 and t[1]["angle"] == 10, t' ||
@@ -38,9 +35,15 @@ grep -q '^0 20 40$' "$work/exported" || fail "$(cat "$work/exported")"
 
 # Half way between two values X has 30 um of its table.
 "$trunnion" mdi "G53 G1 X150 F3000" --domain "$domain" > "$work/log" || fail "$(cat "$work/log")"
-# The history comes first, then what is published at rest.
-timeout 2 "$trunnion" topic echo feedback_frame --json --domain "$domain" > "$work/frames" || true
-tail -n 1 "$work/frames" > "$work/feedback.json"
+# The history comes first, then what is published at rest, behind the cycles of the motion.
+cycle=$("$trunnion" topic echo channel_state --count 1 --json --domain "$domain" | sed 's/.*"cycle":\([0-9]*\).*/\1/')
+"$trunnion" topic echo feedback_frame --json --domain "$domain" > "$work/frames" &
+listener=$!
+is_at_rest() { grep -s "\"first\":$cycle,\"count\":0,.*}\$" "$work/frames" > "$work/at_rest"; }
+wait_until "the drive reports that it rests behind cycle $cycle" is_at_rest
+kill $listener
+wait $listener 2> /dev/null || true
+tail -n 1 "$work/at_rest" > "$work/feedback.json"
 "$python" -c 'import json, sys; x = json.load(open(sys.argv[1]))["position"][0]; assert abs(x - 150.030) < 2e-4, x' "$work/feedback.json" ||
   fail "$(cat "$work/feedback.json")"
 

@@ -30,12 +30,12 @@ done
 
 start_cluster "$machine"
 "$trunnion" channel mode auto --domain "$domain"
+is_told() { "$trunnion" alarms --domain "$domain" > "$work/alarms" && grep -qF "$1" "$work/alarms"; }
 
 for ((i = 0; i < ${#calls[@]}; i += 2)); do
   run_to_end "call_$i.nc"
-  "$trunnion" alarms --domain "$domain" > "$work/alarms"
-  grep -qF "${calls[i + 1]}" "$work/alarms" || fail "${calls[i]}: $(cat "$work/alarms")"
-  "$trunnion" alarms --reset --domain "$domain" > "$work/log"
+  wait_until "${calls[i]}: ${calls[i + 1]}" is_told "${calls[i + 1]}"
+  reset_alarms
   "$trunnion" channel reset --domain "$domain"
 done
 

@@ -42,9 +42,7 @@ plc() { "$trunnion" plc "$@" --domain "$domain"; }
 value() { plc watch "$1" --count 1 | sed 's/.* = //'; }
 mdi() { "$trunnion" mdi "$1" --domain "$domain" > /dev/null; }
 
-"$trunnion" record "$work/r.mcap" --domain "$domain" > "$work/record" 2>&1 &
-recorder=$!
-for _ in $(seq 100); do [ -s "$work/r.mcap" ] && break; sleep 0.1; done
+start_recording "$work/r.mcap" "$work/record"
 mdi "T2 M6"
 mdi "S1000 M3"
 mdi "G53 G1 X200 F6000"  # 2 s and more of machine time
@@ -84,7 +82,8 @@ for service in plc drive channel; do
   "$trunnion" verify --service $service --recording "$work/r.mcap" --machine "$work/m" > "$work/out" 2>&1 || fail "$(cat "$work/out")"
 done
 kill -KILL "$pid"
-for _ in $(seq 100); do plc variables often > "$work/out" 2> /dev/null && break; sleep 0.1; done
+lists_variables() { plc variables often > "$work/out" 2> /dev/null; }
+wait_until "the PLC answers after a kill" lists_variables
 is "after a kill" "$(value often.n) $(value seldom.n)" "$often $seldom"
 
 # What the PLC inhibits is in the status, with its reason.

@@ -53,17 +53,16 @@ start_cluster "$machine"
 "$trunnion" channel mode auto --domain "$domain"
 
 # Inputs out of their limits are one clear alarm before anything moves.
+is_told() { "$trunnion" alarms --domain "$domain" > "$work/alarms" && grep -qF "$1" "$work/alarms"; }
 run_to_end O0001.nc
-"$trunnion" alarms --domain "$domain" > "$work/alarms"
-grep -q '#52000, the calibration type, must be 0, 1 or 2' "$work/alarms" || fail "$(cat "$work/alarms")"
-"$trunnion" alarms --reset --domain "$domain" > "$work/log"
+wait_until "the alarm of #52000" is_told '#52000, the calibration type, must be 0, 1 or 2'
+reset_alarms
 "$trunnion" channel reset --domain "$domain"
 
 for ((i = 0; i < ${#limits[@]}; i += 2)); do
   run_to_end "limit_$i.nc"
-  "$trunnion" alarms --domain "$domain" > "$work/alarms"
-  grep -qF "${limits[i + 1]}" "$work/alarms" || fail "${limits[i]}: $(cat "$work/alarms")"
-  "$trunnion" alarms --reset --domain "$domain" > "$work/log"
+  wait_until "${limits[i]}: ${limits[i + 1]}" is_told "${limits[i + 1]}"
+  reset_alarms
   "$trunnion" channel reset --domain "$domain"
 done
 
@@ -105,12 +104,9 @@ for number in ("52150", "52151", "52152", "52160"):
     assert abs(before[number] - after[number]) < 0.001, (number, before[number], after[number])
 END
 
-"$trunnion" record "$work/r.mcap" --domain "$domain" > "$work/record.log" 2>&1 &
-recorder=$!
-for _ in $(seq 100); do [ -s "$work/r.mcap" ] && break; sleep 0.1; done
+start_recording "$work/r.mcap" "$work/record.log"
 run_to_end measure_sphere.nc
-kill -INT $recorder
-wait $recorder || fail "$(cat "$work/record.log")"
+end_recording "$work/record.log"
 for service in drive channel plc; do
   "$trunnion" verify --service $service --recording "$work/r.mcap" --machine "$machine" > "$work/verify.log" 2>&1 ||
     fail "$(cat "$work/verify.log")"

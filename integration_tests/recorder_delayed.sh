@@ -11,17 +11,16 @@ for vendor in cyclonedds fastdds; do
   start_cluster "$2/ac-table" --vendor $vendor
   "$trunnion" program put "$work/long.nc" --domain "$domain" > /dev/null
   "$trunnion" channel mode auto --domain "$domain"
-  "$trunnion" channel select long.nc --domain "$domain"
-  "$trunnion" record "$work/$vendor.mcap" --domain "$domain" > "$work/record" 2>&1 &
-  command=$!
-  for _ in $(seq 100); do grep -q '^recording ' "$work/record" && break; sleep 0.1; done
+  select_program long.nc
+  start_recording "$work/$vendor.mcap" "$work/record"
+  command=$recorder
   # The process that records: the command itself, or its child.
-  recorder=$(pgrep -P $command || echo $command)
+  process=$(pgrep -P $command || echo $command)
   curl -fsS -X POST "http://127.0.0.1:$port/api/channels/0/cycle-start" > "$work/out" || fail "$(cat "$work/out")"
   for _ in $(seq 8); do
-    kill -STOP $recorder
+    kill -STOP $process
     sleep 0.3
-    kill -CONT $recorder
+    kill -CONT $process
     sleep 0.02
   done
   await_idle
@@ -33,14 +32,13 @@ for vendor in cyclonedds fastdds; do
   "$trunnion" verify --service channel --recording "$work/$vendor.mcap" --machine "$2/ac-table" > "$work/verify" 2>&1 ||
     fail "$vendor: $(cat "$work/verify")"
 
-  "$trunnion" record "$work/$vendor.mcap" --domain "$domain" > "$work/record" 2>&1 &
-  command=$!
-  for _ in $(seq 100); do grep -q '^recording ' "$work/record" && break; sleep 0.1; done
-  recorder=$(pgrep -P $command || echo $command)
-  kill -STOP $recorder
+  start_recording "$work/$vendor.mcap" "$work/record"
+  command=$recorder
+  process=$(pgrep -P $command || echo $command)
+  kill -STOP $process
   curl -fsS -X POST "http://127.0.0.1:$port/api/channels/0/cycle-start" > "$work/out" || fail "$(cat "$work/out")"
   await_idle
-  kill -CONT $recorder
+  kill -CONT $process
   kill -INT $command
   wait $command || true
   stop_cluster

@@ -13,11 +13,12 @@ if [ "${TRUNNION_INSIDE:-}" = 1 ]; then
   mkdir -p /run/systemd/system /run/user/0/systemd # the first is how a systemd knows that the computer has one
   export XDG_RUNTIME_DIR=/run/user/0 XDG_CONFIG_HOME=$directory/config HOME=$directory
   /lib/systemd/systemd --user --unit=basic.target >/dev/null 2>&1 &
-  for _ in $(seq 100); do
+  for _ in $(seq 1200); do
     systemctl --user list-units >/dev/null 2>&1 && break
     kill -0 $! 2>/dev/null || cannot "systemd does not start as a user's here"
     sleep 0.05
   done
+  systemctl --user list-units >/dev/null || { echo "systemd does not answer within a minute"; exit 1; }
   status=0
   bash "$@" || status=$?
   systemctl --user exit

@@ -14,7 +14,7 @@ first=$(show MainPID)
 [ "$first" -gt 0 ] || { journalctl --user -n 20 2>/dev/null; exit 1; } # process 0 would be this script
 kill -STOP "$first"
 hung=$(clock)
-for _ in $(seq 300); do
+for _ in $(seq 1200); do
   [ "$(show NRestarts)" = 1 ] && [ "$(show ActiveState)" = active ] && break
   sleep 0.05
 done

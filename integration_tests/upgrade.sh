@@ -19,14 +19,7 @@ executables() { # of the services that run
 for service in json.load(open(sys.argv[1]))["services"]: print(os.readlink("/proc/%d/exe" % service["pid"]))' "$work/said"
 }
 
-# The launcher publishes the new process numbers a moment after a swap.
-others_run() {
-  for _ in $(seq 50); do
-    [ "$(executables 2> /dev/null | grep -c "^$work/other/trunnion-")" = 10 ] && return
-    sleep 0.1
-  done
-  return 1
-}
+others_run() { [ "$(executables 2> /dev/null | grep -c "^$work/other/trunnion-")" = 10 ]; }
 
 cp -r "$machines/ac-table" "$work/machine"
 echo "swap_directories: [$work/other, $work/partial, $work/faulty]" >> "$work/machine/machine.yaml"
@@ -48,23 +41,22 @@ refused "partial/trunnion-plc: there is no such executable; nothing was replaced
 printf 'G0 X20\nM0\nM30\n' > "$work/held.nc"
 "$trunnion" program put "$work/held.nc" "${here[@]}" > "$work/said"
 "$trunnion" channel mode auto "${here[@]}"
-"$trunnion" channel select held.nc "${here[@]}"
+select_program held.nc
 "$trunnion" channel start "${here[@]}"
+await_state HELD
 refused "channel 0 is .*: upgrade a machine at rest" upgrade "$work/other" "${here[@]}"
 "$trunnion" channel reset "${here[@]}"
-for _ in $(seq 100); do
-  "$trunnion" topic echo trunnion/channel/state/1 --count 1 "${here[@]}" 2> /dev/null | grep -q '"state":"IDLE"' && break
-  sleep 0.1
-done
+await_idle
 
 "$trunnion" upgrade "$work/other" "${here[@]}" > "$work/upgrade" 2>&1 || { cp "$work/upgrade" "$work/said"; fail "upgrade"; }
 [ "$(grep -c '^\[[0-9]*/10\] ' "$work/upgrade")" = 10 ] || { cp "$work/upgrade" "$work/said"; fail "not ten lines"; }
-others_run || fail "not every service is the other build's"
+# The launcher publishes the new process numbers a moment after a swap.
+wait_until "every service is the other build's" others_run
 "$trunnion" mdi "G0 X-10 Y0" "${here[@]}" > "$work/said" || fail "mdi after the upgrade"
 
 refused "channel 0: .*no licence for this machine; the [0-9]* services before it were put back" \
   upgrade "$work/faulty" "${here[@]}"
-others_run || fail "not every service was put back"
+wait_until "every service was put back" others_run
 "$trunnion" mdi "G0 X10 Y5" "${here[@]}" > "$work/said" || fail "mdi after the failed upgrade"
 "$trunnion" alarms "${here[@]}" > "$work/said"
 ! grep -q ERROR "$work/said" || fail "alarms are left"
