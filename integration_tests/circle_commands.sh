@@ -5,14 +5,7 @@
 set -euo pipefail
 export TRUNNION=$1
 trunnion=$1 machines=$2 python=$3 examples=$4
-work=$(mktemp -d)
-domain=
-cleanup() {
-  [ -z "$domain" ] || "$trunnion" down --domain "$domain" > /dev/null 2>&1 || true
-  rm -rf "$work"
-}
-trap cleanup EXIT
-fail() { echo "$*" >&2; exit 1; }
+. "$(dirname "$0")/cluster.sh"
 "$examples/circular-tests/measure.sh" "$work/out" 2> "$work/error" || fail "$(cat "$work/error")"
 machine=$work/out/linear_axes
 
@@ -110,11 +103,7 @@ END
 "$trunnion" measure circle --recording "$work/circles.mcap" --source encoder > "$work/table" || fail "$(cat "$work/table")"
 
 # A cluster that runs: the channel, its program and its place are those of before.
-for d in $(seq 60 79); do
-  if "$trunnion" up "$machine" --domain "$d" --port $((25000 + d)) --time virtual --state "$work/state" > "$work/up" 2>&1; then domain=$d; break; fi
-  grep -q "domain $d" "$work/up" || break
-done
-[ -n "$domain" ] || fail "$(cat "$work/up")"
+start_cluster "$machine"
 "$trunnion" mdi "G53 G1 X20 Y10 Z-60 F6000" --domain "$domain" > /dev/null
 "$trunnion" program list --domain "$domain" > "$work/before"
 "$trunnion" measure circle --radius 40 --feed 3000 --domain "$domain" --json > "$work/live.json"

@@ -6,10 +6,11 @@ set -euo pipefail
 trunnion=$1 jumping_clock=$2
 if [ "${3:-}" != inside ]; then
   user=$((300000 + $$))
-  isolated=(unshare --mount --pid --fork --kill-child --mount-proc --user --map-user="$user" --map-group="$user" --keep-caps)
+  isolated=(unshare --net --mount --pid --fork --kill-child --mount-proc --user --map-user="$user" --map-group="$user" --keep-caps)
   "${isolated[@]}" true 2> /dev/null || exit 77  # the computer allows no namespaces
   exec "${isolated[@]}" bash "$0" "$trunnion" "$jumping_clock" inside
 fi
+ip link set lo up
 work=$(mktemp -d)
 trap 'cd /; "$trunnion" down > /dev/null 2>&1 || true; umount "$work/disk" 2> /dev/null || true; rm -rf "$work"' EXIT
 export HOME=$work/home XDG_STATE_HOME=$work/disk
@@ -25,9 +26,12 @@ expected=$(cone env)
 [ -n "$expected" ] || fail "the report has no hash"
 
 [ "$(cone env LD_PRELOAD="$jumping_clock")" = "$expected" ] || fail "other setpoints with a clock that jumps"
-env LD_PRELOAD="$jumping_clock" date +%s > "$work/one"
-for _ in $(seq 20); do env LD_PRELOAD="$jumping_clock" date +%s >> "$work/one"; sleep 0.1; done
-[ $(($(sort -n "$work/one" | tail -1) - $(sort -n "$work/one" | head -1))) -gt 3000 ] || fail "the clock did not jump: $(cat "$work/one")"
+# Within 1.4 s the clock has been ahead and back, for each process at another instant.
+end=$((SECONDS + 60))
+until [ -s "$work/one" ] && [ $(($(sort -n "$work/one" | tail -1) - $(sort -n "$work/one" | head -1))) -gt 3000 ]; do
+  [ "$SECONDS" -lt "$end" ] || fail "the clock did not jump: $(cat "$work/one")"
+  env LD_PRELOAD="$jumping_clock" date +%s >> "$work/one"
+done
 
 localedef -i de_DE -f UTF-8 "$work/de_DE.UTF-8"
 [ "$(env LOCPATH="$work" LC_ALL=de_DE.UTF-8 printf %.1f 1,5)" = 1,5 ] || fail "the German locale does not work"
@@ -51,7 +55,7 @@ rapid() { "$trunnion" param get 100034 > "$work/said" 2>&1 || fail "param get"; 
 
 printf 'G21 G90 G54\nG0 X5\n#500=5\nG0 X-5\nM30\n' > "$work/part.nc"
 printf 'G0 X7\nM30\n' > "$work/other.nc"
-does up ac-table --time virtual --domain 75 --port $((20000 + $$ % 20000))
+does up ac-table --time virtual
 does program put "$work/part.nc"
 does param set 100034 21000
 fill
@@ -64,14 +68,14 @@ does channel reset
 does alarms
 fill
 does down
-refused "No space left on device" up ac-table --time virtual --domain 75 --port $((20000 + $$ % 20000))
+refused "No space left on device" up ac-table --time virtual
 rm "$work/disk/filling"
-does up ac-table --time virtual --domain 75 --port $((20000 + $$ % 20000))
+does up ac-table --time virtual
 [ "$(rapid)" = "23000 mm/min" ] || [ "$(rapid)" = "23000.0 mm/min" ] || fail "the parameter is lost"
 does program get part.nc "$work/again.nc"
 cmp "$work/part.nc" "$work/again.nc"
 does program get other.nc "$work/again.nc"
 does down
 mount -o remount,ro "$work/disk"
-refused "Read-only file system" up ac-table --time virtual --domain 75 --port $((20000 + $$ % 20000))
+refused "Read-only file system" up ac-table --time virtual
 [ ! -e "/tmp/trunnion-$(id -u)" ] || fail "the run directory is left"

@@ -23,8 +23,8 @@ def check(what, condition, shown=""):
 class Page:
     def __init__(self, port): self.port = port
 
-    def ask(self, method, path, body=None, status=200, patience=10):
-        connection = http.client.HTTPConnection("127.0.0.1", self.port, timeout=20)
+    def ask(self, method, path, body=None, status=200, patience=60):
+        connection = http.client.HTTPConnection("127.0.0.1", self.port, timeout=60)
         connection.request(method, path, None if body is None else json.dumps(body))
         answer = connection.getresponse()
         content = answer.read()
@@ -37,7 +37,7 @@ class Page:
         if status >= 400: check(f"{path} {status} is a problem document", kind == "application/problem+json", kind)
         return json.loads(content) if "json" in kind else content.decode()
 
-    def until(self, what, condition, seconds=20):
+    def until(self, what, condition, seconds=60):  # only ends a hang
         end = time.monotonic() + seconds
         while time.monotonic() < end:
             found = condition()
@@ -50,7 +50,7 @@ class Watch:
     """A WebSocket client (RFC 6455): text messages, masked as a client must."""
 
     def __init__(self, port):
-        self.socket = socket.create_connection(("127.0.0.1", port), timeout=10)
+        self.socket = socket.create_connection(("127.0.0.1", port), timeout=60)
         key = base64.b64encode(os.urandom(16)).decode()
         self.socket.sendall((f"GET /api/plc/watch HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n"
                              f"Sec-WebSocket-Key: {key}\r\nSec-WebSocket-Version: 13\r\n\r\n").encode())
@@ -207,14 +207,11 @@ def main():
         text = fast.read_text().replace("  stop_latch AT %R0.0 : BOOL;", "  stop_latch AT %R0.0 : BOOL;\n  counter : Counter;", 1)
         text = text.replace("feed_hold := feed_hold_button;", "feed_hold := feed_hold_button;\nIF channel_running_0 THEN counter(step := 1); END_IF;", 1)
         fast.write_text(text)
-        for domain in range(60, 80):
-            port = 23100 + domain
-            up = subprocess.run([trunnion, "up", str(machine), "--domain", str(domain), "--port", str(port), "--time", "virtual",
-                                 "--state", scratch + "/state"], capture_output=True, text=True)
-            if up.returncode == 0: break
-            if f"domain {domain}" not in up.stdout + up.stderr: sys.exit(up.stdout + up.stderr)
-        else:
-            sys.exit(up.stderr)
+        up = subprocess.run([trunnion, "up", str(machine), "--free-domain", "--time", "virtual", "--state", scratch + "/state",
+                             "--json"], capture_output=True, text=True)
+        if up.returncode != 0: sys.exit(up.stdout + up.stderr)
+        started = json.loads(up.stdout.splitlines()[-1])
+        domain, port = started["domain"], started["port"]
 
         def mdi(line): subprocess.run([trunnion, "mdi", line, "--domain", str(domain)], check=True, stdout=subprocess.DEVNULL)
         try:
