@@ -14,7 +14,7 @@ def check(what, condition, shown=""):
     print(f"ok   {what}", flush=True)
 
 
-def until(what, condition, seconds=30):
+def until(what, condition, seconds=60):  # only ends a hang
     end = time.monotonic() + seconds
     while time.monotonic() < end:
         found = condition()
@@ -67,7 +67,7 @@ class Device(threading.Thread):
 def ask(port, request):
     """Function and data of the answer; None without a server."""
     try:
-        with socket.create_connection(("127.0.0.1", port), timeout=2) as connection:
+        with socket.create_connection(("127.0.0.1", port), timeout=20) as connection:
             connection.sendall(struct.pack(">HHHB", 7, 0, len(request) + 1, 1) + request)
             length = struct.unpack(">HHHB", receive(connection, 7))[2]
             return receive(connection, length - 1)
@@ -86,7 +86,7 @@ def file_for(device, server, address, more=""):
     host: 127.0.0.1
     port: {device}
     period_ms: 20
-    timeout_ms: 300
+    timeout_ms: 5000
     inputs:
       - {{table: discrete_inputs, address: 0, count: 8, at: X40}}
     outputs:

@@ -44,7 +44,7 @@ program > "$work/programs"
 # Ctrl-C in the middle: the parameters are those of before, nothing is left, the channel is free.
 "$trunnion" servo tune --axis X --write --domain "$domain" > "$work/interrupted" 2>&1 &
 pid=$!
-for _ in $(seq 200); do grep -q 'position gain' "$work/interrupted" && break; sleep 0.02; done
+wait_until "the tuning raises the speed gain" grep -qs '^X  speed gain' "$work/interrupted"
 kill -INT $pid
 ! wait $pid || fail "an interrupted tuning ends well"
 value 100901 | grep -q '100901 speed_gain = 150.0 ' || fail "interrupted: $(value 100901)"
@@ -54,10 +54,13 @@ servo test position --axis X > "$work/position" || fail "after an interruption: 
 # Killed: the drive ends the test of a client that is gone; the next one works.
 "$trunnion" servo tune --axis X --domain "$domain" > "$work/killed" 2>&1 &
 pid=$!
-for _ in $(seq 200); do grep -q 'speed gain' "$work/killed" && break; sleep 0.02; done
+wait_until "the tuning raises the speed gain" grep -qs '^X  speed gain' "$work/killed"
 kill -KILL $pid
 wait $pid 2> /dev/null || true
-sleep 6
+# What it has left: a motion that ends by itself, and a test, which keeps others out until the drive misses its client.
+await_idle
+is_over() { servo test current --axis Y > "$work/current" 2>&1; }
+wait_until "the drive ends the test of the client that is gone" is_over
 "$trunnion" channel reset --domain "$domain" > /dev/null
 value 100901 | grep -q '100901 speed_gain = 150.0 ' || fail "killed: $(value 100901)"
 
