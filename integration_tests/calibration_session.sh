@@ -75,7 +75,7 @@ echo "SIGINT: the channel is held; refused until it is reset; then the rest"
 measure --write &
 measuring=$!
 two_poses_or_end() { [ "$(grep -c '^pose ' "$work/error")" -ge 2 ] || ! kill -0 $measuring 2> /dev/null; }
-wait_until "two poses are measured" two_poses_or_end
+patience=300 wait_until "two poses are measured" two_poses_or_end
 kill -0 $measuring 2> /dev/null || fail "ended early"
 pid=$(pgrep -P $measuring trunnion || echo $measuring)
 kill -INT "$pid"
@@ -124,7 +124,7 @@ calibrate abort || fail "abort"
 await_alarm '^ *180 '
 clear_machine
 calibrate continue --detach || fail "continue"
-wait_until "the result waits" has_phase WAITING
+patience=300 wait_until "the result waits" has_phase WAITING
 calibrate discard || fail "discard"
 [ "$(phase)" = NOTHING ] || fail "$(phase)"
 near 040433 0.21

@@ -14,12 +14,12 @@ stop_jobs() {  # a recorder, a trace
 }
 trap 'stop_jobs; stop_cluster; rm -rf "$work"' EXIT
 fail() { echo "$*" >&2; exit 1; }
-# wait_until WHAT COMMAND...: until COMMAND succeeds. The limit only ends a hang: a busy computer takes its time.
+# wait_until WHAT COMMAND...: until COMMAND succeeds. The limit, $patience s, only ends a hang: a busy computer takes its time.
 wait_until() {
-  local what=$1 end=$((SECONDS + 60))
+  local what=$1 limit=${patience:-60} end=$((SECONDS + ${patience:-60}))
   shift
   until "$@"; do
-    [ "$SECONDS" -lt "$end" ] || fail "not within 60 s: $what"
+    [ "$SECONDS" -lt "$end" ] || fail "not within $limit s: $what"
     sleep 0.05
   done
 }
@@ -48,7 +48,7 @@ has_state() {
 }
 await_state() { wait_until "channel 0 is $1" has_state "$1"; }
 # await_idle: the program of channel 0 has ended.
-await_idle() { await_state IDLE; }
+await_idle() { patience=300 await_state IDLE; }
 # select_program NAME: on channel 0, to which the list with a program that was stored just now may still be on its way.
 is_selected() { "$trunnion" channel select "$1" --domain "$domain" 2> "$work/select"; }
 select_program() { wait_until "channel 0 takes the program $1" is_selected "$1"; }
@@ -73,8 +73,9 @@ end_recording() {
   wait "$recorder" || fail "$(cat "$1")"
 }
 # reset_and_settle PARAMETER...: a reset of channel 0, after which none of these has a value that waits to become active.
-is_pending() { "$trunnion" param get "$@" --json --domain "$domain" > "$work/pending" && grep -q '"pending": *true' "$work/pending"; }
-is_settled() { ! is_pending "$@" && [ -s "$work/pending" ]; }
+is_settled() {
+  "$trunnion" param get "$@" --json --domain "$domain" > "$work/pending" && ! grep -q '"pending": *true' "$work/pending"
+}
 reset_and_settle() {
   "$trunnion" channel reset --domain "$domain" > "$work/reset"
   wait_until "parameters $* are active" is_settled "$@"

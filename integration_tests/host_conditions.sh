@@ -6,7 +6,8 @@ set -euo pipefail
 trunnion=$1 jumping_clock=$2
 if [ "${3:-}" != inside ]; then
   user=$((300000 + $$))
-  isolated=(unshare --net --mount --pid --fork --kill-child --mount-proc --user --map-user="$user" --map-group="$user" --keep-caps)
+  isolated=(unshare --net --mount --pid --fork --kill-child --mount-proc --user --map-user="$user" --map-group="$user")
+  isolated+=(--keep-caps)
   "${isolated[@]}" true 2> /dev/null || exit 77  # the computer allows no namespaces
   exec "${isolated[@]}" bash "$0" "$trunnion" "$jumping_clock" inside
 fi

@@ -66,13 +66,14 @@ printf 'G21 G90 G54\nG0 X5\nM0\nM30\n' > "$work/held.nc"
 "$trunnion" channel mode auto "${here[@]}"
 select_program held
 "$trunnion" channel start "${here[@]}"
-wait_until "the store knows that held.nc is executed" is_refused "is being executed by channel 0" program rename held part.nc "${here[@]}"
+taken_name=(program rename held part.nc "${here[@]}")
+wait_until "the store knows that held.nc is executed" is_refused "is being executed by channel 0" "${taken_name[@]}"
 refused "is being executed by channel 0" program delete held "${here[@]}"
 "$trunnion" program put "$work/held.nc" --replace "${here[@]}" > "$work/out"  # the same text is no change
 echo "(later)" >> "$work/held.nc"
 refused "is being executed by channel 0" program put "$work/held.nc" --replace "${here[@]}"
 "$trunnion" channel reset "${here[@]}"
-wait_until "the store knows that held.nc has ended" is_refused "exists already" program rename held part.nc "${here[@]}"
+wait_until "the store knows that held.nc has ended" is_refused "exists already" "${taken_name[@]}"
 "$trunnion" program rename held other.nc "${here[@]}" > "$work/out"
 "$trunnion" program delete other "${here[@]}" > "$work/out"
 refused "there is no stored program held" program delete held "${here[@]}"
