@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Every view in three sizes and two languages, dark and light: nothing is cut, everything can be touched, the keys that
 // stop are free, the digits are as large as promised, and axe-core has no serious findings.
-import { check as judged, coveredStops, inaccessible, openPage, overflowing, shot, smallTargets } from "./harness.mjs";
+import { check as judged, coveredStops, inaccessible, openPage, overflowing, settled, shot, smallTargets } from "./harness.mjs";
 
 const languages = {
   en: { locale: "en-GB", views: ["Operate", "3D", "Programs", "Setup", "Parameters", "Analysis", "Diagnosis"], estop: "Emergency stop", hold: "Feed hold", start: "Cycle start" },
@@ -12,6 +12,19 @@ const sizes = [
   { size: [1920, 1080], digits: 72, operates: true },
   { size: [390, 844], digits: 36, operates: false },
 ];
+
+/** Of each view, in their order: what is there when it is loaded and has read what it shows. */
+const contents = [
+  "[data-test=position-X]", "[data-test=segments]", ".choose", ".cell", "[data-parameter]", ".sampling-keys", ".registers, .plc p",
+];
+
+/** Goes to a view, and waits for what it has to show. */
+async function open(page, index, view) {
+  await page.getByRole("navigation").getByRole("button", { name: view, exact: true }).click();
+  await page.locator(contents[index]).first().waitFor();
+  if (index === 1) await page.locator("[data-test=scene][data-frames]").waitFor();
+  await settled(page);
+}
 
 const failures = [];
 
@@ -33,15 +46,18 @@ async function one(browser, url, code, { size, digits, operates }, colorScheme) 
   check(`${where}: digits of ${height} px`, height >= digits);
   check(`${where}: cycle start is ${operates ? "" : "not "}offered`, (await page.getByRole("button", { name: start }).isVisible()) === operates);
   for (const [index, view] of views.entries()) {
-    await page.getByRole("navigation").getByRole("button", { name: view, exact: true }).click();
-    await page.waitForTimeout(view === "3D" ? 1500 : 500);
+    await open(page, index, view);
     if (index === 2) {
       await page.getByRole("button", { name: /^rtcp.nc/ }).click();
       await page.getByRole("textbox", { name: /rtcp.nc/ }).waitFor();
-      await page.waitForTimeout(700);
+      await page.locator("[data-test=check]").filter({ hasText: /\d/ }).waitFor();
+      await settled(page);
     }
     // The work offsets are shown first; the other sizes show the other parts.
-    if (index === 3 && size !== sizes[0].size) await page.getByRole("tab").nth(size === sizes[1].size ? 1 : 2).click();
+    if (index === 3 && size !== sizes[0].size) {
+      await page.getByRole("tab").nth(size === sizes[1].size ? 1 : 2).click();
+      await settled(page);
+    }
     for (const name of [estop, hold]) check(`${where} ${view}: ${name} is there`, await page.getByRole("button", { name }).isVisible());
     const covered = await coveredStops(page);
     check(`${where} ${view}: the keys that stop are free ${covered}`, covered.length === 0);
@@ -66,9 +82,8 @@ export async function appearance(browser, url) {
   const page = await openPage(browser, url);
   await page.getByRole("combobox", { name: "Language" }).selectOption("zh");
   await page.getByRole("button", { name: "循环启动" }).waitFor();
-  for (const view of ["三维", "程序", "调整", "参数", "分析", "诊断", "操作"]) {
-    await page.getByRole("navigation").getByRole("button", { name: view, exact: true }).click();
-    await page.waitForTimeout(400);
+  for (const [index, view] of ["操作", "三维", "程序", "调整", "参数", "分析", "诊断"].entries()) {
+    await open(page, index, view);
     const cut = await overflowing(page);
     check(`Chinese fits: ${view} ${cut}`, cut.length === 0);
   }

@@ -36,19 +36,59 @@ function freePort() {
   });
 }
 
-/** `what` is a text, or a function that says more once it has failed. */
-export async function eventually(what, condition, seconds = 10) {
-  const until = Date.now() + seconds * 1000;
+/** Seconds. It only ends a hang: no test says that something comes within a time. */
+const limit = 60;
+/** As a hand types: ms a key. */
+export const hand = { delay: 120 };
+
+/**
+ * What `read` gives as soon as it `holds`. `what` is a text, or a function that says more once it has failed; the failure
+ * has what was read last.
+ */
+export async function eventually(what, read, holds = Boolean) {
+  const until = Date.now() + limit * 1000;
   for (;;) {
-    const result = await condition();
-    if (result) return result;
-    if (Date.now() > until) throw new Error(`not within ${seconds} s: ${typeof what === "function" ? await what() : what}`);
+    const result = await read();
+    if (holds(result)) return result;
+    if (Date.now() > until) throw new Error(`not within ${limit} s: ${typeof what === "function" ? await what() : what}; it is ${JSON.stringify(result)}`);
     await new Promise((resolve) => setTimeout(resolve, 50));
   }
 }
 
 /** Whether it comes to be seen; what a page shows may come a moment after what was waited for. */
-export const appears = (locator) => locator.waitFor({ timeout: 10000 }).then(() => true, () => false);
+export const appears = (locator) => locator.waitFor().then(() => true, () => false);
+
+/** The page has drawn two pictures, and has done what waited for them: effects, sizes that were observed. */
+export async function drawn(page) {
+  let hang;
+  const late = new Promise((_, reject) => (hang = setTimeout(() => reject(new Error(`not within ${limit} s: two pictures of ${page.url()} are drawn`)), limit * 1000)));
+  const pictures = page.evaluate(async () => {
+    for (let i = 0; i < 2; ++i) await new Promise((resolve) => requestAnimationFrame(() => setTimeout(resolve)));
+  });
+  await Promise.race([pictures, late]).finally(() => clearTimeout(hang));
+}
+
+/** Whatever the page has asked for is answered and drawn, and nothing that it has drawn asks for more. */
+export async function settled(page) {
+  await eventually(() => `the page has its answers; it waits for ${[...page.asked].map((request) => request.url())}`, async () => {
+    const before = page.requests;
+    await drawn(page);
+    return page.asked.size === 0 && page.requests === before;
+  });
+}
+
+/** What the stream has told the page of channel 0 `holds`, and is drawn. */
+export async function knows(page, what, holds) {
+  await eventually(`the page knows that ${what}`, () => page.machine?.channels["0"], (channel) => channel !== undefined && holds(channel));
+  await drawn(page);
+}
+
+/** `count` further messages of the stream have arrived at the page, and what they change is drawn. */
+export async function streamed(page, count) {
+  const from = page.messages;
+  await eventually(() => `${count} messages of the stream; ${page.messages - from} have come`, () => page.messages >= from + count);
+  await drawn(page);
+}
 
 /** As a hand does it: over the key, when nothing moves it any more, and down; `page.mouse.up()` lets it go. */
 export async function pressDown(page, key) {
@@ -100,15 +140,56 @@ export function cleanUp() {
   rmSync(scratch, { recursive: true, force: true });
 }
 
+/** As gateway/web/src/state/patch.ts. */
+function patched(target, patch) {
+  if (typeof patch !== "object" || patch === null || Array.isArray(patch)) return patch;
+  const merged = typeof target === "object" && target !== null && !Array.isArray(target) ? { ...target } : {};
+  for (const [name, value] of Object.entries(patch)) {
+    if (value === null) delete merged[name];
+    else merged[name] = patched(merged[name], value);
+  }
+  return merged;
+}
+
+/** What the stream says: the state in `machine`, the `messages` that have arrived, the `refusals` of a connection. */
+function followStream(page) {
+  Object.assign(page, { machine: undefined, messages: 0, refusals: 0 });
+  page.on("websocket", (socket) => {
+    if (!socket.url().endsWith("/api/stream")) return;
+    socket.on("socketerror", () => ++page.refusals);
+    socket.on("framereceived", ({ payload }) => {
+      const message = JSON.parse(payload);
+      if ("answer" in message) return;
+      page.machine = "state" in message ? message.state : patched(page.machine, message.changes);
+      ++page.messages;
+    });
+  });
+}
+
+/** Of the page: what it has `asked` for and has no answer to yet, and how many `requests` there were. */
+function followRequests(page) {
+  Object.assign(page, { asked: new Set(), requests: 0 });
+  page.on("request", (request) => {
+    // The page before has nothing to wait for any more.
+    if (request.isNavigationRequest() && request.frame() === page.mainFrame()) page.asked.clear();
+    page.asked.add(request);
+    ++page.requests;
+  });
+  for (const end of ["requestfinished", "requestfailed"]) page.on(end, (request) => page.asked.delete(request));
+}
+
 /** A page of its own browser profile. Errors that the browser logs are in `complaints`, refusals (400, 409) excepted. */
 export async function openPage(browser, url, { size = [1280, 800], locale = "en-GB", colorScheme = "dark", ...more } = {}) {
   const context = await browser.newContext({ viewport: { width: size[0], height: size[1] }, locale, colorScheme, ...more });
+  context.setDefaultTimeout(limit * 1000);
   const page = await context.newPage();
   page.complaints = [];
   page.on("pageerror", (error) => page.complaints.push(String(error)));
   page.on("console", (message) => {
     if (message.type() === "error" && !/status of 4(00|09|12)/.test(message.text())) page.complaints.push(message.text());
   });
+  followStream(page);
+  followRequests(page);
   if (url) {
     await page.goto(url);
     await page.waitForSelector(".positions");
@@ -119,6 +200,14 @@ export async function openPage(browser, url, { size = [1280, 800], locale = "en-
 export const shot = (page, name) => page.screenshot({ path: join(screenshots, `${name}.png`) });
 export const post = (url, path, body = {}) => fetch(`${url}api/${path}`, { method: "POST", body: JSON.stringify(body) });
 export const channelState = (url) => fetch(`${url}api/channels/0`).then((answer) => answer.json());
+
+/** A line of MDI to its end: the channel is idle, and the axes are `at` these places, by their letters, in mm and deg. */
+export async function mdi(url, line, { machine = {}, workpiece = {} } = {}) {
+  await eventually(`${line} is accepted`, async () => (await post(url, "channels/0/mdi", { line })).ok);
+  const near = (position, wanted) => wanted === undefined || Math.abs(position - wanted) < 1e-3;  // a drive settles
+  await eventually(`${line} is executed`, () => channelState(url), ({ state, positions }) =>
+    state === "IDLE" && positions.every((one) => near(one.machine, machine[one.letter]) && near(one.workpiece, workpiece[one.letter])));
+}
 
 /** Parts of the page whose content is larger than they are, and keys whose text is cut. */
 export const overflowing = (page) =>
@@ -167,6 +256,8 @@ export async function inaccessible(page) {
   });
 }
 
+const shownBy = async (page) => `${page.url()}: ${(await page.locator("body").innerText({ timeout: 5000 })).replaceAll(/\s+/g, " ").slice(0, 3000)}`;
+
 /** Starts the cluster of the test, or takes that of TRUNNION_URL, calls `test(browser, url)` and ends the process. */
 export async function runTest(test, settings) {
   let browser;
@@ -180,6 +271,7 @@ export async function runTest(test, settings) {
   } catch (error) {
     console.error(error);
     const pages = browser?.contexts().flatMap((context) => context.pages()) ?? [];
+    for (const page of pages) console.error(`shown: ${await shownBy(page).catch(() => "the page does not answer")}`);
     if (pages.length > 0) await shot(pages[pages.length - 1], "failure").catch(() => {});
   } finally {
     await browser?.close();

@@ -4,9 +4,8 @@
 import { analysis } from "./analysis.mjs";
 import { appearance } from "./appearance.mjs";
 import {
-  appears,
-  check, cluster, coveredStops, eventually, openPage, overflowing, pressDown, runTest, shot, signalGateway,
-  TRUNNION_URL,
+  appears, check, cluster, coveredStops, eventually, hand, openPage, overflowing, pressDown, runTest, settled, shot, signalGateway,
+  streamed, TRUNNION_URL,
 } from "./harness.mjs";
 import { operate } from "./operate.mjs";
 import { parameters } from "./parameters.mjs";
@@ -21,7 +20,8 @@ async function run(page, url) {
   const at = (name) => page.locator(`[data-test="${name}"]`);
   check("the machine has a name", (await text('[data-test="machine"]')).length > 0);
   check("and it is said that nobody needs to log in", TRUNNION_URL !== undefined || (await appears(page.getByText("no login", { exact: true }))));
-  check("nothing covers the page when the connection is there", (await page.locator(".lost").count()) === 0);
+  await eventually("nothing covers the page when the connection is there", async () => (await page.locator(".lost").count()) === 0);
+  check("nothing covers the page when the connection is there", true);
   const refuse = page.waitForResponse((response) => response.url().endsWith("/mdi"));
   await at("mdi").fill("?? X1");
   await at("mdi-send").click();
@@ -44,12 +44,17 @@ async function run(page, url) {
     const marked = await text('[data-test="current-line"]');
     await eventually("the current line moves", async () => (await text('[data-test="current-line"]')) !== marked);
     check("the current line is shown and moves", /^G1 X/.test(marked));
-    await page.waitForTimeout(6000);
+    // Later in the circle the positions have all their digits and signs.
+    await eventually("the widest positions are shown", async () => {
+      const [x, c] = [await text('[data-test="position-X"]'), await text('[data-test="position-C"]')];
+      return [x, c].map((shown) => Number(shown.replace("\u2212", "-")));
+    }, ([x, c]) => x < -10 && c >= 100);
     const covered = await overflowing(page);
     check(`everything fits at 1280x800 ${covered}`, covered.length === 0);
     await shot(page, "operate");
     await at("plots").click();
-    await page.waitForTimeout(700);
+    await page.locator(".plots canvas").nth(1).waitFor();
+    await streamed(page, 5);
     await shot(page, "plots");
     await page.getByRole("tab", { name: "Tool path" }).click();
 
@@ -92,7 +97,8 @@ async function run(page, url) {
     await eventually("jog mode", async () => (await shown("mode")) === "JOG");
     await pressDown(page, at("jog-X+"));
     await eventually("the jog arrives", () => cluster.includes("JOG_AXIS"));
-    await page.waitForTimeout(1000);
+    // Every 0.08 s one: a second.
+    await eventually("the held key is renewed", () => cluster.split("JOG_RENEW").length - 1, (renewals) => renewals >= 12);
     check("a held key is one movement that goes on", !cluster.includes("JOG_STOP") && cluster.split("JOG_AXIS").length === 2);
     await page.mouse.up();
     await eventually("the stop arrives", () => cluster.includes("JOG_STOP"));
@@ -115,7 +121,8 @@ async function run(page, url) {
   await page.waitForSelector('[data-test="parameter-refusal"]');
   check("a refused parameter shows the reason", (await text('[data-test="parameter-refusal"]')).length > 10);
   await at("parameter-search").fill("");
-  await page.waitForTimeout(400);
+  await eventually("all parameters are listed again", () => page.locator("[data-parameter]").count(), (count) => count > 1);
+  await settled(page);
   await shot(page, "parameters");
   await at("view-setup").click();
   if (TRUNNION_URL) {
@@ -124,7 +131,7 @@ async function run(page, url) {
     const cell = page.getByLabel("G55 Y");
     const value = async () => (await cell.inputValue()).replace("\u2212", "-");
     await cell.click();
-    await page.keyboard.type("-123.45678", { delay: 120 });
+    await page.keyboard.type("-123.45678", hand);
     const typed = await cell.inputValue();
     check(`a work offset can be typed at the speed of a hand: ${typed}`, typed === "-123.45678");
     await page.keyboard.press("Enter");
@@ -133,27 +140,30 @@ async function run(page, url) {
     const { revision } = await table();
     await cell.click();
     await page.keyboard.press("Tab");
-    await page.waitForTimeout(500);
+    await settled(page);
     check("a cell that is passed is not stored", (await table()).revision === revision);
     await cell.click();
     await page.keyboard.type("77");
     await page.keyboard.press("Escape");
+    await settled(page);
     check("Escape leaves a cell as it was", (await value()) === "-123.457" && g55(await table()) === -123.45678);
     const late = { channel: 0, index: 1, values: [1, 2, 3, 0, 0, 0, 0, 0, 0], revision: revision - 1 };
     const refused = await fetch(`${url}api/work-offsets`, { method: "PUT", body: JSON.stringify(late) });
     check("a change made on old values is refused", refused.status === 409);
   }
-  await page.waitForTimeout(300);
+  await page.locator(".cell").first().waitFor();
+  await settled(page);
   await shot(page, "offsets");
   await at("view-diagnosis").click();
   await page.waitForSelector(".registers, .plc p");
-  await page.waitForTimeout(700);
+  await settled(page);
   await shot(page, "diagnosis");
   await page.keyboard.press("Alt+1");
   await page.waitForSelector(".positions");
   check("Alt+1 goes back to the operating view", true);
   await page.setViewportSize({ width: 1024, height: 768 });
-  await page.waitForTimeout(700);
+  await eventually("the page has its new size", () => page.evaluate(() => innerWidth), (width) => width === 1024);
+  await settled(page);
   await shot(page, "small");
   const small = await overflowing(page);
   check(`everything fits at 1024x768 ${small}`, small.length === 0);

@@ -4,9 +4,8 @@
 import { execFileSync } from "node:child_process";
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
-import { appears, check, cluster, coveredStops, eventually, inaccessible, openPage, pressDown, runTest, shot, state } from "./harness.mjs";
+import { appears, check, cluster, coveredStops, eventually, hand, inaccessible, openPage, pressDown, runTest, settled, shot, state } from "./harness.mjs";
 
-const hand = { delay: 120 };  // ms a key
 const idle = 12;  // s, as in the settings below
 const english = {
   locale: "en-GB", title: "Log in", user: "User", password: "Password", key: "Log in", logout: "Log out", wrong: "wrong name or password",
@@ -51,7 +50,8 @@ async function visitor(page, url, words) {
   await page.goto(url);
   const form = page.getByRole("form", { name: words.title });
   await form.waitFor();
-  await page.waitForTimeout(500);
+  await eventually("the stream is refused", () => page.refusals, (refusals) => refusals >= 1);
+  await settled(page);
   check("without a login there are no positions", (await page.locator(".positions").count()) === 0);
   const covered = await coveredStops(page);
   check(`and the keys that stop are free ${covered}`, covered.length === 0);
@@ -131,10 +131,41 @@ async function setter(page, words) {
   check("and who may write it is said", await measurement.getByRole("button", { name: "Write result" }).isDisabled());
 }
 
-async function timeOut(page, words) {
-  // The page goes on asking for the state, which is nobody's doing.
-  await page.getByRole("form", { name: words.title }).waitFor({ timeout: (idle + 6) * 1000 });
-  check("a session without a request ends, and the page says so", await appears(page.getByText(words.over)));
+/** Works in the session until the function is called that it gives: what the test looks at meanwhile may take longer than `idle`. */
+function work(page, url) {
+  let ends = false;
+  const done = (async () => {
+    while (!ends) {
+      await page.context().request.get(`${url}api/work-offsets`).catch(() => undefined);
+      await new Promise((resolve) => setTimeout(resolve, 1000));
+    }
+  })();
+  return () => {
+    ends = true;
+    return done;
+  };
+}
+
+async function timeOut(page, url, words) {
+  await settled(page);
+  const now = () => performance.now() / 1000;
+  const { request } = page.context();
+  const asked = now();
+  await request.get(`${url}api/work-offsets`);
+  const answered = now();
+  // The page goes on asking for the state, and the test for the session, which is nobody's doing. Of the session's own time the
+  // gateway has seen at least that from the answer to a question, and at most that from the question to an answer.
+  const looks = [];
+  await eventually("the session is over", async () => {
+    const least = now() - answered;
+    const { name } = await (await request.get(`${url}api/session`)).json();
+    looks.push({ name, least, most: now() - asked });
+    return name;
+  }, (name) => name === "");
+  const right = looks.every(({ name, least, most }) => (name === "" ? most >= idle : least <= idle));
+  check(`a session ends ${idle} s after its last request: ${JSON.stringify(looks.slice(-2))}`, right);
+  await page.getByRole("form", { name: words.title }).waitFor();
+  check("and the page says so", await appears(page.getByText(words.over)));
   const covered = await coveredStops(page);
   check(`the keys that stop stay free ${covered}`, covered.length === 0);
 }
@@ -143,13 +174,15 @@ async function inChinese(browser, url) {
   const words = chinese;
   const page = await openPage(browser, undefined, { locale: words.locale });
   await page.goto(url);
+  const finish = work(page, url);
   await logIn(page, words, "ann", "password of ann");
   await page.locator(".positions").waitFor();
   await go(page, words.setup);
   await page.getByRole("note").filter({ hasText: words.operator }).waitFor();
   check("Chinese: an operator reads why a work offset is dark", await page.getByLabel("G54 X").isDisabled());
   await shot(page, "login-chinese");
-  await timeOut(page, words);
+  await finish();
+  await timeOut(page, url, words);
   await logIn(page, words, "ann", "password of ann");
   await page.getByRole("button", { name: `${words.logout} ann` }).waitFor();
   await logOut(page, words, "ann");
@@ -162,10 +195,12 @@ await runTest(async (browser, url) => {
   addUser("sam", "setter");
   const page = await openPage(browser, undefined);
   await visitor(page, url, english);
+  const finish = work(page, url);
   await first(page, english);
   await operator(page, english);
   await setter(page, english);
-  await timeOut(page, english);
+  await finish();
+  await timeOut(page, url, english);
   // A browser logs every refused request: those before the login and after the end of a session.
   const others = page.complaints.filter((text) => !/401|WebSocket/.test(text));
   check(`the page has no errors ${others}`, others.length === 0);

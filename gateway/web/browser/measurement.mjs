@@ -3,20 +3,18 @@
 // displaced (examples/calibration/truth.yaml).
 import { readFileSync } from "node:fs";
 import {
-  check, coveredStops, eventually, inaccessible, openPage, overflowing, post, runTest, shot, smallTargets,
+  check, coveredStops, eventually, hand, inaccessible, openPage, overflowing, post, runTest, settled, shot, smallTargets,
 } from "./harness.mjs";
 
-const hand = { delay: 120 };  // ms a key
 const read = (url, path) => fetch(`${url}api/${path}`).then((answer) => answer.json());
 const parameter = (url, number) => read(url, `parameters/${number}`);
 const state = async (url) => (await read(url, "measurement")).state;
-async function inPhase(url, wanted, seconds) {
-  let last;
-  const reached = async () => {
-    last = await state(url);
-    return last.phase === wanted;
-  };
-  await eventually(() => `the phase is ${wanted}: it is ${last.phase}, ${last.detail}, ${last.complete} poses, ${last.error}`, reached, seconds);
+/** Each pose has its time. */
+async function inPhase(url, wanted) {
+  for (let last = await state(url); last.phase !== wanted;) {
+    const { complete } = last;
+    last = await eventually(`the phase is ${wanted}, or a further pose is complete`, () => state(url), (now) => now.phase === wanted || now.complete > complete);
+  }
 }
 
 const openView = async (page, setup = "Setup", kinematics = "Kinematics") => {
@@ -35,7 +33,8 @@ async function type(page, name, value) {
 }
 
 async function looksRight(page, name) {
-  await page.locator(".notice").waitFor({ state: "detached", timeout: 15000 });
+  await page.locator(".notice").waitFor({ state: "detached" });
+  await settled(page);
   await shot(page, name);
   for (const [what, found] of [["nothing is cut", await overflowing(page)], ["touch targets of 48 px", await smallTargets(page)],
     ["stops are free", await coveredStops(page)], ["axe-core", await inaccessible(page)]])
@@ -94,13 +93,13 @@ async function aborted(page, url) {
   const start = page.getByRole("button", { name: "Start measurement" });
   await start.focus();
   await page.keyboard.press("Enter");
-  await inPhase(url, "MEASURING", 60);
+  await inPhase(url, "MEASURING");
   await page.getByText(/^Pose \d of 5/).waitFor();
   check("the pose is said, and the progress is a progress bar", (await page.getByRole("progressbar", { name: "Progress of the measurement" }).getAttribute("aria-valuetext")).includes("of 5"));
   check("no other is started meanwhile", await start.isDisabled());
-  await eventually("a pose is complete", async () => (await state(url)).complete >= 1, 60);
+  await eventually("a pose is complete", async () => (await state(url)).complete >= 1);
   await page.getByRole("button", { name: "Abort", exact: true }).dispatchEvent("pointerdown", { button: 0 });
-  await inPhase(url, "INTERRUPTED", 30);
+  await inPhase(url, "INTERRUPTED");
   await page.locator(".measurement .refusal").filter({ hasText: /aborted.*nothing written, \d of 5 poses are complete/ }).waitFor();
   check("an abort acts on the press and says what is kept", true);
   check("a complete pose is named", /^A0 C0\s/.test(await page.getByRole("table", { name: "Poses" }).locator("tbody tr").first().innerText()));
@@ -119,14 +118,14 @@ async function aborted(page, url) {
     await eventually("Z is up", async () => {
       const channel = await read(url, "channels/0");
       return channel.state === "IDLE" && channel.positions.some(({ letter, machine }) => letter === "Z" && Math.abs(machine) < 1e-3);
-    }, 10);
+    });
     return (await state(url)).may_continue;
-  }, 60);
+  });
   const go = page.getByRole("button", { name: "Continue", exact: true });
   await eventually("it may be continued", () => go.isEnabled());
   await go.click();
   await eventually(async () => `it goes on: ${await page.locator(".measurement .refusal").allInnerTexts()}`, async () => (await state(url)).phase !== "INTERRUPTED");
-  await inPhase(url, "WAITING", 120);
+  await inPhase(url, "WAITING");
   check("it continues after the complete poses", kept >= 1 && (await state(url)).complete === 5);
 }
 
@@ -158,10 +157,10 @@ async function written(page, url) {
   check("the question does not cover the stops", (await coveredStops(page)).length === 0);
   await shot(page, "kinematics-question");
   await question.getByRole("button", { name: "Write in spite of it" }).click();
-  await inPhase(url, "FINISHED", 30);
+  await inPhase(url, "FINISHED");
   await page.getByText("Parameters are written; active after a reset of the channel.").waitFor();
   await post(url, "channels/0/reset");
-  await eventually("the vector is written", async () => Math.abs((await parameter(url, 40433)).value - before - 0.21) < 0.005, 20);
+  await eventually("the vector is written", async () => Math.abs((await parameter(url, 40433)).value - before - 0.21) < 0.005);
   check("the vectors are written", true);
   const undo = page.getByRole("button", { name: "Undo calibration" });
   await eventually("it can be undone", () => undo.isEnabled());
@@ -170,7 +169,7 @@ async function written(page, url) {
   await page.getByRole("alertdialog").getByRole("button", { name: "Undo calibration" }).click();
   await page.locator(".notice").filter({ hasText: /have the values of before/ }).waitFor();
   await post(url, "channels/0/reset");
-  await eventually("the vector is that of before", async () => (await parameter(url, 40433)).value === before, 20);
+  await eventually("the vector is that of before", async () => (await parameter(url, 40433)).value === before);
   check("the undo gives the values of before", true);
   await eventually("nothing is undone twice", () => undo.isDisabled());
   check("and says so", /undone already/.test(await undo.getAttribute("title")));
@@ -197,7 +196,7 @@ async function byDial(page, url) {
   const readings = {
     x1: cx + 0.1 - 50, x2: cx + 0.1 + 50, y1: cy - 49.8, y2: cy + 49.8, offy_z1: 0.4, zc_z1: cz + 315.2, zc_y1: -20, zc_z2: -300, tool_radius: 5,
   };
-  await field("x1").pressSequentially(readings.x1.toFixed(6).replace(".", ","), { delay: 120 });
+  await field("x1").pressSequentially(readings.x1.toFixed(6).replace(".", ","), hand);
   for (const [name, value] of Object.entries(readings).slice(1)) await field(name).fill(value.toFixed(6));
   await page.locator(".manual-checks input").first().check();
   await page.reload();
@@ -217,7 +216,7 @@ async function byDial(page, url) {
   await page.locator(".notice").filter({ hasText: /parameters are written; active after a reset/ }).waitFor();
   await page.locator(".manual").getByText(/waits for a reset: reset the channel first/).waitFor();
   await post(url, "channels/0/reset");
-  await eventually("the vector is written", async () => Math.abs((await parameter(url, 40435)).value - before - 0.1) < 1e-3, 20);
+  await eventually("the vector is written", async () => Math.abs((await parameter(url, 40435)).value - before - 0.1) < 1e-3);
   check("the vectors of the dial are written", true);
 
   await page.locator('[data-test="manual-pose-0-X"]').waitFor();
@@ -237,11 +236,11 @@ async function byDial(page, url) {
   await post(url, "channels/0/reset");
   await page.locator('[data-test="manual-pose-2-X"]').waitFor();
   // X of C: half of the 0.1 mm between C0 and C180.
-  await eventually("the correction is written", async () => Math.abs((await parameter(url, 40435)).value - before - 0.15) < 1e-3, 20);
+  await eventually("the correction is written", async () => Math.abs((await parameter(url, 40435)).value - before - 0.15) < 1e-3);
   check("what has corrected once cannot correct again", (await page.locator('[data-test="manual-pose-2-X"]').inputValue()) === "" && (await evaluate.isDisabled()));
   check("the undo takes the correction back", (await post(url, "measurement/undo")).ok);
   await post(url, "channels/0/reset");
-  await eventually("the correction is undone", async () => Math.abs((await parameter(url, 40435)).value - before - 0.1) < 1e-3, 20);
+  await eventually("the correction is undone", async () => Math.abs((await parameter(url, 40435)).value - before - 0.1) < 1e-3);
 }
 
 /** The same in other sizes, languages and colours. */
@@ -251,7 +250,7 @@ async function appearance(browser, url) {
     await page.locator('[data-test="view-setup"]').click();
     await page.getByRole("tab", { name: tab, exact: true }).click();
     await page.locator(".residual-plot").waitFor();
-    await page.waitForTimeout(500);
+    await settled(page);
     const name = `kinematics-${size[0]}-${locale}`;
     await shot(page, name);
     const wide = await page.evaluate(() => document.documentElement.scrollWidth > innerWidth);

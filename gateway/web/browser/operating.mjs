@@ -51,7 +51,7 @@ async function twoBrowsers(browser, url) {
   await other.getByRole("button", { name: "Reset", exact: true }).click();
   await name(one).filter({ hasText: /operates$/ }).waitFor();
   await other.context().close();
-  await eventually("a browser that is closed loses the right", async () => (await operator(one)) === "No station operates", 25);
+  await eventually("a browser that is closed loses the right", () => operator(one), (shown) => shown === "No station operates");
   check("a browser that is closed loses the right when its lease ends", true);
   check(`no errors ${one.complaints}`, one.complaints.length === 0);
   await one.context().close();

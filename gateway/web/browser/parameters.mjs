@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Parameters on a real cluster: class tree, search, a change and its undo, comparison, import with a preview, export.
 import { readFile } from "node:fs/promises";
-import { check, eventually, openPage, overflowing, shot } from "./harness.mjs";
+import { check, eventually, hand, openPage, overflowing, shot } from "./harness.mjs";
 
-const hand = { delay: 120 };  // ms a key
 const parameter = (url, number) => fetch(`${url}api/parameters/${number}`).then((answer) => answer.json());
 const stored = async (url, number) => {
   const one = await parameter(url, number);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The programs of the PLC on a real cluster: source with live values, search, force and release, trace, task times, new
 // programs; in English, Chinese and German.
-import { appears, check, eventually, inaccessible, openPage, overflowing, post, shot, smallTargets } from "./harness.mjs";
+import { appears, check, eventually, hand, inaccessible, openPage, overflowing, post, shot, smallTargets } from "./harness.mjs";
 
 const forces = (url) => fetch(`${url}api/plc/forces`).then(async (answer) => (await answer.json()).values.map(({ path }) => path));
 
@@ -27,7 +27,7 @@ async function english(browser, url) {
   check("another file can be chosen", true);
   await page.getByRole("combobox", { name: "File" }).selectOption("main.st");
 
-  await page.getByRole("searchbox", { name: "Find a variable" }).pressSequentially("probe.start.pt", { delay: 120 });
+  await page.getByRole("searchbox", { name: "Find a variable" }).pressSequentially("probe.start.pt", hand);
   await page.getByRole("button", { name: "Watch main.probe.start.PT" }).click();
   await page.getByRole("searchbox", { name: "Find a variable" }).fill("main.spindle.programmed");
   await page.getByRole("button", { name: "Watch main.spindle.programmed" }).click();

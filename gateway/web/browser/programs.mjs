@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Programs: typed at the speed of a hand, checked while they are typed, kept over a reload, saved with their revision.
 import { readFile } from "node:fs/promises";
-import { appears, channelState, check, eventually, openPage, overflowing, shot } from "./harness.mjs";
+import { appears, channelState, check, eventually, hand, openPage, overflowing, settled, shot, streamed } from "./harness.mjs";
 
-const hand = { delay: 120 };  // ms a key
 const stored = async (url, name) => fetch(`${url}api/programs/${name}`).then(async (answer) => ({ status: answer.status, tag: answer.headers.get("etag"), text: await answer.text() }));
 const put = (url, name, body, headers = {}) => fetch(`${url}api/programs/${name}`, { method: "PUT", body, headers });
 
@@ -149,7 +148,8 @@ export async function programs(browser, url) {
   page.on("request", (request) => requested.push(request.url()));
   await page.goto(url);
   await page.waitForSelector(".positions");
-  await page.waitForTimeout(300);
+  await streamed(page, 5);
+  await settled(page);
   check("the editor is not loaded with the first view", !requested.some((one) => /editor|Programs/.test(one)));
   await page.getByRole("navigation", { name: "Views" }).getByRole("button", { name: "Programs", exact: true }).click();
   await typing(page, url);

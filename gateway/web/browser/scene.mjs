@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The 3D view: loaded when it is opened, grows with the executed path, draws nothing for a hidden tab. Its frame rate with
 // 200,000 segments is printed, not judged: it depends on the computer, and here no graphics card draws.
-import { channelState, check, eventually, openPage, post, shot } from "./harness.mjs";
+import { channelState, check, drawn, eventually, openPage, post, settled, shot, streamed } from "./harness.mjs";
 
 const frames = (page) => page.locator("[data-test=scene]").evaluate((canvas) => Number(canvas.dataset.frames ?? 0));
 const segments = (page) => page.locator("[data-test=scene]").evaluate((canvas) => Number(canvas.dataset.segments ?? 0));
@@ -16,9 +16,23 @@ async function select(url, program) {
   await eventually(`${program} is shown`, async () => (await channelState(url)).program === program);
 }
 
+/** Gives the cycle of the start. */
 async function run(url, program) {
   await select(url, program);
-  await eventually("the program starts", async () => (await post(url, "channels/0/cycle-start")).ok);
+  const started = await eventually("the program starts", () => post(url, "channels/0/cycle-start"), (answer) => answer.ok);
+  return (await started.json()).cycle;
+}
+
+/** What was started in a cycle has ended; a state of before has no later one. */
+const ends = (url, start) =>
+  eventually(`the program that was started in cycle ${start} has ended`, () => channelState(url), ({ state, cycle }) => state === "IDLE" && cycle > start);
+
+/** Shows the machine as a key of the view says, and gives back when it is drawn. */
+async function look(page, name) {
+  const before = await frames(page);
+  await page.getByRole("button", { name, exact: true }).click();
+  await eventually(`the view ${name} is drawn`, () => frames(page), (count) => count > before);
+  await drawn(page);
 }
 
 const shownSeconds = async (page) => (await page.locator("[data-test=remaining]").innerText()).split(":").reduce((sum, part) => 60 * sum + Number(part), 0);
@@ -30,20 +44,20 @@ async function remainingTime(page, url) {
   const seconds = () => shownSeconds(page);
   await select(url, "nas979_cone.nc");
   const planned = await plannedSeconds(url);
-  await eventually("the cone is planned", async () => (await seconds()) === planned, 20);
+  await eventually(`the cone is planned: ${planned} s`, seconds, (shown) => shown === planned);
   await post(url, "channels/0/override", { kind: "feed", value: 0.002 });
   await run(url, "nas979_cone.nc");
   await eventually("it runs", async () => (await channelState(url)).state === "RUNNING");
-  const left = [];
-  while (new Set(left).size < 5 && left.length < 200 && (await channelState(url)).state !== "IDLE") {
-    left.push(await seconds());
-    await page.waitForTimeout(50);
-  }
-  const different = left.filter((one, i) => one !== left[i - 1]);
+  const different = [];
+  await eventually(() => `four times are shown while it runs: ${different}`, async () => {
+    const left = await seconds();
+    if (left !== different[different.length - 1]) different.push(left);
+    return different.length >= 5 || (await channelState(url)).state === "IDLE";
+  });
   check(`the remaining time counts down: ${different}`, different.length > 2 && different.every((one, i) => i === 0 || one < different[i - 1]));
   await post(url, "channels/0/reset");
   await post(url, "channels/0/override", { kind: "feed", value: 1 });
-  await eventually("all of it is planned again", async () => (await seconds()) === planned);
+  await eventually(`all of it is planned again: ${planned} s`, seconds, (shown) => shown === planned);
 }
 
 async function growing(browser, url) {
@@ -52,7 +66,8 @@ async function growing(browser, url) {
   page.on("request", (request) => requested.push(request.url()));
   await page.goto(url);
   await page.waitForSelector(".positions");
-  await page.waitForTimeout(500);
+  await streamed(page, 5);
+  await settled(page);
   const bytes = (await Promise.all(requested.filter((one) => /\.(js|css|html)$|\/$/.test(one)).map((one) => fetch(one).then((r) => r.arrayBuffer())))).map((b) => b.byteLength);
   console.log(`     first view: ${bytes.reduce((a, b) => a + b, 0)} bytes before compression in ${bytes.length} files`);
   check("the 3D library is not loaded with the first view", !requested.some((one) => one.includes("viewer")));
@@ -65,41 +80,38 @@ async function growing(browser, url) {
   // What the program will do is shown before it is started.
   await select(url, "nas979_cone.nc");
   const programmed = () => page.locator("[data-test=scene]").evaluate((canvas) => Number(canvas.dataset.programmed ?? 0));
-  await eventually("the programmed path is drawn", async () => (await programmed()) > 100, 20);
+  await eventually("the programmed path is drawn", programmed, (count) => count > 100);
   const planned = await plannedSeconds(url);
   // That of the program before is shown until the new one is planned.
-  await eventually(`the planned time is shown: ${planned} s`, async () => (await shownSeconds(page)) === planned, 20);
+  await eventually(`the planned time is shown: ${planned} s`, () => shownSeconds(page), (shown) => shown === planned);
   check(`the planned time is shown: ${planned} s`, true);
-  await page.getByRole("button", { name: "Fit" }).click();
-  await page.waitForTimeout(300);
+  await look(page, "Fit");
   await shot(page, "scene-programmed");
   const before = await segments(page);
-  await run(url, "nas979_cone.nc");
-  await eventually("the executed path grows", async () => (await segments(page)) > before + 30, 30);
+  const cone = await run(url, "nas979_cone.nc");
+  await eventually("the executed path grows", () => segments(page), (count) => count > before + 30);
   check("the executed path grows", true);
-  await eventually("the program ends", async () => (await channelState(url)).state === "IDLE", 60);
-  await page.waitForTimeout(300);
-  for (const name of ["Front", "Right", "Top", "Space", "Whole"]) {
-    const drawn = await frames(page);
-    await page.getByRole("button", { name, exact: true }).click();
-    await eventually(`the view ${name} is drawn`, async () => (await frames(page)) > drawn);
-  }
+  await ends(url, cone);
+  for (const name of ["Front", "Right", "Top", "Space", "Whole"]) await look(page, name);
   await shot(page, "scene-whole");
-  await page.getByRole("button", { name: "Fit" }).click();
-  await page.waitForTimeout(400);
+  await look(page, "Fit");
   await shot(page, "scene-path");
+  // Each message of the stream may be a picture, of which there are at most 20 a second; nothing else is.
+  await drawn(page);
+  const told = page.messages;
   const still = await frames(page);
-  await page.waitForTimeout(1500);
-  check("nothing is drawn while nothing moves", (await frames(page)) - still <= 35);
+  await streamed(page, 20);
+  const [pictures, messages] = [(await frames(page)) - still, page.messages - told];
+  check(`nothing is drawn while nothing moves: ${pictures} pictures for ${messages} messages`, pictures <= messages + 1);
 
   await page.evaluate(() => {
     Object.defineProperty(document, "hidden", { configurable: true, get: () => true });
     document.dispatchEvent(new Event("visibilitychange"));
   });
-  await page.waitForTimeout(200);
+  await drawn(page);
   const hidden = await frames(page);
-  await run(url, "rtcp.nc");
-  await eventually("the program ends", async () => (await channelState(url)).state === "IDLE", 60);
+  await ends(url, await run(url, "rtcp.nc"));
+  await streamed(page, 5);
   check("nothing is drawn while the tab is hidden", (await frames(page)) === hidden);
   await page.evaluate(() => {
     Object.defineProperty(document, "hidden", { configurable: true, get: () => false });
@@ -133,16 +145,19 @@ async function many(browser, url, rows) {
   await page.goto(url);
   await page.waitForSelector(".positions");
   await open(page);
-  await eventually("the long path is there", async () => (await segments(page)) >= rows - 1, 30);
-  await page.getByRole("button", { name: "Space", exact: true }).click();
-  await page.waitForTimeout(500);
+  await eventually("the long path is there", () => segments(page), (count) => count >= rows - 1);
+  await look(page, "Space");
   const box = await page.locator("[data-test=scene]").boundingBox();
   const drawnSegments = () => page.locator("[data-test=scene]").evaluate((canvas) => canvas.dataset.drawn);
   const fully = await drawnSegments();
   await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
   await page.mouse.down();
   const [before, start] = [await frames(page), Date.now()];
-  for (let i = 0; Date.now() - start < 3000; ++i) await page.mouse.move(box.x + box.width / 2 + 200 * Math.sin(i / 20), box.y + box.height / 2 + 60 * Math.cos(i / 20));
+  let moves = 0;
+  await eventually("30 pictures are drawn while it is turned", async () => {
+    for (const end = moves + 60; moves < end; ++moves) await page.mouse.move(box.x + box.width / 2 + 200 * Math.sin(moves / 20), box.y + box.height / 2 + 60 * Math.cos(moves / 20));
+    return (await frames(page)) - before;
+  }, (pictures) => pictures >= 30);
   const [after, end] = [await frames(page), Date.now()];
   const coarsely = await drawnSegments();
   await page.mouse.up();

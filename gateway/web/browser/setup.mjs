@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Setup on a real cluster: work offsets from the present position and by deltas, tools, tilted planes, and the undo.
-import { appears, channelState, check, eventually, openPage, overflowing, post, shot } from "./harness.mjs";
+import { appears, channelState, check, eventually, hand, knows, mdi, openPage, overflowing, post, shot } from "./harness.mjs";
 
-const hand = { delay: 120 };  // ms a key
 const offsets = (url) => fetch(`${url}api/work-offsets`).then((answer) => answer.json());
 const offset = async (url, index) => (await offsets(url)).offsets.find((one) => one.channel === 0 && one.index === index)?.values ?? Array(9).fill(0);
 const tool = async (url, number) => (await (await fetch(`${url}api/tools`)).json()).tools.find((one) => one.number === number);
@@ -10,15 +9,11 @@ const putOffset = (url, index, values) => fetch(`${url}api/work-offsets`, { meth
 // A simulated axis is at its position to 0.1 um.
 const near = (a, b) => Math.abs(a - b) < 1e-4;
 
-async function mdi(url, line) {
-  await eventually(`${line} is accepted`, async () => (await post(url, "channels/0/mdi", { line })).ok);
-  await eventually(`${line} is executed`, async () => (await channelState(url)).state === "IDLE");
-}
-
 async function workOffsets(page, url) {
   await putOffset(url, 1, Array(9).fill(0));
   await putOffset(url, 8, Array(9).fill(0));
-  await mdi(url, "G54 G90 G69 G0 X10 Y-4");
+  await mdi(url, "G54 G90 G69 G0 X10 Y-4", { workpiece: { X: 10, Y: -4 } });
+  await knows(page, "X is at 10", ({ workpiece: [x] }) => near(x, 10));
   await page.getByRole("tab", { name: "Work offsets" }).click();
   await page.getByRole("button", { name: "G55", exact: true }).click();
   const form = page.getByRole("region", { name: "Set G55" }).first();
@@ -113,9 +108,11 @@ async function planes(page, url) {
   await page.getByRole("tab", { name: "Tilted planes" }).click();
   await page.getByRole("button", { name: /G68.1 Q3/ }).click();
   const teach = (point) => page.getByRole("button", { name: `${point}: take the position of the tool tip` });
-  for (const [line, point] of [["G54 G0 X0 Y0 Z300", "Origin"], ["G0 X20", "Point on +X"], ["G0 X0 Y20 Z310", "Point towards +Y"]]) {
-    await mdi(url, line);
-    await page.waitForTimeout(300);
+  for (const [line, [X, Y, Z], point] of [
+    ["G54 G0 X0 Y0 Z300", [0, 0, 300], "Origin"], ["G0 X20", [20, 0, 300], "Point on +X"], ["G0 X0 Y20 Z310", [0, 20, 310], "Point towards +Y"],
+  ]) {
+    await mdi(url, line, { workpiece: { X, Y, Z } });
+    await knows(page, `the tool tip is at ${[X, Y, Z]}`, (one) => one.state === "IDLE" && [X, Y, Z].every((value, i) => Math.abs(one.workpiece[i] - value) < 1e-3));
     await teach(point).focus();
     await page.keyboard.press("Enter");
     await page.locator(".notice").filter({ hasText: `Q3 ${point} is stored` }).waitFor();
