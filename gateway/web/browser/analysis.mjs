@@ -5,7 +5,7 @@ import { createWriteStream, mkdtempSync, rmSync, writeFileSync } from "node:fs";
 import { readFile } from "node:fs/promises";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
-import { appears, check, eventually, hand, inaccessible, knows, mdi, openPage, overflowing, post, settled, shot } from "./harness.mjs";
+import { appears, check, drawn, eventually, hand, inaccessible, knows, mdi, openPage, overflowing, post, settled, shot } from "./harness.mjs";
 
 /** As `trunnion export --csv feedback_frame`: a circle of 20 mm in 2 s from cycle `start` on, X with 0.02 mm at 50 Hz. */
 function circle(start, offset) {
@@ -105,6 +105,7 @@ async function recording(page, scratch) {
   await eventually("a point of the path is found", async () => {
     for (let i = 0; i < 12; ++i) {
       await page.mouse.click(at.x + at.width * (0.5 + 0.46 * Math.cos(i / 2)), at.y + at.height * (0.5 + 0.3 * Math.sin(i / 2)));
+      await drawn(page);
       if ((await selected()) !== before) return true;
     }
     return false;

@@ -151,12 +151,13 @@ function patched(target, patch) {
   return merged;
 }
 
-/** What the stream says: the state in `machine`, the `messages` that have arrived, the `refusals` of a connection. */
+/** Of the stream: the state in `machine`, the `messages` that have arrived, the `orders` that were sent, the `refusals` of a connection. */
 function followStream(page) {
-  Object.assign(page, { machine: undefined, messages: 0, refusals: 0 });
+  Object.assign(page, { machine: undefined, messages: 0, orders: [], refusals: 0 });
   page.on("websocket", (socket) => {
     if (!socket.url().endsWith("/api/stream")) return;
     socket.on("socketerror", () => ++page.refusals);
+    socket.on("framesent", ({ payload }) => page.orders.push(JSON.parse(payload).path));
     socket.on("framereceived", ({ payload }) => {
       const message = JSON.parse(payload);
       if ("answer" in message) return;
@@ -201,7 +202,7 @@ export const shot = (page, name) => page.screenshot({ path: join(screenshots, `$
 export const post = (url, path, body = {}) => fetch(`${url}api/${path}`, { method: "POST", body: JSON.stringify(body) });
 export const channelState = (url) => fetch(`${url}api/channels/0`).then((answer) => answer.json());
 
-/** A line of MDI to its end: the channel is idle, and the axes are `at` these places, by their letters, in mm and deg. */
+/** A line of MDI to its end: the channel is idle, and the axes are where `machine` and `workpiece` say, by letters, in mm and deg. */
 export async function mdi(url, line, { machine = {}, workpiece = {} } = {}) {
   await eventually(`${line} is accepted`, async () => (await post(url, "channels/0/mdi", { line })).ok);
   const near = (position, wanted) => wanted === undefined || Math.abs(position - wanted) < 1e-3;  // a drive settles

@@ -63,6 +63,7 @@ async function alarmsAndStops(page, url) {
   await page.mouse.up();
 
   const alarms = page.getByRole("region", { name: "Alarms", exact: true }).first();
+  await alarms.filter({ hasText: "130" }).waitFor();
   for (const view of views) {
     await page.getByRole("navigation", { name: "Views" }).getByRole("button", { name: view, exact: true }).click();
     const text = await alarms.innerText();

@@ -100,7 +100,8 @@ async function files(page, url) {
   await field.pressSequentially("M6", hand);
   await page.keyboard.press("Escape");
   await field.waitFor({ state: "detached" });
-  check("Escape closes the search of the editor and holds nothing", (await channelState(url)).state === before.state);
+  await settled(page);
+  check("Escape closes the search of the editor and holds nothing", page.orders.length === 0 && (await channelState(url)).state === before.state);
 
   const [saved] = await Promise.all([page.waitForEvent("download"), page.getByRole("button", { name: "Download" }).click()]);
   check("a download is the text", (await readFile(await saved.path(), "utf8")) === (await stored(url, "page-a.nc")).text);
