@@ -106,9 +106,10 @@ TEST_F(OneCluster, OfTenStartsAtOnceOneSucceeds) {
     while (!ups[i].status()) std::this_thread::sleep_for(std::chrono::milliseconds(10));
     const bool good = WIFEXITED(*ups[i].status()) && WEXITSTATUS(*ups[i].status()) == 0;
     started += good ? 1 : 0;
-    if (!good)
+    if (!good) {
       EXPECT_THAT(cluster::last_line((root_ / ("up-" + std::to_string(i))).string()),
                   HasSubstr(" is in use by launcher "));
+    }
   }
   EXPECT_EQ(started, 1);
   const cluster::RunDirectory run{domain};

@@ -151,7 +151,9 @@ TEST_F(StateDamage, EveryDamageOfEveryFileIsFoundNamedAndRepaired) {
       EXPECT_TRUE(cluster.until([&] { return !cluster.channels[0].homed; }, 2)) << "the channel knows of it";
       EXPECT_EQ(cluster.client().newest(topics::tool_table).tools.back().length, length_before);
       for (const auto& value : cluster.client().newest(topics::parameter_set).values)
-        if (value.number == 100034) EXPECT_EQ(value.value, rapid_before) << "never the default";
+        if (value.number == 100034) {
+          EXPECT_EQ(value.value, rapid_before) << "never the default";
+        }
       cluster.reset_alarms();
       EXPECT_TRUE(cluster.until([&] { return !cluster.has_alarm(alarm::state_recovered.number); }));
       EXPECT_TRUE(cluster.has_alarm(alarm::not_homed.number)) << "until the axes have their reference";

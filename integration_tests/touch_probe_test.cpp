@@ -218,8 +218,8 @@ INSTANTIATE_TEST_SUITE_P(Of, KilledTouchProbe,
                          ::testing::Values(std::vector<std::string>{"drive"},
                                            std::vector<std::string>{"channel"},
                                            std::vector<std::string>{"drive", "channel"}),
-                         [](const auto& info) {
-                           return info.param.size() == 2 ? std::string("both") : info.param.front();
+                         [](const auto& killed) {
+                           return killed.param.size() == 2 ? std::string("both") : killed.param.front();
                          });
 
 }  // namespace

@@ -254,10 +254,10 @@ int run_plc(const PlcOptions& options, bool json) {
       if (parameter.in_out)
         throw std::runtime_error("--call " + options.call +
                                  ": a function with VAR_IN_OUT cannot be called alone");
-      result.symbols.push_back({parameter.name, parameter.type, parameter.address, -1, false});
+      result.symbols.push_back({parameter.name, parameter.type, parameter.address, -1, false, {}});
     }
     if (function->result != nullptr)
-      result.symbols.push_back({function->name, function->result, function->result_address, -1, false});
+      result.symbols.push_back({function->name, function->result, function->result_address, -1, false, {}});
   }
   st::ProgramRun program(result);
   for (const auto& text : options.set) {
