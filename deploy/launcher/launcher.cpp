@@ -22,7 +22,7 @@ namespace trunnion::launcher {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr double start_timeout = 15;  // s until a cluster that is not ready has failed
+constexpr double start_timeout = 15;  // s without another service that is ready until the start has failed
 volatile std::sig_atomic_t stop_requested = 0;
 void request_stop(int) { stop_requested = 1; }
 
@@ -332,6 +332,8 @@ int Launcher::run(void (*report)(const std::string&)) {
   for (auto& process : processes_)
     if (process.local) process.start(options_, false, began);
   std::string failure;
+  double progressed = began;
+  std::ptrdiff_t most_active = 0;
   while (!must_stop()) {
     bus_.signal().wait(0.02);
     time_.advance(service::monotonic_seconds());
@@ -348,7 +350,11 @@ int Launcher::run(void (*report)(const std::string&)) {
       report("");
       notifier_.ready();
     }
-    if (!was_ready_ && time_.now() - began > start_timeout) {
+    const auto active = std::count_if(processes_.begin(), processes_.end(), [](const auto& p) {
+      return p.local && p.lifecycle == idl::service::Lifecycle::ACTIVE;
+    });
+    if (active > most_active) most_active = active, progressed = time_.now();
+    if (!was_ready_ && time_.now() - progressed > start_timeout) {
       for (const auto& p : processes_)
         if (p.local && p.lifecycle != idl::service::Lifecycle::ACTIVE)
           failure += (failure.empty() ? "not ready: " : "; ") + p.entry.service +
