@@ -70,8 +70,8 @@ int run_replay(const Common& common, const ReplayArguments& arguments) {
   };
   // A reader of many topics is discovered topic by topic; what has no history would be lost to the last ones.
   const auto matched = [&] {
-    return static_cast<std::size_t>(std::count_if(writers.begin(), writers.end(),
-                                                  [](const auto& w) { return w.second->matched() > 0; }));
+    return static_cast<std::size_t>(
+        std::count_if(writers.begin(), writers.end(), [](const auto& w) { return w.second->matched() > 0; }));
   };
   std::size_t known = 0;
   double since = service::monotonic_seconds();

@@ -33,14 +33,14 @@
 namespace trunnion::recorder {
 namespace {
 
-constexpr double match_seconds = 1.0;    // waiting time for the writers of the stream
-constexpr double cluster_seconds = 5.0;  // the same when a launcher publishes the list of services
+constexpr double match_seconds = 1.0;   // waiting time for the writers of the stream
+constexpr double cluster_seconds = 30;  // the same when a launcher publishes the list of services
 // A wake-up for every message would cost as much processor time as a stage of the stream. Writers keep a
 // thousand batches.
 constexpr auto pause = std::chrono::milliseconds(20);
-constexpr double snapshot_seconds = 3.0;  // waiting time for the states of the services
-constexpr double repeat_seconds = 0.5;    // after which a service that has not answered is asked again
-constexpr int most_requests = 5;          // of the first states
+constexpr double snapshot_seconds = 15;  // waiting time for the states of the services
+constexpr double repeat_seconds = 0.5;   // after which a service that has not answered is asked again
+constexpr int most_requests = 5;         // of the first states
 constexpr auto request_pause = std::chrono::milliseconds(20);
 // After the start of a part: what was written into the part before has been taken by then.
 constexpr double part_pause = 0.05;
