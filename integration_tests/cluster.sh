@@ -48,7 +48,10 @@ has_state() {
 }
 await_state() { wait_until "channel 0 is $1" has_state "$1"; }
 # await_idle: the program of channel 0 has ended.
-await_idle() { patience=300 await_state IDLE; }
+await_idle() {
+  (patience=300 await_state IDLE) ||
+    fail "the program does not end: $(cat "$work/state.json" && "$trunnion" alarms --domain "$domain")"
+}
 # select_program NAME: on channel 0, to which the list with a program that was stored just now may still be on its way.
 is_selected() { "$trunnion" channel select "$1" --domain "$domain" 2> "$work/select"; }
 select_program() { wait_until "channel 0 takes the program $1" is_selected "$1"; }
