@@ -69,7 +69,7 @@ start_recording() {
   wait_until "the recording begins" begins_or_ends "$said"
   grep -q '^recording ' "$said" || fail "$(cat "$said")"
 }
-begins_or_ends() { grep -q '^recording ' "$1" || ! kill -0 "$recorder" 2> /dev/null; }
+begins_or_ends() { grep -qs '^recording ' "$1" || ! kill -0 "$recorder" 2> /dev/null; }
 # end_recording SAID: fails when something was lost.
 end_recording() {
   kill -INT "$recorder"
