@@ -5,7 +5,7 @@ import { createWriteStream, mkdtempSync, rmSync, writeFileSync } from "node:fs";
 import { readFile } from "node:fs/promises";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
-import { appears, check, drawn, eventually, hand, inaccessible, knows, mdi, openPage, overflowing, post, settled, shot } from "./harness.mjs";
+import { appears, check, drawn, eventually, hand, inaccessible, knows, mdi, openPage, overflowing, post, settled, shot, told } from "./harness.mjs";
 
 /** As `trunnion export --csv feedback_frame`: a circle of 20 mm in 2 s from cycle `start` on, X with 0.02 mm at 50 Hz. */
 function circle(start, offset) {
@@ -77,8 +77,8 @@ async function kept(page, url) {
 
 async function recording(page, scratch) {
   const input = page.locator("input[type=file]").first();
-  await input.setInputFiles({ name: "bad.csv", mimeType: "text/csv", buffer: Buffer.from("time,x\n1,2\n") });
-  await page.locator(".notice.refused").filter({ hasText: "bad.csv:1:" }).waitFor();
+  const bad = { name: "bad.csv", mimeType: "text/csv", buffer: Buffer.from("time,x\n1,2\n") };
+  await told(page, "bad.csv:1:", () => input.setInputFiles(bad), { refused: true });
   check("a file that is no recording is refused with its line", true);
   writeFileSync(join(scratch, "first.csv"), circle(0, 0));
   writeFileSync(join(scratch, "second.csv"), circle(100, 0.01));

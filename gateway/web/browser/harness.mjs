@@ -90,6 +90,27 @@ export async function streamed(page, count) {
   await drawn(page);
 }
 
+/** A notice with `text` that was seen after `act`; it may have gone since, as notices do by themselves. */
+export async function told(page, text, act, { refused } = {}) {
+  const from = await page.evaluate(() => window.notices.length);
+  await act();
+  const fits = (notice) => notice.seen && (refused ?? notice.refused) === notice.refused && (text instanceof RegExp ? text.test(notice.text) : notice.text.includes(text));
+  const notices = await eventually(`the page tells ${text}`, () => page.evaluate((first) => window.notices.slice(first), from), (list) => list.some(fits));
+  return notices.find(fits).text;
+}
+
+/** Runs in the page: keeps the notices that it has shown. */
+function keepNotices() {
+  window.notices = [];
+  let last;
+  new MutationObserver(() => {
+    const element = document.querySelector(".notice");
+    const now = element?.className + element?.textContent;
+    if (element && now !== last) window.notices.push({ text: element.innerText, refused: element.classList.contains("refused"), seen: element.getClientRects().length > 0 });
+    last = now;
+  }).observe(document, { subtree: true, childList: true, characterData: true, attributes: true });
+}
+
 /** As a hand does it: over the key, when nothing moves it any more, and down; `page.mouse.up()` lets it go. */
 export async function pressDown(page, key) {
   await key.hover();
@@ -189,6 +210,7 @@ export async function openPage(browser, url, { size = [1280, 800], locale = "en-
   page.on("console", (message) => {
     if (message.type() === "error" && !/status of 4(00|09|12)/.test(message.text())) page.complaints.push(message.text());
   });
+  await page.addInitScript(keepNotices);
   followStream(page);
   followRequests(page);
   if (url) {

@@ -3,7 +3,7 @@
 // displaced (examples/calibration/truth.yaml).
 import { readFileSync } from "node:fs";
 import {
-  check, coveredStops, eventually, hand, inaccessible, openPage, overflowing, post, runTest, settled, shot, smallTargets,
+  check, coveredStops, eventually, hand, inaccessible, openPage, overflowing, post, runTest, settled, shot, smallTargets, told,
 } from "./harness.mjs";
 
 const read = (url, path) => fetch(`${url}api/${path}`).then((answer) => answer.json());
@@ -166,8 +166,7 @@ async function written(page, url) {
   await eventually("it can be undone", () => undo.isEnabled());
   check("who and when is said", /calibrate.*parameters/.test(await undo.getAttribute("title")));
   await undo.click();
-  await page.getByRole("alertdialog").getByRole("button", { name: "Undo calibration" }).click();
-  await page.locator(".notice").filter({ hasText: /have the values of before/ }).waitFor();
+  await told(page, "have the values of before", () => page.getByRole("alertdialog").getByRole("button", { name: "Undo calibration" }).click());
   await post(url, "channels/0/reset");
   await eventually("the vector is that of before", async () => (await parameter(url, 40433)).value === before);
   check("the undo gives the values of before", true);
@@ -212,8 +211,7 @@ async function byDial(page, url) {
   check(`the vectors follow: ${change("C", "X")}, ${change("C", "Z")}`, change("C", "X") === "+100.0" && change("C", "Z") === "0.0");
   await looksRight(page, "manual-calibration");
   await page.locator('[data-test="manual-write-readings"]').click();
-  await page.getByRole("alertdialog").getByRole("button", { name: "Write result" }).click();
-  await page.locator(".notice").filter({ hasText: /parameters are written; active after a reset/ }).waitFor();
+  await told(page, "parameters are written; active after a reset", () => page.getByRole("alertdialog").getByRole("button", { name: "Write result" }).click());
   await page.locator(".manual").getByText(/waits for a reset: reset the channel first/).waitFor();
   await post(url, "channels/0/reset");
   await eventually("the vector is written", async () => Math.abs((await parameter(url, 40435)).value - before - 0.1) < 1e-3);

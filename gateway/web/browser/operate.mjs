@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Operating a real cluster by roles and names: MDI of several lines, alarms with cause and remedy in every view, and the
 // keys that stop.
-import { channelState, check, coveredStops, eventually, hand, mdi, openPage, post, pressDown, settled, shot } from "./harness.mjs";
+import { channelState, check, coveredStops, eventually, hand, mdi, openPage, post, pressDown, settled, shot, told } from "./harness.mjs";
 
 const views = ["Operate", "3D", "Programs", "Setup", "Parameters", "Analysis", "Diagnosis"];
 const machineX = async (url) => (await channelState(url)).machine[0];
@@ -35,8 +35,7 @@ async function mdiLines(page, url) {
   const sent = [];
   page.on("request", (request) => request.url().endsWith("/mdi") && sent.push(request.postDataJSON().line));
   await field.fill("G0 X14\n?? X15\nG0 X16");
-  await page.getByRole("button", { name: "Execute" }).click();
-  await page.locator(".notice.refused, .notice").filter({ hasText: "line 2 of 3" }).waitFor();
+  await told(page, "line 2 of 3", () => page.getByRole("button", { name: "Execute" }).click());
   // Whatever the page has sent is answered, and the channel executes a line that comes after it.
   await settled(page);
   await mdi(url, "G4 P0.1");

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The programs of the PLC on a real cluster: source with live values, search, force and release, trace, task times, new
 // programs; in English, Chinese and German.
-import { appears, check, eventually, hand, inaccessible, openPage, overflowing, post, shot, smallTargets } from "./harness.mjs";
+import { appears, check, eventually, hand, inaccessible, openPage, overflowing, post, shot, smallTargets, told } from "./harness.mjs";
 
 const forces = (url) => fetch(`${url}api/plc/forces`).then(async (answer) => (await answer.json()).values.map(({ path }) => path));
 
@@ -37,8 +37,8 @@ async function english(browser, url) {
   const value = page.getByRole("textbox", { name: "Value to force main.spindle.programmed to" });
   await value.fill("abc");
   await value.press("Enter");
-  await page.getByRole("alertdialog", { name: /Force main.spindle.programmed to abc/ }).getByRole("button", { name: "Force" }).click();
-  await page.locator(".notice.refused").filter({ hasText: "write a whole number 0 .. 65535" }).waitFor();
+  const wrong = page.getByRole("alertdialog", { name: /Force main.spindle.programmed to abc/ });
+  await told(page, "write a whole number 0 .. 65535", () => wrong.getByRole("button", { name: "Force" }).click(), { refused: true });
   check("a wrong value is refused with what is expected", (await forces(url)).length === 0);
   await value.fill("1234");
   await value.press("Enter");

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Programs: typed at the speed of a hand, checked while they are typed, kept over a reload, saved with their revision.
 import { readFile } from "node:fs/promises";
-import { appears, channelState, check, eventually, hand, openPage, overflowing, settled, shot, streamed } from "./harness.mjs";
+import { appears, channelState, check, eventually, hand, openPage, overflowing, settled, shot, streamed, told } from "./harness.mjs";
 
 const stored = async (url, name) => fetch(`${url}api/programs/${name}`).then(async (answer) => ({ status: answer.status, tag: answer.headers.get("etag"), text: await answer.text() }));
 const put = (url, name, body, headers = {}) => fetch(`${url}api/programs/${name}`, { method: "PUT", body, headers });
@@ -52,8 +52,7 @@ async function typing(page, url) {
   check("nothing was stored meanwhile", (await stored(url, "page-a.nc")).status === 404);
 
   await page.route("**/api/programs/page-a.nc", (route) => (route.request().method() === "PUT" ? route.abort() : route.continue()));
-  await page.getByRole("button", { name: "Save", exact: true }).click();
-  await page.locator(".notice").filter({ hasText: "no connection" }).waitFor();
+  await told(page, "no connection", () => page.getByRole("button", { name: "Save", exact: true }).click());
   check("without a connection saving says so and the text stays", (await lines()).includes("G1 X2 F100"));
   page.complaints.length = 0;
   await page.unroute("**/api/programs/page-a.nc");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Setup on a real cluster: work offsets from the present position and by deltas, tools, tilted planes, and the undo.
-import { appears, channelState, check, eventually, hand, knows, mdi, openPage, overflowing, post, shot } from "./harness.mjs";
+import { appears, channelState, check, eventually, hand, knows, mdi, openPage, overflowing, post, shot, told } from "./harness.mjs";
 
 const offsets = (url) => fetch(`${url}api/work-offsets`).then((answer) => answer.json());
 const offset = async (url, index) => (await offsets(url)).offsets.find((one) => one.channel === 0 && one.index === index)?.values ?? Array(9).fill(0);
@@ -40,8 +40,7 @@ async function workOffsets(page, url) {
   check("deltas of several axes are added at once", true);
   await page.getByRole("button", { name: /^Undo: G55/ }).waitFor();
   await putOffset(url, 1, [1, 2, 3, 0, 0, 0, 0, 0, 0]);
-  await page.getByRole("button", { name: /^Undo: G55/ }).click();
-  await page.locator(".notice.refused").filter({ hasText: /changed (again )?meanwhile/ }).waitFor();
+  await told(page, /changed (again )?meanwhile/, () => page.getByRole("button", { name: /^Undo: G55/ }).click(), { refused: true });
   check("what another station has changed since is not taken back", near((await offset(url, 1))[0], 1));
 
   const cell = page.getByLabel("G54.1 P3 Y");
@@ -91,9 +90,8 @@ async function tools(page, url) {
   const radius = page.getByLabel("T77 Radius", { exact: true });
   await radius.click();
   await page.keyboard.type("-3", hand);
-  await page.keyboard.press("Enter");
-  await page.locator(".notice.refused").filter({ hasText: "radius" }).waitFor();
-  check("a value beyond its limits is refused with them", /0 \.\./.test(await page.locator(".notice.refused").innerText()));
+  const limits = await told(page, "radius", () => page.keyboard.press("Enter"), { refused: true });
+  check("a value beyond its limits is refused with them", /0 \.\./.test(limits));
   await shot(page, "setup-tools");
   await page.getByRole("button", { name: "Delete T77" }).click();
   await page.getByRole("alertdialog", { name: /Delete tool T77/ }).getByRole("button", { name: "Delete" }).click();
@@ -114,8 +112,7 @@ async function planes(page, url) {
     await mdi(url, line, { workpiece: { X, Y, Z } });
     await knows(page, `the tool tip is at ${[X, Y, Z]}`, (one) => one.state === "IDLE" && [X, Y, Z].every((value, i) => Math.abs(one.workpiece[i] - value) < 1e-3));
     await teach(point).focus();
-    await page.keyboard.press("Enter");
-    await page.locator(".notice").filter({ hasText: `Q3 ${point} is stored` }).waitFor();
+    await told(page, `Q3 ${point} is stored`, () => page.keyboard.press("Enter"));
   }
   // X (20 0 0) times Y (0 20 10) is (0 -200 400), as a unit vector (0 -0.4472 0.8944).
   await eventually("the plane has its normal", async () => (await page.locator("[data-test=plane-normal]").innerText()).replace(/\u2212/g, "-") === "0.0000 -0.4472 0.8944");
