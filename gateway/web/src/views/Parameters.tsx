@@ -63,16 +63,19 @@ export function Parameters() {
   const edited = useSignal<Parameter | null>(null);
   const comparison = useSignal<Comparison | null>(null);
   const file = useRef<HTMLInputElement>(null);
+  const asked = useRef(0);
   const { parameters: revision, pending } = machine.value.revisions;
   const t = text.value;
 
   const load = async () => {
+    const mine = ++asked.current;
     const { group, unit: thousands } = branch.value;
     // A unit is a part of its class, and only the whole class can be asked for.
     const query = new URLSearchParams({ limit: String(thousands === null ? mostRows : 20000) });
     if (group) query.set("class", group);
     if (search.value.trim()) query.set("search", search.value.trim());
     const answer = await get<{ parameters: Parameter[]; total: number }>(`/api/parameters?${query.toString()}`);
+    if (mine !== asked.current) return;
     problem.value = answer.reason;
     if (!answer.ok || !answer.body) return;
     const wanted = answer.body.parameters.filter(({ number }) => thousands === null || Math.floor(number / 1000) === thousands);
