@@ -193,8 +193,9 @@ class Cluster {
     const auto before = feedback_messages_;
     return until([&] {
              return feedback_messages_ >= before + 2 && feedback.count == 0 &&
-                    std::none_of(feedback.channels.begin(), feedback.channels.end(),
-                                 [](const auto& echo) { return echo.active; });
+                    (feedback.mode == DriveMode::HELD ||  // a motion that was interrupted stays active
+                     std::none_of(feedback.channels.begin(), feedback.channels.end(),
+                                  [](const auto& echo) { return echo.active; }));
            }) &&
            newer_state(channel);
   }
