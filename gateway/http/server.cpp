@@ -67,13 +67,20 @@ struct HttpServer::Inside {
 
   /// Whether there is some now.
   bool make_room() {
-    std::erase_if(sessions, [](const auto& session) { return session.expired(); });
+    // The last to hold a session may be another thread, which answers it, so it is looked up only once.
+    std::vector<std::shared_ptr<HttpSession>> held;
+    std::erase_if(sessions, [&](const auto& session) {
+      auto one = session.lock();
+      if (!one) return true;
+      held.push_back(std::move(one));
+      return false;
+    });
     if (sessions.size() < most_connections) return true;
     std::vector<Connection> connections;
-    for (const auto& session : sessions) connections.push_back(session.lock()->connection());
+    for (const auto& session : held) connections.push_back(session->connection());
     const auto chosen = one_to_close(connections);
     if (!chosen) return false;
-    sessions[*chosen].lock()->close();
+    held[*chosen]->close();
     sessions.erase(sessions.begin() + static_cast<std::ptrdiff_t>(*chosen));
     return true;
   }
