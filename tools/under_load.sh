@@ -23,10 +23,11 @@ mkdir -p $logs
 load=()
 trap 'kill "${load[@]}" 2> /dev/null || true; rm -f $logs/written' EXIT
 for _ in 1 2 3 4; do
-  (while :; do :; done) &
+  # A session of its own: Linux shares the processors out by sessions, and every cluster is one.
+  setsid sh -c 'while :; do :; done' &
   load+=($!)
 done
-(while :; do dd if=/dev/zero of=$logs/written bs=1M count=64 conv=fsync status=none; done) &
+setsid sh -c "while :; do dd if=/dev/zero of=$logs/written bs=1M count=64 conv=fsync status=none; done" &
 load+=($!)
 
 printf '%5s %8s %6s  %s\n' run seconds tests failed
