@@ -179,8 +179,10 @@ void MeasurementService::pump() {
 
 service::Health MeasurementService::health() const {
   service::Health health;
-  health.lifecycle = idl::service::Lifecycle::ACTIVE;
-  health.detail = core_.stored().state.detail;
+  // Without the parameters it would refuse what its state offers.
+  using idl::service::Lifecycle;
+  health.lifecycle = core_.has_parameters() ? Lifecycle::ACTIVE : Lifecycle::UNCONFIGURED;
+  health.detail = core_.has_parameters() ? core_.stored().state.detail : "waiting for parameters";
   return health;
 }
 

@@ -66,6 +66,7 @@ class Measurement {
 
   MachineView& machine() { return machine_; }
   void take(const idl::parameters::ParameterSet& set);
+  bool has_parameters() const { return set_.has_value(); }
   /// `time`: of day, for the protocol. Whatever is refused changes nothing.
   MeasurementReply apply(const MeasurementRequest& request, const std::string& time, double now);
   /// A program calls the cycle, goes on or has ended. `time`: of day.
