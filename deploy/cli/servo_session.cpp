@@ -109,8 +109,9 @@ void ServoSession::take_axes() {
     a.number = before_.axes[i];
     a.turns = parameters_.integer(parameter::axis_type, a.number) != machine::axis_type_linear;
     a.place = before_.machine[i];
-    a.low = parameters_.get(parameter::negative_limit, a.number);
-    a.high = parameters_.get(parameter::positive_limit, a.number);
+    const auto travel = machine::travel_of(parameters_, a.number);
+    a.low = travel.negative;
+    a.high = travel.positive;
     a.highest_feed = parameters_.get(parameter::maximum_feed, a.number);
     a.acceleration = parameters_.get(parameter::maximum_acceleration, a.number);
     axes_.push_back(a);

@@ -163,8 +163,8 @@ std::string unit_of(std::uint32_t number, const std::map<std::uint32_t, Paramete
   return type == linear ? d->unit.substr(0, bar) : d->unit.substr(bar + 1);
 }
 
-std::string Parameters::text(const TextParameter& parameter, std::uint32_t unit) const {
-  const auto found = values.find(parameter.number(unit));
+std::string Parameters::text(const TextParameter& parameter, std::uint32_t unit, std::uint32_t index) const {
+  const auto found = values.find(parameter.number(unit, index));
   return found != values.end() ? found->second.text : "";
 }
 

@@ -84,7 +84,7 @@ class Parameters {
  public:
   double get(const NumericParameter& parameter, std::uint32_t unit = 0, std::uint32_t index = 0) const;
   int integer(const IntegerParameter& parameter, std::uint32_t unit = 0, std::uint32_t index = 0) const;
-  std::string text(const TextParameter& parameter, std::uint32_t unit = 0) const;
+  std::string text(const TextParameter& parameter, std::uint32_t unit = 0, std::uint32_t index = 0) const;
   double at(std::uint32_t number) const;
 
   std::map<std::uint32_t, ParameterValue> values;
