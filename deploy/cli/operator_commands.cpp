@@ -35,15 +35,11 @@ idl::channel::ChannelState run_line(cluster::Client& client, std::uint16_t chann
   std::optional<std::vector<double>> before;  // at the end of the line
   constexpr double settled = 1e-4;            // mm or deg between two states
   while (service::monotonic_seconds() < until) {
-    idl::service::Alarm a;
-    while (alarms.take(a))
-      if (a.active && a.source == machine::service::channel.name && a.part == channel)
-        alarm = std::to_string(a.number) + ": " + a.text;
+    std::optional<idl::channel::ChannelState> end;
     idl::channel::ChannelState state;
-    while (reader.take(state)) {
+    while (!end && reader.take(state)) {
       if (state.channel != channel) continue;
-      const bool interrupted = state.state == RunState::INTERRUPTED;
-      if (!interrupted && state.state != RunState::IDLE) {
+      if (state.state != RunState::INTERRUPTED && state.state != RunState::IDLE) {
         before.reset();
         continue;
       }
@@ -51,12 +47,17 @@ idl::channel::ChannelState run_line(cluster::Client& client, std::uint16_t chann
           before && std::equal(before->begin(), before->end(), state.machine.begin(), state.machine.end(),
                                [](double p, double q) { return std::abs(p - q) < settled; });
       before = state.machine;
-      if (!stands) continue;
-      if (!alarm.empty()) throw std::runtime_error("alarm " + alarm);
-      if (interrupted)
-        throw std::runtime_error("the line was interrupted: see 'trunnion alarms', then reset");
-      return state;
+      if (stands) end = state;
     }
+    // After the states: the alarm that has ended the line comes before the state that shows its end.
+    idl::service::Alarm a;
+    while (alarms.take(a))
+      if (a.active && a.source == machine::service::channel.name && a.part == channel)
+        alarm = std::to_string(a.number) + ": " + a.text;
+    if (end && !alarm.empty()) throw std::runtime_error("alarm " + alarm);
+    if (end && end->state == RunState::INTERRUPTED)
+      throw std::runtime_error("the line was interrupted: see 'trunnion alarms', then reset");
+    if (end) return *std::move(end);
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   }
   throw std::runtime_error("the line did not finish within " + std::to_string(static_cast<int>(timeout)) +
