@@ -19,3 +19,9 @@ END
 done
 if "$trunnion" mdi "G0 X1000" --channel 1 --domain "$domain" 2> "$work/said"; then fail "a line beyond the travel is executed"; fi
 grep -q 'X would go to 990.0000.*alarm 140' "$work/said" || fail "$(cat "$work/said")"
+# A message of the program is no failure of the line.
+"$trunnion" mdi "#3006=7 (CLAMP IT)" --domain "$domain" > "$work/message" 2>&1 &
+line=$!
+await_alarm ' 151 '
+"$trunnion" channel start --take-right --domain "$domain"
+wait "$line" || fail "$(cat "$work/message")"

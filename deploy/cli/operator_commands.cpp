@@ -52,7 +52,8 @@ idl::channel::ChannelState run_line(cluster::Client& client, std::uint16_t chann
     // After the states: the alarm that has ended the line comes before the state that shows its end.
     idl::service::Alarm a;
     while (alarms.take(a))
-      if (a.active && a.source == machine::service::channel.name && a.part == channel)
+      if (a.active && a.severity >= idl::service::Severity::ERROR &&
+          a.source == machine::service::channel.name && a.part == channel)
         alarm = std::to_string(a.number) + ": " + a.text;
     if (end && !alarm.empty()) throw std::runtime_error("alarm " + alarm);
     if (end && end->state == RunState::INTERRUPTED)
