@@ -15,8 +15,7 @@ namespace {
 
 constexpr double turn_worth_a_move = 1e-6;  // degrees
 constexpr std::uint32_t most_vector_pieces = 1024;
-constexpr double straight_on = 180;      // degrees: interior angle and turn of a corner together
-constexpr int spindle_axis_number = -2;  // of a letter that is a spindle in position mode
+constexpr double straight_on = 180;  // degrees: interior angle and turn of a corner together
 
 }  // namespace
 
@@ -114,7 +113,7 @@ void ChannelSetup::find_tapping_spindles(const machine::Parameters& p) {
   tapping_spindles_[0] = spindle(next);
   spindle_mask_ = 0;
   for (std::uint32_t letter = language::A; letter < language::axis_count; ++letter) {
-    if (p.integer(parameter::channel_axis, channel_, letter) != spindle_axis_number) continue;
+    if (p.integer(parameter::channel_axis, channel_, letter) != machine::spindle_letter) continue;
     spindle_mask_ = static_cast<std::uint16_t>(spindle_mask_ | (1u << letter));
     tapping_spindles_[letter - language::A + 1] = spindle(next);
     if (next != spindles.end()) ++next;
