@@ -6,7 +6,9 @@
 #include <cstdio>
 
 #include "compensation/channel_compensation.hpp"
+#include "machine/alarm_constants.hpp"
 #include "machine/gantry_pairs.hpp"
+#include "machine/kinematics.hpp"
 #include "machine/parameter_constants.hpp"
 #include "motion/path_segment.hpp"
 
@@ -16,6 +18,23 @@ namespace {
 constexpr double turn_worth_a_move = 1e-6;  // degrees
 constexpr std::uint32_t most_vector_pieces = 1024;
 constexpr double straight_on = 180;  // degrees: interior angle and turn of a corner together
+
+// An axis that the chain turns and that nothing moves would stay at zero without a word.
+void check_chain_axes(const geometry::Chain& chain, const machine::ChannelAxes& axes, std::uint16_t channel) {
+  for (std::size_t i = 0; i < geometry::angle_count; ++i) {
+    const auto letter = language::A + i;
+    if (!chain.turns(i) || std::find(axes.index.begin(), axes.index.end(), letter) != axes.index.end())
+      continue;
+    const auto at = static_cast<std::uint32_t>(letter);
+    throw machine::KinematicsError(
+        alarm::kinematics_invalid,
+        "parameter " + machine::number_text(parameter::channel_axis.number(channel, at)) + " (" +
+            parameter::channel_axis.name + "): the kinematic chain of channel " + std::to_string(channel) +
+            " turns " + language::axis_letters[letter] + ", which is no axis of the channel (parameters " +
+            machine::number_text(parameter::head_type.number(channel)) + ", " +
+            machine::number_text(parameter::table_type.number(channel)) + ")");
+  }
+}
 
 }  // namespace
 
@@ -29,7 +48,9 @@ void ChannelSetup::configure(const machine::Parameters& p) {
   auto chain = machine::make_chain(p, channel_);
   // What the compensation would refuse is refused here, before setpoints need it.
   compensation::ChannelCompensation::read(p, channel_);
-  channel_axes_ = machine::channel_axes(p, channel_);
+  const auto axes = machine::channel_axes(p, channel_);
+  check_chain_axes(chain, axes, channel_);
+  channel_axes_ = axes;
   chain_ = chain;
   const auto drive = machine::drive_axes(p);
   columns_.clear();
