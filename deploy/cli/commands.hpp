@@ -39,6 +39,7 @@ void add_gantry_command(CLI::App& app, Common& common);        // gantry
 void add_calibrate_command(CLI::App& app, Common& common);     // calibrate kinematics, manual, undo
 void add_collision_command(CLI::App& app, Common& common);     // collision
 void add_check_command(CLI::App& app, Common& common);         // check
+void add_check_machine_command(CLI::App& app, Common& common);
 void add_program_commands(CLI::App& app, Common& common);      // program
 void add_plan_command(CLI::App& app, Common& common);          // plan
 void add_plc_command(CLI::App& app, Common& common);           // plc

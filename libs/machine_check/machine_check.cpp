@@ -105,7 +105,7 @@ class Check {
     for (const auto number : fault.numbers)
       if (const auto place = places_.find(number); place != places_.end())
         return add(place->second + fault.text, "");
-    add(Finding{path("parameters.yaml"), 0, 0, fault.text});
+    add(Finding{parameters_file_, 0, 0, fault.text});
   }
 
   std::string path(const std::string& name) const { return directory_ + "/" + name; }
@@ -196,6 +196,7 @@ class Check {
     auto read = machine::check_parameter_text(storage::read_kept(file).content, file);
     for (const auto& [number, value] : read.values) parameters_.values[number] = value;
     places_ = std::move(read.places);
+    parameters_file_ = file;
     Setups configured;
     for (const auto& [channel, setup] : of_the_folder) configure(channel, configured);
   }
@@ -251,7 +252,8 @@ class Check {
   MachineReport report_;
   std::optional<machine::MachineConfig> config_;
   machine::Parameters parameters_;
-  std::map<std::uint32_t, std::string> places_;  // of the parameters
+  std::map<std::uint32_t, std::string> places_;            // of the parameters
+  std::string parameters_file_ = path("parameters.yaml");  // of faults in what no file gives
   bool parameters_are_whole_ = false;
 };
 
