@@ -39,7 +39,6 @@ void add_gantry_command(CLI::App& app, Common& common);        // gantry
 void add_calibrate_command(CLI::App& app, Common& common);     // calibrate kinematics, manual, undo
 void add_collision_command(CLI::App& app, Common& common);     // collision
 void add_check_command(CLI::App& app, Common& common);         // check
-void add_check_machine_command(CLI::App& app, Common& common);
 void add_program_commands(CLI::App& app, Common& common);      // program
 void add_plan_command(CLI::App& app, Common& common);          // plan
 void add_plc_command(CLI::App& app, Common& common);           // plc
@@ -56,6 +55,7 @@ void add_user_command(CLI::App& app, Common& common);          // user
 void add_certificate_command(CLI::App& app, Common& common);   // certificate
 void add_new_command(CLI::App& app, Common& common);           // new service
 void add_completion_command(CLI::App& app, Common& common);    // completion
+void add_check_machine_command(CLI::App& app, Common& common);
 
 /// `trunnion check` of a file for a machine by name or directory with the tables that are `active` on it; 1
 /// when the program has an error. `fetch` is called before the first subprogram is looked for: it writes
