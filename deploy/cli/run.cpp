@@ -20,6 +20,7 @@
 #include "machine/alarm_constants.hpp"
 #include "machine/parameter_constants.hpp"
 #include "machine/stream_settings.hpp"
+#include "machine_check/machine_check.hpp"
 #include "parameter_request.hpp"
 #include "recording/file_stream.hpp"
 #include "report/capture.hpp"
@@ -298,6 +299,7 @@ cluster::UpOptions up_options(const std::string& directory, const RunOptions& op
 
 // Its cluster is stopped with the guard.
 ClusterGuard start_for(const std::string& directory, const RunOptions& options) {
+  machine_check::require_good(directory);
   watch_interrupts();
   ClusterGuard cluster(cluster::start_cluster(up_options(directory, options)));
   stop_when_interrupted();

@@ -6,7 +6,9 @@
 #include <cstdio>
 
 #include "compensation/channel_compensation.hpp"
+#include "machine/alarm_constants.hpp"
 #include "machine/gantry_pairs.hpp"
+#include "machine/kinematics.hpp"
 #include "machine/parameter_constants.hpp"
 #include "motion/path_segment.hpp"
 
@@ -18,6 +20,23 @@ constexpr std::uint32_t most_vector_pieces = 1024;
 constexpr double straight_on = 180;      // degrees: interior angle and turn of a corner together
 constexpr int first_plane = 17;          // G17
 constexpr int spindle_axis_number = -2;  // of a letter that is a spindle in position mode
+
+// An axis that the chain turns and that nothing moves would stay at zero without a word.
+void check_chain_axes(const geometry::Chain& chain, const machine::ChannelAxes& axes, std::uint16_t channel) {
+  for (std::size_t i = 0; i < geometry::angle_count; ++i) {
+    const auto letter = language::A + i;
+    if (!chain.turns(i) || std::find(axes.index.begin(), axes.index.end(), letter) != axes.index.end())
+      continue;
+    const auto at = static_cast<std::uint32_t>(letter);
+    throw machine::KinematicsError(
+        alarm::kinematics_invalid,
+        "parameter " + machine::number_text(parameter::channel_axis.number(channel, at)) + " (" +
+            parameter::channel_axis.name + "): the kinematic chain of channel " + std::to_string(channel) +
+            " turns " + language::axis_letters[letter] + ", which is no axis of the channel (parameters " +
+            machine::number_text(parameter::head_type.number(channel)) + ", " +
+            machine::number_text(parameter::table_type.number(channel)) + ")");
+  }
+}
 
 constexpr const char* usual_functions = "3 4 5 19; 6; 7 8 9";
 
@@ -52,8 +71,11 @@ void ChannelSetup::configure(const machine::Parameters& p) {
   auto chain = machine::make_chain(p, channel_);
   // What the compensation would refuse is refused here, before setpoints need it.
   compensation::ChannelCompensation::read(p, channel_);
-  m_functions_ = channel_setup::m_functions(p, channel_);
-  channel_axes_ = machine::channel_axes(p, channel_);
+  const auto functions = channel_setup::m_functions(p, channel_);
+  const auto axes = machine::channel_axes(p, channel_);
+  check_chain_axes(chain, axes, channel_);
+  channel_axes_ = axes;
+  m_functions_ = functions;
   chain_ = chain;
   const auto drive = machine::drive_axes(p);
   columns_.clear();
@@ -147,7 +169,7 @@ void ChannelSetup::find_tapping_spindles(const machine::Parameters& p) {
   tapping_spindles_[0] = spindle(next);
   spindle_mask_ = 0;
   for (std::uint32_t letter = language::A; letter < language::axis_count; ++letter) {
-    if (p.integer(parameter::channel_axis, channel_, letter) != spindle_axis_number) continue;
+    if (p.integer(parameter::channel_axis, channel_, letter) != machine::spindle_letter) continue;
     spindle_mask_ = static_cast<std::uint16_t>(spindle_mask_ | (1u << letter));
     tapping_spindles_[letter - language::A + 1] = spindle(next);
     if (next != spindles.end()) ++next;

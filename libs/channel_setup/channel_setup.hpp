@@ -35,8 +35,8 @@ class ChannelSetup : public language::Environment {
   /// Configured with the tables. Throws as configure() does.
   explicit ChannelSetup(const tool_tables::MachineTables& tables);
 
-  /// Throws std::runtime_error when the kinematic parameters make no chain, or the parameters of the
-  /// compensation or the list of M functions are not valid.
+  /// Throws std::runtime_error when the kinematic parameters make no chain, the chain turns a letter that the
+  /// channel does not have, or the parameters of the compensation or the list of M functions are not valid.
   void configure(const machine::Parameters& parameters);
   void set_tools(const idl::parameters::ToolTable& tools);
   void set_offsets(const idl::parameters::WorkOffsets& offsets);

@@ -14,6 +14,8 @@
 namespace trunnion::machine {
 
 inline constexpr int axis_type_linear = 1, axis_type_swivel = 2, axis_type_rotary = 3, axis_type_spindle = 10;
+inline constexpr std::uint16_t channel_count = 10;  ///< that the catalogue has parameters for
+inline constexpr int spindle_letter = -2;           ///< 04c001..04c009 of a letter that is a spindle
 
 struct AxisInfo {
   std::uint16_t number = 0;  ///< logical axis number

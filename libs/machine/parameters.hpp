@@ -106,6 +106,14 @@ Parameters parameters_of(const Set& set) {
 /// file:line:column.
 std::map<std::uint32_t, ParameterValue> read_parameter_values(const YAML::Node& map, const std::string& file,
                                                               bool strict);
+/// All of `text` that can be understood, and everything that cannot.
+struct ParameterText {
+  std::map<std::uint32_t, ParameterValue> values;
+  std::map<std::uint32_t, std::string> places;  ///< "file:line:column: error: " of each value
+  std::vector<std::string> errors;              ///< with file:line:column
+};
+/// Never throws for what is in the text.
+ParameterText check_parameter_text(const std::string& text, const std::string& file);
 /// Strictly, from a text that is said to be that of `file`, and from the file.
 std::map<std::uint32_t, ParameterValue> read_parameter_text(const std::string& text, const std::string& file);
 std::map<std::uint32_t, ParameterValue> read_parameter_file(const std::string& path);
