@@ -97,10 +97,10 @@ TEST(MachineCheck, NamesTheLineOfTheParameterAndAllFindings) {
       ElementsAre("parameters.yaml:3:11: error: parameter 040002 (channel_axis): Y of channel 0 is axis 1 "
                   "(Y1), which is X of channel 0 already (parameter 040001): an axis has one letter of one "
                   "channel",
-                  "parameters.yaml:6:11: error: parameter 041001 (channel_axis): X of channel 1 is axis 2 "
+                  "parameters.yaml:7:11: error: parameter 041001 (channel_axis): X of channel 1 is axis 2 "
                   "(Z1), which is Z of channel 0 already (parameter 040003): an axis has one letter of one "
                   "channel",
-                  "parameters.yaml:12:11: error: parameter 100007 (negative_limit): axis 0 (X1) has its "
+                  "parameters.yaml:14:11: error: parameter 100007 (negative_limit): axis 0 (X1) has its "
                   "negative travel limit at -400 mm, which is not below the positive one at -500 mm "
                   "(parameter 100006)"));
 }
@@ -109,7 +109,7 @@ TEST(MachineCheck, NamesTheLineOfTheParameterAndAllFindings) {
 TEST(MachineCheck, NamesTheLineOfAnotherParameterWhereOneIsLeftAtItsDefault) {
   Copy copy("two-channel");
   copy.replace("parameters.yaml", "\"100007\": -400", "\"100007\": 10");
-  EXPECT_THAT(copy.findings(), ElementsAre(HasSubstr("parameters.yaml:12:11: error: parameter 100012 "
+  EXPECT_THAT(copy.findings(), ElementsAre(HasSubstr("parameters.yaml:14:11: error: parameter 100012 "
                                                      "(reference_coordinate): axis 0 (X1)")));
 }
 
@@ -211,7 +211,7 @@ TEST(MachineCheck, AGoodMachineMayStart) {
     FAIL();
   } catch (const std::runtime_error& e) {
     EXPECT_THAT(e.what(),
-                testing::ContainsRegex("tools.yaml:1:1: error: [^\n]*\n[^\n]*parameters.yaml:6:11: error: "));
+                testing::ContainsRegex("tools.yaml:1:1: error: [^\n]*\n[^\n]*parameters.yaml:7:11: error: "));
   }
 }
 
