@@ -19,7 +19,7 @@ grep -q "^$work/m/parameters.yaml:3:11: error: parameter 040002 (channel_axis): 
 import json, sys
 report = json.load(open(sys.argv[1]))
 assert report["machine"] == "two-channel" and report["channels"] == 2, report
-assert [(f["line"], f["column"]) for f in report["findings"]] == [(3, 11), (6, 11), (12, 11)], report
+assert [(f["line"], f["column"]) for f in report["findings"]] == [(3, 11), (7, 11), (14, 11)], report
 END_PYTHON
 
 for command in "up $work/m --domain 79 --state $work/state" "run $work/m none --domain 79"; do
