@@ -48,6 +48,12 @@ ClusterView::ClusterView(bus::Bus& bus)
 void ClusterView::drain(double now) {
   idl::service::Announcement announcement;
   while (announcements_.take(announcement)) document_.apply(announcement);
+  // Before the alarms: the one that has ended a program comes before the state that shows its end.
+  idl::channel::ChannelState channel;
+  while (channel_states_.take(channel)) {
+    document_.apply(channel);
+    next_.channels[channel.channel] = channel;
+  }
   idl::service::Alarm alarm;
   while (alarms_.take(alarm)) {
     const auto time = service::time_of_day();
@@ -61,11 +67,6 @@ void ClusterView::drain(double now) {
   }
   idl::service::Cluster cluster;
   if (cluster_.take_newest(cluster)) document_.apply(cluster);
-  idl::channel::ChannelState channel;
-  while (channel_states_.take(channel)) {
-    document_.apply(channel);
-    next_.channels[channel.channel] = channel;
-  }
   idl::stream::FeedbackFrame frame;
   while (feedback_.take(frame)) {
     document_.apply(frame);
@@ -96,8 +97,10 @@ void ClusterView::drain(double now) {
   if (keep_newest(programs_, next_.programs)) document_.set_revision("programs", next_.programs->revision);
 }
 
-std::shared_ptr<const Snapshot> ClusterView::snapshot(double now, const bus::Json& operating) {
+std::shared_ptr<const Snapshot> ClusterView::snapshot(double now, const bus::Json& operating,
+                                                      bool with_replies) {
   ++next_.sequence;
+  if (with_replies) next_.replies = next_.sequence;
   next_.document = document_.document(now);
   next_.past_alarms = history_.newest();
   if (!operating.is_null()) next_.document["operating"] = operating;

@@ -18,7 +18,8 @@ class ClusterView {
   void drain(double now);
   /// Everything as it is now; peaks and the trace start afresh with it. `operating` is that of
   /// OperatingControl.
-  std::shared_ptr<const Snapshot> snapshot(double now, const bus::Json& operating = nullptr);
+  std::shared_ptr<const Snapshot> snapshot(double now, const bus::Json& operating = nullptr,
+                                           bool with_replies = false);
   AlarmHistory& alarm_history() { return history_; }
   std::uint64_t frames() const { return frames_; }
   /// Of the parameters, 0 = none yet.

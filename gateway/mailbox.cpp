@@ -15,6 +15,12 @@ Links::Links(bus::Bus& bus)
       alarm_resets(bus),
       journal(bus) {}
 
+bool Links::receive() {
+  const bool any[] = {channel.receive(), panel.receive(),  parameters.receive(),
+                      program.receive(), online.receive(), measurement.receive()};
+  return std::find(std::begin(any), std::end(any), true) != std::end(any);
+}
+
 void Links::pump(double now) {
   channel.pump(now);
   panel.pump(now);

@@ -49,6 +49,8 @@ class AlarmResets {
 /// The writing side of the bus. Only the bus thread touches it.
 struct Links {
   explicit Links(bus::Bus& bus);
+  /// True when replies have come that pump() is to pass on.
+  bool receive();
   void pump(double now);
   /// Seconds after which pump() is to be called at the latest; nothing when no request is under way.
   std::optional<double> period() const;

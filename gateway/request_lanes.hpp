@@ -49,17 +49,24 @@ class RequestLanes {
     send_due(now);
   }
 
-  void pump(double now) {
+  /// Takes replies in, for pump() to give them to those who asked; true when there are any.
+  bool receive() {
+    bool any = false;
     Reply reply;
     while (reader_.take(reply))
-      for (auto one = under_way_.begin(); one != under_way_.end(); ++one)
-        if (one->request.client == reply.client && one->request.number == reply.number) {
-          finish(one, reply);
+      for (auto& one : under_way_)
+        if (one.request.client == reply.client && one.request.number == reply.number) {
+          one.reply = std::move(reply);
+          any = true;
           break;
         }
+    return any;
+  }
+
+  void pump(double now) {
     for (auto one = under_way_.begin(); one != under_way_.end();) {
       const auto next = std::next(one);
-      if (now >= one->until) finish(one, std::nullopt);
+      if (one->reply || now >= one->until) finish(one);
       one = next;
     }
     send_due(now);
@@ -81,6 +88,7 @@ class RequestLanes {
     std::optional<Lane> lane;
     double due = 0, until = 0;  ///< to be sent (again), to be given up
     bool repeated = false;
+    std::optional<Reply> reply = {};
   };
   // What was never sent comes first: an order does not wait for the repetitions of others.
   void send_due(double now) {
@@ -95,11 +103,11 @@ class RequestLanes {
         ++burst_;
       }
   }
-  void finish(typename std::list<UnderWay>::iterator one, const std::optional<Reply>& reply) {
+  void finish(typename std::list<UnderWay>::iterator one) {
     if (one->lane) idle_.push_back(*one->lane);
     const auto over = std::move(*one);
     under_way_.erase(one);
-    over.done(over.request, reply);
+    over.done(over.request, over.reply);
   }
 
   bus::Writer<Request> writer_;

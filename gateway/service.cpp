@@ -55,8 +55,9 @@ service::Health GatewayService::health() const {
   return health;
 }
 
-void GatewayService::publish(double now) {
-  mailbox_.publish(view_.snapshot(now, api_->operating().document()));
+void GatewayService::publish(double now, bool with_replies) {
+  mailbox_.publish(view_.snapshot(now, api_->operating().document(), with_replies));
+  server_->show();
   published_ = now;
 }
 
@@ -119,12 +120,15 @@ void GatewayService::keep_alarm_history(double now) {
 
 void GatewayService::pump() {
   const double now = service::monotonic_seconds();
+  // Who has a reply is not shown an older state: services write it before they reply.
+  const bool replies = links_.receive();
   view_.drain(now);
+  if (replies) publish(now, true);
   for (const auto& job : mailbox_.take()) job(links_, now);
   links_.pump(now);
   watch_certificate(now);
   keep_alarm_history(now);
-  if (now - published_ >= snapshot_period) publish(now);
+  if (now - published_ >= snapshot_period) publish(now, false);
 }
 
 }  // namespace trunnion::gateway

@@ -43,7 +43,7 @@ class GatewayService : public service::Service {
  private:
   /// Seconds between two snapshots.
   static constexpr double snapshot_period = 0.05;
-  void publish(double now);
+  void publish(double now, bool with_replies);
   /// Looks at the files of the certificate, and says by alarms what is wrong with them.
   void watch_certificate(double now);
   void begin_alarm_history(const std::string& file);

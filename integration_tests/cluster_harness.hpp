@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <exception>
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -176,7 +177,18 @@ class Cluster {
       report_progress();
       EXPECT_TRUE(until([&] { return progress_->matched() == static_cast<int>(channels.size()); }));
     }
-    client_->channel(channel, CommandKind::CYCLE_START);
+    // An alarm whose end this process has seen may still be on its way to the channel, which then refuses.
+    std::exception_ptr refused;
+    until([&] {
+      refused = nullptr;
+      try {
+        client_->channel(channel, CommandKind::CYCLE_START);
+      } catch (const std::exception&) {
+        refused = std::current_exception();
+      }
+      return refused == nullptr || !active_alarms().empty();
+    });
+    if (refused) std::rethrow_exception(refused);
     EXPECT_TRUE(newer_state(channel));
   }
   /// Waits for a state that was published after this call, and says whether it came: the first that arrives

@@ -66,7 +66,7 @@ refused "there is no such tool in tools.yaml" collision "$machine" --program "$w
 refused "expected the number of a tool, or LENGTH,DIAMETER in mm" collision "$machine" --program "$work/down.nc" --tool long
 refused 'expected axis words of the machine, as in "X10 A30"' collision "$machine" --picture "$work/p.svg" --pose "B30"
 refused "give --program FILE or --picture FILE" collision "$machine"
-printf 'G1 X10\n' > "$work/bad.nc"
+printf 'G1 X10 M13\n' > "$work/bad.nc"
 refused "bad.nc:1:" collision "$machine" --program "$work/bad.nc" --tool 1
 printf 'bodies: [{name: a, on: B, sphere: {diameter_mm: 1}}]\n' > "$machine/bodies.yaml"
 refused "bodies.yaml:1:24: error: 'B' is none of base, workpiece, spindle, tool" collision "$machine" --program "$work/down.nc"

@@ -16,6 +16,33 @@ for directory in "$examples/plc-ladder" "$examples/plc-pid" "$examples/plc-tool-
   ! grep -lq '^TEST' "$directory"/*.st || "$trunnion" plc test "$directory" > "$work/tests" || fail "$(cat "$work/tests")"
 done
 
+# The logic refuses every M code that the parameters do not list, and knows every one that they list.
+for directory in "$machines"/*/; do
+  rm -rf "$work/logic"
+  cp -rL "$directory/plc" "$work/logic"
+  for channel in $(sed -nE 's/^"04([0-9])000":.*/\1/p' "$directory/parameters.yaml"); do
+    # Beside M0, M1, M2 and M30, which are the control's.
+    listed=$(sed -nE "s/^\"04${channel}944\": (.*)/\1/p" "$directory/parameters.yaml" | tr ';' ' ' | xargs -n1 echo | sed 's/.*/ OR m = &/' | tr -d '\n')
+    [ -n "$listed" ] || fail "$directory: parameter 04${channel}944 lists no M function"
+    variable=unknown
+    [ "$channel" = 0 ] || variable=second_unknown
+    cat > "$work/logic/m_functions_$channel.st" <<END
+TEST 'the M functions of channel $channel'
+VAR m : INT; END_VAR
+m_strobe_$channel := TRUE;
+FOR m := 0 TO 999 DO
+  m_code_$channel := INT_TO_UINT(m);
+  main();
+  ASSERT_EQ(main.$variable, NOT (m = 0 OR m = 1 OR m = 2 OR m = 30$listed));
+  ASSERT_TRUE(fin_failed_$channel OR NOT main.$variable);
+END_FOR;
+END_TEST
+END
+  done
+  "$trunnion" plc test "$work/logic" > "$work/tests" || fail "$directory: $(cat "$work/tests")"
+  grep -q 'passed  the M functions of channel' "$work/tests" || fail "$directory: the M functions were not tested"
+done
+
 cd "$work"
 cat > good.st <<'END'
 FUNCTION area : LREAL

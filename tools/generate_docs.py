@@ -180,8 +180,8 @@ def codes():
     out += ["", "## Calls", "", "Such a code is the only code of its block; see [macros.md](macros.md) for the arguments.", ""]
     out += table(("code", "meaning", "dialect", "since", "example"), [(code_name(a) + (f" .. {code_name(b)}" if b != a else ""), *rest) for a, b, *rest in c])
     out += ["", "## M codes", "", "*before* and *after*: the code acts before or after the motion of its block. A block may contain one M code of each group, and none "
-            "twice. Every other M code up to M999 goes to the PLC before the motion, except those of parameters 010170 to 010177, which call G1007 "
-            "to G1014.", ""]
+            "twice. Parameters 04c944 to 04c949 list the M codes that the machine's logic carries out, in groups likewise; any other one is alarm 1104. "
+            "Those that are not in this table go to the PLC before the motion, except those of parameters 010170 to 010177, which call G1007 to G1014.", ""]
     return out + table(("code", "acts", "group", "handled as", "meaning"), [(f"M{n}", when, "" if group == "none" else group, action, text) for n, when, action, group, text in m])
 
 

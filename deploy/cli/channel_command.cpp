@@ -34,26 +34,13 @@ struct ChannelOptions {
   bool take_over = false;
 };
 
-// Of the axes, in the order of their indices.
-std::string letters_of(cluster::Client& client, std::uint16_t channel) {
-  auto reader = client.bus().reader(topics::channel_state);
-  const double until = service::monotonic_seconds() + 30;
-  idl::channel::ChannelState newest;
-  while (service::monotonic_seconds() < until) {
-    while (reader.take(newest))
-      if (newest.channel == channel) return newest.letters;
-    std::this_thread::sleep_for(std::chrono::milliseconds(2));
-  }
-  throw std::runtime_error("channel " + std::to_string(channel) + " is not there");
-}
-
 idl::channel::ChannelRequest request_of(cluster::Client& client, const ChannelOptions& options) {
   if (options.word == "start" && options.from_line != 0)
     return {.channel = options.channel, .command = CommandKind::START_FROM_LINE, .line = options.from_line};
   const auto* command = commands::find_word(options.word);
   if (command == nullptr) throw std::runtime_error("no such command: " + options.word);
   const bool axes = commands::names_axes(*command) && !options.arguments.empty();
-  const auto letters = axes ? letters_of(client, options.channel) : "";
+  const auto letters = axes ? client.newest(topics::channel_state, options.channel).letters : "";
   auto request = commands::request_of(*command, options.arguments, letters);
   request.channel = options.channel;
   if (request.command == CommandKind::SELECT_PROGRAM)
@@ -64,7 +51,7 @@ idl::channel::ChannelRequest request_of(cluster::Client& client, const ChannelOp
 
 // The search for the line is over when the channel is held, or idle again because it failed.
 std::string await_line(cluster::Client& client, std::uint16_t channel) {
-  auto states = client.bus().reader(topics::channel_state);
+  auto states = client.reader_from_now(topics::channel_state);
   auto alarms = client.bus().reader(topics::alarm);
   const double until = service::monotonic_seconds() + 60;
   std::string alarm;

@@ -15,6 +15,7 @@
 #include "machine/alarm_constants.hpp"
 #include "machine/gateway_settings.hpp"
 #include "machine/service_constants.hpp"
+#include "machine_check/machine_check.hpp"
 #include "stream/replica_watch.hpp"
 #include "stream/stage_names.hpp"
 
@@ -33,11 +34,19 @@ CLI::App* add_command(CLI::App& app, Common& common, const std::string& name, co
 
 namespace {
 
+// Where start_cluster() will look for what is saved.
+std::string state_directory_of(const cluster::UpOptions& options, const std::string& machine) {
+  if (!options.state_directory.empty()) return options.state_directory;
+  return cluster::default_state_directory(machine::load_machine(machine).name);
+}
+
 int up(const Common& common, cluster::UpOptions options, const std::string& time) {
   if (common.domain && options.own_domain)
     throw std::runtime_error("--domain and --free-domain exclude each other: give one of them");
   options.domain = common.domain;
   if (!time.empty()) options.virtual_time = time == "virtual";
+  const auto directory = cluster::find_machine(options.machine);
+  machine_check::require_good(directory, state_directory_of(options, directory));
   const auto cluster = cluster::start_cluster(options);
   if (options.foreground) return 0;
   if (common.json) {

@@ -55,6 +55,7 @@ void add_user_command(CLI::App& app, Common& common);          // user
 void add_certificate_command(CLI::App& app, Common& common);   // certificate
 void add_new_command(CLI::App& app, Common& common);           // new service
 void add_completion_command(CLI::App& app, Common& common);    // completion
+void add_check_machine_command(CLI::App& app, Common& common);
 
 /// `trunnion check` of a file for a machine by name or directory with the tables that are `active` on it; 1
 /// when the program has an error. `fetch` is called before the first subprogram is looked for: it writes

@@ -68,7 +68,7 @@ int show_gantry(const GantryOptions& o, const Common& common) {
   cluster::Client client(cluster.running().run.domain);
   const auto p = machine::parameters_of(client.newest(topics::parameter_set));
   const auto axes = machine::drive_axes(p);
-  const auto feedback = client.present(topics::feedback_frame);
+  const auto feedback = client.newest(topics::feedback_frame);
   bus::Json out = {{"machine", cluster.running().machine}, {"gantries", bus::Json::array()}};
   idl::parameters::ParameterRequest request;
   request.operation = idl::parameters::Operation::IMPORT;

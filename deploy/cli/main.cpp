@@ -28,6 +28,7 @@ int main(int argc, char** argv) {
   add_gantry_command(app, common);
   add_calibrate_command(app, common);
   add_check_command(app, common);
+  add_check_machine_command(app, common);
   add_collision_command(app, common);
   add_plan_command(app, common);
   add_plc_command(app, common);

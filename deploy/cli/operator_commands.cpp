@@ -22,37 +22,43 @@ namespace {
 using idl::channel::Mode;
 using idl::channel::RunState;
 
-// Waits until the channel is idle again or was stopped by an alarm, and its axes have settled; an alarm of
-// the channel on the way is the reason of the failure.
-void wait_until_idle(cluster::Client& client, std::uint16_t channel, double timeout) {
-  auto reader = client.bus().reader(topics::channel_state);
+// Carries the line out and gives the state in which the axes have settled; an alarm of the channel on the way
+// is the reason of the failure.
+idl::channel::ChannelState run_line(cluster::Client& client, std::uint16_t channel, const std::string& text,
+                                    double timeout) {
   auto alarms = client.bus().reader(topics::alarm);
+  client.set_mode(channel, Mode::MDI);
+  client.mdi(channel, text);
+  auto reader = client.reader_from_now(topics::channel_state);
   const double until = service::monotonic_seconds() + timeout;
   std::string alarm;
-  int ended = 0;  // states in a row
-  bool interrupted = false;
-  std::vector<double> before;
-  constexpr double settled = 1e-4;  // mm or deg between two states
+  std::optional<std::vector<double>> before;  // at the end of the line
+  constexpr double settled = 1e-4;            // mm or deg between two states
   while (service::monotonic_seconds() < until) {
+    std::optional<idl::channel::ChannelState> end;
+    idl::channel::ChannelState state;
+    while (!end && reader.take(state)) {
+      if (state.channel != channel) continue;
+      if (state.state != RunState::INTERRUPTED && state.state != RunState::IDLE) {
+        before.reset();
+        continue;
+      }
+      const bool stands =
+          before && std::equal(before->begin(), before->end(), state.machine.begin(), state.machine.end(),
+                               [](double p, double q) { return std::abs(p - q) < settled; });
+      before = state.machine;
+      if (stands) end = state;
+    }
+    // After the states: the alarm that has ended the line comes before the state that shows its end.
     idl::service::Alarm a;
     while (alarms.take(a))
-      if (a.active && a.source == machine::service::channel.name && a.part == channel)
+      if (a.active && a.severity >= idl::service::Severity::ERROR &&
+          a.source == machine::service::channel.name && a.part == channel)
         alarm = std::to_string(a.number) + ": " + a.text;
-    idl::channel::ChannelState state;
-    while (reader.take(state)) {
-      if (state.channel != channel) continue;
-      const bool stands = std::equal(before.begin(), before.end(), state.machine.begin(), state.machine.end(),
-                                     [](double p, double q) { return std::abs(p - q) < settled; });
-      interrupted = state.state == RunState::INTERRUPTED;
-      ended = (interrupted || state.state == RunState::IDLE) && stands ? ended + 1 : 0;
-      before = state.machine;
-    }
-    if (ended >= 3) {
-      if (!alarm.empty()) throw std::runtime_error("alarm " + alarm);
-      if (interrupted)
-        throw std::runtime_error("the line was interrupted: see 'trunnion alarms', then reset");
-      return;
-    }
+    if (end && !alarm.empty()) throw std::runtime_error("alarm " + alarm);
+    if (end && end->state == RunState::INTERRUPTED)
+      throw std::runtime_error("the line was interrupted: see 'trunnion alarms', then reset");
+    if (end) return *std::move(end);
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   }
   throw std::runtime_error("the line did not finish within " + std::to_string(static_cast<int>(timeout)) +
@@ -70,10 +76,7 @@ int mdi(const Common& common, const Line& line) {
   const auto cluster = cluster::find_cluster(common.domain);
   const cluster::OperatingStation station(cluster.run.domain, line.take_over);
   cluster::Client client(cluster.run.domain);
-  client.set_mode(line.channel, Mode::MDI);
-  client.mdi(line.channel, line.text);
-  wait_until_idle(client, line.channel, line.timeout);
-  const auto state = client.newest(topics::channel_state);
+  const auto state = run_line(client, line.channel, line.text, line.timeout);
   if (common.json) {
     std::cout << bus::text_of(bus::to_json(state)) << "\n";
     return 0;

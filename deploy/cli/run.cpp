@@ -20,10 +20,12 @@
 #include "machine/alarm_constants.hpp"
 #include "machine/parameter_constants.hpp"
 #include "machine/stream_settings.hpp"
+#include "machine_check/machine_check.hpp"
 #include "parameter_request.hpp"
 #include "recording/file_stream.hpp"
 #include "report/capture.hpp"
 #include "service/network.hpp"
+#include "stored_program.hpp"
 #include "true_machine.hpp"
 
 namespace trunnion::cli {
@@ -120,25 +122,12 @@ std::string read_file(const std::string& path) {
 // A file is uploaded; another name must be in the store.
 std::string place_program(cluster::Client& client, const machine::MachineConfig& machine,
                           const std::string& program) {
-  const auto list = client.newest(topics::program_list);
-  const auto stored = [&](const std::string& name) {
-    return std::any_of(list.programs.begin(), list.programs.end(),
-                       [&](const auto& p) { return p.name == name; });
-  };
   if (fs::is_regular_file(program)) {
     const auto name = fs::path(program).filename().string();
     client.upload(name, read_file(program));
-    for (int i = 0; i < 500; ++i) {  // until the store has published it
-      const auto now = client.newest(topics::program_list);
-      if (std::any_of(now.programs.begin(), now.programs.end(),
-                      [&](const auto& p) { return p.name == name; }))
-        break;
-      std::this_thread::sleep_for(std::chrono::milliseconds(5));
-    }
     return name;
   }
-  for (const auto& name : {program, program + ".nc"})
-    if (stored(name)) return name;
+  if (const auto stored = find_program(client.newest(topics::program_list), program)) return stored->name;
   throw std::runtime_error("program '" + program + "': no such file, and machine " + machine.name +
                            " has none of this name");
 }
@@ -183,16 +172,16 @@ void draw_progress(const std::vector<idl::channel::ChannelState>& states, double
 // Searches the line; the cycle start that follows goes on from there. The program may as well have an alarm.
 void search_line(cluster::Client& client, std::uint32_t line) {
   client.start_from_line(0, line);
-  auto states = client.bus().reader(topics::channel_state);
+  auto states = client.reader_from_now(topics::channel_state);
   const double until = service::monotonic_seconds() + 60;
-  int idle = 0;
-  while (service::monotonic_seconds() < until && idle < 4) {
+  bool failed = false;
+  while (service::monotonic_seconds() < until && !failed) {
     stop_when_interrupted();
     idl::channel::ChannelState state;
     while (states.take(state)) {
       if (state.channel != 0) continue;
       if (state.state == RunState::HELD) return;
-      idle = state.state == RunState::IDLE ? idle + 1 : 0;
+      failed = state.state == RunState::IDLE;
     }
     client.bus().signal().wait(0.02);
   }
@@ -213,16 +202,11 @@ Execution execute(cluster::Client& client, std::size_t channels, const RunOption
     for (std::uint16_t c = 0; c < channels; ++c)
       client.channel({.channel = c, .command = CommandKind::DRY_RUN, .on = true});
   if (options.from_line != 0) search_line(client, options.from_line);
-  auto states = client.bus().reader(topics::channel_state);
   auto alarms = client.bus().reader(topics::alarm);
   std::vector<idl::channel::ChannelState> newest(channels);
-  std::vector<bool> known(channels), ran(channels), done(channels);
-  for (int i = 0; i < 100 && std::find(known.begin(), known.end(), false) != known.end(); ++i) {
-    client.bus().signal().wait(0.05);
-    for (idl::channel::ChannelState state; states.take(state);)
-      if (state.channel < channels) newest[state.channel] = state, known[state.channel] = true;
-  }
+  std::vector<bool> done(channels);
   for (std::uint16_t c = 0; c < channels; ++c) client.channel(c, CommandKind::CYCLE_START);
+  auto states = client.reader_from_now(topics::channel_state);
   const double began = service::monotonic_seconds();
   double drawn = 0;
   Execution result;
@@ -233,12 +217,8 @@ Execution execute(cluster::Client& client, std::size_t channels, const RunOption
     idl::channel::ChannelState state;
     while (states.take(state)) {
       if (state.channel >= channels) continue;
-      const auto c = state.channel;
-      if (state.state != RunState::IDLE) ran[c] = true;
-      // A short program may be over between two states: then its cycles tell that it ran.
-      done[c] = state.state == RunState::IDLE &&
-                (ran[c] || state.cycle > newest[c].cycle || service::monotonic_seconds() - began > 1);
-      newest[c] = state;
+      done[state.channel] = state.state == RunState::IDLE;
+      newest[state.channel] = state;
     }
     idl::service::Alarm a;
     while (alarms.take(a)) {
@@ -319,6 +299,7 @@ cluster::UpOptions up_options(const std::string& directory, const RunOptions& op
 
 // Its cluster is stopped with the guard.
 ClusterGuard start_for(const std::string& directory, const RunOptions& options) {
+  machine_check::require_good(directory);
   watch_interrupts();
   ClusterGuard cluster(cluster::start_cluster(up_options(directory, options)));
   stop_when_interrupted();
@@ -428,14 +409,14 @@ RecordingCost measure_recording(const RunOptions& options, int rounds) {
     const bool record = (round % 2 == 1) != (round / 2 % 2 == 1);
     std::optional<Recorder> recorder;
     if (record) recorder.emplace(options.recording, cluster.get());
-    const auto before = client.newest(topics::channel_state).cycle;
+    const auto before = client.newest(topics::channel_state, 0).cycle;
     const double began = service::monotonic_seconds();
     if (const auto alarm = execute(client, 1, options, false).alarm; !alarm.empty())
       throw std::runtime_error(alarm);
     const double seconds = service::monotonic_seconds() - began;
     recorder.reset();
     fs::remove(options.recording);
-    const auto cycles = static_cast<double>(client.newest(topics::channel_state).cycle - before);
+    const auto cycles = static_cast<double>(client.newest(topics::channel_state, 0).cycle - before);
     (record ? cost.with : cost.without).push_back(cycles / seconds);
   }
   return cost;

@@ -11,6 +11,7 @@
 #include "figures.hpp"
 #include "machine/axes.hpp"
 #include "machine/parameter_constants.hpp"
+#include "stored_program.hpp"
 
 namespace trunnion::cli {
 
@@ -57,8 +58,6 @@ ServoSession::ServoSession(const std::string& machine, std::optional<std::uint32
   auto& bus = client_->bus();
   samples_ = std::make_unique<bus::Reader<idl::servo::TestSamples>>(bus.reader(topics::servo_test_samples));
   requests_ = std::make_unique<bus::Writer<idl::servo::TestRequest>>(bus.writer(topics::servo_test_request));
-  states_ = std::make_unique<bus::Reader<idl::channel::ChannelState>>(bus.reader(topics::channel_state));
-  programs_ = std::make_unique<bus::Reader<idl::program::ProgramList>>(bus.reader(topics::program_list));
   alarms_ = std::make_unique<bus::Reader<idl::service::Alarm>>(bus.reader(topics::alarm));
   parameters_ = machine::parameters_of(client_->newest(topics::parameter_set));
   before_ = state();
@@ -89,18 +88,7 @@ ServoSession::~ServoSession() {
   }
 }
 
-idl::channel::ChannelState ServoSession::state() {
-  const double until = service::monotonic_seconds() + servo_answer_time;
-  idl::channel::ChannelState found;
-  while (service::monotonic_seconds() < until) {
-    bool any = false;
-    for (idl::channel::ChannelState s; states_->take(s);)
-      if (s.channel == channel_) found = s, any = true;
-    if (any) return found;
-    pause();
-  }
-  throw std::runtime_error("channel " + std::to_string(channel_) + " does not publish its state");
-}
+idl::channel::ChannelState ServoSession::state() { return client_->newest(topics::channel_state, channel_); }
 
 void ServoSession::take_axes() {
   for (std::size_t i = 0; i < before_.axes.size(); ++i) {
@@ -109,8 +97,9 @@ void ServoSession::take_axes() {
     a.number = before_.axes[i];
     a.turns = parameters_.integer(parameter::axis_type, a.number) != machine::axis_type_linear;
     a.place = before_.machine[i];
-    a.low = parameters_.get(parameter::negative_limit, a.number);
-    a.high = parameters_.get(parameter::positive_limit, a.number);
+    const auto travel = machine::travel_of(parameters_, a.number);
+    a.low = travel.negative;
+    a.high = travel.positive;
     a.highest_feed = parameters_.get(parameter::maximum_feed, a.number);
     a.acceleration = parameters_.get(parameter::maximum_acceleration, a.number);
     axes_.push_back(a);
@@ -160,21 +149,13 @@ void ServoSession::start_program(const std::string& program) {
   program_.clear();
   uploaded_ = true;
   client_->upload(servo_program, program);
+  const auto stored = find_program(client_->newest(topics::program_list), servo_program);
   // The list with the new program may reach the channel after the store's answer has reached us.
   const double until = service::monotonic_seconds() + servo_answer_time;
-  // One reader for the whole session: a new one would have to be discovered for each motion.
-  const auto stored = [&] {
-    for (idl::program::ProgramList list; programs_->take(list);)
-      for (const auto& p : list.programs)
-        if (p.name == servo_program) program_revision_ = p.revision;
-    return program_revision_;
-  };
-  const std::uint64_t before = program_revision_;
-  while (stored() == before && service::monotonic_seconds() < until) pause();
   for (;;) {
     try {
       client_->select_program(channel_, servo_program);
-      if (state().program_revision >= stored()) break;
+      if (stored && state().program_revision >= stored->revision) break;
     } catch (const std::exception&) {
       if (service::monotonic_seconds() > until) throw;
     }
@@ -187,20 +168,18 @@ void ServoSession::start_program(const std::string& program) {
 
 // Reads samples meanwhile, so that none is lost.
 void ServoSession::await_end(SessionResult* result) {
-  const auto started = state();
   moving_ = true;
   client_->channel(channel_, CommandKind::CYCLE_START);
+  auto states = client_->reader_from_now(topics::channel_state);
   const double until = service::monotonic_seconds() + longest_motion;
-  bool ran = false;
   while (service::monotonic_seconds() < until) {
     check();
     if (result != nullptr) take_samples(*result);
-    for (idl::channel::ChannelState s; states_->take(s);) {
+    for (idl::channel::ChannelState s; states.take(s);) {
       if (s.channel != channel_) continue;
-      ran = ran || s.state != RunState::IDLE || s.cycle > started.cycle;
       if (s.state == RunState::HELD || s.state == RunState::INTERRUPTED)
         throw std::runtime_error("the motion of the test was held or interrupted");
-      if (ran && s.state == RunState::IDLE) {
+      if (s.state == RunState::IDLE) {
         moving_ = false;
         return;
       }

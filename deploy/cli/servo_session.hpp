@@ -85,11 +85,8 @@ class ServoSession {
   std::unique_ptr<cluster::Client> client_;
   std::unique_ptr<bus::Writer<idl::servo::TestRequest>> requests_;
   std::unique_ptr<bus::Reader<idl::servo::TestSamples>> samples_;
-  std::unique_ptr<bus::Reader<idl::channel::ChannelState>> states_;
   std::unique_ptr<bus::Reader<idl::service::Alarm>> alarms_;
-  std::unique_ptr<bus::Reader<idl::program::ProgramList>> programs_;
-  std::string program_;                 // the text that is selected
-  std::uint64_t program_revision_ = 0;  // of the test's program in the store
+  std::string program_;  // the text that is selected
   std::uint16_t channel_;
   std::uint64_t client_id_, number_ = 0, expected_ = 0;
   idl::servo::TestRequest request_;

@@ -32,7 +32,7 @@ using verification::SuiteResult;
 using verification::SuiteTest;
 using verification::VerifiedProcess;
 
-struct TestOptions {
+struct SuiteOptions {
   std::string suite, junit, html;
   unsigned jobs = std::max(1u, std::thread::hardware_concurrency());
 };
@@ -119,7 +119,7 @@ class Runner {
   bool quiet_;
 };
 
-int run_suite(const Common& common, const TestOptions& options) {
+int run_suite(const Common& common, const SuiteOptions& options) {
   const auto suite = verification::parse_suite(machine::read_text(options.suite), options.suite);
   const auto title = suite.title.empty() ? fs::path(options.suite).filename().string() : suite.title;
   const auto results =
@@ -146,7 +146,7 @@ int run_suite(const Common& common, const TestOptions& options) {
 }  // namespace
 
 void add_test_command(CLI::App& app, Common& common) {
-  auto options = std::make_shared<TestOptions>();
+  auto options = std::make_shared<SuiteOptions>();
   auto* command =
       add_command(app, common, "test",
                   "Verify the services of a list of recordings (docs/recordings.md); status 0: all are equal",

@@ -58,19 +58,10 @@ std::string other_contract(const std::string& executable, const std::string& sai
 }
 
 void require_rest(cluster::Client& client, const machine::MachineConfig& config) {
-  auto states = client.bus().reader(topics::channel_state);
-  std::map<std::uint16_t, idl::channel::ChannelState> newest;
-  const double until = service::monotonic_seconds() + 2;
-  idl::channel::ChannelState state;
-  while (newest.size() < config.channels && service::monotonic_seconds() < until) {
-    while (states.take(state)) newest[state.channel] = state;
-    client.bus().signal().wait(0.02);
-  }
-  if (newest.size() < config.channels)
-    throw std::runtime_error("not every channel of the machine says whether it moves: see 'trunnion status'");
-  for (const auto& [channel, now] : newest)
-    if (now.state != idl::channel::RunState::IDLE)
-      throw std::runtime_error("channel " + std::to_string(channel) + " is " + bus::to_string(now.state) +
+  for (std::uint16_t channel = 0; channel < config.channels; ++channel)
+    if (const auto now = client.newest(topics::channel_state, channel).state;
+        now != idl::channel::RunState::IDLE)
+      throw std::runtime_error("channel " + std::to_string(channel) + " is " + bus::to_string(now) +
                                ": upgrade a machine at rest, with no program started");
 }
 

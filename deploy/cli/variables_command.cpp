@@ -24,16 +24,7 @@ struct VariablesOptions {
 
 idl::channel::Variables newest_variables(const Common& common, std::uint16_t channel) {
   cluster::Client client(cluster::find_cluster(common.domain).network);
-  auto reader = client.bus().reader(topics::variables);
-  idl::channel::Variables variables;
-  const double until = service::monotonic_seconds() + 5;
-  while (service::monotonic_seconds() < until) {
-    while (reader.take(variables))
-      if (variables.channel == channel) return variables;
-    client.bus().signal().wait(0.05);
-  }
-  throw std::runtime_error("channel " + std::to_string(channel) +
-                           " has not published its variables within 5 s");
+  return client.newest(topics::variables, channel);
 }
 
 namespace {

@@ -110,6 +110,10 @@ HttpServer::~HttpServer() { stop(); }
 
 void HttpServer::stop() { inside_->stop(); }
 
+void HttpServer::show() {
+  net::post(inside_->context, [inside = inside_.get()] { inside->hub.show(); });
+}
+
 std::size_t HttpServer::clients() const { return inside_->hub.size(); }
 
 }  // namespace trunnion::gateway

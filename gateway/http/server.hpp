@@ -22,6 +22,8 @@ class HttpServer {
   /// Ends the thread; nothing is answered afterwards. Answers may still be handed to sessions until it is
   /// destroyed.
   void stop();
+  /// From any thread: the mailbox has a new snapshot for the streams.
+  void show();
   /// WebSocket clients now.
   std::size_t clients() const;
 

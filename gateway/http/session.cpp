@@ -250,6 +250,8 @@ void HttpSession::send(Answer made) {
   }
   response_ = {static_cast<http::status>(made.status), http_version};
   set_fields(response_, made);
+  if (const auto shown = api_.mailbox().newest())
+    response_.set("X-State-Sequence", std::to_string(shown->replies));
   response_.keep_alive(keep_alive_);
   response_.body() = std::move(made.body);
   response_.prepare_payload();

@@ -19,7 +19,7 @@ namespace beast = boost::beast;
 namespace websocket = beast::websocket;
 using std::chrono::milliseconds;
 
-constexpr milliseconds period{50}, heartbeat_period{250};
+constexpr milliseconds heartbeat_period{250};
 constexpr std::size_t most_answers = 16;
 constexpr std::size_t most_streams = 128, most_of_a_peer = 64;
 
@@ -30,19 +30,16 @@ std::shared_ptr<const std::string> text(const bus::Json& json) {
 }  // namespace
 
 void StreamHub::start() {
-  timer_.expires_after(period);
+  timer_.expires_after(std::chrono::seconds(1));
   timer_.async_wait([this](const boost::system::error_code& error) {
     if (error) return;
-    tick();
-    if (++ticks_ % (1000 / period.count()) == 0) {
-      const auto all = viewers_;
-      for (const auto& viewer : all) viewer->each_second();
-    }
+    const auto all = viewers_;
+    for (const auto& viewer : all) viewer->each_second();
     start();
   });
 }
 
-void StreamHub::tick() {
+void StreamHub::show() {
   auto snapshot = mailbox_.newest();
   if (!snapshot || snapshot == newest_) return;
   newest_ = std::move(snapshot);
@@ -52,7 +49,7 @@ void StreamHub::tick() {
 }
 
 void StreamHub::join(const std::shared_ptr<Viewer>& viewer) {
-  tick();  // a new client begins with what is known now
+  show();  // a new client begins with what is known now
   viewers_.insert(viewer);
   count_ = viewers_.size();
 }
@@ -84,7 +81,8 @@ std::shared_ptr<const std::string> StreamHub::message(const std::shared_ptr<cons
       cached = text({{"sequence", newest_->sequence}, {"state", newest_->document}});
     }
   }
-  if (cached->empty() && heartbeat)
+  // Who waits until an answer shows hears of it at once, also when it has changed nothing.
+  if (cached->empty() && (heartbeat || since < newest_->replies))
     return text({{"sequence", newest_->sequence}, {"since", since}, {"changes", bus::Json::object()}});
   return cached;
 }

@@ -20,11 +20,13 @@
 
 namespace trunnion::gateway {
 
-/// Looks at the mailbox 20 times a second and hands what is new to every client that is ready for it.
+/// Hands what is new in the mailbox to every client that is ready for it.
 class StreamHub {
  public:
   StreamHub(boost::asio::io_context& context, Mailbox& mailbox) : timer_(context), mailbox_(mailbox) {}
   void start();
+  /// There is something new; each snapshot has its own peaks and its own part of the trace.
+  void show();
   void join(const std::shared_ptr<Viewer>& viewer);
   void leave(const std::shared_ptr<Viewer>& viewer);
   /// Why `peer` gets no stream: one line. Empty when it gets one.
@@ -36,14 +38,12 @@ class StreamHub {
   std::shared_ptr<const std::string> message(const std::shared_ptr<const Snapshot>& from, bool heartbeat);
 
  private:
-  void tick();
   boost::asio::steady_timer timer_;
   Mailbox& mailbox_;
   std::shared_ptr<const Snapshot> newest_;
   std::map<std::uint64_t, std::shared_ptr<const std::string>> cache_;  ///< by the sequence it starts from
   std::set<std::shared_ptr<Viewer>> viewers_;
   std::atomic<std::size_t> count_{0};
-  int ticks_ = 0;
 };
 
 class StreamSession : public Viewer, public std::enable_shared_from_this<StreamSession> {

@@ -116,7 +116,7 @@ Json check_program(language::TextSource& text, channel_setup::ChannelSetup& mach
   // Too large for the stack of a small thread.
   const auto interpreter = std::make_unique<language::Interpreter>(machine, options);
   AxisValues from = machine.reference_position();
-  interpreter->start(text, from, {});
+  interpreter->start(text, from, machine.power_on());
   Path path(machine);
   Json answer = {{"complete", true}};
   std::uint64_t moved = 0;

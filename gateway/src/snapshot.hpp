@@ -14,6 +14,7 @@ namespace trunnion::gateway {
 
 struct Snapshot {
   std::uint64_t sequence = 0;
+  std::uint64_t replies = 0;  ///< sequence from which on what follows from the replies is shown
   bus::Json document = bus::Json::object();  ///< of StateDocument
   std::map<std::uint16_t, idl::channel::ChannelState> channels;
   std::shared_ptr<const idl::parameters::ParameterSet> parameters;

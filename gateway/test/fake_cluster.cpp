@@ -236,7 +236,10 @@ void FakeCluster::answer_channel() {
   idl::channel::ChannelRequest request;
   while (channel_server_.take(request)) {
     channel_requests.push_back(request);
-    if (!channel_is_silent) channel_server_.reply(request, apply(request));
+    if (channel_is_silent) continue;
+    const auto reply = apply(request);
+    channel_state_.write(channel);
+    channel_server_.reply(request, reply);
   }
 }
 

@@ -54,6 +54,21 @@ TEST_F(Gateway, AnOrderReachesTheChannelOnceAndIsAnswered) {
   cluster([](auto& c) { EXPECT_EQ(c.channel.feed_override, 0.5); });
 }
 
+TEST_F(Gateway, WhoHasAnAnswerIsShownNoOlderState) {
+  http_client::WebSocketClient stream(port_, "/api/stream");
+  ASSERT_TRUE(stream.open());
+  for (int i = 1; i <= 30; ++i) {
+    const auto answer = post("/api/channels/0/dry-run", {{"on", i % 2 == 1}});
+    EXPECT_EQ(json::parse(get("/api/channels/0").body)["dry_run"], i % 2 == 1) << i;
+    const auto shown = std::stoull(answer.headers.at("x-state-sequence"));
+    EXPECT_TRUE(eventually([&] {
+      return json::parse(stream.next(60).value_or("{}")).value("sequence", 0u) >= shown;
+    })) << i;
+    http_client::request(port_, "PUT", "/api/parameters/100034", json{{"value", 1000 + i}}.dump());
+    EXPECT_EQ(json::parse(get("/api/parameters/100034").body)["value"], 1000 + i);
+  }
+}
+
 TEST_F(Gateway, ARefusalIsAnsweredWithAlarmAndReason) {
   const auto answer = post("/api/channels/0/mdi", {{"line", "?? X1"}});
   EXPECT_EQ(answer.status, 409);

@@ -61,7 +61,7 @@ bool check_program(language::TextSource& text, language::Environment& environmen
   // Too large for the stack of a small thread.
   const auto interpreter = std::make_unique<language::Interpreter>(environment, interpreting);
   const auto lines = std::make_unique<JsonLines>(out, environment.axes());
-  interpreter->start(text, start, {});
+  interpreter->start(text, start, environment.power_on());
   MotionTracker tracker(environment, *interpreter, start);
   Summary summary(environment.axes());
   language::Command command;

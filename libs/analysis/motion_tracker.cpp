@@ -21,14 +21,23 @@ constexpr bool is_rotary(std::size_t axis) {
   return axis == language::A || axis == language::B || axis == language::C;
 }
 
-double straight_length(const AxisValues& from, const AxisValues& to) {
-  double linear = 0;
-  double rotary = 0;
+double rotary_length(const AxisValues& from, const AxisValues& to) {
+  return std::hypot(to[language::A] - from[language::A], to[language::B] - from[language::B],
+                    to[language::C] - from[language::C]);
+}
+
+double linear_length(const AxisValues& from, const AxisValues& to) {
+  double square = 0;
   for (std::size_t axis = 0; axis < language::axis_count; ++axis) {
-    const double way = to[axis] - from[axis];
-    (is_rotary(axis) ? rotary : linear) += way * way;
+    const double way = is_rotary(axis) ? 0 : to[axis] - from[axis];
+    square += way * way;
   }
-  return std::sqrt(linear > no_distance * no_distance ? linear : rotary);
+  return std::sqrt(square);
+}
+
+double straight_length(const AxisValues& from, const AxisValues& to) {
+  const double linear = linear_length(from, to);
+  return linear > no_distance ? linear : rotary_length(from, to);
 }
 
 double arc_length(const AxisValues& from, const AxisValues& to, const language::Arc& arc) {
@@ -113,7 +122,15 @@ std::optional<Motion> MotionTracker::follow(const Command& command) {
   } else {
     motion.length = straight_length(target_, command.target);
   }
+  // Without a linear axis the length is that of the rotary ones already.
+  const bool both =
+      command.modal.transformation == language::Transformation::none &&
+      (command.kind == CommandKind::arc || linear_length(target_, command.target) > no_distance);
+  motion.combined = both ? std::hypot(motion.length, rotary_length(target_, command.target)) : motion.length;
   motion.feed = feed_of(command, motion.length);
+  const bool combines = environment_.combined_feed() && command.kind != CommandKind::tap &&
+                        command.modal.feed_mode != language::FeedMode::inverse_time;
+  motion.counted = combines ? motion.combined : motion.length;
   target_ = command.target;
   machine_ = motion.mcs;
   if (motion.length <= no_distance) return std::nullopt;

@@ -17,6 +17,8 @@ struct Motion {
   language::AxisValues mcs{};   ///< of its end, likewise
   language::AxisValues wcs{};   ///< of its end in the workpiece: without offsets and tool length
   double length = 0;  ///< mm of the linear axes in the frame of the command; degrees when none of them moves
+  double combined = 0;  ///< root of the sum of squares of mm and degrees; with tool tip control the length
+  double counted = 0;   ///< which of the two `feed` counts: parameter 04c919
   std::optional<double> feed;  ///< mm/min (degrees/min), not of a rapid nor when it cannot be known
   language::Arc arc{};         ///< of kind arc, its centre in machine coordinates
   std::uint32_t turns = 0;     ///< of kind arc: begun turns

@@ -86,8 +86,9 @@ void CommandBound::add(const Command& command, double step) {
   const double length = segment.length();
   if (!(length > 1e-6)) return;
   const bool inverse = command.modal.feed_mode == language::FeedMode::inverse_time;
-  const double feed =
-      command.kind == CommandKind::rapid ? 1e9 : command.modal.feed / 60 * (inverse ? length : 1);
+  const bool combined = machine_.limits.combined_feed && active_ == nullptr;
+  const double scale = inverse ? length : combined ? segment.combined_feed_scale() : segment.feed_scale();
+  const double feed = command.kind == CommandKind::rapid ? 1e9 : command.modal.feed / 60 * scale;
   bound_.slow(feed);
   const int parts = std::max(1, static_cast<int>(std::ceil(length / step - 1e-6)));
   for (int k = 1; k <= parts; ++k)

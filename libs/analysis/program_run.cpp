@@ -56,7 +56,7 @@ class Runner {
 
   ProgramResult run(language::TextSource& text) {
     trajectory_.start(frame_.start, frame_.transformation, 0);
-    flow_.start(trajectory_, text, frame_.start, {}, variables_);
+    flow_.start(trajectory_, text, frame_.start, machine_.power_on(), variables_);
     do {
       flow_.set_cycle(result_.cycles);
       // Axes that follow without delay are in position in the first cycle whose feedback can be known.

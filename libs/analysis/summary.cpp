@@ -26,13 +26,25 @@ void Summary::add(const Motion& motion) {
   } else {
     ++(motion.kind == CommandKind::arc ? arcs_ : lines_);
     feed_length_ += motion.length;
-    if (motion.feed && *motion.feed > 0) feed_minutes_ += motion.length / *motion.feed;
+    if (motion.feed && *motion.feed > 0) {
+      feed_minutes_ += motion.counted / *motion.feed;
+      mixed_.add(motion);
+    }
   }
   if (!moved_) lowest_ = highest_ = motion.from;
   moved_ = true;
   extend(motion.from);
   extend(motion.mcs);
   if (motion.kind == CommandKind::arc) extend_over_arc(motion);
+}
+
+// Where the two ways to count F differ by no more than this nobody notices.
+void Summary::MixedMoves::add(const Motion& motion) {
+  constexpr double noticed = 2;
+  if (!(motion.combined > noticed * motion.length)) return;
+  if (moves++ == 0) line = motion.line;
+  linear_minutes += motion.length / *motion.feed;
+  combined_minutes += motion.combined / *motion.feed;
 }
 
 void Summary::extend(const AxisValues& point) {
@@ -94,6 +106,17 @@ void Summary::print(std::ostream& out, std::uint64_t blocks) const {
   std::snprintf(line, sizeof line, "time     %.2f min at feed, %.2f s dwell\n", feed_minutes_,
                 dwell_seconds_);
   out << line;
+  if (mixed_.moves > 0) {
+    std::snprintf(
+        line, sizeof line,
+        "warning  %llu moves of linear and rotary axes, the first in line %u: %.2f s when F counts both "
+        "(04c919 = 0),",
+        static_cast<unsigned long long>(mixed_.moves), mixed_.line, mixed_.combined_minutes * 60);
+    out << line;
+    std::snprintf(line, sizeof line, " %.2f s when it counts the linear ones (1)\n",
+                  mixed_.linear_minutes * 60);
+    out << line;
+  }
   out << "tools   ";
   for (const std::uint32_t tool : tools_) out << " T" << tool;
   out << (tools_.empty() ? " none\n" : "\n");

@@ -35,12 +35,20 @@ class Summary {
   const language::AxisValues& highest() const { return highest_; }
 
  private:
+  /// Moves whose time depends on what F counts.
+  struct MixedMoves {
+    std::uint64_t moves = 0;
+    std::uint32_t line = 0;  ///< of the first one
+    double linear_minutes = 0, combined_minutes = 0;
+    void add(const Motion& motion);  ///< with a feed
+  };
   void extend(const language::AxisValues& point);
   void extend_over_arc(const Motion& motion);
 
   std::uint16_t axes_;
   std::uint64_t rapids_ = 0, lines_ = 0, arcs_ = 0;
   double rapid_length_ = 0, feed_length_ = 0, feed_minutes_ = 0, dwell_seconds_ = 0;
+  MixedMoves mixed_;
   std::set<std::uint32_t> tools_;
   bool moved_ = false;
   language::AxisValues lowest_{}, highest_{};

@@ -6,7 +6,9 @@
 #include <cstdio>
 
 #include "compensation/channel_compensation.hpp"
+#include "machine/alarm_constants.hpp"
 #include "machine/gantry_pairs.hpp"
+#include "machine/kinematics.hpp"
 #include "machine/parameter_constants.hpp"
 #include "motion/path_segment.hpp"
 
@@ -16,7 +18,46 @@ namespace {
 constexpr double turn_worth_a_move = 1e-6;  // degrees
 constexpr std::uint32_t most_vector_pieces = 1024;
 constexpr double straight_on = 180;      // degrees: interior angle and turn of a corner together
+constexpr int first_plane = 17;          // G17
 constexpr int spindle_axis_number = -2;  // of a letter that is a spindle in position mode
+
+// An axis that the chain turns and that nothing moves would stay at zero without a word.
+void check_chain_axes(const geometry::Chain& chain, const machine::ChannelAxes& axes, std::uint16_t channel) {
+  for (std::size_t i = 0; i < geometry::angle_count; ++i) {
+    const auto letter = language::A + i;
+    if (!chain.turns(i) || std::find(axes.index.begin(), axes.index.end(), letter) != axes.index.end())
+      continue;
+    const auto at = static_cast<std::uint32_t>(letter);
+    throw machine::KinematicsError(
+        alarm::kinematics_invalid,
+        "parameter " + machine::number_text(parameter::channel_axis.number(channel, at)) + " (" +
+            parameter::channel_axis.name + "): the kinematic chain of channel " + std::to_string(channel) +
+            " turns " + language::axis_letters[letter] + ", which is no axis of the channel (parameters " +
+            machine::number_text(parameter::head_type.number(channel)) + ", " +
+            machine::number_text(parameter::table_type.number(channel)) + ")");
+  }
+}
+
+constexpr const char* usual_functions = "3 4 5 19; 6; 7 8 9";
+
+language::MFunctions m_functions(const machine::Parameters& p, std::uint32_t channel) {
+  constexpr std::uint32_t lists = 6;
+  language::MFunctions functions;
+  bool empty = true;
+  for (std::uint32_t i = 0; i < lists; ++i) {
+    const auto text = p.text(parameter::m_functions, channel, i);
+    empty = empty && text.empty();
+    try {
+      functions.add(text);
+    } catch (const std::runtime_error& e) {
+      throw std::runtime_error("parameter " +
+                               machine::number_text(parameter::m_functions.number(channel, i)) + " (" +
+                               parameter::m_functions.name + "): " + e.what());
+    }
+  }
+  if (empty) functions.add(usual_functions);
+  return functions;
+}
 
 }  // namespace
 
@@ -30,7 +71,11 @@ void ChannelSetup::configure(const machine::Parameters& p) {
   auto chain = machine::make_chain(p, channel_);
   // What the compensation would refuse is refused here, before setpoints need it.
   compensation::ChannelCompensation::read(p, channel_);
-  channel_axes_ = machine::channel_axes(p, channel_);
+  const auto functions = channel_setup::m_functions(p, channel_);
+  const auto axes = machine::channel_axes(p, channel_);
+  check_chain_axes(chain, axes, channel_);
+  channel_axes_ = axes;
+  m_functions_ = functions;
   chain_ = chain;
   const auto drive = machine::drive_axes(p);
   columns_.clear();
@@ -48,7 +93,9 @@ void ChannelSetup::configure(const machine::Parameters& p) {
     limits_.axes[index] = {
         share * p.get(parameter::maximum_feed, a) / 60, share * p.get(parameter::rapid_feed, a) / 60,
         share * p.get(parameter::maximum_acceleration, a), share * p.get(parameter::maximum_jerk, a)};
-    travel_[index] = {p.get(parameter::negative_limit, a), p.get(parameter::positive_limit, a)};
+    rotary_ways_[index] = machine::rotary_way(p, a);
+    const auto travel = machine::travel_of(p, a);
+    travel_[index] = {travel.negative, travel.positive};
     reference_[index] = p.get(parameter::reference_coordinate, a);
     jog_feed_[index] = p.get(parameter::jog_feed, a);
     reference_feed_[index] = p.get(parameter::reference_feed, a);
@@ -63,10 +110,17 @@ void ChannelSetup::configure(const machine::Parameters& p) {
   pole_range_ = p.get(parameter::pole_range, channel_);
   diameter_programming_ = p.integer(parameter::diameter_programming, channel_) != 0;
   scaling_unit_ = p.get(parameter::scaling_unit, channel_);
+  power_on_.motion = static_cast<std::uint8_t>(p.integer(parameter::power_on_motion, channel_));
+  power_on_.plane =
+      static_cast<language::Plane>(p.integer(parameter::power_on_plane, channel_) - first_plane);
+  power_on_.feed_mode = p.integer(parameter::power_on_feed_mode, channel_) == 0
+                            ? language::FeedMode::per_minute
+                            : language::FeedMode::per_revolution;
   default_feed_ = p.get(parameter::default_feed, channel_);
   dry_run_feed_ = p.get(parameter::dry_run_feed, channel_);
   handwheel_share_ = p.get(parameter::handwheel_share, channel_);
   jog_renewal_seconds_ = p.get(parameter::jog_renewal_time, channel_);
+  dwell_point_ = static_cast<language::DwellPoint>(p.integer(parameter::dwell_point, channel_));
   cycles_ = {p.get(parameter::cycle_retract, channel_), p.get(parameter::cycle_clearance, channel_),
              p.integer(parameter::cycle_shift_axis, channel_)};
   cutter_ = {p.integer(parameter::cutter_feed_at_contour) != 0,
@@ -79,6 +133,7 @@ void ChannelSetup::configure(const machine::Parameters& p) {
     cycle_m_codes_[i] = static_cast<std::uint16_t>(p.integer(parameter::cycle_m_code, 0, i));
   limits_.smoothing_cycles = p.integer(parameter::smoothing_cycles, channel_);
   limits_.contour_tolerance = p.get(parameter::contour_tolerance, channel_);
+  limits_.combined_feed = p.integer(parameter::rotary_feed, channel_) == 0;
   limits_.arc_tolerance = p.get(parameter::arc_tolerance);
   limits_.smooth_corner_angle = straight_on - p.get(parameter::smooth_corner_angle, channel_);
   limits_.centripetal_acceleration = p.get(parameter::centripetal_acceleration, channel_);
@@ -114,7 +169,7 @@ void ChannelSetup::find_tapping_spindles(const machine::Parameters& p) {
   tapping_spindles_[0] = spindle(next);
   spindle_mask_ = 0;
   for (std::uint32_t letter = language::A; letter < language::axis_count; ++letter) {
-    if (p.integer(parameter::channel_axis, channel_, letter) != spindle_axis_number) continue;
+    if (p.integer(parameter::channel_axis, channel_, letter) != machine::spindle_letter) continue;
     spindle_mask_ = static_cast<std::uint16_t>(spindle_mask_ | (1u << letter));
     tapping_spindles_[letter - language::A + 1] = spindle(next);
     if (next != spindles.end()) ++next;

@@ -35,8 +35,8 @@ class ChannelSetup : public language::Environment {
   /// Configured with the tables. Throws as configure() does.
   explicit ChannelSetup(const tool_tables::MachineTables& tables);
 
-  /// Throws std::runtime_error when the kinematic parameters make no chain, or the parameters
-  /// of the compensation are not valid.
+  /// Throws std::runtime_error when the kinematic parameters make no chain, the chain turns a letter that the
+  /// channel does not have, or the parameters of the compensation or the list of M functions are not valid.
   void configure(const machine::Parameters& parameters);
   void set_tools(const idl::parameters::ToolTable& tools);
   void set_offsets(const idl::parameters::WorkOffsets& offsets);
@@ -55,8 +55,14 @@ class ChannelSetup : public language::Environment {
   bool diameter_programming() const override { return diameter_programming_; }
   double scaling_unit() const override { return scaling_unit_; }
   double default_feed() const override { return default_feed_; }
+  bool feeds_without_word() const override { return true; }
+  canonical::RotaryWay rotary_way(std::size_t axis) const override { return rotary_ways_[axis]; }
+  language::ModalState power_on() const override { return power_on_; }
   /// Half of parameter 000010; the other half is left to the smoothing of the joints.
   double curve_tolerance() const override { return limits_.arc_tolerance / 2; }
+  const language::MFunctions* m_functions() const override { return &m_functions_; }
+  language::DwellPoint dwell_point() const override { return dwell_point_; }
+  bool combined_feed() const override { return limits_.combined_feed; }
   language::CycleSettings cycle_settings() const override { return cycles_; }
   language::CutterSettings cutter_settings() const override { return cutter_; }
   std::optional<std::array<language::Vector3, 3>> plane_points(std::uint8_t index) const override;
@@ -147,6 +153,9 @@ class ChannelSetup : public language::Environment {
   double scaling_unit_ = 1;
   double default_feed_ = 1000, dry_run_feed_ = 2000, handwheel_share_ = 0.2;
   double jog_renewal_seconds_ = 0.25;
+  language::ModalState power_on_;
+  language::MFunctions m_functions_;
+  language::DwellPoint dwell_point_ = language::DwellPoint::refused;
   language::CycleSettings cycles_;
   language::CutterSettings cutter_;
   std::array<std::array<language::Vector3, 3>, 20> planes_{};
@@ -154,6 +163,7 @@ class ChannelSetup : public language::Environment {
   std::array<TappingSpindle, 7> tapping_spindles_;  // without J, and of J1..J6
   std::uint16_t spindle_mask_ = 0;
   std::array<Travel, language::axis_count> travel_{};
+  std::array<canonical::RotaryWay, language::axis_count> rotary_ways_{};
   AxisValues jog_feed_{}, reference_feed_{};
   std::uint16_t mask_ = 0;
   double radius_deviation_ = 0.1, cycle_seconds_ = 0.001;

@@ -14,6 +14,12 @@ using idl::channel::ChannelReply;
 using idl::channel::ChannelRequest;
 using idl::channel::CommandKind;
 
+/// A state that each channel publishes.
+template <class T>
+concept of_channel = requires(const T& state) {
+  state.channel;
+};
+
 class Client {
  public:
   /// To the cluster in `domain` whose launcher runs on this computer.
@@ -42,15 +48,22 @@ class Client {
   /// Stores `text` under `name` in chunks.
   void upload(const std::string& name, const std::string& text);
   std::string download(const std::string& name);
-  /// The newest state of a topic, waiting up to `timeout` seconds for the first.
+  /// The state of a topic that is true now: never older than the replies that came before this call. Waits up
+  /// to `timeout` seconds for it.
   template <class T>
-  T newest(const bus::Topic<T>& topic, double timeout = 30);
-  /// Of a topic with history that is written all the time: one that was written after this call began. That
-  /// of a host whose clock is not ours counts after 5 s.
+  requires(!of_channel<T>) T newest(const bus::Topic<T>& topic, double timeout = longest_wait);
+  /// Of a topic with a state for each channel, that of `channel`.
   template <class T>
-  T present(const bus::Topic<T>& topic);
+  requires of_channel<T> T newest(const bus::Topic<T>& topic, std::uint16_t channel);
+  /// For a loop that follows a topic: the first sample is what newest() would give.
+  template <class T>
+  bus::Reader<T> reader_from_now(const bus::Topic<T>& topic);
 
  private:
+  static constexpr double longest_wait = 30;  // s
+  template <class T, class Condition>
+  T first(const bus::Topic<T>& topic, double timeout, Condition condition);
+
   bus::Bus bus_;
   service::RequestClient<ChannelRequest, ChannelReply> channel_;
   service::RequestClient<idl::program::ProgramRequest, idl::program::ProgramReply> program_;
@@ -58,33 +71,40 @@ class Client {
   service::RequestClient<idl::plc::PanelRequest, idl::plc::PanelReply> panel_;
 };
 
+// A writer keeps one sample of a state, and that follows from every request it has answered. Of any other
+// topic the history would come first, and piece by piece: only what is written from now on counts.
 template <class T>
-T Client::newest(const bus::Topic<T>& topic, double timeout) {
-  auto reader = bus_.reader(topic);
+bus::Reader<T> Client::reader_from_now(const bus::Topic<T>& topic) {
+  auto qos = bus::reader_qos(topic.qos);
+  qos.transient_local = topic.qos == bus::QosKind::state;
+  return bus::Reader<T>(bus_.backend().reader(bus::describe(topic), qos, &bus_.signal()));
+}
+
+template <class T, class Condition>
+T Client::first(const bus::Topic<T>& topic, double timeout, Condition condition) {
+  auto reader = reader_from_now(topic);
   T value;
   const double until = service::monotonic_seconds() + timeout;
   while (service::monotonic_seconds() < until) {
-    if (reader.take_newest(value)) return value;
+    while (reader.take(value))
+      if (condition(value)) return value;
     std::this_thread::sleep_for(std::chrono::milliseconds(2));
   }
   throw std::runtime_error(std::string("no process publishes ") + topic.name);
 }
 
 template <class T>
-T Client::present(const bus::Topic<T>& topic) {
-  constexpr double clocks = 5, longest = 30;  // s
-  const auto began = bus::source_time();
-  auto reader = bus_.reader(topic);
-  T value;
-  bool any = false;
-  const double start = service::monotonic_seconds();
-  while (service::monotonic_seconds() - start < (any ? clocks : longest)) {
-    while (reader.take(value)) any = true;
-    if (any && reader.info().source_timestamp >= began) return value;
-    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+requires(!of_channel<T>) T Client::newest(const bus::Topic<T>& topic, double timeout) {
+  return first(topic, timeout, [](const T&) { return true; });
+}
+
+template <class T>
+requires of_channel<T> T Client::newest(const bus::Topic<T>& topic, std::uint16_t channel) {
+  try {
+    return first(topic, longest_wait, [&](const T& value) { return value.channel == channel; });
+  } catch (const std::runtime_error&) {
+    throw std::runtime_error("channel " + std::to_string(channel) + " publishes nothing on " + topic.name);
   }
-  if (!any) throw std::runtime_error(std::string("no process publishes ") + topic.name);
-  return value;
 }
 
 }  // namespace trunnion::cluster

@@ -2,6 +2,7 @@
 #include "geometry/orientation.hpp"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <tuple>
 
@@ -46,6 +47,14 @@ bool next_turn(double angle, double present, int sense, const AngleTravel& trave
   if (sense < 0 && position > travel.positive + slack)
     position -= 360 * std::ceil((position - travel.positive - slack) / 360);
   return position >= travel.negative - slack && position <= travel.positive + slack;
+}
+
+// Of a leading axis with `sense` +1 or -1, or 0 for any.
+bool leading_turn(double angle, double present, int sense, AngleTravel travel, double& position) {
+  if (sense != 0 && travel.endless()) return next_turn(angle, present, sense, travel, position);
+  if (sense > 0) travel.negative = std::max(travel.negative, 0.0);
+  if (sense < 0) travel.positive = std::min(travel.positive, 0.0);
+  return nearest_turn(angle, present, travel, position);
 }
 
 int sense_of(SolutionChoice choice) {
@@ -217,9 +226,7 @@ OrientationAnswer OrientationSolver::best(const OrientationRequest& request) con
     if (solutions.second < angle_count) {
       const int sense = sense_of(request.choice);
       const auto a = solutions.first, b = solutions.second;
-      if (!(sense == 0 ? nearest_turn(o.angles[b], request.present[b], request.travel[b], o.angles[b])
-                       : next_turn(o.angles[b], request.present[b], sense, request.travel[b], o.angles[b])))
-        return false;
+      if (!leading_turn(o.angles[b], request.present[b], sense, request.travel[b], o.angles[b])) return false;
       if (a < angle_count && !nearest_turn(o.angles[a], request.present[a], request.travel[a], o.angles[a]))
         return false;
       const Rank rank = rank_of(o, request, a, b);
@@ -253,14 +260,12 @@ std::size_t OrientationSolver::all(const OrientationRequest& request, std::span<
     const AngleTravel& travel = request.travel[axis];
     const double present = request.present[axis];
     if (travel.endless()) {
-      const bool ok = sense == 0 ? nearest_turn(angle, present, travel, positions[0])
-                                 : next_turn(angle, present, sense, travel, positions[0]);
-      return std::size_t{ok ? 1u : 0u};
+      return std::size_t{leading_turn(angle, present, sense, travel, positions[0]) ? 1u : 0u};
     }
     std::size_t n = 0;
     const double first = angle + 360 * std::ceil((travel.negative - slack - angle) / 360);
     for (double at = first; at <= travel.positive + slack && n < positions.size(); at += 360)
-      if (sense * (at - present) >= -slack) positions[n++] = at;
+      if (sense * at >= -slack) positions[n++] = at;
     return n;
   };
   answer = search(request, [&](const Solutions& solutions, std::size_t n) {

@@ -20,9 +20,10 @@ using AngleTravels = std::array<AngleTravel, angle_count>;
 /// Which of the solutions within travel is best. The leading axis is the rotary axis nearest the tool. The
 /// time of a solution is that of the axis which takes longest at its `rate`.
 enum class SolutionChoice : std::uint8_t {
-  shortest,    ///< P0: the least time, of equal times the least sum of the times
-  positive,    ///< P1: likewise, but the leading axis turns in the positive direction or not at all
-  negative,    ///< P2: likewise in the negative direction
+  shortest,  ///< P0: the least time, of equal times the least sum of the times
+  positive,  ///< P1: likewise among the positions of the leading axis from 0 up; one that is endless turns in
+             ///< the positive direction or not at all
+  negative,  ///< P2: likewise from 0 down, and in the negative direction
   continuous,  ///< the sum of the travels of all rotary axes is least: follows a path of directions
 };
 

@@ -75,6 +75,7 @@ struct Block {
   std::uint16_t rest = 0;  ///< byte behind the word of the statement
   std::uint32_t label = 0;
   std::uint32_t program_number = 0;
+  std::uint32_t pointed = 0;  ///< those of `letters` whose number is written with a decimal point
   std::uint32_t letters = 0;  ///< bit 0 = A .. bit 25 = Z, then ,C and ,R; G and M are not in it
   std::array<double, word_count> values{};
   std::array<std::uint16_t, word_count> offsets{};
@@ -95,7 +96,7 @@ struct Block {
     skipped = false;
     statement = Statement::none;
     g_count = m_count = centre_count = argument_count = 0;
-    letters = 0;
+    letters = pointed = 0;
   }
 };
 

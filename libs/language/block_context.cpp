@@ -6,12 +6,16 @@
 
 namespace trunnion::language {
 
+double BlockHandler::absolute_target(std::size_t axis, double word, double position) const {
+  return is_rotary(axis) ? canonical::rotary_target(environment_.rotary_way(axis), word, position) : word;
+}
+
 AxisValues BlockHandler::programmed_target(std::uint32_t axes) {
   AxisValues target = state_.program_position;
   for (std::size_t axis = 0; axis < axis_count; ++axis) {
     if (((axes >> axis) & 1u) == 0) continue;
     const double word = words_.axis(axis);
-    target[axis] = state_.modal.absolute ? word : target[axis] + word;
+    target[axis] = state_.modal.absolute ? absolute_target(axis, word, target[axis]) : target[axis] + word;
   }
   if (state_.modal.polar) apply_polar(axes, target);
   return target;
@@ -42,7 +46,9 @@ void BlockHandler::apply_polar(std::uint32_t axes, AxisValues& target) {
 }
 
 Fault BlockHandler::check_feed(std::uint16_t at) const {
-  const ModalState& modal = state_.modal;
+  ModalState& modal = state_.modal;
+  if (!(modal.feed > 0) && modal.feed_mode == FeedMode::per_minute && environment_.feeds_without_word())
+    modal.feed = environment_.default_feed();
   const bool given = modal.feed_mode == FeedMode::inverse_time ? words_.has('F') : modal.feed > 0;
   return given ? Fault{} : Fault{AlarmNumber::feed_missing, at};
 }

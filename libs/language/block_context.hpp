@@ -50,7 +50,9 @@ class BlockHandler {
 
   /// The end of a move by the axis words of `axes`, program coordinates; remembers polar words.
   AxisValues programmed_target(std::uint32_t axes);
-  /// A feed applies to a move of this block.
+  /// Of an axis at `position` for an absolute word, both in the same coordinates.
+  double absolute_target(std::size_t axis, double word, double position) const;
+  /// A feed applies to a move of this block; the default one when the machine has one and no F came before.
   Fault check_feed(std::uint16_t at) const;
 
   Environment& environment_;

@@ -34,7 +34,7 @@ void BlockExecutor::start(const AxisValues& position, const ModalState& modal, B
   context_.tables.load(context_.environment);
   settings.frame.set_work_offset(context_.tables.work_offset(state.modal.work_offset));
   settings.frame.set_tilt(state.modal.tilt);
-  context_.words.configure(context_.environment.axes(), context_.environment.diameter_programming());
+  context_.words.configure(context_.environment);
   context_.output.start();
   context_.activity = Activity::none;
   m_codes_due_ = false;

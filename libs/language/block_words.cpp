@@ -15,6 +15,13 @@ bool is_whole(double value, double low, double high) {
 
 }  // namespace
 
+void BlockWords::configure(const Environment& machine) {
+  channel_axes_ = machine.axes();
+  diameter_ = machine.diameter_programming();
+  functions_ = machine.m_functions();
+  dwell_point_ = machine.dwell_point();
+}
+
 Fault BlockWords::begin(const Block& block) {
   block_ = &block;
   used_ = Block::bit('N');
@@ -57,14 +64,21 @@ Fault BlockWords::collect_m() {
     const CodeWord& word = block_->m[i];
     if (!is_whole(word.value, 0, highest_m)) return {AlarmNumber::unknown_m, word.offset};
     const MCode code = m_code(static_cast<std::uint16_t>(word.value));
+    if (!has_function(code)) return {AlarmNumber::unknown_m, word.offset};
     for (std::size_t k = 0; k < m_.count; ++k) {
-      const bool same_group = code.group != MGroup::none && code.group == m_.codes[k].group;
-      if (same_group || code.number == m_.codes[k].number) return {AlarmNumber::group_twice, word.offset};
+      const MCode& other = m_.codes[k];
+      const bool same_group = (code.group != MGroup::none && code.group == other.group) ||
+                              (functions_ != nullptr && functions_->same_group(code.number, other.number));
+      if (same_group || code.number == other.number) return {AlarmNumber::group_twice, word.offset};
     }
     m_.codes[m_.count] = code;
     m_.offsets[m_.count++] = word.offset;
   }
   return {};
+}
+
+bool BlockWords::has_function(const MCode& code) const {
+  return functions_ == nullptr || code.group == MGroup::flow || functions_->has(code.number);
 }
 
 std::uint16_t BlockWords::first_offset() const {
@@ -93,6 +107,16 @@ Fault BlockWords::whole_number(char letter, std::uint32_t low, std::uint32_t hig
   if (number != std::floor(number)) return {AlarmNumber::not_an_integer, block_->offset(letter)};
   if (number < low || number > high) return {AlarmNumber::value_range, block_->offset(letter)};
   value = static_cast<std::uint32_t>(number);
+  return {};
+}
+
+Fault BlockWords::dwell(double longest, double& seconds) {
+  use('P');
+  const double value = block_->value('P');
+  const bool point = ((block_->pointed & Block::bit('P')) != 0) || value != std::floor(value);
+  if (point && dwell_point_ == DwellPoint::refused) return {AlarmNumber::dwell_point, block_->offset('P')};
+  seconds = point && dwell_point_ == DwellPoint::seconds ? value : value / 1000;
+  if (seconds < 0 || seconds > longest) return {AlarmNumber::value_range, block_->offset('P')};
   return {};
 }
 

@@ -8,6 +8,7 @@
 
 #include "language/block.hpp"
 #include "language/codes.hpp"
+#include "language/environment.hpp"
 #include "language/letters.hpp"
 
 namespace trunnion::language {
@@ -50,11 +51,8 @@ class BlockWords {
   /// `modal` has the units.
   explicit BlockWords(const ModalState& modal) : modal_(modal) {}
 
-  /// The axes of the channel (a bit for each), and whether X words are diameters.
-  void configure(std::uint16_t channel_axes, bool diameter) {
-    channel_axes_ = channel_axes;
-    diameter_ = diameter;
-  }
+  /// For the channel of `machine`, which must live as long as its words are read.
+  void configure(const Environment& machine);
 
   /// The next block, which must live as long as its words are read. Checks its numbers and its codes.
   Fault begin(const Block& block);
@@ -82,8 +80,12 @@ class BlockWords {
   /// An alarm at the first word that had no meaning.
   Fault report_unused() const;
 
+  /// The control or the machine's logic carries M`code` out.
+  bool has_function(const MCode& code) const;
   /// A whole number in [low, high].
   Fault whole_number(char letter, std::uint32_t low, std::uint32_t high, std::uint32_t& value);
+  /// Seconds: P in milliseconds, or as the machine takes a decimal point in it (P1.5).
+  Fault dwell(double longest, double& seconds);
   /// mm, 0 when absent.
   double length(char letter);
   /// mm or degrees, as programmed for the axis (diameters halved).
@@ -107,6 +109,8 @@ class BlockWords {
   std::uint32_t used_ = 0;
   std::uint16_t channel_axes_ = 0;
   bool diameter_ = false;
+  const MFunctions* functions_ = nullptr;
+  DwellPoint dwell_point_ = DwellPoint::refused;
 };
 
 }  // namespace trunnion::language

@@ -27,13 +27,14 @@ Decimal read_decimal(const char* begin, const char* end) {
   while (p != end && is_digit(*p)) mantissa = mantissa * 10 + static_cast<unsigned>(*p++ - '0');
   std::ptrdiff_t digits = p - digits_begin;
   std::ptrdiff_t fraction = 0;
+  Decimal result;
   if (p != end && *p == '.') {
+    result.point = true;
     const char* const fraction_begin = ++p;
     while (p != end && is_digit(*p)) mantissa = mantissa * 10 + static_cast<unsigned>(*p++ - '0');
     fraction = p - fraction_begin;
     digits += fraction;
   }
-  Decimal result;
   if (digits == 0) {
     result.end = begin;
     return result;

@@ -11,6 +11,7 @@ enum class DecimalStatus : std::uint8_t { ok, missing, too_large };
 struct Decimal {
   DecimalStatus status = DecimalStatus::missing;
   double value = 0;           ///< the double nearest to the text
+  bool point = false;         ///< the text has a decimal point
   const char* end = nullptr;  ///< first byte behind the number
 };
 

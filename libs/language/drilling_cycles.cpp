@@ -110,11 +110,7 @@ Fault DrillingCycles::read_cycle_words() {
 Fault DrillingCycles::read_settings(CycleWords& words) {
   const bool shifts = is_shifting(state_.modal.cycle);
   if (words_.has('P') && !words_.used('P')) {
-    words_.use('P');
-    words.hole.dwell = words_.value('P') / 1000;
-    if (words.hole.dwell < 0 || words.hole.dwell > longest_dwell) {
-      return {AlarmNumber::value_range, words_.offset('P')};
-    }
+    if (const Fault fault = words_.dwell(longest_dwell, words.hole.dwell)) return fault;
   }
   if (words_.has('Q') && !words_.used('Q')) {
     const double q = std::abs(words_.length('Q'));
@@ -157,12 +153,13 @@ Fault DrillingCycles::check_cycle(std::uint16_t at) const {
   if (is_shifting(modal.cycle) && words.shift[0] == 0 && words.shift[1] == 0) {
     return {AlarmNumber::cycle_shift_missing, at};
   }
+  if (is_shifting(modal.cycle) && !words_.has_function(m_code(19)))
+    return {AlarmNumber::unknown_m, at, "needs M19"};
   if (const Fault fault = check_levels(at)) return fault;
   if (modal.cycle == 87 && !modal.return_to_initial) return {AlarmNumber::cycle_return_level, at};
   const bool tapping = is_tapping(modal.cycle);
-  if (!(modal.feed > 0)) {
-    return {tapping ? AlarmNumber::cycle_lead_missing : AlarmNumber::feed_missing, at};
-  }
+  if (tapping && !(modal.feed > 0)) return {AlarmNumber::cycle_lead_missing, at};
+  if (const Fault fault = check_feed(at)) return fault;
   const bool speed = modal.spindle_mode == SpindleMode::speed && modal.spindle_speed > 0;
   if (tapping && !speed) return {AlarmNumber::cycle_lead_missing, at};
   return {};

@@ -6,7 +6,9 @@
 #include <optional>
 #include <string_view>
 
+#include "canonical/rotary_way.hpp"
 #include "language/canonical.hpp"
+#include "language/m_functions.hpp"
 #include "language/text_source.hpp"
 
 namespace trunnion::language {
@@ -18,6 +20,10 @@ struct ToolOffset {
   std::optional<double> radius;  ///< mm; nothing when the table has no radii
   double radius_wear = 0;        ///< mm, added to the radius, or subtracted (CutterSettings::wear_sign)
 };
+
+/// A decimal point in P, the time of a dwell: controls differ by a factor of 1000, so it is refused when the
+/// machine does not say.
+enum class DwellPoint : std::uint8_t { refused, seconds, milliseconds };
 
 /// How canned cycles move where no word gives it.
 struct CycleSettings {
@@ -98,8 +104,23 @@ class Environment {
   virtual double scaling_unit() const { return 1; }
   /// Feed of a swing to a tilted plane before any F (parameter 040030), mm/min or degrees/min.
   virtual double default_feed() const { return 1000; }
+  /// Every motion at feed takes default_feed() before any F; otherwise it is an alarm.
+  virtual bool feeds_without_word() const { return false; }
+  /// How `axis` goes to an absolute position (parameter 10a949).
+  virtual canonical::RotaryWay rotary_way(std::size_t axis) const {
+    static_cast<void>(axis);
+    return canonical::RotaryWay::linear;
+  }
+  /// The codes that are active when the control is switched on, after a reset and at the start of a program.
+  virtual ModalState power_on() const { return {}; }
   /// Largest distance of a chord from its curve in mm (parameter 000010).
   virtual double curve_tolerance() const { return 0.005; }
+  /// What the machine's logic carries out; null when no machine is known and every M code may stand.
+  virtual const MFunctions* m_functions() const { return nullptr; }
+  /// What a decimal point in the P of a dwell means (parameter 040918).
+  virtual DwellPoint dwell_point() const { return DwellPoint::refused; }
+  /// F of a move of linear and rotary axes without tool tip control counts both (parameter 040919).
+  virtual bool combined_feed() const { return true; }
   virtual CycleSettings cycle_settings() const { return {}; }
   virtual CutterSettings cutter_settings() const { return {}; }
   /// Origin, a point on +X and a point with positive Y of stored tilted plane `index` 1..20 (G68.1 Q), mm in

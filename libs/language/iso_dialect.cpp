@@ -114,8 +114,10 @@ class BlockReader {
       if (decimal.status == DecimalStatus::missing) return {AlarmNumber::number_missing, at};
       if (decimal.status == DecimalStatus::too_large) return {AlarmNumber::number_range, at};
       value = Value::of(decimal.value);
+      point_ = decimal.point;
       return {};
     }
+    point_ = false;
     if (const Fault fault = ExpressionReader(scanner_, variables_).operand(value)) return fault;
     value.number = nearly_whole(value.number);
     if (std::abs(value.number) > largest_number) return {AlarmNumber::number_range, at};
@@ -151,6 +153,7 @@ class BlockReader {
     }
     const auto index = static_cast<std::size_t>(name - 'A');
     block_.letters |= Block::bit(name);
+    if (point_) block_.pointed |= Block::bit(name);
     block_.values[index] = value.number;
     block_.offsets[index] = at;
     return {};
@@ -355,6 +358,7 @@ class BlockReader {
   bool calls_macro_ = false;
   bool skip_is_read_ = false;
   bool word_is_read_ = false;
+  bool point_ = false;  // the newest number() has a decimal point
   /// Behind IF ... THEN on one line: nothing that opens or closes a structure may be here.
   bool behind_then_ = false;
 };

@@ -17,7 +17,9 @@ Fault Positioning::dwell(std::uint16_t at) {
     if (!words_.has(letter) || found != '\0') continue;
     found = letter;
     words_.use(letter);
-    seconds = letter == 'P' ? words_.value(letter) / 1000 : words_.value(letter);
+    seconds = words_.value(letter);
+    if (letter != 'P') continue;
+    if (const Fault fault = words_.dwell(longest_pause, seconds)) return fault;
   }
   if (found == '\0') return {AlarmNumber::missing_word, at, "needs P, X or U"};
   if (seconds < 0 || seconds > longest_pause) return {AlarmNumber::value_range, words_.offset(found)};
@@ -54,7 +56,7 @@ Fault Positioning::return_to(std::uint16_t at, const AxisValues& reference) {
   state_.change_settings().intermediate = over;
   AxisValues target = state_.position;
   for (std::size_t axis = 0; axis < axis_count; ++axis) {
-    if (((axes >> axis) & 1u) != 0) target[axis] = reference[axis];
+    if (((axes >> axis) & 1u) != 0) target[axis] = absolute_target(axis, reference[axis], target[axis]);
   }
   return output_.move_straight_in_command_frame(CommandKind::rapid, target);
 }
@@ -80,7 +82,7 @@ Fault Positioning::move_in_machine_coordinates(std::uint16_t at) {
   if (const Fault fault = words_.take_axes(at, axes)) return fault;
   AxisValues target = state_.position;
   for (std::size_t axis = 0; axis < axis_count; ++axis) {
-    if (((axes >> axis) & 1u) != 0) target[axis] = words_.axis(axis);
+    if (((axes >> axis) & 1u) != 0) target[axis] = absolute_target(axis, words_.axis(axis), target[axis]);
   }
   if (state_.modal.motion == 1) {
     if (const Fault fault = check_feed(at)) return fault;

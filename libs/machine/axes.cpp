@@ -29,6 +29,17 @@ int column_of(const std::vector<AxisInfo>& axes, std::uint16_t number) {
   return -1;
 }
 
+canonical::RotaryWay rotary_way(const Parameters& parameters, std::uint16_t axis) {
+  if (parameters.integer(parameter::axis_type, axis) != axis_type_rotary) return canonical::RotaryWay::linear;
+  return static_cast<canonical::RotaryWay>(parameters.integer(parameter::rotary_way, axis));
+}
+
+geometry::AngleTravel travel_of(const Parameters& parameters, std::uint16_t axis) {
+  constexpr double endless = 1e12;
+  if (rotary_way(parameters, axis) != canonical::RotaryWay::linear) return {-endless, endless};
+  return {parameters.get(parameter::negative_limit, axis), parameters.get(parameter::positive_limit, axis)};
+}
+
 ChannelAxes channel_axes(const Parameters& parameters, std::uint16_t channel) {
   ChannelAxes result;
   for (std::uint8_t i = 0; i < 9; ++i) {

@@ -7,12 +7,15 @@
 #include <string>
 #include <vector>
 
+#include "canonical/rotary_way.hpp"
 #include "machine/kinematics.hpp"
 #include "machine/parameters.hpp"
 
 namespace trunnion::machine {
 
 inline constexpr int axis_type_linear = 1, axis_type_swivel = 2, axis_type_rotary = 3, axis_type_spindle = 10;
+inline constexpr std::uint16_t channel_count = 10;  ///< that the catalogue has parameters for
+inline constexpr int spindle_letter = -2;           ///< 04c001..04c009 of a letter that is a spindle
 
 struct AxisInfo {
   std::uint16_t number = 0;  ///< logical axis number
@@ -27,6 +30,12 @@ std::vector<AxisInfo> spindles(const Parameters& parameters);
 
 /// Column of logical axis `number` in drive_axes, or -1.
 int column_of(const std::vector<AxisInfo>& axes, std::uint16_t number);
+
+/// Parameters 10a949 and 10a001: linear for all but rotary axes.
+canonical::RotaryWay rotary_way(const Parameters& parameters, std::uint16_t axis);
+
+/// Software travel limits of a logical axis, mm or degrees; without end where it counts modulo 360.
+geometry::AngleTravel travel_of(const Parameters& parameters, std::uint16_t axis);
 
 struct ChannelAxes {
   std::vector<std::uint8_t> index;    ///< 0..8 for X Y Z A B C U V W

@@ -20,25 +20,44 @@ DriveSynchronization DriveSynchronization::from(const Parameters& p, std::uint32
   return s;
 }
 
+bool is_gantry_slave(const Parameters& p, int axis) {
+  return p.integer(parameter::gantry_synchronous, static_cast<std::uint32_t>(axis)) == 1;
+}
+
+std::optional<ParameterFault> gantry_fault(const Parameters& p, const std::vector<AxisInfo>& axes,
+                                           int slave) {
+  const auto number = parameter::gantry_master.number(static_cast<std::uint32_t>(slave));
+  const int master = p.integer(parameter::gantry_master, static_cast<std::uint32_t>(slave));
+  const auto exists = [&](int axis) {
+    return axis >= 0 && column_of(axes, static_cast<std::uint16_t>(axis)) >= 0;
+  };
+  std::string what;
+  if (!exists(slave) || !exists(master))
+    what = "one of them does not exist";
+  else if (slave == master)
+    what = "an axis cannot follow itself";
+  else
+    return std::nullopt;
+  return ParameterFault{{number},
+                        "parameter " + number_text(number) + " (" + parameter::gantry_master.name +
+                            "): axis " + std::to_string(slave) + " follows axis " + std::to_string(master) +
+                            ", and " + what};
+}
+
 std::vector<GantryPair> gantry_pairs(const Parameters& p) {
   std::vector<GantryPair> pairs;
   const auto axes = drive_axes(p);
   const int slaves = p.integer(parameter::gantry_slaves);
   for (int i = 0; i < slaves; ++i) {
     const int slave = p.integer(parameter::gantry_slave_axis, 0, static_cast<std::uint32_t>(i));
-    if (slave < 0 || p.integer(parameter::gantry_synchronous, static_cast<std::uint32_t>(slave)) != 1)
-      continue;
+    if (slave < 0 || !is_gantry_slave(p, slave)) continue;
+    if (const auto fault = gantry_fault(p, axes, slave)) throw std::runtime_error(fault->text);
     const auto a = static_cast<std::uint32_t>(slave);
     GantryPair pair;
-    const int master = p.integer(parameter::gantry_master, a);
     pair.slave = static_cast<std::uint16_t>(slave);
-    pair.master = static_cast<std::uint16_t>(std::max(0, master));
+    pair.master = static_cast<std::uint16_t>(p.integer(parameter::gantry_master, a));
     pair.slave_column = column_of(axes, pair.slave);
     pair.master_column = column_of(axes, pair.master);
-    if (master < 0 || pair.slave_column < 0 || pair.master_column < 0)
-      throw std::runtime_error("parameter " + number_text(parameter::gantry_master.number(a)) +
-                               " (gantry_master): axis " + std::to_string(slave) + " follows axis " +
-                               std::to_string(master) + ", and one of them does not exist");
     const bool mirrored = p.integer(parameter::gantry_mirror, a) == 1;
     pair.sign = mirrored != (p.integer(parameter::gantry_reversed, a) == 1) ? -1 : 1;
     pair.zero_deviation = p.get(parameter::gantry_zero_deviation, a);

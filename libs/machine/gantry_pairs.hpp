@@ -4,9 +4,11 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "machine/axes.hpp"
+#include "machine/parameter_fault.hpp"
 
 namespace trunnion::machine {
 
@@ -44,7 +46,15 @@ struct GantryPair {
   }
 };
 
-/// Every pair of the machine. Throws std::runtime_error when a slave or its master does not exist.
+/// Whether `axis` of 010051.. follows a master (10a100).
+bool is_gantry_slave(const Parameters& parameters, int axis);
+
+/// What keeps `slave` from following its master: one of them does not exist, or they are the same. `axes` are
+/// the drive_axes().
+std::optional<ParameterFault> gantry_fault(const Parameters& parameters, const std::vector<AxisInfo>& axes,
+                                           int slave);
+
+/// Every pair of the machine. Throws std::runtime_error with the text of the first gantry_fault().
 std::vector<GantryPair> gantry_pairs(const Parameters& parameters);
 
 /// Those whose master is an axis of `channel`.

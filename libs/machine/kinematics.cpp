@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "machine/alarm_constants.hpp"
+#include "machine/axes.hpp"
 #include "machine/chain_parameters.hpp"
 #include "machine/parameter_constants.hpp"
 
@@ -188,9 +189,7 @@ geometry::AngleTravels rotary_travels(const Parameters& parameters, std::uint16_
   for (std::uint32_t i = 0; i < geometry::angle_count; ++i) {
     const int axis = parameters.integer(parameter::channel_axis, channel, 3 + i);
     if (axis < 0) continue;
-    const auto number = static_cast<std::uint32_t>(axis);
-    travels[i] = {parameters.get(parameter::negative_limit, number),
-                  parameters.get(parameter::positive_limit, number)};
+    travels[i] = travel_of(parameters, static_cast<std::uint16_t>(axis));
   }
   return travels;
 }

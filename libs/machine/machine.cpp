@@ -139,6 +139,11 @@ MachineConfig parse_machine(const std::string& text, const std::string& director
     entry.channel = value<std::uint32_t>(file, node, "channel", 0);
     if (entry.channel > 31) throw std::runtime_error(at(file, node["channel"]) + "channel must be 0 .. 31");
     if (definition->per_channel) config.channels = std::max(config.channels, entry.channel + 1);
+    const bool twice =
+        std::any_of(config.services.begin(), config.services.end(), [&](const ServiceEntry& other) {
+          return other.service == entry.service &&
+                 (!definition->per_channel || other.channel == entry.channel);
+        });
     const auto replicas = value<std::uint32_t>(file, node, "replicas", 1);
     if (replicas < 1 || replicas > 2 || (replicas == 2 && !definition->transforms()))
       throw std::runtime_error(at(file, node["replicas"]) + "replicas must be 1, or 2 for " +
@@ -160,6 +165,10 @@ MachineConfig parse_machine(const std::string& text, const std::string& director
         entry.vendor = vendor_override;
       config.services.push_back(entry);
     }
+    if (twice)
+      throw std::runtime_error(
+          at(file, node) + "service '" + entry.service + "' is there twice" +
+          (definition->per_channel ? " for channel " + std::to_string(entry.channel) : ""));
   }
   for (const auto& definition : service::all) {
     const bool there = std::any_of(config.services.begin(), config.services.end(),
@@ -184,17 +193,26 @@ void forget_hosts(MachineConfig& config) {
   for (auto& entry : config.services) entry.host.clear();
 }
 
-std::map<std::uint32_t, ParameterValue> machine_parameters(const MachineConfig& config) {
-  auto values = read_parameter_file(config.parameters_file());
+std::optional<ParameterFault> chain_conflict(const std::map<std::uint32_t, ParameterValue>& values,
+                                             const MachineConfig& config) {
   for (const auto& [number, value] : config.chain_parameters) {
     // All of a channel's numbers, also those its chain leaves at their defaults.
     const auto first = number / 1000 * 1000;
-    const auto twice = std::find_if(values.lower_bound(first), values.lower_bound(first + 1000),
+    const auto last = values.lower_bound(first + 1000);
+    const auto twice = std::find_if(values.lower_bound(first), last,
                                     [](const auto& entry) { return is_chain_parameter(entry.first); });
-    if (twice != values.lower_bound(first + 1000))
-      throw std::runtime_error(config.parameters_file() + ": error: parameter " + number_text(twice->first) +
-                               " belongs to the kinematic chain of the channel, which machine.yaml has");
+    if (twice != last)
+      return ParameterFault{{twice->first},
+                            "parameter " + number_text(twice->first) +
+                                " belongs to the kinematic chain of the channel, which machine.yaml has"};
   }
+  return std::nullopt;
+}
+
+std::map<std::uint32_t, ParameterValue> machine_parameters(const MachineConfig& config) {
+  auto values = read_parameter_file(config.parameters_file());
+  if (const auto fault = chain_conflict(values, config))
+    throw std::runtime_error(config.parameters_file() + ": error: " + fault->text);
   values.insert(config.chain_parameters.begin(), config.chain_parameters.end());
   return values;
 }

@@ -4,10 +4,12 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "machine/hosts.hpp"
+#include "machine/parameter_fault.hpp"
 #include "machine/parameters.hpp"
 
 namespace trunnion::machine {
@@ -73,9 +75,13 @@ std::string program_of(const MachineConfig& config, const ServiceEntry& entry);
 /// Everything on one computer, over its loopback.
 void forget_hosts(MachineConfig& config);
 
-/// parameters.yaml and the chains of machine.yaml together. A parameter of a kinematic chain that is in
-/// parameters.yaml of a channel with a chain in machine.yaml is an error: there would be two truths. Throws
-/// std::runtime_error.
+/// A parameter of a kinematic chain that `values`, those of parameters.yaml, have for a channel with a chain
+/// in machine.yaml: there would be two truths.
+std::optional<ParameterFault> chain_conflict(const std::map<std::uint32_t, ParameterValue>& values,
+                                             const MachineConfig& config);
+
+/// parameters.yaml and the chains of machine.yaml together. Throws std::runtime_error, also for a
+/// chain_conflict().
 std::map<std::uint32_t, ParameterValue> machine_parameters(const MachineConfig& config);
 
 }  // namespace trunnion::machine

@@ -163,8 +163,8 @@ std::string unit_of(std::uint32_t number, const std::map<std::uint32_t, Paramete
   return type == linear ? d->unit.substr(0, bar) : d->unit.substr(bar + 1);
 }
 
-std::string Parameters::text(const TextParameter& parameter, std::uint32_t unit) const {
-  const auto found = values.find(parameter.number(unit));
+std::string Parameters::text(const TextParameter& parameter, std::uint32_t unit, std::uint32_t index) const {
+  const auto found = values.find(parameter.number(unit, index));
   return found != values.end() ? found->second.text : "";
 }
 
@@ -181,29 +181,61 @@ std::string take(const Definition* definition, const std::string& key, const std
   return Catalogue::instance().check(static_cast<std::uint32_t>(std::stoul(key)), value.value, value.text);
 }
 
+/// `refused` is called for a value that the catalogue refuses, `failed` for what is no line of a parameter.
+template <class Refused, class Failed>
+ParameterText read(const YAML::Node& map, const std::string& file, Refused&& refused, Failed&& failed) {
+  ParameterText result;
+  if (!map || map.IsNull()) return result;
+  if (!map.IsMap()) {
+    failed(at(file, map) + "expected lines of 'number: value'");
+    return result;
+  }
+  for (const auto& entry : map) {
+    if (!entry.first.IsScalar() || !entry.second.IsScalar()) {
+      failed(at(file, entry.first.IsScalar() ? entry.second : entry.first) + "expected one value");
+      continue;
+    }
+    const auto& key = entry.first.Scalar();
+    if (key.size() != 6 || key.find_first_not_of("0123456789") != std::string::npos) {
+      failed(at(file, entry.first) + "'" + key + "' is not a parameter number of six digits");
+      continue;
+    }
+    const auto number = static_cast<std::uint32_t>(std::stoul(key));
+    const auto* definition = Catalogue::instance().find(number);
+    ParameterValue value;
+    if (const auto error = take(definition, key, entry.second.Scalar(), value); !error.empty()) {
+      refused(at(file, definition == nullptr ? entry.first : entry.second) + error);
+      continue;
+    }
+    if (result.values.emplace(number, value).second)
+      result.places.emplace(number, at(file, entry.second));
+    else
+      failed(at(file, entry.first) + "parameter " + key + " is given twice");
+  }
+  return result;
+}
+
 }  // namespace
 
 std::map<std::uint32_t, ParameterValue> read_parameter_values(const YAML::Node& map, const std::string& file,
                                                               bool strict) {
-  std::map<std::uint32_t, ParameterValue> result;
-  if (!map || map.IsNull()) return result;
-  if (!map.IsMap()) throw std::runtime_error(at(file, map) + "expected lines of 'number: value'");
-  for (const auto& entry : map) {
-    const auto key = scalar(file, entry.first);
-    if (key.size() != 6 || key.find_first_not_of("0123456789") != std::string::npos)
-      throw std::runtime_error(at(file, entry.first) + "'" + key +
-                               "' is not a parameter number of six digits");
-    const auto number = static_cast<std::uint32_t>(std::stoul(key));
-    const auto* definition = Catalogue::instance().find(number);
-    ParameterValue value;
-    const auto error = take(definition, key, scalar(file, entry.second), value);
-    if (!error.empty()) {
-      if (!strict) continue;
-      throw std::runtime_error(at(file, definition == nullptr ? entry.first : entry.second) + error);
-    }
-    if (!result.emplace(number, value).second)
-      throw std::runtime_error(at(file, entry.first) + "parameter " + key + " is given twice");
+  const auto fail = [](const std::string& error) { throw std::runtime_error(error); };
+  const auto refuse = [&](const std::string& error) {
+    if (strict) fail(error);
+  };
+  return read(map, file, refuse, fail).values;
+}
+
+ParameterText check_parameter_text(const std::string& text, const std::string& file) {
+  std::vector<std::string> errors;
+  const auto note = [&](const std::string& error) { errors.push_back(error); };
+  ParameterText result;
+  try {
+    result = read(parse_yaml(text, file), file, note, note);
+  } catch (const std::runtime_error& e) {
+    note(e.what());
   }
+  result.errors = std::move(errors);
   return result;
 }
 

@@ -84,7 +84,7 @@ class Parameters {
  public:
   double get(const NumericParameter& parameter, std::uint32_t unit = 0, std::uint32_t index = 0) const;
   int integer(const IntegerParameter& parameter, std::uint32_t unit = 0, std::uint32_t index = 0) const;
-  std::string text(const TextParameter& parameter, std::uint32_t unit = 0) const;
+  std::string text(const TextParameter& parameter, std::uint32_t unit = 0, std::uint32_t index = 0) const;
   double at(std::uint32_t number) const;
 
   std::map<std::uint32_t, ParameterValue> values;
@@ -106,6 +106,14 @@ Parameters parameters_of(const Set& set) {
 /// file:line:column.
 std::map<std::uint32_t, ParameterValue> read_parameter_values(const YAML::Node& map, const std::string& file,
                                                               bool strict);
+/// All of `text` that can be understood, and everything that cannot.
+struct ParameterText {
+  std::map<std::uint32_t, ParameterValue> values;
+  std::map<std::uint32_t, std::string> places;  ///< "file:line:column: error: " of each value
+  std::vector<std::string> errors;              ///< with file:line:column
+};
+/// Never throws for what is in the text.
+ParameterText check_parameter_text(const std::string& text, const std::string& file);
 /// Strictly, from a text that is said to be that of `file`, and from the file.
 std::map<std::uint32_t, ParameterValue> read_parameter_text(const std::string& text, const std::string& file);
 std::map<std::uint32_t, ParameterValue> read_parameter_file(const std::string& path);

@@ -32,6 +32,7 @@ struct PathMode {
 /// Limits of a trajectory. Its own PathMode is that of G5.1 Q0.
 struct Limits : PathMode {
   std::array<AxisLimits, canonical::axis_count> axes{};
+  bool combined_feed = true;        ///< F counts mm and degrees together where no transformation is active
   double arc_tolerance = 0.005;     ///< mm by which the pieces of a curve and what joins them may leave it
   std::array<PathMode, 2> modes{};  ///< of G5.1 Q1 and Q2
 };

@@ -37,6 +37,12 @@ PathSegment PathSegment::line(const AxisValues& start, const AxisValues& target)
   return segment;
 }
 
+double PathSegment::combined_feed_scale() const {
+  const double rotary = norm3(slope_, canonical::A);
+  if (!(rotary > 0) || unit_ == LengthUnit::degree) return feed_scale_;
+  return 1 / std::hypot(1 / feed_scale_, rotary);
+}
+
 PathSegment PathSegment::curve(const Cubic& curve, double length, const AxisValues& target, bool meets) {
   PathSegment segment;
   segment.start_ = curve[0];

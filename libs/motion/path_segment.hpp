@@ -38,6 +38,9 @@ class PathSegment {
   double length() const { return length_; }
   /// Path length per unit of travel that a feed counts, 1 or more.
   double feed_scale() const { return feed_scale_; }
+  /// The same where a feed counts mm of X Y Z and degrees of the rotary axes together, as the root of the sum
+  /// of their squares: below 1 where both move.
+  double combined_feed_scale() const;
   LengthUnit unit() const { return unit_; }
   /// End of the command the segment is of, or is a piece of.
   const AxisValues& target() const { return target_; }

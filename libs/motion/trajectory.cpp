@@ -182,7 +182,11 @@ bool Trajectory::push_move(const Command& command, double fraction) {
   const double length = block.path.length();
   // Inverse time is the feed of the whole command: what is left of it takes its share of the time.
   const double whole = fraction < 1 ? length / (1 - fraction) : length;
-  block.feed = command.modal.feed / 60 * (inverse ? whole : block.path.feed_scale());
+  const bool combined = limits_[mode_].combined_feed && active_chain_ == nullptr;
+  block.feed = command.modal.feed / 60 *
+               (inverse    ? whole
+                : combined ? block.path.combined_feed_scale()
+                           : block.path.feed_scale());
   if (!std::isfinite(length)) return false;
   if (length > 0 && !block.rapid && !(block.feed > 0 && std::isfinite(block.feed))) return false;
   if (!movable(end_, command.target)) return false;

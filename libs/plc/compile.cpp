@@ -9,7 +9,6 @@
 #include "plc/library/functions.hpp"
 #include "plc/machine/verify.hpp"
 #include "plc/plcopen/import.hpp"
-#include "plc/source_files.hpp"
 #include "plc/syntax/parser.hpp"
 
 namespace trunnion::st {
@@ -124,11 +123,6 @@ std::uint64_t Compilation::layout() const {
   }
   add(code ? std::to_string(code->initial.size() - image_cells + layout_origin) : "");
   return hash;
-}
-
-bool is_source(const std::string& name) {
-  return is_compiled(name) || name == "fast.il" || name == "main.il" || name == "devices.yaml" ||
-         name == "messages.yaml" || name == "modbus.yaml";
 }
 
 bool is_compiled(const std::string& name) {

@@ -85,7 +85,7 @@ ProgrammedPath programmed_path(const std::string& text, const MachineTables& tab
   channel_setup::ChannelSetup environment(tables);
   language::StringSource source(text);
   language::Interpreter interpreter(environment);
-  interpreter.start(source, position, {});
+  interpreter.start(source, position, environment.power_on());
   const AxisValues start = environment.tip_from_machine(position, 0);
   result.path.start({start[0], start[1], start[2]});
   Tracer tracer(environment, result);

@@ -12,9 +12,10 @@ MachineOutline outline_of(const machine::Parameters& parameters, std::uint16_t c
   MachineOutline outline;
   outline.design = machine::chain_parameters(parameters, channel);
   const auto axes = machine::channel_axes(parameters, channel);
-  for (std::size_t i = 0; i < axes.index.size(); ++i)
-    outline.axes[axes.index[i]] = {true, parameters.get(parameter::negative_limit, axes.number[i]),
-                                   parameters.get(parameter::positive_limit, axes.number[i])};
+  for (std::size_t i = 0; i < axes.index.size(); ++i) {
+    const auto travel = machine::travel_of(parameters, axes.number[i]);
+    outline.axes[axes.index[i]] = {true, travel.negative, travel.positive};
+  }
   for (const auto& axis : machine::drive_axes(parameters)) {
     outline.drives.push_back(axis.name);
     if (axis.type != machine::axis_type_linear) outline.turning.push_back(axis.name);

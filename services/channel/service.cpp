@@ -320,15 +320,20 @@ void ChannelService::watch_recorders() {
   core_.set_limit(limit);
 }
 
+// Who has the reply finds no older state; a recording finds the reply before the cycles it acts on.
 void ChannelService::answer_requests() {
   idl::channel::ChannelRequest request;
+  std::vector<std::pair<idl::channel::ChannelRequest, idl::channel::ChannelReply>> answers;
   while (requests_.take(request)) {
     if (request.channel != node_.options().channel) continue;
     const auto answer = core_.handle(request);
-    requests_.reply(request,
-                    {0, 0, answer.accepted, answer.alarm, answer.reason.substr(0, 256), core_.link().next()});
-    changed_ = true;
+    answers.push_back(
+        {request, {0, 0, answer.accepted, answer.alarm, answer.reason.substr(0, 256), core_.link().next()}});
   }
+  if (answers.empty()) return;
+  changed_ = true;
+  publish();
+  for (auto& [asked, reply] : answers) requests_.reply(asked, std::move(reply));
 }
 
 void ChannelService::fetch_text() {

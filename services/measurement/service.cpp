@@ -131,11 +131,12 @@ void MeasurementService::keep() {
 }
 
 void MeasurementService::publish() {
+  // Who sees the end of a measurement finds its result.
+  if (const auto& result = core_.stored().result; result != published_) {
+    result_.write(result);
+    published_ = result;
+  }
   state_.write(core_.stored().state);
-  const auto& result = core_.stored().result;
-  if (result == published_) return;
-  result_.write(result);
-  published_ = result;
 }
 
 // The alarms say what the state says.

@@ -47,6 +47,7 @@ ParameterService::ParameterService(service::Node& node)
       channels_(node.bus().reader(topics::channel_state)),
       requests_(node.bus(), topics::parameter_request, topics::parameter_reply) {
   report_damage();
+  report_misfit();
   if (node.snapshot() == nullptr)
     publish();
   else
@@ -63,6 +64,16 @@ void ParameterService::report_damage() {
     service::report_damage(node_.alarms(), part++, storage_.path(name), kept, contents.at(name));
 }
 
+// Of a state that is older than the refusal of such changes, or of a machine that has got other files.
+void ParameterService::report_misfit() {
+  const auto faults = store_.faults();
+  if (faults.empty()) return node_.alarms().release(alarm::axes_misfit, 0);
+  const auto further = faults.size() - 1;
+  node_.alarms().raise(alarm::axes_misfit, 0,
+                       faults.front().text +
+                           (further == 0 ? "" : "; and " + std::to_string(further) + " more faults like it"));
+}
+
 service::SnapshotAnswer ParameterService::snapshot() {
   const bus::Json state = {
       {"files", snapshot::kept_files(node_.options().state_directory,
@@ -73,7 +84,10 @@ service::SnapshotAnswer ParameterService::snapshot() {
 
 void ParameterService::publish() {
   const auto changes = store_.take_changes();
-  if (changes.set) set_.write(store_.set());
+  if (changes.set) {
+    set_.write(store_.set());
+    report_misfit();
+  }
   if (changes.tools) tools_.write(store_.tool_table());
   if (changes.offsets) offsets_.write(store_.work_offsets());
 }

@@ -26,6 +26,7 @@ class ParameterService : public service::Service {
  private:
   void publish();
   void report_damage();
+  void report_misfit();
 
   service::Node& node_;
   FileStorage storage_;

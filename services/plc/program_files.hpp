@@ -9,8 +9,7 @@
 
 namespace trunnion::plc {
 
-/// The sources of the directory. Throws std::runtime_error.
-SourceFiles read_sources(const std::string& directory);
+using st::read_sources;
 
 /// translate() of the directory, loaded into the core. Returns warnings.
 std::vector<std::string> load_programs(const std::string& directory, PlcCore& core, bool simulated = true);

@@ -3,19 +3,15 @@
 from __future__ import annotations
 
 import contextlib
-import time
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any, Literal
 
 from .data import Alarm, ChannelState, Mode, from_json
-from .errors import Error, NotConnected, ProgramStopped, Refused
+from .errors import Error, NotConnected, ProgramStopped
 from .signals import Signals
 
 if TYPE_CHECKING:
     from .machine import Machine
-
-# A message that is younger than this may show the state from before an order that was answered.
-_SETTLED = 0.3  # s
 
 
 class Channel:
@@ -45,13 +41,11 @@ class Channel:
         """AUTO, MDI, JOG or REF. Raises Refused."""
         if self.state.mode != mode:
             self.command("mode", mode=mode)
-            self._machine.stream.wait(lambda state: self._in(state).mode == mode, 10.0)
 
     def select(self, program: str) -> None:
         """Selects a stored program. Raises Refused."""
         self.set_mode("AUTO")
         self.command("select", program=program)
-        self._machine.stream.wait(lambda state: self._in(state).program == program, 10.0)
 
     def start(self) -> None:
         """Cycle start. Raises Refused."""
@@ -101,7 +95,7 @@ class Channel:
 
     def wait(self, timeout: float = 3600.0, wanted: Literal["IDLE", "HELD"] = "IDLE") -> None:
         """Waits until the channel is idle (or held), and raises ProgramStopped when it stops for another reason."""
-        self._wait(self.state.program or "the program", self._errors(), self.state.reset_count, timeout, wanted, moved=True)
+        self._wait(self.state.program or "the program", self._errors(), self.state.reset_count, timeout, wanted)
 
     def _in(self, state: dict[str, Any]) -> ChannelState:
         one = state.get("channels", {}).get(str(self.number))
@@ -114,22 +108,11 @@ class Channel:
 
     def _do(self, command: str, fields: dict[str, Any], what: str, timeout: float) -> None:
         known, resets = self._errors(), self.state.reset_count
-        # The state that made the channel look idle may be older than its last motion.
-        for attempt in range(10):
-            try:
-                self.command(command, **fields)
-                break
-            except Refused as refusal:
-                if "busy" not in str(refusal) or attempt == 9:
-                    raise
-                time.sleep(0.1)
-        self._wait(what, known, resets, timeout, "IDLE", moved=False)
+        self.command(command, **fields)
+        self._wait(what, known, resets, timeout, "IDLE")
 
-    def _wait(self, what: str, known: set[tuple[int, ...]], resets: int, timeout: float, wanted: str, moved: bool) -> None:
-        answered = time.monotonic()
-
+    def _wait(self, what: str, known: set[tuple[int, ...]], resets: int, timeout: float, wanted: str) -> None:
         def ended(state: dict[str, Any]) -> bool:
-            nonlocal moved
             one = self._in(state)
             raised = [from_json(Alarm, alarm) for alarm in state.get("alarms", {}).values()]
             new = [alarm for alarm in raised if alarm.is_error and alarm.key not in known]
@@ -137,12 +120,6 @@ class Channel:
                 raise ProgramStopped(f"{what} was ended by a reset or an emergency stop", new)
             if new and one.state in ("IDLE", "HELD"):
                 raise ProgramStopped(f"{what} was stopped in line {one.line}", new)
-            moved = moved or one.state not in ("IDLE", wanted)
-            return one.state == wanted and (moved or time.monotonic() - answered > _SETTLED)
+            return one.state == wanted
 
         self._machine.stream.wait(ended, timeout)
-        # An error that ends a line may arrive in the message after the one with the new state.
-        until = time.monotonic() + 0.1
-        while time.monotonic() < until:
-            time.sleep(0.05)
-            self._machine.stream.wait(lambda state: ended(state) or True, 1.0)

@@ -5,14 +5,10 @@ from __future__ import annotations
 import http.client
 import json
 import ssl
-import time
 import urllib.parse
-from collections.abc import Callable
 from typing import Any
 
 from .errors import NotConnected, Refused
-
-_SHOWN_WITHIN = 5.0  # s
 
 
 class Http:
@@ -37,6 +33,8 @@ class Http:
             raise ValueError(f"{ca}: no certificates in PEM form: {error}") from error
         self.host, self.port, self.timeout = parts.hostname, parts.port or (443 if secure else 80), timeout
         self.url = f"{parts.scheme}://{self.host}:{self.port}"
+        #: The sequence of the stream from which on the state is not older than the newest answer.
+        self.shown = 0
         #: Headers of every request.
         self.headers = {"Authorization": f"Bearer {token}"} if token else {}
 
@@ -49,6 +47,7 @@ class Http:
             connection.request(method, path, body, sent)
             answer = connection.getresponse()
             content = answer.read()
+            self.shown = max(self.shown, int(answer.headers.get("X-State-Sequence") or 0))
         except (OSError, http.client.HTTPException) as error:
             raise NotConnected(f"{self.url} does not answer: {error}") from error
         finally:
@@ -68,17 +67,6 @@ class Http:
         if self.tls is None:
             return http.client.HTTPConnection(self.host, self.port, timeout=self.timeout)
         return http.client.HTTPSConnection(self.host, self.port, timeout=self.timeout, context=self.tls)
-
-    @staticmethod
-    def until_shown(shown: Callable[[], bool]) -> None:
-        """Waits until the gateway shows what it has accepted, so that the next read gives it.
-
-        It answers when the cluster has accepted a change, and shows it when the cluster has published it, some ms later. Gives
-        up after 5 s: another client may have changed the same in between.
-        """
-        until = time.monotonic() + _SHOWN_WITHIN
-        while not shown() and time.monotonic() < until:
-            time.sleep(0.01)
 
     def get(self, path: str) -> Any:
         """JSON of a GET."""

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import contextlib
-import json
 import urllib.parse
 from typing import Any
 
@@ -46,12 +45,10 @@ class Parameters:
         body: dict[str, Any] = {"who": who}
         body["text" if isinstance(value, str) else "value"] = value
         self._http.send("PUT", f"/api/parameters/{_digits(number)}", body)
-        self._http.until_shown(lambda: self[number].stored == value)
 
     def restore(self, number: int | str, who: str = "python") -> None:
         """Back to the default. Raises Refused."""
         self._http.send("PUT", f"/api/parameters/{_digits(number)}", {"reset": True, "who": who})
-        self._http.until_shown(lambda: self[number].stored == self[number].default)
 
     def find(self, search: str = "", group: str = "") -> list[Parameter]:
         """All with this text in number, name or help; group: nc, user, channel, axis, compensation or table."""
@@ -89,9 +86,7 @@ class Programs:
         if not replace and any(one.name == name for one in self.list()):
             raise Error(f"{name} is stored already; replace=True stores this text in its place")
         content = text.encode() if isinstance(text, str) else text
-        stored = json.loads(self._http.request("PUT", self._path(name), content, "text/plain")).get("program", {})
-        revision = stored.get("revision", 0)
-        self._http.until_shown(lambda: any(one.name == name and one.revision >= revision for one in self.list()))
+        self._http.request("PUT", self._path(name), content, "text/plain")
 
     def download(self, name: str) -> bytes:
         """The text of a program. Raises Refused when it is not stored."""
@@ -104,7 +99,6 @@ class Programs:
     def delete(self, name: str) -> None:
         """Removes a program. Raises Refused, for example while a channel executes it."""
         self._http.send("DELETE", self._path(name))
-        self._http.until_shown(lambda: all(one.name != name for one in self.list()))
 
     @staticmethod
     def _path(name: str) -> str:

@@ -32,6 +32,8 @@ class Stream:
     """Follows the state in a thread of its own until close()."""
 
     def __init__(self, http: Http):
+        self._http = http
+        http.shown = 0  # another gateway counts anew
         self._socket = WebSocket(http.host, http.port, "/api/stream", SILENCE, http.headers, http.tls)
         self._changed = threading.Condition()
         self._state: dict[str, Any] = {}
@@ -45,10 +47,11 @@ class Stream:
 
     @property
     def state(self) -> dict[str, Any]:
-        """The newest state (MachineState of the API); it is not modified later. Raises NotConnected when it is lost."""
-        with self._changed:
-            self._check()
-            return self._state
+        """The newest state (MachineState of the API), never older than the newest answer; it is not modified later.
+
+        Raises NotConnected when it is lost.
+        """
+        return self.wait(lambda state: state, 10.0)
 
     def wait(self, condition: Callable[[dict[str, Any]], Any], timeout: float) -> Any:
         """The first true result of `condition` for the newest state and those after it.
@@ -59,7 +62,8 @@ class Stream:
         with self._changed:
             while True:
                 self._check()
-                result = condition(self._state) if self._count else None
+                shown = self._count and self._sequence >= self._http.shown
+                result = condition(self._state) if shown else None
                 if result:
                     return result
                 left = until - time.monotonic()

@@ -208,7 +208,10 @@ export async function openPage(browser, url, { size = [1280, 800], locale = "en-
   page.complaints = [];
   page.on("pageerror", (error) => page.complaints.push(String(error)));
   page.on("console", (message) => {
-    if (message.type() === "error" && !/status of 4(00|09|12)/.test(message.text())) page.complaints.push(message.text());
+    const url = message.location().url;
+    // The program of a command is shown while it runs, and may be gone before the page has read it.
+    const gone = /status of 404/.test(message.text()) && /\/api\/programs\/[^/]*\.tmp\.nc/.test(url);
+    if (message.type() === "error" && !gone && !/status of 4(00|09|12)/.test(message.text())) page.complaints.push(`${message.text()} ${url}`);
   });
   await page.addInitScript(keepNotices);
   followStream(page);

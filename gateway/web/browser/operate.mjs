@@ -10,8 +10,8 @@ const close = (a, b) => Math.abs(a - b) < 0.01;
 async function mdiLines(page, url) {
   const field = page.getByRole("textbox", { name: "MDI lines" });
   await field.click();
-  await page.keyboard.type("G54 G0 X11\nG1 X12 F3000\nG4 P0.1\nG0 X13.25", hand);
-  check("MDI lines can be typed at the speed of a hand", (await field.inputValue()) === "G54 G0 X11\nG1 X12 F3000\nG4 P0.1\nG0 X13.25");
+  await page.keyboard.type("G54 G0 X11\nG1 X12 F3000\nG4 P100\nG0 X13.25", hand);
+  check("MDI lines can be typed at the speed of a hand", (await field.inputValue()) === "G54 G0 X11\nG1 X12 F3000\nG4 P100\nG0 X13.25");
   await page.getByRole("button", { name: "Execute" }).click();
   await eventually("the last of several MDI lines is executed", () => machineX(url), (x) => close(x, 13.25));
   await eventually("the field is empty again", async () => (await field.inputValue()) === "");
@@ -38,14 +38,14 @@ async function mdiLines(page, url) {
   await told(page, "line 2 of 3", () => page.getByRole("button", { name: "Execute" }).click());
   // Whatever the page has sent is answered, and the channel executes a line that comes after it.
   await settled(page);
-  await mdi(url, "G4 P0.1");
+  await mdi(url, "G4 P100");
   check(`a bad line ends the rest: ${sent}`, close(await machineX(url), 14) && !sent.includes("G0 X16"));
   check("and the lines stay to be corrected", (await field.inputValue()).includes("?? X15"));
   await post(url, "alarms/reset");
 
   await page.reload();
   const history = page.getByRole("combobox", { name: "Earlier MDI lines" });
-  await history.selectOption({ label: "G54 G0 X11 / G1 X12 F3000 / G4 P0.1 / G0 X13.25" });
+  await history.selectOption({ label: "G54 G0 X11 / G1 X12 F3000 / G4 P100 / G0 X13.25" });
   check("earlier MDI lines are kept over a reload", (await field.inputValue()).startsWith("G54 G0 X11\nG1 X12"));
   await field.fill("");
 }

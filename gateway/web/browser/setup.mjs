@@ -30,6 +30,20 @@ async function workOffsets(page, url) {
   await eventually("it is taken back", async () => near((await offset(url, 1))[0], 0));
   check("the last change is taken back", true);
 
+  await page.getByRole("button", { name: "G54", exact: true }).click();
+  const active = page.getByRole("region", { name: "Set G54" }).first();
+  const before = (await offset(url, 0))[0];
+  for (const place of ["2.5", "4"]) {
+    await active.getByRole("textbox", { name: "X shall show" }).fill(place);
+    await active.getByRole("button", { name: "set X of G54" }).click();
+  }
+  await eventually("the second one is of the position with the first", async () => near((await offset(url, 0))[0], before + 6));
+  await eventually("the position shows it", async () => near((await channelState(url)).workpiece[0], 4));
+  check("the active offset is set twice, each time from the position of then", true);
+  for (const change of [/^Undo: G54 X 7.500 → 6.000/, /^Undo: G54 X 0.000 → 7.500/]) await page.getByRole("button", { name: change }).click();
+  await eventually("both are taken back", async () => near((await offset(url, 0))[0], before));
+  await page.getByRole("button", { name: "G55", exact: true }).click();
+
   await form.getByRole("textbox", { name: "add to X" }).pressSequentially("0,1", hand);
   await form.getByRole("textbox", { name: "add to Y" }).pressSequentially("-0.25", hand);
   await form.getByRole("button", { name: "Add to G55" }).click();

@@ -248,6 +248,11 @@ export const alarmCatalogue: Readonly<Record<number, Readonly<Record<string, { c
     zh: { cause: "原因见文本：参数、机床状态、进程结束，或没有执行该循环的服务", remedy: "排除原因，复位，然后重新启动程序；其中的测量从头开始" },
     de: { cause: "Die Ursache im Text: ein Argument, der Zustand der Maschine, ein beendeter Prozess oder kein Dienst für den Zyklus", remedy: "Die Ursache beheben, zurücksetzen, dann das Programm neu starten; eine Messung darin beginnt von vorn" },
   },
+  159: {
+    en: { cause: "Saved parameters give an axis two letters, turn a travel round or couple a gantry wrongly", remedy: "Correct the parameter that the text names, reset a channel or start the control again, then reset the alarm" },
+    zh: { cause: "已存储的参数给一个轴两个字母、颠倒了行程限位，或错误地耦合了龙门轴", remedy: "更正文本中的参数，复位一个通道或重新启动控制系统，然后复位报警" },
+    de: { cause: "Gespeicherte Parameter geben einer Achse zwei Buchstaben, vertauschen die Grenzen eines Verfahrwegs oder koppeln einen Gantry falsch", remedy: "Den Parameter im Text berichtigen, einen Kanal zurücksetzen oder die Steuerung neu starten, dann den Alarm zurücksetzen" },
+  },
   160: {
     en: { cause: "The order was not possible in this state or had a value beyond its limits", remedy: "Read the reason in the text; nothing was changed" },
     zh: { cause: "该命令在此状态下不可执行，或数值超出限值", remedy: "查看文本中的原因；没有任何更改" },

@@ -48,6 +48,12 @@ export function whenUnknown(act: () => void): void {
   onUnknown = act;
 }
 
+/** An order is answered when what follows from it is shown. */
+let shown = (_sequence: number): Promise<void> => Promise.resolve();
+export function waitUntilShown(until: (sequence: number) => Promise<void>): void {
+  shown = until;
+}
+
 async function call<T>(
   method: string, path: string, body?: BodyInit, type?: string, more: Record<string, string> = {},
 ): Promise<Answer<T>> {
@@ -55,6 +61,7 @@ async function call<T>(
     const response = await fetch(path, { method, body, headers: type ? { "Content-Type": type, ...more } : more });
     const parsed: unknown = await response.json().catch(() => undefined);
     if (response.status === 401) onUnknown();
+    if (method !== "GET") await shown(Number(response.headers.get("X-State-Sequence") ?? 0));
     return { ...answerOf<T>(response.status, parsed), tag: response.headers.get("ETag") ?? "" };
   } catch {
     return { ok: false, status: 0, body: undefined, reason: text.peek().noConnection };

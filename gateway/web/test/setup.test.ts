@@ -2,7 +2,7 @@
 import { expect, test } from "vitest";
 import { isEmpty, planeAxes, planeParameter, type PlanePoints } from "../src/state/planes";
 import { changes, remember, undoLast } from "../src/state/undo";
-import { hindrances, offsetFor, offsetName } from "../src/state/work_zero";
+import { hindrances, isTakenOver, offsetChange, offsetFor, offsetName } from "../src/state/work_zero";
 
 test("an offset is named as in a program", () => {
   expect([0, 5, 6, 53].map(offsetName)).toEqual(["G54", "G59", "G54.1 P1", "G54.1 P48"]);
@@ -17,6 +17,25 @@ test("with the offset that is set the position shows what was wanted, whatever t
     // The axis shows machine - offset - rest.
     expect(machine - offsetFor(active, shown, wanted) - rest).toBeCloseTo(wanted, 5);
   }
+});
+
+test("a position is used only when it is that with the changed offset", () => {
+  const at = (offset: number, more = {}) => ({
+    letters: "XZ", machine: [100, 50], workpiece: [100 - offset, 30], work_offset: 0, tool_length: 20, modal: ["G54"], ...more,
+  });
+  const table = (x: number) => [x, 0, 0, 0, 0, 0, 0, 0, 0];
+  const first = offsetChange(at(10), table(10), table(12));
+  expect(isTakenOver(first, at(10))).toBe(false);
+  expect(isTakenOver(first, at(11.999))).toBe(true);
+  // A second change while the position still shows none of them.
+  const second = offsetChange(at(10), table(12), table(13), first);
+  expect([10, 12, 13].map((offset) => isTakenOver(second, at(offset)))).toEqual([false, false, true]);
+  // Back again: the position of before both is not that of after.
+  const third = offsetChange(at(12), table(13), table(12), second);
+  expect([13, 12].map((offset) => isTakenOver(third, at(offset)))).toEqual([false, true]);
+  // What else the display depends on has changed, so the difference says nothing.
+  expect(isTakenOver(first, at(10, { tool_length: 30 }))).toBe(true);
+  expect(isTakenOver(offsetChange(at(10), table(10), table(10)), at(10))).toBe(true);
 });
 
 test("rotated, mirrored, scaled and polar coordinates hinder it", () => {

@@ -12,6 +12,8 @@
 #include "analysis/default_machine.hpp"
 #include "analysis/program_folders.hpp"
 #include "analysis/summary.hpp"
+#include "channel_setup/channel_setup.hpp"
+#include "machine/parameter_constants.hpp"
 
 namespace trunnion::analysis {
 namespace {
@@ -39,6 +41,56 @@ TEST(Summary, MovesLengthsTimesToolsAndExtents) {
             "X        0.0000 .. 13.0000 (machine)\n"
             "Y        0.0000 .. 9.0000 (machine)\n"
             "Z        0.0000 .. 0.0000 (machine)\n");
+}
+
+// 50 um of X and 30 degrees of A with F500: 30 / 500 min = 3.6 s together, 0.05 / 500 min = 0.006 s of X
+// alone.
+TEST(Summary, WarnsWhereTheTimeDependsOnWhatFCounts) {
+  const auto summary_on = [](bool combined, const std::string& program) {
+    auto tables = tool_tables::load_machine_tables(std::string(MACHINES_DIRECTORY) + "/ac-table");
+    if (!combined) tables.parameters.values[parameter::rotary_feed.number()].value = 1;
+    channel_setup::ChannelSetup machine(tables);
+    language::StringSource source(program);
+    std::ostringstream out;
+    check_program(
+        source, machine, machine.reference_position(), {}, [](std::uint32_t) { return "part.nc"; }, out);
+    return out.str();
+  };
+  const std::string mixed = "G1 X0.05 A30 F500\nM30\n";
+  const auto both = summary_on(true, mixed), linear = summary_on(false, mixed);
+  EXPECT_THAT(both, HasSubstr("time     0.06 min at feed"));
+  EXPECT_THAT(linear, HasSubstr("time     0.00 min at feed"));
+  for (const auto& text : {both, linear})
+    EXPECT_THAT(
+        text,
+        HasSubstr("warning  1 moves of linear and rotary axes, the first in line 1: 3.60 s when F counts "
+                  "both (04c919 = 0), 0.01 s when it counts the linear ones (1)\n"));
+  for (const char* program :
+       {"G1 X10 A5 F500\n", "G1 A30 F500\n", "G1 X10 F500\n", "G43.4 H1\nG1 X0.05 A30 F500\n"})
+    EXPECT_EQ(summary_on(true, program).find("warning"), std::string::npos) << program;
+}
+
+// The table turns 0.5 degrees on over the full turn, in tool tip control too, and has no travel limits.
+TEST(Summary, ATableThatCountsModulo360GoesOnOverTheFullTurn) {
+  auto tables = tool_tables::load_machine_tables(std::string(MACHINES_DIRECTORY) + "/ac-table");
+  tables.parameters.values[parameter::rotary_way.number(4)].value = 1;
+  channel_setup::ChannelSetup machine(tables);
+  const auto c_of = [&](const std::string& program) {
+    language::StringSource source(program);
+    std::ostringstream out;
+    CheckOptions options;
+    options.travel_error = [&](const auto& from, const auto& motion) {
+      return machine.travel_error(from, motion);
+    };
+    EXPECT_TRUE(check_program(
+        source, machine, machine.reference_position(), options, [](std::uint32_t) { return "part.nc"; }, out))
+        << out.str();
+    const auto text = out.str();
+    return text.substr(text.find("C  "));
+  };
+  EXPECT_EQ(c_of("G54 G43.4 H1\nG0 X30 Y0 Z50 A30 C359\nG1 Z0 F2000\nX30.1 C359.5\nX30.2 C0\nX30.3 C0.5\n"),
+            "C        -1.0000 .. 0.5000 (machine)\n");
+  EXPECT_EQ(c_of("G91 G0 C36000000\nG90 C90\n"), "C        0.0000 .. 36000090.0000 (machine)\n");
 }
 
 TEST(Summary, AlarmNamesFileLineColumnAndNumber) {

@@ -17,6 +17,8 @@ namespace {
 struct FiveAxes : DefaultMachine {
   FiveAxes() : DefaultMachine(std::nullopt) {}
   std::uint16_t axes() const override { return 0b101111; }
+  /// easy_gcode_plot writes P500. for half a second.
+  language::DwellPoint dwell_point() const override { return language::DwellPoint::milliseconds; }
 };
 
 /// The summary and the alarm, if any.

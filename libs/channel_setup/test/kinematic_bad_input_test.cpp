@@ -54,7 +54,8 @@ INSTANTIATE_TEST_SUITE_P(
                     Parameter{"unknown_axis", {{40425, 39}}, 142, "digit 9"},
                     Parameter{"letter_twice", {{40425, 33}}, 142, "same letter"},
                     Parameter{"linear_axes_in_a_plane", {{40932, 0}, {40933, 1}}, 142, "one plane"},
-                    Parameter{"carrier_that_is_not_there", {{40907, 1}}, 142, "040905 .. 040907"}),
+                    Parameter{"carrier_that_is_not_there", {{40907, 1}}, 142, "040905 .. 040907"},
+                    Parameter{"letter_that_is_no_axis", {{40006, -1}}, 142, "turns C, which is no axis"}),
     [](const auto& one) { return std::string(one.param.name); });
 
 TEST(BadParameters, ADirectionThatIsNotOneLongIsNormalizedWithAWarning) {

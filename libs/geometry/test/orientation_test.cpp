@@ -61,7 +61,20 @@ TEST(Orientation, full_turns_within_the_travel_are_solutions_of_their_own) {
   }
 }
 
-TEST(Orientation, p1_and_p2_turn_the_axis_nearest_the_tool_only_one_way) {
+// From A45, where A30 and A-30 are both in the negative direction.
+TEST(Orientation, p1_and_p2_choose_the_solution_by_the_sign_of_the_axis_nearest_the_tool) {
+  auto request = towards(Vec3(0, -half, root_three_quarters));
+  request.travel[a] = {-110, 110};
+  for (const double present : {45.0, 0.0, -45.0}) {
+    request.present[a] = present;
+    request.choice = SolutionChoice::positive;
+    EXPECT_NEAR(best(ac_table(), request).best.angles[a], 30, 1e-12) << present;
+    request.choice = SolutionChoice::negative;
+    EXPECT_NEAR(best(ac_table(), request).best.angles[a], -30, 1e-12) << present;
+  }
+}
+
+TEST(Orientation, p1_and_p2_turn_an_endless_axis_only_one_way) {
   auto request = towards(Vec3(0, -half, root_three_quarters));
   request.present[a] = -10;
   EXPECT_NEAR(best(ac_table(), request).best.angles[a], 30, 1e-12) << "40 degrees of A instead of 180 of C";

@@ -39,6 +39,9 @@ struct TestMachine : Environment {
   std::array<double, 3> centre = {-200.3605, -190.1897, -516.0118};
   std::map<std::string, std::unique_ptr<TextSource>, std::less<>> programs;
   std::array<std::uint16_t, 8> cycle_m_codes{};
+  std::array<canonical::RotaryWay, axis_count> ways{};
+  std::optional<MFunctions> functions;  // nothing: every M code may stand
+  DwellPoint point = DwellPoint::refused;
 
   AxisValues work_offset(std::uint8_t index) const override {
     if (index < offsets.size()) return offsets.at(index);
@@ -66,7 +69,10 @@ struct TestMachine : Environment {
   bool diameter_programming() const override { return diameter; }
   double scaling_unit() const override { return factor_unit; }
   CutterSettings cutter_settings() const override { return cutter; }
+  canonical::RotaryWay rotary_way(std::size_t axis) const override { return ways[axis]; }
   CycleSettings cycle_settings() const override { return cycles; }
+  const MFunctions* m_functions() const override { return functions ? &*functions : nullptr; }
+  DwellPoint dwell_point() const override { return point; }
   /// The table turns a direction d of the part to R1 R2 d, which must be +Z: A -(tilt), C so that d points to
   /// -Y or +Y of the machine; of the two solutions the one with the smaller way of C, or C as chosen.
   std::optional<AxisValues> orient(const Vector3& d, const AxisValues& current,

@@ -102,6 +102,10 @@ TEST(Machine, ErrorsNameLineAndColumn) {
             "machine.yaml:3:32: error: replicas must be 1, or 2 for kinematics, compensation and gantry");
   EXPECT_EQ(error_of("name: m\n" + all_services + "  - {service: drive, vendor: opendds}\n"),
             "machine.yaml:12:30: error: unknown vendor 'opendds': fastdds or cyclonedds");
+  EXPECT_EQ(error_of("name: m\n" + all_services + "  - {service: drive}\n"),
+            "machine.yaml:12:5: error: service 'drive' is there twice");
+  EXPECT_EQ(error_of("name: m\n" + all_services + "  - {service: channel, channel: 0}\n"),
+            "machine.yaml:12:5: error: service 'channel' is there twice for channel 0");
   EXPECT_EQ(error_of("name: m\n? [a]\n: 1\n"), "machine.yaml:2:3: error: expected one value");
   EXPECT_EQ(error_of("name: m\nservices:\n  - {service: drive, vendor: [[fastdds]]}\n"),
             "machine.yaml:3:31: error: expected one value");

@@ -83,6 +83,23 @@ std::string file_error_of(const std::string& text) {
   return "";
 }
 
+TEST(ParameterFile, EveryErrorIsNamedAndTheRestIsRead) {
+  const auto read = check_parameter_text(
+      "\"101034\": fast\n\"101035\": 20000\nX: 1\n\"999999\": 1\n\"101035\": 1\n\"101036\": 0\n", "p.yaml");
+  EXPECT_EQ(read.errors,
+            (std::vector<std::string>{
+                "p.yaml:1:11: error: parameter 101034 (rapid_feed): 'fast' is not a number",
+                "p.yaml:3:1: error: 'X' is not a parameter number of six digits",
+                "p.yaml:4:1: error: parameter 999999 does not exist",
+                "p.yaml:5:1: error: parameter 101035 is given twice",
+                "p.yaml:6:11: error: parameter 101036 (maximum_acceleration): 0 is outside 1 .. 1000000 "
+                "mm/s2|deg/s2"}));
+  EXPECT_EQ(read.values.size(), 1u);
+  EXPECT_EQ(read.places.at(101035), "p.yaml:2:11: error: ");
+  EXPECT_EQ(check_parameter_text("- 1\n", "p.yaml").errors.size(), 1u);
+  EXPECT_EQ(check_parameter_text("\"101034\": [\n", "p.yaml").errors.size(), 1u);
+}
+
 TEST(ParameterFile, ErrorsNameLineAndColumn) {
   EXPECT_EQ(file_error_of("\"100900\": 60\n\"100901\": fast\n"),
             "parameters.yaml:2:11: error: parameter 100901 (speed_gain): 'fast' is not a number");

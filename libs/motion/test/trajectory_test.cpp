@@ -123,6 +123,27 @@ TEST(Trajectory, feed_of_a_purely_rotary_move_counts_degrees) {
   EXPECT_NEAR(fastest, 60, 1e-9);
 }
 
+// 3 mm and 4 degrees with F1200: 20 units/s of the 5 they are together, so X has 12 mm/s; 20 mm/s when F
+// counts X alone. With tool tip control F is the speed of the tip, whatever the rule.
+TEST(Trajectory, feed_of_linear_and_rotary_axes_counts_both_or_the_linear_ones) {
+  const geometry::Chain chain = ac_table();
+  const auto fastest = [&](bool combined, Transformation transformation) {
+    Limits limits = uniform_limits(500, 3000, 10);
+    limits.combined_feed = combined;
+    Trajectory t(limits, &chain, cycle);
+    t.start({}, transformation, 0);
+    t.push(line_to({30, 0, 0, 0, 0, 40}, 1200));
+    t.finish();
+    double most = 0;
+    for (Setpoint s = t.step(1, 1, false); !s.at_rest; s = t.step(1, 1, false))
+      most = std::max(most, s.path_speed);
+    return most;
+  };
+  EXPECT_NEAR(fastest(true, Transformation::none), 12, 1e-6);
+  EXPECT_NEAR(fastest(false, Transformation::none), 20, 1e-6);
+  EXPECT_NEAR(fastest(true, Transformation::rtcp), 20, 1e-6);
+}
+
 // X has 200 mm/s at rapid and 100 to go, Y 50 mm/s and 100: Y rules, both arrive together.
 TEST(Trajectory, rapid_moves_all_axes_together_at_the_pace_of_the_slowest) {
   Limits limits = uniform_limits(100, 2000, 10);

@@ -88,7 +88,7 @@ struct Flow : ::testing::Test {
 };
 
 TEST_F(Flow, GivesEveryMoveToMotionInSequenceAndReportsTheEndAgainAndAgain) {
-  start("G90 F6000\nG1 X10\nG4 P0.01\nG2 X20 I5\nG0 Y3\n");
+  start("G90 F6000\nG1 X10\nG4 P10\nG2 X20 I5\nG0 Y3\n");
   EXPECT_EQ(run(), FlowState::end);
   ASSERT_EQ(moves.size(), 4u);
   const CommandKind kinds[] = {CommandKind::line, CommandKind::dwell, CommandKind::arc, CommandKind::rapid};

@@ -53,7 +53,7 @@ TEST(ProgrammedPath, ASkipMoveEndsAtItsEndAndTheProgramGoesOn) {
 }
 
 TEST(ProgrammedPath, AnAlarmIsNamedWithItsPlace) {
-  const auto p = programmed_path("G54 G90\nG1 X10\nM30\n", test::ac_table(), {});
+  const auto p = programmed_path("G54 G90\nG1 X10 M13\nM30\n", test::ac_table(), {});
   EXPECT_EQ(p.problem.substr(0, 2), "2:") << p.problem;
 }
 

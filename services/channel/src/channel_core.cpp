@@ -30,7 +30,7 @@ ChannelCore::ChannelCore(std::uint16_t channel, bool virtual_time)
 }
 
 language::ModalState ChannelCore::power_on_modal() const {
-  language::ModalState modal;
+  auto modal = machine_.power_on();
   modal.tool = static_cast<std::uint16_t>(tool_);
   return modal;
 }
@@ -43,8 +43,10 @@ void ChannelCore::set_parameters(std::shared_ptr<const machine::Parameters> para
 // A revision is used from the next start on: setpoints of one motion are all made with one revision.
 void ChannelCore::apply_parameters() {
   if (!next_parameters_ || !states_.in<Idle>() || !stream_.idle()) return;
+  const bool first = !machine_.configured();
   try {
     machine_.configure(*next_parameters_);
+    if (first) mdi_.modal = power_on_modal();
   } catch (const std::exception& e) {
     event(machine::alarm_of(e), e.what());
     next_parameters_.reset();

@@ -60,8 +60,9 @@ void ChannelCore::show_positions() {
     tip[language::Z] -= modal.tool_length;
   const AxisValues words = executed_frame(modal).program_from_command(tip);
   for (std::size_t i = 0; i < index.size(); ++i) {
-    s.machine[i] = position[index[i]];
-    s.workpiece[i] = words[index[i]];
+    const auto way = machine_.rotary_way(index[i]);
+    s.machine[i] = canonical::shown_angle(way, position[index[i]]);
+    s.workpiece[i] = canonical::shown_angle(way, words[index[i]]);
     s.distance_to_go[i] = moving ? progress_.executed.distance_to_go[index[i]] : 0;
   }
 }

@@ -15,7 +15,7 @@ struct RandomCommands : Channel, ::testing::WithParamInterface<int> {};
 
 const char* const program =
     "G90 G64 F9000\nS800 M3\nG1 X40 Y10\nG2 X80 Y10 I20 J0\nG1 X60 Z-20\nM8\nG1 X0 Y0 Z0\nM0\n"
-    "G1 X30 Y-30\nG4 P0.02\nX-30\nM9\nY30 Z10\nX0 Y0 Z0\nM30\n";
+    "G1 X30 Y-30\nG4 P20\nX-30\nM9\nY30 Z10\nX0 Y0 Z0\nM30\n";
 
 TEST_P(RandomCommands, NeverMakeASetpointJumpOrLeaveTravelAndAResetAlwaysHelps) {
   std::mt19937 random(static_cast<unsigned>(GetParam()));

@@ -34,10 +34,11 @@ void DriveCore::configure(const machine::Parameters& p, bool virtual_time) {
   limits_.resize(axes_.size());
   for (std::size_t i = 0; i < axes_.size(); ++i) {
     const auto a = axes_[i].number;
+    const auto travel = machine::travel_of(p, a);
     limits_[i] = {std::max(p.get(parameter::rapid_feed, a), p.get(parameter::maximum_feed, a)) / 60,
                   p.get(parameter::maximum_acceleration, a),
-                  p.get(parameter::positive_limit, a),
-                  p.get(parameter::negative_limit, a),
+                  travel.positive,
+                  travel.negative,
                   p.get(parameter::following_error_limit, a),
                   p.get(parameter::encoder_difference_limit, a),
                   p.integer(parameter::homing_direction, a),

@@ -215,6 +215,32 @@ std::string ParameterStore::change(State& next, const ParameterRequest& request,
   return "the request names nothing to change";
 }
 
+namespace {
+std::vector<machine::ParameterFault> faults_of(const Values& values) {
+  machine::Parameters parameters;
+  parameters.values = values;
+  return machine::axis_faults(parameters);
+}
+}  // namespace
+
+std::vector<machine::ParameterFault> ParameterStore::faults() const {
+  return faults_of(effective(state_.overrides));
+}
+
+// Empty, or what `overrides` would add to what does not fit already, which is corrected step by step.
+std::string ParameterStore::misfit(const Values& overrides) const {
+  if (overrides == state_.overrides) return "";
+  const auto after = faults_of(effective(overrides));
+  if (after.empty()) return "";
+  const auto before = faults();
+  if (after.size() <= before.size()) return "";
+  const auto added = std::find_if(after.begin(), after.end(), [&](const auto& fault) {
+    return std::none_of(before.begin(), before.end(),
+                        [&](const auto& old) { return old.numbers == fault.numbers; });
+  });
+  return (added != after.end() ? *added : after.back()).text;
+}
+
 void ParameterStore::commit(const State& next, const ActiveSet& active,
                             const std::vector<std::string>& journal) {
   std::vector<NamedText> files;
@@ -255,6 +281,7 @@ idl::parameters::ParameterReply ParameterStore::apply(const ParameterRequest& re
   ActiveSet active = active_;
   std::vector<std::string> journal;
   auto error = change(next, request, journal, time);
+  if (error.empty()) error = misfit(next.overrides);
   if (error.empty()) {
     activate(active, next.overrides, Activation::save);
     if (active.values.size() > most_values)

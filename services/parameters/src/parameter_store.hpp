@@ -6,6 +6,7 @@
 
 #include "active_set.hpp"
 #include "contracts/types.hpp"
+#include "machine/axis_faults.hpp"
 #include "storage.hpp"
 #include "tool_tables/machine_tables.hpp"
 #include "tool_tables/tables.hpp"
@@ -31,7 +32,8 @@ class ParameterStore {
   /// active. Throws std::runtime_error with file:line:column, StorageError when the state cannot be kept.
   ParameterStore(Storage& storage, MachineDefaults defaults, const std::string& boot);
 
-  /// All or nothing. `time` (ISO 8601) goes into the journal only.
+  /// All or nothing; refused too when more parameters than before would not fit together. `time` (ISO 8601)
+  /// goes into the journal only.
   idl::parameters::ParameterReply apply(const idl::parameters::ParameterRequest& request,
                                         const std::string& time);
   /// A channel shows its count of resets: when it has gone up, values that wait for a reset become active.
@@ -42,6 +44,8 @@ class ParameterStore {
   idl::parameters::ToolTable tool_table() const;
   idl::parameters::WorkOffsets work_offsets() const;
   std::uint64_t revision() const { return active_.revision; }
+  /// What does not fit together of the stored values, of which some may wait to become active.
+  std::vector<machine::ParameterFault> faults() const;
   /// News since the last call.
   Changes take_changes();
 
@@ -59,6 +63,7 @@ class ParameterStore {
   bool activate(ActiveSet& active, const Values& overrides, machine::Activation upto) const;
   std::string change(State& next, const idl::parameters::ParameterRequest& request,
                      std::vector<std::string>& journal, const std::string& time) const;
+  std::string misfit(const Values& overrides) const;
   void commit(const State& next, const ActiveSet& active, const std::vector<std::string>& journal);
 
   Storage& storage_;

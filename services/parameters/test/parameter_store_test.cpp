@@ -102,6 +102,37 @@ TEST(ParameterStore, StartsWithTheMachinesDefaults) {
   EXPECT_EQ(published.values[1].value, -300);
 }
 
+// X travels -300 .. 99999 mm (100007, 100006), its reference point is 0 (100012).
+TEST(ParameterStore, RefusesWhatDoesNotFitTogether) {
+  MemoryStorage storage;
+  ParameterStore store(storage, defaults(), "boot");
+  EXPECT_EQ(
+      store.apply(set({{100006, -400, ""}}), time_text).reason,
+      "parameter 100007 (negative_limit): axis 0 (X) has its negative travel limit at -300 mm, which is "
+      "not below the positive one at -400 mm (parameter 100006)");
+  EXPECT_THAT(store.apply(set({{40001, 0, ""}, {40002, 0, ""}}), time_text).reason,
+              HasSubstr("which is X of channel 0 already"));
+  EXPECT_TRUE(store.set().pending.empty());
+  EXPECT_TRUE(store.faults().empty());
+  EXPECT_TRUE(
+      store.apply(set({{100006, -400, ""}, {limit, -500, ""}, {100012, -450, ""}}), time_text).accepted);
+}
+
+// A state of before, or a machine whose files have changed: two faults, corrected one after the other.
+TEST(ParameterStore, WhatDoesNotFitAlreadyCanBeCorrectedStepByStep) {
+  MemoryStorage storage;
+  storage.files["parameters.yaml"] = "\"100006\": -400\n\"040001\": 0\n\"040002\": 0\n";
+  ParameterStore store(storage, defaults(), "boot");
+  EXPECT_EQ(store.faults().size(), 2u);
+  EXPECT_THAT(store.apply(set({{40003, 0, ""}}), time_text).reason, HasSubstr("Z of channel 0 is axis 0"));
+  EXPECT_TRUE(store.apply(set({{100006, -100, ""}}), time_text).accepted)
+      << "its reference point is outside yet";
+  EXPECT_TRUE(store.apply(set({{100006, 100, ""}}), time_text).accepted);
+  EXPECT_EQ(store.faults().size(), 1u);
+  EXPECT_TRUE(store.apply(set({{40002, -1, ""}}), time_text).accepted);
+  EXPECT_TRUE(store.faults().empty());
+}
+
 TEST(ParameterStore, SaveIsActiveAtOnceResetAtTheResetRestartAtTheNextStart) {
   MemoryStorage storage;
   {

@@ -12,6 +12,7 @@
 #include "contracts/types.hpp"
 #include "plc/instruction_list/program.hpp"
 #include "plc/machine/machine.hpp"
+#include "plc/translation.hpp"
 
 namespace trunnion::plc {
 
@@ -92,7 +93,7 @@ struct Handshake {
   }
 };
 
-inline constexpr std::size_t program_cells = 8192;  ///< of the variables of Structured Text
+using st::program_cells;
 
 /// The variables of the programs in Structured Text and the fault that has stopped them. All zero without
 /// such programs.

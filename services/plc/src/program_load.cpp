@@ -92,11 +92,6 @@ idl::plc::OnlineReply ProgramLoad::status(std::uint32_t first) const {
   return reply;
 }
 
-st::ModbusFile modbus_of(const SourceFiles& files, const std::string& directory) {
-  const auto* file = find(files, "modbus.yaml");
-  return file == nullptr ? st::ModbusFile() : st::read_modbus(file->text, directory + file->name);
-}
-
 Translated translated(const SourceFiles& files, bool simulated, const RunningSources& running) {
   Translated result;
   try {

@@ -62,8 +62,7 @@ struct RunningSources {
   st::Variables variables;
   st::ModbusFile modbus;
 };
-/// modbus.yaml of the sources; without the file there are no connections. Throws as st::read_modbus().
-st::ModbusFile modbus_of(const SourceFiles& files, const std::string& directory = "");
+using st::modbus_of;
 /// translate(), modbus_of() and what `running` keeps; errors are messages.
 Translated translated(const SourceFiles& files, bool simulated, const RunningSources& running);
 

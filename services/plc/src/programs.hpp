@@ -1,25 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// The programs of a PLC from their sources: instruction lists, Structured Text and simulated devices.
+// The programs of a PLC as its core runs them.
 #pragma once
 
 #include <string>
 #include <vector>
 
-#include "plc/devices/device_file.hpp"
-#include "plc/devices/message_file.hpp"
-#include "plc/instruction_list/program.hpp"
-#include "plc/tools/uses.hpp"
-#include "plc/tools/variables.hpp"
+#include "plc/translation.hpp"
 #include "structured_text.hpp"
 
 namespace trunnion::plc {
 
-struct SourceFile {
-  std::string name;  ///< main.st, fast.il, devices.yaml
-  std::string text;
-  bool operator==(const SourceFile&) const = default;
-};
-using SourceFiles = std::vector<SourceFile>;
+using st::find;
+using st::SourceFile;
+using st::SourceFiles;
 
 /// What a PLC runs.
 struct Programs {
@@ -32,15 +25,10 @@ struct Programs {
   std::vector<std::string> warnings;
 };
 
-/// Null when there is no such file.
-const SourceFile* find(const SourceFiles& files, const std::string& name);
 /// Identifies the names and texts; the order does not count.
 std::uint32_t crc32_of(SourceFiles files);
 
-/// Translates the tasks `fast` and `main`: of each either <task>.il or the PROGRAM of this name in the .st
-/// files, which are translated together. With `simulated`, for a machine whose hardware is simulated, also
-/// the task `simulation`: devices.yaml, or a PROGRAM of this name. `directory` goes before the names in
-/// messages. Throws std::runtime_error with a line file:line:column: error: ... for each error.
+/// st::translate_sources(), ready to run.
 Programs translate(SourceFiles files, bool simulated, const std::string& directory = "");
 
 }  // namespace trunnion::plc

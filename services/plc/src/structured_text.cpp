@@ -2,7 +2,8 @@
 #include "structured_text.hpp"
 
 #include <algorithm>
-#include <stdexcept>
+
+#include "plc/translation.hpp"
 
 namespace trunnion::plc {
 namespace {
@@ -12,12 +13,7 @@ constexpr std::int64_t millisecond = 1000000;  // ns
 }  // namespace
 
 StructuredText::StructuredText(StructuredPrograms programs) : programs_(std::move(programs)) {
-  const auto cells = programs_.code->initial.size() - st::image_cells;
-  if (cells > program_cells)
-    throw std::runtime_error(
-        "the variables of the PLC programs need " + std::to_string(cells) +
-        " cells of 64 bits, and there are " + std::to_string(program_cells) +
-        ": shorten arrays and strings, and use as few instances of function blocks as needed");
+  st::require_cells(*programs_.code);
   machine_.emplace(programs_.code);
   transfer_ = RegisterTransfer(programs_.code->registers);
   identity_ = programs_.code->identity();

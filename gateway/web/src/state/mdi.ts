@@ -33,14 +33,9 @@ export function errorsOf(alarms: Record<string, Alarm>): Set<string> {
   return new Set(errors.map((alarm) => [alarm.instance, alarm.number, alarm.part, alarm.occurrences].join("/")));
 }
 
-/** A message that is older than this after an answer may show the state from before it (20 messages a second). */
-export const settleMilliseconds = 150;
-
 export class MdiRun {
   /** Lines that the channel has accepted. */
   accepted = 0;
-  private refusals = 0;
-  private answeredAt = -Infinity;
 
   constructor(
     readonly lines: readonly string[],
@@ -49,19 +44,10 @@ export class MdiRun {
   ) {}
 
   /** What to do now; "ended" means that the rest must not be executed. */
-  next(channel: Observed, errors: ReadonlySet<string>, now: number): "send" | "wait" | "done" | "ended" {
+  next(channel: Observed, errors: ReadonlySet<string>): "send" | "wait" | "done" | "ended" {
     if (channel.reset_count !== this.resets || channel.needs_reset || channel.mode !== "MDI") return "ended";
     for (const error of errors) if (!this.errors.has(error)) return "ended";
-    if (now - this.answeredAt < settleMilliseconds || channel.state !== "IDLE") return "wait";
+    if (channel.state !== "IDLE") return "wait";
     return this.accepted === this.lines.length ? "done" : "send";
-  }
-
-  /** The channel's answer to a line; false when the line is refused for good. */
-  answered(ok: boolean, now: number): boolean {
-    this.answeredAt = now;
-    if (ok) this.accepted += 1;
-    // One refusal may be that of a state that was older than it looked; a second one is the line's own.
-    this.refusals = ok ? 0 : this.refusals + 1;
-    return this.refusals < 2;
   }
 }

@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // The one place with live state: the stream, the chosen channel and view, and the last thing that was refused.
 import { computed, signal } from "@preact/signals";
-import { type Answer, answerOf, type OrderAnswer, post } from "../api";
+import { type Answer, answerOf, type OrderAnswer, post, waitUntilShown } from "../api";
 import type { ChannelCommands } from "../contract";
 import { text } from "../text/texts";
 import { History } from "./history";
 import { channelNumbers, emptyStream, type Message, receive, type Stream } from "./model";
 import { RunTime } from "./run_time";
+import { Shown } from "./shown";
 
 const stream = signal<Stream>(emptyStream);
 export const machine = computed(() => stream.value.state);
+const shown = new Shown();
+waitUntilShown((sequence) => shown.until(sequence));
 
 /** connecting: never heard of the gateway; lost: what is shown is old. */
 export const connection = signal<"connecting" | "live" | "lost">("connecting");
@@ -150,6 +153,7 @@ export function connect(): void {
   const end = () => {
     if (ended) return;
     ended = true;
+    shown.ended();
     clearTimeout(silence);
     opened.close();
     if (connection.value === "live") connection.value = "lost";
@@ -178,6 +182,7 @@ export function connect(): void {
       if ("state" in message) history(one.channel).interrupt();
       history(one.channel).record(now, next.state, one);
     }
+    shown.shows(next.sequence, "state" in message);
   };
   opened.onclose = end;
   opened.onerror = end;

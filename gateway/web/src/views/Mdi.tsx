@@ -29,7 +29,7 @@ async function advance(): Promise<void> {
   const one = now && channels.peek()[String(now.channel)];
   if (!now || !one || asking) return;
   const { run } = now;
-  const step = run.next(one, errorsOf(machine.peek().alarms), performance.now());
+  const step = run.next(one, errorsOf(machine.peek().alarms));
   if (step === "done") return end("");
   if (step === "ended") {
     running.value = null;
@@ -41,11 +41,11 @@ async function advance(): Promise<void> {
   asking = true;
   const answer = await post(`/api/channels/${now.channel}/mdi`, { line: run.lines[run.accepted]! });
   asking = false;
-  const again = run.answered(answer.ok, performance.now());
+  if (answer.ok) run.accepted += 1;
   if (running.peek() !== now) return;
-  if (!again) return end(answer.reason);
+  if (!answer.ok) return end(answer.reason);
   running.value = { ...now };
-  if (answer.ok && entered.peek().trim() === run.lines.join("\n") && run.accepted === run.lines.length) entered.value = "";
+  if (entered.peek().trim() === run.lines.join("\n") && run.accepted === run.lines.length) entered.value = "";
 }
 
 effect(() => {
@@ -62,19 +62,7 @@ async function execute(): Promise<void> {
   history.value = remembered(history.peek(), lines.join("\n"));
   keep("mdi", JSON.stringify(history.peek()));
   entered.value = lines.join("\n");
-  if (one.mode !== "MDI") {
-    if (!(await command(text.peek().mode, "mode", { mode: "MDI" }))) return;
-    // The run checks the mode, so it begins when the stream shows it.
-    await new Promise<void>((resolve) => {
-      const late = setTimeout(done, 1000);
-      const stop = channels.subscribe((all) => all[String(one.channel)]?.mode === "MDI" && queueMicrotask(done));
-      function done() {
-        clearTimeout(late);
-        stop();
-        resolve();
-      }
-    });
-  }
+  if (one.mode !== "MDI" && !(await command(text.peek().mode, "mode", { mode: "MDI" }))) return;
   const now = channels.peek()[String(one.channel)] ?? one;
   running.value = { channel: one.channel, run: new MdiRun(lines, now.reset_count, errorsOf(machine.peek().alarms)) };
 }

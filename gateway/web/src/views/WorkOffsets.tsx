@@ -6,15 +6,17 @@ import { type Answer, get, put } from "../api";
 import type { WorkOffset, WorkOffsets as Table } from "../contract";
 import { millimetres } from "../format";
 import type { Channel } from "../state/model";
-import { channel, machine, tell } from "../state/store";
+import { channel, channels, machine, tell } from "../state/store";
 import { changedSince, remember } from "../state/undo";
-import { axisLetters, hindrances, offsetCount, offsetFor, offsetName } from "../state/work_zero";
+import { axisLetters, hindrances, isTakenOver, type OffsetChange, offsetChange, offsetCount, offsetFor, offsetName } from "../state/work_zero";
 import { text } from "../text/texts";
 import { Cell, typedNumber } from "./Cell";
 import { Guard } from "./Guard";
 
 const table = signal<Table>({ set: 0, revision: 0, offsets: [] });
 const chosen = signal(0);
+/** By channel: the newest change of its active offset. */
+const underWay = signal<Record<number, OffsetChange>>({});
 
 const read = () => get<Table>("/api/work-offsets");
 
@@ -33,8 +35,14 @@ const equal = (a: readonly number[], b: readonly number[]) => a.length === b.len
 /** Stores the whole row, made on the table that is shown; the change can be taken back. */
 async function store(row: WorkOffset, values: number[]): Promise<Answer> {
   const { channel: number, index } = row;
-  const send = (next: number[], revision: number) => put("/api/work-offsets", { channel: number, index, values: next, revision });
-  const answer = await send(values, table.peek().revision);
+  const send = async (from: number[], to: number[], revision: number) => {
+    const one = channels.peek()[String(number)];
+    const change = one?.work_offset === index ? offsetChange(one, from, to, underWay.peek()[number]) : undefined;
+    const answer = await put("/api/work-offsets", { channel: number, index, values: to, revision });
+    if (answer.ok && change) underWay.value = { ...underWay.peek(), [number]: change };
+    return answer;
+  };
+  const answer = await send(row.values, values, table.peek().revision);
   if (!answer.ok) return answer;
   const different = [...axisLetters].flatMap((letter, i) =>
     row.values[i] === values[i] ? [] : [`${letter} ${millimetres(row.values[i] ?? 0)} → ${millimetres(values[i]!)}`]);
@@ -43,7 +51,7 @@ async function store(row: WorkOffset, values: number[]): Promise<Answer> {
     undo: async () => {
       const now = await read();
       if (!now.body) return now;
-      return equal(rowOf(now.body, number, index).values, values) ? send([...row.values], now.body.revision) : changedSince();
+      return equal(rowOf(now.body, number, index).values, values) ? send(values, [...row.values], now.body.revision) : changedSince();
     },
   });
   await refresh();
@@ -62,20 +70,21 @@ function FromPosition({ one }: { one: Channel }) {
   const name = offsetName(row.index);
   const turned = hindrances(one.modal);
   const moving = one.state !== "IDLE" && one.state !== "HELD";
-  const usable = turned.length === 0 && !moving && !busy.value;
-  const change = async (values: number[], what: string) => {
+  // The position that the key uses must be that with the offset as it is now.
+  const change = underWay.value[one.channel];
+  const usable = turned.length === 0 && !moving && !busy.value && (!change || isTakenOver(change, one));
+  const save = async (values: number[], what: string) => {
     busy.value = true;
     const answer = await store(row, values);
     tell(answer.ok ? t.stored(what) : `${what}: ${answer.reason}`, !answer.ok);
-    // The position that the next key uses must be that with the new offset.
-    setTimeout(() => (busy.value = false), 300);
+    busy.value = false;
   };
   const shown = (letter: string) => channel.value?.workpiece[one.letters.indexOf(letter)] ?? 0;
   const set = (letter: string, column: number) => {
     const entered = typedNumber(wanted.value[letter] || "0");
     if (entered === undefined) return tell(`${letter}: ${t.notANumber}`, true);
     const active = rowOf(table.peek(), one.channel, one.work_offset).values[column] ?? 0;
-    void change(row.values.map((value, i) => (i === column ? offsetFor(active, shown(letter), entered) : value)), `${name} ${letter}`);
+    void save(row.values.map((value, i) => (i === column ? offsetFor(active, shown(letter), entered) : value)), `${name} ${letter}`);
   };
   const add = () => {
     const entered = columnsOf(one).map(({ letter, column }) => ({ letter, column, delta: typedNumber(deltas.value[letter] || "0") }));
@@ -84,7 +93,7 @@ function FromPosition({ one }: { one: Channel }) {
     const values = [...row.values];
     for (const { column, delta } of entered) values[column] = Math.round(((values[column] ?? 0) + delta!) * 1e9) / 1e9;
     if (equal(values, row.values)) return;
-    void change(values, name).then(() => (deltas.value = {}));
+    void save(values, name).then(() => (deltas.value = {}));
   };
   return (
     <section class="side-form" aria-label={t.setOffset(name)}>

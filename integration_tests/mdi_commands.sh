@@ -1,0 +1,27 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# mdi_commands.sh TRUNNION MACHINES PYTHON: mdi on a machine of two channels prints where the axes of its own channel are, after
+# its own line.
+set -euo pipefail
+trunnion=$1 python=$3
+. "$(dirname "$0")/cluster.sh"
+start_cluster "$2/two-channel"
+for place in 1 2 3 4 5; do
+  for channel in 0 1; do
+    "$trunnion" mdi "G0 X$((10 * channel + place))" --channel "$channel" --json --domain "$domain" > "$work/json"
+    "$python" - "$work/json" "$channel" "$((10 * channel + place))" <<'END' || fail "$(cat "$work/json")"
+import json, sys
+state, channel, place = json.load(open(sys.argv[1])), int(sys.argv[2]), float(sys.argv[3])
+assert state["channel"] == channel, (state["channel"], channel)
+assert abs(state["workpiece"][state["letters"].index("X")] - place) < 1e-3, (state["workpiece"], place)
+END
+  done
+done
+if "$trunnion" mdi "G0 X1000" --channel 1 --domain "$domain" 2> "$work/said"; then fail "a line beyond the travel is executed"; fi
+grep -q 'X would go to 990.0000.*alarm 140' "$work/said" || fail "$(cat "$work/said")"
+# A message of the program is no failure of the line.
+"$trunnion" mdi "#3006=7 (CLAMP IT)" --domain "$domain" > "$work/message" 2>&1 &
+line=$!
+await_alarm ' 151 '
+"$trunnion" channel start --take-right --domain "$domain"
+wait "$line" || fail "$(cat "$work/message")"
