@@ -16,6 +16,8 @@ using language::CommandKind;
 
 void Summary::add(const language::Command& command) {
   if (command.kind == CommandKind::tool) tools_.insert(command.number);
+  if (command.kind == CommandKind::transformation && command.modal.tilt.solution != 0 && plane_line_ == 0)
+    plane_line_ = command.line, plane_solution_ = command.modal.tilt.solution;
   if (command.kind == CommandKind::dwell) dwell_seconds_ += command.dwell_seconds;
 }
 
@@ -117,6 +119,11 @@ void Summary::print(std::ostream& out, std::uint64_t blocks) const {
                   mixed_.linear_minutes * 60);
     out << line;
   }
+  if (plane_line_ != 0)
+    out << "warning  line " << plane_line_ << ": P" << plane_solution_
+        << " of a tilted plane chooses the solution of the rotary axes; programs for Fanuc state the kind of "
+           "the angles "
+           "with P of G68.2: parameter 04c989 = 1\n";
   out << "tools   ";
   for (const std::uint32_t tool : tools_) out << " T" << tool;
   out << (tools_.empty() ? " none\n" : "\n");

@@ -49,6 +49,7 @@ class Summary {
   std::uint64_t rapids_ = 0, lines_ = 0, arcs_ = 0;
   double rapid_length_ = 0, feed_length_ = 0, feed_minutes_ = 0, dwell_seconds_ = 0;
   MixedMoves mixed_;
+  std::uint32_t plane_line_ = 0, plane_solution_ = 0;  ///< of the first tilted plane with P1 or P2
   std::set<std::uint32_t> tools_;
   bool moved_ = false;
   language::AxisValues lowest_{}, highest_{};

@@ -29,10 +29,13 @@ struct Tilt {
   bool active = false;
   Vector3 origin{};                                         ///< mm, in the workpiece frame
   std::array<double, 9> matrix{1, 0, 0, 0, 1, 0, 0, 0, 1};  ///< rows; its columns are the plane's X, Y, Z
+  std::uint8_t solution = 0;  ///< of the rotary axes: 0 the shortest way, 1 positive, 2 negative
+  bool operator==(const Tilt&) const = default;
 
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
-    visit("active", self.active), visit("origin", self.origin), visit("matrix", self.matrix);
+    visit("active", self.active), visit("solution", self.solution);
+    visit("origin", self.origin), visit("matrix", self.matrix);
   }
 };
 
@@ -56,10 +59,11 @@ struct ModalState {
   bool return_to_initial = true;  ///< G98, else G99
   std::uint8_t smoothing = 0;     ///< machining mode, Q of G5.1: 0..2
   bool tool_vector = false;       ///< G43.5: I J K give the tool's direction
-  bool polar = false;             ///< G16
-  bool scaled = false;            ///< G51
-  bool mirrored = false;          ///< G51.1, G24
-  bool rotated = false;           ///< G68
+  bool plane_only = false;  ///< transformation serves a tilted plane alone: rotary axes are at rest in it
+  bool polar = false;       ///< G16
+  bool scaled = false;      ///< G51
+  bool mirrored = false;    ///< G51.1, G24
+  bool rotated = false;     ///< G68
   SpindleMode spindle_mode = SpindleMode::speed;
   SpindleDirection spindle_direction = SpindleDirection::stopped;
   double feed = 0;            ///< F as it applies: mm/min (deg/min for purely rotary moves), 1/min, mm/rev
@@ -69,6 +73,10 @@ struct ModalState {
   double path_tolerance = 0;  ///< P of G64, mm; 0 = the channel's own
   Tilt tilt{};                ///< words are in this plane; targets of commands never are
   std::uint32_t frame = 0;    ///< names the frame of the words: Interpreter::frame_of()
+  bool operator==(const ModalState&) const = default;
+
+  /// G43.4 or G43.5: the tool tip stays on the path while rotary axes move.
+  bool tip_control() const { return transformation == Transformation::rtcp && !plane_only; }
 
   /// Every field that a channel keeps from one line or process to the next.
   template <class Self, class Visit>
@@ -81,7 +89,8 @@ struct ModalState {
     visit("tool_length", self.tool_length), visit("radius_offset", self.radius_offset);
     visit("cutter_side", self.cutter_side), visit("cycle", self.cycle);
     visit("return_to_initial", self.return_to_initial), visit("smoothing", self.smoothing);
-    visit("tool_vector", self.tool_vector), visit("polar", self.polar), visit("scaled", self.scaled);
+    visit("tool_vector", self.tool_vector), visit("plane_only", self.plane_only);
+    visit("polar", self.polar), visit("scaled", self.scaled);
     visit("mirrored", self.mirrored), visit("rotated", self.rotated);
     visit("spindle_mode", self.spindle_mode), visit("spindle_direction", self.spindle_direction);
     visit("feed", self.feed), visit("spindle_speed", self.spindle_speed);

@@ -62,6 +62,7 @@ class ChannelSetup : public language::Environment {
   double curve_tolerance() const override { return limits_.arc_tolerance / 2; }
   const language::MFunctions* m_functions() const override { return &m_functions_; }
   language::DwellPoint dwell_point() const override { return dwell_point_; }
+  bool plane_angles_by_p() const override { return plane_angles_by_p_; }
   bool combined_feed() const override { return limits_.combined_feed; }
   language::CycleSettings cycle_settings() const override { return cycles_; }
   language::CutterSettings cutter_settings() const override { return cutter_; }
@@ -155,6 +156,7 @@ class ChannelSetup : public language::Environment {
   double jog_renewal_seconds_ = 0.25;
   language::ModalState power_on_;
   language::MFunctions m_functions_;
+  bool plane_angles_by_p_ = false;
   language::DwellPoint dwell_point_ = language::DwellPoint::refused;
   language::CycleSettings cycles_;
   language::CutterSettings cutter_;

@@ -119,6 +119,7 @@ enum class AlarmNumber : std::uint16_t {
   tilt_swing_missing = 1805,
   tilt_swing_misplaced = 1806,
   tilt_active = 1807,
+  plane_rotary = 1808,
 };
 
 struct AlarmText {
@@ -246,6 +247,8 @@ inline constexpr std::array alarm_texts = {
     AlarmText{AlarmNumber::tilt_swing_misplaced,
               "G53.1 and G53.2 must be alone in the block behind G68.1 G68.2 G68.3"},
     AlarmText{AlarmNumber::tilt_active, "not possible while a tilted plane is active"},
+    AlarmText{AlarmNumber::plane_rotary,
+              "rotary axes turn in a tilted plane only with tool tip control G43.4 or G43.5"},
 };
 
 constexpr std::string_view alarm_text(AlarmNumber number) {

@@ -163,7 +163,7 @@ constexpr std::array rows = {
           Origin::fanuc, "0.2", "G68 X0 Y0 R30"},
     GCode{681, Group::rotation, AxisWords::taken,
           run<&BlockHandlers::planes, &TiltedPlanes::tilt_to_stored_plane>,
-          "tilted plane number Q of the table; needs tool tip control; P0 shortest, P1 positive, P2 negative "
+          "tilted plane number Q of the table; P0 shortest, P1 positive, P2 negative "
           "swing",
           Origin::hnc, "0.2", "G43.4 H1\nG68.1 Q1\nG53.2"},
     GCode{682, Group::rotation, AxisWords::taken,

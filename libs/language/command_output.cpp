@@ -91,10 +91,18 @@ bool CommandOutput::moves_to(const AxisValues& command, bool& linear) const {
   return linear || rotary;
 }
 
+bool CommandOutput::turns_in_plane(const AxisValues& command) const {
+  if (!state_.modal.plane_only) return false;
+  for (std::size_t axis = 0; axis < axis_count; ++axis)
+    if (is_rotary(axis) && std::abs(command[axis] - state_.position[axis]) > no_distance) return true;
+  return false;
+}
+
 Fault CommandOutput::move_straight(const StraightMove& move, const AxisValues& program) {
   const AxisValues target = state_.command_from_program(program);
   bool linear = false;
   const bool moves = moves_to(target, linear);
+  if (turns_in_plane(target)) return {AlarmNumber::plane_rotary, 0};
   if (compensation_.active()) {
     if (!moves) {
       state_.program_position = program;

@@ -72,6 +72,8 @@ class CommandOutput {
   const CornerMeasures& corner_measures() const { return corner_measures_; }
   /// Whether the axes would move to `command`, and whether linear ones would.
   bool moves_to(const AxisValues& command, bool& linear) const;
+  /// A tilted plane without tool tip control has its rotary axes at rest; this move would turn one.
+  bool turns_in_plane(const AxisValues& command) const;
 
   bool queue_empty() const { return queue_->empty(); }
   /// A command of this block moves the axes.

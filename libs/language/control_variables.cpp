@@ -83,9 +83,7 @@ AlarmNumber ControlVariables::modal(std::uint32_t number, double& result) const 
       result = modal.cutter_side == CutterSide::off ? 40 : modal.cutter_side == CutterSide::left ? 41 : 42;
       break;
     case 4008:
-      result = modal.transformation == Transformation::rtcp ? (modal.tool_vector ? 43.5 : 43.4)
-               : modal.length_offset != 0                   ? 43
-                                                            : 49;
+      result = modal.tip_control() ? (modal.tool_vector ? 43.5 : 43.4) : modal.length_offset != 0 ? 43 : 49;
       break;
     case 4009:
       result = modal.cycle;

@@ -121,6 +121,9 @@ class Environment {
   virtual DwellPoint dwell_point() const { return DwellPoint::refused; }
   /// F of a move of linear and rotary axes without tool tip control counts both (parameter 040919).
   virtual bool combined_feed() const { return true; }
+  /// P of G68.2 states the kind of its angles, as on Fanuc, and not the solution of the rotary axes
+  /// (parameter 040989).
+  virtual bool plane_angles_by_p() const { return false; }
   virtual CycleSettings cycle_settings() const { return {}; }
   virtual CutterSettings cutter_settings() const { return {}; }
   /// Origin, a point on +X and a point with positive Y of stored tilted plane `index` 1..20 (G68.1 Q), mm in

@@ -66,13 +66,8 @@ Fault TiltedPlanes::check() const {
   return {};
 }
 
-Fault TiltedPlanes::check_tilt(std::uint16_t at) const {
-  if (state_.modal.transformation != Transformation::rtcp) return {AlarmNumber::tip_control_needed, at};
-  return output_.refuse_in_compensation(at);
-}
-
 Fault TiltedPlanes::tilt_to_stored_plane(std::uint16_t at) {
-  if (const Fault fault = check_tilt(at)) return fault;
+  if (const Fault fault = output_.refuse_in_compensation(at)) return fault;
   if (!words_.has('Q')) return {AlarmNumber::missing_word, at, needs('Q')};
   std::uint32_t index = 0;
   if (const Fault fault = words_.whole_number('Q', 1, 20, index)) return fault;
@@ -83,10 +78,16 @@ Fault TiltedPlanes::tilt_to_stored_plane(std::uint16_t at) {
 }
 
 Fault TiltedPlanes::tilt_by_angles(std::uint16_t at, bool turned_axes) {
-  if (const Fault fault = check_tilt(at)) return fault;
+  if (const Fault fault = output_.refuse_in_compensation(at)) return fault;
   for (const char letter : {'X', 'Y', 'Z', 'I', 'J', 'K'}) {
     if (!words_.has(letter)) return {AlarmNumber::missing_word, at, needs(letter)};
     words_.use(letter);
+  }
+  const bool by_p = turned_axes && environment_.plane_angles_by_p();
+  if (by_p && words_.has('P')) {
+    std::uint32_t kind = 0;
+    if (const Fault fault = words_.whole_number('P', 0, 1, kind)) return fault;
+    turned_axes = kind == 0;
   }
   Tilt tilt;
   tilt.origin = {words_.axis(X), words_.axis(Y), words_.axis(Z)};
@@ -95,22 +96,28 @@ Fault TiltedPlanes::tilt_by_angles(std::uint16_t at, bool turned_axes) {
   const double k = words_.value('K');
   tilt.matrix = turned_axes ? multiplied(multiplied(rotation(2, i), rotation(0, j)), rotation(2, k))
                             : multiplied(multiplied(rotation(2, k), rotation(1, j)), rotation(0, i));
-  return apply(tilt);
+  return apply(tilt, by_p);
 }
 
-Fault TiltedPlanes::apply(const Tilt& tilt) {
-  std::uint32_t choice = 0;
-  if (words_.has('P')) {
-    if (const Fault fault = words_.whole_number('P', 0, 2, choice)) return fault;
+Fault TiltedPlanes::apply(const Tilt& tilt, bool angles_by_p) {
+  std::uint32_t solution = 0;
+  if (words_.has('P') && !angles_by_p) {
+    if (const Fault fault = words_.whole_number('P', 0, 2, solution)) return fault;
   }
-  state_.swing_choice = static_cast<RotaryChoice>(choice);
   state_.swing_due = true;
+  // Without tool tip control the length, now or from a later G43, acts along the tool in the plane.
+  if (state_.modal.transformation == Transformation::none) {
+    state_.position = environment_.tip_from_machine(state_.position, state_.modal.tool_length);
+    state_.modal.transformation = Transformation::rtcp;
+    state_.modal.plane_only = true;
+  }
   // G68 of before was in another plane.
   ProgramFrame& frame = state_.change_frame();
   frame.clear_rotation();
   state_.modal.rotated = false;
   state_.modal.tilt = tilt;
   state_.modal.tilt.active = true;
+  state_.modal.tilt.solution = static_cast<std::uint8_t>(solution);
   frame.set_tilt(state_.modal.tilt);
   state_.locate(state_.position);
   output_.push(CommandKind::transformation);
@@ -127,6 +134,11 @@ Fault TiltedPlanes::clear_rotation(std::uint16_t at) {
   if (state_.modal.tilt.active) {
     state_.modal.tilt = {};
     frame.set_tilt(state_.modal.tilt);
+    if (state_.modal.plane_only) {
+      state_.position = state_.machine_position(environment_);
+      state_.modal.transformation = Transformation::none;
+      state_.modal.plane_only = false;
+    }
     state_.locate(state_.position);
     output_.push(CommandKind::transformation);
   }
@@ -136,8 +148,10 @@ Fault TiltedPlanes::clear_rotation(std::uint16_t at) {
 
 // check() has seen to it that the block is due and alone.
 Fault TiltedPlanes::swing(std::uint16_t at, bool keep_tip) {
+  if (keep_tip && state_.modal.plane_only) return {AlarmNumber::tip_control_needed, at};
   const Vector3 direction = state_.frame().turned_by_tilt({0, 0, 1});
-  const auto turned = environment_.orient(direction, state_.position, state_.swing_choice);
+  const auto turned =
+      environment_.orient(direction, state_.position, static_cast<RotaryChoice>(state_.modal.tilt.solution));
   if (!turned) return refuse_orientation(context_, direction, at);
   state_.swing_due = false;
   AxisValues target = state_.position;

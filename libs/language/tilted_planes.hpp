@@ -22,8 +22,7 @@ class TiltedPlanes : private BlockHandler {
   Fault move_along_tool(std::uint16_t at);  ///< G53.3
 
  private:
-  Fault check_tilt(std::uint16_t at) const;
-  Fault apply(const Tilt& tilt);
+  Fault apply(const Tilt& tilt, bool angles_by_p = false);
   Fault swing_at_rest(AxisValues target);
   Vector3 tool_direction() const;
 };

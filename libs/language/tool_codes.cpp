@@ -9,8 +9,9 @@ Fault ToolCodes::set_length(std::uint16_t at, LengthUse use) {
   length.vector = use == LengthUse::vector;
   length.subtract = use == LengthUse::subtracted;
   const bool tip = use == LengthUse::tip || use == LengthUse::vector;
-  length.transformation = tip ? Transformation::rtcp : Transformation::none;
-  if (state_.modal.tilt.active && !tip) return {AlarmNumber::tilt_active, at};
+  length.plane_only = state_.modal.plane_only && !tip;
+  length.transformation = tip || length.plane_only ? Transformation::rtcp : Transformation::none;
+  if (state_.modal.tilt.active && !tip && !length.plane_only) return {AlarmNumber::tilt_active, at};
   return choose_length(at, length);
 }
 
@@ -18,11 +19,10 @@ Fault ToolCodes::set_length(std::uint16_t at, LengthUse use) {
 Fault ToolCodes::length_word() {
   if (!words_.has('H')) return {};
   const ModalState& modal = state_.modal;
-  const bool on =
-      modal.tool_vector || modal.transformation == Transformation::rtcp || modal.length_offset != 0;
+  const bool on = modal.tip_control() || modal.length_offset != 0;
   if (!on && words_.value('H') != 0) return {};
-  return choose_length(words_.offset('H'),
-                       {modal.transformation, modal.tool_vector, modal.tool_length < 0, false});
+  return choose_length(words_.offset('H'), {modal.transformation, modal.plane_only, modal.tool_vector,
+                                            modal.tool_length < 0, false});
 }
 
 Fault ToolCodes::choose_length(std::uint16_t at, const Length& use) {
@@ -39,14 +39,16 @@ Fault ToolCodes::choose_length(std::uint16_t at, const Length& use) {
       if (use.subtract) length = -length;
     }
   }
-  const bool same = use.transformation == modal.transformation && h == modal.length_offset &&
-                    length == modal.tool_length && use.vector == modal.tool_vector;
+  const bool same = use.transformation == modal.transformation && use.plane_only == modal.plane_only &&
+                    h == modal.length_offset && length == modal.tool_length &&
+                    use.vector == modal.tool_vector;
   if (same) return {};
   if (const Fault fault = output_.refuse_in_compensation(at)) return fault;
   // The machine is at rest while the coordinates it is described in change.
   AxisValues position = state_.machine_position(environment_);
   if (use.transformation == Transformation::rtcp) position = environment_.tip_from_machine(position, length);
   modal.transformation = use.transformation;
+  modal.plane_only = use.plane_only;
   modal.tool_vector = use.vector;
   modal.length_offset = static_cast<std::uint16_t>(h);
   modal.tool_length = length;

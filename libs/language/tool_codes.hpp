@@ -29,6 +29,7 @@ class ToolCodes : private BlockHandler {
  private:
   struct Length {
     Transformation transformation = Transformation::none;
+    bool plane_only = false;
     bool vector = false;
     bool subtract = false;
     bool off = false;

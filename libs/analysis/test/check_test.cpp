@@ -70,6 +70,24 @@ TEST(Summary, WarnsWhereTheTimeDependsOnWhatFCounts) {
     EXPECT_EQ(summary_on(true, program).find("warning"), std::string::npos) << program;
 }
 
+TEST(Summary, WarnsWherePOfATiltedPlaneMeansSomethingElseOnOtherControls) {
+  const auto summary_on = [](bool by_p, const std::string& p) {
+    auto tables = tool_tables::load_machine_tables(std::string(MACHINES_DIRECTORY) + "/ac-table");
+    if (by_p) tables.parameters.values[parameter::plane_angles.number()].value = 1;
+    channel_setup::ChannelSetup machine(tables);
+    const auto program = "G68.2 X0 Y0 Z0 I0 J10 K0 " + p + "\nG53.1\nG69\nM30\n";
+    language::StringSource source(program);
+    std::ostringstream out;
+    check_program(
+        source, machine, machine.reference_position(), {}, [](std::uint32_t) { return "part.nc"; }, out);
+    return out.str();
+  };
+  EXPECT_THAT(summary_on(false, "P1"),
+              HasSubstr("warning  line 1: P1 of a tilted plane chooses the solution"));
+  EXPECT_EQ(summary_on(false, "P0").find("warning"), std::string::npos);
+  EXPECT_EQ(summary_on(true, "P1").find("warning"), std::string::npos);
+}
+
 // The table turns 0.5 degrees on over the full turn, in tool tip control too, and has no travel limits.
 TEST(Summary, ATableThatCountsModulo360GoesOnOverTheFullTurn) {
   auto tables = tool_tables::load_machine_tables(std::string(MACHINES_DIRECTORY) + "/ac-table");

@@ -23,10 +23,10 @@ std::vector<std::string> modal_codes(const language::ModalState& m) {
       m.cutter_side == CutterSide::left    ? "G41"
       : m.cutter_side == CutterSide::right ? "G42"
                                            : "G40",
-      m.transformation == Transformation::rtcp ? (m.tool_vector ? "G43.5" : "G43.4")
-      : m.length_offset == 0                   ? "G49"
-      : m.tool_length < 0                      ? "G44"
-                                               : "G43",
+      m.tip_control()        ? (m.tool_vector ? "G43.5" : "G43.4")
+      : m.length_offset == 0 ? "G49"
+      : m.tool_length < 0    ? "G44"
+                             : "G43",
       m.spindle_mode == SpindleMode::surface ? "G96" : "G97",
       m.return_to_initial ? "G98" : "G99"};
   if (m.tilt.active) codes.emplace_back("G68.2");

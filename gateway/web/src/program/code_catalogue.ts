@@ -54,7 +54,7 @@ export const gCodes: Readonly<Record<string, string>> = {
   "G61": "exact stop",
   "G64": "continuous path; P mm off the corners at most, Q mm off collinear points",
   "G68": "rotation in the plane about the point given (the position where not given) by R or P degrees; G91 adds to the angle",
-  "G68.1": "tilted plane number Q of the table; needs tool tip control; P0 shortest, P1 positive, P2 negative swing",
+  "G68.1": "tilted plane number Q of the table; P0 shortest, P1 positive, P2 negative swing",
   "G68.2": "tilted plane at X Y Z, turned by I about Z, J about the new X, K about the new Z; P as G68.1",
   "G68.3": "tilted plane at X Y Z, turned by I about X, then J about Y, then K about Z, axes fixed; P as G68.1",
   "G69": "rotation and tilted plane off",
