@@ -166,6 +166,7 @@ TEST(LiveControl, TheLineOfThePowerFailureIsOfferedAndTheProgramStartsFromIt) {
       } catch (const std::exception&) {
         std::this_thread::sleep_for(std::chrono::milliseconds(20));
       }
+    client.channel({.command = CommandKind::TOOL_IN_SPINDLE, .tool = 7});
     client.channel(0, CommandKind::CYCLE_START);
     auto states = client.bus().reader(topics::channel_state);
     const double end = service::monotonic_seconds() + 30;
@@ -205,7 +206,9 @@ TEST(LiveControl, TheLineOfThePowerFailureIsOfferedAndTheProgramStartsFromIt) {
     EXPECT_GE(newest.restart_line, line);
     EXPECT_LE(newest.restart_line, line + 2) << "a line takes four seconds";
     EXPECT_EQ(newest.program, "live.nc");
+    EXPECT_EQ(newest.tool, 7u);
     client.set_mode(0, Mode::AUTO);
+    EXPECT_THROW(client.channel(0, CommandKind::CYCLE_START), std::exception) << "a line is offered";
     client.start_from_line(0, newest.restart_line);
     EXPECT_TRUE(until([&] { return newest.state == RunState::HELD; }));
     client.channel(0, CommandKind::CYCLE_START);

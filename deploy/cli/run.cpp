@@ -154,18 +154,15 @@ void select(cluster::Client& client, std::uint16_t channel, const std::string& n
 }
 
 void draw_progress(const std::vector<idl::channel::ChannelState>& states, double seconds) {
-  double progress = 1;
   std::uint64_t cycle = 0;
+  std::string lines;
   for (const auto& state : states) {
-    progress = std::min(progress, state.progress);
     cycle = std::max(cycle, state.cycle);
+    lines += (lines.empty() ? "line " : ", ") + std::to_string(state.line) + " of " +
+             std::to_string(state.lines_total);
   }
-  constexpr int width = 40;
-  const int filled = static_cast<int>(progress * width);
-  std::fprintf(stderr, "\r[%s%s] %3.0f %%  line %u  cycle %llu  %.1f s ",
-               std::string(static_cast<std::size_t>(filled), '#').c_str(),
-               std::string(static_cast<std::size_t>(width - filled), '.').c_str(), progress * 100,
-               states.empty() ? 0 : states[0].line, static_cast<unsigned long long>(cycle), seconds);
+  std::fprintf(stderr, "\r%s  cycle %llu  %.1f s ", lines.c_str(), static_cast<unsigned long long>(cycle),
+               seconds);
   std::fflush(stderr);
 }
 
@@ -242,8 +239,6 @@ Execution execute(cluster::Client& client, std::size_t channels, const RunOption
   }
   result.ended = std::find(done.begin(), done.end(), false) == done.end();
   if (bar) {
-    for (auto& state : newest)
-      if (alarm.empty()) state.progress = 1;
     draw_progress(newest, service::monotonic_seconds() - began);
     std::fprintf(stderr, "\n");
   }

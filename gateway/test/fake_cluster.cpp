@@ -380,8 +380,7 @@ void FakeCluster::publish_motion(double now) {
   channel.workpiece = channel.machine;
   channel.workpiece[2] += 320.5;
   channel.distance_to_go = {running ? 0.4 : 0, running ? -0.2 : 0, 0, 0, running ? 1.2 : 0};
-  channel.progress = std::fmod(path_ / (2 * M_PI), 1);
-  channel.line = 8 + static_cast<std::uint32_t>(channel.progress * 181);
+  channel.line = 8 + static_cast<std::uint32_t>(std::fmod(path_ / (2 * M_PI), 1) * 181);
   channel_state_.write(channel);
 }
 

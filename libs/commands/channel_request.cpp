@@ -151,6 +151,9 @@ void fill(ChannelRequest& request, const Field& field, const Json& value, std::s
     case Into::parts:
       request.parts = static_cast<std::uint32_t>(whole_of(value, field));
       break;
+    case Into::tool:
+      request.tool = static_cast<std::uint32_t>(whole_of(value, field));
+      break;
   }
 }
 
@@ -246,6 +249,8 @@ std::optional<double> number_in(const ChannelRequest& request, Into field) {
       return request.press;
     case Into::parts:
       return request.parts;
+    case Into::tool:
+      return request.tool;
     default:
       return std::nullopt;
   }

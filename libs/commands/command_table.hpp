@@ -26,7 +26,8 @@ enum class Into {
   axes,
   levels,
   press,
-  parts
+  parts,
+  tool
 };
 
 struct Field {

@@ -40,6 +40,8 @@ void ProgramFlow::start(motion::Trajectory& trajectory, language::TextSource& te
   tapping_ = in_hole_ = refused_ = text_missing_ = false;
   executing_ = initial;
   frames_.clear();
+  modals_.clear();
+  modals_.add(0, initial);
   auxiliaries_.clear();
   const bool rtcp = initial.transformation == language::Transformation::rtcp;
   extent_ =
@@ -167,6 +169,8 @@ FlowState ProgramFlow::arrive_at_line() {
   if (modal.motion == 62) return fail_search("the line is in the middle of a curve (G6.2)");
   search_ = Search::none;
   executing_ = modal;
+  modals_.clear();
+  modals_.add(0, modal);
   const bool rtcp = modal.transformation == language::Transformation::rtcp;
   extent_ = channel_setup::AxisBox::of(rtcp ? machine_.machine_from_tip(position(), modal.tool_length)
                                             : position());
@@ -231,10 +235,15 @@ FlowState ProgramFlow::fill(bool single_block) {
       // The spindle is no longer coupled to the position in the thread.
       if (drilling) return fail(language::AlarmNumber::not_resumable);
       search_ = Search::none;
+      // A drive that lost its newest cycles repeats the skip moves in them: their results are void.
+      skips_.resize(skips_read_);
+      modals_.clear();
+      modals_.add(0, command_.modal);
       trajectory_->start(entry_.restart.position, command_.modal.transformation, command_.modal.tool_length);
     }
     if (command_.modal.frame != frame_) frames_.add(command_.sequence, interpreter_.frame_of(command_));
     frame_ = command_.modal.frame;
+    if (!(*modals_.newest() == command_.modal)) modals_.add(command_.sequence, command_.modal);
     const bool stroke =
         command_.kind == CommandKind::tap || (tapping_ && command_.kind == CommandKind::dwell);
     const bool move = is_path(command_.kind) || command_.kind == CommandKind::dwell || stroke;

@@ -12,7 +12,7 @@
 #include "machine/alarm_definition.hpp"
 #include "motion/trajectory.hpp"
 #include "program_execution/auxiliary_memory.hpp"
-#include "program_execution/frame_trail.hpp"
+#include "program_execution/command_trail.hpp"
 #include "program_execution/move_guard.hpp"
 #include "program_execution/skip_result.hpp"
 #include "program_execution/tapping.hpp"
@@ -118,6 +118,8 @@ class ProgramFlow {
   }
   /// The coordinate frames in which the commands since the start were programmed.
   const FrameTrail& frames() const { return frames_; }
+  /// Their modal states; behind start() or a found line that in which the program begins.
+  const ModalTrail& modals() const { return modals_; }
   /// Of the newest command handed to motion.
   const language::ModalState& executing() const { return executing_; }
   /// The spindle and coolant functions of the commands that are done or were skipped.
@@ -153,6 +155,7 @@ class ProgramFlow {
   language::Command command_;
   language::ModalState executing_;
   FrameTrail frames_;
+  ModalTrail modals_;
   std::uint32_t frame_ = 0;  // of the newest of them
   AuxiliaryMemory auxiliaries_;
   channel_setup::AxisBox extent_;

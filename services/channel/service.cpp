@@ -109,7 +109,7 @@ void ChannelService::read_record() {
 void ChannelService::keep_record() {
   const double now = service::monotonic_seconds();
   if (core_.program_under_way() == (kept_.line != 0) && core_.parts() == kept_.parts &&
-      now - kept_at_ < record_seconds)
+      core_.tool() == kept_.tool && now - kept_at_ < record_seconds)
     return;
   const auto program = core_.running_program();
   if (program == kept_) return;

@@ -151,7 +151,7 @@ def add_operator_command(s):
     s.edit("idl/channel.idl", r"^      uint32 parts; *// SET_PARTS\n", r"\g<0>      uint32 lot;                        // SET_LOT\n")
     s.edit("idl/operator_commands.yaml", r"^panel:", '  - {command: SET_LOT, route: lot, word: lot, busy: true, about: "Set the number of the lot",\n'
            '     fields: [{name: lot, argument: NUMBER, about: "Number of the lot", minimum: 0, maximum: 1000}]}\n\n\\g<0>')
-    s.edit("libs/commands/command_table.hpp", r"^  parts\n", "  parts,\n  lot\n", named="libs/commands")
+    s.edit("libs/commands/command_table.hpp", r"^  tool\n", "  tool,\n  lot\n", named="libs/commands")
     file = "libs/commands/channel_request.cpp"
     s.edit(file, r"^    case Into::parts:\n      request.parts =(.*?)break;\n", r"\g<0>    case Into::lot:\n      request.lot =\g<1>break;\n", named="libs/commands")
     s.edit(file, r"^    case Into::parts:\n      return request.parts;\n", r"\g<0>    case Into::lot:\n      return request.lot;\n", named="libs/commands")

@@ -147,7 +147,6 @@ class ChannelState:
     program_revision: int
     line: int
     lines_total: int
-    progress: float
     modal: list[str]
     feed: float
     programmed_feed: float

@@ -12,7 +12,7 @@ from typing import Any
 from .errors import Error
 
 AXIS_VALUES = ("commanded", "actual", "following_error", "following_peak", "position", "velocity", "torque")
-CHANNEL_VALUES = ("feed", "programmed_feed", "progress", "line", "tool", "feed_override", "rapid_override", "spindle_override")
+CHANNEL_VALUES = ("feed", "programmed_feed", "line", "tool", "feed_override", "rapid_override", "spindle_override")
 DRIVE_VALUES = ("executed", "tick", "starved")
 
 

@@ -117,7 +117,30 @@ async function alarmsAndStops(page, url) {
   await page.getByRole("button", { name: "Operate", exact: true }).click();
   await page.getByRole("button", { name: "Reset", exact: true }).click();
   await eventually("reset", async () => (await channelState(url)).state === "IDLE");
+
+  await page.getByRole("button", { name: "Cycle start" }).click();
+  await eventually("the program runs again", async () => (await channelState(url)).state === "RUNNING" && (await channelState(url)).line === 1);
+  await pressDown(page, page.locator("[data-test=estop]"));
+  await page.locator("[data-test=estop-engaged]").waitFor();
+  await page.mouse.up();
+  await page.getByRole("button", { name: "Recover" }).click();
+  const onwards = page.getByRole("button", { name: "Continue from line 1" });
+  await onwards.waitFor();
+  check("behind the recovery the strip names program and line", /page_test.nc was left in line 1/.test(await alarms.innerText()));
+  await page.getByRole("button", { name: "Cycle start" }).click();
+  await page.getByText("page_test.nc was left in line 1: start from that line").waitFor();
+  check("cycle start alone does not give the line up", (await channelState(url)).restart_line === 1);
+  await onwards.click();
+  await eventually("the line is found", async () => (await channelState(url)).state === "HELD");
+  await page.getByRole("button", { name: "Cycle start" }).click();
+  await eventually("the program continues", async () => (await channelState(url)).state === "RUNNING");
+  await page.getByRole("button", { name: "Reset", exact: true }).click();
+  await eventually("reset again", async () => (await channelState(url)).state === "IDLE");
+
   await page.locator("[data-test=functions]").click();
+  await page.getByRole("textbox", { name: "State the tool in the spindle" }).pressSequentially("7", hand);
+  await page.getByRole("button", { name: "State", exact: true }).click();
+  await eventually("the tool in the spindle is stated", async () => (await channelState(url)).tool === 7);
   await page.getByRole("textbox", { name: "Set the count of parts" }).pressSequentially("41", hand);
   await page.getByRole("button", { name: "Set", exact: true }).click();
   await eventually("the count of parts is set", async () => (await channelState(url)).parts === 41);

@@ -27,17 +27,15 @@ export interface ChannelState {
   /** selected program */
   program: string;
   program_revision: number;
-  /** line being executed, from 1 */
+  /** of the program: being executed, from 1 */
   line: number;
   /** lines of the selected program */
   lines_total: number;
-  /** executed part of the program, 0..1, by bytes */
-  progress: number;
-  /** active G codes, one of each group */
+  /** G codes of the block being executed, one of each group */
   modal: string[];
   /** mm/min along the path now */
   feed: number;
-  /** F in mm/min */
+  /** F in mm/min, of the block being executed */
   programmed_feed: number;
   /** S in 1/min */
   spindle_programmed: number;
@@ -981,4 +979,5 @@ export interface ChannelCommands {
   "handwheel": { axis: string | number; counts: number; increment: number; };
   "handwheel-offset": { on: boolean; };
   "parts": { parts: number; };
+  "tool-in-spindle": { tool: number; };
 }

@@ -131,6 +131,8 @@ Answer ChannelCore::handle(const ChannelRequest& request) {
     case CommandKind::SET_PARTS:
       parts_ = request.parts;
       return {};
+    case CommandKind::TOOL_IN_SPINDLE:
+      return state_tool(request.tool);
     case CommandKind::DRY_RUN:
     case CommandKind::AXIS_LOCK:
     case CommandKind::AUXILIARY_LOCK:
@@ -158,7 +160,7 @@ Answer ChannelCore::select(const std::string& name) {
     return refuse(alarm::request_invalid, "A program cannot be selected while the channel is busy");
   for (const auto& entry : programs_.programs)
     if (entry.name == name) {
-      if (interrupted_.name != name) interrupted_ = {};
+      interrupted_ = {};
       if (is_temporary(name) && !is_temporary(selected_.name)) before_temporary_ = selected_.name;
       selected_ = entry;
       progress_.executed = {};
@@ -174,6 +176,11 @@ Answer ChannelCore::cycle_start() {
     if (mode_ != Mode::AUTO)
       return refuse(alarm::request_invalid, "Cycle start needs mode AUTO (or an MDI line)");
     if (selected_.name.empty()) return refuse(alarm::program_missing, "No program is selected");
+    if (interrupted_.line != 0 && interrupted_.name == selected_.name)
+      return refuse(
+          alarm::request_invalid,
+          selected_.name + " was left in line " + std::to_string(interrupted_.line) +
+              ": start from that line, or reset the channel to start the program from its beginning");
     return start_program({});
   }
   if (states_.in<Suspended>()) return continue_after_suspension();
@@ -181,6 +188,19 @@ Answer ChannelCore::cycle_start() {
   if (!states_.in<Held>()) return refuse(alarm::request_invalid, "The channel is busy");
   path().trajectory().retrace(false);
   states_.resume();
+  return {};
+}
+
+void ChannelCore::put_into_spindle(std::uint32_t tool) {
+  tool_ = tool;
+  tool_since_ = link().executed();
+}
+
+// What was changed by hand, or before the control knew of it.
+Answer ChannelCore::state_tool(std::uint32_t tool) {
+  if (!states_.in<Idle>()) return refuse(alarm::request_invalid, "The channel is busy");
+  put_into_spindle(tool);
+  mdi_.modal.tool = static_cast<std::uint16_t>(tool);
   return {};
 }
 

@@ -88,9 +88,11 @@ RunningProgram ChannelCore::running_program() const {
   auto program = interrupted_;
   if (program_under_way())
     program = {selected_.name, selected_.revision, selected_.crc32,
-               std::max<std::uint32_t>(progress_.executed.line, 1)};
+               std::max<std::uint32_t>(program_line(), 1)};
   program.ended = ended_;
   program.parts = parts_;
+  program.tool = tool_;
+  program.tool_since = tool_since_;
   return program;
 }
 

@@ -75,12 +75,16 @@ class ChannelCore {
   void continue_from(const bus::Json& state);
   /// The kept variables of the last time.
   void set_variables(const language::VariableStore& variables) { *variables_ = variables; }
-  /// The program under way when the control was switched off: a start from its line is offered.
+  /// The program under way when the control was switched off, from whose line it may be continued, and what
+  /// else was kept.
   void set_interrupted(const RunningProgram& program) {
     interrupted_ = program, ended_ = program.ended, parts_ = program.parts;
+    tool_ = program.tool, tool_since_ = program.tool_since;
   }
   /// Machined since the count was set.
   std::uint32_t parts() const { return parts_; }
+  /// In the spindle.
+  std::uint32_t tool() const { return tool_; }
   /// `collision: warn` or `stop` of machine.yaml; without it nothing is checked.
   void guard(machine::CollisionMode mode, const collision_guard::BodiesText& bodies);
   void set_programs(const idl::program::ProgramList& programs);
@@ -171,6 +175,8 @@ class ChannelCore {
   Answer set_mode(Mode mode);
   Answer select(const std::string& name);
   Answer cycle_start();
+  Answer state_tool(std::uint32_t tool);
+  void put_into_spindle(std::uint32_t tool);
   Answer continue_after_interruption();
   Answer reference(std::uint8_t index);
   Answer jog(const idl::channel::ChannelRequest& request);
@@ -258,6 +264,9 @@ class ChannelCore {
   void store_state(FlowState state, idl::stream::ChannelSnapshot& out) const;
 
   // channel_state.cpp: what the operator sees.
+  std::uint32_t executed_sequence() const;
+  std::uint32_t program_line() const;
+  const language::ModalState& executed_modal() const;
   language::ProgramFrame executed_frame(const language::ModalState& modal) const;
   void show_positions();
   std::string detail() const;
@@ -320,11 +329,13 @@ class ChannelCore {
   AxisValues program_start_{};           // machine coordinates
   std::uint64_t ended_ = 0;              // newest cycle of the drive's snapshot when a program ended
   std::uint32_t parts_ = 0;
-  RunningProgram interrupted_;  // before this process started, by the end of the control
+  RunningProgram
+      interrupted_;  // by an emergency stop or the end of the control: may be continued from its line
   Mdi mdi_;
   AxisValues machine_start_{};  // of the path at rest, in machine coordinates
   PathProgress progress_;
-  std::uint32_t tool_ = 0;
+  std::uint32_t tool_ = 0;        // in the spindle
+  std::uint64_t tool_since_ = 0;  // cycle from which on the drive's snapshot knows of it
   double spindle_programmed_ = 0;
   // As they were when the program started: a restart interprets it again with the same.
   std::unique_ptr<language::VariableStore> variables_ = std::make_unique<language::VariableStore>();

@@ -122,7 +122,7 @@ void ChannelCore::suspend() {
   program.tool = tool_;
   program.progress = progress_;
   program.mdi_modal = mdi_.modal;
-  mdi_.modal = program_flow_.executing();
+  mdi_.modal = executed_modal();
   mdi_.modal.tool = static_cast<std::uint16_t>(tool_);
   states_.suspend(program);
   manual_path_.start(machine_start_);

@@ -60,7 +60,7 @@ void ChannelCore::recover() {
   recovered_ = true;
   const auto own = snapshot_of(link().snapshot());
   if (own) {
-    tool_ = own->tool;
+    if (link().snapshot().cycle >= tool_since_) tool_ = own->tool;
     if (own->offset_on) {
       manual_.switch_offset(true);
       build_paths();

@@ -97,7 +97,6 @@ void ChannelCore::execute(const language::Command& command) {
       begin_auxiliary({AuxiliaryKind::T, command.number, 0});
       return;
     case language::CommandKind::spindle_speed:
-      spindle_programmed_ = command.value;
       begin_auxiliary({AuxiliaryKind::S, 0, command.value});
       return;
     case language::CommandKind::auxiliary:
@@ -116,6 +115,7 @@ void ChannelCore::execute(const language::Command& command) {
 }
 
 void ChannelCore::begin_auxiliary(const program_execution::AuxiliaryFunction& function) {
+  if (function.kind == AuxiliaryKind::S) spindle_programmed_ = function.value;
   handshake_.begin(function, link().executed());
   states_.wait();
 }
@@ -142,7 +142,7 @@ void ChannelCore::on_auxiliary_done(const idl::plc::AuxiliaryDone& done) {
   if (language::changes_machine(command)) path().restart();
   const bool auxiliary = command.kind == language::CommandKind::auxiliary;
   // T only selects a tool; M6 puts it into the spindle.
-  if (auxiliary && command.number == tool_change) tool_ = command.modal.tool;
+  if (auxiliary && command.number == tool_change) put_into_spindle(command.modal.tool);
   if (command.kind == language::CommandKind::end) {
     count_part();
     finish(true);

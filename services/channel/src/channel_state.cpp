@@ -27,14 +27,30 @@ std::string ChannelCore::detail() const {
   return states_.published() == RunState::HELD ? external_hold_ : "";
 }
 
-// Of the block that is executed, not of those read ahead. At rest the frames of the last MDI line act, on the
+// Of the block that is executed, not of those read ahead.
+std::uint32_t ChannelCore::executed_sequence() const {
+  const auto sequence = progress_.executed.sequence;
+  return states_.retracing() ? sequence : std::max(sequence, progress_.reached);
+}
+
+// MDI and manual motion have no line of the program.
+std::uint32_t ChannelCore::program_line() const {
+  if (const auto* suspended = states_.suspended()) return suspended->progress.executed.line;
+  return states_.busy() && !states_.is(Activity::program) ? 0 : progress_.executed.line;
+}
+
+const language::ModalState& ChannelCore::executed_modal() const {
+  if (!states_.interpreting() || !flow().started()) return mdi_.modal;
+  return *flow().modals().at(executed_sequence());
+}
+
+// At rest the frames of the last MDI line act, on the
 // tables as they are now; those of a held program when no MDI line was entered in it.
 language::ProgramFrame ChannelCore::executed_frame(const language::ModalState& modal) const {
   const language::ProgramFrame* known = nullptr;
-  const auto sequence = progress_.executed.sequence;
   const auto* suspended = states_.suspended();
   if (states_.interpreting())
-    known = flow().frames().at(states_.retracing() ? sequence : std::max(sequence, progress_.reached));
+    known = flow().frames().at(executed_sequence());
   else if (suspended != nullptr && !mdi_.frames_kept)
     known = program_flow_.frames().at(suspended->progress.executed.sequence);
   if (known != nullptr) return *known;
@@ -49,12 +65,12 @@ language::ProgramFrame ChannelCore::executed_frame(const language::ModalState& m
 void ChannelCore::show_positions() {
   auto& s = state_;
   const auto& index = machine_.channel_axes().index;
-  const auto& modal = states_.interpreting() ? flow().executing() : mdi_.modal;
+  const auto& modal = executed_modal();
   const bool moving = stream_.moving();
   const AxisValues position =
       lock_.show(drive_position(), moving ? progress_.executed.machine : machine_start_);
   AxisValues tip = position;
-  if (s.rtcp)
+  if (modal.transformation == language::Transformation::rtcp)
     tip = machine_.tip_from_machine(position, modal.tool_length);
   else
     tip[language::Z] -= modal.tool_length;
@@ -77,10 +93,9 @@ const idl::channel::ChannelState& ChannelCore::state() {
   s.state = states_.published();
   s.program = selected_.name;
   s.program_revision = selected_.revision;
-  s.line = progress_.executed.line;
+  s.line = program_line();
   s.lines_total = selected_.lines;
-  s.progress = selected_.lines > 0 ? std::min(1.0, static_cast<double>(s.line) / selected_.lines) : 0;
-  const auto& modal = states_.interpreting() ? flow().executing() : mdi_.modal;
+  const auto& modal = executed_modal();
   s.modal = modal_codes(modal);
   const auto drive = link().drive_mode();
   const bool stopped = drive == DriveMode::HELD || drive == DriveMode::OFF;
@@ -94,7 +109,7 @@ const idl::channel::ChannelState& ChannelCore::state() {
   s.length_offset = modal.length_offset;
   s.tool_length = modal.tool_length;
   s.work_offset = modal.work_offset;
-  s.rtcp = modal.transformation == language::Transformation::rtcp;
+  s.rtcp = modal.tip_control();
   s.single_block = switches_.single_block;
   s.optional_stop = switches_.optional_stop;
   s.axes = machine_.channel_axes().number;

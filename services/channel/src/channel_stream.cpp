@@ -201,6 +201,7 @@ void ChannelCore::remember_executed() {
   const auto* written = stream_.executed();
   if (written != nullptr && (written->line != 0 || !states_.is(Activity::program)))
     progress_.executed = *written;
+  if (!states_.is(Activity::program)) progress_.executed.line = 0;  // lines are the program's
 }
 
 }  // namespace trunnion::channel

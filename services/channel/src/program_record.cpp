@@ -2,6 +2,7 @@
 #include "program_record.hpp"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <sstream>
 #include <stdexcept>
@@ -12,10 +13,11 @@
 namespace trunnion::channel {
 namespace {
 
-// The formats so far, each with one line more than the one before: the second has `ended`, the third `parts`.
+// The formats so far, each with lines more than the one before: the second has `ended`, the third `parts`,
+// the fourth `tool` and `tool_since`.
 constexpr const char* head = "trunnion program ";
-constexpr int newest_format = 3;
-constexpr std::size_t first_lines = 6;
+constexpr int newest_format = 4;
+constexpr std::array<std::size_t, newest_format> lines_of_format{6, 7, 8, 10};
 
 int format_of(const std::string& text) {
   for (int format = 1; format <= newest_format; ++format)
@@ -40,14 +42,14 @@ std::string write_record(const RunningProgram& program) {
   for (const auto number : {program.revision, std::uint64_t{program.crc}, std::uint64_t{program.line}})
     text += "\n" + std::to_string(number);
   text += "\n" + program.name + "\n" + std::to_string(program.ended) + "\n" + std::to_string(program.parts) +
-          "\n";
+          "\n" + std::to_string(program.tool) + "\n" + std::to_string(program.tool_since) + "\n";
   return text + std::to_string(storage::crc32(text)) + "\n";
 }
 
 RunningProgram read_record(const std::string& text, const std::string& file) {
   std::istringstream in(text);
   const int format = format_of(text);
-  const std::size_t size = first_lines + static_cast<std::size_t>(std::max(format, 1)) - 1;
+  const std::size_t size = lines_of_format[static_cast<std::size_t>(std::max(format, 1)) - 1];
   std::vector<std::string> lines(size);
   for (std::size_t i = 0; i < size; ++i)
     if (!std::getline(in, lines[i]) || in.eof())
@@ -61,6 +63,10 @@ RunningProgram read_record(const std::string& text, const std::string& file) {
   program.name = lines[4];
   if (format >= 2) program.ended = number_of<std::uint64_t>(lines[5], file, 6);
   if (format >= 3) program.parts = number_of<std::uint32_t>(lines[6], file, 7);
+  if (format >= 4) {
+    program.tool = number_of<std::uint32_t>(lines[7], file, 8);
+    program.tool_since = number_of<std::uint64_t>(lines[8], file, 9);
+  }
   const auto last = static_cast<int>(size);
   const auto sum = number_of<std::uint32_t>(lines.back(), file, last);
   const auto summed = text.size() - std::min(text.size(), lines.back().size() + 1);

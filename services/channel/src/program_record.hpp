@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The program under way, as the text that outlives the control.
+// The program under way and the tool in the spindle, as the text that outlives the control.
 #pragma once
 
 #include <cstdint>
@@ -12,9 +12,11 @@ struct RunningProgram {
   std::string name;
   std::uint64_t revision = 0;
   std::uint32_t crc = 0;
-  std::uint32_t line = 0;   ///< newest that was executed; 0 = no program is under way
-  std::uint64_t ended = 0;  ///< cycle up to which every program has ended; 0 = none has
-  std::uint32_t parts = 0;  ///< machined since the count was set
+  std::uint32_t line = 0;        ///< newest that was executed; 0 = no program is under way
+  std::uint64_t ended = 0;       ///< cycle up to which every program has ended; 0 = none has
+  std::uint32_t parts = 0;       ///< machined since the count was set
+  std::uint32_t tool = 0;        ///< in the spindle
+  std::uint64_t tool_since = 0;  ///< cycle from which on the drive's snapshot knows of it
   bool operator==(const RunningProgram&) const = default;
 
   template <class Self, class Visit>

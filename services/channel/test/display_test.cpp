@@ -2,7 +2,11 @@
 // The positions an operator reads: the tool tip in the words of the block being executed.
 #include <gtest/gtest.h>
 
+#include <map>
+#include <set>
+
 #include "channel_fixture.hpp"
+#include "modal_codes.hpp"
 
 namespace trunnion::channel {
 namespace {
@@ -96,6 +100,81 @@ TEST_F(Display, KeepsTheFramesOfMdiUntilReset) {
   ask(CommandKind::RESET);
   run();
   expect({16, 8, 9}, {117, 8, 19});
+}
+
+// Every line moves, so each has one canonical command with a state of its own, and its line is shown while it
+// is executed. The flow is some forty blocks ahead meanwhile.
+TEST_F(Display, TheModalStateIsThatOfTheCanonicalCommandBeingExecuted) {
+  std::string program;
+  for (int i = 0; i < 12; ++i) {
+    const auto feed = std::to_string(1000 + 100 * i);
+    program += "G90 G17 G40 G0 X0 Y0\nG41 D1 G1 X10 Y0 F" + feed + "\nG1 X20 Y5\nG3 X30 Y15 R10 F" + feed +
+               "0\nG1 X30 Y40 G61\nG40 G0 X0 Y40 G64\nG91 G2 X10 Y10 R10 F" + feed +
+               "\nG1 X-5 G55\nG90 G18 G20 G1 Z0.1\nG21 G54 G0 Z0\n";
+  }
+  load(program + "M30\n");
+  channel_setup::ChannelSetup setup(0);
+  setup.configure(*parameters);
+  idl::parameters::ToolTable tools;
+  tools.tools.resize(1);
+  tools.tools[0].number = 1, tools.tools[0].radius = 1;
+  setup.set_tools(tools);
+  core->set_tools(tools);
+  language::Interpreter interpreter(setup);
+  language::StringSource source(text);
+  interpreter.start(source, {}, setup.power_on());
+  std::map<std::uint32_t, language::ModalState> canonical;
+  language::Command command;
+  while (interpreter.next(command) == language::Step::command) canonical[command.line] = command.modal;
+  ASSERT_EQ(canonical.size(), 121u);
+  cycles_per_round = 8;
+  ASSERT_TRUE(ask(CommandKind::CYCLE_START).accepted);
+  int compared = 0;
+  std::set<std::uint32_t> lines;
+  for (int i = 0; i < 20000 && core->run_state() != idl::channel::RunState::IDLE; ++i) {
+    round();
+    const auto& state = core->state();
+    if (state.line == 0 || core->run_state() != idl::channel::RunState::RUNNING) continue;
+    ASSERT_EQ(state.modal, modal_codes(canonical.at(state.line))) << "line " << state.line;
+    ASSERT_EQ(state.programmed_feed, canonical.at(state.line).feed) << "line " << state.line;
+    lines.insert(state.line);
+    ++compared;
+  }
+  EXPECT_EQ(events.size(), 0u);
+  EXPECT_GT(compared, 200);
+  EXPECT_GT(lines.size(), 100u);
+}
+
+TEST_F(Display, TheTypedLineIsNoLineOfTheProgram) {
+  load("G90 G21 G54\nG1 X8 F6000\nX0\nM30\n");
+  cycles_per_round = 8;
+  ASSERT_TRUE(ask(CommandKind::CYCLE_START).accepted);
+  while (core->state().line != 3) round();
+  ASSERT_TRUE(ask(CommandKind::FEED_HOLD).accepted);
+  run();
+  ASSERT_TRUE(ask(CommandKind::SET_MODE, "", 0, 0, Mode::MDI).accepted);
+  ASSERT_TRUE(ask(CommandKind::MDI_LINE, "G1 Y5 F6000").accepted);
+  for (int i = 0; i < 5; ++i) round();
+  EXPECT_EQ(core->state().line, 3u) << "of the held program";
+  EXPECT_EQ(core->running_program().line, 3u);
+  ASSERT_TRUE(ask(CommandKind::RESET).accepted);
+  run();
+  ASSERT_TRUE(ask(CommandKind::MDI_LINE, "G1 Y0 F6000").accepted);
+  for (int i = 0; i < 5; ++i) {
+    EXPECT_EQ(core->state().line, 0u);
+    round();
+  }
+  run();
+  EXPECT_EQ(core->state().line, 0u);
+}
+
+TEST_F(Display, TheSpindleSpeedBehindAStartFromALineIsTheRestoredOne) {
+  load("G90 G21 G54\nS500 M3\nG1 X8 F6000\nS1500\nX0\nX5\nM30\n");
+  ASSERT_TRUE(ask(CommandKind::START_FROM_LINE, "", 6).accepted);
+  run();
+  ASSERT_TRUE(ask(CommandKind::CYCLE_START).accepted);
+  run();
+  EXPECT_EQ(core->state().spindle_programmed, 1500);
 }
 
 TEST_F(Display, OfAHeldProgramStaysThatOfItsBlockWhileTheAxesAreJogged) {

@@ -7,13 +7,16 @@ namespace trunnion::channel {
 namespace {
 
 TEST(ProgramRecord, ComesBackAsItWas) {
-  const RunningProgram program{"part 7.nc", 12, 0xfffffffeu, 3000000000u, 1ull << 40, 4000000000u};
+  const RunningProgram program{"part 7.nc", 12,          0xfffffffeu, 3000000000u,
+                               1ull << 40,  4000000000u, 4000000001u, 1ull << 41};
   EXPECT_EQ(read_record(write_record(program), "f"), program);
   EXPECT_EQ(read_record(write_record({}), "f"), RunningProgram{});
 }
 
 TEST(ProgramRecord, OfTheVersionsBeforeIsRead) {
   // Checksums of the lines before them, by Python's zlib.crc32.
+  EXPECT_EQ(read_record("trunnion program 3\n12\n77\n40\npart.nc\n900\n8\n959751251\n", "f"),
+            (RunningProgram{"part.nc", 12, 77, 40, 900, 8}));
   EXPECT_EQ(read_record("trunnion program 2\n12\n77\n40\npart.nc\n900\n825921896\n", "f"),
             (RunningProgram{"part.nc", 12, 77, 40, 900}));
   EXPECT_EQ(read_record("trunnion program 1\n12\n77\n40\npart.nc\n1426826806\n", "f"),

@@ -147,6 +147,28 @@ TEST_F(Recovery, AProgramThatEndsWithFunctionsAtRestIsNotContinuedByTheNextProce
   EXPECT_EQ(core->state().restart_line, 1u) << "it is offered by its line";
 }
 
+TEST_F(Recovery, TheToolInTheSpindleIsKnownToTheNextProcessWhoeverPutItThere) {
+  load("G90\nT7 M6\nG1 X10 F6000\nM30\n");
+  ASSERT_TRUE(ask(CommandKind::CYCLE_START).accepted);
+  run();
+  ASSERT_EQ(core->state().tool, 7u);
+  // Killed: the drive's snapshot has it, and the record may be older.
+  begin({});
+  EXPECT_EQ(core->state().tool, 7u);
+  // Stated by hand, which no snapshot of the drive has.
+  EXPECT_TRUE(ask({.command = CommandKind::TOOL_IN_SPINDLE, .tool = 12}).accepted);
+  const auto kept = core->running_program();
+  begin(kept);
+  EXPECT_EQ(core->state().tool, 12u);
+  // The cluster was down: the drive has no snapshot.
+  drive = testing::FakeDrive(3);
+  begin(kept);
+  EXPECT_EQ(core->state().tool, 12u);
+  load("G90\nG1 X10 F6000\nX0\nM30\n");
+  ask(CommandKind::CYCLE_START);
+  EXPECT_EQ(ask({.command = CommandKind::TOOL_IN_SPINDLE, .tool = 3}).reason, "The channel is busy");
+}
+
 TEST_F(Recovery, MdiFunctionsStillEndInAProgramUnderWhichTheDrivesWereSwitchedOff) {
   hold_a_program();
   ask(CommandKind::SET_MODE, "", 0, 0, Mode::MDI);
@@ -160,6 +182,11 @@ TEST_F(Recovery, MdiFunctionsStillEndInAProgramUnderWhichTheDrivesWereSwitchedOf
   ask(CommandKind::SET_MODE);
   EXPECT_EQ(ask(CommandKind::CYCLE_START).reason,
             "The drives were switched off in the program: reset the channel");
+  ask(CommandKind::RESET);
+  EXPECT_EQ(
+      ask(CommandKind::CYCLE_START).reason,
+      "part.nc was left in line 2: start from that line, or reset the channel to start the program from "
+      "its beginning");
   ask(CommandKind::RESET);
   EXPECT_TRUE(ask(CommandKind::CYCLE_START).accepted);
 }

@@ -149,6 +149,31 @@ TEST_F(Skip, AFreshProcessContinuesBehindATouchThatTheOneBeforeItMade) {
   EXPECT_NEAR(drive.rows.back()[0], 60, 1e-9);
 }
 
+TEST_F(Skip, ATouchThatTheDriveHasLostIsMadeAgainAndTheOneBeforeItIsNotTakenForIt) {
+  drive.switch_ = {1, 0, 20};
+  load("G90 G54\nG31 X30 F1200\n#500=#5061\nG1 X0\nG31 X30\n#501=#5061\nG1 X1\nM30\n");
+  cycles_per_round = 8;
+  ask(CommandKind::CYCLE_START);
+  const auto x = [this] { return drive.rows.empty() ? 0 : drive.rows.back()[0]; };
+  while (x() < 5) round();
+  FakeDrive cut = drive;
+  while (x() < 20) round();
+  while (x() > 10) round();
+  cut.forget();
+  drive = cut;  // it published nothing of the touch
+  drive.switch_->position = 20.5;
+  round();
+  ASSERT_EQ(core->run_state(), RunState::INTERRUPTED);
+  ASSERT_TRUE(ask(CommandKind::CYCLE_START).accepted);
+  while (x() < 20) round();
+  while (x() > 10) round();
+  drive.switch_->position = 22;
+  run();
+  EXPECT_EQ(core->run_state(), RunState::IDLE);
+  EXPECT_NEAR(kept(0), 20.5, 1e-9);
+  EXPECT_NEAR(kept(1), 22, 1e-9);
+}
+
 SkipResult touch(double x, double z) {
   SkipResult result;
   result.stopped[language::X] = x, result.stopped[language::Z] = z;

@@ -219,6 +219,8 @@ std::vector<Event> events() {
       command("AXIS_LOCK", CommandKind::AXIS_LOCK, 1),
       command("BLOCK_SKIP", CommandKind::BLOCK_SKIP, 1),
       {"SET_PARTS", [](Bench& b) { return b.ask({.command = CommandKind::SET_PARTS, .parts = 7}); }},
+      {"TOOL_IN_SPINDLE",
+       [](Bench& b) { return b.ask({.command = CommandKind::TOOL_IN_SPINDLE, .tool = 7}); }},
       command("HANDWHEEL_OFFSET", CommandKind::HANDWHEEL_OFFSET, 1),
       command("FEED_OVERRIDE", CommandKind::FEED_OVERRIDE, 0.5),
       command("RAPID_OVERRIDE", CommandKind::RAPID_OVERRIDE, 0.5),

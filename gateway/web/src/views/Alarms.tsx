@@ -20,7 +20,7 @@ export function AlarmList() {
           {t.resetAlarms}
         </button>
       </div>
-      <ul>
+      <ul tabIndex={0} aria-label={t.alarms}>
         {alarms.map((alarm) => {
           const why = explanation(alarm, t);
           return (

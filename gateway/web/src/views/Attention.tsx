@@ -4,8 +4,8 @@
 import { useSignal } from "@preact/signals";
 import { alarmText } from "../plc/messages";
 import { explanation } from "../state/alarms";
-import { holdingAlarms, type RecoveryStep, recoverySteps, sortedAlarms } from "../state/model";
-import { channelList, channelName, channels, machine, request, tell } from "../state/store";
+import { type Channel, holdingAlarms, type RecoveryStep, recoverySteps, sortedAlarms } from "../state/model";
+import { channelList, channelName, channels, chooseChannel, commandTo, machine, request, tell } from "../state/store";
 import { text } from "../text/texts";
 import { AlarmList } from "./Alarms";
 import { lacking } from "./Guard";
@@ -57,6 +57,32 @@ function Recovery({ steps }: { steps: RecoveryStep[] }) {
   );
 }
 
+/** Chooses the channel and searches the line; cycle start approaches it and continues. */
+async function continueFromLine(one: Channel): Promise<void> {
+  const t = text.peek();
+  chooseChannel(one.channel);
+  if (one.mode !== "AUTO" && !(await commandTo(one.channel, t.mode, "mode", { mode: "AUTO" }))) return;
+  await commandTo(one.channel, t.startFromLine, "start-from-line", { line: one.restart_line });
+}
+
+function Left({ one }: { one: Channel }) {
+  const t = text.value;
+  return (
+    <div class="recovery">
+      <span>{t.leftInLine(one.program, one.restart_line)}</span>
+      <button
+        class="primary"
+        data-test="continue-from-line"
+        title={t.continueFromLineAbout}
+        disabled={lacking("operator") !== ""}
+        onClick={() => void continueFromLine(one)}
+      >
+        {t.continueFromLine(one.restart_line)}
+      </button>
+    </div>
+  );
+}
+
 export function Attention() {
   const open = useSignal(false);
   const state = machine.value;
@@ -88,9 +114,8 @@ export function Attention() {
             {why && <p title={why.remedy}>{t.remedy}: {why.remedy}</p>}
           </>
         )}
-        {!first && steps.length === 0 && left.map((one) => <p key={one.channel}>{t.leftInLine(one.program, one.restart_line)}</p>)}
       </div>
-      {steps.length > 0 && <Recovery steps={steps} />}
+      {steps.length > 0 ? <Recovery steps={steps} /> : left.map((one) => <Left key={one.channel} one={one} />)}
       {listed && (
         <div class="alarm-panel alarms" tabIndex={0} aria-label={t.allAlarms} role="region">
           <AlarmList />

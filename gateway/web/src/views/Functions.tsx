@@ -10,6 +10,7 @@ import { Guard } from "./Guard";
 const increments = [0.001, 0.01, 0.1, 1];
 const line = signal("");
 const parts = signal("");
+const spindleTool = signal("");
 const wheelAxis = signal(0);
 const wheelIncrement = signal(0.01);
 
@@ -92,6 +93,35 @@ function Parts({ count }: { count: number }) {
       />
       <button type="submit" data-test="set-parts">{t.setKey}</button>
       <button type="button" data-test="zero-parts" onClick={() => set(0)}>{t.zeroParts}</button>
+    </form>
+  );
+}
+
+/** After a change by hand; M6 states it by itself. */
+function Spindle({ tool }: { tool: number }) {
+  const t = text.value;
+  return (
+    <form
+      class="row"
+      aria-label={t.toolInSpindle}
+      onSubmit={(event) => {
+        event.preventDefault();
+        if (spindleTool.value.trim() === "") return;
+        void command(t.stateTool, "tool-in-spindle", { tool: Number(spindleTool.value) });
+        spindleTool.value = "";
+      }}
+    >
+      <b class="digits" data-test="spindle-tool">T{tool}</b>
+      <input
+        class="short digits"
+        data-test="spindle-tool-wanted"
+        inputMode="numeric"
+        aria-label={t.stateTool}
+        placeholder={t.lineNumber}
+        value={spindleTool.value}
+        onInput={(event) => (spindleTool.value = event.currentTarget.value)}
+      />
+      <button type="submit" data-test="set-spindle-tool" title={t.stateTool}>{t.stateKey}</button>
     </form>
   );
 }
@@ -195,6 +225,8 @@ export function Functions() {
         </div>
         <h3>{t.parts}</h3>
         <Parts count={one.parts} />
+        <h3>{t.toolInSpindle}</h3>
+        <Spindle tool={one.tool} />
         <h3>{t.handwheel}</h3>
         <Handwheel />
         <div class="row">

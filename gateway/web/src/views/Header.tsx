@@ -67,11 +67,24 @@ function Remaining() {
   );
 }
 
+/** The executed share of the planned time: lines would not do, they call others and repeat. */
+function Progress() {
+  const [planned, left] = [plan.value, remaining.value];
+  if (!planned?.complete || !planned.seconds || left === undefined) return null;
+  const percent = Math.round(100 * (1 - left / planned.seconds));
+  return (
+    <span class="meter" role="progressbar" aria-label={text.value.progress} aria-valuemin={0} aria-valuemax={100} aria-valuenow={percent}>
+      <i style={{ width: `${percent}%` }} />
+    </span>
+  );
+}
+
 export function Header() {
   const state = machine.value;
   const one = channel.value;
   const cluster = state.cluster;
   const t = text.value;
+  const typed = one?.mode === "MDI" && one.state !== "IDLE" && !one.suspended;
   return (
     <header aria-label={t.stateBar}>
       <div class="machine-name">
@@ -88,18 +101,9 @@ export function Header() {
           <span class="mode" data-test="mode" data-mode={one.mode}>{t[`mode${one.mode}`]}</span>
           <span class={`state ${one.state.toLowerCase()}`} data-test="state" data-state={one.state}>{t[`state${one.state}`]}</span>
           <div class="run">
-            <b class="program-name">{one.program || t.noProgram}</b>
-            <span
-              class="meter"
-              role="progressbar"
-              aria-label={t.progress}
-              aria-valuemin={0}
-              aria-valuemax={100}
-              aria-valuenow={Math.round(one.progress * 100)}
-            >
-              <i style={{ width: `${Math.min(1, one.progress) * 100}%` }} />
-            </span>
-            <span class="dim digits">{one.lines_total > 0 && t.lineOf(one.line, one.lines_total)}</span>
+            <b class="program-name" data-test="running">{typed ? t.modeMDI : one.program || t.noProgram}</b>
+            {!typed && <Progress />}
+            <span class="dim digits">{!typed && one.lines_total > 0 && t.lineOf(one.line, one.lines_total)}</span>
           </div>
           <Elapsed number={one.channel} />
           <Remaining />
