@@ -373,8 +373,16 @@ TEST_F(Swapping, ChannelAndDriveAreSwappedAtRestWithTheirStateAndNotInMotion) {
   EXPECT_EQ(cluster.channels[0].mode, Mode::MDI);
   EXPECT_EQ(cluster.channels[0].work_offset, before.work_offset);
   EXPECT_NEAR(cluster.channels[0].machine[0], before.machine[0], 1e-6);
-  // G91 still holds: it is 12.5 mm farther on.
-  cluster.client().mdi(0, "X12.5");
+  // G91 still holds: it is 12.5 mm farther on. The channel may hear later than this process that all are
+  // ready.
+  ASSERT_TRUE(cluster.until([&] {
+    try {
+      cluster.client().mdi(0, "X12.5");
+      return true;
+    } catch (const std::exception&) {
+      return false;
+    }
+  })) << cluster.told();
   ASSERT_TRUE(cluster.finish()) << cluster.told();
   EXPECT_TRUE(cluster.until(
       [&] { return std::abs(cluster.channels[0].machine[0] - before.machine[0] - 12.5) < 0.01; }, 5))

@@ -210,9 +210,6 @@ Answer ChannelCore::continue_after_interruption() {
   if (restart_ && stream_.idle()) {  // the stream was lost: restart at the newest point that was executed
     Entry entry;
     entry.restart = *restart_;
-    // What was on its way through the stages may have been executed since.
-    if (const auto own = snapshot_of(link().snapshot()); own && own->running && own->crc == selected_.crc32)
-      entry.restart = RestartPoint{own->sequence, own->fraction, own->position};
     return start_program(entry);
   }
   stream_.link().request_resume();

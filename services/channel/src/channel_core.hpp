@@ -264,6 +264,7 @@ class ChannelCore {
   void store_state(FlowState state, idl::stream::ChannelSnapshot& out) const;
 
   // channel_state.cpp: what the operator sees.
+  void follow_cut();
   std::uint32_t executed_sequence() const;
   std::uint32_t program_line() const;
   const language::ModalState& executed_modal() const;

@@ -24,7 +24,19 @@ void ChannelCore::on_feedback(const idl::stream::FeedbackFrame& feedback) {
     interrupt(mode == DriveMode::OFF ? "The drives were switched off" : "The drive stopped on the path");
   else if (mode == DriveMode::OFF && !first && !was_off && !link.drive_restarted() && !states_.needs_reset())
     interrupt("The drives were switched off");  // while the program was held or waited
+  follow_cut();
   stop_jog_without_renewal();
+}
+
+// The drive goes on with what was on its way to it when the program was interrupted, and a new process may
+// have begun with a cut of the drive's history.
+void ChannelCore::follow_cut() {
+  if (!restart_ || !states_.in<Interrupted>() || !stream_.idle()) return;
+  auto own = snapshot_of(link().snapshot());
+  if (!own || !own->running || own->crc != selected_.crc32) return;
+  restart_ = RestartPoint{own->sequence, own->fraction, own->position};
+  progress_.executed.line = own->line;
+  if (own->skips.size() > program_flow_.skips().size()) program_flow_.set_skips(std::move(own->skips));
 }
 
 void ChannelCore::interrupt(const std::string& why) {

@@ -229,6 +229,8 @@ TEST_F(Channel, DrivesThatWereOffWhileTheProgramWasHeldMakeItBeginAgain) {
   EXPECT_EQ(core->run_state(), RunState::INTERRUPTED);
   EXPECT_FALSE(ask(CommandKind::CYCLE_START).accepted) << "the spindle may have stopped";
   ask(CommandKind::RESET);
+  EXPECT_FALSE(ask(CommandKind::CYCLE_START).accepted) << "its line is offered";
+  ask(CommandKind::RESET);
   EXPECT_TRUE(ask(CommandKind::CYCLE_START).accepted);
 }
 

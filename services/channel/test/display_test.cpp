@@ -15,9 +15,9 @@ using idl::channel::CommandKind;
 using idl::channel::Mode;
 
 struct Display : testing::Channel {
+  idl::parameters::WorkOffsets offsets;
   void SetUp() override {
     Channel::SetUp();
-    idl::parameters::WorkOffsets offsets;
     offsets.offsets.push_back({0, 0, {100, 0, 10, 0, 0, 0, 0, 0, 0}});
     offsets.offsets.push_back({0, 1, {0, 50, 0, 0, 0, 0, 0, 0, 0}});
     core->set_offsets(offsets);
@@ -102,8 +102,8 @@ TEST_F(Display, KeepsTheFramesOfMdiUntilReset) {
   expect({16, 8, 9}, {117, 8, 19});
 }
 
-// Every line moves, so each has one canonical command with a state of its own, and its line is shown while it
-// is executed. The flow is some forty blocks ahead meanwhile.
+// Every line moves, so each has canonical commands with a state of their own (more than one at a corner of
+// the compensated contour), and its line is shown while it is executed. The flow is some forty blocks ahead.
 TEST_F(Display, TheModalStateIsThatOfTheCanonicalCommandBeingExecuted) {
   std::string program;
   for (int i = 0; i < 12; ++i) {
@@ -119,13 +119,15 @@ TEST_F(Display, TheModalStateIsThatOfTheCanonicalCommandBeingExecuted) {
   tools.tools.resize(1);
   tools.tools[0].number = 1, tools.tools[0].radius = 1;
   setup.set_tools(tools);
+  setup.set_offsets(offsets);
   core->set_tools(tools);
   language::Interpreter interpreter(setup);
   language::StringSource source(text);
   interpreter.start(source, {}, setup.power_on());
-  std::map<std::uint32_t, language::ModalState> canonical;
+  std::map<std::uint32_t, std::vector<language::ModalState>> canonical;
   language::Command command;
-  while (interpreter.next(command) == language::Step::command) canonical[command.line] = command.modal;
+  while (interpreter.next(command) == language::Step::command)
+    canonical[command.line].push_back(command.modal);
   ASSERT_EQ(canonical.size(), 121u);
   cycles_per_round = 8;
   ASSERT_TRUE(ask(CommandKind::CYCLE_START).accepted);
@@ -135,8 +137,13 @@ TEST_F(Display, TheModalStateIsThatOfTheCanonicalCommandBeingExecuted) {
     round();
     const auto& state = core->state();
     if (state.line == 0 || core->run_state() != idl::channel::RunState::RUNNING) continue;
-    ASSERT_EQ(state.modal, modal_codes(canonical.at(state.line))) << "line " << state.line;
-    ASSERT_EQ(state.programmed_feed, canonical.at(state.line).feed) << "line " << state.line;
+    const auto& made = canonical[state.line];
+    ASSERT_TRUE(std::any_of(made.begin(), made.end(),
+                            [&](const auto& modal) {
+                              return state.modal == modal_codes(modal) && state.programmed_feed == modal.feed;
+                            }))
+        << "line " << state.line << " F" << state.programmed_feed << " "
+        << ::testing::PrintToString(state.modal);
     lines.insert(state.line);
     ++compared;
   }

@@ -162,7 +162,7 @@ TEST_F(Skip, ATouchThatTheDriveHasLostIsMadeAgainAndTheOneBeforeItIsNotTakenForI
   cut.forget();
   drive = cut;  // it published nothing of the touch
   drive.switch_->position = 20.5;
-  round();
+  core->on_feedback(drive.run(0));
   ASSERT_EQ(core->run_state(), RunState::INTERRUPTED);
   ASSERT_TRUE(ask(CommandKind::CYCLE_START).accepted);
   while (x() < 20) round();
