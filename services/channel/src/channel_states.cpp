@@ -54,7 +54,7 @@ Active ChannelStates::take_active() {
   if (auto* running = std::get_if<Running>(&state_)) return *running;
   if (auto* preparing = std::get_if<Preparing>(&state_)) return std::move(*preparing);
   auto* inner = active();
-  require(inner != nullptr);
+  if (inner == nullptr) throw std::bad_variant_access();
   return std::move(*inner);
 }
 
