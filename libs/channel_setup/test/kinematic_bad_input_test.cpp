@@ -104,7 +104,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Program{"swing_about_the_tip_without_tip_control", "G68.2 X0 Y0 Z0 I0 J10 K0\nG53.2",
                             number(AlarmNumber::tip_control_needed), "G53.2"},
                     Program{"turn_in_a_plane_without_tip_control", "G68.2 X0 Y0 Z0 I0 J10 K0\nG53.1\nG0 C10",
-                            number(AlarmNumber::plane_rotary), "C10"},
+                            number(AlarmNumber::plane_rotary), "G0"},
                     Program{"arc_with_a_turn_in_a_plane_without_tip_control",
                             "G68.2 X0 Y0 Z0 I0 J10 K0\nG53.1\nG2 X10 I5 C10 F100",
                             number(AlarmNumber::plane_rotary), "G2"},

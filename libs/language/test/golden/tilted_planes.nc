@@ -10,5 +10,10 @@ G0 X1
 G43.4 H1
 G68.2 X0 Y0 Z0 I0 J0 K0
 G0 X1
-(=== a plane needs tool tip control)
-G68.2 X0 Y0 Z0 I0 J0 K0
+(=== without tool tip control G43 behind the swing acts along the tool)
+G68.2 X10 Y0 Z0 I90 J0 K0
+G53.1
+G43 H1
+G0 X5 Y0 Z20
+G69
+G0 X1
