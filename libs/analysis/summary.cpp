@@ -122,8 +122,7 @@ void Summary::print(std::ostream& out, std::uint64_t blocks) const {
   if (plane_line_ != 0)
     out << "warning  line " << plane_line_ << ": P" << plane_solution_
         << " of a tilted plane chooses the solution of the rotary axes; programs for Fanuc state the kind of "
-           "the angles "
-           "with P of G68.2: parameter 04c989 = 1\n";
+           "the angles with P of G68.2: parameter 04c989 = 1\n";
   out << "tools   ";
   for (const std::uint32_t tool : tools_) out << " T" << tool;
   out << (tools_.empty() ? " none\n" : "\n");

@@ -47,7 +47,7 @@ export function AlarmHistory() {
       />
       {missing.value && <p class="dim" role="status">{missing.value}</p>}
       <div class="scroll" tabIndex={0} role="region" aria-label={t.alarmHistory}>
-        <ul tabIndex={0} aria-label={t.alarmHistory} data-test="alarm-history">
+        <ul data-test="alarm-history">
           {rows.value.slice(0, most.value).map((alarm) => {
             const lasted = seconds(alarm);
             return (
