@@ -17,9 +17,12 @@ namespace {
 constexpr std::size_t most_applied = 256;  // inputs that one message of the log can name
 constexpr double outputs_period = 0.2;     // s between two messages to the drive
 constexpr double longest_input = 0.05;     // s of taking the drive's feedback without anything else
-constexpr double log_period = 0.02;        // s between two progress messages
-constexpr double image_period = 0.1;       // s, fastest publication of the image
-constexpr double drive_timeout = 0.15;     // s for which PLC time continues by the clock without feedback
+// s of virtual time that the drive is asked for at once. It lives through hours in a moment, and the programs
+// must see what it does to their outputs before their own times have passed.
+constexpr double longest_ahead = 0.1;
+constexpr double log_period = 0.02;     // s between two progress messages
+constexpr double image_period = 0.1;    // s, fastest publication of the image
+constexpr double drive_timeout = 0.15;  // s for which PLC time continues by the clock without feedback
 constexpr double standstill_timeout =
     0.5;  // s for which a request waits for the drive's confirmation of the standstill
 
@@ -279,7 +282,9 @@ void PlcService::pump() {
 }
 
 void PlcService::publish(double now) {
-  const auto outputs = core_.outputs();
+  auto outputs = core_.outputs();
+  const auto ahead = static_cast<std::uint64_t>(longest_ahead / period_);
+  outputs.run_until_tick = std::min(outputs.run_until_tick, outputs.tick + ahead);
   auto same = last_outputs_;
   same.tick = outputs.tick;
   if (!node_.options().virtual_time) same.run_until_tick = outputs.run_until_tick;

@@ -45,6 +45,30 @@ TEST(PlcServiceOverDds, HandshakesTakeTheSameTicksAndAKillChangesNoOutput) {
   EXPECT_EQ(machine.outputs.axis_enable.at(0), 1);
 }
 
+// A timer of an hour, as one that measures how long the channel runs. With the hour asked for at once, the
+// drive was 10 s ahead before the programs saw a millisecond of it, and the limit of 8 s for a step of a tool
+// change was over.
+TEST(PlcServiceOverDds, VirtualTimeDoesNotRunAwayFromThePrograms) {
+  RunningService service(TRUNNION_PLC, "plc_ahead", plc_domain);
+  install(service);
+  service.write("machine/plc/main.st",
+                "PROGRAM main\nVAR hour : TON; END_VAR\nhour(IN := TRUE, PT := T#1h);\nEND_PROGRAM\n");
+  service.start({"--virtual-time"});
+  Machine machine(plc_domain);
+  for (const std::uint64_t wanted : {100u, 1000u, 5000u})
+    ASSERT_TRUE(eventually([&] {
+      machine.poll();
+      if (machine.have_outputs) {
+        EXPECT_LE(machine.outputs.run_until_tick, machine.outputs.tick + 100);
+        if (machine.outputs.run_until_tick > machine.tick) {
+          machine.tick = machine.outputs.run_until_tick;
+          machine.send();
+        }
+      }
+      return machine.tick >= wanted;
+    })) << wanted;
+}
+
 TEST(PlcServiceOverDds, AFaultyProgramIsAFaultWithItsPlaceAndSafeOutputs) {
   RunningService service(TRUNNION_PLC, "plc_faulty", plc_domain);
   install(service);
