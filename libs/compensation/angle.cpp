@@ -33,9 +33,11 @@ std::vector<AngleCompensation> read_angles(TableReader& reader, std::uint32_t a,
   for (const auto& one : both) {
     auto values = reader.read(one.table, a);
     if (!values.enabled) continue;
+    const auto reference = columns.of(p, one.axis, a);
+    reader.check_turns(values, one.table, a, columns.numbers[reference]);
     const auto arm = std::find(columns.numbers.begin(), columns.numbers.end(), a) - columns.numbers.begin();
-    found.push_back({columns.of(p, one.axis, a), static_cast<std::size_t>(arm),
-                     columns.of(p, one.compensated, a), p.get(one.point, a), std::move(values)});
+    found.push_back({reference, static_cast<std::size_t>(arm), columns.of(p, one.compensated, a),
+                     p.get(one.point, a), std::move(values)});
   }
   return found;
 }

@@ -18,6 +18,7 @@ AxisCompensation read_axis(TableReader& reader, std::uint32_t a) {
   AxisCompensation axis;
   axis.backlash = Backlash::read(reader.parameters(), a);
   axis.pitch = reader.read(pitch_table, a);
+  reader.check_turns(axis.pitch, pitch_table, a, static_cast<std::uint16_t>(a));
   axis.thermal = Thermal::read(reader, a);
   axis.jump = ReversalJump::read(reader.parameters(), a);
   return axis;

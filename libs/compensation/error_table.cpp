@@ -6,6 +6,7 @@
 
 #include "machine/alarm_constants.hpp"
 #include "machine/parameter_constants.hpp"
+#include "text/quantity.hpp"
 
 namespace trunnion::compensation {
 namespace {
@@ -59,6 +60,17 @@ ErrorTable TableReader::read(const TableParameters& p, std::uint32_t a, int type
     (k < static_cast<std::uint32_t>(points) ? table.positive : table.negative)
         .push_back(parameters_.at(first + k));
   return table;
+}
+
+void TableReader::check_turns(const ErrorTable& table, const TableParameters& p, std::uint32_t number,
+                              std::uint16_t over) const {
+  const double period = table.interval * static_cast<double>(table.positive.size());
+  if (!table.enabled || machine::holds_at_every_turn(parameters_, over, table.modulo, period)) return;
+  refuse(*p.modulo, number,
+         std::string("is ") + (table.modulo ? "1" : "0") + " and the table " + text::quantity(period, "deg") +
+             " long; axis " + std::to_string(over) + " counts modulo 360 (parameter " +
+             machine::number_text(parameter::rotary_way.number(over)) +
+             "), so the table must repeat (1) after 360 deg or a whole part of it");
 }
 
 void TableReader::count(std::size_t values) {

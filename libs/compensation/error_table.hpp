@@ -43,6 +43,9 @@ class TableReader {
   ErrorTable read(const TableParameters& table, std::uint32_t number) {
     return read(table, number, parameters_.integer(table.type, number));
   }
+  /// Refuses a table over the axis `over` that does not hold at every turn of it.
+  void check_turns(const ErrorTable& table, const TableParameters& read_from, std::uint32_t number,
+                   std::uint16_t over) const;
   /// Counts values that are read elsewhere.
   void count(std::size_t values);
   const machine::Parameters& parameters() const { return parameters_; }

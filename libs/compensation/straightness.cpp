@@ -20,7 +20,10 @@ std::vector<Straightness> read_straightness(TableReader& reader, std::uint32_t a
   std::vector<Straightness> found;
   for (const auto& [axis, table] : both) {
     auto values = reader.read(table, a);
-    if (values.enabled) found.push_back({columns.of(reader.parameters(), axis, a), std::move(values)});
+    if (!values.enabled) continue;
+    const auto column = columns.of(reader.parameters(), axis, a);
+    reader.check_turns(values, table, a, columns.numbers[column]);
+    found.push_back({column, std::move(values)});
   }
   return found;
 }

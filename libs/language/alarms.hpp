@@ -192,7 +192,7 @@ inline constexpr std::array alarm_texts = {
     AlarmText{AlarmNumber::curve_words, "block of a curve needs K, with X Y Z R or alone"},
     AlarmText{AlarmNumber::curve_control_points, "curve has fewer control points than its order"},
     AlarmText{AlarmNumber::machine_coordinates_motion, "machine coordinates need G0 or G1"},
-    AlarmText{AlarmNumber::machine_coordinates_rtcp, "not allowed while tool tip control is active"},
+    AlarmText{AlarmNumber::machine_coordinates_rtcp, "not allowed while tool tip control or a tilted plane is active"},
     AlarmText{AlarmNumber::tool_length_unknown, "tool length is not in the table"},
     AlarmText{AlarmNumber::reference_undefined, "reference position is not defined"},
     AlarmText{AlarmNumber::intermediate_missing, "G29 without G28 or G30 before"},

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "machine/axes.hpp"
 
+#include <cmath>
+
 #include "canonical/axes.hpp"
 #include "machine/parameter_constants.hpp"
 
@@ -32,6 +34,12 @@ int column_of(const std::vector<AxisInfo>& axes, std::uint16_t number) {
 canonical::RotaryWay rotary_way(const Parameters& parameters, std::uint16_t axis) {
   if (parameters.integer(parameter::axis_type, axis) != axis_type_rotary) return canonical::RotaryWay::linear;
   return static_cast<canonical::RotaryWay>(parameters.integer(parameter::rotary_way, axis));
+}
+
+bool holds_at_every_turn(const Parameters& parameters, std::uint16_t axis, bool repeats, double period) {
+  if (rotary_way(parameters, axis) == canonical::RotaryWay::linear) return true;
+  const double in_a_turn = 360 / period;
+  return repeats && in_a_turn > 0.5 && std::abs(in_a_turn - std::round(in_a_turn)) < 1e-9;
 }
 
 geometry::AngleTravel travel_of(const Parameters& parameters, std::uint16_t axis) {

@@ -34,6 +34,10 @@ int column_of(const std::vector<AxisInfo>& axes, std::uint16_t number);
 /// Parameters 10a949 and 10a001: linear for all but rotary axes.
 canonical::RotaryWay rotary_way(const Parameters& parameters, std::uint16_t axis);
 
+/// Whether a table of errors over `axis` holds at every turn of it. One that counts modulo 360 needs a table
+/// that repeats, `period` degrees long, at the same place of each turn.
+bool holds_at_every_turn(const Parameters& parameters, std::uint16_t axis, bool repeats, double period);
+
 /// Software travel limits of a logical axis, mm or degrees; without end where it counts modulo 360.
 geometry::AngleTravel travel_of(const Parameters& parameters, std::uint16_t axis);
 

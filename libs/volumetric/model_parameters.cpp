@@ -6,6 +6,7 @@
 #include "machine/axes.hpp"
 #include "machine/chain_parameters.hpp"
 #include "machine/parameter_constants.hpp"
+#include "text/quantity.hpp"
 #include "volumetric/structure.hpp"
 
 namespace trunnion::volumetric {
@@ -36,6 +37,13 @@ std::optional<AxisTables> tables_of(const machine::Parameters& p, std::uint32_t 
   tables.points = static_cast<std::size_t>(points);
   tables.bidirectional = direction == bidirectional || direction == bidirectional_modulo;
   tables.modulo = direction == modulo || direction == bidirectional_modulo;
+  if (!machine::holds_at_every_turn(p, static_cast<std::uint16_t>(a), tables.modulo,
+                                    points * tables.interval))
+    fail("parameter " + number_text(parameter::volumetric_direction.number(a)) +
+         " (volumetric_direction) is " + std::to_string(direction) + " and the table " +
+         text::quantity(points * tables.interval, "deg") + " long; axis " + std::to_string(a) +
+         " counts modulo 360 (parameter " + number_text(parameter::rotary_way.number(a)) +
+         "), so the table must repeat (3 or 4) after 360 deg or a whole part of it");
   auto number = static_cast<std::uint32_t>(p.integer(parameter::volumetric_table, a));
   const auto values = static_cast<std::uint32_t>(points) * component_count * (tables.bidirectional ? 2u : 1u);
   if (number + values > first_value + value_count)

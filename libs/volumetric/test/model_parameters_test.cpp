@@ -76,6 +76,29 @@ TEST(ModelParameters, WhatDoesNotFitNamesItsParameter) {
   EXPECT_EQ(refusal(p), "parameter 040951 (volumetric_type): channel 0 needs the axes X, Y and Z, it has XY");
 }
 
+// A table over C of 12 values at 30 deg is that of every turn when it repeats; without an end of its travel C
+// would otherwise keep the last value, or jump.
+TEST(ModelParameters, ATableOverAnAxisThatCountsModulo360RepeatsWithItsTurn) {
+  const auto with = [](double way, double direction, double points) {
+    auto p = three_axes();
+    p.values[parameter::channel_axis.number(0, 5)] = {5, ""};
+    p.values[parameter::axis_type.number(5)] = {3, ""};
+    p.values[parameter::rotary_way.number(5)] = {way, ""};
+    p.values[parameter::volumetric_points.number(5)] = {points, ""};
+    p.values[parameter::volumetric_interval.number(5)] = {30, ""};
+    p.values[parameter::volumetric_direction.number(5)] = {direction, ""};
+    return refusal(p);
+  };
+  EXPECT_EQ(with(0, 1, 13), "");
+  EXPECT_EQ(with(1, 3, 12), "");
+  EXPECT_EQ(with(1, 4, 6), "");
+  EXPECT_EQ(
+      with(1, 1, 13),
+      "parameter 305903 (volumetric_direction) is 1 and the table 390 deg long; axis 5 counts modulo 360 "
+      "(parameter 105949), so the table must repeat (3 or 4) after 360 deg or a whole part of it");
+  EXPECT_NE(with(2, 4, 13), "");
+}
+
 TEST(Structure, IsReadWithAndWithoutBrackets) {
   const auto parsed = parse_structure("[w C' A' b X Y Z (S) t]");
   const auto& axes = std::get<std::vector<StructureAxis>>(parsed);

@@ -179,5 +179,31 @@ TEST(TableKinds, WhatMakesNoSenseNamesItsParameter) {
               HasSubstr("parameter 300010 (thermal_offset_sensor) must be the number of a sensor, 0 .. 15"));
 }
 
+// Values at 0, 30 ... over Y, which turns: of its own, and of X over Y.
+TEST(TableKinds, ATableOverAnAxisThatCountsModulo360RepeatsWithItsTurn) {
+  const auto with = [](double way, double modulo, double points, double interval) {
+    auto p = axes({X, Y});
+    Set set{p};
+    set(101001, 3), set(101949, way);
+    set(301020, 1), set(301021, 0), set(301022, points), set(301023, interval), set(301024, modulo);
+    const auto own = refusal(p);
+    set(301020, 0), set(300050, Y), set(300051, 1), set(300053, points), set(300054, interval);
+    set(300055, modulo);
+    EXPECT_EQ(own.empty(), refusal(p).empty()) << own;
+    return own;
+  };
+  EXPECT_EQ(with(0, 0, 13, 30), "");
+  for (const double way : {1.0, 2.0}) {
+    EXPECT_EQ(with(way, 1, 12, 30), "");
+    EXPECT_EQ(with(way, 1, 6, 10), "") << "six times in a turn";
+    EXPECT_EQ(with(way, 0, 13, 30),
+              "parameter 301024 (pitch_modulo) is 0 and the table 390 deg long; axis 1 counts modulo 360 "
+              "(parameter 101949), so the table must repeat (1) after 360 deg or a whole part of it");
+    EXPECT_NE(with(way, 0, 12, 30), "");
+    EXPECT_NE(with(way, 1, 13, 30), "");
+    EXPECT_NE(with(way, 1, 7, 30), "");
+  }
+}
+
 }  // namespace
 }  // namespace trunnion::compensation
