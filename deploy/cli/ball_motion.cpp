@@ -181,7 +181,8 @@ BallMotion BallTest::run(double feed, double start) {
                                   axis.letter, turning, axis.highest_feed));
   const char letter = axis.letter;
   auto program = opening(start);
-  program += text("G1 %c%.6f F%.6f\nG4 P500\nG1 %c%.6f\n", letter, start + sweep_, turning, letter, start);
+  // Incremental: a table that counts modulo 360 would not turn for its own angle.
+  program += text("G91 G1 %c%.6f F%.6f\nG4 P500\nG1 %c%.6f\nG90\n", letter, sweep_, turning, letter, -sweep_);
   const auto motion = sampled(program + closing(), turn_decimation);
   BallMotion result;
   const auto samples = read(motion, &result.servos);
@@ -299,10 +300,11 @@ std::vector<BallSample> BallTest::stop(std::size_t stops, double start) {
   check_travel(start);
   const char letter = options_.axis[0];
   auto program = opening(start);
+  program += "G91\n";
   for (std::size_t k = 0; k < stops; ++k)
-    program += text("G1 %c%.6f F%g\nG4 P400\n", letter,
-                    start + sweep_ * static_cast<double>(k) / static_cast<double>(stops), positioning_feed);
-  const auto motion = sampled(program + closing(), stop_decimation);
+    program += text("G1 %c%.6f F%g\nG4 P400\n", letter, k == 0 ? 0.0 : sweep_ / static_cast<double>(stops),
+                    positioning_feed);
+  const auto motion = sampled(program + "G90\n" + closing(), stop_decimation);
   const auto samples = read(motion, nullptr);
   const auto mean = static_cast<std::size_t>(mean_time / motion.interval);
   const auto rest = static_cast<std::size_t>(rest_time / motion.interval);

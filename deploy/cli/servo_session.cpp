@@ -294,11 +294,11 @@ void ServoSession::write(const std::vector<servo_analysis::ServoSettings::Value>
 }
 
 std::string to_and_fro_program(const SessionAxis& axis, double distance, double feed, int strokes) {
-  std::string program;
-  for (int i = 0; i < strokes; ++i)
-    program += text("G53 G1 %c%.6f F%.3f\n", axis.letter, axis.place + (i % 2 == 0 ? distance : 0.0), feed);
-  if (strokes % 2 != 0) program += text("G53 G1 %c%.6f F%.3f\n", axis.letter, axis.place, feed);
-  return program + "M30\n";
+  // Incremental: an axis that counts modulo 360 would go to an angle by the shorter way.
+  std::string program = "G91\n";
+  for (int i = 0; i < strokes + strokes % 2; ++i)
+    program += text("G1 %c%.6f F%.3f\n", axis.letter, i % 2 == 0 ? distance : -distance, feed);
+  return program + "G90\nM30\n";
 }
 
 std::string circle_program(const SessionAxis& first, const SessionAxis& second, double radius, double feed) {

@@ -120,10 +120,12 @@ TestReport test_rtcp(ServoSession& session, const TestOptions& o) {
   numbers.push_back(rotary.number);
   char program[400];
   // The manual's program without its stops: the samples in which the axis turns from start to end are taken.
-  std::snprintf(
-      program, sizeof program,
-      "G90 G94\nG1 %c%.4f F3000\nG4 P500\nG43.4 H%u\nG1 %c%.4f F%.3f\nG4 P500\nG1 %c%.4f F3000\nG49\nM30\n",
-      rotary.letter, o.start, o.tool, rotary.letter, o.end, feed, rotary.letter, o.start);
+  // Incremental, as in to_and_fro_program().
+  std::snprintf(program, sizeof program,
+                "G90 G94\nG1 %c%.4f F3000\nG4 P500\nG43.4 H%u\nG91 G1 %c%.4f F%.3f\nG4 P500\nG1 %c%.4f "
+                "F3000\nG90 G49\nM30\n",
+                rotary.letter, o.start, o.tool, rotary.letter, o.end - o.start, feed, rotary.letter,
+                o.start - o.end);
   auto result = session.run(samples_of(numbers, 8), program);
   if (result.traces.size() != numbers.size())
     throw std::runtime_error("the drive gave no samples of the motion");

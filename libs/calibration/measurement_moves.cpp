@@ -78,11 +78,9 @@ std::string MeasurementMoves::fault_at(const PlannedPose& pose) const {
 }
 
 Way MeasurementMoves::way(const AxisPosition& from, const AxisPosition& to) const {
-  auto found = collision::find_way(*moving_, travel_, from, to);
+  auto found = collision::find_way(*moving_, travel_, from, nearest_turns(measured_.outline, from, to));
   if (const auto* fault = std::get_if<std::string>(&found)) throw std::runtime_error(*fault);
-  auto way = std::get<std::vector<collision::AxisPosition>>(std::move(found));
-  way.erase(way.begin());
-  return way;
+  return std::get<std::vector<collision::AxisPosition>>(std::move(found));
 }
 
 AxisPosition MeasurementMoves::check(const PlannedPose& pose, const AxisPosition& from) const {

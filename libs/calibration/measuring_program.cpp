@@ -14,6 +14,7 @@ namespace {
 
 constexpr std::uint32_t first_variable = 52150, serial_variable = 52999;
 using canonical::axis_letters;
+constexpr double longest_turn = 150;  // deg, in one line; half a turn has no shorter way
 constexpr double arc_step = 10;       // deg: an arc around the sphere is a polygon
 constexpr double clear_of_shaft = 1;  // mm
 constexpr double second_retract = 1;  // mm, between first and second touch
@@ -29,7 +30,7 @@ class Writer {
  public:
   Writer(const MeasurementInputs& in, const MeasuredMachine& machine) : in_(in) {
     for (std::size_t i = 0; i < machine.outline.axes.size(); ++i)
-      present_[i] = machine.outline.axes[i].present;
+      present_[i] = machine.outline.axes[i].present, ways_[i] = machine.outline.axes[i].way;
     for (const auto& vector : metrology::root_vectors(machine.model)) present_[3 + vector.angle] = true;
   }
 
@@ -38,10 +39,10 @@ class Writer {
     text_ += words("#%u=0\n", serial_variable);
     text_ += "G21 G17 G90 G94 G40 G80 G49 G54 G61\n";
     text_ += words("M%u\n", in_.probe_on);
-    for (std::size_t i = 0; i < way.size(); ++i) {
+    for (std::size_t i = 1; i < way.size(); ++i) {
       // A way that turns and does not move is given the feed of the rotary axes.
-      const bool turns = i > 0 && std::equal(way[i].begin(), way[i].begin() + 3, way[i - 1].begin());
-      go(way[i], turns ? in_.rotary_feed : in_.positioning_feed);
+      const bool turns = std::equal(way[i].begin(), way[i].begin() + 3, way[i - 1].begin());
+      go(way[i - 1], way[i], turns ? in_.rotary_feed : in_.positioning_feed);
     }
   }
   std::string end(const ProgramEnd& end) {
@@ -54,11 +55,24 @@ class Writer {
   void go(const Vec3& linear, double feed) {
     text_ += words("G53 G1 X%.6f Y%.6f Z%.6f F%.3f\n", linear.x(), linear.y(), linear.z(), feed);
   }
-  void go(const AxisPosition& position, double feed) {
-    text_ += "G53 G1";
-    for (std::size_t i = 0; i < position.size(); ++i)
-      if (present_[i]) text_ += words(" %c%.6f", axis_letters[i], position[i]);
-    text_ += words(" F%.3f\n", feed);
+  // In one sense: in parts where an axis that counts modulo 360 would take the shorter way.
+  void go(const AxisPosition& from, const AxisPosition& to, double feed) {
+    double parts = 1;
+    for (std::size_t i = 0; i < to.size(); ++i)
+      if (ways_[i] != canonical::RotaryWay::linear)
+        parts = std::max(parts, std::ceil(std::abs(to[i] - from[i]) / longest_turn));
+    auto last = from;
+    for (double part = 1; part <= parts; ++part) {
+      auto next = to;
+      if (part < parts)
+        for (std::size_t i = 0; i < to.size(); ++i) next[i] = from[i] + part / parts * (to[i] - from[i]);
+      text_ += "G53 G1";
+      for (std::size_t i = 0; i < next.size(); ++i)
+        if (present_[i])
+          text_ += words(" %c%.6f", axis_letters[i], canonical::rotary_word(ways_[i], next[i], last[i]));
+      text_ += words(" F%.3f\n", feed);
+      last = next;
+    }
   }
 
   // From the end of the measuring path against `direction`; the result is touch `number`.
@@ -74,6 +88,7 @@ class Writer {
  private:
   const MeasurementInputs& in_;
   std::array<bool, 9> present_{};
+  std::array<canonical::RotaryWay, 9> ways_{};
   std::string text_;
 };
 
@@ -134,8 +149,14 @@ Way retract_way(const AxisPosition& from, const AxisPosition& to, double top) {
   add(3, 9, to);
   add(0, 2, to);
   add(2, 3, to);
-  way.erase(way.begin());
   return way;
+}
+
+AxisPosition nearest_turns(const truth::MachineOutline& outline, const AxisPosition& from, AxisPosition to) {
+  for (std::size_t i = 0; i < to.size(); ++i)
+    if (outline.axes[i].way != canonical::RotaryWay::linear)
+      to[i] = canonical::rotary_target(canonical::RotaryWay::shortest, to[i], from[i]);
+  return to;
 }
 
 std::vector<MeasuringStep> measuring_steps(const MeasurementInputs& in, const MeasuredMachine& machine,

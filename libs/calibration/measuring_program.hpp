@@ -14,12 +14,16 @@ namespace trunnion::calibration {
 
 /// X Y Z A B C U V W in machine coordinates, mm and deg.
 using AxisPosition = std::array<double, 9>;
-/// Positions one after the other; all axes move in a straight line from one to the next.
+/// Positions one after the other, the first one where the axes are; all move in a straight line from one to
+/// the next.
 using Way = std::vector<AxisPosition>;
 
 /// The pose with the ball over the pole, where the measuring path begins; `centre`
 /// as in TouchRound.
 AxisPosition approach_position(const MeasurementInputs& inputs, const PlannedPose& pose, const Vec3& centre);
+
+/// `to` with the rotary axes that count modulo 360 at most half a turn from `from`.
+AxisPosition nearest_turns(const truth::MachineOutline& outline, const AxisPosition& from, AxisPosition to);
 
 /// From `from` to `to` without knowledge of any bodies: Z up to `top`, the rotary axes, X and Y, then Z.
 Way retract_way(const AxisPosition& from, const AxisPosition& to, double top);

@@ -112,7 +112,8 @@ nlohmann::ordered_json travel_document(const MeasurementInputs& inputs, const Me
   auto out = Document::object();
   for (const auto& range : inputs.axes) {
     const auto& travel = machine.outline.axes[3 + range.angle];
-    if (travel.present) out[rotary_names.at(range.angle)] = {travel.low, travel.high};
+    if (travel.present && travel.way == canonical::RotaryWay::linear)
+      out[rotary_names.at(range.angle)] = {travel.low, travel.high};
   }
   return out;
 }

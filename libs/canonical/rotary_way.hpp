@@ -16,13 +16,21 @@ enum class RotaryWay : std::uint8_t {
 
 /// Where the axis at `position` goes for the absolute `word`, both in degrees and in the same coordinates.
 inline double rotary_target(RotaryWay way, double word, double position) {
-  constexpr double turn = 360,
-                   slack = 1e-9;  // degrees; a position that is reached within slack is no turn away
+  // Degrees. A position that is reached within slack is no turn away: words have few digits.
+  constexpr double turn = 360, slack = 1e-4;
   if (way == RotaryWay::linear) return word;
   if (way == RotaryWay::shortest) return word + turn * std::floor((position - word) / turn + 0.5);
   const double angle = std::abs(word);
   return std::signbit(word) ? angle + turn * std::floor((position - angle + slack) / turn)
                             : angle + turn * std::ceil((position - angle - slack) / turn);
+}
+
+/// The word that brings the axis from `position` to `target`, less than a turn away (shortest: less than half a
+/// turn), both in degrees and in the same coordinates.
+inline double rotary_word(RotaryWay way, double target, double position) {
+  if (way != RotaryWay::by_sign) return target;
+  const double angle = target - 360 * std::floor(target / 360);
+  return target < position ? -angle : angle;
 }
 
 /// `position` as it is shown: 0 up to 360 where the axis counts modulo 360.

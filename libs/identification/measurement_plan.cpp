@@ -6,6 +6,7 @@
 
 #include "canonical/axes.hpp"
 #include "machine/yaml.hpp"
+#include "text/quantity.hpp"
 #include "truth/truth_reader.hpp"
 #include "volumetric/structure.hpp"
 
@@ -172,6 +173,10 @@ class PlanReader {
                    return common(key, node, m);
                  });
     if (!(m.to > m.from)) reader_.fail(entry, "from_deg must be below to_deg");
+    if (machine_.axes[m.axis].way != canonical::RotaryWay::linear && std::abs(m.to - m.from - 360) > 1e-9)
+      reader_.fail(entry, "axis " + name +
+                              " counts modulo 360, so its table is that of a whole turn: to_deg must be " +
+                              text::quantity(m.from + 360));
   }
 
   truth::TruthReader reader_;

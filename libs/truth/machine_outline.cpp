@@ -14,7 +14,8 @@ MachineOutline outline_of(const machine::Parameters& parameters, std::uint16_t c
   const auto axes = machine::channel_axes(parameters, channel);
   for (std::size_t i = 0; i < axes.index.size(); ++i) {
     const auto travel = machine::travel_of(parameters, axes.number[i]);
-    outline.axes[axes.index[i]] = {true, travel.negative, travel.positive};
+    outline.axes[axes.index[i]] = {true, travel.negative, travel.positive,
+                                   machine::rotary_way(parameters, axes.number[i])};
   }
   for (const auto& axis : machine::drive_axes(parameters)) {
     outline.drives.push_back(axis.name);

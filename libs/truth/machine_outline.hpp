@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "canonical/rotary_way.hpp"
 #include "geometry/chain.hpp"
 #include "machine/parameters.hpp"
 #include "truth/true_geometry.hpp"
@@ -17,6 +18,7 @@ namespace trunnion::truth {
 struct AxisOutline {
   bool present = false;
   double low = 0, high = 0;  ///< travel, mm or deg
+  canonical::RotaryWay way = canonical::RotaryWay::linear;
 };
 
 struct MachineOutline {

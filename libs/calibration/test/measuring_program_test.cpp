@@ -45,8 +45,8 @@ TEST_P(MeasuringProgram, NeverComesNearerToSphereOrShaftThanTheMeasuringPath) {
   for (const auto& pose : plan.poses) {
     const Vec3 centre = chain.machine_from_tip(in.sphere, pose.angles, in.probe_length);
     const Vec3 shaft = (chain.jacobian(in.sphere, pose.angles, in.probe_length).tip * *in.shaft).normalized();
-    const auto text =
-        measuring_program(in, machine.measured, pose, centre, {approach_position(in, pose, centre)}, {7});
+    const auto above = approach_position(in, pose, centre);
+    const auto text = measuring_program(in, machine.measured, pose, centre, {above, above}, {7});
     EXPECT_THAT(text, testing::HasSubstr("#52999=7\n"));
     const auto moves = moves_of(text);
     arcs += moves.size() > 4 * pose.directions.size();
@@ -71,9 +71,50 @@ INSTANTIATE_TEST_SUITE_P(Ways, MeasuringProgram,
 
 TEST(MeasuringProgramText, GoesUpBeforeItTurnsAndDownLast) {
   const AxisPosition from{1, 2, -100, 10, 0, 20}, to{5, 2, -150, 0, 0, 90};
-  const Way expected{{1, 2, 0, 10, 0, 20}, {1, 2, 0, 0, 0, 90}, {5, 2, 0, 0, 0, 90}, {5, 2, -150, 0, 0, 90}};
+  const Way expected{
+      from, {1, 2, 0, 10, 0, 20}, {1, 2, 0, 0, 0, 90}, {5, 2, 0, 0, 0, 90}, {5, 2, -150, 0, 0, 90}};
   EXPECT_EQ(retract_way(from, to, 0), expected);
-  EXPECT_EQ(retract_way(to, to, -200), Way{}) << "it is there";
+  EXPECT_EQ(retract_way(to, to, -200), Way{to}) << "it is there";
+}
+
+// As the channel executes the C words of the program: canonical::rotary_target of each.
+std::vector<double> turns_of(const std::string& program, canonical::RotaryWay way, double c) {
+  std::vector<double> positions;
+  std::istringstream lines(program);
+  for (std::string line; std::getline(lines, line);)
+    if (const auto at = line.find(" C"); at != std::string::npos)
+      positions.push_back(c = canonical::rotary_target(way, std::stod(line.substr(at + 2)), c));
+  return positions;
+}
+
+// A way was planned in one sense among bodies: a table that counts modulo 360 goes it in that sense, whatever
+// its turn, and is never sent the other way round or once more around.
+TEST(MeasuringProgramText, AnAxisThatCountsModulo360TurnsAsPlanned) {
+  using canonical::RotaryWay;
+  const auto turns = [](RotaryWay way, double from, double to) {
+    TrueMachine machine(geometry::ac_table(), geometry::ac_table());
+    machine.measured.outline.axes[5] = {true, -1e12, 1e12, way};
+    AxisPosition start{0, 0, 0, 0, 0, from}, end{0, 0, 0, 0, 0, to};
+    const auto text =
+        positioning_program(default_inputs(machine.measured), machine.measured, {start, end}, {7});
+    return turns_of(text, way, from);
+  };
+  using Turns = std::vector<double>;
+  EXPECT_EQ(turns(RotaryWay::linear, 0, 300), (Turns{300}));
+  EXPECT_EQ(turns(RotaryWay::shortest, 0, 300), (Turns{150, 300}));
+  EXPECT_EQ(turns(RotaryWay::shortest, 725, 365), (Turns{605, 485, 365}));
+  EXPECT_EQ(turns(RotaryWay::by_sign, 0, 300), (Turns{150, 300}));
+  EXPECT_EQ(turns(RotaryWay::by_sign, 20, -370), (Turns{-110, -240, -370}));
+  EXPECT_EQ(turns(RotaryWay::by_sign, 30.0000004, 30.0000004), (Turns{30}))
+      << "no turn for a rest of a digit";
+}
+
+TEST(MeasuringProgramText, ApproachesByTheNearestTurn) {
+  TrueMachine machine(geometry::ac_table(), geometry::ac_table());
+  const AxisPosition from{0, 0, 0, 350, 0, 350}, to{1, 2, 3, 0, 0, 0};
+  EXPECT_EQ(nearest_turns(machine.measured.outline, from, to), to);
+  machine.measured.outline.axes[5].way = canonical::RotaryWay::by_sign;
+  EXPECT_EQ(nearest_turns(machine.measured.outline, from, to), (AxisPosition{1, 2, 3, 0, 0, 360}));
 }
 
 TEST(MeasuringProgramText, ReadsTouchesFromTheVariablesAndNamesAMissingOne) {

@@ -53,6 +53,9 @@ TEST(MeasurementPlan, AFaultIsOneLineWithItsPlace) {
   EXPECT_THAT(with("{instrument: rtest, axis: B}"), HasSubstr("the machine has no rotary axis 'B'"));
   EXPECT_THAT(with("{instrument: rtest, axis: A, from_deg: 5, to_deg: 5}"),
               HasSubstr("from_deg must be below"));
+  EXPECT_THAT(
+      with("{instrument: rtest, axis: C, from_deg: 10, to_deg: 300}"),
+      HasSubstr("axis C counts modulo 360, so its table is that of a whole turn: to_deg must be 370"));
   EXPECT_THAT(with("{instrument: ballbar, points: 18}"), HasSubstr("a multiple of 4"));
 }
 

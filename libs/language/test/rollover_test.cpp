@@ -46,6 +46,12 @@ TEST(Rollover, EveryFrameAndEveryCodeTakesTheSameWay) {
   EXPECT_EQ(c_of(RotaryWay::shortest, "G0 C170\nG3 X0 Y0 I5 C-170 F100\n"), (Places{170, 190}));
 }
 
+// Mirrored about 0, C10 is -10 and C350 is -350, that is 10. A positive word turns in the negative direction.
+TEST(Rollover, AMirrorTurnsTheOtherWayRound) {
+  EXPECT_EQ(c_of(RotaryWay::shortest, "G51.1 C0\nG0 C10\nC350\nC170\nC190\n"), (Places{-10, 10, -170, -190}));
+  EXPECT_EQ(c_of(RotaryWay::by_sign, "G51.1 C0\nG0 C10\nC-350\nC340\n"), (Places{-10, 10, -340}));
+}
+
 // 1e6 turns: 360 * 1e6 + 0.125 is a double, and so is every step.
 TEST(Rollover, IsExactAfterAMillionTurns) {
   EXPECT_EQ(c_of(RotaryWay::shortest, "G91 G0 C360000000\nG90 C0.125\nC359.75\nC0\nC90\n"),

@@ -204,6 +204,7 @@ class ChannelCore {
 
   // channel_preparation.cpp: what happens before a program moves, and the return to one that was left.
   void prepare_entry();
+  bool search_from_other_turns(const AxisValues& target);
   bool run_preparation();
   void end_preparation();
   void suspend();

@@ -19,6 +19,26 @@ bool is_near(const AxisValues& a, const AxisValues& b) {
 }
 }  // namespace
 
+// A rotary axis that counts modulo 360 may be whole turns away from where the found line begins. The program
+// that begins these turns further on is the same, and its approach takes none of them back. A restart
+// interprets it from there, too, so the start is moved and not only what was found.
+bool ChannelCore::search_from_other_turns(const AxisValues& target) {
+  constexpr double turn = 360, half = turn / 2 + 1e-6;
+  const auto before = program_start_;
+  for (std::size_t axis = 0; axis < target.size(); ++axis) {
+    const double away = machine_start_[axis] - target[axis];
+    if (machine_.rotary_way(axis) != canonical::RotaryWay::linear && std::abs(away) > half)
+      program_start_[axis] += turn * std::floor(away / turn + 0.5);
+  }
+  if (program_start_ == before) return false;
+  Entry entry;
+  entry.line = progress_.executed.line;
+  configure_flow(program_flow_);
+  program_flow_.start(program_path_.trajectory(), program_cache_.open(selected_), program_start_,
+                      power_on_modal(), *variables_, entry);
+  return true;
+}
+
 // The point at which the program starts or continues has been found: what has to happen before it may move.
 void ChannelCore::prepare_entry() {
   const bool by_line = !restart_;
@@ -26,6 +46,7 @@ void ChannelCore::prepare_entry() {
   const auto& place_on_path = by_line ? program_flow_.position() : restart_->position;
   const bool rtcp = modal.transformation == language::Transformation::rtcp;
   const auto target = rtcp ? machine_.machine_from_tip(place_on_path, modal.tool_length) : place_on_path;
+  if (by_line && search_from_other_turns(target)) return;
   const auto give_up = [this, at_rest = machine_start_] {
     finish(false);
     machine_start_ = at_rest;

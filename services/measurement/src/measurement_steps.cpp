@@ -232,7 +232,8 @@ AxisPosition Measurement::target() const {
   }
   const auto& pose =
       stored_.state.phase == Phase::REPEATABILITY ? plan_->plan.poses.front() : touches_->pose();
-  return calibration::approach_position(plan_->inputs, pose, centre());
+  return calibration::nearest_turns(plan_->measured.outline, from_,
+                                    calibration::approach_position(plan_->inputs, pose, centre()));
 }
 
 // The second round begins where the first one has ended.
@@ -269,7 +270,7 @@ void Measurement::drive(double now) {
       from_ = called() ? caller_->position : machine_.position();
       const auto to = target();
       if (over_pole()) {
-        way_ = {to};
+        way_ = {from_, to};
         stage_ = Stage::found;
       } else if (!plan_->ways) {
         way_ = calibration::retract_way(from_, to, retract_height(from_));
