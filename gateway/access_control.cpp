@@ -130,7 +130,7 @@ void AccessControl::login(const std::string& body, const std::string& peer, cons
   {
     const std::lock_guard lock(mutex_);
     refresh(now);
-    const double wait = std::max(throttle_.wait("name " + name, now), throttle_.wait("peer " + peer, now));
+    const double wait = throttle_.wait(name, peer, now);
     if (wait > 0) {
       auto made = error_answer(429, "too many wrong passwords: try again in " +
                                         std::to_string(static_cast<int>(std::ceil(wait))) + " s");
@@ -155,13 +155,12 @@ void AccessControl::login(const std::string& body, const std::string& peer, cons
       if (good && user != nullptr && user->hash == hash) {
         const auto secret = access::random_secret();
         sessions_.begin(secret, {name, user->role}, then);
-        throttle_.succeeded("name " + name);
+        throttle_.succeeded(name, peer, then);
         made = json_answer(200, {{"name", name}, {"role", access::name_of(user->role)}});
         made.headers.clear();
         made.headers.emplace_back("Set-Cookie", cookie_text(secret, settings_.secure, ""));
       } else {
-        throttle_.failed("name " + name, then);
-        throttle_.failed("peer " + peer, then);
+        throttle_.failed(name, peer, then);
       }
     }
     access::journal(settings_.state_directory, service::time_of_day(), name,

@@ -24,7 +24,7 @@
 namespace trunnion::gateway {
 
 /// Largest body of a program upload and of everything else, in bytes.
-inline constexpr std::uint64_t largest_program = 128u << 20, largest_body = 1u << 20;
+inline constexpr std::uint64_t largest_program = 128u << 20;
 /// Bytes of a program in one request of the bus.
 inline constexpr std::size_t chunk_bytes = 60000;
 

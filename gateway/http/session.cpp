@@ -108,6 +108,8 @@ void HttpSession::on_header() {
     line_ = std::make_unique<JournalLine>(begin_line(sender(request, stream_.secure()), connection_.peer,
                                                      view(request.method_string()), target));
   }
+  if (request.count(http::field::host) > 1)
+    return answer_and_close(error_answer(400, "the request has more than one header Host"));
   if (!site_.is_named(view(request[http::field::host])))
     return answer_and_close(
         error_answer(421, "this machine is not called '" + std::string(view(request[http::field::host])) +
@@ -133,7 +135,7 @@ void HttpSession::on_header() {
     return continue_then(&HttpSession::begin_upload);
   }
   const auto length = header_->content_length();
-  if (length && *length > largest_body) return too_large("the body is larger than 1 MiB");
+  if (length && *length > largest_body(match_.operation)) return too_large_body();
   complete_ = length.value_or(0) <= buffer_.size();
   continue_then(&HttpSession::read_body);
 }
@@ -163,11 +165,10 @@ void HttpSession::continue_then(void (HttpSession::*next)()) {
 
 void HttpSession::read_body() {
   body_.emplace(std::move(*header_));
-  body_->body_limit(largest_body);
+  body_->body_limit(largest_body(match_.operation));
   http::async_read(stream_, buffer_, *body_,
                    Transferred([self = shared_from_this()](beast::error_code error, std::size_t) {
-                     if (error == http::error::body_limit)
-                       return self->too_large("the body is larger than 1 MiB");
+                     if (error == http::error::body_limit) return self->too_large_body();
                      if (!error) self->dispatch();
                    }));
 }
@@ -269,10 +270,11 @@ void HttpSession::answer_and_close(Answer made) {
   answer(std::move(made));
 }
 
-void HttpSession::too_large(const char* why) {
+void HttpSession::too_large_body() {
   // Not read, so nothing can come of it.
   line_.reset();
-  answer_and_close(error_answer(413, why));
+  answer_and_close(error_answer(
+      413, "the body is larger than " + std::to_string(largest_body(match_.operation) / 1024) + " KiB"));
 }
 
 ProgramDone HttpSession::here(Completion next) {

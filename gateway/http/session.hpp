@@ -56,7 +56,7 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
   void send(Answer answer);
   /// Answers a request whose body has not been read; the connection ends with it.
   void answer_and_close(Answer answer);
-  void too_large(const char* why);
+  void too_large_body();
   /// A callback for the bus thread that continues here, on the thread of the connection.
   ProgramDone here(Completion next);
 

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mtconnect/request.hpp"
 
+#include <cctype>
 #include <charconv>
 #include <map>
+#include <set>
 
 #include "mtconnect/documents.hpp"
 #include "src/router.hpp"
@@ -57,6 +59,48 @@ std::map<std::string, std::string> parameters_of(std::string_view query) {
   return parameters;
 }
 
+// Within predicates, XPath can look at every node for every node for every node: what is left of it here
+// takes time in proportion to the square of the device's nodes at most.
+void check_path(std::string_view path) {
+  const auto refuse = [&](const std::string& why) {
+    throw RequestError(400, "INVALID_PATH", "the path '" + std::string(path) + "' " + why);
+  };
+  if (path.empty() || path.size() > longest_path)
+    throw RequestError(400, "INVALID_PATH", "a path has 1 to 1024 bytes");
+  // And what may be before a parenthesis besides.
+  static const std::set<std::string_view> functions = {"",    "and", "contains", "last",        "node",
+                                                       "not", "or",  "position", "starts-with", "text"};
+  const auto name_before = [&](std::size_t end) {
+    while (end > 0 && path[end - 1] == ' ') --end;
+    std::size_t begin = end;
+    const auto of_name = [](char c) {
+      return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' || c == '_' || c == '.';
+    };
+    while (begin > 0 && of_name(path[begin - 1])) --begin;
+    return path.substr(begin, end - begin);
+  };
+  bool predicate = false;
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    const char c = path[i];
+    if (c == '"' || c == '\'') {
+      i = path.find(c, i + 1);
+      if (i == std::string_view::npos) refuse("has a text without an end");
+    } else if (c == '[') {
+      if (predicate) refuse("has a predicate within a predicate");
+      predicate = true;
+    } else if (c == ']') {
+      predicate = false;
+    } else if (predicate && (c == '/' || c == ':' || c == '*' || c == '|')) {
+      refuse("looks at other nodes in a predicate: attributes, texts and positions can be compared there");
+    } else if (c == '(' && !functions.contains(name_before(i))) {
+      refuse("calls " + std::string(name_before(i)) +
+             ": contains, last, not, position, starts-with and text can be called");
+    } else if (std::isspace(static_cast<unsigned char>(c)) != 0 && c != ' ') {
+      refuse("has a line break or tab");
+    }
+  }
+}
+
 }  // namespace
 
 Request parse_request(std::string_view method, std::string_view target, const std::string& device,
@@ -103,8 +147,7 @@ Request parse_request(std::string_view method, std::string_view target, const st
   for (const auto& [name, value] : parameters_of(query)) {
     const bool streams = request.kind == Kind::current || request.kind == Kind::sample;
     if (name == "path" && streams) {
-      if (value.empty() || value.size() > longest_path)
-        throw RequestError(400, "INVALID_PATH", "a path has 1 to 1024 bytes");
+      check_path(value);
       request.path = value;
     } else if (name == "at" && request.kind == Kind::current) {
       request.at = static_cast<std::uint64_t>(within(name, value, 0, INT64_MAX));

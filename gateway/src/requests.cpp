@@ -31,8 +31,54 @@ std::uint64_t revision_of(const Json& body) {
 
 }  // namespace
 
+/// Counts before anything is kept: the members of an object are looked up one by one.
+class JsonLimits : public nlohmann::json_sax<Json> {
+ public:
+  bool null() override { return value(); }
+  bool boolean(bool) override { return value(); }
+  bool number_integer(Json::number_integer_t) override { return value(); }
+  bool number_unsigned(Json::number_unsigned_t) override { return value(); }
+  bool number_float(Json::number_float_t, const std::string&) override { return value(); }
+  bool string(std::string&) override { return value(); }
+  bool binary(Json::binary_t&) override { return value(); }
+  bool start_object(std::size_t) override { return begin(); }
+  bool start_array(std::size_t) override { return begin(); }
+  bool key(std::string&) override {
+    if (++members_.back() > most_members) beyond("members in an object", most_members);
+    return true;
+  }
+  bool end_object() override { return end(); }
+  bool end_array() override { return end(); }
+  bool parse_error(std::size_t, const std::string&, const nlohmann::detail::exception&) override {
+    return false;
+  }
+
+ private:
+  static constexpr std::size_t most_members = 64, most_levels = 16, most_values_in_all = 65536;
+  [[noreturn]] static void beyond(const char* what, std::size_t most) {
+    throw BadRequest("", std::string("the body has more than ") + std::to_string(most) + " " + what);
+  }
+  bool value() {
+    if (++values_ > most_values_in_all) beyond("values", most_values_in_all);
+    return true;
+  }
+  bool begin() {
+    members_.push_back(0);
+    if (members_.size() > most_levels) beyond("levels", most_levels);
+    return value();
+  }
+  bool end() {
+    members_.pop_back();
+    return true;
+  }
+  std::vector<std::size_t> members_;  ///< so far, of what is open
+  std::size_t values_ = 0;
+};
+
 Json parse_body(const std::string& body) {
   if (body.find_first_not_of(" \t\r\n") == std::string::npos) return Json::object();
+  JsonLimits limits;
+  if (!Json::sax_parse(body, &limits)) throw BadRequest("", "the body is not JSON");
   auto parsed = Json::parse(body, nullptr, false);
   if (parsed.is_discarded()) throw BadRequest("", "the body is not JSON");
   if (!parsed.is_object()) throw BadRequest("", "the body must be a JSON object");

@@ -134,6 +134,23 @@ const std::vector<Route>& routes() {
   return table;
 }
 
+std::uint64_t largest_body(Operation operation) {
+  switch (operation) {
+    case Operation::session:
+    case Operation::login:
+    case Operation::logout:
+    case Operation::operating_right:
+    case Operation::change_operating_right:
+    case Operation::alarms_reset:
+    case Operation::channel_command:
+    case Operation::panel_command:
+    case Operation::measurement_abort:
+      return 4u << 10;
+    default:
+      return 1u << 20;
+  }
+}
+
 Match match(std::string_view method, std::string_view path) {
   Match found;
   for (const auto& route : routes()) {

@@ -2,6 +2,7 @@
 // Which operation a method and a path mean. gateway/openapi.json documents exactly these.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -98,6 +99,9 @@ struct Match {
   std::string_view command;        ///< as in Route
   std::vector<std::string> parts;  ///< what stood for each `{x}`, percent-decoded
 };
+
+/// Bytes of the body of a request. What everybody may send is short: it is read before other requests.
+std::uint64_t largest_body(Operation operation);
 
 /// `path` without the query. HEAD is not routed. A part that does not decode is no path.
 Match match(std::string_view method, std::string_view path);

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/site.hpp"
 
+#include <arpa/inet.h>
+
 #include <algorithm>
+#include <array>
 #include <cctype>
 
 namespace trunnion::gateway {
@@ -14,15 +17,21 @@ std::string lower_case(std::string_view text) {
   return result;
 }
 
-// No name of a computer ends in a label of digits alone, so digits and dots are an address.
-bool is_address(std::string_view host) {
-  return host.starts_with('[') ||
-         std::ranges::all_of(host, [](unsigned char c) { return std::isdigit(c) != 0 || c == '.'; });
+bool is_address(const std::string& host) {
+  std::array<unsigned char, sizeof(in6_addr)> address{};
+  if (host.starts_with('[') && host.ends_with(']'))
+    return inet_pton(AF_INET6, host.substr(1, host.size() - 2).c_str(), address.data()) == 1;
+  return inet_pton(AF_INET, host.c_str(), address.data()) == 1;
 }
 
+/// Without ":80"; empty when what follows the name is no port.
 std::string_view without_port(std::string_view host) {
-  if (host.starts_with('[')) return host.substr(0, host.find(']') + 1);
-  return host.substr(0, host.find(':'));
+  const auto end = host.starts_with('[') ? host.find(']') + 1 : std::min(host.find(':'), host.size());
+  auto port = host.substr(end);
+  if (!port.empty() && port.front() != ':') return {};
+  if (!port.empty()) port.remove_prefix(1);
+  const bool digits = std::ranges::all_of(port, [](unsigned char c) { return std::isdigit(c) != 0; });
+  return digits && port.size() <= 5 ? host.substr(0, end) : std::string_view();
 }
 
 }  // namespace
@@ -34,7 +43,7 @@ Site::Site(std::vector<std::string> names) : names_(std::move(names)) {
 bool Site::is_named(std::string_view host) const {
   if (host.empty()) return true;
   auto name = lower_case(without_port(host));
-  if (is_address(name) && !name.empty()) return true;
+  if (is_address(name)) return true;
   if (name.ends_with('.')) name.pop_back();
   return name == "localhost" || std::ranges::find(names_, name) != names_.end();
 }

@@ -61,5 +61,21 @@ TEST(MtconnectRequest, IsRefusedWithTheStandardsCode) {
   EXPECT_EQ(refusal("/current?path=" + std::string(1025, 'x')), "400 INVALID_PATH");
 }
 
+// 73 bytes of nested predicates took a core for ever.
+TEST(MtconnectRequest, HasNoPathThatLooksAtAllNodesForEachNode) {
+  for (const char* path :
+       {"//*[count(//*[count(//*[count(//*[count(//*[count(//*)>1])>1])>1])>1])>1]", "//*[//*]", "//*[a/b]",
+        "//*[.//*]", "//*[..]/*[../*]", "//*[descendant::*]", "//*[a|b]", "//*[@a[1]]", "count(//*)",
+        "sum(//*)", "//*[string-length(@id)>1]", "//*[@id='x]", "//*[count%20(//*)]", "//*[count%09(@id)]"})
+    EXPECT_EQ(refusal(std::string("/current?path=") + path), "400 INVALID_PATH") << path;
+  for (const char* path :
+       {"//Axes", "//Axes[1]", "//DataItem[@type=%22POSITION%22]", "//Linear[@name='X']//DataItem",
+        "//Controller|//Axes", "//DataItem[@type='POSITION'%20and%20@subType='ACTUAL']", "//Axes/*[last()]",
+        "//DataItem[not(@subType)]", "//*[@id='a/b[c]*']", "//DataItem[starts-with(@id,'x')]",
+        "/MTConnectDevices/Devices/Device//Linear", "(//Linear)[2]",
+        "//DataItem[@type='POSITION'%20and%20(@id='x')]"})
+    EXPECT_EQ(parse(std::string("/current?path=") + path).kind, Kind::current) << path;
+}
+
 }  // namespace
 }  // namespace trunnion::gateway::mtconnect

@@ -27,6 +27,41 @@ TEST(Requests, ACommandGoesToTheChannelWithItsAxes) {
   EXPECT_THROW(channel_request("jog", {{"axis", "B"}, {"speed", 1}}, five_axes()), BadRequest);
 }
 
+TEST(Requests, ABodyIsBoundedBeforeItIsKept) {
+  const auto refusal = [](const std::string& body) -> std::string {
+    try {
+      parse_body(body);
+    } catch (const BadRequest& bad) {
+      return bad.what();
+    }
+    return "";
+  };
+  const auto members = [](int count) {
+    std::string body = "{";
+    for (int i = 0; i < count; ++i)
+      body += (i > 0 ? ",\"" : "\"") + std::to_string(i) + "\":" + std::to_string(i);
+    return body + "}";
+  };
+  const auto levels = [](std::size_t count) {
+    return "{\"a\":" + std::string(count - 1, '[') + std::string(count - 1, ']') + "}";
+  };
+  const auto values = [](std::size_t count) {
+    std::string body = "{\"a\":[1";
+    for (std::size_t i = 3; i < count; ++i) body += ",1";
+    return body + "]}";
+  };
+  EXPECT_EQ(refusal(members(64)), "");
+  EXPECT_EQ(refusal(members(65)), "the body has more than 64 members in an object");
+  EXPECT_EQ(refusal("{\"rows\":[" + members(64) + "," + members(64) + "]}"), "");
+  EXPECT_EQ(refusal(levels(16)), "");
+  EXPECT_EQ(refusal(levels(17)), "the body has more than 16 levels");
+  EXPECT_EQ(refusal(values(65536)), "");
+  EXPECT_EQ(refusal(values(65537)), "the body has more than 65536 values");
+  EXPECT_EQ(refusal(members(90000)), "the body has more than 64 members in an object");
+  EXPECT_EQ(refusal("{\"a\":"), "the body is not JSON");
+  EXPECT_EQ(refusal("[]"), "the body must be a JSON object");
+}
+
 TEST(Requests, ThePanelsRoutesAreTheKindsOfTheIdl) {
   using idl::plc::PanelRequestKind;
   EXPECT_EQ(panel_request("emergency-stop", Json::object()).kind, PanelRequestKind::PRESS_EMERGENCY_STOP);

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "src/rights.hpp"
 #include "src/site.hpp"
 
 namespace trunnion::gateway {
@@ -91,8 +92,18 @@ TEST(Site, IsNamedByAddressesLocalhostAndItsOwnNamesOnly) {
   // Names that may lead here by the will of somebody else, also those that begin or end like ours.
   for (const char* host :
        {"evil.example", "evil.example:8080", "mill-3.evil.example", "localhost.evil.example",
-        "127.0.0.1.evil.example", "evilmill-3", ":8080", "10.0.0.1x"})
+        "127.0.0.1.evil.example", "evilmill-3", ":8080", "10.0.0.1x", "1.2.3.4:80@evil", "[evil]",
+        "[::1]evil", "[::1", "1.2.3", "1.2.3.4.5", "...", "localhost:80evil", "localhost:123456"})
     EXPECT_FALSE(site.is_named(host)) << host;
+}
+
+TEST(Router, WhatEverybodyMaySendIsShort) {
+  for (const auto& route : routes()) {
+    Match found;
+    found.operation = route.operation, found.command = route.command;
+    if (needed_role(found) || route.method == "GET") continue;
+    EXPECT_LE(largest_body(route.operation), 4096u) << route.pattern;
+  }
 }
 
 TEST(Site, TakesAPageOfAnotherHostOrPortForForeign) {
