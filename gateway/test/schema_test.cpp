@@ -57,12 +57,14 @@ void compare(const Json& schema, const Json& value, const std::string& at, std::
   const auto known = schema.value("properties", Json::object());
   const auto others = schema.value("additionalProperties", Json(false));
   for (const auto& [name, member] : value.items()) {
+    auto place = at;
+    place.append(".").append(name);
     if (known.contains(name))
-      compare(known[name], member, at + "." + name, wrong);
+      compare(known[name], member, place, wrong);
     else if (others.is_object())
-      compare(others, member, at + "." + name, wrong);
+      compare(others, member, place, wrong);
     else if (others == false)
-      wrong.push_back(at + "." + name + " is not described");
+      wrong.push_back(place + " is not described");
   }
   for (const auto& name : schema.value("required", Json::array()))
     if (!value.contains(name.get<std::string>()))

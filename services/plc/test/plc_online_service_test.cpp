@@ -11,7 +11,6 @@ namespace {
 
 using idl::plc::LoadPhase;
 using idl::plc::OnlineAction;
-using idl::plc::OnlineReply;
 using idl::plc::OnlineRequest;
 constexpr int online_domain = 64;
 
