@@ -74,7 +74,7 @@ print([(use["line"], use["column"], use["reads"], use["writes"]) for use in json
 grep -qx "trunnion: 'nothing.n': there is no such variable or register" "$work/out" || fail "$(cat "$work/out")"
 
 # The memory of the programs is kept whole through a kill, of one instance through a new start.
-often=$(value often.n)
+often=$(value often.n) seldom=$(value seldom.n)
 pid=$(pid_of plc)
 kill -INT $recorder
 wait $recorder || true
