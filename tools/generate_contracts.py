@@ -224,7 +224,7 @@ def generate(args):
             "| QoS | durability | writers keep | readers keep |", "|---|---|---|---|",
             "| frame | transient local | the newest 1024 or more of the topic (twice what is written ahead, in batches, and 6) | all |",
             "| state | transient local | the newest of each key | the newest of each key |",
-            "| event | volatile | the newest 64; a slow reader loses old ones and stalls no writer | the newest 64 |",
+            "| event | writers: transient local, for recorders; readers: volatile | the newest 64; a slow reader loses old ones and stalls no writer | the newest 64 |",
             "| history | transient local | the newest 16 of each key | the newest 16 of each key |"]
 
     # One source per IDL file instantiates what walks over the fields of its types, so that no other source has to.

@@ -31,7 +31,8 @@ inline EndpointQos writer_qos(QosKind kind, StreamDepth depth) {
     case QosKind::state:
       return {true, 1};
     case QosKind::event:
-      return {false, 64};
+      // Kept for a recorder that has discovered the writer late; a service must not act on what is old.
+      return {true, 64};
     case QosKind::history:
       return {true, 16};
   }

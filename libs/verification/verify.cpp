@@ -208,8 +208,9 @@ VerifyResult verify(const VerifyOptions& options) {
     result.seconds = feeding.seconds();
     produced = std::move(feeding.produced());
   }
-  if (const auto lost = missing_feedback(plan); !result.problem.empty() && !lost.empty())
-    result.problem += "; " + lost;
+  if (!result.problem.empty())
+    for (const auto& lost : {missing_feedback(plan), missing_request(recording)})
+      if (!lost.empty()) result.problem += "; " + lost;
   result.inputs = plan.steps.size();
   result.outputs = produced.size();
   result.cycles = plan.cycles;

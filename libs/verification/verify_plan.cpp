@@ -2,6 +2,7 @@
 #include "verification/verify_plan.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <optional>
 #include <set>
@@ -320,6 +321,29 @@ std::string missing_feedback(const VerifyPlan& plan) {
       return "the recording misses cycles " + std::to_string(end) + " to " + std::to_string(span.first - 1) +
              " of feedback_frame";
     end = span.first + span.count;
+  }
+  return "";
+}
+
+std::string missing_request(const StoredRecording& recording) {
+  std::uint64_t begin = 0;
+  std::set<std::pair<std::uint64_t, std::uint64_t>> recorded;
+  idl::channel::ChannelRequest request;
+  for (const auto& message : recording.messages) {
+    if (message.topic->handle == "snapshot_request" && (begin == 0 || message.time < begin))
+      begin = message.time;
+    if (message.topic->handle == "channel_request" && bus::decode(message.cdr, request))
+      recorded.insert({request.client, request.number});
+  }
+  idl::channel::ChannelReply reply;
+  for (const auto& message : recording.messages) {
+    if (message.topic->handle != "channel_reply" || message.time < begin || !bus::decode(message.cdr, reply))
+      continue;
+    // A channel that says what it has taken of the PLC's outputs: 1 + its number, and others draw 64 bits.
+    if (reply.client <= 1u + std::numeric_limits<std::uint16_t>::max()) continue;
+    if (!recorded.contains({reply.client, reply.number}))
+      return "the recording has the reply to request " + std::to_string(reply.number) + " of client " +
+             std::to_string(reply.client) + ", but not the request: record again";
   }
   return "";
 }

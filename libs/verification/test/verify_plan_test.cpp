@@ -249,6 +249,26 @@ TEST(OrderedPlan, NamesTheFirstCyclesOfTheFeedbackThatTheRecorderHasLost) {
             "the recording misses cycles 16 to 39 of feedback_frame");
 }
 
+TEST(OrderedPlan, NamesTheRequestThatTheRecorderHasLost) {
+  StoredRecording recording;
+  const auto reply = [](std::uint64_t client, std::uint64_t number) {
+    idl::channel::ChannelReply r;
+    r.client = client, r.number = number;
+    return r;
+  };
+  idl::channel::ChannelRequest request;
+  request.client = 7000000, request.number = 1;
+  recording.messages = {
+      stored(topics::channel_reply, reply(8000000, 3), 5),  // answered before the recording began
+      stored(topics::snapshot_request, idl::service::SnapshotRequest{}, 10),
+      stored(topics::channel_request, request, 11), stored(topics::channel_reply, reply(7000000, 1), 12),
+      stored(topics::channel_reply, reply(1, 4), 13)};  // outputs of the PLC taken by channel 0
+  EXPECT_EQ(missing_request(recording), "");
+  recording.messages.push_back(stored(topics::channel_reply, reply(7000000, 2), 14));
+  EXPECT_EQ(missing_request(recording),
+            "the recording has the reply to request 2 of client 7000000, but not the request: record again");
+}
+
 TEST(TickPlan, GivesTheDriveItsInputsAtTheTicksAtWhichTheyTookEffect) {
   // The PLC's order was written before the second frame and taken behind it, at tick 8.
   StoredRecording recording;

@@ -19,7 +19,8 @@ void TopicSource::open_reader() {
   reader_needed_ = true;
   if (reader_ != nullptr) return;
   reader_came_late_ = began_ != 0;
-  const bool with_past = bus::reader_qos(entry_->qos).transient_local && (has_past() || reader_came_late_);
+  opened_ = bus::source_time();
+  const bool with_past = is_event() || has_past() || reader_came_late_;
   reader_ = backend_->reader(entry_->description, {with_past, 0}, signal_);
 }
 
@@ -75,6 +76,7 @@ bool TopicSource::take_by_dds(bus::Bytes& cdr, bus::SampleInfo& info) {
   const auto in_memory = [&](const auto& entry) { return entry.second.writer == info.writer; };
   while (reader_->take(cdr, info)) {
     if (std::any_of(histories_.begin(), histories_.end(), in_memory)) continue;
+    if (is_event() && info.source_timestamp < opened_) continue;
     if (recorded(info, reader_came_late_)) return true;
   }
   return false;

@@ -49,6 +49,9 @@ class TopicSource {
     std::unique_ptr<bus::SharedHistoryReader> reader;
     bool ended = false;  // no more messages follow
   };
+  // Of a writer that is discovered late all is read that it has written since the reader was opened: one of a
+  // command writes as soon as the service that it asks has discovered it. What is older has had its effect.
+  bool is_event() const { return entry_->qos == bus::QosKind::event; }
   bool has_past() const { return !is_stream() || is_feedback(); }
   void open_reader();
   void close_ended();
@@ -62,7 +65,8 @@ class TopicSource {
   std::map<std::string, History> histories_;  // by address
   std::unique_ptr<bus::RawReader> reader_;
   bool reader_needed_ = false, reader_came_late_ = false;
-  std::int64_t began_ = 0;  // 0 = not yet
+  std::int64_t opened_ = 0;  // when the reader was
+  std::int64_t began_ = 0;   // 0 = not yet
   std::int64_t left_out_ = 0;
   std::uint64_t overwritten_ = 0;  // of histories that have ended
 };

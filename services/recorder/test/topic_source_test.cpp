@@ -175,5 +175,23 @@ TEST(Topics, WithoutFramesAreReadByDds) {
   EXPECT_EQ(side.readers, 1) << "every new writer is read";
 }
 
+// The process of a command writes its request when the service that it asks has discovered it; the recorder
+// may do so later. What was written before the recorder was there has had its effect in the states it starts
+// with.
+TEST(Topics, RequestsAreReadFromWhatAWriterKeepsButNoneOfBeforeTheRecorder) {
+  Side side;
+  const std::int64_t before = bus::source_time();
+  TopicSource topic(side, *bus::find_topic("channel_request"), nullptr);
+  EXPECT_TRUE(side.asked_for.transient_local);
+  EXPECT_TRUE(bus::writer_qos(bus::QosKind::event, {}).transient_local);
+  EXPECT_FALSE(bus::reader_qos(bus::QosKind::event).transient_local) << "no service acts on an old request";
+  side.waiting = {Sample{Bytes(8, 1), {before - 1, {}}}, Sample{Bytes(8, 2), {bus::source_time(), {}}}};
+  Bytes cdr;
+  bus::SampleInfo info;
+  ASSERT_TRUE(topic.take(cdr, info));
+  EXPECT_EQ(cdr.at(0), 2);
+  EXPECT_FALSE(topic.take(cdr, info));
+}
+
 }  // namespace
 }  // namespace trunnion::recorder
