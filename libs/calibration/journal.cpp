@@ -11,6 +11,7 @@ namespace trunnion::calibration {
 
 LastCalibration last_calibration(const std::string& journal) {
   LastCalibration last;
+  int last_part = 0;
   std::map<std::uint32_t, double> newest;
   std::istringstream lines(journal);
   for (std::string line; std::getline(lines, line);) {
@@ -23,7 +24,11 @@ LastCalibration last_calibration(const std::string& journal) {
     if (!entry["old"].is_number() || !entry["new"].is_number()) continue;
     newest[number] = entry["new"].get<double>();
     if (!who.ends_with(calibrated_by) && !who.ends_with(undone_by)) continue;
-    if (time != last.time || who != last.who) last = {time, who, {}, {}};
+    // The lines of one change have ascending parts, and in journals of former versions none.
+    const auto found = entry.find("part");
+    const int part = found != entry.end() && found->is_number_integer() ? found->get<int>() : last_part + 1;
+    if (time != last.time || who != last.who || part <= last_part) last = {time, who, {}, {}};
+    last_part = part;
     last.before.try_emplace(number, entry["old"].get<double>());
     last.after[number] = newest[number];
   }

@@ -30,6 +30,18 @@ TEST(Journal, TheLastCalibrationHasWhatItReplaced) {
   EXPECT_EQ(last.after, (std::map<std::uint32_t, double>{{40433, 0.2}, {40435, 2}}));
 }
 
+TEST(Journal, TwoCalibrationsOfTheSameSecondAreTwo) {
+  const auto part = [](int number, const std::string& line) {
+    return "{\"part\":" + std::to_string(number) + "," + line.substr(1);
+  };
+  const auto last = last_calibration(part(1, entry("T1", "ann calibrate", 40433, 0, 0.1)) +
+                                     part(2, entry("T1", "ann calibrate", 40435, 1, 2)) +
+                                     part(1, entry("T1", "ann calibrate", 40434, 0, 0.3)) +
+                                     part(2, entry("T1", "ann calibrate", 40435, 2, 3)));
+  EXPECT_EQ(last.before, (std::map<std::uint32_t, double>{{40434, 0}, {40435, 2}}));
+  EXPECT_EQ(last.after, (std::map<std::uint32_t, double>{{40434, 0.3}, {40435, 3}}));
+}
+
 TEST(Journal, NothingIsUndoneTwiceOrOverALaterChange) {
   const std::string calibrated = entry("T1", "ann calibrate", 40433, 0, 0.1);
   EXPECT_EQ(journal_fault(""), "the journal has no calibration");

@@ -37,9 +37,10 @@ nlohmann::json json_of(const idl::parameters::Tool& t) {
           {"name", t.name}};
 }
 
-std::string line(const std::string& time, const std::string& who, const char* what,
+// `part` counts the lines of one change from 1: two changes by one user may have the same second.
+std::string line(const std::string& time, const std::string& who, std::size_t part, const char* what,
                  const nlohmann::json& number, const nlohmann::json& before, const nlohmann::json& after) {
-  const nlohmann::ordered_json entry = {{"time", time},     {"who", who},    {"what", what},
+  const nlohmann::ordered_json entry = {{"time", time},     {"who", who},    {"part", part}, {"what", what},
                                         {"number", number}, {"old", before}, {"new", after}};
   // Texts come from outside: bytes that are no UTF-8 are replaced, not thrown at.
   return entry.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
@@ -175,8 +176,8 @@ std::string ParameterStore::change(State& next, const ParameterRequest& request,
         next.overrides.erase(parameter.number);
       else
         next.overrides[parameter.number] = value;
-      journal.push_back(line(time, who, "parameter", parameter.number, json_of(parameter.number, before),
-                             json_of(parameter.number, value)));
+      journal.push_back(line(time, who, journal.size() + 1, "parameter", parameter.number,
+                             json_of(parameter.number, before), json_of(parameter.number, value)));
     }
   }
   if (tools) {
@@ -186,13 +187,13 @@ std::string ParameterStore::change(State& next, const ParameterRequest& request,
       if (op == Operation::REMOVE_TOOL) {
         if (found == next.tools.end()) return "tool " + std::to_string(tool.number) + " does not exist";
         next.tools.erase(found);
-        journal.push_back(line(time, who, "tool", tool.number, before, nlohmann::json()));
+        journal.push_back(line(time, who, journal.size() + 1, "tool", tool.number, before, nlohmann::json()));
         continue;
       }
       if (auto error = tool_tables::check_tool(tool); !error.empty()) return error;
       if (found != next.tools.end() && found->second == tool) continue;
       next.tools[tool.number] = tool;
-      journal.push_back(line(time, who, "tool", tool.number, before, json_of(tool)));
+      journal.push_back(line(time, who, journal.size() + 1, "tool", tool.number, before, json_of(tool)));
     }
     if (next.tools.size() > most_tools) return "the tool table holds at most 1024 tools";
   }
@@ -202,9 +203,10 @@ std::string ParameterStore::change(State& next, const ParameterRequest& request,
       if (auto error = tool_tables::check_offset(offset); !error.empty()) return error;
       auto& entry = next.offsets[{offset.channel, offset.index}];
       if (entry.values == offset.values) continue;
-      journal.push_back(line(
-          time, who, "work_offset", std::to_string(offset.channel) + ":G" + std::to_string(54 + offset.index),
-          entry.values.empty() ? nlohmann::json() : nlohmann::json(entry.values), offset.values));
+      journal.push_back(line(time, who, journal.size() + 1, "work_offset",
+                             std::to_string(offset.channel) + ":G" + std::to_string(54 + offset.index),
+                             entry.values.empty() ? nlohmann::json() : nlohmann::json(entry.values),
+                             offset.values));
       entry = offset;
     }
     if (next.offsets.size() > most_offsets) return "at most 192 work offsets";

@@ -244,7 +244,8 @@ TEST(ParameterStore, TheJournalTellsWhoChangedWhatFromWhatToWhat) {
   ASSERT_EQ(lines.size(), 2u);
   EXPECT_EQ(
       lines[0],
-      R"({"time":"2026-01-02T03:04:05Z","who":"test","what":"parameter","number":100007,"old":-300.0,"new":-250.0})");
+      R"({"time":"2026-01-02T03:04:05Z","who":"test","part":1,"what":"parameter","number":100007,"old":-300.0,"new":-250.0})");
+  EXPECT_THAT(lines[1], HasSubstr("\"part\":2"));
   EXPECT_THAT(lines[1], HasSubstr("\"old\":\"X\""));
   ParameterStore again(storage, defaults(), "two");  // cuts the torn line off
   again.apply(set({{limit, -200, ""}}), time_text);
