@@ -25,8 +25,8 @@ inline double rotary_target(RotaryWay way, double word, double position) {
                             : angle + turn * std::ceil((position - angle - slack) / turn);
 }
 
-/// The word that brings the axis from `position` to `target`, less than a turn away (shortest: less than half a
-/// turn), both in degrees and in the same coordinates.
+/// The word that brings the axis from `position` to `target`, less than a turn away (shortest: less than half
+/// a turn), both in degrees and in the same coordinates.
 inline double rotary_word(RotaryWay way, double target, double position) {
   if (way != RotaryWay::by_sign) return target;
   const double angle = target - 360 * std::floor(target / 360);

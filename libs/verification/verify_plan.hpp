@@ -58,8 +58,8 @@ VerifyPlan surroundings(const StoredRecording& recording, const std::string& ser
 /// empty when it has them all.
 std::string missing_feedback(const VerifyPlan& plan);
 
-/// The first request to a channel that the recording has the reply to, but not the request itself, in one line;
-/// empty when it has them all. Requests that were answered before the recording began do not count.
+/// The first request to a channel that the recording has the reply to, but not the request itself, in one
+/// line; empty when it has them all. Requests that were answered before the recording began do not count.
 std::string missing_request(const StoredRecording& recording);
 
 /// Alarms that `service` raises in `messages`: number, part and text of the first.
