@@ -88,7 +88,10 @@ void AccessControl::refresh(double now) {
 std::optional<access::Identity> AccessControl::identify(std::string_view cookies,
                                                         std::string_view authorization, bool prolongs) {
   const auto token = bearer_token(authorization);
-  if (settings_.believing && !token.empty()) return access::Identity{std::string(token), Role::administrator};
+  if (settings_.believing && token.size() > 2)
+    return access::Identity{token.substr(2), token[0] == '0'   ? Role::machine_operator
+                                             : token[0] == '1' ? Role::setter
+                                                               : Role::builder};
   if (!on()) return {};
   const auto secret = cookie_value(cookies, cookie);
   if (secret.empty() && token.empty()) return {};

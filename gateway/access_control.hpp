@@ -22,7 +22,8 @@ struct AccessSettings {
   std::string state_directory;
   double session_idle = access::Sessions::longest_idle;  ///< s
   bool secure = false;                                   ///< cookies only travel by TLS
-  bool believing = false;  ///< without users: a bearer token is the name of who sends, for verification
+  bool believing =
+      false;  ///< without users: a bearer token is role (as in ParameterRequest) and name of who sends
 };
 
 class AccessControl {

@@ -6,6 +6,7 @@
 #include "src/paging.hpp"
 #include "src/precondition.hpp"
 #include "src/requests.hpp"
+#include "src/rights.hpp"
 #include "src/static_files.hpp"
 #include "storage/crc32.hpp"
 
@@ -143,7 +144,7 @@ void Api::handle(const Match& match, const RequestText& request, const Respond& 
         stored_.erase(match.parts.at(0));
         return send_program(rename_request(match.parts[0], parse_body(body)), respond);
       case Operation::channel_command:
-        return send_channel(match, parse_body(body), respond);
+        return send_channel(match, parse_body(body), request.user, respond);
       case Operation::session:
         return respond(access_.session(request));
       case Operation::login:
@@ -259,14 +260,17 @@ Answer Api::read(const Match& match, const std::string& query) const {
   }
 }
 
-void Api::send_channel(const Match& match, const Json& body, const Respond& respond) {
+void Api::send_channel(const Match& match, const Json& body, const std::optional<access::Identity>& user,
+                       const Respond& respond) {
   const auto number = path_number(match.parts.at(0), 65535);
   const auto snapshot = mailbox_.newest();
   const auto known = snapshot && number ? snapshot->channels.find(static_cast<std::uint16_t>(*number))
                                         : decltype(snapshot->channels.end()){};
   if (!snapshot || !number || known == snapshot->channels.end())
     return respond(error_answer(404, "no channel " + match.parts[0]));
-  const auto request = channel_request(match.command, body, known->second);
+  auto request = channel_request(match.command, body, known->second);
+  request.role = role_of(user);
+  request.who = user ? user->name : "hmi";
   mailbox_.post([request, respond](Links& links, double now) {
     links.channel.submit(
         request,
@@ -353,6 +357,7 @@ void Api::send_parameters(const Match& match, const Json& body, const RequestTex
     if (const auto snapshot = mailbox_.newest())
       sent_ = {snapshot->parameters, std::chrono::steady_clock::now()};
   if (text.user) request.who = text.user->name;  // who is logged in, whatever the body says
+  request.role = role_of(text.user);
   mailbox_.post([request, respond](Links& links, double now) {
     links.parameters.submit(
         request,
@@ -462,6 +467,7 @@ void ProgramUpload::commit(ProgramDone done) {
   auto end = request(idl::program::Operation::COMMIT_UPLOAD);
   end.crc32 = crc_;
   end.size = size_;
+  end.role = role_;
   send(std::move(end), std::move(done));
 }
 

@@ -70,7 +70,8 @@ class Api {
 
  private:
   Answer read(const Match& match, const std::string& query) const;
-  void send_channel(const Match& match, const bus::Json& body, const Respond& respond);
+  void send_channel(const Match& match, const bus::Json& body, const std::optional<access::Identity>& user,
+                    const Respond& respond);
   void send_panel(std::string_view route, const bus::Json& body, const Respond& respond);
   void send_parameters(const Match& match, const bus::Json& body, const RequestText& request,
                        const Respond& respond);
@@ -119,7 +120,9 @@ Answer program_refusal(const ProgramReply& reply);
 /// One upload: begin, write as often as needed, commit; abort when it cannot be finished. One call at a time.
 class ProgramUpload {
  public:
-  ProgramUpload(Mailbox& mailbox, std::string name) : mailbox_(mailbox), name_(std::move(name)) {}
+  /// `role` of who stores it, as in ProgramRequest.
+  ProgramUpload(Mailbox& mailbox, std::string name, std::uint8_t role)
+      : mailbox_(mailbox), name_(std::move(name)), role_(role) {}
   void begin(ProgramDone done);
   /// At most chunk_bytes.
   void write(std::vector<std::uint8_t> data, ProgramDone done);
@@ -133,6 +136,7 @@ class ProgramUpload {
   void send(idl::program::ProgramRequest request, ProgramDone done);
   Mailbox& mailbox_;
   std::string name_;
+  std::uint8_t role_;
   std::uint64_t client_ = service::make_client_id(), number_ = 0, size_ = 0;
   std::uint32_t crc_ = 0;
 };

@@ -64,6 +64,7 @@ void FaultRig::store_keepsakes(int rounds) {
   auto& client = cluster_.client();
   using idl::parameters::Operation;
   idl::parameters::ParameterRequest request;
+  request.role = 2;  // a builder's
   request.who = "fault matrix";
   request.operation = Operation::SET;
   // 040950 is active at once, 010049 waits for a restart of the cluster: it must go on waiting.

@@ -200,6 +200,7 @@ TEST(Kinematics, TheServiceComputesTheBitsOfTheLibrary) {
 TEST(Kinematics, ParallelAxesAreAnAlarmOfTheirOwnAndNothingMoves) {
   Cluster cluster("ac-table");
   idl::parameters::ParameterRequest request;
+  request.role = 2;  // a builder's
   request.operation = idl::parameters::Operation::SET;
   request.who = "test";
   request.values = {{40426, 0, ""}, {40428, -1, ""}};
@@ -212,6 +213,7 @@ TEST(Kinematics, ParallelAxesAreAnAlarmOfTheirOwnAndNothingMoves) {
 TEST(Kinematics, ADirectionThatIsNotOneLongIsAWarning) {
   Cluster cluster("ac-table");
   idl::parameters::ParameterRequest request;
+  request.role = 2;  // a builder's
   request.operation = idl::parameters::Operation::SET;
   request.who = "test";
   request.values = {{40426, -0.5, ""}};

@@ -55,6 +55,7 @@ TEST(Machines, TwoChannelsRunTwoProgramsAtOnce) {
 TEST(Machines, ParametersTakeEffectAtResetAndWrongOnesAreRefusedWithTheirLimits) {
   Cluster cluster("ac-table");
   idl::parameters::ParameterRequest request;
+  request.role = 2;  // a builder's
   request.operation = idl::parameters::Operation::SET;
   request.who = "test";
   request.values = {{100007, -350, ""}};

@@ -116,6 +116,7 @@ void RecordedMachine::run_programs() {
 
 void RecordedMachine::change_values() {
   idl::parameters::ParameterRequest request;
+  request.role = 2;  // a builder's
   request.who = "test";
   request.operation = idl::parameters::Operation::SET;
   request.values = {{parameter::rapid_feed.number(0), 9000, ""}};

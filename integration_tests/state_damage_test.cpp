@@ -64,6 +64,7 @@ class UsedMachine {
     auto& client = cluster.client();
     using idl::parameters::Operation;
     idl::parameters::ParameterRequest request;
+    request.role = 2;  // a builder's
     request.who = "test";
     request.operation = Operation::SET;
     request.values = {{100034, rapid, ""}};

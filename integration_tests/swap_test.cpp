@@ -345,6 +345,7 @@ TEST_P(SwappingInMotion, TheMotionGoesOnAndTheNewOneAnswers) {
     EXPECT_EQ(cluster.client().download("late.nc"), "G0 X1\nM30\n");
   } else {
     idl::parameters::ParameterRequest request;
+    request.role = 2;  // a builder's
     request.operation = idl::parameters::Operation::SET;
     request.values = {{10, 0.004, ""}};
     EXPECT_TRUE(cluster.client().parameter(request).accepted);

@@ -16,6 +16,7 @@ Rows touch(const std::string& vendor) {
   Cluster cluster("ac-table", Time::virtual_, vendor);
   cluster.keep_rows = true;
   idl::parameters::ParameterRequest request;
+  request.role = 2;  // a builder's
   request.operation = idl::parameters::Operation::SET;
   request.who = "test";
   request.values = {{10931, 0, ""}, {10935, 30.5, ""}, {10939, 1, ""}};

@@ -44,6 +44,7 @@ class Operator {
     line.line = ++lines_;
     line.sender = sender;
     line.user = user;
+    line.role = 2;  // a builder's
     line.method = method;
     line.target = target;
     line.body = body.size() <= 1024 ? body : "";
@@ -60,6 +61,7 @@ class Operator {
   // One order to the channel, accepted at cycle 77.
   void order(const std::string& target, const std::string& body, idl::channel::ChannelRequest request,
              Sender sender = Sender::TOOL) {
+    request.who = "hmi", request.role = 2;  // without users a builder's
     request.client = client;
     request.number = ++number_;
     add(topics::channel_request, request);
@@ -87,7 +89,7 @@ class Operator {
       request.name = name;
       if (operation == Operation::WRITE) request.data.assign(text.begin(), text.end());
       if (operation == Operation::COMMIT_UPLOAD)
-        request.size = text.size(), request.crc32 = storage::crc32(text);
+        request.size = text.size(), request.crc32 = storage::crc32(text), request.role = 2;
       add(topics::program_request, request);
       add(topics::program_reply, reply);
     }
@@ -118,6 +120,7 @@ class Operator {
   // A change of a parameter by `name`, who was logged in, whatever the body says.
   void change(std::uint32_t parameter, double value, const std::string& name) {
     idl::parameters::ParameterRequest request{};
+    request.role = 2;  // a builder's
     request.client = client;
     request.number = ++number_;
     request.operation = idl::parameters::Operation::SET;

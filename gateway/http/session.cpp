@@ -125,7 +125,7 @@ void HttpSession::on_header() {
   user_ =
       api_.access().identify(view(request[http::field::cookie]), view(request[http::field::authorization]),
                              prolongs_session(match_.operation));
-  if (line_ && user_) set_user(*line_, user_->name);
+  if (line_ && user_) set_user(*line_, *user_);
   if (auto refusal = api_.access().refusal(user_, match_)) return answer_and_close(std::move(*refusal));
   const auto station =
       api_.operating().station_of(view(request[http::field::cookie]), connection_.peer, user_);
@@ -297,7 +297,7 @@ void HttpSession::begin_upload() {
     return answer_and_close(error_answer(412, changed));
   parts_.emplace(std::move(*header_));
   parts_->body_limit(largest_program);
-  upload_ = std::make_unique<ProgramUpload>(api_.mailbox(), match_.parts[0]);
+  upload_ = std::make_unique<ProgramUpload>(api_.mailbox(), match_.parts[0], role_of(user_));
   upload_->begin(here(&HttpSession::upload_begun));
 }
 

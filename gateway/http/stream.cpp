@@ -138,7 +138,7 @@ void StreamSession::take_order(const std::string& text) {
   if (const auto refusal = api_.operating().refusal(station, found)) return answer_order(order, *refusal);
   const auto body = member("body", bus::Json::object()).dump();
   auto line = std::make_shared<JournalLine>(begin_line(visitor_.sender, visitor_.peer, "POST", target));
-  if (user) set_user(*line, user->name);
+  if (user) set_user(*line, *user);
   add_body(*line, body);
   api_.handle(found, {"", body}, [self = shared_from_this(), order, line](Answer made) {
     boost::asio::post(self->socket_.get_executor(), [self, order, line, made = std::move(made)] {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/journal.hpp"
 
+#include "src/rights.hpp"
 #include "storage/crc32.hpp"
 
 namespace trunnion::gateway {
@@ -44,6 +45,7 @@ JournalLine begin_line(idl::gateway::Sender sender, std::string_view address, st
   line.address = address.substr(0, address_bytes);
   line.method = method.substr(0, method_bytes);
   line.target = target.substr(0, target_bytes);
+  line.role = role_of({});
   return line;
 }
 
@@ -55,7 +57,10 @@ void add_answer(JournalLine& line, std::string_view part) {
   add(line.answer, line.answer_size, line.answer_crc32, part);
 }
 
-void set_user(JournalLine& line, std::string_view name) { line.user = name.substr(0, user_bytes); }
+void set_user(JournalLine& line, const access::Identity& user) {
+  line.user = std::string_view(user.name).substr(0, user_bytes);
+  line.role = role_of(user);
+}
 
 void set_asked(JournalLine& line, const Asked& asked) {
   line.client = asked.client;

@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 
+#include "access/sessions.hpp"
 #include "contracts/types.hpp"
 #include "src/router.hpp"
 
@@ -33,7 +34,7 @@ JournalLine begin_line(idl::gateway::Sender sender, std::string_view address, st
 void add_body(JournalLine& line, std::string_view part);
 void add_answer(JournalLine& line, std::string_view part);
 /// Who was logged in.
-void set_user(JournalLine& line, std::string_view name);
+void set_user(JournalLine& line, const access::Identity& user);
 void set_asked(JournalLine& line, const Asked& asked);
 
 }  // namespace trunnion::gateway

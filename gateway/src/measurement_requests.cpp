@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/measurement_requests.hpp"
 
+#include "machine/roles.hpp"
+
 namespace trunnion::gateway {
 namespace {
 
@@ -47,6 +49,7 @@ void fill_start(const bus::Json& body, idl::measurement::MeasurementRequest& req
 
 idl::parameters::ParameterRequest import_by(const std::string& who, const std::string& suffix) {
   idl::parameters::ParameterRequest request;
+  request.role = machine::role::builder;  // who may write these is one
   request.operation = idl::parameters::Operation::IMPORT;
   request.who = who.substr(0, most_author - suffix.size()) + suffix;
   return request;

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "src/rights.hpp"
 
+#include <algorithm>
+
+#include "machine/roles.hpp"
+
 namespace trunnion::gateway {
 
 using access::Role;
@@ -42,9 +46,57 @@ std::optional<Role> needed_role(const Match& match) {
     case Operation::rename_program:
     case Operation::remove_recording:
       return Role::setter;
-    default:
+    case Operation::status:
+    case Operation::alarms:
+    case Operation::channels:
+    case Operation::channel:
+    case Operation::parameters:
+    case Operation::parameter:
+    case Operation::tools:
+    case Operation::work_offsets:
+    case Operation::check:
+    case Operation::programs:
+    case Operation::read_program:
+    case Operation::plc_image:
+    case Operation::variables:
+    case Operation::stream:
+    case Operation::recordings:
+    case Operation::read_recording:
+    case Operation::recording_table:
+    case Operation::start_recording:
+    case Operation::stop_recording:
+    case Operation::operating_right:
+    case Operation::change_operating_right:
+    case Operation::plc_programs:
+    case Operation::plc_source:
+    case Operation::plc_variables:
+    case Operation::plc_forces:
+    case Operation::plc_tasks:
+    case Operation::plc_uses:
+    case Operation::plc_watch:
+    case Operation::plc_start_trace:
+    case Operation::plc_trace:
+    case Operation::plc_end_trace:
+    case Operation::plc_load:
+    case Operation::bodies:
+    case Operation::past_alarms:
+    case Operation::plan_program:
+    case Operation::measurement:
+    case Operation::measurement_inputs:
+    case Operation::measurement_last:
+    case Operation::manual_calibration:
+    case Operation::manual_evaluation:
+    case Operation::alarms_reset:
       return Role::machine_operator;
   }
+  return Role::administrator;  // all are above: the compiler warns of one that states no right
+}
+
+static_assert(static_cast<int>(Role::setter) == machine::role::setter &&
+              static_cast<int>(Role::builder) == machine::role::builder);
+
+std::uint8_t role_of(const std::optional<access::Identity>& user) {
+  return static_cast<std::uint8_t>(user ? std::min(user->role, Role::builder) : Role::builder);
 }
 
 bool needs_operating_right(const Match& match) {

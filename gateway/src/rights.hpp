@@ -2,10 +2,11 @@
 // Which role an operation needs.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 
-#include "access/role.hpp"
+#include "access/sessions.hpp"
 #include "src/router.hpp"
 
 namespace trunnion::gateway {
@@ -13,6 +14,10 @@ namespace trunnion::gateway {
 /// Least role of who may do it; nothing: everybody, also without a login. Emergency stop, feed hold and the
 /// end of a jog are everybody's.
 std::optional<access::Role> needed_role(const Match& match);
+
+/// What requests on the bus carry, as in ParameterRequest: without a login, where none is needed, a
+/// builder's.
+std::uint8_t role_of(const std::optional<access::Identity>& user);
 
 /// Whether the operation changes what the machine does, so that only the station that operates may order it.
 /// Stops are everybody's; programs may be stored from elsewhere.

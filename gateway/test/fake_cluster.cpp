@@ -21,7 +21,7 @@ std::uint32_t lines_of(const std::vector<std::uint8_t>& text) {
 }
 
 idl::program::ProgramEntry entry_of(const std::string& name, const std::vector<std::uint8_t>& text) {
-  return {name, 1, text.size(), storage::crc32(0, text), lines_of(text)};
+  return {name, 1, text.size(), storage::crc32(0, text), lines_of(text), 1};
 }
 
 std::vector<std::uint8_t> circle_program() {
@@ -281,6 +281,7 @@ void FakeCluster::answer_program() {
         reply.accepted = reply.entry.crc32 == request.crc32 && reply.entry.size == request.size;
         if (reply.accepted) {
           programs[request.name] = upload;
+          stored_by[request.name] = request.role;
           publish_programs();
         }
         uploads_.erase(request.client);

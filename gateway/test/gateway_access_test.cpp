@@ -5,6 +5,7 @@
 #include "access/secrets.hpp"
 #include "access/user_file.hpp"
 #include "gateway_fixture.hpp"
+#include "src/rights.hpp"
 
 namespace trunnion::gateway {
 namespace {
@@ -129,6 +130,64 @@ TEST_F(GatewayAccess, ASessionMayDoWhatItsRoleSaysUntilItsEnd) {
            journal().find("\"what\":\"logout\",\"who\":\"ann\"") != std::string::npos;
   })) << journal();
   EXPECT_EQ(journal().find("password of"), std::string::npos);
+}
+
+// Every route with every role: it is refused exactly when the role does not suffice. GET is tried with all,
+// and what changes something only where it must be refused, or the machine would do it.
+TEST_F(GatewayAccess, NoRouteIsOpenToARoleThatDoesNotSuffice) {
+  add("ann", Role::machine_operator), add("sam", Role::setter), add("bo", Role::builder);
+  set("operating_right: any");
+  start();
+  const std::vector<std::pair<std::optional<Role>, std::string>> visitors{
+      {{}, ""},
+      {Role::machine_operator, session("ann")},
+      {Role::setter, session("sam")},
+      {Role::builder, session("bo")}};
+  int refused = 0;
+  for (const auto& route : routes()) {
+    Match match;
+    match.operation = route.operation, match.command = route.command;
+    const auto needed = needed_role(match);
+    auto target = route.pattern;
+    for (auto at = target.find('{'); at != std::string::npos; at = target.find('{'))
+      target.replace(at, target.find('}', at) + 1 - at, "0");
+    for (const auto& [role, cookie] : visitors) {
+      const bool permitted = !needed || (role && *role >= *needed);
+      if (permitted && route.method != "GET") continue;
+      const int status = ask(std::string(route.method), target, json::object(), cookie).status;
+      const auto shown =
+          std::string(route.method) + " " + target + " as " + (role ? access::name_of(*role) : "nobody");
+      if (permitted)
+        EXPECT_THAT(status, testing::AllOf(testing::Ne(401), testing::Ne(403))) << shown;
+      else
+        EXPECT_EQ(status, role ? 403 : 401) << shown;
+      refused += permitted ? 0 : 1;
+    }
+  }
+  // 69 operations and more, of which eight are everybody's: nobody is refused at all the others.
+  EXPECT_GT(refused, 100);
+}
+
+// What a line of MDI and a program may change is decided where it is changed: by the role they carry.
+TEST_F(GatewayAccess, RequestsToTheMachineCarryTheRoleOfWhoAsks) {
+  add("ann", Role::machine_operator), add("sam", Role::setter), add("bo", Role::administrator);
+  set("operating_right: any");
+  start();
+  const std::vector<std::pair<std::string, int>> users{{"ann", 0}, {"sam", 1}, {"bo", 2}};
+  for (const auto& [name, role] : users) {
+    const auto cookie = session(name);
+    EXPECT_EQ(ask("POST", "/api/channels/0/mdi", {{"line", "G10 L2 P1 X1"}}, cookie).status, 200);
+    if (role > 0) {
+      EXPECT_EQ(ask("PUT", "/api/parameters/11", {{"value", 0.2}}, cookie).status, 200);
+      EXPECT_LT(http_client::request(port_, "PUT", "/api/programs/P.NC", "M30\n", cookie).status, 300);
+    }
+    const std::lock_guard lock(mutex_);
+    EXPECT_EQ(cluster_.channel_requests.back().who, name);
+    EXPECT_EQ(cluster_.channel_requests.back().role, role);
+    if (role == 0) continue;
+    EXPECT_EQ(cluster_.parameter_requests.back().role, role);
+    EXPECT_EQ(cluster_.stored_by["P.NC"], role);
+  }
 }
 
 TEST_F(GatewayAccess, TheOperatorJournalSaysWhoWasLoggedInByBothWays) {

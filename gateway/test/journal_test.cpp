@@ -78,12 +78,13 @@ TEST(Journal, ATextThatFitsIsKeptInPartsAndALongerOneIsItsSizeAndSumAlone) {
 TEST(Journal, NoRequestHoweverLongIsBeyondTheBoundsOfTheLine) {
   const std::string text(100000, '/');
   auto line = begin_line(Sender::PAGE, text, text, text);
-  set_user(line, text);
+  set_user(line, {text, access::Role::setter});
   add_body(line, text);
   add_answer(line, text);
   bus::Bytes bytes;
   EXPECT_NO_THROW(bus::encode(line, bytes));
   EXPECT_EQ(line.target.size(), 256u);
+  EXPECT_EQ(line.role, 1);
 }
 
 }  // namespace

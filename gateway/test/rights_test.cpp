@@ -36,6 +36,15 @@ TEST(Rights, NothingElseIsDoneWithoutALogin) {
                       "DELETE /api/session", "GET /api/openapi.json", "POST /api/measurement/abort"}));
 }
 
+TEST(Rights, EveryRouteStatesItsRole) {
+  for (const auto& route : routes()) {
+    Match found;
+    found.operation = route.operation;
+    found.command = route.command;
+    EXPECT_NE(needed_role(found), Role::administrator) << route.method << " " << route.pattern;
+  }
+}
+
 TEST(Rights, OperatorsRunTheMachineAndSettersChangeWhatItWorksWith) {
   EXPECT_EQ(role_for("POST", "/api/channels/0/cycle-start"), Role::machine_operator);
   EXPECT_EQ(role_for("GET", "/api/status"), Role::machine_operator);

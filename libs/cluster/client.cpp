@@ -7,12 +7,15 @@
 #include <thread>
 
 #include "cluster/cluster.hpp"
+#include "machine/roles.hpp"
 #include "storage/crc32.hpp"
 
 namespace trunnion::cluster {
 namespace {
 constexpr double timeout = 15;  // s for an answer
 constexpr std::uint16_t every_channel = 65535;
+// Commands run as the user of the cluster.
+constexpr std::uint8_t of_the_owner = machine::role::builder;
 }  // namespace
 
 Client::Client(std::uint32_t domain) : Client(network_in(domain)) {}
@@ -44,7 +47,8 @@ void Client::start_from_line(std::uint16_t channel, std::uint32_t line) {
   this->channel({.channel = channel, .command = CommandKind::START_FROM_LINE, .line = line});
 }
 
-void Client::channel(const ChannelRequest& request) {
+void Client::channel(ChannelRequest request) {
+  request.role = of_the_owner, request.who = "command line";
   const auto reply = channel_.call(request, timeout);
   if (!reply) throw std::runtime_error("channel " + std::to_string(request.channel) + " does not answer");
   if (!reply->accepted)
@@ -60,6 +64,7 @@ idl::program::ProgramReply Client::program(idl::program::ProgramRequest request)
 }
 
 idl::parameters::ParameterReply Client::parameter(idl::parameters::ParameterRequest request) {
+  request.role = of_the_owner;
   const auto reply = parameter_.call(std::move(request), timeout);
   if (!reply) throw std::runtime_error("the parameters service does not answer");
   if (!reply->accepted) throw std::runtime_error(reply->reason);
@@ -114,6 +119,7 @@ void Client::upload(const std::string& name, const std::string& text) {
   request.operation = idl::program::Operation::COMMIT_UPLOAD;
   request.size = text.size();
   request.crc32 = storage::crc32(text);
+  request.role = of_the_owner;
   program(request);
 }
 

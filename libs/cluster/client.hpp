@@ -29,7 +29,7 @@ class Client {
   bus::Bus& bus() { return bus_; }
   /// Throws std::runtime_error with the reason when it is refused or nobody answers.
   /// Client and number of the request are given by this client.
-  void channel(const ChannelRequest& request);
+  void channel(ChannelRequest request);
   /// A command without fields.
   void channel(std::uint16_t channel, CommandKind command);
   void set_mode(std::uint16_t channel, idl::channel::Mode mode);

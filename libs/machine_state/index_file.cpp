@@ -3,6 +3,7 @@
 
 #include <stdexcept>
 
+#include "machine/roles.hpp"
 #include "machine/yaml.hpp"
 
 namespace trunnion::machine_state {
@@ -21,8 +22,12 @@ IndexFile read_index(const std::string& text) {
       if (node["next_size"])
         row.next = {node["next_size"].as<std::uint64_t>(), node["next_crc32"].as<std::uint32_t>()};
       if (!node["size"]) continue;
-      row.stored = {name, row.revision, node["size"].as<std::uint64_t>(), node["crc32"].as<std::uint32_t>(),
-                    node["lines"].as<std::uint32_t>()};
+      row.stored = {name,
+                    row.revision,
+                    node["size"].as<std::uint64_t>(),
+                    node["crc32"].as<std::uint32_t>(),
+                    node["lines"].as<std::uint32_t>(),
+                    node["role"] ? node["role"].as<std::uint8_t>() : machine::role::setter};
     }
   } catch (const YAML::Exception& e) {
     throw std::runtime_error(std::string(index_file) + ":" + std::to_string(e.mark.line + 1) + ":" +
@@ -39,7 +44,7 @@ std::string write_index(const IndexFile& index) {
     if (row.stored)
       text += ", size: " + std::to_string(row.stored->size) +
               ", crc32: " + std::to_string(row.stored->crc32) +
-              ", lines: " + std::to_string(row.stored->lines);
+              ", lines: " + std::to_string(row.stored->lines) + ", role: " + std::to_string(row.stored->role);
     if (row.next)
       text += ", next_size: " + std::to_string(row.next->size) +
               ", next_crc32: " + std::to_string(row.next->crc32);

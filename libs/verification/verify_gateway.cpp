@@ -152,7 +152,9 @@ class Verification {
                                : line.sender == Sender::FOREIGN_PAGE ? "Origin: http://elsewhere.invalid\r\n"
                                                                      : "";
     auto answering = std::async(std::launch::async, [&] {
-      const auto user = line.user.empty() ? "" : "Authorization: Bearer " + line.user + "\r\n";
+      const auto user = line.user.empty()
+                            ? ""
+                            : "Authorization: Bearer " + std::to_string(line.role) + " " + line.user + "\r\n";
       return http_client::request(port_, line.method, line.target, request.body, origin + user);
     });
     while (answering.wait_for(std::chrono::seconds(0)) != std::future_status::ready) {

@@ -214,9 +214,9 @@ export const alarmCatalogue: Readonly<Record<number, Readonly<Record<string, { c
     de: { cause: "Das Programm hat eine Meldung für den Bediener", remedy: "Tun, was die Meldung sagt, dann Zyklusstart drücken" },
   },
   152: {
-    en: { cause: "A value of G10 or of a system variable is beyond its limits, or the table's service does not answer", remedy: "Correct the value in the line of the text, then start again" },
-    zh: { cause: "G10 或系统变量的值超出限值，或该表的服务没有应答", remedy: "更正文本所指行中的值，然后重新启动" },
-    de: { cause: "Ein Wert von G10 oder einer Systemvariablen liegt außerhalb seiner Grenzen, oder der Dienst der Tabelle antwortet nicht", remedy: "Den Wert in der Zeile des Textes berichtigen, dann neu starten" },
+    en: { cause: "A value of G10 or of a system variable is beyond its limits, the role of who entered the line or stored the program does not permit the change, or the table's service does not answer", remedy: "Correct the value in the line of the text, or let a user of the role that it names store the program; then start again" },
+    zh: { cause: "G10 或系统变量的值超出限值，输入该行或保存该程序的用户的角色不允许此更改，或该表的服务没有应答", remedy: "更正文本所指行中的值，或由具有所指角色的用户保存该程序；然后重新启动" },
+    de: { cause: "Ein Wert von G10 oder einer Systemvariablen liegt außerhalb seiner Grenzen, die Rolle dessen, der die Zeile eingegeben oder das Programm gespeichert hat, erlaubt die Änderung nicht, oder der Dienst der Tabelle antwortet nicht", remedy: "Den Wert in der Zeile des Textes berichtigen, oder das Programm von einem Benutzer der genannten Rolle speichern lassen; dann neu starten" },
   },
   153: {
     en: { cause: "A power failure or a damaged disk", remedy: "Check the newest changes of the file in the text, then reset the alarm" },

@@ -411,6 +411,8 @@ export interface ProgramEntry {
   /** of the whole text */
   crc32: number;
   lines: number;
+  /** of who stored it: what the program may change, as in ParameterRequest */
+  role: number;
 }
 
 export interface ProgramList {

@@ -93,7 +93,7 @@ Answer ChannelCore::handle(const ChannelRequest& request) {
       reset();
       return {};
     case CommandKind::MDI_LINE:
-      return start_mdi(request.block);
+      return start_mdi(request);
     case CommandKind::JOG_AXIS:
       return jog(request);
     case CommandKind::JOG_RENEW:

@@ -159,7 +159,8 @@ class ChannelCore {
   };
   /// MDI, from line to line.
   struct Mdi {
-    std::string line;
+    std::string line, who;
+    std::uint8_t role = 0;  ///< as in ChannelRequest
     std::optional<language::StringSource> source;
     language::ModalState modal;
     bool frames_kept = false;  ///< the interpreter still has the frames of the line before
@@ -197,7 +198,7 @@ class ChannelCore {
   // channel_starts.cpp: how programs, lines and moves start.
   Answer start_program(const Entry& entry);
   Answer start_from_line(std::uint32_t line);
-  Answer start_mdi(const std::string& line);
+  Answer start_mdi(const idl::channel::ChannelRequest& request);
   Answer start_move(const AxisMove& move);
   void begin_manual(Activity activity);
   void configure_flow(ProgramFlow& flow);
@@ -241,6 +242,8 @@ class ChannelCore {
   // channel_requests.cpp: what a program asks of the rest of the control.
   void run_pending(FlowState state);
   void execute(const language::Command& command);
+  std::uint8_t role() const;
+  void change_table(const language::Command& command);
   void count_part();
   void begin_auxiliary(const program_execution::AuxiliaryFunction& function);
 

@@ -6,6 +6,7 @@
 #include "channel_core.hpp"
 #include "language/codes.hpp"
 #include "machine/alarm_constants.hpp"
+#include "machine/roles.hpp"
 #include "table_request.hpp"
 
 namespace trunnion::channel {
@@ -68,6 +69,25 @@ void ChannelCore::run_pending(FlowState state) {
     execute(command);
 }
 
+// As in ParameterRequest: what texts change is the matter of who has stored them, whoever starts or calls
+// them; what a line changes by itself, of who has entered it.
+std::uint8_t ChannelCore::role() const {
+  const bool mdi = states_.is(Activity::mdi);
+  const auto stored = (mdi ? mdi_cache_ : program_cache_).role();
+  return stored.value_or(mdi ? mdi_.role : machine::role::machine_operator);
+}
+
+void ChannelCore::change_table(const language::Command& command) {
+  auto request = table_request(command, number_, tool_table_);
+  request.role = role();
+  const bool mdi = states_.is(Activity::mdi);
+  request.who = mdi ? "MDI of channel " + std::to_string(number_) + " by " + mdi_.who
+                    : program_name() + " line " + std::to_string(flow().main_line()) + " of channel " +
+                          std::to_string(number_);
+  request.who.resize(std::min<std::size_t>(request.who.size(), 64));
+  handshake_.begin_table(std::move(request));
+}
+
 void ChannelCore::execute(const language::Command& command) {
   switch (command.kind) {
     case language::CommandKind::transformation:
@@ -82,7 +102,7 @@ void ChannelCore::execute(const language::Command& command) {
       begin_tapping();
       return;
     case language::CommandKind::table:
-      handshake_.begin_table(table_request(command, number_, tool_table_));
+      change_table(command);
       states_.wait();
       return;
     case language::CommandKind::cycle:
@@ -177,6 +197,8 @@ void ChannelCore::begin_cycle(const language::Command& command) {
   }
   auto request = cycle_request(command, flow());
   request.program = program_name();
+  // The text of the cycle is the builder's; what it is to do is said by the line that calls it.
+  request.role = states_.is(Activity::mdi) ? std::min(mdi_.role, role()) : role();
   const auto position = machine_position();
   request.machine.assign(position.begin(), position.end());
   cycle_call_.begin(std::move(request));

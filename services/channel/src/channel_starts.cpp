@@ -66,14 +66,14 @@ void ChannelCore::begin_manual(Activity activity) {
   states_.begin(activity);
 }
 
-Answer ChannelCore::start_mdi(const std::string& line) {
+Answer ChannelCore::start_mdi(const idl::channel::ChannelRequest& request) {
   if (mode_ != Mode::MDI) return refuse(alarm::request_invalid, "An MDI line needs mode MDI");
   if (states_.busy()) return refuse(alarm::request_invalid, "The channel is busy");
   if (auto answer = may_start(); !answer.accepted) return answer;
   if (auto answer = startable(); !answer.accepted) return answer;
   apply_parameters();
   adopt_position();
-  mdi_.line = line;
+  mdi_.line = request.block, mdi_.who = request.who, mdi_.role = request.role;
   mdi_.source.emplace(mdi_.line);
   mdi_cache_.clear();
   begin_manual(Activity::mdi);

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "program_cache.hpp"
 
-namespace trunnion::channel {
+#include <algorithm>
 
+namespace trunnion::channel {
 language::TextSource& ProgramCache::open(const idl::program::ProgramEntry& program) {
   subprograms_.clear();
-  main_ = std::make_unique<ProgramText>(program.name, program.revision, program.size);
+  main_ = std::make_unique<ProgramText>(program);
   return *main_;
 }
 
@@ -14,7 +15,7 @@ language::TextSource* ProgramCache::call(const idl::program::ProgramList& stored
     const bool matches = entry.name.rfind(name, 0) == 0 &&
                          (entry.name.size() == name.size() || entry.name[name.size()] == '.');
     if (!matches) continue;
-    subprograms_.push_back(std::make_unique<ProgramText>(entry.name, entry.revision, entry.size));
+    subprograms_.push_back(std::make_unique<ProgramText>(entry));
     return subprograms_.back().get();
   }
   return nullptr;
@@ -26,6 +27,16 @@ std::optional<ChunkWanted> ProgramCache::wanted() const {
   for (const auto& text : subprograms_)
     if (auto chunk = text->wanted()) return chunk;
   return std::nullopt;
+}
+
+std::optional<std::uint8_t> ProgramCache::role() const {
+  std::optional<std::uint8_t> least;
+  const auto take = [&](const ProgramText& text) {
+    least = std::min(least.value_or(text.role()), text.role());
+  };
+  if (main_) take(*main_);
+  for (const auto& text : subprograms_) take(*text);
+  return least;
 }
 
 // Several texts may have one name: a program that is called from two others.

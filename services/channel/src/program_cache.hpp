@@ -22,6 +22,10 @@ class ProgramCache {
   /// there is none.
   language::TextSource* call(const idl::program::ProgramList& stored, std::string_view name);
 
+  /// The least role of those who have stored the texts opened since the start; nothing when there are none. A
+  /// text may have subprograms in it that are called as others are, so the text of a command is not known.
+  std::optional<std::uint8_t> role() const;
+
   /// What has to be fetched next.
   std::optional<ChunkWanted> wanted() const;
   void deliver(const std::string& name, std::uint64_t offset, const std::vector<std::uint8_t>& data);

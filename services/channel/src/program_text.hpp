@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "contracts/types.hpp"
 #include "language/text_source.hpp"
 
 namespace trunnion::channel {
@@ -25,8 +26,8 @@ class ProgramText : public language::TextSource {
  public:
   static constexpr std::size_t chunk_size = 32768;
 
-  ProgramText(std::string name, std::uint64_t revision, std::uint64_t size)
-      : name_(std::move(name)), revision_(revision), size_(size) {}
+  explicit ProgramText(const idl::program::ProgramEntry& program)
+      : name_(program.name), revision_(program.revision), size_(program.size), role_(program.role) {}
 
   language::ReadResult read(std::uint64_t offset, char* buffer, std::size_t capacity) override;
 
@@ -36,6 +37,8 @@ class ProgramText : public language::TextSource {
   void deliver(std::uint64_t offset, std::vector<std::uint8_t> data);
   void fail() { failed_ = true; }
   const std::string& name() const { return name_; }
+  /// Of ProgramEntry.
+  std::uint8_t role() const { return role_; }
 
  private:
   struct Chunk {
@@ -47,6 +50,7 @@ class ProgramText : public language::TextSource {
   }
   std::string name_;
   std::uint64_t revision_, size_;
+  std::uint8_t role_;
   std::array<Chunk, 4> chunks_;
   std::optional<std::uint64_t> missing_;
   std::uint64_t newest_ = 0;

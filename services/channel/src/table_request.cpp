@@ -10,7 +10,6 @@ idl::parameters::ParameterRequest table_request(const language::Command& command
   using idl::parameters::Operation;
   using language::Table;
   idl::parameters::ParameterRequest request;
-  request.who = "program of channel " + std::to_string(channel) + ", line " + std::to_string(command.line);
   if (command.table == Table::work_offset) {
     request.operation = Operation::SET_WORK_OFFSET;
     request.offsets = {

@@ -39,6 +39,7 @@ struct Channel : ::testing::Test {
   struct Subprogram {
     std::string text;
     std::uint64_t revision = 0;
+    std::uint8_t role = 1;  ///< of who stored it
   };
   std::map<std::string, Subprogram> subprograms;  ///< stored beside it
   std::vector<ChannelEvent> events;
@@ -70,9 +71,9 @@ struct Channel : ::testing::Test {
   void store() {
     idl::program::ProgramList list;
     list.programs.push_back({"part.nc", 3, text.size(), 77,
-                             static_cast<std::uint32_t>(std::count(text.begin(), text.end(), '\n'))});
+                             static_cast<std::uint32_t>(std::count(text.begin(), text.end(), '\n')), 1});
     for (const auto& [name, one] : subprograms)
-      list.programs.push_back({name, one.revision, one.text.size(), 78, 1});
+      list.programs.push_back({name, one.revision, one.text.size(), 78, 1, one.role});
     core->set_programs(list);
   }
   Answer ask(const ChannelRequest& request) { return core->handle(request); }

@@ -49,6 +49,7 @@ TEST_F(CycleOfAService, IsAskedForAtRestWithPlaceVariablesAndPosition) {
   EXPECT_EQ(core->state().detail, "waits for the measurement of the kinematics");
   EXPECT_EQ(request.cycle, 9960u);
   EXPECT_EQ(request.program, "part.nc");
+  EXPECT_EQ(request.role, 1) << "a setter's";
   EXPECT_EQ(request.line, 2u);
   ASSERT_EQ(request.machine.size(), 9u);
   EXPECT_EQ(request.machine[0], 10);

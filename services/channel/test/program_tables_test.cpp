@@ -115,6 +115,51 @@ TEST_F(Channel, AProgramThatChangesATableWaitsUntilItsOwnerHasDoneSo) {
   EXPECT_EQ(drive.rows.back()[0], 15) << "G54 X5 and X10";
 }
 
+// As in ProgramEntry and ChannelRequest: 0 operator, 1 setter, 2 builder.
+TEST_F(Channel, ATableIsChangedForWhoStoredTheTextOrEnteredTheLine) {
+  subprograms["O9001.nc"] = {"G10 L50\nN100006 R5000\nG11\nM99\n", 1, 2};
+  const auto asked = [&] {
+    for (int i = 0; i < 20; ++i) round();
+    const auto request = core->take_table_request();
+    if (request) core->on_table_changed("");
+    run();
+    return request.value_or(idl::parameters::ParameterRequest{.who = "nothing was asked for"});
+  };
+  load("G10 L2 P1 X5\nM30\n");
+  ask(CommandKind::CYCLE_START);
+  auto request = asked();
+  EXPECT_EQ(request.role, 1);
+  EXPECT_EQ(request.who, "part.nc line 1 of channel 0");
+
+  load("M98 P9001\nM30\n");
+  ask(CommandKind::CYCLE_START);
+  request = asked();
+  EXPECT_EQ(request.role, 1) << "a builder's subprogram called by a setter's program";
+  EXPECT_EQ(request.who, "part.nc line 1 of channel 0");
+  load("M98 P9002\nM30\nO9002\nG10 L2 P1 X6\nM99\n");
+  ask(CommandKind::CYCLE_START);
+  EXPECT_EQ(asked().role, 1) << "a subprogram in the same text";
+
+  ask(CommandKind::SET_MODE, "", 0, 0, Mode::MDI);
+  idl::channel::ChannelRequest line;
+  line.command = CommandKind::MDI_LINE, line.who = "ann";
+  for (const char* block : {"G10 L2 P1 X7", "#5221=3", "G10 L10 P1 R20"}) {
+    line.block = block, line.role = 0;
+    EXPECT_TRUE(ask(line).accepted) << block;
+    request = asked();
+    EXPECT_EQ(request.role, 0) << block;
+    EXPECT_EQ(request.who, "MDI of channel 0 by ann") << block;
+    line.role = 2;
+    EXPECT_TRUE(ask(line).accepted) << block;
+    EXPECT_EQ(asked().role, 2) << block;
+  }
+  line.block = "M98 P9001", line.role = 0;
+  EXPECT_TRUE(ask(line).accepted);
+  request = asked();
+  EXPECT_EQ(request.role, 2) << "who stored it has released it";
+  EXPECT_EQ(request.who, "MDI of channel 0 by ann");
+}
+
 TEST_F(Channel, ARefusedTableStopsTheProgramWithTheReason) {
   load("G10 L2 P1 X5\nG1 X10 F6000\nM30\n");
   ask(CommandKind::CYCLE_START);

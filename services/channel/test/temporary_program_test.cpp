@@ -12,7 +12,7 @@ struct TemporaryProgram : Channel {
     text = "G0 X10\nX20\nM30\n";
     idl::program::ProgramList list;
     for (const char* name : {"part.nc", "servo-test.tmp.nc", "calibration_pose.tmp.nc"})
-      list.programs.push_back({name, 3, text.size(), 77, 3});
+      list.programs.push_back({name, 3, text.size(), 77, 3, 1});
     core->set_programs(list);
     ask(CommandKind::SET_MODE);
     ask(CommandKind::SELECT_PROGRAM, "part.nc");
@@ -55,7 +55,7 @@ TEST_F(TemporaryProgram, ThatWasNeverStartedGoesWithAReset) {
 TEST_F(TemporaryProgram, WithoutAProgramBeforeLeavesNone) {
   begin();
   idl::program::ProgramList list;
-  list.programs.push_back({"servo-test.tmp.nc", 3, text.size(), 77, 3});
+  list.programs.push_back({"servo-test.tmp.nc", 3, text.size(), 77, 3, 1});
   core->set_programs(list);
   ask(CommandKind::SET_MODE);
   ASSERT_TRUE(ask(CommandKind::SELECT_PROGRAM, "servo-test.tmp.nc").accepted);

@@ -104,6 +104,7 @@ class Measurement {
     bool asks = false, ended = false;
     calibration::AxisPosition position{};
     calibration::MacroVariables values;
+    std::uint8_t role = 0;
   };
 
   // measurement_orders.cpp

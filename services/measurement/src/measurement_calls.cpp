@@ -6,6 +6,7 @@
 #include "calibration/cycle_arguments.hpp"
 #include "calibration/measurement_file.hpp"
 #include "machine/alarm_constants.hpp"
+#include "machine/roles.hpp"
 #include "measurement.hpp"
 
 namespace trunnion::measurement {
@@ -86,7 +87,7 @@ void Measurement::call(const CycleRequest& request, const std::string& time) {
   }
   const bool began_before = !caller_ && stored_.call == request.number && stored_.call != 0;
   machine_.watch(request.channel);
-  caller_ = Caller{request.number, true, false, position_of(request), values_of(request)};
+  caller_ = Caller{request.number, true, false, position_of(request), values_of(request), request.role};
   away_since_ = -1;
   stored_.call = request.number;
   changed_ = true;
@@ -150,7 +151,8 @@ void Measurement::watch_caller(double now) {
        0, now);
 }
 
-// What it has found: a result within its tolerance is written without a confirmation.
+// What it has found: a result within its tolerance is written without a confirmation, unless the caller may
+// not change the parameters of the kinematics.
 void Measurement::settle_caller() {
   if (!called() || !caller_asks()) return;
   const auto& state = stored_.state;
@@ -162,6 +164,10 @@ void Measurement::settle_caller() {
                   state.tolerance_alarm + (state.tolerance_needs_reset
                                                ? "; nothing written, discard the result and measure again"
                                                : "; nothing written: confirm or discard the result"));
+  if (caller_->role < machine::role::builder)
+    return answer(CycleOutcome::REFUSED,
+                  "nothing written: the parameters of the kinematics need the role builder, and this is "
+                  "measured for a lower one; a builder confirms the result or discards it");
   if (const auto reason = confirm({}); !reason.empty()) answer(CycleOutcome::REFUSED, reason);
 }
 

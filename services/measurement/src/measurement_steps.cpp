@@ -9,6 +9,7 @@
 #include "calibration/chain_change.hpp"
 #include "calibration/journal.hpp"
 #include "calibration/protocol.hpp"
+#include "machine/roles.hpp"
 #include "measurement.hpp"
 #include "metrology/sphere.hpp"
 
@@ -430,6 +431,7 @@ void Measurement::write(double now) {
   if (asked_) return;
   idl::parameters::ParameterRequest import;
   import.operation = idl::parameters::Operation::IMPORT;
+  import.role = machine::role::builder;  // who has confirmed it is one
   import.who = stored_.state.who + calibration::calibrated_by;
   for (const auto& change : stored_.result.changes)
     import.values.push_back({change.number, change.after, ""});

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "machine/roles.hpp"
 #include "storage/crc32.hpp"
 
 namespace trunnion::measurement {
@@ -64,6 +65,7 @@ void ProgramRun::ask_next() {
       program.operation = Upload::COMMIT_UPLOAD;
       program.size = text_.size();
       program.crc32 = storage::crc32(text_);
+      program.role = machine::role::builder;  // its own text, which moves and sets macro variables
       return ask(program);
     case Step::mode:
       command.command = CommandKind::SET_MODE;

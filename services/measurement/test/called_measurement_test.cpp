@@ -99,6 +99,24 @@ TEST_F(CalledMeasurement, EndsTheProgramWhenAVectorIsBeyondTheToleranceAndMayBeC
   EXPECT_NE(written(), nullptr);
 }
 
+// The parameters of the kinematics are the builder's, also when somebody else measures within the tolerance.
+TEST_F(CalledMeasurement, WritesOfAProgramOfASetterOnlyWhatABuilderConfirms) {
+  machine.role = 1;
+  machine.call_cycle(arguments_of_five_poses);
+  ASSERT_TRUE(machine.run_program());
+  EXPECT_EQ(machine.reply.outcome, CycleOutcome::REFUSED);
+  EXPECT_THAT(machine.reply.reason,
+              HasSubstr("nothing written: the parameters of the kinematics need the role builder"));
+  EXPECT_EQ(state().phase, Phase::WAITING);
+  EXPECT_EQ(written(), nullptr);
+  MeasurementRequest confirm;
+  confirm.operation = Operation::CONFIRM;
+  ASSERT_TRUE(machine.order(confirm).accepted);
+  ASSERT_EQ(machine.run(), Phase::FINISHED);
+  ASSERT_NE(written(), nullptr);
+  EXPECT_EQ(written()->role, 2);
+}
+
 TEST_F(CalledMeasurement, NamesTheArgumentThatIsWrong) {
   machine.call_cycle(with(8, 13));
   EXPECT_EQ(machine.reply.outcome, CycleOutcome::REFUSED);

@@ -125,7 +125,7 @@ class FakeMachine {
     call_.number += 1;
     call_.caller = idl::channel::CycleCaller::ASKS;
     call_.cycle = cycle;
-    call_.program = "part.nc", call_.line = 7;
+    call_.program = "part.nc", call_.line = 7, call_.role = role;
     call_.machine.assign(position.begin(), position.end());
     call_.numbers.clear(), call_.values.clear();
     for (const auto& [number, value] : values_)
@@ -180,6 +180,7 @@ class FakeMachine {
   std::optional<std::size_t> refused;  ///< number of the request that is refused
   std::optional<std::size_t> silent;   ///< number of the request that is not answered
   bool endless = false;                ///< programs do not end
+  std::uint8_t role = 2;               ///< of who has stored the program that calls
   double true_offset = 0;              ///< mm
   double now = 0;
   idl::channel::CycleReply reply;        ///< the newest one

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "machine/alarm_constants.hpp"
+#include "machine/roles.hpp"
 
 namespace trunnion::parameters {
 namespace {
@@ -89,6 +90,23 @@ ParameterStore::ParameterStore(Storage& storage, MachineDefaults defaults, const
 }
 
 namespace {
+// Tables are the setter's, and so are parameters that are not the machine builder's.
+std::string not_permitted(const ParameterRequest& request) {
+  namespace role = machine::role;
+  for (const auto& parameter : request.values) {
+    const auto* definition = Catalogue::instance().find(parameter.number);
+    const auto needed =
+        definition != nullptr && definition->access == "builder" ? role::builder : role::setter;
+    if (request.role < needed)
+      return "parameter " + machine::number_text(parameter.number) + " needs the role " + role::name(needed) +
+             ", and this is changed for the role " + role::name(request.role);
+  }
+  if (request.role < role::setter && !(request.tools.empty() && request.offsets.empty()))
+    return std::string(request.tools.empty() ? "work offsets need" : "the tool table needs") +
+           " the role setter, and this is changed for the role " + role::name(request.role);
+  return "";
+}
+
 std::string changed_meanwhile(const std::string& table, std::uint64_t now, std::uint64_t then) {
   return "the " + table + " changed meanwhile (revision " + std::to_string(now) + ", not " +
          std::to_string(then) + "): read the values again";
@@ -151,6 +169,7 @@ std::string ParameterStore::change(State& next, const ParameterRequest& request,
   const bool tools = op == Operation::SET_TOOL || op == Operation::REMOVE_TOOL || op == Operation::IMPORT;
   const bool offsets = op == Operation::SET_WORK_OFFSET || op == Operation::IMPORT;
   const auto& who = request.who;
+  if (auto refusal = not_permitted(request); !refusal.empty()) return refusal;
   if (tools && request.revision != 0 && request.revision != next.tools_revision)
     return changed_meanwhile("tool table", next.tools_revision, request.revision);
   if (offsets && request.revision != 0 && request.revision != next.offsets_revision)

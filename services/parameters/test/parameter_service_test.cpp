@@ -25,6 +25,7 @@ class Client {
 
   idl::parameters::ParameterReply set(std::vector<idl::parameters::Parameter> values) {
     idl::parameters::ParameterRequest request;
+    request.role = 2;  // a builder's
     request.operation = Operation::SET;
     request.values = std::move(values);
     return requests_.call(request, 10).value_or(idl::parameters::ParameterReply{});

@@ -72,6 +72,7 @@ constexpr const char* time_text = "2026-01-02T03:04:05Z";
 idl::parameters::ParameterRequest set(std::vector<idl::parameters::Parameter> values,
                                       Operation operation = Operation::SET) {
   idl::parameters::ParameterRequest request;
+  request.role = 2;  // a builder's
   request.operation = operation;
   request.who = "test";
   request.values = std::move(values);
@@ -100,6 +101,37 @@ TEST(ParameterStore, StartsWithTheMachinesDefaults) {
   EXPECT_EQ(published.values[0].text, "X");
   EXPECT_EQ(published.values[1].number, limit);
   EXPECT_EQ(published.values[1].value, -300);
+}
+
+// By HTTP, by a line of MDI and by a program the same: the store is where every change goes through. 100007
+// is the builder's, 100034 the user's.
+TEST(ParameterStore, ChangesWhatTheRoleOfWhoAsksPermits) {
+  MemoryStorage storage;
+  ParameterStore store(storage, defaults(), "boot");
+  const auto refusal = [&](idl::parameters::ParameterRequest request, std::uint8_t role) {
+    request.role = role;
+    return store.apply(request, time_text).reason;
+  };
+  const auto limits = set({{limit, -5000, ""}}), both = set({{limit, -299, ""}, {40030, 2000, ""}});
+  auto tool = set({}, Operation::SET_TOOL), offset = set({}, Operation::SET_WORK_OFFSET);
+  tool.tools = {{1}};
+  offset.offsets = {{0, 0, {1}}};
+  const auto before = storage.files;
+  EXPECT_EQ(refusal(limits, 0),
+            "parameter 100007 needs the role builder, and this is changed for the role operator");
+  EXPECT_EQ(refusal(limits, 1),
+            "parameter 100007 needs the role builder, and this is changed for the role setter");
+  EXPECT_NE(refusal(set({{limit, 0, ""}}, Operation::RESET_TO_DEFAULT), 1), "");
+  EXPECT_EQ(refusal(both, 1),
+            "parameter 100007 needs the role builder, and this is changed for the role setter");
+  EXPECT_EQ(refusal(tool, 0),
+            "the tool table needs the role setter, and this is changed for the role operator");
+  EXPECT_EQ(refusal(offset, 0),
+            "work offsets need the role setter, and this is changed for the role operator");
+  EXPECT_EQ(storage.files, before) << "half of a change";
+  EXPECT_EQ(refusal(tool, 1), "");
+  EXPECT_EQ(refusal(offset, 1), "");
+  EXPECT_EQ(refusal(limits, 2), "");
 }
 
 // X travels -300 .. 99999 mm (100007, 100006), its reference point is 0 (100012).
@@ -294,6 +326,7 @@ TEST(ParameterStore, ACrashBetweenTheFilesOfAChangeIsCompletedAtTheNextStart) {
 TEST(ParameterStore, ToolsAreCheckedKeptAndRemoved) {
   MemoryStorage storage;
   idl::parameters::ParameterRequest request;
+  request.role = 2;  // a builder's
   request.operation = Operation::SET_TOOL;
   request.tools = {{7, 120.5, 0.01, 5, -0.02, "mill: \"10\""}, {3, 80, 0, 2, 0, ""}};
   {

@@ -50,6 +50,7 @@ TEST_F(PrivateStorageTest, WhatIsWrittenIsReadBackAndTheDiskDoesNotKnowOfIt) {
 TEST_F(PrivateStorageTest, AStoreOverItPublishesWhatTheStoreOfTheFilesPublishes) {
   FileStorage disk(directory_);
   idl::parameters::ParameterRequest request;
+  request.role = 2;  // a builder's
   request.operation = idl::parameters::Operation::SET;
   request.values = {{10, 0.004, ""}};
   {

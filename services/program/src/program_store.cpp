@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "machine/alarm_constants.hpp"
+#include "machine/roles.hpp"
 
 namespace trunnion::program {
 namespace {
@@ -67,7 +68,7 @@ void ProgramStore::adopt_files(const IndexFile& index) {
       removed_.insert(name);
       ++revision_;
     } else if (row == nullptr || !row->stored || row->next == identity || accepted.contains(name)) {
-      put(name, text);
+      put(name, text, machine::role::setter);  // who has stored it is not known
       adopted.insert({identity.size, identity.crc32});
     } else {
       index_[name] = {*row->stored, text.number()};
@@ -85,8 +86,8 @@ void ProgramStore::adopt_files(const IndexFile& index) {
   }
 }
 
-void ProgramStore::put(const std::string& name, const TextScan& text) {
-  index_[name] = {{name, ++revisions_[name], text.size(), text.crc32(), text.lines()}, text.number()};
+void ProgramStore::put(const std::string& name, const TextScan& text, std::uint8_t role) {
+  index_[name] = {{name, ++revisions_[name], text.size(), text.crc32(), text.lines(), role}, text.number()};
   removed_.erase(name);
   damaged_.erase(name);
   ++revision_;
@@ -94,7 +95,8 @@ void ProgramStore::put(const std::string& name, const TextScan& text) {
 }
 
 // The index first names both texts: after a crash the file is one of them.
-void ProgramStore::replace(const std::string& file, const std::string& name, const TextScan& text) {
+void ProgramStore::replace(const std::string& file, const std::string& name, const TextScan& text,
+                           std::uint8_t role) {
   next_[name] = {text.size(), text.crc32()};
   try {
     save_index();
@@ -104,7 +106,7 @@ void ProgramStore::replace(const std::string& file, const std::string& name, con
     throw;
   }
   next_.erase(name);
-  put(name, text);
+  put(name, text, role);
 }
 
 std::vector<std::string> ProgramStore::install(Files& delivered) {
@@ -131,7 +133,7 @@ std::vector<std::string> ProgramStore::install(Files& delivered) {
       text.add(std::span(buffer).first(n));
     }
     programs_.publish(copy_temporary, name);
-    put(name, text);
+    put(name, text, machine::role::builder);
     any = true;
   }
   if (any) save_index();
@@ -145,7 +147,8 @@ void ProgramStore::set_cycles(Files& cycles) {
     if (!valid_name(name)) continue;
     const auto text = scan(cycles, name);
     // The checksum is the revision: a cycle changes only with the machine's files.
-    cycles_[name] = {{name, (std::uint64_t{1} << 32) | text.crc32(), text.size(), text.crc32(), text.lines()},
+    cycles_[name] = {{name, (std::uint64_t{1} << 32) | text.crc32(), text.size(), text.crc32(), text.lines(),
+                      machine::role::builder},
                      text.number()};
   }
 }
@@ -278,16 +281,17 @@ std::string ProgramStore::commit(const Request& request, Reply& reply) {
     return "size " + std::to_string(text.size()) + " arrived, " + std::to_string(request.size) + " was sent";
   if (request.crc32 != text.crc32()) return "the checksum of '" + request.name + "' is wrong";
   const auto old = index_.find(request.name);
-  const bool same = old != index_.end() &&
+  // The same text again is no change, unless it is released by somebody who may do more.
+  const bool same = old != index_.end() && request.role <= old->second.entry.role &&
                     identity_of(old->second.entry) == TextIdentity{text.size(), text.crc32()} &&
                     !damaged_.contains(request.name);
   if (same) {
-    drop(found);  // the same text again is no change
+    drop(found);
   } else if (auto reason = in_use(request.name); !reason.empty()) {
     drop(found);
     return reason;
   } else {
-    replace(found->second.file, request.name, text);
+    replace(found->second.file, request.name, text, request.role);
     uploads_.erase(found);
     save_index();
   }

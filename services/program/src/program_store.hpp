@@ -69,10 +69,10 @@ class ProgramStore {
   std::string rename(const Request& request, Reply& reply);
   std::string in_use(const std::string& name) const;
   std::string find(const Request& request, Reply& reply);
-  void put(const std::string& name, const TextScan& text);
+  void put(const std::string& name, const TextScan& text, std::uint8_t role);
   void adopt_files(const IndexFile& index);
   void save_index();
-  void replace(const std::string& file, const std::string& name, const TextScan& text);
+  void replace(const std::string& file, const std::string& name, const TextScan& text, std::uint8_t role);
   void drop(std::map<UploadKey, Upload>::iterator upload);
 
   Files& programs_;

@@ -72,7 +72,8 @@ ProgramRequest request(Operation operation, const std::string& name, std::uint64
   return r;
 }
 
-ProgramReply upload(ProgramStore& store, const std::string& name, const std::string& text) {
+ProgramReply upload(ProgramStore& store, const std::string& name, const std::string& text,
+                    std::uint8_t role = 1) {
   if (auto reply = store.apply(request(Operation::BEGIN_UPLOAD, name), 0); !reply.accepted) return reply;
   for (std::size_t at = 0; at < text.size(); at += 7) {
     auto write = request(Operation::WRITE, name);
@@ -84,6 +85,7 @@ ProgramReply upload(ProgramStore& store, const std::string& name, const std::str
   auto commit = request(Operation::COMMIT_UPLOAD, name);
   commit.size = text.size();
   commit.crc32 = storage::crc32(text);
+  commit.role = role;
   return store.apply(commit, 0);
 }
 
@@ -105,12 +107,50 @@ TEST(ProgramStore, AnUploadBecomesAProgramWithRevisionSizeChecksumAndLines) {
   const std::string text = "G0 X0\nG1 X10 F100\nM30\n";
   const auto reply = upload(store, "part.nc", text);
   ASSERT_TRUE(reply.accepted) << reply.reason;
-  EXPECT_EQ(reply.entry, (idl::program::ProgramEntry{"part.nc", 1, text.size(), storage::crc32(text), 3}));
+  EXPECT_EQ(reply.entry, (idl::program::ProgramEntry{"part.nc", 1, text.size(), storage::crc32(text), 3, 1}));
   EXPECT_EQ(files.texts, (std::map<std::string, std::string>{{"part.nc", text}}));
   EXPECT_EQ(store.list().programs.size(), 1u);
   EXPECT_EQ(upload(store, "part.nc", text).entry.revision, 1u) << "the same text is no change";
   EXPECT_EQ(upload(store, "part.nc", "M30\n").entry.revision, 2u);
   EXPECT_EQ(ProgramStore(files, state).list(), store.list()) << "revisions survive a restart";
+}
+
+// What a program may change: 1 is a setter, 2 a builder.
+TEST(ProgramStore, AProgramHasTheRoleOfWhoStoredItLast) {
+  MemoryFiles files, state, delivered;
+  delivered.texts = {{"cycle.nc", "M99\n"}};
+  const auto role = [](const ProgramStore& store, const std::string& name) {
+    for (const auto& entry : store.list().programs)
+      if (entry.name == name) return static_cast<int>(entry.role);
+    return -1;
+  };
+  {
+    ProgramStore store(files, state);
+    store.install(delivered);
+    EXPECT_EQ(role(store, "cycle.nc"), 2) << "delivered with the machine";
+    upload(store, "a", "M30\n", 2);
+    upload(store, "b", "M2\n", 1);
+    EXPECT_EQ(role(store, "a"), 2);
+    EXPECT_EQ(role(store, "b"), 1);
+    upload(store, "a", "M30\n", 1);
+    EXPECT_EQ(role(store, "a"), 2) << "the same text, which a builder has released";
+    upload(store, "a", "G0 X0\nM30\n", 1);
+    EXPECT_EQ(role(store, "a"), 1) << "another text";
+    const auto revision = store.list().revision;
+    upload(store, "a", "G0 X0\nM30\n", 2);
+    EXPECT_EQ(role(store, "a"), 2) << "released without a change";
+    EXPECT_NE(store.list().revision, revision) << "and channels hear of it";
+    upload(store, "cycle.nc", "M99 P1\n", 1);
+    EXPECT_EQ(role(store, "cycle.nc"), 1);
+    auto rename = request(Operation::RENAME, "b");
+    rename.new_name = "c";
+    EXPECT_TRUE(store.apply(rename, 0).accepted);
+  }
+  files.texts["d"] = "M30\n";
+  const ProgramStore store(files, state);
+  EXPECT_EQ(role(store, "a"), 2) << "kept through a restart";
+  EXPECT_EQ(role(store, "c"), 1) << "a new name changes no right";
+  EXPECT_EQ(role(store, "d"), 1) << "found there: nobody knows who has stored it";
 }
 
 TEST(ProgramStore, ReadsChunksOfTheExpectedRevisionOnly) {
