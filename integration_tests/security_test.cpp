@@ -180,7 +180,7 @@ TEST(Security, PermissionsAreThoseOfTheTopics) {
   EXPECT_EQ(who_may(directory, "publish", "trunnion/service/alarm_reset/1"),
             (Names{"deploy", "gateway", "plc"}))
       << "G2960.3 of the PLC is an external reset";
-  EXPECT_EQ(who_may(directory, "publish", "trunnion/service/alarm/1").count("recorder"), 0u)
+  EXPECT_EQ(who_may(directory, "publish", "trunnion/service/state/1").count("recorder"), 0u)
       << "all who take part in the machine, not who looks on";
 
   // They follow the table of topics and nothing else.

@@ -100,6 +100,10 @@ struct RecorderOption {
 constexpr std::array recorder_options{
     RecorderOption{"--topics", "Handles, separated by commas (default: all)"},
     RecorderOption{"--duration", "Seconds, 0 = until Ctrl-C"},
+    RecorderOption{
+        "--free-space",
+        "MB that must be free on the disk for a start; below it a warning, below a tenth of it the "
+        "end (default: 200; 0: not checked)"},
     RecorderOption{"--part-size",
                    "MiB after which a new part begins: FILE-0001 and so on, each whole in itself"},
     RecorderOption{"--part-time", "Seconds after which a new part begins"},

@@ -226,6 +226,7 @@ void Launcher::listen() {
     if (reset.channel != service::all_channels) continue;  // the launcher's alarms are about services
     for (auto& process : processes_) process.policy.retry();
     alarms_.reset();
+    alarms_of_services_.end_of_recorders();
   }
 }
 

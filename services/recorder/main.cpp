@@ -31,6 +31,12 @@ int main(int argc, char** argv) {
   app.add_option("--queue", options.queue_mebibytes,
                  "MiB that may wait for the disk before messages are dropped")
       ->check(CLI::Range(1, 65536));
+  double free_megabytes = recording::default_free_megabytes;
+  app.add_option(
+         "--free-space", free_megabytes,
+         "MB that must be free on the disk for a start; below it a warning, below a tenth of it the end "
+         "(default: 200; 0: not checked)")
+      ->check(CLI::NonNegativeNumber);
   double part_mebibytes = 0;
   auto* part_size = app.add_option("--part-size", part_mebibytes,
                                    "MiB after which a new part starts, numbered FILE-0001 and so on")
@@ -66,6 +72,7 @@ int main(int argc, char** argv) {
   app.add_flag("--parent-bound", options.parent_bound, "Stop when the parent process ends");
   CLI11_PARSE(app, argc, argv);
   options.parts.bytes = static_cast<std::uint64_t>(part_mebibytes * (1 << 20));
+  options.free_space = static_cast<std::uint64_t>(free_megabytes * recording::bytes_per_megabyte);
   options.network.identity = "recorder";
   try {
     return recorder::record(options);

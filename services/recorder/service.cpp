@@ -3,7 +3,6 @@
 
 #include <signal.h>
 #include <sys/prctl.h>
-#include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -20,11 +19,12 @@
 #include "bus/json.hpp"
 #include "bus/registry.hpp"
 #include "contracts/topics.hpp"
-#include "flight_recorder.hpp"
+#include "file_thread.hpp"
 #include "message_queue.hpp"
-#include "part_files.hpp"
 #include "reading_progress.hpp"
+#include "recording/disk_space.hpp"
 #include "recording/stream_tally.hpp"
+#include "recording_alarms.hpp"
 #include "service/node.hpp"
 #include "service/request.hpp"
 #include "snapshot_requests.hpp"
@@ -45,7 +45,6 @@ constexpr auto request_pause = std::chrono::milliseconds(20);
 // After the start of a part: what was written into the part before has been taken by then.
 constexpr double part_pause = 0.05;
 constexpr int most_at_once = 256;  // messages of one topic
-constexpr int priority = 10;       // the recorder can wait, the stream cannot
 
 volatile sig_atomic_t stop_requested = 0;
 
@@ -150,81 +149,6 @@ Sources::Drained Sources::drain(MessageQueue& queue) {
   if (drained != Drained::nothing) queue.wake();
   return drained;
 }
-
-// The thread that compresses and writes. It derives the figures of the stream from the bytes it writes.
-class FileThread {
- public:
-  FileThread(const Options& options, const FileHeader& header, MessageQueue& queue)
-      : json_(options.json), topics_(header.topics), queue_(queue) {
-    if (options.last > 0)
-      destination_ = std::make_unique<FlightRecorder>(
-          options.output, header,
-          FlightLimits{options.last, options.after, options.memory_mebibytes << 20, options.severity},
-          bus::source_time());
-    else
-      destination_ =
-          std::make_unique<PartFiles>(options.output, header, options.parts, service::monotonic_seconds());
-    thread_ = std::thread([this] { run(); });
-  }
-  ~FileThread() { join(); }
-  FileThread(const FileThread&) = delete;
-  FileThread& operator=(const FileThread&) = delete;
-
-  void join() {
-    queue_.close();
-    if (thread_.joinable()) thread_.join();
-  }
-  /// After join().
-  const recording::StreamTally& tally() const { return tally_; }
-  const Destination& destination() const { return *destination_; }
-  /// Of the destination, so far.
-  std::uint32_t started() const { return started_; }
-
- private:
-  void run() {
-    // Compression can wait, the stream cannot. Whoever takes the messages must come in time and has little to
-    // do. In Linux the priority is that of the calling thread.
-    setpriority(PRIO_PROCESS, 0, priority);
-    std::vector<Message> messages;
-    while (queue_.pop_all(messages, 0.2)) {
-      const double now = service::monotonic_seconds();
-      for (auto& message : messages) {
-        tally_.add(topics_[message.topic]->handle, message.cdr);
-        destination_->take(message, now);
-      }
-      started_ = destination_->started();
-      destination_->idle(now);
-      report_files();
-    }
-    destination_->finish(service::monotonic_seconds());
-    report_files();
-  }
-
-  void report_files() {
-    for (; reported_files_ < destination_->files().size(); ++reported_files_) {
-      const auto& file = destination_->files()[reported_files_];
-      if (file.why.empty()) continue;
-      if (json_)
-        std::cout << bus::Json{{"saved", file.path}, {"bytes", file.bytes}, {"because", file.why}}.dump()
-                  << std::endl;
-      else
-        std::cout << "saved " << file.path << ": " << file.why << std::endl;
-    }
-    if (reported_ || destination_->problem().empty()) return;
-    reported_ = true;
-    std::cerr << "trunnion-recorder: error: " + destination_->problem() + "\n";
-  }
-
-  bool json_;
-  const std::vector<const bus::TopicEntry*>& topics_;
-  MessageQueue& queue_;
-  std::unique_ptr<Destination> destination_;
-  recording::StreamTally tally_;
-  std::size_t reported_files_ = 0;
-  bool reported_ = false;
-  std::atomic<std::uint32_t> started_{1};
-  std::thread thread_;
-};
 
 // Motion that starts before the stream's writers have discovered the recorder's readers would be missing from
 // the recording. A writer discovers a participant's readers in the order of their creation; so a service
@@ -341,11 +265,19 @@ void print_summary(const Options& options, const FileThread& thread, const Losse
   std::cout << std::flush;
 }
 
+void refuse_without_space(const Options& options) {
+  const auto free = recording::free_space(options.output);
+  if (!free) return;
+  const auto refusal = recording::space_refusal(options.output, *free, options.free_space);
+  if (!refusal.empty()) throw std::runtime_error(refusal);
+}
+
 }  // namespace
 
 int record(const Options& options) {
   catch_signals(options.parent_bound);
   const auto entries = chosen_topics(options.topics);
+  refuse_without_space(options);
   MessageQueue queue(options.queue_mebibytes << 20);
   const FileHeader header{entries,
                           {{"machine", options.machine},
@@ -357,6 +289,7 @@ int record(const Options& options) {
   bus::Gathering gathering;
   bus::Bus bus(options.vendor, options.network);
   std::optional<Sources> sources(std::in_place, bus, entries, &gathering);
+  RecordingAlarms alarms(bus);
   SnapshotRequests snapshots(bus);
   const bool verifiable = std::any_of(entries.begin(), entries.end(), [](const auto* entry) {
     return entry->description.name == topics::service_snapshot.name;
@@ -369,7 +302,7 @@ int record(const Options& options) {
   const double started = service::monotonic_seconds();
   std::uint64_t reported = 0;
   std::uint32_t parts = 1;
-  while (stop_requested == 0 &&
+  while (stop_requested == 0 && !file.ended() &&
          (options.duration <= 0 || service::monotonic_seconds() - started < options.duration)) {
     const auto drained = sources->drain(queue);
     if (drained != Sources::Drained::nothing) {
@@ -378,6 +311,7 @@ int record(const Options& options) {
         std::cerr << "trunnion-recorder: warning: messages are dropped: the disk is slower than the stream\n";
       }
     }
+    for (const auto& finding : file.take_findings()) alarms.tell(finding);
     const double now = service::monotonic_seconds();
     if (file.started() != parts && verifiable) snapshots.ask_at(now + part_pause);
     if (options.last > 0 && verifiable) snapshots.ask_at(now + std::max(1.0, options.last / 2));
@@ -388,11 +322,13 @@ int record(const Options& options) {
   // Messages that have arrived by now belong to the recording; a running stream must not extend it without
   // limit.
   const double until = service::monotonic_seconds() + 2;
-  while (sources->drain(queue) != Sources::Drained::nothing && service::monotonic_seconds() < until) {
+  while (!file.ended() && sources->drain(queue) != Sources::Drained::nothing &&
+         service::monotonic_seconds() < until) {
   }
   const Losses losses{queue.dropped(), sources->overwritten()};
   sources.reset();
   file.join();
+  alarms.finish(file.destination().ended() ? file.destination().problem() : "");
   print_summary(options, file, losses);
   report(losses);
   return losses.none() && file.destination().problem().empty() ? 0 : 1;

@@ -8,8 +8,12 @@
 #include "bus/endpoint.hpp"
 #include "contracts/types.hpp"
 #include "part_files.hpp"
+#include "recording/disk_space.hpp"
 
 namespace trunnion::recorder {
+
+constexpr auto default_free_space =
+    static_cast<std::uint64_t>(recording::default_free_megabytes * recording::bytes_per_megabyte);
 
 struct Options {
   std::string output;
@@ -19,6 +23,8 @@ struct Options {
   bus::NetworkSettings network;
   double duration = 0;  ///< s; 0 = until a signal
   std::size_t queue_mebibytes = 256;
+  /// Bytes; with less no recording starts. SpaceWatch; 0 = it is not checked.
+  std::uint64_t free_space = default_free_space;
   PartLimits parts;
   double last = 0;   ///< s; above 0: a flight recorder, which saves this time before an alarm
   double after = 1;  ///< s saved after the alarm

@@ -258,6 +258,16 @@ export const alarmCatalogue: Readonly<Record<number, Readonly<Record<string, { c
     zh: { cause: "该命令在此状态下不可执行，或数值超出限值", remedy: "查看文本中的原因；没有任何更改" },
     de: { cause: "Der Befehl war in diesem Zustand nicht möglich oder hatte einen Wert außerhalb seiner Grenzen", remedy: "Den Grund im Text lesen; es wurde nichts geändert" },
   },
+  161: {
+    en: { cause: "The recording, or another program, fills the disk", remedy: "Delete files on the disk in the text, or stop the recording before it ends by itself; the warning ends when there is space again" },
+    zh: { cause: "记录或其他程序正在占满磁盘", remedy: "删除文本所指磁盘上的文件，或在记录自行结束之前停止记录；有空间后警告结束" },
+    de: { cause: "Die Aufzeichnung oder ein anderes Programm füllt die Festplatte", remedy: "Dateien auf der Festplatte im Text löschen oder die Aufzeichnung beenden, bevor sie von selbst endet; die Warnung endet, sobald wieder Platz ist" },
+  },
+  162: {
+    en: { cause: "The disk is full, read-only or defective", remedy: "Keep the file, it can be read up to its end; make space on the disk in the text, reset the alarm and start a new recording" },
+    zh: { cause: "磁盘已满、只读或损坏", remedy: "保留该文件，它可读到末尾；在文本所指的磁盘上腾出空间，复位报警，然后开始新的记录" },
+    de: { cause: "Die Festplatte ist voll, schreibgeschützt oder defekt", remedy: "Die Datei behalten, sie ist bis zu ihrem Ende lesbar; auf der Festplatte im Text Platz schaffen, den Alarm zurücksetzen und neu aufzeichnen" },
+  },
   170: {
     en: { cause: "The line is never reached, or lies inside a compensation or a curve that cannot be entered", remedy: "Choose an earlier line, or load the tool of the text by MDI and search again" },
     zh: { cause: "该行永远不会执行到，或位于无法进入的刀补或曲线之中", remedy: "选择更前面的行，或用 MDI 换上文本中的刀具后重新搜索" },

@@ -25,6 +25,11 @@ class Destination {
   /// Called several times a second.
   virtual void idle(double now) = 0;
   virtual void finish(double now) = 0;
+  /// There is no space for more: a recording ends here and its file is completed; `why` is its problem. A
+  /// flight recorder goes on, there may be space for the next alarm.
+  virtual void end(const std::string& why) = 0;
+  /// It has ended with a problem, and nothing more is written.
+  virtual bool ended() const = 0;
 
   /// Counts the recordings that have started with the states that were valid then.
   virtual std::uint32_t started() const = 0;

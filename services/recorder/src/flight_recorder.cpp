@@ -5,11 +5,17 @@
 #include <utility>
 
 #include "bus/codec.hpp"
+#include "machine/alarm_constants.hpp"
 
 namespace trunnion::recorder {
 namespace {
 // What a message costs beside its bytes.
 constexpr std::size_t kept_overhead = sizeof(Message) + 64;
+
+// To save because the disk is almost full would fill it.
+bool is_of_recorder(const idl::service::Alarm& alarm) {
+  return alarm.number == alarm::recording_space_low.number || alarm.number == alarm::recording_ended.number;
+}
 }  // namespace
 
 FlightRecorder::FlightRecorder(std::string path, FileHeader header, FlightLimits limits, std::int64_t began)
@@ -50,7 +56,7 @@ void FlightRecorder::forget(double now) {
 bool FlightRecorder::fires(const Message& message) {
   if (header_.topics.at(message.topic)->handle != "alarm") return false;
   idl::service::Alarm alarm;
-  if (!bus::decode(message.cdr, alarm)) return false;
+  if (!bus::decode(message.cdr, alarm) || is_of_recorder(alarm)) return false;
   auto& known = occurrences_[{alarm.instance, alarm.number, alarm.part}];
   const bool news = alarm.active && alarm.occurrences != known;
   known = alarm.active ? alarm.occurrences : 0;

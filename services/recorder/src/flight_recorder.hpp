@@ -32,6 +32,8 @@ class FlightRecorder final : public Destination {
   void idle(double now) override;
   /// A pending alarm is saved with the messages so far.
   void finish(double now) override;
+  void end(const std::string&) override {}
+  bool ended() const override { return false; }
   /// It starts once. The states that it keeps are requested again every half of the kept time.
   std::uint32_t started() const override { return 1; }
   const std::vector<FileReport>& files() const override { return files_; }

@@ -37,12 +37,19 @@ void PartFiles::end_part() {
 }
 
 void PartFiles::note_problem() {
-  if (problem_.empty() && !file_->problem().empty())
-    problem_ = file_->problem() + "; the file ends at byte " + std::to_string(file_->bytes());
+  if (!problem_.empty() || file_->problem().empty()) return;
+  files_.back().bytes = file_->bytes();
+  problem_ = file_->problem() + "; the file ends at byte " + std::to_string(file_->bytes());
+}
+
+void PartFiles::end(const std::string& why) {
+  if (ended()) return;
+  end_part();
+  if (problem_.empty()) problem_ = why;
 }
 
 void PartFiles::write(const Message& message) {
-  if (file_->write(message))
+  if (!ended() && file_->write(message))
     ++files_.back().messages;
   else
     ++unwritten_;
@@ -52,7 +59,7 @@ void PartFiles::write(const Message& message) {
 void PartFiles::take(Message& message, double now) {
   const bool full = (limits_.bytes != 0 && file_->bytes() >= limits_.bytes) ||
                     (limits_.seconds > 0 && now - began_ >= limits_.seconds);
-  if (full && problem_.empty()) {
+  if (full && !ended()) {
     end_part();
     // The oldest part is removed before the new one needs space.
     while (limits_.keep != 0 && files_.size() >= limits_.keep && files_.size() > 1) {
@@ -71,13 +78,17 @@ void PartFiles::take(Message& message, double now) {
 }
 
 void PartFiles::idle(double now) {
+  if (ended()) return;
   if (now - flushed_ > flush_seconds) {
     file_->flush();
     flushed_ = now;
   }
   files_.back().bytes = file_->bytes();
+  note_problem();
 }
 
-void PartFiles::finish(double) { end_part(); }
+void PartFiles::finish(double) {
+  if (!ended()) end_part();
+}
 
 }  // namespace trunnion::recorder

@@ -28,6 +28,8 @@ class PartFiles final : public Destination {
   void take(Message& message, double now) override;
   void idle(double now) override;
   void finish(double now) override;
+  void end(const std::string& why) override;
+  bool ended() const override { return !problem_.empty(); }
   std::uint32_t started() const override { return started_; }
   const std::vector<FileReport>& files() const override { return files_; }
   std::uint64_t unwritten() const override { return unwritten_; }

@@ -10,6 +10,7 @@
 #include "bus/bus.hpp"
 #include "contracts/topics.hpp"
 #include "flight_recorder.hpp"
+#include "machine/alarm_constants.hpp"
 #include "part_files.hpp"
 #include "recording/mcap_reader.hpp"
 
@@ -204,6 +205,16 @@ TEST_F(Destinations, AlarmsThatAreNoNewsSaveNothing) {
   EXPECT_EQ(take(alarm(100, true, 2)), 2u) << "once more";
 }
 
+// A warning that the disk is almost full must not fill it.
+TEST_F(Destinations, AlarmsOfRecordersSaveNothing) {
+  FlightRecorder recorder(path, header, {30, 0, 1 << 20, idl::service::Severity::WARNING}, began);
+  for (const auto number : {alarm::recording_space_low.number, alarm::recording_ended.number}) {
+    auto m = alarm(number, true, 1);
+    recorder.take(m, 1);
+  }
+  EXPECT_TRUE(recorder.files().empty());
+}
+
 TEST_F(Destinations, AlarmsThatFollowSoonAreInTheFileOfTheFirst) {
   FlightRecorder recorder(path, header, {30, 5, 1 << 20}, began);
   auto first = alarm(100, true, 1), second = alarm(110, true, 1);
@@ -228,6 +239,43 @@ TEST_F(Destinations, AFlightRecorderKeepsWithinItsMemory) {
   // 4560 bytes of values and less than 0.8 kB beside them in each message.
   EXPECT_LE(content.frames.size(), (1u << 20) / 4560u);
   EXPECT_GE(content.frames.size(), (1u << 20) / 5360u);
+}
+
+TEST_F(Destinations, WhatHasEndedIsWholeAndTakesNothingMore) {
+  PartFiles files(path, header, {0, 5, 0}, 0);
+  auto before = frame(0), after = frame(1);
+  files.take(before, 0);
+  EXPECT_FALSE(files.ended());
+  files.end("the disk is full");
+  EXPECT_TRUE(files.ended());
+  const auto bytes = std::filesystem::file_size(path.substr(0, path.size() - 5) + "-0001.mcap");
+  files.take(after, 10);  // it would begin another part
+  files.idle(10);
+  files.finish(11);
+  ASSERT_EQ(files.files().size(), 1u);
+  EXPECT_EQ(std::filesystem::file_size(files.files()[0].path), bytes);
+  EXPECT_EQ(files.files()[0].bytes, bytes);
+  EXPECT_EQ(read(files.files()[0].path).frames, std::vector<std::uint64_t>{0});
+  EXPECT_EQ(files.unwritten(), 1u);
+  EXPECT_EQ(files.problem(), "the disk is full");
+}
+
+TEST_F(Destinations, AWriteErrorEndsTheRecording) {
+  PartFiles files("/dev/full", header, {}, 0);
+  auto m = frame(0);
+  files.take(m, 0);
+  files.idle(2);  // writes the chunk
+  EXPECT_TRUE(files.ended());
+  EXPECT_EQ(files.problem(), "/dev/full: No space left on device; the file ends at byte 0");
+}
+
+TEST_F(Destinations, AFlightRecorderWaitsForSpace) {
+  FlightRecorder recorder(path, header, {30, 0, 1 << 20}, began);
+  recorder.end("the disk is full");
+  EXPECT_FALSE(recorder.ended());
+  auto m = alarm(100, true, 1);
+  recorder.take(m, 1);
+  EXPECT_EQ(recorder.files().size(), 1u);
 }
 
 TEST_F(Destinations, AFileThatCannotBeMadeIsToldAndTheWatchGoesOn) {

@@ -236,10 +236,11 @@ TEST_P(RecorderProcess, TakesOnlyTheTopicsAskedForAndStopsAfterItsDuration) {
   EXPECT_EQ(count, 1);
 }
 
-TEST_P(RecorderProcess, AFullDiskIsOneLine) {
+// Nobody stops it: it ends by itself.
+TEST_P(RecorderProcess, AFullDiskEndsItWithOneLine) {
   const auto [vendor, domain] = GetParam();
   Process recorder({RECORDER, "--output", "/dev/full", "--domain", std::to_string(domain + 2), "--vendor",
-                    bus::to_string(vendor), "--duration", "0.3"});
+                    bus::to_string(vendor)});
   std::string error, line;
   while (!(line = recorder.line()).empty())
     if (line.starts_with("trunnion-recorder: error:")) error += line;
@@ -251,6 +252,16 @@ INSTANTIATE_TEST_SUITE_P(Vendors, RecorderProcess,
                          testing::Values(std::pair{bus::Vendor::cyclonedds, 56u},
                                          std::pair{bus::Vendor::fastdds, 14u}),
                          [](const auto& it) { return std::string(bus::to_string(it.param.first)); });
+
+TEST(RecorderCommandLine, RefusesToStartWithTooLittleSpace) {
+  const std::string file = testing::TempDir() + "/unused.mcap";
+  Process recorder({RECORDER, "--output", file, "--free-space", "1e9"});
+  const auto said = recorder.line();
+  EXPECT_TRUE(said.starts_with("trunnion-recorder: error: " + file + ": ")) << said;
+  EXPECT_NE(said.find(" are free on its disk, a recording needs 1000000.0 GB: "), std::string::npos) << said;
+  EXPECT_EQ(recorder.wait(), 1);
+  EXPECT_FALSE(std::filesystem::exists(file));
+}
 
 TEST(RecorderCommandLine, NamesATopicThatDoesNotExist) {
   Process recorder({RECORDER, "--output", testing::TempDir() + "/unused.mcap", "--topics", "path_farme"});
