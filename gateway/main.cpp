@@ -11,6 +11,7 @@
 #include "http_client/client.hpp"
 #include "machine/gateway_settings.hpp"
 #include "machine/service_constants.hpp"
+#include "recording/disk_space.hpp"
 #include "service.hpp"
 #include "service/network.hpp"
 #include "src/rights.hpp"
@@ -19,14 +20,17 @@
 namespace {
 
 /// What the gateway starts when a recording is asked for.
-std::vector<std::string> recorder(const trunnion::service::Options& options) {
+std::vector<std::string> recorder(const trunnion::service::Options& options, double megabytes) {
   using namespace trunnion;
   std::vector<std::string> arguments{cluster::binary_directory() + "/trunnion-recorder",
                                      "--machine",
                                      options.machine.title,
                                      "--domain",
                                      std::to_string(options.network.domain),
-                                     "--parent-bound"};
+                                     "--parent-bound",
+                                     "--json",
+                                     "--free-space",
+                                     std::to_string(megabytes)};
   for (auto& argument : service::network_arguments(options.network)) arguments.push_back(std::move(argument));
   return arguments;
 }
@@ -109,7 +113,10 @@ int main(int argc, char** argv) {
         mtconnect_port >= 0 ? static_cast<std::uint16_t>(mtconnect_port) : settings.mtconnect_port;
     own.mtconnect = agent_settings(options.machine, computer);
     own.host_names.insert(own.host_names.end(), {computer, std::string(computer) + ".local"});
-    own.recordings = {std::filesystem::path(options.state_directory) / "recordings", recorder(options)};
+    own.recordings = {
+        std::filesystem::path(options.state_directory) / "recordings",
+        recorder(options, settings.recording_free_space),
+        static_cast<std::uint64_t>(settings.recording_free_space * recording::bytes_per_megabyte)};
     own.measurement = {options.machine, std::filesystem::path(options.state_directory) / "journal.jsonl"};
     own.alarm_file = (std::filesystem::path(options.state_directory) / gateway::AlarmFile::name).string();
     if (!stand_by(node, {own.port, own.tls.on()})) return 0;

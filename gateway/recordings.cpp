@@ -3,9 +3,11 @@
 
 #include <chrono>
 #include <ctime>
+#include <sstream>
 #include <thread>
 
 #include "bus/registry.hpp"
+#include "recording/disk_space.hpp"
 #include "recording/file_stream.hpp"
 #include "src/recording_table.hpp"
 #include "src/requests.hpp"
@@ -71,6 +73,16 @@ StartRequest start_request(const Json& body) {
   return request;
 }
 
+// Of a recorder that has ended. Its log may be on the full disk, so its summary is read from a pipe.
+std::string problem_of(cluster::ChildProcess& recorder) {
+  std::string problem;
+  std::istringstream lines(recorder.read_all());
+  for (std::string line; std::getline(lines, line);)
+    if (const auto summary = Json::parse(line, nullptr, false); summary.is_object())
+      problem = summary.value("problem", "");
+  return problem.empty() ? recorder.ended() : problem;
+}
+
 }  // namespace
 
 void Recordings::handle(const Match& match, const RequestText& request, const Respond& respond) {
@@ -94,7 +106,15 @@ void Recordings::stop() {
 
 std::string Recordings::running() {
   if (recorder_.pid() != 0 && !recorder_.status()) return name_;
+  notice_end();
   return {};
+}
+
+void Recordings::notice_end() {
+  const auto status = recorder_.status();
+  if (noticed_ || !status) return;
+  noticed_ = true;
+  if (*status != 0) problem_ = problem_of(recorder_);
 }
 
 Answer Recordings::answer(const Match& match, const RequestText& request) {
@@ -124,6 +144,7 @@ Answer Recordings::list(const std::string& query) {
   const auto space = fs::space(place, error);
   return list_answer({{"recordings", std::move(files)},
                       {"recording", current},
+                      {"problem", problem_.empty() ? "" : name_ + ": " + problem_},
                       {"free", error ? std::uintmax_t{0} : space.available}},
                      "recordings", query);
 }
@@ -135,15 +156,25 @@ Answer Recordings::start(const std::string& body) {
   if (settings_.recorder.empty()) return refused_answer(0, "this gateway has no recorder");
   const auto path = settings_.directory / request.name;
   if (fs::exists(fs::symlink_status(path))) return refused_answer(0, request.name + " exists already");
+  std::error_code error;
+  const auto& place =
+      fs::exists(settings_.directory, error) ? settings_.directory : settings_.directory.parent_path();
+  if (const auto free = recording::free_space((place / request.name).string()))
+    if (const auto refusal = recording::space_refusal(path.string(), *free, settings_.free_space);
+        !refusal.empty())
+      return refused_answer(0, refusal);
   fs::create_directories(settings_.directory);
   cluster::ChildOptions child;
   child.arguments = settings_.recorder;
   child.arguments.insert(child.arguments.end(), {"--output", path.string()});
   child.arguments.insert(child.arguments.end(), request.arguments.begin(), request.arguments.end());
   child.log = (settings_.directory / "recorder.log").string();
+  child.read_from = 1;
   child.ends_with_parent = true;
   recorder_ = cluster::ChildProcess(child);
   name_ = request.name;
+  problem_.clear();
+  noticed_ = false;
   const auto until = std::chrono::steady_clock::now() + time_to_begin;
   while (!fs::exists(path) && std::chrono::steady_clock::now() < until) {
     if (recorder_.status()) return refused_answer(0, "the recorder ended: " + recorder_.ended());
@@ -157,8 +188,13 @@ Answer Recordings::start(const std::string& body) {
 }
 
 Answer Recordings::end(const std::string& name) {
-  if (running() != name) return refused_answer(0, name + " is not being recorded");
+  if (running() != name)
+    return refused_answer(0, name == name_ && !problem_.empty()
+                                 ? name + " has ended before it was stopped: " + problem_
+                                 : name + " is not being recorded");
   recorder_.stop(time_to_finish);
+  notice_end();
+  if (!problem_.empty()) return refused_answer(0, name + " is stopped, and not complete: " + problem_);
   return json_answer(200, {{"accepted", true}, {"name", name}});
 }
 

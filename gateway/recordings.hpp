@@ -17,6 +17,7 @@ struct RecordingSettings {
   std::filesystem::path directory;
   /// The recorder and its arguments, without what the request says: file, duration, topics.
   std::vector<std::string> recorder;
+  std::uint64_t free_space = 0;  ///< bytes that must be free for a start
 };
 
 class Recordings {
@@ -39,10 +40,13 @@ class Recordings {
   Answer table(const RecordingFile& file) const;
   /// Of the recording under way, empty = none.
   std::string running();
+  void notice_end();
 
   const RecordingSettings settings_;
   // Only the thread of the files uses what follows; it also is the parent whose end ends the recorder.
   std::string name_;
+  std::string problem_;  // why the file of that name is not complete
+  bool noticed_ = true;  // its end
   cluster::ChildProcess recorder_;
   FileWorker worker_;  ///< the last member: its thread ends before the others are destroyed
 };

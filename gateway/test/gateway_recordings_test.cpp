@@ -193,6 +193,42 @@ pid_t child_of(pid_t parent) {
   return 0;
 }
 
+TEST_F(GatewayRecordings, OneWhoseRecorderHasEndedIsNotAnsweredAsWhole) {
+  ASSERT_EQ(post("/api/recordings", {{"name", "cut.mcap"}}).status, 200);
+  EXPECT_EQ(list()["problem"], "");
+  kill(child_of(process_->pid()), SIGKILL);
+  ASSERT_TRUE(eventually([&] { return list()["recording"] == ""; }));
+  EXPECT_THAT(list()["problem"].get<std::string>(), testing::ContainsRegex("^cut.mcap: .*ended by signal 9"));
+  const auto stopped = post("/api/recordings/cut.mcap/stop");
+  EXPECT_EQ(stopped.status, 409);
+  EXPECT_THAT(stopped.body, HasSubstr("cut.mcap has ended before it was stopped: "));
+  record("next.mcap");
+  EXPECT_EQ(list()["problem"], "") << "of the newest one only";
+}
+
+class GatewayWithoutSpace : public GatewayRecordings {
+ protected:
+  void SetUp() override {
+    machine_directory_ = testing::TempDir() + "/gateway_machine_" + std::to_string(getpid());
+    std::filesystem::copy(MACHINE, machine_directory_);
+    std::ofstream(machine_directory_ + "/machine.yaml", std::ios::app) << "recording_free_space: 1e9\n";
+    GatewayRecordings::SetUp();
+  }
+  void TearDown() override {
+    GatewayRecordings::TearDown();
+    std::filesystem::remove_all(machine_directory_);
+  }
+};
+
+TEST_F(GatewayWithoutSpace, ARecordingIsRefusedWithBothSizes) {
+  const auto refused = post("/api/recordings", {{"name", "day.mcap"}});
+  EXPECT_EQ(refused.status, 409);
+  EXPECT_THAT(json::parse(refused.body)["reason"].get<std::string>(),
+              testing::ContainsRegex("/recordings/day.mcap: .* are free on its disk, a recording needs "
+                                     "1000000.0 GB: delete files"));
+  EXPECT_EQ(list()["recordings"], json::array());
+}
+
 TEST_F(GatewayRecordings, ThatWaitForTheDiskDoNotShutOutAStopAndDoNotQueueWithoutEnd) {
   ASSERT_EQ(post("/api/recordings", {{"name", "slow.mcap"}}).status, 200);
   const auto recorder = child_of(process_->pid());

@@ -70,6 +70,17 @@ GatewaySettings read_gateway_settings(const YAML::Node& document, const std::str
       throw std::runtime_error(at(file, node) + "operating_right must be 'one' or 'any'");
     settings.one_operates = text == "one";
   }
+  if (const auto node = document["recording_free_space"]) {
+    double megabytes = -1;
+    try {
+      megabytes = node.as<double>();
+    } catch (const YAML::Exception&) {
+    }
+    if (!(megabytes >= 0 && megabytes <= 1e9))
+      throw std::runtime_error(at(file, node) +
+                               "recording_free_space must be 0 .. 1000000000 MB, 0 = not checked");
+    settings.recording_free_space = megabytes;
+  }
   if (const auto node = document["tls"]) settings.tls = read_tls(node, file);
   return settings;
 }

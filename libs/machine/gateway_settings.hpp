@@ -23,6 +23,7 @@ struct GatewaySettings {
   bool auth = false;                    ///< users log in
   double session_idle = 1800;           ///< s without a request after which a session ends
   bool one_operates = false;            ///< one station at a time; by default when users log in
+  double recording_free_space = 200;    ///< MB that must be free for a recording, 0 = not checked
   TlsSettings tls;
 };
 

@@ -79,6 +79,7 @@ MachineConfig parse_machine(const std::string& text, const std::string& director
                                    "session_idle_minutes",
                                    "tls",
                                    "operating_right",
+                                   "recording_free_space",
                                    "host_names",
                                    "time",
                                    "vendor",

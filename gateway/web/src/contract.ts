@@ -539,6 +539,8 @@ export interface RecordingList {
   recordings: RecordingEntry[];
   /** Name of the one that is being recorded; empty = none */
   recording: string;
+  /** Why the newest recording since the start of the gateway is not complete, with its name; empty = nothing is missing */
+  problem: string;
   /** Bytes that are free on the disk */
   free: number;
 }

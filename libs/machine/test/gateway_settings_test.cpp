@@ -43,6 +43,15 @@ TEST(GatewaySettings, OneStationOperatesWhenUsersLogInUnlessTheMachineSaysOtherw
   EXPECT_THROW(read("operating_right: [one]"), std::runtime_error);
 }
 
+TEST(GatewaySettings, ARecordingNeedsFreeSpace) {
+  EXPECT_EQ(read("name: mill").recording_free_space, 200);
+  EXPECT_EQ(read("recording_free_space: 0.5").recording_free_space, 0.5);
+  EXPECT_EQ(read("recording_free_space: 0").recording_free_space, 0);
+  for (const char* text : {"recording_free_space: -1", "recording_free_space: 1e10",
+                           "recording_free_space: .nan", "recording_free_space: much"})
+    EXPECT_THROW(read(text), std::runtime_error) << text;
+}
+
 TEST(GatewaySettings, APortOutOfRangeIsNamedWithItsPlace) {
   for (const char* text : {"name: mill\nmtconnect_port: 65536", "name: mill\nmtconnect_port: -1",
                            "name: mill\nmtconnect_port: on", "name: mill\nmtconnect_port: [5000]"}) {

@@ -50,6 +50,7 @@ export function Recordings({ opened, compared }: { opened: (source: Source) => v
         )}
         {known && <span class="dim">{t.freeSpace((known.free / 1e9).toFixed(1))}</span>}
       </div>
+      {known?.problem && <p role="alert">{known.problem}</p>}
       {known?.recordings.length === 0 && <p class="dim">{t.noRecordings}</p>}
       <p class="dim">{t.recordingsAbout}</p>
       {known && known.recordings.length > 0 && (
