@@ -69,7 +69,13 @@ does channel reset
 does alarms
 fill
 does down
-refused "No space left on device" up ac-table --time virtual
+# Nothing but the start itself is to be stored.
+fill
+does up ac-table --time virtual
+[ "$(rapid)" = "23000 mm/min" ] || [ "$(rapid)" = "23000.0 mm/min" ] || fail "the parameter is lost on a full disk"
+fill
+refused "No space left on device" param set 100034 24000
+does down
 rm "$work/disk/filling"
 does up ac-table --time virtual
 [ "$(rapid)" = "23000 mm/min" ] || [ "$(rapid)" = "23000.0 mm/min" ] || fail "the parameter is lost"

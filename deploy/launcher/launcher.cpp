@@ -5,7 +5,10 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <csignal>
+#include <cstdio>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <random>
@@ -55,6 +58,20 @@ void write_info(const LaunchOptions& options) {
   cluster::write_info(cluster);
 }
 
+// Services tell by it whether the cluster was started anew. It is overwritten in place: on a full disk there
+// is no space for another one.
+void write_boot(const std::string& path) {
+  std::random_device random;
+  char text[32];
+  std::snprintf(text, sizeof text, "%010u%010u\n", random(), random());
+  { const std::ofstream created(path, std::ios::app); }
+  std::fstream file(path, std::ios::in | std::ios::out);
+  file << text << std::flush;
+  if (!file) throw std::runtime_error(path + ": cannot be written: " + std::strerror(errno));
+  std::error_code ignored;
+  std::filesystem::resize_file(path, std::strlen(text), ignored);
+}
+
 }  // namespace
 
 Launcher::Launcher(LaunchOptions options)
@@ -78,8 +95,7 @@ Launcher::Launcher(LaunchOptions options)
   sigaction(SIGINT, &action, nullptr);
   signal(SIGPIPE, SIG_IGN);
   write_info(options_);
-  std::random_device random;
-  std::ofstream(options_.state_directory + "/cluster.boot") << random() << random() << "\n";
+  write_boot(options_.state_directory + "/cluster.boot");
   for (const auto& entry : options_.machine.services) {
     ServiceProcess process;
     process.entry = entry;

@@ -106,7 +106,9 @@ StateLock::StateLock(const std::string& directory, const Identity& holder, std::
     throw Locked("the state directory " + directory + " is in use by " + other);
   }
   const auto line = write_identity(holder, domain);
-  if (why_not == 0 && (ftruncate(file_, 0) != 0 || pwrite(file_, line.data(), line.size(), 0) < 0))
+  // On a full disk the lock holds without the line, which only tells others who holds it.
+  if (why_not == 0 && (ftruncate(file_, 0) != 0 || pwrite(file_, line.data(), line.size(), 0) < 0) &&
+      errno != ENOSPC)
     why_not = errno;
   if (why_not != 0) {
     close(file_);

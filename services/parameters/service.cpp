@@ -48,6 +48,7 @@ ParameterService::ParameterService(service::Node& node)
       requests_(node.bus(), topics::parameter_request, topics::parameter_reply) {
   report_damage();
   report_misfit();
+  if (!store_.problem().empty()) node.alarms().raise(alarm::storage_failed, 0, store_.problem());
   if (node.snapshot() == nullptr)
     publish();
   else

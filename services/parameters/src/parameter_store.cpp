@@ -86,7 +86,18 @@ ParameterStore::ParameterStore(Storage& storage, MachineDefaults defaults, const
     if (next.revision == 0) next.revision = 1;
     news = news || !kept || active_.boot != boot;
   }
-  if (news) commit(state_, next, {});
+  if (news) begin(next, kept.has_value());
+}
+
+void ParameterStore::begin(const ActiveSet& next, bool kept) {
+  try {
+    commit(state_, next, {});
+  } catch (const StorageError& error) {
+    if (!kept || next.revision != active_.revision || next.values != active_.values) throw;
+    // Only the start is new. No value is stored without it: the next commit() finds the file different.
+    active_ = next;
+    problem_ = error.what();
+  }
 }
 
 namespace {

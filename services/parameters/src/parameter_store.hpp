@@ -48,6 +48,8 @@ class ParameterStore {
   std::vector<machine::ParameterFault> faults() const;
   /// News since the last call.
   Changes take_changes();
+  /// Why the start could not be stored, when nothing else was new; else empty.
+  const std::string& problem() const { return problem_; }
 
  private:
   struct State {
@@ -64,6 +66,7 @@ class ParameterStore {
   std::string change(State& next, const idl::parameters::ParameterRequest& request,
                      std::vector<std::string>& journal, const std::string& time) const;
   std::string misfit(const Values& overrides) const;
+  void begin(const ActiveSet& next, bool kept);
   void commit(const State& next, const ActiveSet& active, const std::vector<std::string>& journal);
 
   Storage& storage_;
@@ -71,6 +74,7 @@ class ParameterStore {
   State state_;
   ActiveSet active_;
   Changes changes_{true, true, true};
+  std::string problem_;
 };
 
 /// The lines of a journal that are whole: a crash may leave a torn last one.

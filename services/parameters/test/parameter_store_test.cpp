@@ -134,6 +134,30 @@ TEST(ParameterStore, ChangesWhatTheRoleOfWhoAsksPermits) {
   EXPECT_EQ(refusal(limits, 2), "");
 }
 
+TEST(ParameterStore, StartsOnAFullDiskWhenNoValueChangesAndWritesTheStartWithTheNextChange) {
+  DiskFullStorage storage;
+  ParameterStore(storage, defaults(), "first");
+  storage.full = true;
+  ParameterStore store(storage, defaults(), "second");
+  EXPECT_EQ(store.problem(), "disk: no space");
+  EXPECT_EQ(store.set().revision, 1u);
+  EXPECT_FALSE(store.apply(set({{name, 0, "Y"}}), time_text).accepted);
+  storage.full = false;
+  EXPECT_TRUE(store.apply(set({{name, 0, "Y"}}), time_text).accepted);
+  EXPECT_THAT(storage.files.at(active_file), HasSubstr("boot: second"));
+}
+
+TEST(ParameterStore, DoesNotStartOnAFullDiskWhenAValueBecomesActiveOrNothingIsStored) {
+  DiskFullStorage storage;
+  storage.full = true;
+  EXPECT_THROW(ParameterStore(storage, defaults(), "first"), StorageError) << "a new machine";
+  storage.full = false;
+  EXPECT_TRUE(
+      ParameterStore(storage, defaults(), "first").apply(set({{cycle, 2000, ""}}), time_text).accepted);
+  storage.full = true;
+  EXPECT_THROW(ParameterStore(storage, defaults(), "second"), StorageError);
+}
+
 // X travels -300 .. 99999 mm (100007, 100006), its reference point is 0 (100012).
 TEST(ParameterStore, RefusesWhatDoesNotFitTogether) {
   MemoryStorage storage;
