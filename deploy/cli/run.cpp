@@ -44,7 +44,7 @@ class Recorder {
   Recorder(const std::string& file, const cluster::RunningCluster& cluster)
       : process_(options_for(file, cluster)) {
     if (const auto line = process_.read_line(); !line.starts_with("recording"))
-      throw std::runtime_error("the recorder did not start: " + line);
+      throw std::runtime_error("the recorder did not start" + (line.empty() ? "" : ": " + line));
   }
   ~Recorder() { stop(); }
   Recorder(const Recorder&) = delete;
@@ -53,7 +53,8 @@ class Recorder {
   void stop() { process_.stop(longest_write); }
 
  private:
-  static constexpr double longest_write = 60;  // s
+  static constexpr double longest_write = 60;            // s
+  static constexpr const char* needed_megabytes = "20";  // a recording of one program is small
 
   static cluster::ChildOptions options_for(const std::string& file, const cluster::RunningCluster& cluster) {
     cluster::ChildOptions options;
@@ -64,7 +65,9 @@ class Recorder {
                          cluster.machine,
                          "--domain",
                          std::to_string(cluster.run.domain),
-                         "--parent-bound"};
+                         "--parent-bound",
+                         "--free-space",
+                         needed_megabytes};
     for (auto& argument : service::network_arguments(cluster.network))
       options.arguments.push_back(std::move(argument));
     options.read_from = 1;
