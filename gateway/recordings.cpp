@@ -74,13 +74,12 @@ StartRequest start_request(const Json& body) {
 }
 
 // Of a recorder that has ended. Its log may be on the full disk, so its summary is read from a pipe.
-std::string problem_of(cluster::ChildProcess& recorder) {
-  std::string problem;
+Json summary_of(cluster::ChildProcess& recorder) {
+  auto newest = Json::object();
   std::istringstream lines(recorder.read_all());
   for (std::string line; std::getline(lines, line);)
-    if (const auto summary = Json::parse(line, nullptr, false); summary.is_object())
-      problem = summary.value("problem", "");
-  return problem.empty() ? recorder.ended() : problem;
+    if (auto summary = Json::parse(line, nullptr, false); summary.is_object()) newest = std::move(summary);
+  return newest;
 }
 
 }  // namespace
@@ -114,7 +113,14 @@ void Recordings::notice_end() {
   const auto status = recorder_.status();
   if (noticed_ || !status) return;
   noticed_ = true;
-  if (*status != 0) problem_ = problem_of(recorder_);
+  if (*status == 0) return;
+  const auto summary = summary_of(recorder_);
+  const auto missing = summary.value("dropped_messages", 0ULL) + summary.value("overwritten_messages", 0ULL);
+  problem_ = summary.value("problem", "");
+  is_broken_ = missing == 0 || !problem_.empty();
+  if (is_broken_ && problem_.empty()) problem_ = recorder_.ended();
+  if (!is_broken_)
+    problem_ = std::to_string(missing) + " messages are missing: the computer or its disk was too slow";
 }
 
 Answer Recordings::answer(const Match& match, const RequestText& request) {
@@ -174,7 +180,7 @@ Answer Recordings::start(const std::string& body) {
   recorder_ = cluster::ChildProcess(child);
   name_ = request.name;
   problem_.clear();
-  noticed_ = false;
+  is_broken_ = noticed_ = false;
   const auto until = std::chrono::steady_clock::now() + time_to_begin;
   while (!fs::exists(path) && std::chrono::steady_clock::now() < until) {
     if (recorder_.status()) return refused_answer(0, "the recorder ended: " + recorder_.ended());
@@ -189,12 +195,12 @@ Answer Recordings::start(const std::string& body) {
 
 Answer Recordings::end(const std::string& name) {
   if (running() != name)
-    return refused_answer(0, name == name_ && !problem_.empty()
+    return refused_answer(0, name == name_ && is_broken_
                                  ? name + " has ended before it was stopped: " + problem_
                                  : name + " is not being recorded");
   recorder_.stop(time_to_finish);
   notice_end();
-  if (!problem_.empty()) return refused_answer(0, name + " is stopped, and not complete: " + problem_);
+  if (is_broken_) return refused_answer(0, name + " is stopped, and not complete: " + problem_);
   return json_answer(200, {{"accepted", true}, {"name", name}});
 }
 

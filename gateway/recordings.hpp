@@ -46,7 +46,8 @@ class Recordings {
   // Only the thread of the files uses what follows; it also is the parent whose end ends the recorder.
   std::string name_;
   std::string problem_;  // why the file of that name is not complete
-  bool noticed_ = true;  // its end
+  bool is_broken_ = false;  // by its disk or its recorder; messages may be missing otherwise, too
+  bool noticed_ = true;     // its end
   cluster::ChildProcess recorder_;
   FileWorker worker_;  ///< the last member: its thread ends before the others are destroyed
 };
