@@ -153,9 +153,10 @@ void DriveCore::request(const idl::stream::StreamRequest& request) {
       break;
     case StreamRequestKind::LEAVE:
       leave(channel);
+      if (mode_ == Mode::HOMING && request.channel == homing_channel_) abort_homing();
       break;
     case StreamRequestKind::HOME:
-      home(request.axis);
+      home(request.channel, request.axis);
       break;
   }
 }

@@ -178,10 +178,12 @@ class DriveCore {
   bool prefilled(const Supply& supply) const;
   void start(Channel& channel, const idl::stream::StreamRequest& request);
   bool all_homed();
-  void home(std::uint16_t axis);
+  void home(std::uint16_t channel, std::uint16_t axis);
   void reference(std::size_t column, double shift);
   void step_homing();
   bool begin_homing(std::size_t column);
+  double homing_travel(std::size_t column) const;
+  void report_homing_failure();
   Homing::Signals homing_signals();
   void abort_homing();
   void follow_supply();
@@ -252,7 +254,8 @@ class DriveCore {
   std::uint64_t reserve_ = 0;  // cycles it takes to stop within the axes' limits
   std::uint32_t settle_ = 0;   // periods until the servos are at rest, in virtual time
   Homing homing_;
-  std::size_t homing_axis_ = 0;  // column
+  std::size_t homing_axis_ = 0;       // column
+  std::uint16_t homing_channel_ = 0;  // that has demanded it
   struct HomingMember {
     std::size_t column = 0;
     double sign = 1, from = 0;  // of its motion in that of homing_axis_; position at the start

@@ -29,6 +29,7 @@ struct DriveState {
       // Written where there is something: recordings of machines without gantries have no such state.
       constexpr bool reads = !std::is_const_v<Core>;
       if (reads || !c.homing_members_.empty()) visit("homing_members", c.homing_members_);
+      if (reads || c.homing_channel_ != 0) visit("homing_channel", c.homing_channel_);
       if (reads || !c.slaves_.empty()) visit("slaves", c.slaves_.all());
       if (reads || c.after_alignment_ != Mode::OFF) visit("after_alignment", c.after_alignment_);
     }

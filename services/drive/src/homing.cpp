@@ -18,7 +18,8 @@ void Homing::start(const Settings& settings, double position) {
   phase_ = Phase::leave_fast;
 }
 
-void Homing::abort() {
+void Homing::abort(Failure failure) {
+  if (!aborted_) failure_ = failure;
   aborted_ = true;
   phase_ = Phase::settle;
 }
@@ -64,7 +65,9 @@ void Homing::next_phase(const Signals& signals) {
 
 double Homing::step_together(const Signals& signals, double dt) {
   next_phase(signals);
-  if (std::abs(position_ - start_) > settings_.travel) abort();
+  ++periods_;
+  if (std::abs(position_ - start_) > settings_.travel) abort(Failure::travel);
+  if (settings_.seconds > 0 && periods_ * dt > settings_.seconds) abort(Failure::time);
   const double change = settings_.acceleration * dt;
   velocity_ += std::clamp(demand() - velocity_, -change, change);
   position_ += velocity_ * dt;

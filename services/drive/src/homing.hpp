@@ -16,7 +16,8 @@ class Homing {
     double direction = 1;           ///< 1 or -1: where the switch is searched
     double search = 20, creep = 1;  ///< mm/s or deg/s
     double acceleration = 1000;     ///< mm/s2 or deg/s2
-    double travel = 1000;           ///< mm or deg; the search gives up beyond it
+    double travel = 1000;           ///< mm or deg from the start; the search gives up beyond it
+    double seconds = 0;             ///< longest time, braking not counted; 0 is none
     double reference = 0;           ///< machine position of the edge
     bool index = false;             ///< on to the index marks behind the edges
 
@@ -25,6 +26,7 @@ class Homing {
       visit("direction", self.direction), visit("search", self.search), visit("creep", self.creep);
       visit("acceleration", self.acceleration), visit("travel", self.travel);
       visit("reference", self.reference);
+      if (!std::is_const_v<Self> || self.seconds > 0) visit("seconds", self.seconds);
       if (!std::is_const_v<Self> || self.index) visit("index", self.index);
     }
   };
@@ -34,11 +36,12 @@ class Homing {
     bool all_marks = false;  ///< index marks behind the edges
   };
   enum class State { idle, moving, done, failed };
+  enum class Failure { none, ended, travel, time };
 
   /// At rest at `position`.
   void start(const Settings& settings, double position);
-  /// Brakes and ends as failed.
-  void abort();
+  /// Brakes and ends as failed; the first reason is kept.
+  void abort(Failure failure = Failure::ended);
   /// One period of `dt` s: the setpoint of the axis. Cyclic.
   double step_together(const Signals& signals, double dt);
   /// The same of one axis, whose switch is latched.
@@ -49,6 +52,8 @@ class Homing {
   }
 
   State state() const { return state_; }
+  Failure failure() const { return failure_; }
+  const Settings& settings() const { return settings_; }
   /// The edges have been taken at the slow speed.
   bool edges_found() const { return !aborted_ && (phase_ == Phase::settle || phase_ == Phase::mark); }
   /// Machine position less the one of the encoder, when done.
@@ -66,6 +71,8 @@ class Homing {
     visit("latch", self.latch_);
     if (!std::is_const_v<Self> || self.latched_) visit("latched", self.latched_);
     visit("at_rest", self.at_rest_);
+    if (!std::is_const_v<Self> || self.periods_ > 0) visit("periods", self.periods_);
+    if (!std::is_const_v<Self> || self.failure_ != Failure::none) visit("failure", self.failure_);
   }
 
  private:
@@ -79,6 +86,8 @@ class Homing {
   bool aborted_ = false, latched_ = false;
   double position_ = 0, start_ = 0, velocity_ = 0, latch_ = 0;
   std::uint32_t at_rest_ = 0;  // periods
+  std::uint32_t periods_ = 0;  // since the start
+  Failure failure_ = Failure::none;
 };
 
 }  // namespace trunnion::drive

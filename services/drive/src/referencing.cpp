@@ -5,8 +5,17 @@
 
 #include "drive_core.hpp"
 #include "machine/alarm_constants.hpp"
+#include "machine/parameter_constants.hpp"
+#include "text/quantity.hpp"
 
 namespace trunnion::drive {
+namespace {
+// Of the travel, its longest search: a switch may be somewhat beyond the software limits.
+constexpr double longest_travel = 1.1;
+constexpr double turn = 360;  // deg, in which a rotary axis passes its switch
+// Of the longest travel, at creep feed: off the switch and back, and on to an index mark.
+constexpr double slow_share = 0.25;
+}  // namespace
 
 // False, with an alarm that names them, when axes have no reference.
 bool DriveCore::all_homed() {
@@ -24,13 +33,14 @@ bool DriveCore::all_homed() {
 }
 
 // The slaves of a master move with it, so nothing is racked; each finds its own reference.
-void DriveCore::home(std::uint16_t number) {
+void DriveCore::home(std::uint16_t channel, std::uint16_t number) {
   const int found = machine::column_of(axes_, number);
   if (found < 0 || mode_ != Mode::FOLLOWING || any_active()) return;
   auto column = static_cast<std::size_t>(found);
   if (const auto* slave = slaves_.at(column); slave != nullptr && !slave->off)
     column = slave->master_column();
   homing_axis_ = column;
+  homing_channel_ = channel;
   homing_members_ = {{column, 1, command_[column]}};
   for (auto& slave : slaves_.all()) {
     if (slave.master_column() != column || slave.off) continue;
@@ -45,6 +55,12 @@ void DriveCore::home(std::uint16_t number) {
   homing_members_.clear();
 }
 
+double DriveCore::homing_travel(std::size_t column) const {
+  const double range = limits_[column].positive - limits_[column].negative;
+  return longest_travel *
+         (axes_[column].type == machine::axis_type_rotary ? std::min(range, turn) : range);
+}
+
 // False when no axis has to search.
 bool DriveCore::begin_homing(std::size_t column) {
   Homing::Settings settings;
@@ -53,7 +69,7 @@ bool DriveCore::begin_homing(std::size_t column) {
   settings.search = std::min(master.homing_search, master.velocity);
   settings.creep = std::min(master.homing_creep, master.velocity);
   settings.acceleration = master.acceleration;
-  settings.travel = master.positive - master.negative;
+  settings.travel = homing_travel(column);
   settings.reference = master.reference;
   bool contrary = false;
   for (const auto& member : homing_members_) {
@@ -68,6 +84,8 @@ bool DriveCore::begin_homing(std::size_t column) {
     settings.index = settings.index || l.homing_marks == 1;
   }
   if (settings.direction == 0) return false;
+  // Away from the switch and towards it at most.
+  settings.seconds = 2 * settings.travel / settings.search + slow_share * settings.travel / settings.creep;
   if (contrary) {
     raise(alarm::homing_failed, axes_[column].number,
           "Axis " + axes_[column].name +
@@ -133,13 +151,33 @@ void DriveCore::step_homing() {
         reference(member.column, l.reference - command_[member.column]);
     }
   } else if (enabled_) {
-    raise(alarm::homing_failed, axes_[homing_axis_].number,
-          "Axis " + axes_[homing_axis_].name + (homing_members_.size() > 1 ? " or its slave has" : " has") +
-              " not found its home switch: see to the switch and to parameter homing_direction");
+    report_homing_failure();
   }
   homing_members_.clear();
   target_ = command_;
   mode_ = enabled_ ? Mode::FOLLOWING : Mode::OFF;
+}
+
+// Whoever has ended the search knows it.
+void DriveCore::report_homing_failure() {
+  const auto& axis = axes_[homing_axis_];
+  const auto& settings = homing_.settings();
+  const char* const unit = axis.type == machine::axis_type_linear ? "mm" : "deg";
+  std::string most;
+  if (homing_.failure() == Homing::Failure::travel) most = text::quantity(settings.travel, unit);
+  if (homing_.failure() == Homing::Failure::time) most = text::quantity(settings.seconds, "s");
+  if (most.empty()) return;
+  const auto who = "Axis " + axis.name + (homing_members_.size() > 1 ? " or its slave" : "");
+  const auto direction = machine::number_text(parameter::homing_direction.number(axis.number));
+  if (limits_[homing_axis_].homing_marks == 2)
+    raise(alarm::homing_failed, axis.number,
+          who + " has not passed two marks of its scale within " + most +
+              ": check the scale, its cable and parameter " + direction + ", then home again");
+  else
+    raise(alarm::homing_failed, axis.number,
+          who + " has not found its " + (settings.index ? "home switch or index mark" : "home switch") +
+              " within " + most + ": check the switch, its cable and parameter " + direction +
+              ", then home again");
 }
 
 void DriveCore::abort_homing() { homing_.abort(); }

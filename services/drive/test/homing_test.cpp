@@ -7,6 +7,7 @@
 #include <deque>
 
 #include "drive_core.hpp"
+#include "machine/alarm_constants.hpp"
 #include "simulated_hardware.hpp"
 
 namespace trunnion::drive {
@@ -81,7 +82,23 @@ TEST(Homing, GivesUpWhenTheSwitchDoesNotComeWithinTheTravel) {
   Homing homing;
   homing.start(settings(), 0);
   EXPECT_EQ(run(homing, axis), Homing::State::failed);
+  EXPECT_EQ(homing.failure(), Homing::Failure::travel);
   EXPECT_LT(axis.status.position, 101) << "100 mm and the way it takes to brake from 20 mm/s";
+}
+
+// The switch comes within 0.7 s and does not go off again: what is left of 2 s is creeping, at 1 mm/s.
+TEST(Homing, GivesUpAfterTheLongestTime) {
+  HomingAxis axis(12.3, 5);
+  Homing homing;
+  auto limited = settings();
+  limited.seconds = 2;
+  homing.start(limited, 0);
+  run(homing, axis, 700);
+  ASSERT_TRUE(axis.status.home_switch);
+  axis.switch_edge = -1000;
+  EXPECT_EQ(run(homing, axis, 1310), Homing::State::failed) << "in 2 s and what it takes to brake";
+  EXPECT_EQ(homing.failure(), Homing::Failure::time);
+  EXPECT_NEAR(axis.status.position, 12.3 - 1.3, 0.5);
 }
 
 TEST(Homing, AnAbortBrakesAndEndsWithoutAReference) {
@@ -92,29 +109,42 @@ TEST(Homing, AnAbortBrakesAndEndsWithoutAReference) {
   homing.abort();
   const double at = axis.status.position;
   EXPECT_EQ(run(homing, axis), Homing::State::failed);
+  EXPECT_EQ(homing.failure(), Homing::Failure::ended);
   EXPECT_NEAR(axis.status.position, at + 5 * 0.02 + 0.2, 0.03) << "v2 / 2a = 0.2 mm behind five rows";
 }
 
 // The switch of the simulated axis is at its reference coordinate.
 struct HomedAxis : ::testing::Test {
   DriveCore core{std::make_unique<SimulatedHardware>()};
-  void SetUp() override {
+  machine::Parameters parameters() const {
     machine::Parameters p;
     p.values[40001] = {0, ""};
     p.values[100000] = {0, "X"};
     p.values[100006] = {500, ""}, p.values[100007] = {-500, ""};
     p.values[100920] = {1, ""};
-    p.values[100012] = {5, ""};
-    core.configure(p, true);
+    p.values[100012] = {switch_edge, ""};
+    return p;
+  }
+  void SetUp() override {
+    core.configure(parameters(), true);
     Memory elsewhere = core.memory();
-    elsewhere.position[0] = 0;
+    elsewhere.position[0] = 0, elsewhere.homed[0] = 0;
     core.restore(elsewhere);
     core.set_enables({1}, false);
   }
-  void request(StreamRequestKind kind, std::uint32_t epoch) { core.request({0, ++number, kind, epoch, 0}); }
+  explicit HomedAxis(double edge = 5) : switch_edge(edge) {}
+  void request(StreamRequestKind kind, std::uint32_t epoch, std::uint16_t channel = 0) {
+    core.request({channel, ++number, kind, epoch, 0});
+  }
   void run() {
     while (core.can_step(false)) core.step();
   }
+  double position() {
+    idl::stream::FeedbackFrame feedback;
+    core.fill(feedback);
+    return feedback.position[0];
+  }
+  const double switch_edge;
   std::uint32_t number = 0;
 };
 
@@ -141,6 +171,72 @@ TEST_F(HomedAxis, AnEmergencyStopEndsTheSearchAndSwitchesTheAxisOff) {
   core.set_enables({1}, true);
   run();
   EXPECT_EQ(core.mode(), Mode::OFF);
+}
+
+// A switch that never comes: it is at 5000, and the longest travel is 1.1 times the 1000 mm between the limits.
+struct DeadSwitch : HomedAxis {
+  DeadSwitch() : HomedAxis(5000) {}
+  void search(int periods) {
+    request(StreamRequestKind::HOME, 0);
+    for (int i = 0; i < periods; ++i) core.step();
+  }
+};
+
+TEST_F(DeadSwitch, ALeaveOfItsChannelBrakesTheAxisAndEndsTheSearch) {
+  search(1000);
+  const double at = core.commands()[0];
+  EXPECT_GT(at, 40) << "50 mm/s for a second";
+  request(StreamRequestKind::LEAVE, 0);
+  EXPECT_EQ(core.mode(), Mode::HOMING) << "it brakes";
+  run();
+  EXPECT_EQ(core.mode(), Mode::FOLLOWING);
+  // v2 / 2a = 50 * 50 / 6000 = 0.417 mm.
+  EXPECT_NEAR(core.commands()[0], at + 0.417, 0.03) << "and half a period at 50 mm/s";
+  EXPECT_FALSE(core.unreferenced().empty());
+  EXPECT_TRUE(core.take_events().empty()) << "whoever demanded it knows";
+  request(StreamRequestKind::HOME, 0);
+  EXPECT_EQ(core.mode(), Mode::HOMING) << "and it can be homed again";
+}
+
+TEST_F(DeadSwitch, ALeaveOfAnotherChannelDoesNot) {
+  search(100);
+  request(StreamRequestKind::LEAVE, 0, 1);
+  for (int i = 0; i < 200; ++i) core.step();
+  EXPECT_NEAR(core.commands()[0], 50 * 0.3 - 0.417, 0.06) << "50 mm/s for 0.3 s, less the acceleration";
+}
+
+TEST_F(DeadSwitch, AStopForAnAlarmIsNoMissingSwitch) {
+  search(100);
+  core.stop();
+  run();
+  EXPECT_EQ(core.mode(), Mode::FOLLOWING);
+  EXPECT_TRUE(core.take_events().empty());
+}
+
+TEST_F(DeadSwitch, TheLongestTravelIsAnAlarmThatSaysWhereAndWhatToDo) {
+  search(1);
+  run();
+  EXPECT_NEAR(core.commands()[0], 1100 + 0.417, 0.06);
+  const auto events = core.take_events();
+  ASSERT_EQ(events.size(), 1u);
+  EXPECT_EQ(events[0].alarm, &alarm::homing_failed);
+  EXPECT_EQ(events[0].text,
+            "Axis X has not found its home switch within 1100 mm: check the switch, its cable and parameter "
+            "100920, then home again");
+}
+
+TEST_F(DeadSwitch, AContinuedDriveEndsTheSearchOfTheSameChannel) {
+  search(100);
+  DriveCore other{std::make_unique<SimulatedHardware>()};
+  other.configure(parameters(), true);
+  other.continue_from(core.explicit_state());
+  other.request({1, ++number, StreamRequestKind::LEAVE, 0, 0});
+  other.step();
+  EXPECT_GT(other.commands()[0], core.commands()[0]);
+  other.request({0, ++number, StreamRequestKind::LEAVE, 0, 0});
+  while (other.can_step(false)) other.step();
+  EXPECT_EQ(other.mode(), Mode::FOLLOWING);
+  EXPECT_LT(other.commands()[0], 50 * 0.102 + 0.417);
 }
 
 }  // namespace
