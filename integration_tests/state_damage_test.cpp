@@ -184,11 +184,23 @@ TEST_F(StateDamage, AnAxisWithoutReferenceDoesNotMoveUntilItsReferenceReturn) {
   EXPECT_EQ(cluster.feedback.commanded, std::vector<double>()) << "no cycle was executed";
   client.channel(0, CommandKind::RESET);
   client.set_mode(0, Mode::REF);
+  // Refused until the drive's feedback has told the channel that the search before has ended.
+  const auto accepted = [&](const idl::channel::ChannelRequest& request) {
+    return cluster.until([&] {
+      try {
+        client.channel(request);
+        return true;
+      } catch (const std::exception&) {
+        return false;
+      }
+    });
+  };
   const auto names = {"axis X ", "axis Y ", "axis Z ", "axis A ", "axis C "};
   std::uint8_t axis = 0;
   for (const auto* name : names) {
     const auto number = cluster.channels[0].axes.at(axis);
-    client.channel({.channel = 0, .command = CommandKind::REFERENCE_AXIS, .axis = axis++});
+    EXPECT_TRUE(accepted({.channel = 0, .command = CommandKind::REFERENCE_AXIS, .axis = axis})) << name;
+    ++axis;
     EXPECT_TRUE(cluster.until([&] {
       for (const auto& [key, alarm] : cluster.alarms)
         if (key[1] == alarm::not_homed.number && key[2] == number && alarm.active) return false;
@@ -199,7 +211,7 @@ TEST_F(StateDamage, AnAxisWithoutReferenceDoesNotMoveUntilItsReferenceReturn) {
   EXPECT_TRUE(cluster.until([&] { return cluster.channels[0].homed; })) << cluster.told();
   EXPECT_FALSE(cluster.has_alarm(alarm::not_homed.number)) << cluster.active_alarms();
   client.set_mode(0, Mode::MDI);
-  client.mdi(0, "G53 G0 X5");
+  EXPECT_TRUE(accepted({.channel = 0, .command = CommandKind::MDI_LINE, .block = "G53 G0 X5"}));
   EXPECT_TRUE(cluster.until([&] { return std::abs(cluster.channels[0].machine[0] - 5) < 0.01; }))
       << cluster.told();
 }

@@ -33,8 +33,9 @@ Answer ChannelCore::startable() const {
   if (!guard_error_.empty()) return refuse(alarm::bodies_invalid, guard_error_);
   if (!recovered_) return refuse(alarm::not_ready, "The drive has not answered yet");
   if (link().drive_mode() == DriveMode::OFF) return refuse(alarm::not_ready, "The drives are off");
-  if (link().drive_mode() == DriveMode::HOMING)
-    return refuse(alarm::not_ready, "An axis searches its reference: wait until it has found it");
+  if (homing_ || link().drive_mode() == DriveMode::HOMING)
+    return refuse(alarm::not_ready,
+                  "An axis searches its reference: wait until it has found it, or end it with feed hold");
   return {};
 }
 
@@ -52,13 +53,14 @@ Answer ChannelCore::may_move_by_hand() const {
       "No manual motion: " + (control_.reason.empty() ? "the machine's PLC inhibits it" : control_.reason));
 }
 
-// A jog stops at once; an axis that searches its reference is stopped by the PLC with its enable.
+// A jog and the search for a reference stop at once.
 void ChannelCore::set_control(const idl::plc::ChannelControl& control) {
   const bool inhibited = control.manual_inhibit && !control_.manual_inhibit;
   control_ = control;
   if (inhibited) {
     manual_.stop();
     stop_jog();
+    end_homing();
   }
   if (!control_.sets_overrides) return;
   switches_.feed_override = std::clamp(control_.feed_override, 0.0, 1.5);
@@ -88,6 +90,7 @@ Answer ChannelCore::handle(const ChannelRequest& request) {
       return start_from_line(request.line);
     case CommandKind::FEED_HOLD:
       if (states_.advances()) hold();
+      end_homing();
       return {};
     case CommandKind::RESET:
       reset();
@@ -151,6 +154,7 @@ Answer ChannelCore::set_mode(Mode mode) {
     return refuse(alarm::request_invalid,
                   "The mode cannot change while the channel is busy: stop or reset it first");
   if (leaves && mode != Mode::AUTO) suspend();
+  if (mode != mode_) end_homing();
   mode_ = mode;
   return {};
 }
@@ -223,13 +227,7 @@ Answer ChannelCore::reference(std::uint8_t index) {
   auto move = manual_.reference(index);
   if (auto* refusal = std::get_if<Refusal>(&move)) return refuse(std::move(*refusal));
   const auto number = machine_.channel_axes().number[index];
-  if (unreferenced_.contains(number) ||
-      (parameters_ && parameters_->integer(parameter::homing_direction, number) != 0)) {
-    if (states_.busy()) return refuse(alarm::request_invalid, "The channel is busy");
-    if (auto answer = startable(); !answer.accepted) return answer;
-    stream_.link().request_homing(number);
-    return {};
-  }
+  if (needs_homing(number)) return begin_homing(number);
   if (!states_.busy() && startable().accepted) {
     adopt_position();
     if (auto refusal = guard_reference(std::get<AxisMove>(move))) return refuse(std::move(*refusal));
@@ -279,6 +277,7 @@ void ChannelCore::stop_jog() {
 
 void ChannelCore::reset() {
   ++reset_count_;
+  end_homing();
   // Behind an emergency stop the program may be continued from its line.
   interrupted_ = states_.needs_reset() ? running_program() : RunningProgram{};
   const bool moving = states_.busy() && link().state() == LinkState::active && !states_.in<Interrupted>() &&

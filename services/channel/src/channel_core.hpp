@@ -144,7 +144,7 @@ class ChannelCore {
   bool waits_for_text() const { return states_.in<Running>() && states_.running()->text_missing; }
 
   const ChannelStates& states() const { return states_; }
-  RunState run_state() const { return states_.published(); }
+  RunState run_state() const;
   const channel_setup::ChannelSetup& machine() const { return machine_; }
   const StreamLink& link() const { return stream_.link(); }
   bool configured() const { return parameters_ != nullptr; }
@@ -156,6 +156,12 @@ class ChannelCore {
     std::uint8_t axis = 0;
     double position = 0, direction = 1;
     std::string text;
+  };
+  /// An axis that the drive homes for this channel.
+  struct Homing {
+    std::uint16_t axis = 0;  ///< logical number
+    bool searches = false;   ///< demanded of the drive; false: it waits for the feed override, or brakes
+    bool ended = false;      ///< it is over when the drive has braked
   };
   /// MDI, from line to line.
   struct Mdi {
@@ -185,6 +191,13 @@ class ChannelCore {
   void stop_jog_without_renewal();
   void stop_jog();
   void reset();
+
+  // channel_homing.cpp: axes that search their reference in the drive.
+  bool needs_homing(std::uint16_t axis) const;
+  Answer begin_homing(std::uint16_t axis);
+  void advance_homing();
+  void end_homing();
+  std::string homing_detail() const;
 
   // channel_switches.cpp: dry run, locks, block skip, handwheel, retrace.
   Answer set_switch(const idl::channel::ChannelRequest& request);
@@ -307,6 +320,7 @@ class ChannelCore {
   CycleCall cycle_call_;
   bool cycle_service_ = false;
   ManualMotion manual_;
+  std::optional<Homing> homing_;
   // The program's motion stays planned while the axes are moved by MDI, by hand or to the program's start.
   ChannelPath program_path_, manual_path_;
   ProgramFlow program_flow_, mdi_flow_;

@@ -34,6 +34,8 @@ bus::Json ChannelCore::explicit_state(std::string& why_not) const {
     why_not = "the channel waits for the drive";
   else if (!states_.in<Idle>())
     why_not = "the channel is " + states_.name();
+  else if (homing_)
+    why_not = "the channel homes an axis";
   else if (!link().at_rest() || !handshake_.at_rest() || !cycle_call_.at_rest() ||
            !manual_.offset_at_rest() || next_parameters_)
     why_not = "the channel comes to rest";

@@ -70,6 +70,8 @@ void ChannelCore::interrupt(const std::string& why) {
 void ChannelCore::recover() {
   if (recovered_ || !configured() || !link().has_feedback()) return;
   recovered_ = true;
+  // The process before this one has demanded it, and nothing that stops it reached the drive meanwhile.
+  if (link().drive_mode() == DriveMode::HOMING) stream_.link().leave();
   const auto own = snapshot_of(link().snapshot());
   if (own) {
     if (link().snapshot().cycle >= tool_since_) tool_ = own->tool;

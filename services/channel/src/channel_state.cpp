@@ -9,6 +9,7 @@
 namespace trunnion::channel {
 
 std::string ChannelCore::detail() const {
+  if (homing_) return homing_detail();
   const bool running = states_.advances(), held = states_.in<Held>();
   const auto* preparing = states_.preparing();
   const auto& executed = progress_.executed;
@@ -90,7 +91,7 @@ const idl::channel::ChannelState& ChannelCore::state() {
   if (s.name.empty()) s.name = "CH" + std::to_string(number_);
   s.cycle = link().executed();
   s.mode = mode_;
-  s.state = states_.published();
+  s.state = run_state();
   s.program = selected_.name;
   s.program_revision = selected_.revision;
   s.line = program_line();

@@ -7,7 +7,9 @@ namespace trunnion::channel {
 
 void ChannelCore::set_hold(const std::string& why) {
   external_hold_ = why;
-  if (!why.empty() && states_.advances()) hold();
+  if (why.empty()) return;
+  if (states_.advances()) hold();
+  end_homing();
 }
 
 void ChannelCore::hold() {
@@ -37,6 +39,7 @@ bool ChannelCore::motion_at_rest() const {
 
 void ChannelCore::advance() {
   if (!configured()) return;
+  advance_homing();
   apply_parameters();
   if (!states_.busy() || !stream_.idle()) return;
   if (states_.in<Holding>()) {  // the motion has stopped and was executed

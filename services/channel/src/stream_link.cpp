@@ -35,6 +35,7 @@ void StreamLink::on_feedback(const idl::stream::FeedbackFrame& feedback) {
     }
     const bool ours = echo.request == request_ && echo.epoch == epoch_;
     if (ours) resuming_ = false;
+    homing_ = homing_ && (mode_ == DriveMode::HOMING || (!forgotten && echo.request != request_));
     switch (state_) {
       case LinkState::requested:
         if (!ours) break;
@@ -70,7 +71,7 @@ void StreamLink::request_start() {
 }
 
 void StreamLink::request_homing(std::uint16_t axis) {
-  asked_ = new_epoch_ = true;
+  asked_ = new_epoch_ = homing_ = true;
   outgoing_ = {channel_, ++request_, StreamRequestKind::HOME, epoch_, axis};
 }
 

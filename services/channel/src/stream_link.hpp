@@ -30,9 +30,12 @@ class StreamLink {
   /// Demands that the drive searches the home switch of an axis, by its logical number; the next start is a
   /// new epoch.
   void request_homing(std::uint16_t axis);
+  /// It has been demanded, or ended by leave(), and the drive may still move the axis.
+  bool homing() const { return homing_; }
   /// A hold of the drive is over.
   void request_resume();
-  /// What was written and not executed is void; the next start is a new epoch.
+  /// What was written and not executed is void, and a search for a reference ends; the next start is a new
+  /// epoch.
   void leave();
   /// A frame of `count` setpoints may be written now.
   bool credit(std::uint32_t count, std::uint64_t ahead) const {
@@ -73,7 +76,7 @@ class StreamLink {
   bool drive_restarted() const { return drive_restarted_; }
   std::optional<idl::stream::StreamRequest> take_request();
   /// Everything has been taken, and the channel owes nothing: the state that fields() lists is whole.
-  bool at_rest() const { return state_ == LinkState::idle && !outgoing_; }
+  bool at_rest() const { return state_ == LinkState::idle && !outgoing_ && !homing_; }
 
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
@@ -94,7 +97,8 @@ class StreamLink {
   std::uint64_t next_ = 0, executed_ = 0, tick_ = 0;
   std::uint32_t epoch_ = 0, request_ = 0, answered_ = 0;
   bool new_epoch_ = true, starts_ = false, echo_active_ = false, resuming_ = false, drive_restarted_ = false,
-       asked_ = false;  // the drive, by this process
+       asked_ = false;   // the drive, by this process
+  bool homing_ = false;  // no field: it is at rest in no snapshot
   idl::stream::ChannelSnapshot snapshot_;
   std::vector<idl::stream::StageState> states_;
   std::vector<double> positions_;

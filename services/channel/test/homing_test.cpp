@@ -41,6 +41,141 @@ TEST_F(HomedAxis, AReferenceReturnOfAnAxisWithAHomeSwitchIsADemandOfTheDrive) {
       << "the stream begins where the drive has found the axes";
 }
 
+/// Y searches its switch in the drive.
+struct Searching : HomedAxis {
+  void SetUp() override {
+    HomedAxis::SetUp();
+    ASSERT_TRUE(reference(1).accepted);
+    search();
+  }
+  /// The drive takes the demand and reports that it searches.
+  void search() {
+    ASSERT_EQ(asked(), StreamRequestKind::HOME);
+    report(DriveMode::HOMING);
+  }
+  /// What the channel asks the drive for now, which takes it.
+  std::optional<StreamRequestKind> asked() {
+    core->advance();
+    const auto request = core->take_stream_request();
+    if (!request) return std::nullopt;
+    drive.request(*request);
+    return request->kind;
+  }
+  void report(DriveMode mode) {
+    drive.mode = mode;
+    core->on_feedback(drive.run(0));
+    core->advance();
+  }
+  const idl::channel::ChannelState& state() { return core->state(); }
+  void ends_the_search() {
+    EXPECT_EQ(asked(), StreamRequestKind::LEAVE);
+    report(DriveMode::HOMING);
+    EXPECT_EQ(state().state, RunState::HOLDING) << "it brakes";
+    report(DriveMode::FOLLOWING);
+    EXPECT_EQ(state().state, RunState::IDLE);
+    EXPECT_FALSE(asked()) << "and is not homed again by itself";
+  }
+};
+
+TEST_F(Searching, IsShownUntilTheDriveHasFoundIt) {
+  EXPECT_EQ(state().state, RunState::RUNNING);
+  EXPECT_EQ(state().detail, "axis Y searches its reference");
+  ask(CommandKind::SET_MODE, "", 0, 0, Mode::REF);
+  EXPECT_FALSE(asked()) << "the mode is the same";
+  report(DriveMode::FOLLOWING);
+  EXPECT_EQ(state().state, RunState::IDLE);
+  EXPECT_EQ(state().detail, "");
+}
+
+TEST_F(Searching, AFeedHoldEndsIt) {
+  ask(CommandKind::FEED_HOLD);
+  ends_the_search();
+}
+
+TEST_F(Searching, AResetEndsIt) {
+  ask(CommandKind::RESET);
+  ends_the_search();
+}
+
+TEST_F(Searching, AChangeOfTheModeEndsIt) {
+  ASSERT_TRUE(ask(CommandKind::SET_MODE, "", 0, 0, Mode::JOG).accepted);
+  ends_the_search();
+}
+
+TEST_F(Searching, AnAlarmThatStopsAndAFeedHoldOfThePlcEndIt) {
+  core->set_hold("Feed hold of the PLC");
+  ends_the_search();
+}
+
+TEST_F(Searching, ThePlcEndsItWithManualMotion) {
+  idl::plc::ChannelControl control;
+  control.manual_inhibit = true;
+  core->set_control(control);
+  ends_the_search();
+}
+
+TEST_F(Searching, RestsWhileTheFeedOverrideIsZeroAndThenSearchesOn) {
+  ask(CommandKind::FEED_OVERRIDE, "", 0);
+  EXPECT_EQ(asked(), StreamRequestKind::LEAVE);
+  report(DriveMode::HOMING);
+  ask(CommandKind::FEED_OVERRIDE, "", 1);
+  EXPECT_FALSE(asked()) << "before it has come to rest";
+  ask(CommandKind::FEED_OVERRIDE, "", 0);
+  report(DriveMode::FOLLOWING);
+  EXPECT_FALSE(asked());
+  EXPECT_EQ(state().state, RunState::RUNNING);
+  EXPECT_EQ(state().detail, "axis Y searches its reference: the feed override is 0 %");
+  ask(CommandKind::SET_MODE, "", 0, 0, Mode::REF);
+  EXPECT_FALSE(reference(0).accepted) << "one at a time";
+  ask(CommandKind::FEED_OVERRIDE, "", 0.5);
+  search();
+  EXPECT_EQ(state().detail, "axis Y searches its reference");
+  report(DriveMode::FOLLOWING);
+  EXPECT_EQ(state().state, RunState::IDLE);
+}
+
+TEST_F(Searching, IsEndedWhileTheFeedOverrideIsZeroToo) {
+  ask(CommandKind::FEED_OVERRIDE, "", 0);
+  EXPECT_EQ(asked(), StreamRequestKind::LEAVE);
+  report(DriveMode::FOLLOWING);
+  ask(CommandKind::FEED_HOLD);
+  ask(CommandKind::FEED_OVERRIDE, "", 1);
+  EXPECT_FALSE(asked());
+  EXPECT_EQ(state().state, RunState::IDLE);
+}
+
+TEST_F(Searching, IsOverWhenTheDrivesAreSwitchedOff) {
+  ask(CommandKind::FEED_OVERRIDE, "", 0);
+  EXPECT_EQ(asked(), StreamRequestKind::LEAVE);
+  report(DriveMode::OFF);
+  report(DriveMode::FOLLOWING);
+  ask(CommandKind::FEED_OVERRIDE, "", 1);
+  EXPECT_FALSE(asked());
+}
+
+TEST_F(Searching, AProcessThatDidNotDemandItEndsIt) {
+  begin();
+  const auto request = core->take_stream_request();
+  ASSERT_TRUE(request);
+  EXPECT_EQ(request->kind, StreamRequestKind::LEAVE);
+}
+
+TEST_F(Searching, IsInNoSnapshotAndHandsNothingOver) {
+  std::string why_not;
+  EXPECT_TRUE(core->explicit_state(why_not).is_null());
+  EXPECT_FALSE(core->hand_over());
+}
+
+TEST_F(HomedAxis, AReferenceReturnAtAFeedOverrideOfZeroWaitsForIt) {
+  ask(CommandKind::FEED_OVERRIDE, "", 0);
+  ASSERT_TRUE(reference(1).accepted);
+  core->advance();
+  EXPECT_FALSE(core->take_stream_request());
+  ask(CommandKind::FEED_OVERRIDE, "", 1);
+  core->advance();
+  EXPECT_TRUE(core->take_stream_request());
+}
+
 TEST_F(HomedAxis, AnAxisWithoutASwitchIsMovedToItsReferencePosition) {
   EXPECT_TRUE(reference(0).accepted);
   core->advance();
