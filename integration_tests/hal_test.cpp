@@ -92,7 +92,7 @@ struct Hal : ::testing::Test {
     })) << cluster->told();
     EXPECT_TRUE(cluster->until([&] { return cluster->has_alarm(136) != closed; })) << cluster->told();
   }
-  void home(std::uint8_t axis) {
+  void begin_homing(std::uint8_t axis) {
     cluster->client().set_mode(0, Mode::REF);
     cluster::ChannelRequest request;
     request.command = CommandKind::REFERENCE_AXIS;
@@ -100,6 +100,9 @@ struct Hal : ::testing::Test {
     cluster->client().channel(request);
     EXPECT_TRUE(cluster->until([&] { return cluster->feedback.mode == DriveMode::HOMING; }))
         << cluster->told();
+  }
+  void home(std::uint8_t axis) {
+    begin_homing(axis);
     EXPECT_TRUE(cluster->until([&] { return cluster->feedback.mode == DriveMode::FOLLOWING; }, 60))
         << cluster->told();
   }
@@ -191,6 +194,63 @@ TEST_F(Hal, AProgramIsExecutedAndTheSampledPositionsAreTheCommandedOnes) {
   EXPECT_NEAR(commanded[2], -100 + 20 + 50, 1e-6);
   EXPECT_NEAR(signal("x-position") + shift, 10, 0.005);
   EXPECT_EQ(cluster->active_alarms(), "");
+}
+
+// The switch of X, at 12 mm, does not come. The axis searches it at 20 mm/s, so 10 mm are far from the longest travel
+// of 1.1 * 400 mm; the search ends the queue and v2 / 2a later.
+TEST_F(Hal, ADeadHomeSwitchIsSearchedUntilAHoldAResetAModeOrAnOverrideOfZeroStopsTheAxis) {
+  replace(directory / "machine.hal", "setp home.x.home-pos 12", "setp home.x.home-pos 10000");
+  up();
+  const auto moved = [&](double from) {
+    EXPECT_TRUE(cluster->until([&] { return cluster->feedback.position[0] > from + 10; })) << cluster->told();
+    EXPECT_EQ(cluster->state(), RunState::RUNNING) << cluster->told();
+  };
+  const auto rests = [&] {
+    EXPECT_TRUE(cluster->until([&] { return cluster->feedback.mode == DriveMode::FOLLOWING; }))
+        << cluster->told();
+    return rest_of_x();
+  };
+  const auto stop_by = [&](CommandKind command) { cluster->client().channel(0, command); };
+  const std::vector<std::function<void()>> stops = {[&] { stop_by(CommandKind::FEED_HOLD); },
+                                                    [&] { stop_by(CommandKind::RESET); },
+                                                    [&] { cluster->client().set_mode(0, Mode::JOG); }};
+  for (const auto& stop : stops) {
+    const double from = signal("x-position");
+    begin_homing(0);
+    moved(from);
+    stop();
+    const double rest = rests();
+    EXPECT_TRUE(cluster->until([&] { return cluster->state() == RunState::IDLE; })) << cluster->told();
+    EXPECT_EQ(rest_of_x(), rest);
+    EXPECT_FALSE(cluster->channels[0].homed);
+  }
+  const auto feed_override = [&](double fraction) {
+    cluster->client().channel({.command = CommandKind::FEED_OVERRIDE, .fraction = fraction});
+  };
+  begin_homing(0);
+  feed_override(0);
+  const double rest = rests();
+  EXPECT_EQ(cluster->state(), RunState::RUNNING);
+  feed_override(1);
+  moved(rest);
+  stop_by(CommandKind::FEED_HOLD);
+  rests();
+  EXPECT_EQ(cluster->active_alarms(), "");
+}
+
+// Limits of -20 and 20 mm: the longest travel is 44 mm.
+TEST_F(Hal, ADeadHomeSwitchIsAnAlarmBehindTheLongestTravel) {
+  replace(directory / "machine.hal", "setp home.x.home-pos 12", "setp home.x.home-pos 10000");
+  replace(directory / "parameters.yaml", "\"100006\": 200", "\"100006\": 20");
+  replace(directory / "parameters.yaml", "\"100007\": -200", "\"100007\": -20");
+  up();
+  begin_homing(0);
+  EXPECT_TRUE(cluster->until([&] { return cluster->feedback.mode == DriveMode::FOLLOWING; }))
+      << cluster->told();
+  // 20 mm/s and 1500 mm/s2: braking takes 0.13 mm, a period 0.02 mm.
+  EXPECT_NEAR(rest_of_x(), 44 + 0.133, 0.05);
+  EXPECT_TRUE(cluster->until([&] { return cluster->has_alarm(116, "home switch within 44 mm"); }))
+      << cluster->told();
 }
 
 TEST_F(Hal, AProbeEndsAMoveAndItsPositionIsLatched) {

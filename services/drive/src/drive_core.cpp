@@ -28,6 +28,8 @@ void DriveCore::configure(const machine::Parameters& p, bool virtual_time) {
     for (auto* v : {&command_, &target_, &velocity_, &scratch_, &return_from_, &return_to_})
       v->assign(n, 0.0);
     reported_.assign(n, false);
+    moved_.assign(n, 0);
+    unsettled_.assign(n, 0);
     for (std::uint16_t c = 0; c < 10; ++c)
       if (!machine::channel_axes(p, c).number.empty()) channels_[c];
   }
@@ -202,30 +204,6 @@ void DriveCore::switch_on() {
   mode_ = any_active() ? Mode::HELD : Mode::FOLLOWING;
   rate_ = any_active() ? 0 : 1;
   align_slaves();
-}
-
-// The hardware has switched the drives off: nothing can be braked on the path any longer.
-void DriveCore::lose_control() {
-  const auto faulty =
-      std::find_if(status_.axes.begin(), status_.axes.end(), [](const auto& a) { return a.fault; });
-  std::string text = "The hardware has switched the drives off";
-  if (faulty != status_.axes.end()) {
-    const auto& axis = axes_[static_cast<std::size_t>(faulty - status_.axes.begin())];
-    text = "The drive of axis " + axis.name + " reports a fault; the axes were switched off";
-    if (*faulty->fault_text != 0) text += std::string(" (") + faulty->fault_text + ")";
-    raise(alarm::drive_fault, axis.number, text + ": remove the cause, then reset the alarms");
-    for (std::size_t i = 0; i < axes_.size(); ++i)
-      if (status_.axes[i].partner_fault)
-        raise(alarm::partner_stopped, axes_[i].number,
-              "The drive of axis " + axes_[i].name + " has stopped with that of its partner, axis " +
-                  axis.name);
-  } else {
-    raise(alarm::drive_fault, 0, text + ": see to its emergency stop chain, then reset the alarms");
-  }
-  control_lost_ = true;
-  off_path_ = any_active();
-  rate_ = 0, reserve_ = 0, phase_ = 0;
-  mode_ = Mode::OFF;
 }
 
 // The hardware ran out of rows and has stopped the axes at the newest one.
@@ -438,43 +416,6 @@ void DriveCore::exchange() {
   }
   if (rows_.pending() > 0) return;
   for (auto& [number, channel] : channels_) channel.ending = false;
-}
-
-void DriveCore::supervise() {
-  for (std::size_t i = 0; i < axes_.size(); ++i) {
-    if (reported_[i]) continue;
-    const auto& l = limits_[i];
-    const double error = status_.axes[i].following_error;
-    char text[200];
-    if (l.following > 0 && std::abs(error) > l.following) {
-      std::snprintf(text, sizeof text, "Axis %s: following error %.4f, limit %.4f (parameter %s)",
-                    axes_[i].name.c_str(), error, l.following,
-                    machine::number_text(parameter::following_error_limit.number(axes_[i].number)).c_str());
-      raise(alarm::following_error, axes_[i].number, text);
-    } else if (const double difference = status_.axes[i].encoder_difference;
-               l.encoder_difference > 0 && std::abs(difference) > l.encoder_difference) {
-      std::snprintf(
-          text, sizeof text, "Axis %s: motor and load encoder differ by %.4f, limit %.4f (parameter %s)",
-          axes_[i].name.c_str(), difference, l.encoder_difference,
-          machine::number_text(parameter::encoder_difference_limit.number(axes_[i].number)).c_str());
-      raise(alarm::encoder_difference, axes_[i].number, text);
-    } else if (constexpr double margin = 0.5; (command_[i] > l.positive + margin && velocity_[i] > 0) ||
-                                              (command_[i] < l.negative - margin && velocity_[i] < 0)) {
-      std::snprintf(text, sizeof text, "Axis %s at %.4f is beyond its travel %.4f .. %.4f",
-                    axes_[i].name.c_str(), command_[i], l.negative, l.positive);
-      raise(alarm::over_travel, axes_[i].number, text);
-    } else {
-      continue;
-    }
-    reported_[i] = true;
-    stop();
-  }
-}
-
-void DriveCore::acknowledge() {
-  std::fill(reported_.begin(), reported_.end(), false);
-  control_lost_ = false;
-  hardware_->reset_faults();
 }
 
 void DriveCore::raise(const machine::AlarmDefinition& alarm, std::uint32_t part, std::string text) {

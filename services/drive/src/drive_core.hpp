@@ -7,6 +7,7 @@
 #include <array>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -204,8 +205,12 @@ class DriveCore {
   void place_at_hardware();
   void switch_on();
   void lose_control();
+  void switch_off();
   void stop_at_newest_row(std::uint64_t starved);
   void supervise();
+  bool does_not_follow(std::size_t column);
+  void switch_off_for(std::size_t column);
+  std::optional<double> beyond_travel(std::size_t column) const;
   bool testing() const { return hardware_->tester() != nullptr && hardware_->tester()->running(); }
   void watch_probe();
   double compensated_offset(const GantrySlave& slave) const;
@@ -283,6 +288,9 @@ class DriveCore {
   std::vector<DriveEvent> events_;
   ExecutedRows rows_;
   std::vector<bool> reported_;  // per axis: supervision has fired since the last acknowledge
+  // Of each axis: number of the newest row that moves it, and periods at rest with too large an error.
+  std::vector<std::uint64_t> moved_;
+  std::vector<std::uint32_t> unsettled_;
 };
 
 }  // namespace trunnion::drive

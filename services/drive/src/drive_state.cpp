@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The explicit state of the executor, from which a verification continues.
+#include <algorithm>
+
 #include "drive_core.hpp"
 #include "snapshot/fields.hpp"
 
@@ -30,6 +32,8 @@ struct DriveState {
       constexpr bool reads = !std::is_const_v<Core>;
       if (reads || !c.homing_members_.empty()) visit("homing_members", c.homing_members_);
       if (reads || c.homing_channel_ != 0) visit("homing_channel", c.homing_channel_);
+      if (reads || std::any_of(c.unsettled_.begin(), c.unsettled_.end(), [](auto n) { return n > 0; }))
+        visit("unsettled", c.unsettled_);
       if (reads || !c.slaves_.empty()) visit("slaves", c.slaves_.all());
       if (reads || c.after_alignment_ != Mode::OFF) visit("after_alignment", c.after_alignment_);
     }

@@ -32,6 +32,7 @@ void ExecutedRows::report_skip_edges(const Pending& executed) {
 }
 
 void ExecutedRows::encoder_row(const EncoderRow& row) {
+  in_force_ = row.number;
   const auto axes = static_cast<std::ptrdiff_t>(row.axes.size());
   std::ptrdiff_t done = 0;
   while (done < std::ssize(pending_) && pending_[static_cast<std::size_t>(done)].number <= row.number) {

@@ -20,6 +20,8 @@ class ExecutedRows final : public EncoderRowSink {
 
   /// Cycles handed over of which the hardware has reported no row yet.
   std::uint64_t pending() const { return pending_.size(); }
+  /// Number of the newest row that has come back.
+  std::uint64_t in_force() const { return in_force_; }
   /// Cycles that fill() will report.
   std::uint32_t count() const { return count_; }
   /// Moves the rows into `out` and forgets them; `next` is the cycle that is handed over next.
@@ -54,7 +56,7 @@ class ExecutedRows final : public EncoderRowSink {
 
   std::vector<Pending> pending_;
   std::vector<double> pending_setpoints_;  // a row for each of pending_
-  std::uint64_t first_ = 0;
+  std::uint64_t first_ = 0, in_force_ = 0;  // in_force_ is no field: every period has a row
   std::uint32_t count_ = 0;
   std::vector<double> commanded_, actual_, spindle_angle_;
   // Edges that wait for the first cycle behind them; `cycle` is the number of a row. Those with their cycle.

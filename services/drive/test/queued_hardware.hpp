@@ -16,6 +16,9 @@ class QueuedHardware : public DriveHardware {
   void configure(const machine::Parameters&, const std::vector<machine::AxisInfo>& axes,
                  const std::vector<machine::AxisInfo>& spindles, double) override {
     position.resize(axes.size());
+    beside.resize(axes.size());
+    in_force_.resize(axes.size());
+    velocity_.resize(axes.size());
     spindles_ = spindles.size();
     fault.resize(axes.size());
   }
@@ -25,6 +28,8 @@ class QueuedHardware : public DriveHardware {
     for (std::size_t i = 0; i < position.size(); ++i) {
       out.axes[i].position = out.axes[i].hold_position = position[i];
       out.axes[i].fault = fault[i];
+      out.axes[i].following_error = controlled_ ? in_force_[i] - position[i] : 0;
+      out.axes[i].velocity = velocity_[i];
     }
     out.spindles.resize(spindles_);
   }
@@ -38,8 +43,13 @@ class QueuedHardware : public DriveHardware {
       for (const auto& edge : edges) rows.skip_edge(rows_.front().number, edge);
       edges.clear();
       rows.encoder_row({rows_.front().number, position, {}});
-      for (std::size_t i = 0; i < position.size() && rows_.front().controlled; ++i)
-        position[i] = rows_.front().axes[i].position;
+      controlled_ = rows_.front().controlled;
+      for (std::size_t i = 0; i < position.size() && controlled_; ++i) {
+        in_force_[i] = rows_.front().axes[i].position;
+        const double before = position[i];
+        if (!encoders_lost) position[i] = in_force_[i] + beside[i];
+        velocity_[i] = (position[i] - before) / 0.001;
+      }
       rows_.pop_front();
     }
     status(out);
@@ -51,12 +61,16 @@ class QueuedHardware : public DriveHardware {
   std::vector<idl::stream::SkipEdge> edges;  // that come before the next row comes into force
   int resets = 0;
   std::vector<double> position;
+  std::vector<double> beside;  // mm by which an axis is ahead of the row in force
+  bool encoders_lost = false;  // the positions stay as they are
   std::vector<bool> fault;
   SetpointRow newest;
 
  private:
   std::size_t queue_, spindles_ = 0;
   std::deque<SetpointRow> rows_;
+  std::vector<double> in_force_, velocity_;
+  bool controlled_ = false;
 };
 
 }  // namespace trunnion::drive::testing

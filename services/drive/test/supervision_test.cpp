@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the drive does about an axis that does not follow.
+#include <gtest/gtest.h>
+
+#include "drive_core.hpp"
+#include "machine/alarm_constants.hpp"
+#include "queued_hardware.hpp"
+
+namespace trunnion::drive {
+namespace {
+
+using idl::stream::AxisFrame;
+using idl::stream::StreamRequestKind;
+using testing::QueuedHardware;
+
+constexpr std::size_t queue = 5;
+
+/// X: a following error of 2 mm stops it, of 4 mm switches it off. 0.1 mm per cycle.
+struct Supervision : ::testing::Test {
+  QueuedHardware* hardware = new QueuedHardware(queue);
+  DriveCore core{std::unique_ptr<DriveHardware>(hardware)};
+  machine::Parameters p;
+  std::vector<std::uint32_t> alarms;
+  std::vector<std::string> texts;
+
+  void SetUp() override {
+    p.revision = 1;
+    p.values[40001] = {0, ""};
+    p.values[100000] = {0, "X"};
+    p.values[100034] = {60000, ""};
+    p.values[100037] = {2, ""};
+    accelerate(4000);
+  }
+  void accelerate(double most) {
+    p.values[100036] = {most, ""};
+    core.configure(p, false);
+    core.set_enables({1}, false);
+  }
+  static double path(std::uint64_t n) { return n < 100 ? 0.1 * n * n / 200.0 : 0.1 * (n - 50.0); }
+  void move() {
+    core.request({0, 1, StreamRequestKind::NEW_EPOCH, 1, 0});
+    for (std::uint64_t first = 0; first < 1000; first += 8) {
+      AxisFrame f;
+      f.epoch = 1, f.first = first, f.count = 8, f.starts = first == 0, f.revision = 1, f.axes = {0};
+      for (std::uint64_t n = first; n < first + 8; ++n) f.setpoints.push_back(path(n));
+      f.states = {{idl::stream::Stage::KINEMATICS, first + 7, {}}};
+      ASSERT_TRUE(core.put(f));
+    }
+    periods(300);
+  }
+  void periods(int count) {
+    idl::stream::FeedbackFrame feedback;
+    for (int i = 0; i < count; ++i) {
+      core.step();
+      core.fill(feedback);
+    }
+    for (auto& event : core.take_events()) alarms.push_back(event.alarm->number), texts.push_back(event.text);
+  }
+  /// Periods until the drives are off.
+  int off_after(int most) {
+    int n = 0;
+    while (n < most && core.mode() != Mode::OFF) periods(1), ++n;
+    return n;
+  }
+};
+using Numbers = std::vector<std::uint32_t>;
+
+// 2 mm are 20 periods of 0.1 mm; then the queue and 100 * 100 / 2000 = 5 mm of braking add more than another 2.
+TEST_F(Supervision, AnErrorThatGrowsWhileTheAxisBrakesTakesTheEnableAway) {
+  accelerate(1000);
+  move();
+  hardware->encoders_lost = true;
+  periods(21);
+  EXPECT_EQ(core.mode(), Mode::BRAKING);
+  EXPECT_EQ(alarms, Numbers{alarm::following_error.number});
+  // Without braking another 20 periods; it takes longer the more the axis has braked.
+  EXPECT_LE(off_after(100), 30);
+  EXPECT_EQ(alarms, (Numbers{alarm::following_error.number, alarm::following_error_excessive.number}));
+  ASSERT_FALSE(texts.empty());
+  EXPECT_EQ(texts.back().substr(0, 43), "Axis X does not follow: following error 4.0") << texts.back();
+  periods(1);
+  EXPECT_FALSE(hardware->newest.enable);
+  periods(100);
+  EXPECT_EQ(core.mode(), Mode::OFF) << "until the alarms are reset";
+  core.acknowledge();
+  periods(1);
+  EXPECT_TRUE(hardware->newest.enable);
+}
+
+// 100 * 100 / 8000 = 1.25 mm of braking and 0.5 mm of the queue: less than 4 mm in all.
+TEST_F(Supervision, AnErrorThatIsThereStillWhenTheAxisShouldRestTakesTheEnableAway) {
+  move();
+  hardware->encoders_lost = true;
+  const int periods = off_after(1000);
+  EXPECT_GT(periods, 20 + 25) << "2 mm, and what braking takes";
+  EXPECT_LE(periods, 20 + 25 + 10 + static_cast<int>(settling_periods)) << "and the time to settle";
+  EXPECT_EQ(alarms, (Numbers{alarm::following_error.number, alarm::following_error_excessive.number}));
+}
+
+TEST_F(Supervision, AnAxisThatComesBackWhileItBrakesStaysUnderControl) {
+  move();
+  hardware->beside[0] = -3;
+  periods(10);
+  hardware->beside[0] = -1.9;
+  periods(1000);
+  EXPECT_EQ(core.mode(), Mode::HELD);
+  EXPECT_EQ(alarms, Numbers{alarm::following_error.number});
+}
+
+// The sign of the encoder or of the motor is wrong: what is to correct the error makes it larger.
+TEST_F(Supervision, AnAxisThatRunsAwayFromRestIsSwitchedOff) {
+  periods(10);
+  for (int n = 1; n <= 4; ++n) {
+    hardware->beside[0] = n;
+    periods(1);
+    EXPECT_NE(core.mode(), Mode::OFF);
+  }
+  hardware->beside[0] = 5;
+  periods(1);
+  EXPECT_EQ(core.mode(), Mode::OFF);
+  EXPECT_EQ(alarms, (Numbers{alarm::following_error.number, alarm::following_error_excessive.number}));
+}
+
+TEST_F(Supervision, WithoutALimitNothingIsSupervised) {
+  p.values[100037] = {0, ""};
+  accelerate(4000);
+  move();
+  hardware->encoders_lost = true;
+  periods(500);
+  EXPECT_EQ(alarms, Numbers{});
+}
+
+// Travel to 20 mm; the setpoint rests at 0.
+TEST_F(Supervision, TheTravelHoldsForTheEncoderToo) {
+  p.values[100006] = {20, ""}, p.values[100007] = {-20, ""}, p.values[100037] = {0, ""};
+  accelerate(4000);
+  periods(10);
+  hardware->beside[0] = 20.4;
+  periods(1);
+  hardware->beside[0] = 20.3;
+  periods(2);
+  EXPECT_EQ(alarms, Numbers{}) << "0.5 mm are left for an overshoot";
+  hardware->beside[0] = 21;
+  periods(1);
+  ASSERT_EQ(alarms, Numbers{alarm::over_travel.number});
+  EXPECT_EQ(texts.back(), "Axis X at 21.0000 is beyond its travel -20.0000 .. 20.0000");
+  core.acknowledge();
+  hardware->beside[0] = 20.8;
+  periods(10);
+  EXPECT_EQ(alarms.size(), 1u) << "it may come back";
+}
+
+}  // namespace
+}  // namespace trunnion::drive
