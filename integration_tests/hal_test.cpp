@@ -196,8 +196,8 @@ TEST_F(Hal, AProgramIsExecutedAndTheSampledPositionsAreTheCommandedOnes) {
   EXPECT_EQ(cluster->active_alarms(), "");
 }
 
-// The switch of X, at 12 mm, does not come. The axis searches it at 20 mm/s, so 10 mm are far from the longest travel
-// of 1.1 * 400 mm; the search ends the queue and v2 / 2a later.
+// The switch of X, at 12 mm, does not come. The axis searches it at 20 mm/s, so 10 mm are far from the
+// longest travel of 1.1 * 400 mm; the search ends the queue and v2 / 2a later.
 TEST_F(Hal, ADeadHomeSwitchIsSearchedUntilAHoldAResetAModeOrAnOverrideOfZeroStopsTheAxis) {
   replace(directory / "machine.hal", "setp home.x.home-pos 12", "setp home.x.home-pos 10000");
   up();
@@ -222,7 +222,6 @@ TEST_F(Hal, ADeadHomeSwitchIsSearchedUntilAHoldAResetAModeOrAnOverrideOfZeroStop
     const double rest = rests();
     EXPECT_TRUE(cluster->until([&] { return cluster->state() == RunState::IDLE; })) << cluster->told();
     EXPECT_EQ(rest_of_x(), rest);
-    EXPECT_FALSE(cluster->channels[0].homed);
   }
   const auto feed_override = [&](double fraction) {
     cluster->client().channel({.command = CommandKind::FEED_OVERRIDE, .fraction = fraction});
@@ -236,6 +235,9 @@ TEST_F(Hal, ADeadHomeSwitchIsSearchedUntilAHoldAResetAModeOrAnOverrideOfZeroStop
   stop_by(CommandKind::FEED_HOLD);
   rests();
   EXPECT_EQ(cluster->active_alarms(), "");
+  cluster->client().set_mode(0, Mode::MDI);
+  cluster->client().mdi(0, "G53 G0 X5");
+  EXPECT_TRUE(cluster->until([&] { return cluster->has_alarm(115, "X, Y, Z"); })) << cluster->told();
 }
 
 // Limits of -20 and 20 mm: the longest travel is 44 mm.
@@ -333,6 +335,7 @@ TEST_F(Hal, AFaultOfADriveSwitchesAllOffAndIsNamed) {
   EXPECT_TRUE(cluster->until([&] { return cluster->feedback.mode == DriveMode::OFF; })) << cluster->told();
   rest_of_x();
   EXPECT_TRUE(cluster->until([] { return signal("enable") == 0; })) << "behind the rows in the queue";
+  EXPECT_TRUE(cluster->until([] { return signal("amplifiers-on") == 0; })) << "0.3 s later";
   output_of("halcmd sets x-fault 0");
   cluster->until([] { return false; }, 0.3);
   EXPECT_EQ(cluster->feedback.mode, DriveMode::OFF) << "until the alarms are reset";
@@ -340,6 +343,21 @@ TEST_F(Hal, AFaultOfADriveSwitchesAllOffAndIsNamed) {
   cluster->reset_alarms();
   EXPECT_TRUE(cluster->until([&] { return cluster->feedback.mode == DriveMode::FOLLOWING; }))
       << cluster->told();
+}
+
+// The signal of the encoder keeps its last value, and the control of HAL drives the motor ever faster behind
+// its setpoints.
+TEST_F(Hal, AnAxisWhoseEncoderIsLostIsSwitchedOffAndBrakedByHal) {
+  make_encoders_absolute();
+  up();
+  start_long_move();
+  output_of("halcmd unlinkp encoder.x.out");
+  EXPECT_TRUE(cluster->until([&] { return cluster->has_alarm(119, "Axis X does not follow"); }))
+      << cluster->told();
+  EXPECT_TRUE(cluster->until([] { return signal("enable") == 0 && signal("drives-on") == 0; }));
+  EXPECT_TRUE(cluster->until([] { return signal("x-speed") == 0; }));
+  EXPECT_EQ(cluster->feedback.mode, DriveMode::OFF);
+  EXPECT_TRUE(cluster->until([&] { return cluster->channels[0].needs_reset; })) << cluster->told();
 }
 
 TEST_F(Hal, InputsAndOutputsOfThePlcAreItsPinsAndOutputsEndWithThePlc) {

@@ -79,9 +79,9 @@ export const alarmCatalogue: Readonly<Record<number, Readonly<Record<string, { c
     de: { cause: "Die Position der Achse ist nach dem Einschalten oder nach einem Schaden ihrer Datei unsicher", remedy: "Die Referenzfahrt der Achse in der Betriebsart REF ausführen" },
   },
   116: {
-    en: { cause: "The home switch or the index pulse did not come within the travel", remedy: "Check switch, cable and the homing parameters of the axis, then repeat the reference return" },
-    zh: { cause: "在行程内没有遇到回零开关或零脉冲", remedy: "检查该轴的开关、电缆和回零参数，然后重新回参考点" },
-    de: { cause: "Der Referenzschalter oder der Nullimpuls kam nicht innerhalb des Verfahrbereichs", remedy: "Schalter, Kabel und Referenzparameter der Achse prüfen, dann die Referenzfahrt wiederholen" },
+    en: { cause: "The home switch or the index pulse did not come within 1.1 times the travel or within the time for it", remedy: "Check switch, cable and the homing parameters of the axis, then repeat the reference return" },
+    zh: { cause: "在行程的 1.1 倍内或相应时间内没有遇到回零开关或零脉冲", remedy: "检查该轴的开关、电缆和回零参数，然后重新回参考点" },
+    de: { cause: "Der Referenzschalter oder der Nullimpuls kam nicht innerhalb des 1,1-fachen Verfahrbereichs oder der Zeit dafür", remedy: "Schalter, Kabel und Referenzparameter der Achse prüfen, dann die Referenzfahrt wiederholen" },
   },
   117: {
     en: { cause: "The probe was switched on and touched something on the way, or its cable is faulty", remedy: "Reset, jog the probe away from the contact in the opposite direction, check its stylus, then measure again" },
@@ -92,6 +92,11 @@ export const alarmCatalogue: Readonly<Record<number, Readonly<Record<string, { c
     en: { cause: "The load encoder is mounted the wrong way round, has a wrong number of pulses or has lost some; or the axis slips", remedy: "Run `trunnion servo encoders` in semi-closed loop, correct sign and pulses (10a931, 10a932), then reset" },
     zh: { cause: "负载编码器装反、脉冲数错误或丢失脉冲；或轴打滑", remedy: "在半闭环下运行 `trunnion servo encoders`，更正符号和脉冲数（10a931、10a932），然后复位" },
     de: { cause: "Der Lastgeber ist verkehrt herum angebaut, hat eine falsche Impulszahl oder hat Impulse verloren; oder die Achse rutscht", remedy: "Im halbgeschlossenen Kreis `trunnion servo encoders` ausführen, Vorzeichen und Impulse berichtigen (10a931, 10a932), dann zurücksetzen" },
+  },
+  119: {
+    en: { cause: "Its encoder is lost or counts the wrong way, its motor has no power or is blocked: the following error was twice its limit, or did not end with the stop", remedy: "Check encoder, cable, direction and brake of the axis; then reset, and home the axis when its encoder was lost" },
+    zh: { cause: "编码器失效或计数方向相反，电机断电或被卡住：跟随误差达到限值的两倍，或停止后仍未消失", remedy: "检查该轴的编码器、电缆、方向和制动器；然后复位，编码器失效过的轴要重新回参考点" },
+    de: { cause: "Ihr Messsystem ist ausgefallen oder zählt verkehrt herum, ihr Motor ist stromlos oder blockiert: der Schleppfehler war doppelt so groß wie die Grenze oder endete nicht mit dem Halt", remedy: "Messsystem, Kabel, Richtung und Bremse der Achse prüfen; dann zurücksetzen und die Achse referenzieren, wenn ihr Messsystem ausgefallen war" },
   },
   121: {
     en: { cause: "Master and slave of a gantry are too far apart: load, friction, a lost position or a wrong reference coordinate", remedy: "Check the gantry mechanically; take the slave off (slave_off), jog the master until the error is small, couple again, then reset" },

@@ -55,7 +55,7 @@ class ExecutedRows final : public EncoderRowSink {
   void report_skip_edges(const Pending& executed);
 
   std::vector<Pending> pending_;
-  std::vector<double> pending_setpoints_;  // a row for each of pending_
+  std::vector<double> pending_setpoints_;   // a row for each of pending_
   std::uint64_t first_ = 0, in_force_ = 0;  // in_force_ is no field: every period has a row
   std::uint32_t count_ = 0;
   std::vector<double> commanded_, actual_, spindle_angle_;

@@ -57,8 +57,7 @@ void DriveCore::home(std::uint16_t channel, std::uint16_t number) {
 
 double DriveCore::homing_travel(std::size_t column) const {
   const double range = limits_[column].positive - limits_[column].negative;
-  return longest_travel *
-         (axes_[column].type == machine::axis_type_rotary ? std::min(range, turn) : range);
+  return longest_travel * (axes_[column].type == machine::axis_type_rotary ? std::min(range, turn) : range);
 }
 
 // False when no axis has to search.

@@ -58,12 +58,13 @@ bool DriveCore::does_not_follow(std::size_t i) {
 void DriveCore::switch_off_for(std::size_t i) {
   const auto& axis = axes_[i];
   char text[240];
-  std::snprintf(text, sizeof text,
-                "Axis %s does not follow: following error %.4f %s, limit %.4f (parameter %s). The drives were "
-                "switched off: check its encoder, motor and direction, then reset",
-                axis.name.c_str(), status_.axes[i].following_error,
-                axis.type == machine::axis_type_linear ? "mm" : "deg", limits_[i].following,
-                machine::number_text(parameter::following_error_limit.number(axis.number)).c_str());
+  std::snprintf(
+      text, sizeof text,
+      "Axis %s does not follow: following error %.4f %s, limit %.4f (parameter %s). The drives were "
+      "switched off: check its encoder, motor and direction, then reset",
+      axis.name.c_str(), status_.axes[i].following_error,
+      axis.type == machine::axis_type_linear ? "mm" : "deg", limits_[i].following,
+      machine::number_text(parameter::following_error_limit.number(axis.number)).c_str());
   raise(alarm::following_error_excessive, axis.number, text);
   switch_off();
 }

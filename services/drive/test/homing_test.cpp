@@ -173,7 +173,8 @@ TEST_F(HomedAxis, AnEmergencyStopEndsTheSearchAndSwitchesTheAxisOff) {
   EXPECT_EQ(core.mode(), Mode::OFF);
 }
 
-// A switch that never comes: it is at 5000, and the longest travel is 1.1 times the 1000 mm between the limits.
+// A switch that never comes: it is at 5000, and the longest travel is 1.1 times the 1000 mm between the
+// limits.
 struct DeadSwitch : HomedAxis {
   DeadSwitch() : HomedAxis(5000) {}
   void search(int periods) {

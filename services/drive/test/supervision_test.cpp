@@ -65,7 +65,8 @@ struct Supervision : ::testing::Test {
 };
 using Numbers = std::vector<std::uint32_t>;
 
-// 2 mm are 20 periods of 0.1 mm; then the queue and 100 * 100 / 2000 = 5 mm of braking add more than another 2.
+// 2 mm are 20 periods of 0.1 mm; then the queue and 100 * 100 / 2000 = 5 mm of braking add more than
+// another 2.
 TEST_F(Supervision, AnErrorThatGrowsWhileTheAxisBrakesTakesTheEnableAway) {
   accelerate(1000);
   move();
