@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Other devices ask the PLC over Modbus TCP.
+#include <netdb.h>
 #include <poll.h>
 #include <sys/socket.h>
 #include <unistd.h>
@@ -9,6 +10,7 @@
 #include <cerrno>
 #include <chrono>
 #include <cmath>
+#include <map>
 #include <memory>
 
 #include "modbus_connection.hpp"
@@ -92,7 +94,7 @@ class ServerConnection : public ModbusLink::Connection {
           mapping_->tab_registers[block.address + i] = *block.at_loss;
   }
 
-  bool listens() const { return !sockets_.empty(); }
+  bool listens() const { return listening_ >= 0; }
   bool listen() {
     context_.reset(modbus_new_tcp_pi(server_.host.c_str(), std::to_string(server_.port).c_str()));
     if (!context_ || !mapping_) return false;
@@ -101,34 +103,59 @@ class ServerConnection : public ModbusLink::Connection {
     modbus_set_indication_timeout(context_.get(), 0, byte_timeout);
     // Also the pause behind a request that is refused.
     modbus_set_response_timeout(context_.get(), 0, 1000);
-    const int socket = modbus_tcp_pi_listen(context_.get(), static_cast<int>(most_clients));
-    if (socket < 0) return false;
-    sockets_.push_back({socket, POLLIN, 0});
+    listening_ = modbus_tcp_pi_listen(context_.get(), static_cast<int>(most_clients));
+    if (listening_ < 0) return false;
     written_ = Clock::now();
     return true;
   }
 
   void close_all() {
-    for (const auto& one : sockets_) close(one.fd);
-    sockets_.clear();
+    for (const auto& client : clients_) close(client.socket);
+    clients_.clear();
+    if (listening_ >= 0) close(listening_);
+    listening_ = -1;
   }
 
   void serve() {
-    if (poll(sockets_.data(), sockets_.size(), poll_period) <= 0) return;
-    std::vector<pollfd> kept = {sockets_[0]};
-    for (std::size_t i = 1; i < sockets_.size(); ++i)
-      if (sockets_[i].revents == 0 || answer(sockets_[i].fd))
-        kept.push_back(sockets_[i]);
-      else
-        close(sockets_[i].fd);
-    if (sockets_[0].revents != 0) {
-      const int client = accept4(sockets_[0].fd, nullptr, nullptr, SOCK_CLOEXEC);
-      if (client >= 0 && kept.size() <= most_clients)
-        kept.push_back({client, POLLIN, 0});
-      else if (client >= 0)
-        close(client);
+    std::vector<pollfd> waiting = {{listening_, POLLIN, 0}};
+    for (const auto& client : clients_) waiting.push_back({client.socket, POLLIN, 0});
+    if (poll(waiting.data(), waiting.size(), poll_period) <= 0) return;
+    for (std::size_t i = clients_.size(); i-- > 0;) {
+      if (waiting[i + 1].revents == 0) continue;
+      clients_[i].heard = Clock::now();
+      if (!answer(clients_[i].socket)) end(i);
     }
-    sockets_ = std::move(kept);
+    if (waiting[0].revents != 0) accept_client();
+  }
+
+  void end(std::size_t client) {
+    close(clients_[client].socket);
+    clients_.erase(clients_.begin() + static_cast<std::ptrdiff_t>(client));
+  }
+
+  void accept_client() {
+    sockaddr_storage address{};
+    socklen_t size = sizeof address;
+    const int socket = accept4(listening_, reinterpret_cast<sockaddr*>(&address), &size, SOCK_CLOEXEC);
+    if (socket < 0) return;
+    std::array<char, NI_MAXHOST> host{};
+    getnameinfo(reinterpret_cast<sockaddr*>(&address), size, host.data(), host.size(), nullptr, 0,
+                NI_NUMERICHOST);
+    clients_.push_back({socket, host.data(), Clock::now()});
+    if (clients_.size() > most_clients) end(superfluous());
+  }
+
+  // Of the address with the most connections the one that has been silent for longest, as the guide
+  // recommends (MODBUS Messaging on TCP/IP V1.0b, 4.2.1): one device that opens many ends its own.
+  std::size_t superfluous() const {
+    std::map<std::string, int> of_address;
+    for (const auto& client : clients_) ++of_address[client.address];
+    const auto before = [&](const Client& a, const Client& b) {
+      const int many_a = of_address.at(a.address), many_b = of_address.at(b.address);
+      return many_a != many_b ? many_a > many_b : a.heard < b.heard;
+    };
+    return static_cast<std::size_t>(std::min_element(clients_.begin(), clients_.end(), before) -
+                                    clients_.begin());
   }
 
   // False when the connection has ended, or sends what is no Modbus.
@@ -236,7 +263,13 @@ class ServerConnection : public ModbusLink::Connection {
   std::array<std::vector<bool>, 4> covered_;  ///< of each table
   std::unique_ptr<modbus_mapping_t, FreeMapping> mapping_;
   std::unique_ptr<modbus_t, CloseServer> context_;
-  std::vector<pollfd> sockets_;  ///< the first one listens
+  int listening_ = -1;
+  struct Client {
+    int socket = -1;
+    std::string address;
+    Clock::time_point heard;
+  };
+  std::vector<Client> clients_;
   Clock::time_point written_;
 };
 

@@ -267,6 +267,20 @@ TEST(ModbusServer, TakesEightConnectionsAndGoesOnWhenSomeEnd) {
   }
 }
 
+TEST(ModbusServer, IdleConnectionsShutNobodyOut) {
+  const int port = free_port();
+  Linked plc(server_file(port));
+  const auto answers = [](Asking& one) { return one.ask({2, 0, 100, 0, 1}).size() == 3; };
+  Asking busy(port);
+  std::vector<std::unique_ptr<Asking>> idle;
+  for (int i = 0; i < 24; ++i) {
+    EXPECT_TRUE(answers(busy)) << "one that asks is kept, before " << i;
+    idle.push_back(std::make_unique<Asking>(port));
+    EXPECT_TRUE(answers(*idle.back())) << i;
+  }
+  EXPECT_FALSE(answers(*idle.front())) << "the one that had been silent for longest was ended";
+}
+
 TEST(ModbusServer, APortThatIsTakenIsNamed) {
   const int port = free_port();
   Device device(port);
