@@ -70,6 +70,7 @@ void ClusterView::drain(double now) {
   idl::stream::FeedbackFrame frame;
   while (feedback_.take(frame)) {
     document_.apply(frame);
+    press_ = {frame.press_client, frame.press_number};
     ++frames_;
   }
   idl::plc::Outputs outputs;

@@ -22,6 +22,8 @@ class ClusterView {
                                            bool with_replies = false);
   AlarmHistory& alarm_history() { return history_; }
   std::uint64_t frames() const { return frames_; }
+  /// Of the emergency stop, that the drive holds; number 0 = none.
+  const idl::plc::Press& press() const { return press_; }
   /// Of the parameters, 0 = none yet.
   std::uint64_t revision() const { return next_.parameters ? next_.parameters->revision : 0; }
 
@@ -49,6 +51,7 @@ class ClusterView {
   AlarmHistory history_;
   Snapshot next_;
   std::uint64_t frames_ = 0;
+  idl::plc::Press press_{};
 };
 
 }  // namespace trunnion::gateway

@@ -45,7 +45,7 @@ class Recordings {
   const RecordingSettings settings_;
   // Only the thread of the files uses what follows; it also is the parent whose end ends the recorder.
   std::string name_;
-  std::string problem_;  // why the file of that name is not complete
+  std::string problem_;     // why the file of that name is not complete
   bool is_broken_ = false;  // by its disk or its recorder; messages may be missing otherwise, too
   bool noticed_ = true;     // its end
   cluster::ChildProcess recorder_;

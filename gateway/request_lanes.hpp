@@ -53,14 +53,17 @@ class RequestLanes {
   bool receive() {
     bool any = false;
     Reply reply;
-    while (reader_.take(reply))
-      for (auto& one : under_way_)
-        if (one.request.client == reply.client && one.request.number == reply.number) {
-          one.reply = std::move(reply);
-          any = true;
-          break;
-        }
+    while (reader_.take(reply)) any = answer(std::move(reply)) || any;
     return any;
+  }
+  /// A reply from elsewhere; true when somebody waits for it.
+  bool answer(Reply reply) {
+    for (auto& one : under_way_)
+      if (one.request.client == reply.client && one.request.number == reply.number) {
+        one.reply = std::move(reply);
+        return true;
+      }
+    return false;
   }
 
   void pump(double now) {

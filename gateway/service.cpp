@@ -121,8 +121,11 @@ void GatewayService::keep_alarm_history(double now) {
 void GatewayService::pump() {
   const double now = service::monotonic_seconds();
   // Who has a reply is not shown an older state: services write it before they reply.
-  const bool replies = links_.receive();
+  bool replies = links_.receive();
   view_.drain(now);
+  // A press that the drive holds is accepted, also when the PLC hangs.
+  if (const auto& press = view_.press(); press.number != 0)
+    replies = links_.panel.answer({press.client, press.number, true, ""}) || replies;
   if (replies) publish(now, true);
   for (const auto& job : mailbox_.take()) job(links_, now);
   links_.pump(now);

@@ -99,6 +99,35 @@ TEST(Faults, AHungServiceIsReplaced) {
   EXPECT_TRUE(cluster.until([&] { return cluster.ready() && cluster.service("compensation")->pid != pid; }));
 }
 
+// The button is pressed while the PLC hangs: the drive takes it at once, and the PLC that replaces the hung
+// one has it too.
+TEST(Faults, AnEmergencyStopIsAcceptedWithoutThePlcAndKeptThroughItsReplacement) {
+  Cluster cluster("ac-table", Time::virtual_, "", true);
+  const auto status = [&](const char* method, const std::string& path) {
+    return http_client::request(cluster.running().port, method, path, "{}").status;
+  };
+  ASSERT_TRUE(cluster.until([&] { return status("GET", "/api/channels/0") == 200; }));
+  ASSERT_TRUE(cluster.until([&] { return cluster.feedback.mode == DriveMode::FOLLOWING; }));
+  const int pid = cluster.service("plc")->pid;
+  ASSERT_EQ(kill(pid, SIGSTOP), 0);
+  EXPECT_EQ(status("POST", "/api/panel/emergency-stop"), 200);
+  EXPECT_TRUE(cluster.until([&] { return cluster.feedback.mode == DriveMode::OFF; }));
+  EXPECT_NE(cluster.feedback.press_number, 0U);
+  ASSERT_TRUE(cluster.until([&] {
+    return cluster.ready() && cluster.service("plc")->pid != pid && cluster.has_alarm(130);
+  })) << cluster.active_alarms();
+  for (int i = 0; i < 50; ++i) {  // whatever order the new one's messages come in
+    cluster.until([] { return false; }, 0.02);
+    ASSERT_NE(cluster.feedback.mode, DriveMode::FOLLOWING);
+  }
+  cluster.client().panel(idl::plc::PanelRequestKind::RELEASE_EMERGENCY_STOP);
+  cluster.client().panel(idl::plc::PanelRequestKind::RESET_EMERGENCY_STOP);
+  ASSERT_TRUE(cluster.until([&] {
+    cluster.reset_alarms();
+    return cluster.feedback.mode == DriveMode::FOLLOWING && cluster.active_alarms().empty();
+  })) << cluster.active_alarms();
+}
+
 TEST(Faults, EmergencyStopStopsSwitchesOffAndNeedsAReset) {
   Cluster cluster("ac-table");
   cluster.start_text(long_program());

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <functional>
 #include <map>
 #include <optional>
 #include <random>
@@ -53,12 +54,16 @@ class RequestClient {
   }
   void abandon() { pending_.reset(); }
 
-  /// Blocks up to `timeout` seconds: for command-line tools.
-  std::optional<Reply> call(Request request, double timeout) {
+  /// Blocks up to `timeout` seconds: for command-line tools. `elsewhere` may know the reply of the request
+  /// too.
+  std::optional<Reply> call(Request request, double timeout,
+                            const std::function<std::optional<Reply>(const Request&)>& elsewhere = {}) {
     const double until = monotonic_seconds() + timeout;
     send(std::move(request));
     while (monotonic_seconds() < until) {
-      if (auto reply = poll()) return reply;
+      auto reply = poll();
+      if (!reply && elsewhere && (reply = elsewhere(*pending_))) abandon();
+      if (reply) return reply;
       std::this_thread::sleep_for(std::chrono::microseconds(500));
     }
     abandon();

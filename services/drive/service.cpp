@@ -75,6 +75,7 @@ void DriveService::start() {
   samples_writer_.emplace(node_.bus().writer(topics::servo_test_samples));
   test_requests_.emplace(node_.bus().reader(topics::servo_test_request));
   outputs_.emplace(node_.bus().reader(topics::plc_outputs));
+  panel_.emplace(node_.bus().reader(topics::panel_request));
   services_.emplace(node_.bus().reader(topics::service_state));
   alarms_.emplace(node_.bus().reader(topics::alarm));
   requests_.emplace(node_.bus().reader(topics::stream_request));
@@ -144,6 +145,7 @@ service::SnapshotAnswer DriveService::snapshot() {
   state["revision"] = revision_;
   state["have_plc"] = have_plc_;
   state["plc"] = snapshot::written(plc_);
+  state["press"] = snapshot::written(press_);
   return {SnapshotKind::GIVEN, "", bus::text_of(state)};
 }
 
@@ -154,6 +156,7 @@ void DriveService::continue_from_snapshot() {
   core_.continue_from(state.at("core"));
   have_plc_ = state.at("have_plc").get<bool>();
   snapshot::read(state.at("plc"), plc_);
+  snapshot::read(state.at("press"), press_);
   running_time_.advance(service::monotonic_seconds());
   plc_seen_ = test_seen_ = running_time_.now();
 }
@@ -192,6 +195,7 @@ void DriveService::drain() {
                              "Frames are made with parameter revision " + std::to_string(frame_.revision) +
                                  ", which has not arrived",
                              frame_.first);
+        node_.alarms().release(alarm::revision_unknown, frame_.channel);  // until the next such frame
         continue;
       }
     }
@@ -220,10 +224,19 @@ void DriveService::drain() {
     applied(Input::PLC_OUTPUTS, identity(*outputs_));
     have_plc_ = true;
     plc_seen_ = now;
-    core_.set_enables(plc_.axis_enable, plc_.emergency_stop);
+    press_.release(plc_);
+    core_.set_enables(plc_.axis_enable, plc_.emergency_stop || press_.held());
     core_.set_spindle_speed(plc_.spindle_speed);
     core_.set_spindle_orientation(plc_.spindle_orient);
     core_.set_probe(plc_.probe_on);
+    changed_ = true;
+  }
+  idl::plc::PanelRequest panel;
+  while (panel_->take(panel)) {
+    if (panel.kind != idl::plc::PanelRequestKind::PRESS_EMERGENCY_STOP) continue;
+    applied(Input::PANEL_REQUEST, identity(*panel_));
+    press_.press({panel.client, panel.number}, plc_);
+    if (press_.held()) core_.set_enables(plc_.axis_enable, true);
     changed_ = true;
   }
   idl::service::ServiceState state;
@@ -252,6 +265,7 @@ void DriveService::drain() {
 
 void DriveService::send() {
   core_.fill(feedback_);
+  feedback_.press_client = press_.which().client, feedback_.press_number = press_.which().number;
   feedback_.applied.swap(applied_);
   applied_.clear();
   // Stored before it is published: a drive that continued from less than the channels know would use cycles

@@ -9,6 +9,7 @@
 #include "service/parameter_client.hpp"
 #include "service/running_time.hpp"
 #include "src/drive_core.hpp"
+#include "src/emergency_press.hpp"
 #include "storage/retained_pair.hpp"
 
 namespace trunnion::drive {
@@ -52,6 +53,7 @@ class DriveService : public service::Service {
   std::optional<bus::Reader<idl::stream::AxisFrame>> frames_;
   std::optional<bus::Reader<idl::stream::StreamRequest>> requests_;
   std::optional<bus::Reader<idl::plc::Outputs>> outputs_;
+  std::optional<bus::Reader<idl::plc::PanelRequest>> panel_;
   std::optional<bus::Reader<idl::service::ServiceState>> services_;
   std::optional<bus::Reader<idl::service::Alarm>> alarms_;
   std::optional<bus::Reader<idl::servo::TestRequest>> test_requests_;
@@ -63,6 +65,7 @@ class DriveService : public service::Service {
   std::vector<idl::stream::AppliedInput> applied_;  // not reported yet
   idl::plc::Outputs plc_;
   bool have_plc_ = false;
+  EmergencyPress press_;
   double plc_seen_ = 0, test_seen_ = 0;
   std::uint64_t frames_in_ = 0, frames_out_ = 0, revision_ = 0;
   std::uint32_t frame_cycles_ = 4;

@@ -193,7 +193,18 @@ struct View {
       visit("seen", self.seen), visit("active", self.active), visit("resets", self.resets);
     }
   };
+  struct Press {
+    std::uint64_t client = 0, number = 0;
+    bool operator==(const Press&) const = default;
+
+    template <class Self, class Visit>
+    static void fields(Self& self, Visit&& visit) {
+      visit("client", self.client), visit("number", self.number);
+    }
+  };
   std::array<Channel, channel_count> channels{};
+  std::array<Press, 8>
+      presses{};  ///< of the emergency stop that were taken, the newest first; number 0: none
   std::array<double, spindle_count> spindle_actual{};     ///< 1/min
   std::uint32_t spindles_received = 0;                    ///< entries of spindle_actual
   std::array<bool, spindle_count> orients{}, oriented{};  ///< an orientation is demanded; the drive holds it
@@ -202,15 +213,18 @@ struct View {
   bool drive_seen = false;
   bool stopped_waiting = false;  ///< waiting for the drive's confirmation of a standstill
   bool changed = true;           ///< an input, since the image was stable
+  bool press_acted =
+      true;  ///< the programs have stopped the machine since the newest press, or it was released
 
   template <class Self, class Visit>
   static void fields(Self& self, Visit&& visit) {
-    visit("channels", self.channels), visit("spindle_actual", self.spindle_actual);
+    visit("channels", self.channels), visit("presses", self.presses);
+    visit("spindle_actual", self.spindle_actual);
     visit("orients", self.orients), visit("oriented", self.oriented);
     visit("orient_since", self.orient_since);
     visit("spindles_received", self.spindles_received), visit("executed", self.executed);
     visit("drive_seen", self.drive_seen), visit("stopped_waiting", self.stopped_waiting);
-    visit("changed", self.changed);
+    visit("changed", self.changed), visit("press_acted", self.press_acted);
   }
 };
 

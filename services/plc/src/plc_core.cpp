@@ -209,6 +209,7 @@ void PlcCore::set_feedback(const idl::stream::FeedbackFrame& frame) {
   std::copy_n(frame.spindle_speed.begin(), spindles, view_.spindle_actual.begin());
   for (std::size_t s = 0; s < spindle_count; ++s)
     view_.oriented[s] = s < frame.spindle_oriented.size() && frame.spindle_oriented[s] != 0;
+  if (frame.press_number != 0) press_emergency_stop({frame.press_client, frame.press_number});
   input(drive_present_, 1);
   input(probe_contact_, frame.skip_inputs & 1);
   input(drives_on_, !frame.enabled.empty() && std::all_of(frame.enabled.begin(), frame.enabled.end(),
@@ -224,14 +225,25 @@ void PlcCore::set_alarms(bool any, bool stops) {
   input(alarm_stops_, stops);
 }
 
+// A request that is sent again, or that the drive still holds, is no second press.
+void PlcCore::press_emergency_stop(const View::Press& press) {
+  auto& taken = view_.presses;
+  if (press.number != 0 && std::find(taken.begin(), taken.end(), press) != taken.end()) return;
+  std::copy_backward(taken.begin(), taken.end() - 1, taken.end());
+  taken.front() = press;
+  view_.press_acted = false;
+  input(emergency_button_, 1);
+}
+
 std::string PlcCore::panel(const idl::plc::PanelRequest& request) {
   using idl::plc::PanelRequestKind;
   switch (request.kind) {
     case PanelRequestKind::PRESS_EMERGENCY_STOP:
-      input(emergency_button_, 1);
+      press_emergency_stop({request.client, request.number});
       break;
     case PanelRequestKind::RELEASE_EMERGENCY_STOP:
       input(emergency_button_, 0);
+      view_.press_acted = true;
       break;
     case PanelRequestKind::RESET_EMERGENCY_STOP:
       press_reset();
@@ -391,6 +403,7 @@ void PlcCore::advance(std::uint64_t tick) {
   }
   if (view_.changed || ended || timer_due(memory_.blocks, now) || structured_.timer_due(now)) settle();
   view_.changed = false;
+  view_.press_acted = view_.press_acted || emergency_stop();
 }
 
 Registers PlcCore::rescanned() const {
@@ -413,6 +426,8 @@ idl::plc::Outputs PlcCore::outputs() const {
   idl::plc::Outputs outputs;
   outputs.tick = memory_.tick;
   outputs.emergency_stop = emergency_stop();
+  for (const auto& press : view_.presses)
+    if (view_.press_acted && press.number != 0) outputs.presses.push_back({press.client, press.number});
   outputs.feed_hold = plc::load(r, feed_hold_) != 0;
   outputs.probe_on = plc::load(r, probe_on_) != 0;
   outputs.axis_enable = axis_exists_;

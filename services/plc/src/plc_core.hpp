@@ -120,6 +120,7 @@ class PlcCore {
     Address at_speed, actual, oriented, speed, enable, counterclockwise, orient;
   };
   void input(Address address, std::int64_t value);
+  void press_emergency_stop(const View::Press& press);
   void scan(bool main, bool present);
   void run_task(TaskName task, const il::Program& program);
   bool continues_main() const { return memory_.program.main.interrupted != 0; }

@@ -352,6 +352,31 @@ TEST(Handshake, TwoChannelsHaveTheirOwnSpindles) {
   EXPECT_EQ(bench.core.outputs().coolant, (std::vector<std::uint8_t>{0, 0, 1, 0, 0, 0, 0, 0}));
 }
 
+// A PLC that hung when the button was pressed, or has started since, learns of the press from the drive.
+TEST(EmergencyStop, APressThatTheDriveHoldsIsTakenOnce) {
+  Bench bench;
+  bench.run();
+  ASSERT_FALSE(bench.core.emergency_stop());
+  idl::stream::FeedbackFrame feedback;
+  feedback.press_client = 7, feedback.press_number = 3;
+  bench.core.set_feedback(feedback);
+  EXPECT_TRUE(bench.core.outputs().presses.empty()) << "the programs have not run since";
+  bench.step();
+  EXPECT_TRUE(bench.core.emergency_stop());
+  ASSERT_EQ(bench.core.outputs().presses, (std::vector<idl::plc::Press>{{7, 3}}));
+  bench.core.panel({.kind = PanelRequestKind::RELEASE_EMERGENCY_STOP});
+  bench.core.set_feedback(feedback);  // written before the drive had the outputs
+  bench.core.panel({.client = 7, .number = 3, .kind = PanelRequestKind::PRESS_EMERGENCY_STOP});
+  bench.step();
+  bench.core.panel({.kind = PanelRequestKind::RESET_EMERGENCY_STOP});
+  bench.step();
+  EXPECT_FALSE(bench.core.emergency_stop()) << "no second press";
+  bench.core.panel({.client = 7, .number = 4, .kind = PanelRequestKind::PRESS_EMERGENCY_STOP});
+  bench.step();
+  EXPECT_TRUE(bench.core.emergency_stop());
+  EXPECT_EQ(bench.core.outputs().presses, (std::vector<idl::plc::Press>{{7, 4}, {7, 3}}));
+}
+
 TEST(EmergencyStop, LatchesUntilReleasedAndReset) {
   Bench bench;
   bench.request(S, 0, 500);
