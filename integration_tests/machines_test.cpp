@@ -52,6 +52,49 @@ TEST(Machines, TwoChannelsRunTwoProgramsAtOnce) {
   EXPECT_GT(together, 500u) << "cycles in which both channels moved";
 }
 
+// A process of another make writes what no field can have: nothing of it takes effect, no service ends, and
+// an alarm names service, topic and field. That of the request ended the drive.
+TEST(Machines, MessagesThatNoFieldCanHaveAreRefusedAndTheMachineRunsOn) {
+  Cluster cluster("ac-table");
+  auto& bus = cluster.client().bus();
+  auto requests = bus.writer(topics::stream_request);
+  auto frames = bus.writer(topics::gantry_frame);
+  auto sets = bus.writer(topics::parameter_set);
+  const auto send = [&](auto& writer, const auto& message, const std::string& text) {
+    EXPECT_TRUE(cluster.until(
+        [&] {
+          writer.write(message);
+          return cluster.active_alarms().find(text) != std::string::npos;
+        },
+        60))
+        << text << " is not in: " << cluster.active_alarms();
+    EXPECT_TRUE(cluster.until(
+        [&] {
+          cluster.reset_alarms();
+          return cluster.active_alarms().empty();
+        },
+        60))
+        << cluster.active_alarms();
+  };
+  idl::stream::StreamRequest request;
+  request.channel = 33, request.request = 1;
+  send(requests, request, "drive refused");
+  request.channel = 65535;
+  send(requests, request, "the newest: channel: 65535, must be 0 to 31");
+  idl::stream::AxisFrame frame;
+  frame.count = 1, frame.axes = {0}, frame.setpoints = {std::numeric_limits<double>::quiet_NaN()};
+  send(frames, frame, "trunnion/gantry/axis_frame/1, the newest: setpoints: not a finite number");
+  frame.setpoints = {0}, frame.revision = 12345;
+  send(frames, frame, "parameter revision 12345, which has not arrived");
+  idl::parameters::ParameterSet set;
+  set.values = {{100006, std::numeric_limits<double>::infinity(), ""}};
+  send(sets, set, "trunnion/parameters/set/1, the newest: value: not a finite number");
+  set.revision = 99, set.values = {{100006, 1e300, ""}};
+  send(sets, set, "parameter 100006");
+  cluster.start_text("G53 G1 X5 F3000\nM30\n");
+  EXPECT_TRUE(cluster.finish()) << cluster.active_alarms();
+}
+
 TEST(Machines, ParametersTakeEffectAtResetAndWrongOnesAreRefusedWithTheirLimits) {
   Cluster cluster("ac-table");
   idl::parameters::ParameterRequest request;

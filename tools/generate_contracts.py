@@ -3,7 +3,8 @@
 """Turns idl/*.idl and idl/topics.yaml into C++ types, topic handles, recording schemas and the documentation table.
 
 The IDL subset is what the contracts use: modules, @final structs, enums, primitive types, bounded strings and
-sequences. Anything else is an error with file:line, so that a type never means less than it says.
+sequences, @key, and @min(N) and @max(N) for integers, which readers check. Anything
+else is an error with file:line, so that a type never means less than it says.
 """
 import argparse, hashlib, os, re, sys
 import yaml
@@ -13,12 +14,13 @@ PRIMITIVES = {  # IDL name -> (C++ type, size in bytes)
     "uint16": ("std::uint16_t", 2), "int16": ("std::int16_t", 2), "uint32": ("std::uint32_t", 4),
     "int32": ("std::int32_t", 4), "uint64": ("std::uint64_t", 8), "int64": ("std::int64_t", 8),
     "float": ("float", 4), "double": ("double", 8)}
-TOKEN = re.compile(r"\s*(?:(//[^\n]*)|(@\w+)|([A-Za-z_]\w*)|(\d+)|([{}<>;,]))")
+TOKEN = re.compile(r"\s*(?:(//[^\n]*)|(@\w+)|([A-Za-z_]\w*)|(-?\d+)|([{}<>;,()]))")
 
 
 class Type:
     def __init__(self, base, bound=0, element=None):
         self.base, self.bound, self.element = base, bound, element
+        self.limits = {}  # "min" and "max" of the value
 
     def idl(self):
         if self.base == "string": return f"string<{self.bound}>" if self.bound else "string"
@@ -92,9 +94,16 @@ class Parser:
             if "@final" not in annotations: self.fail(self.line(), "a struct must be @final")
             s = Struct(self.take(), self.module); self.take("{")
             while self.peek() != "}":
-                key = False
-                if self.peek() == "@key": self.take(); key = True
+                key, limits = False, {}
+                while self.peek().startswith("@"):
+                    annotation = self.take()
+                    if annotation == "@key": key = True
+                    elif annotation in ("@min", "@max"):
+                        self.take("("); limits[annotation[1:]] = int(self.take()); self.take(")")
+                    else: self.fail(self.line(), f"unknown annotation {annotation}")
                 t = self.type(); line = self.line(); name = self.take(); self.take(";")
+                t.limits = limits
+                if limits and not re.fullmatch(r"octet|u?int\d+", t.base): self.fail(line, "@min and @max are for integers")
                 if key and t.base in ("string", "sequence"): self.fail(line, "a key must be a primitive or an enum")
                 s.fields.append((name, t, key, self.comments.get(line, "")))
             self.take("}"); self.take(";"); self.types.append(s)
@@ -195,11 +204,13 @@ def generate(args):
             visits = " ".join(f'v("{n}", t.{n}, {ft.bound}{", " + str(ft.element.bound) if ft.base == "sequence" and ft.element.bound else ""});' for n, ft, _, _ in t.fields)
             keys = " ".join(f'v("{n}", t.{n}, 0);' for n, ft, k, _ in t.fields if k)
             keyed = "true" if keys else "false"
+            limits = " ".join(f'v("{n}", t.{n}, {ft.limits.get("min", 0)}, {ft.limits.get("max", "0x7fffffffffffffff")});' for n, ft, _, _ in t.fields if ft.limits)
             hpp += [f"template <> struct Fields<{cpp_name(t)}> {{",
                     f'  static constexpr const char* name = "{t.module}::{t.name}";',
                     f"  static constexpr bool keyed = {keyed};",
                     f"  template <class T, class V> static void visit(T& t, V&& v) {{ {visits} }}",
-                    f"  template <class T, class V> static void visit_key([[maybe_unused]] T& t, [[maybe_unused]] V&& v) {{ {keys} }}", "};"]
+                    f"  template <class T, class V> static void visit_key([[maybe_unused]] T& t, [[maybe_unused]] V&& v) {{ {keys} }}",
+                    f"  template <class T, class V> static void visit_limits([[maybe_unused]] const T& t, [[maybe_unused]] V&& v) {{ {limits} }}", "};"]
     hpp.append("}")
 
     handles = ["// Generated from idl/topics.yaml by tools/generate_contracts.py.", "#pragma once", '#include "bus/topic.hpp"', '#include "contracts/types.hpp"', "",
@@ -234,7 +245,7 @@ def generate(args):
                                                             "namespace trunnion::bus {"])
         if isinstance(t, Struct):
             c = cpp_name(t)
-            lines += [f"template void encode(const {c}&, Bytes&);", f"template bool decode(std::span<const std::uint8_t>, {c}&);",
+            lines += [f"template void encode(const {c}&, Bytes&);", f"template bool decode(std::span<const std::uint8_t>, {c}&, std::string*);",
                       f"template bool key_of<{c}>(std::span<const std::uint8_t>, KeyHash&);", f"template Json struct_to_json(const {c}&);"]
     for lines in codecs.values(): lines.append("}")
 

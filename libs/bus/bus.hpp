@@ -74,18 +74,27 @@ class Writer {
   Bytes buffer_;
 };
 
+/// Messages of a topic that its readers have refused: not of its type, or with a value that a field cannot
+/// have.
+struct Refusals {
+  std::uint64_t count = 0;
+  std::string newest;  ///< why the newest was: field and value
+};
+
 template <class T>
 class Reader {
  public:
   /// `newest`, if there is one, becomes the newest source time stamp of the samples taken.
-  explicit Reader(std::unique_ptr<RawReader> raw, std::int64_t* newest = nullptr)
-      : raw_(std::move(raw)), newest_(newest) {}
+  explicit Reader(std::unique_ptr<RawReader> raw, std::int64_t* newest = nullptr,
+                  Refusals* refusals = nullptr)
+      : raw_(std::move(raw)), newest_(newest), refusals_(refusals) {}
   /// The next sample that decodes; samples that do not are counted and skipped.
   bool take(T& value) {
     while (raw_->take(buffer_, info_)) {
       if (newest_ != nullptr) *newest_ = std::max(*newest_, info_.source_timestamp);
-      if (decode(buffer_, value)) return true;
+      if (decode(buffer_, value, &why_)) return true;
       ++undecodable_;
+      if (refusals_ != nullptr) ++refusals_->count, refusals_->newest = why_;
     }
     return false;
   }
@@ -102,7 +111,9 @@ class Reader {
  private:
   std::unique_ptr<RawReader> raw_;
   std::int64_t* newest_;
+  Refusals* refusals_;
   Bytes buffer_;
+  std::string why_;
   SampleInfo info_;
   std::uint64_t undecodable_ = 0;
 };
@@ -120,7 +131,8 @@ class Bus {
   }
   template <class T>
   Reader<T> reader(const Topic<T>& topic) {
-    return Reader<T>(backend_->reader(describe(topic), reader_qos(topic.qos), &signal_), &taken_[topic.name]);
+    return Reader<T>(backend_->reader(describe(topic), reader_qos(topic.qos), &signal_), &taken_[topic.name],
+                     &refusals_[topic.name]);
   }
   Backend& backend() { return *backend_; }
   Signal& signal() { return signal_; }
@@ -129,6 +141,13 @@ class Bus {
   /// Of each topic that is read the newest source time stamp among the samples taken, by the topic's name; 0
   /// = none.
   const std::map<std::string, std::int64_t>& taken() const { return taken_; }
+  /// Of each topic that is read what was refused, by the topic's name.
+  const std::map<std::string, Refusals>& refusals() const { return refusals_; }
+  /// A message of this topic cannot be what its writer has to write; `why` names field and value.
+  void refuse(const std::string& topic, const std::string& why) {
+    auto& refusals = refusals_[topic];
+    ++refusals.count, refusals.newest = why;
+  }
 
  private:
   // Frames can be recorded from memory, unless the cluster is secured: then certificates decide who reads.
@@ -137,6 +156,7 @@ class Bus {
   Vendor vendor_;
   bool secured_;
   std::map<std::string, std::int64_t> taken_;
+  std::map<std::string, Refusals> refusals_;
   Signal signal_;
   std::unique_ptr<Backend> backend_;
   StreamDepth depth_;

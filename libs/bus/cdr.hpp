@@ -6,11 +6,13 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <span>
 #include <string>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "bus/codec.hpp"
@@ -101,12 +103,20 @@ class CdrWriter {
 /// bound.
 class CdrReader {
  public:
-  explicit CdrReader(std::span<const std::uint8_t> data) : data_(data) {
+  /// `checks_values`: refuses values beyond the limits of their field and numbers that are not finite.
+  explicit CdrReader(std::span<const std::uint8_t> data, bool checks_values = true)
+      : data_(data), checks_values_(checks_values) {
     if (data.size() < cdr_header || data[0] != 0 || data[1] != 1)
       throw CdrError("not little-endian plain CDR");
     data_ = data.subspan(cdr_header);
   }
 
+  template <Struct T>
+  void read(T& value) {
+    Fields<T>::visit(value, *this);
+    if constexpr (requires { Fields<T>::visit_limits(value, Limits{}); })
+      if (checks_values_) Fields<T>::visit_limits(value, Limits{});
+  }
   template <class T>
   void operator()(const char* name, T& value, std::size_t bound, std::size_t element_bound = 0) {
     name_ = name;
@@ -114,10 +124,19 @@ class CdrReader {
   }
 
  private:
+  struct Limits {
+    template <class T>
+    void operator()(const char* name, const T& value, std::int64_t low, std::int64_t high) const {
+      if (std::cmp_less(value, low) || std::cmp_greater(value, high))
+        throw CdrError(std::string(name) + ": " + std::to_string(value) + ", must be " + std::to_string(low) +
+                       " to " + std::to_string(high));
+    }
+  };
+
   template <class T>
   void read(T& value, std::size_t bound, std::size_t element_bound = 0) {
     if constexpr (Struct<T>) {
-      Fields<T>::visit(value, *this);
+      read(value);
     } else if constexpr (std::is_enum_v<T>) {
       const auto raw = primitive<std::uint32_t>();
       if (raw >= enum_size<T>()) throw CdrError(std::string(name_) + ": no such enumerator");
@@ -126,6 +145,7 @@ class CdrReader {
       value = primitive<std::uint8_t>() != 0;
     } else if constexpr (std::is_arithmetic_v<T>) {
       value = primitive<T>();
+      check_finite(&value, 1);
     } else if constexpr (std::is_same_v<T, std::string>) {
       const std::size_t size = primitive<std::uint32_t>();
       if (size == 0 || size > data_.size() - at_) throw CdrError(std::string(name_) + ": string cut off");
@@ -146,6 +166,7 @@ class CdrReader {
         value.resize(size);
         std::memcpy(value.data(), data_.data() + at_, size * sizeof(Element));
         at_ += size * sizeof(Element);
+        check_finite(value.data(), size);
       } else {
         if (size > data_.size() - at_) throw CdrError(std::string(name_) + ": cut off");
         value.resize(size);
@@ -156,6 +177,16 @@ class CdrReader {
 
   void check(std::size_t size, std::size_t bound) const {
     if (bound != 0 && size > bound) throw CdrError(std::string(name_) + ": longer than its bound");
+  }
+  // No contract has a meaning for NaN or infinity, and every service that computes with one spreads it.
+  template <class T>
+  void check_finite([[maybe_unused]] const T* values, [[maybe_unused]] std::size_t size) const {
+    if constexpr (std::is_floating_point_v<T>) {
+      if (!checks_values_) return;
+      bool all = true;
+      for (std::size_t i = 0; i < size; ++i) all = all && std::isfinite(values[i]);
+      if (!all) throw CdrError(std::string(name_) + ": not a finite number");
+    }
   }
   void align(std::size_t size) {
     at_ += (size - at_ % size) % size;
@@ -172,6 +203,7 @@ class CdrReader {
   }
 
   std::span<const std::uint8_t> data_;
+  bool checks_values_;
   std::size_t at_ = 0;
   const char* name_ = "";
 };
@@ -183,12 +215,12 @@ void encode(const T& value, Bytes& out) {
 }
 
 template <Struct T>
-bool decode(std::span<const std::uint8_t> cdr, T& value) {
+bool decode(std::span<const std::uint8_t> cdr, T& value, std::string* why) {
   try {
-    CdrReader reader(cdr);
-    Fields<T>::visit(value, reader);
+    CdrReader(cdr).read(value);
     return true;
-  } catch (const std::exception&) {
+  } catch (const std::exception& problem) {
+    if (why != nullptr) *why = problem.what();
     return false;
   }
 }
@@ -197,7 +229,12 @@ template <Struct T>
 bool key_of(std::span<const std::uint8_t> cdr, KeyHash& key) {
   thread_local T value;
   thread_local Bytes bytes;
-  if (!decode(cdr, value)) return false;
+  // Whatever its values are: the reader is to see them and refuse the sample.
+  try {
+    CdrReader(cdr, false).read(value);
+  } catch (const std::exception&) {
+    return false;
+  }
   CdrWriter writer(bytes, true);
   Fields<T>::visit_key(value, writer);
   key.fill(0);

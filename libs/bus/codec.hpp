@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <span>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
 #include "bus/fields.hpp"
@@ -27,9 +28,10 @@ struct CdrError : std::runtime_error {
 template <Struct T>
 void encode(const T& value, Bytes& out);
 
-/// False when the bytes are not a T; `value` is then unspecified.
+/// False when the bytes are not a T, or a field has a value beyond the limits of its IDL or a number that is
+/// not finite; `value` is then unspecified, and `why`, if given, names the field.
 template <Struct T>
-bool decode(std::span<const std::uint8_t> cdr, T& value);
+bool decode(std::span<const std::uint8_t> cdr, T& value, std::string* why = nullptr);
 
 /// The RTPS key hash (RTPS 2.3, 9.6.3.8) of a sample: its key in big-endian CDR. False when the bytes are not
 /// a T.

@@ -124,11 +124,13 @@ std::string Catalogue::check(std::uint32_t number, double value, const std::stri
     return text::valid_utf8_prefix(text) == text.size() ? "" : who + ": the text is not UTF-8";
   }
   if (!text.empty()) return who + ": expected a number, got '" + text + "'";
-  std::ostringstream limits;
-  limits << std::setprecision(15) << who << ": " << value << " is outside " << d->minimum << " .. "
-         << d->maximum;
-  if (!d->unit.empty()) limits << " " << (unit.empty() ? d->unit : unit);
-  if (!(value >= d->minimum && value <= d->maximum)) return limits.str();
+  if (!(value >= d->minimum && value <= d->maximum)) {
+    std::ostringstream limits;
+    limits << std::setprecision(15) << who << ": " << value << " is outside " << d->minimum << " .. "
+           << d->maximum;
+    if (!d->unit.empty()) limits << " " << (unit.empty() ? d->unit : unit);
+    return limits.str();
+  }
   if (d->type == ParameterType::integer && value != std::floor(value)) {
     std::ostringstream whole;
     whole << who << ": " << value << " is not a whole number";

@@ -13,6 +13,7 @@
 #include <filesystem>
 
 #include "bus/contract.hpp"
+#include "machine/alarm_constants.hpp"
 #include "machine/services.hpp"
 #include "trunnion/version.hpp"
 
@@ -164,6 +165,26 @@ void Node::reset_alarms(Service& service, std::uint16_t channel) {
   });
 }
 
+// Counted by the readers, and told here: once for each beat, so that a flood of messages is no flood of
+// alarms.
+void Node::report_refusals() {
+  if (monotonic_seconds() - last_beat_ < beat_period) return;
+  std::uint64_t all = 0;
+  for (const auto& [topic, refusals] : bus_.refusals()) all += refusals.count;
+  if (all == refusals_told_) return;
+  std::string text;
+  for (const auto& [topic, refusals] : bus_.refusals()) {
+    auto& told = told_of_[topic];
+    if (refusals.count != told)
+      text += (text.empty() ? "" : "; ") + std::to_string(refusals.count - told) + " of " + topic +
+              ", the newest: " + refusals.newest;
+    told = refusals.count;
+  }
+  refusals_told_ = all;
+  alarms_.raise(alarm::message_refused, options_.instance, options_.service + " refused " + text);
+  alarms_.release(alarm::message_refused, options_.instance);
+}
+
 int Node::run(Service& service) {
   auto last_lifecycle = idl::service::Lifecycle::UNCONFIGURED;
   while (stop_requested == 0) {
@@ -173,6 +194,7 @@ int Node::run(Service& service) {
     while (alarm_reset_.take(reset)) reset_alarms(service, reset.channel);
     take_promotion();
     service.pump();
+    report_refusals();
     if (!options_.shadow) snapshot_desk_.serve(service);
     notifier_.alive(monotonic_seconds());
     if (const double now = monotonic_seconds(); now - last_beat_ >= beat_period) {

@@ -3,6 +3,7 @@
 // alarms.
 #pragma once
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -86,6 +87,7 @@ class Node {
   void announce();
   void beat(const Health& health);
   void take_promotion();
+  void report_refusals();
   Options options_;
   bus::Bus bus_;
   AlarmBoard alarms_;
@@ -100,6 +102,8 @@ class Node {
   double started_ = 0;
   double last_beat_ = 0;
   std::uint64_t last_frames_ = 0;
+  std::uint64_t refusals_told_ = 0;               // of all topics
+  std::map<std::string, std::uint64_t> told_of_;  // by topic
 };
 
 /// Asks the system to run this process before ordinary ones from when the service is active on, and without

@@ -12,8 +12,9 @@ namespace trunnion::service {
 
 class ParameterClient {
  public:
-  explicit ParameterClient(bus::Bus& bus) : reader_(bus.reader(topics::parameter_set)) {}
-  /// True when a newer revision has arrived.
+  explicit ParameterClient(bus::Bus& bus) : bus_(bus), reader_(bus.reader(topics::parameter_set)) {}
+  /// True when a newer revision has arrived. A set with a value beyond the limits of the catalogue is refused
+  /// (Bus::refusals()).
   bool poll();
   /// Null until the first set has arrived.
   std::shared_ptr<const machine::Parameters> newest() const { return newest_; }
@@ -21,6 +22,7 @@ class ParameterClient {
   std::shared_ptr<const machine::Parameters> find(std::uint64_t revision) const;
 
  private:
+  bus::Bus& bus_;
   bus::Reader<idl::parameters::ParameterSet> reader_;
   std::shared_ptr<const machine::Parameters> newest_, previous_;
 };

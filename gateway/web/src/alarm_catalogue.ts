@@ -33,6 +33,11 @@ export const alarmCatalogue: Readonly<Record<number, Readonly<Record<string, { c
     zh: { cause: "该服务每次启动都发现错误，例如配置有误", remedy: "查看诊断中该服务的一行及其日志，排除原因，然后复位报警" },
     de: { cause: "Der Dienst findet bei jedem Start einen Fehler, zum Beispiel in seiner Konfiguration", remedy: "Die Zeile des Dienstes in Diagnose und sein Protokoll lesen, die Ursache beheben, dann den Alarm zurücksetzen" },
   },
+  106: {
+    en: { cause: "A process writes a topic with a value that the field cannot have, or of another format; nothing of such a message takes effect", remedy: "Find the process: what else writes the topic in this DDS domain (docs/topics.md has the writers that belong to a machine); use a secured cluster on a network" },
+    zh: { cause: "某个进程向主题写入了字段不可能有的值，或格式不同；这样的消息不会生效", remedy: "查找在此 DDS 域中还有谁写该主题（docs/topics.md 列出机床的写入者）；在网络上使用加密的集群" },
+    de: { cause: "Ein Prozess schreibt ein Topic mit einem Wert, den das Feld nicht haben kann, oder in einem anderen Format; von einer solchen Nachricht wird nichts wirksam", remedy: "Den Prozess suchen, der das Topic in dieser DDS-Domäne sonst noch schreibt (docs/topics.md nennt die Schreiber einer Maschine); im Netz ein gesichertes Cluster verwenden" },
+  },
   107: {
     en: { cause: "The files of the machine differ between the hosts", remedy: "Copy the same machine directory to every host and start the cluster again" },
     zh: { cause: "各主机上的机床文件不一致", remedy: "将同一机床目录复制到所有主机，然后重新启动集群" },

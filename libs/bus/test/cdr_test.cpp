@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <random>
 
 #include "bus/bus.hpp"
@@ -51,6 +52,42 @@ TEST(Cdr, DecodesWhatItEncodes) {
   encode(frame, bytes);
   ASSERT_TRUE(decode(bytes, copy));
   EXPECT_EQ(frame, copy);
+}
+
+// What a process of another make may send: the bytes are a message of the type, and no field may have the
+// value.
+TEST(Cdr, RefusesValuesBeyondTheLimitsOfTheirFieldAndNamesIt) {
+  const auto refusal = [](const auto& value) {
+    Bytes bytes;
+    encode(value, bytes);
+    auto copy = value;
+    std::string why = "taken";
+    decode(bytes, copy, &why);
+    return why;
+  };
+  idl::stream::StreamRequest request;
+  request.channel = 31;
+  EXPECT_EQ(refusal(request), "taken");
+  request.channel = 32;
+  EXPECT_EQ(refusal(request), "channel: 32, must be 0 to 31");
+  idl::stream::AxisFrame frame;
+  frame.count = 64, frame.axes = {0, 1};
+  frame.setpoints.assign(128, -1e300);
+  EXPECT_EQ(refusal(frame), "taken");
+  frame.count = 65;
+  EXPECT_EQ(refusal(frame), "count: 65, must be 0 to 64");
+  frame.count = 64, frame.setpoints[127] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(refusal(frame), "setpoints: not a finite number");
+  idl::channel::ChannelRequest order;
+  order.speed = -std::numeric_limits<double>::infinity();
+  EXPECT_EQ(refusal(order), "speed: not a finite number");
+  idl::parameters::ParameterSet set;
+  KeyHash key;
+  Bytes bytes;
+  encode(request, bytes);
+  EXPECT_TRUE(key_of<idl::stream::StreamRequest>(bytes, key)) << "it reaches the reader, which refuses it";
+  set.values = {{1, 0, ""}, {2, std::numeric_limits<double>::infinity(), ""}};
+  EXPECT_EQ(refusal(set), "value: not a finite number") << "in a struct of a sequence";
 }
 
 TEST(Cdr, RefusesASequenceBeyondItsBoundOnBothSides) {

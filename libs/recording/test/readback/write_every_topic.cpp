@@ -3,6 +3,8 @@
 // Usage: write_every_topic RECORDING EXPECTED
 #include <fstream>
 #include <iostream>
+#include <string_view>
+#include <type_traits>
 
 #include "bus/codec.hpp"
 #include "bus/json.hpp"
@@ -29,6 +31,8 @@ class Filler {
     ++count_;
     if constexpr (bus::Struct<T>) {
       bus::Fields<T>::visit(value, *this);
+      bus::Fields<T>::visit_limits(value, [&](const char* limited, const auto&, std::int64_t low,
+                                              std::int64_t high) { limit(value, limited, low, high); });
     } else if constexpr (std::is_enum_v<T>) {
       value = static_cast<T>(1 + count_ % (bus::enum_size<T>() - 1));
     } else if constexpr (std::is_same_v<T, bool>) {
@@ -47,6 +51,15 @@ class Filler {
       for (auto& element : value) fill(element, element_bound);
     }
   }
+  template <class T>
+  void limit(T& value, std::string_view limited, std::int64_t low, std::int64_t high) {
+    bus::Fields<T>::visit(value, [&](std::string_view name, auto& field, std::size_t, std::size_t = 0) {
+      if constexpr (std::is_integral_v<std::remove_reference_t<decltype(field)>>)
+        if (name == limited)
+          field = static_cast<std::remove_reference_t<decltype(field)>>(
+              low + 1 + static_cast<std::int64_t>(count_ % static_cast<std::uint64_t>(high - low)));
+    });
+  }
   std::uint64_t count_ = 0;
 };
 
@@ -62,7 +75,7 @@ class EveryTopic {
   void add(const bus::Topic<T>& topic) {
     const auto* entry = bus::find_topic(topic.name);
     T value;
-    bus::Fields<T>::visit(value, filler_);
+    filler_("", value, 0);
     bus::encode(value, bytes_);
     const auto channel = writer_.add_channel(topic.name, entry->type, entry->schema);
     const auto sequence = static_cast<std::uint32_t>(100 + count_);
