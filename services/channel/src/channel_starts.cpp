@@ -13,7 +13,7 @@ void ChannelCore::configure_flow(ProgramFlow& flow) {
   flow.set_block_skip(switches_.block_skip);
   flow.set_dry_run_feed(switches_.dry_run ? machine_.dry_run_feed() : 0);
   flow.set_offset(manual_.offset_target());
-  stream_.forget_sequences();
+  stream_.forget_blocks();
   progress_.executed.sequence = progress_.reached = 0;
 }
 

@@ -66,8 +66,8 @@ const WrittenSetpoint* StreamWriter::executed() const {
   return written.cycle == link_.executed() - 1 ? &written : nullptr;
 }
 
-void StreamWriter::forget_sequences() {
-  for (auto& written : written_) written.sequence = 0;
+void StreamWriter::forget_blocks() {
+  for (auto& written : written_) written.sequence = 0, written.line = 0;
 }
 
 }  // namespace trunnion::channel

@@ -64,8 +64,8 @@ class StreamWriter {
   const WrittenSetpoint* executed() const;
   /// Of the newest executed cycle: what a process needs that continues this one.
   void set_executed(const WrittenSetpoint& written) { written_[written.cycle % history] = written; }
-  /// Commands are counted anew; what was written before does not belong to them.
-  void forget_sequences();
+  /// A program or a line of MDI begins: what was written before belongs to none of its blocks.
+  void forget_blocks();
 
   static constexpr std::size_t history = 2048;
 

@@ -96,6 +96,22 @@ TEST_F(FromLine, GivesTheSamePathAsTheWholeProgramFromThereOn) {
   EXPECT_EQ(drive.rows.back(), whole.back());
 }
 
+// A feedback between the start and the end of the search names the line of the last motion, of MDI here.
+TEST_F(FromLine, IsTheLineThatWasAskedForAndNotTheOneOfTheLastMotion) {
+  load("G90 G1 F6000\nX10\nX20\nX30\nM30\n");
+  ask(Request::SET_MODE, "", 0, 0, Mode::MDI);
+  ASSERT_TRUE(ask(Request::MDI_LINE, "G1 X5 F6000").accepted);
+  run();
+  ask(Request::SET_MODE);
+  events.clear();
+  ASSERT_TRUE(ask(Request::START_FROM_LINE, "", 4).accepted);
+  core->on_feedback(drive.run(0));
+  EXPECT_EQ(core->state().line, 4u);
+  run();
+  ASSERT_EQ(events.size(), 1u);
+  EXPECT_EQ(events[0].text, "part.nc:4: approach X20.0000");
+}
+
 TEST_F(FromLine, ANewToolMustBeInTheSpindleAlready) {
   load(part);
   ASSERT_TRUE(ask(Request::START_FROM_LINE, "", 6).accepted);
