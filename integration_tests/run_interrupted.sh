@@ -13,6 +13,8 @@ moves() {
 }
 names_domain() { grep -q "is ready in .*domain [0-9]*)" "$work/said" || ! kill -0 "$run" 2> /dev/null; }
 begin() {
+  # The shell that starts the run empties the file later than this one could look for the domain in it.
+  : > "$work/said"
   "$trunnion" run ac-table nas979_cone --real-time --report "$work/report" > "$work/said" 2>&1 &
   run=$!
   wait_until "the run names its domain" names_domain

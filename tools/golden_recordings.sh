@@ -29,6 +29,7 @@ record() {  # MACHINE PROGRAM...: writes $work/golden.mcap
   rm -rf "$work/state" "$work/golden.mcap"
   mkdir "$work/state"
   "$trunnion" up "$root/configs/machines/$machine" --time virtual --domain "$domain" --port "$port" --state "$work/state" > "$work/log" 2>&1 || return 1
+  : > "$work/recorder"  # which the recorder before has written, and the shell empties in the background
   "$build/bin/trunnion-recorder" --output "$work/golden.mcap" --machine "$machine" --domain "$domain" --parent-bound > "$work/recorder" 2>&1 &
   recorder=$!
   for _ in $(seq 200); do
