@@ -18,6 +18,7 @@
 #include "cluster/cluster.hpp"
 #include "cluster/instances.hpp"
 #include "machine/alarm_constants.hpp"
+#include "machine/gateway_loss.hpp"
 #include "machine/service_constants.hpp"
 #include "service/node.hpp"
 
@@ -94,6 +95,7 @@ Launcher::Launcher(LaunchOptions options)
   sigaction(SIGTERM, &action, nullptr);
   sigaction(SIGINT, &action, nullptr);
   signal(SIGPIPE, SIG_IGN);
+  runs_on_without_page_ = machine::load_gateway_loss(options_.machine.directory).has_value();
   write_info(options_);
   write_boot(options_.state_directory + "/cluster.boot");
   for (const auto& entry : options_.machine.services) {
@@ -114,6 +116,12 @@ Launcher::~Launcher() { stop_all(); }
 
 bool Launcher::must_stop() const { return stop_requested != 0 || owner_.ended(); }
 
+Loss Launcher::loss_of(const ServiceProcess& process) const {
+  if (has_live_twin(process)) return Loss::redundant;
+  return runs_on_without_page_ && process.entry.service == machine::service::gateway.name ? Loss::shown
+                                                                                          : Loss::holds;
+}
+
 bool Launcher::has_live_twin(const ServiceProcess& process) const {
   return std::any_of(processes_.begin(), processes_.end(), [&](const ServiceProcess& other) {
     return &other != &process && other.entry.service == process.entry.service &&
@@ -124,7 +132,7 @@ bool Launcher::has_live_twin(const ServiceProcess& process) const {
 
 void Launcher::lose(ServiceProcess& process, const std::string& how) {
   process.lifecycle = idl::service::Lifecycle::UNCONFIGURED;
-  process.fault.lose("Service " + process.name() + " " + how, has_live_twin(process));
+  process.fault.lose("Service " + process.name() + " " + how, loss_of(process));
 }
 
 // Before the first readiness a process that ended by itself is a failed start, reported in `failure`; one

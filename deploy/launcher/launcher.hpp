@@ -54,6 +54,7 @@ class Launcher {
   bool started() const;
   void publish();
   bool has_live_twin(const ServiceProcess& process) const;
+  Loss loss_of(const ServiceProcess& process) const;
   void serve_swaps();
   ServiceProcess* whom_to_swap(const idl::service::SwapRequest& request);
 
@@ -83,6 +84,7 @@ class Launcher {
   std::uint64_t refusals_ = 0;    // since then
   std::uint32_t generation_ = 0;  // swaps that were started on this host
   bool ready_ = false, was_ready_ = false;
+  bool runs_on_without_page_ = false;  // machine.yaml names inputs that hold and stop nevertheless
   double last_published_ = 0;
   service::RunningTime time_;  ///< by which silence is measured, and everything of restarts and swaps
 };

@@ -20,11 +20,18 @@ struct AlarmCause {
   std::string text;
 };
 
+/// What the loss of a process does.
+enum class Loss : std::uint8_t {
+  holds,      ///< the channels
+  redundant,  ///< nothing: another replica of its stage runs
+  shown,      ///< a warning: the machine runs on without it
+};
+
 /// Of the process that has a place in the cluster. A process that takes the place over begins with none.
 class ServiceFault {
  public:
-  /// It has ended or is silent; `redundant`: another replica of its stage runs.
-  void lose(std::string text, bool redundant);
+  /// It has ended or is silent.
+  void lose(std::string text, Loss loss);
   /// It is not started again soon.
   void give_up(std::string text) { gave_up_ = std::move(text); }
   /// It is active again.
@@ -39,7 +46,7 @@ class ServiceFault {
  private:
   std::string lost_, gave_up_;
   std::string redundancy_;  ///< stays until it is in step
-  bool redundant_ = false;
+  Loss loss_ = Loss::holds;
 };
 
 /// Which alarms a change of the causes raises and which it ends.
