@@ -12,7 +12,7 @@ FUZZ_SECONDS ?= 6
 # Ninja shows how many of how many steps are done, and for how long it has been at it.
 export NINJA_STATUS := [%f/%t, %es]$(subst ,, )
 
-.PHONY: run check test build product configure packages sanitize threads fuzz lint format generate bench faults soak recordings \
+.PHONY: run check test build product configure packages sanitize threads fuzz lint format generate bench faults soak recordings histories \
   nightly coverage package clean
 
 run: product
@@ -105,6 +105,11 @@ soak: build
 # Recordings of every machine in every state of use, on other vendors and in real time, verified. Half an hour.
 recordings: build
 	TRUNNION_ALL_RECORDINGS=1 $(BUILD)/bin/recordings_test
+
+# Recordings from random moments of random histories, verified; four a minute. SEED=, HISTORIES=
+HISTORIES ?= 200
+histories: build
+	TRUNNION_SEED=$(SEED) TRUNNION_HISTORIES=$(HISTORIES) $(BUILD)/bin/history_test
 
 # Continues where an interrupted run of the same commit was.
 nightly:
