@@ -43,6 +43,8 @@ struct Summary {
   std::vector<StreamSummary> streams;  ///< by topic in the order of the stream, channel and epoch
   std::set<std::string> participants;  ///< "service vendor version contract", as announced
   std::set<std::uint64_t> revisions;   ///< of the parameters
+  /// Services that were asked for their state and have not given it, with the reason when they said one.
+  std::vector<std::string> without_state;
   double seconds() const { return static_cast<double>(last_time - first_time) * 1e-9; }
 };
 
