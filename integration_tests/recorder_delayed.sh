@@ -5,6 +5,18 @@
 set -euo pipefail
 trunnion=$1
 . "$(dirname "$0")/cluster.sh"
+# waits PROCESS: how often its first thread, which reads, has waited.
+waits() { awk '/^voluntary_ctxt_switches/ {print $2}' "/proc/$1/task/$1/status"; }
+# let_read PROCESS: continues it until it has waited twice. In between it has read whatever there was.
+let_read() {
+  local before end=$((SECONDS + 60))
+  before=$(waits "$1")
+  kill -CONT "$1"
+  until [ "$(waits "$1")" -ge $((before + 2)) ]; do
+    [ "$SECONDS" -lt "$end" ] || fail "the recorder does not read"
+    sleep 0.005
+  done
+}
 # 40 moves of 3 s, so 120,000 cycles: ten times what a channel writes without a recorder.
 { echo 'G90 G94 F200 G1 X0'; for _ in $(seq 20); do echo 'X10'; echo 'X0'; done; echo M30; } > "$work/long.nc"
 for vendor in cyclonedds fastdds; do
@@ -20,8 +32,7 @@ for vendor in cyclonedds fastdds; do
   for _ in $(seq 8); do
     kill -STOP $process
     sleep 0.3
-    kill -CONT $process
-    sleep 0.02
+    let_read $process
   done
   await_idle
   kill -INT $command
@@ -32,7 +43,7 @@ for vendor in cyclonedds fastdds; do
   "$trunnion" verify --service channel --recording "$work/$vendor.mcap" --machine "$2/ac-table" > "$work/verify" 2>&1 ||
     fail "$vendor: $(cat "$work/verify")"
 
-  start_recording "$work/$vendor.mcap" "$work/record"
+  start_recording "$work/$vendor-suspended.mcap" "$work/suspended"
   command=$recorder
   process=$(pgrep -P $command || echo $command)
   kill -STOP $process
