@@ -15,6 +15,14 @@ recorder=$!
 kill -TERM $recorder
 wait $recorder || fail "the recorder lost something: $(cat "$work/log")"
 "$trunnion" diff "$golden" "$work/again.mcap" > "$work/diff" || fail "$(cat "$work/diff")"
+
+# A recording is not replaced by another, unless that is wanted.
+status=0
+said=$("$trunnion" record "$work/again.mcap" --domain "$3" 2>&1) || status=$?
+[ $status = 1 ] &&
+  [ "$said" = "trunnion: $work/again.mcap: it exists already: choose another name, or replace it with --force" ] || fail "$said"
+"$trunnion" diff "$golden" "$work/again.mcap" > "$work/diff" || fail "$(cat "$work/diff")"
+
 # Messages but those of the recorders themselves.
 messages() {
   "$trunnion" info "$1" > "$work/info"

@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 #include <array>
 #include <cstdio>
+#include <filesystem>
 #include <iostream>
 #include <memory>
 
@@ -114,7 +115,18 @@ constexpr std::array recorder_options{
     RecorderOption{"--memory", "MiB the flight recorder may keep (default: 256)"}};
 using RecorderValues = std::array<std::string, recorder_options.size()>;
 
-int record(const Common& common, const std::string& file, const RecorderValues& values) {
+// Parts and what a flight recorder saves get numbers that no file has.
+bool is_numbered(const RecorderValues& values) {
+  for (std::size_t i = 0; i < values.size(); ++i)
+    for (const std::string option : {"--part-size", "--part-time", "--last"})
+      if (recorder_options[i].name == option && !values[i].empty()) return true;
+  return false;
+}
+
+int record(const Common& common, const std::string& file, bool force, const RecorderValues& values) {
+  // A pipe or a device is not replaced.
+  if (!force && !is_numbered(values) && std::filesystem::is_regular_file(file))
+    throw std::runtime_error(file + ": it exists already: choose another name, or replace it with --force");
   const auto cluster = cluster::find_cluster(common.domain);
   std::vector<std::string> args{cluster::binary_directory() + "/trunnion-recorder",
                                 "--output",
@@ -153,9 +165,11 @@ void add_topic_commands(CLI::App& app, Common& common) {
   command->add_option("topic", *name, "Name or handle")->required();
   command->add_option("--seconds", *window, "How long to count");
   auto values = std::make_shared<RecorderValues>();
+  auto force = std::make_shared<bool>(false);
   command = add_command(app, common, "record", "Record the cluster into an MCAP file until Ctrl-C",
-                        [&common, name, values] { return record(common, *name, *values); });
+                        [&common, name, force, values] { return record(common, *name, *force, *values); });
   command->add_option("file", *name, "File to write")->required();
+  command->add_flag("--force", *force, "Replace the file when it exists");
   for (std::size_t i = 0; i < recorder_options.size(); ++i)
     command->add_option(recorder_options[i].name, (*values)[i], recorder_options[i].help);
 }
