@@ -148,6 +148,7 @@ Summary summarize(recording::Source& source) {
   out.same_contract = contract != out.metadata.end() && contract->second == topics::contract_hash;
   out.complete = reader.ending() == recording::Ending::complete;
   out.problem = reader.problem();
+  out.damages = reader.damages();
   return out;
 }
 
@@ -156,7 +157,8 @@ std::string text_of(const Summary& s) {
   for (const auto& [name, value] : s.metadata) text += line("%-10s %s\n", name.c_str(), value.c_str());
   if (!s.same_contract) text += line("           this program's contract is %s\n", topics::contract_hash);
   text += line("%-10s %" PRIu64 " in %.3f s\n", "messages", s.messages, s.seconds());
-  if (!s.complete) text += "cut off    " + s.problem + "\n";
+  for (const auto& damage : s.damages) text += "damaged    " + recording::text_of(damage) + "\n";
+  if (!s.complete && s.damages.empty()) text += "cut off    " + s.problem + "\n";
   std::string revisions;
   for (const auto r : s.revisions) revisions += (revisions.empty() ? "" : ", ") + std::to_string(r);
   if (!revisions.empty()) text += line("%-10s %s\n", "parameters", ("revision " + revisions).c_str());
@@ -187,7 +189,13 @@ std::string text_of(const Summary& s) {
 }
 
 bus::Json json_of(const Summary& s) {
-  bus::Json topics = bus::Json::array(), streams = bus::Json::array();
+  bus::Json topics = bus::Json::array(), streams = bus::Json::array(), damages = bus::Json::array();
+  for (const auto& damage : s.damages)
+    damages.push_back({{"begin", damage.begin},
+                       {"end", damage.end},
+                       {"first_time", damage.first_time},
+                       {"last_time", damage.last_time},
+                       {"what", damage.what}});
   for (const auto& t : s.topics)
     topics.push_back({{"topic", t.topic},
                       {"handle", t.handle},
@@ -222,7 +230,8 @@ bus::Json json_of(const Summary& s) {
           {"topics", topics},
           {"streams", streams},
           {"services", s.participants},
-          {"without_state", s.without_state}};
+          {"without_state", s.without_state},
+          {"damages", damages}};
 }
 
 }  // namespace trunnion::verification
