@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// up, down, status
+// up, status
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <cstdio>
 #include <iostream>
 #include <memory>
@@ -65,26 +64,6 @@ int up(const Common& common, cluster::UpOptions options, const std::string& time
     if (cluster.port != 0)
       std::printf("Operate it at %s://localhost:%u\n", tls ? "https" : "http", cluster.port);
   }
-  return 0;
-}
-
-int down(const Common& common) {
-  bool cleared = false;
-  for (const auto& run : cluster::run_directories())
-    if (run.abandoned() && (!common.domain || *common.domain == run.domain)) {
-      run.remove();
-      cleared = true;
-      std::fprintf(stderr, "Removed what the killed cluster in domain %u had left\n", run.domain);
-    }
-  const auto all = cluster::run_directories();
-  if (cleared && std::none_of(all.begin(), all.end(), [](const auto& run) { return run.launcher(); }))
-    return 0;
-  const auto cluster = cluster::find_cluster(common.domain);
-  cluster::stop_cluster(cluster.run);
-  if (common.json)
-    std::cout << Json{{"stopped", cluster.machine}}.dump() << "\n";
-  else
-    std::printf("%s is down\n", cluster.machine.c_str());
   return 0;
 }
 
@@ -264,9 +243,6 @@ void add_cluster_commands(CLI::App& app, Common& common) {
                     "After a crash: end processes that a killed launcher has left in this state directory or "
                     "domain");
   command->add_flag("--foreground", options->foreground, "Stay in the foreground until Ctrl-C");
-  add_command(app, common, "down",
-              "Stop a cluster (of several hosts: the part on this one); nothing of it is left but its state",
-              [&common] { return down(common); });
   add_command(app, common, "status",
               "Table of the services: vendor, pid, state, uptime, rates; the alarms; what the PLC inhibits. "
               "Exit status "

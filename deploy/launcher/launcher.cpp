@@ -56,6 +56,7 @@ void write_info(const LaunchOptions& options) {
   cluster.host = options.host;
   cluster.network = options.network;
   cluster.open = options.open();
+  cluster.session = options.session;
   cluster::write_info(cluster);
 }
 
@@ -96,6 +97,8 @@ Launcher::Launcher(LaunchOptions options)
   sigaction(SIGINT, &action, nullptr);
   signal(SIGPIPE, SIG_IGN);
   runs_on_without_page_ = machine::load_gateway_loss(options_.machine.directory).has_value();
+  // In this order: a directory with the second file and without the first is one that a kill has left.
+  std::ofstream(options_.run.pid_file()) << getpid() << "\n";
   write_info(options_);
   write_boot(options_.state_directory + "/cluster.boot");
   for (const auto& entry : options_.machine.services) {
@@ -352,7 +355,6 @@ int Launcher::run(void (*report)(const std::string&)) {
     options_.run.remove();
     return 1;
   }
-  std::ofstream(options_.run.pid_file()) << getpid() << "\n";
   const double began = time_.advance(service::monotonic_seconds());
   for (auto& process : processes_)
     if (process.local) process.start(options_, false, began);

@@ -51,6 +51,7 @@ int main(int argc, char** argv) {
   app.add_option("--exec", executables, "SERVICE=PATH: what to start in the place of its executable");
   std::int64_t clock_offset = 0;
   app.add_option("--clock-offset", clock_offset, "ns from the monotonic clock to the time in messages");
+  app.add_option("--session", options.session, "Session that may stop it without naming it");
   app.add_option("--owner", options.owner, "Process id: stop when this process ends");
   bool one_host = false;
   app.add_flag("--one-host", one_host, "Start everything here, whatever hosts machine.yaml names");

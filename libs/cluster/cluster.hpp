@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "bus/endpoint.hpp"
 #include "cluster/cluster_files.hpp"
@@ -39,6 +40,7 @@ struct RunningCluster {
   std::string host;        ///< which host this is; empty when the machine has none
   bus::NetworkSettings network;
   bool open = false;  ///< joined from other computers without security
+  int session = 0;    ///< of the processes of a login or a terminal, getsid(2): the one that started it
   double start_seconds = 0;
 };
 
@@ -51,6 +53,8 @@ void write_info(const RunningCluster& cluster);
 void stop_cluster(const RunDirectory& run);
 /// How a process takes part in the cluster of this computer in `domain`; the loopback when none is known.
 bus::NetworkSettings network_in(std::uint32_t domain);
+/// Of this user on this computer, by domain. One that has only begun to start is not among them.
+std::vector<RunningCluster> running_clusters();
 /// Throws std::runtime_error when there is none (or several and no domain was given).
 RunningCluster find_cluster(std::optional<std::uint32_t> domain);
 
