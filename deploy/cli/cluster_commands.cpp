@@ -33,10 +33,14 @@ CLI::App* add_command(CLI::App& app, Common& common, const std::string& name, co
 
 namespace {
 
-// Where start_cluster() will look for what is saved.
-std::string state_directory_of(const cluster::UpOptions& options, const std::string& machine) {
-  if (!options.state_directory.empty()) return options.state_directory;
-  return cluster::default_state_directory(machine::load_machine(machine).name);
+// It runs with its drives off. What is wrong can be corrected only where it runs.
+int report_fault(const cluster::RunningCluster& cluster) {
+  std::fprintf(stderr,
+               "trunnion: %s runs in domain %u with its drives off, %s\n"
+               "Correct what is named, a parameter with 'trunnion param set' and 'trunnion channel reset'; "
+               "'trunnion down' stops the machine\n",
+               cluster.machine.c_str(), cluster.run.domain, cluster.fault.c_str());
+  return 1;
 }
 
 int up(const Common& common, cluster::UpOptions options, const std::string& time) {
@@ -44,8 +48,8 @@ int up(const Common& common, cluster::UpOptions options, const std::string& time
     throw std::runtime_error("--domain and --free-domain exclude each other: give one of them");
   options.domain = common.domain;
   if (!time.empty()) options.virtual_time = time == "virtual";
-  const auto directory = cluster::find_machine(options.machine);
-  machine_check::require_good(directory, state_directory_of(options, directory));
+  options.keep_faulty = true;
+  machine_check::require_good(cluster::find_machine(options.machine));
   const auto cluster = cluster::start_cluster(options);
   if (options.foreground) return 0;
   if (common.json) {
@@ -53,10 +57,11 @@ int up(const Common& common, cluster::UpOptions options, const std::string& time
                       {"domain", cluster.run.domain},
                       {"ready_seconds", cluster.start_seconds},
                       {"state", cluster.state_directory},
-                      {"port", cluster.port}}
+                      {"port", cluster.port},
+                      {"fault", cluster.fault}}
                      .dump()
               << "\n";
-  } else {
+  } else if (cluster.fault.empty()) {
     std::printf("%s %s in %.2f s, domain %u, state in %s\n", cluster.machine.c_str(),
                 cluster.host.empty() ? "is ready" : ("runs what host " + cluster.host + " has").c_str(),
                 cluster.start_seconds, cluster.run.domain, cluster.state_directory.c_str());
@@ -64,7 +69,7 @@ int up(const Common& common, cluster::UpOptions options, const std::string& time
     if (cluster.port != 0)
       std::printf("Operate it at %s://localhost:%u\n", tls ? "https" : "http", cluster.port);
   }
-  return 0;
+  return cluster.fault.empty() ? 0 : report_fault(cluster);
 }
 
 // Host and, of a channel, its number.

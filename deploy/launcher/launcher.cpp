@@ -349,9 +349,29 @@ std::string Launcher::listen_for_others() {
   return "";
 }
 
-int Launcher::run(void (*report)(const std::string&)) {
+// Nothing is left to wait for, and somebody has to correct what keeps a process from taking part.
+bool Launcher::faulty() const {
+  using idl::service::Lifecycle;
+  return std::all_of(processes_.begin(), processes_.end(),
+                     [](const ServiceProcess& p) {
+                       return p.pid != 0 &&
+                              (p.lifecycle == Lifecycle::ACTIVE || p.lifecycle == Lifecycle::FAULT);
+                     }) &&
+         !all_ready();
+}
+
+std::string Launcher::not_ready() const {
+  std::string text;
+  for (const auto& p : processes_)
+    if (p.local && p.lifecycle != idl::service::Lifecycle::ACTIVE)
+      text += (text.empty() ? "not ready: " : "; ") + p.entry.service +
+              (p.detail.empty() ? "" : " (" + p.detail + ")");
+  return text;
+}
+
+int Launcher::run(void (*report)(Start, const std::string& why)) {
   if (const auto refusal = listen_for_others(); !refusal.empty()) {
-    report(refusal);
+    report(Start::failed, refusal);
     options_.run.remove();
     return 1;
   }
@@ -372,26 +392,23 @@ int Launcher::run(void (*report)(const std::string&)) {
     serve_swaps();
     publish();
     notifier_.alive(service::monotonic_seconds());
-    if (!was_ready_ && started()) {
+    if (!was_ready_ && (started() || (options_.keep_faulty && faulty()))) {
       was_ready_ = true;
-      report("");
+      report(started() ? Start::ready : Start::faulty, not_ready());
       notifier_.ready();
     }
     const auto active = std::count_if(processes_.begin(), processes_.end(), [](const auto& p) {
       return p.local && p.lifecycle == idl::service::Lifecycle::ACTIVE;
     });
     if (active > most_active) most_active = active, progressed = time_.now();
-    if (!was_ready_ && time_.now() - progressed > start_timeout) {
-      for (const auto& p : processes_)
-        if (p.local && p.lifecycle != idl::service::Lifecycle::ACTIVE)
-          failure += (failure.empty() ? "not ready: " : "; ") + p.entry.service +
-                     (p.detail.empty() ? "" : " (" + p.detail + ")");
+    if (!was_ready_ && (faulty() || time_.now() - progressed > start_timeout)) {
+      failure = not_ready();
       break;
     }
   }
   notifier_.stopping();
   stop_all();
-  if (!failure.empty()) report(failure);
+  if (!failure.empty()) report(Start::failed, failure);
   options_.run.remove();
   return failure.empty() ? 0 : 1;
 }

@@ -24,14 +24,18 @@
 
 namespace trunnion::launcher {
 
-/// Runs in a process of its own. `report` is called once: with "" when the cluster is ready, with one line
-/// when it could not be started. Returns the exit status.
+/// How a start has ended. Faulty: every process runs, and one cannot take part until what it names is
+/// corrected.
+enum class Start { ready, faulty, failed };
+
+/// Runs in a process of its own. `report` is called once, with one line of what is wrong unless the cluster
+/// is ready. Returns the exit status.
 class Launcher {
  public:
   /// Throws std::runtime_error with one line when another cluster uses the state directory or the domain.
   explicit Launcher(LaunchOptions options);
   ~Launcher();
-  int run(void (*report)(const std::string&));
+  int run(void (*report)(Start, const std::string& why));
 
  private:
   bool must_stop() const;
@@ -52,6 +56,8 @@ class Launcher {
   bool all_ready() const;
   bool is_first_host() const;
   bool started() const;
+  bool faulty() const;
+  std::string not_ready() const;
   void publish();
   bool has_live_twin(const ServiceProcess& process) const;
   Loss loss_of(const ServiceProcess& process) const;

@@ -39,6 +39,7 @@ std::vector<std::string> launcher_arguments(const UpOptions& up, const RunningCl
   args.insert(args.end(), {"--session", std::to_string(cluster.session)});
   for (auto& argument : executable_arguments(up.executables)) args.push_back(std::move(argument));
   if (up.one_host) args.emplace_back("--one-host");
+  if (up.keep_faulty) args.emplace_back("--keep-faulty");
   if (up.of_this_process) args.insert(args.end(), {"--owner", std::to_string(getpid())});
   if (!up.vendor.empty()) args.insert(args.end(), {"--vendor", up.vendor});
   if (cluster.virtual_time) args.emplace_back("--virtual-time");
@@ -195,7 +196,10 @@ RunningCluster start_cluster(const UpOptions& up) {
   options.detached = true;
   auto answer = ChildProcess(options).read_all();
   while (!answer.empty() && answer.back() == '\n') answer.pop_back();
-  if (answer != "ready") {
+  constexpr std::string_view faulty = "faulty ";
+  if (answer.starts_with(faulty)) {
+    cluster.fault = answer.substr(faulty.size());
+  } else if (answer != "ready") {
     // Another cluster may have taken the domain meanwhile, and the directory is its own then.
     if (!domain_holder(cluster.run.domain, cluster.host)) {
       for (int i = 0; i < 300 && cluster.run.launcher(); ++i)

@@ -221,8 +221,7 @@ class Check {
     }
   }
 
-  // Axes that do not fit together are an alarm of the parameters service: only a machine that runs can
-  // correct what is saved. A channel that cannot be configured lets no machine run.
+  // Axes that do not fit together are an alarm of the parameters service, and let the machine move.
   void saved(const Setups& of_the_folder) {
     const auto file = state_directory_ + "/parameters.yaml";
     auto read = machine::check_parameter_text(storage::read_kept(file).content, file);
@@ -302,9 +301,9 @@ MachineReport check_machine(const std::string& directory, const std::string& sta
   return Check(directory, state_directory).report();
 }
 
-void require_good(const std::string& directory, const std::string& state_directory) {
+void require_good(const std::string& directory) {
   std::string lines;
-  for (const auto& finding : check_machine(directory, state_directory).findings)
+  for (const auto& finding : check_machine(directory).findings)
     lines += (lines.empty() ? "" : "\n") + to_string(finding);
   if (!lines.empty()) throw std::runtime_error(lines);
 }

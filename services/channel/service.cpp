@@ -326,7 +326,7 @@ void ChannelService::answer_requests() {
   std::vector<std::pair<idl::channel::ChannelRequest, idl::channel::ChannelReply>> answers;
   while (requests_.take(request)) {
     if (request.channel != node_.options().channel) continue;
-    const auto answer = core_.handle(request);
+    const auto answer = core_.unusable() ? UnusableParameters::handle(core_, request) : core_.handle(request);
     answers.push_back(
         {request, {0, 0, answer.accepted, answer.alarm, answer.reason.substr(0, 256), core_.link().next()}});
   }
@@ -356,7 +356,10 @@ void ChannelService::fetch_text() {
 }
 
 void ChannelService::drain() {
-  if (parameters_.poll()) core_.set_parameters(parameters_.newest());
+  if (parameters_.poll()) {
+    core_.set_parameters(parameters_.newest());
+    unusable_.show(core_, node_.options().channel, node_.alarms());
+  }
   idl::parameters::ToolTable tools;
   while (tools_.take(tools)) core_.set_tools(tools), have_tools_ = true;
   idl::parameters::WorkOffsets offsets;
@@ -411,6 +414,7 @@ void ChannelService::continue_from_snapshot() {
 
 void ChannelService::pump() {
   drain();
+  if (core_.unusable()) answer_requests();
   if (!core_.configured() || !have_tools_ || !have_offsets_ || !have_programs_) return publish();
   if (!frame_writer_) {
     start_stream();
@@ -464,13 +468,15 @@ service::Health ChannelService::health() const {
   using idl::service::Lifecycle;
   service::Health health;
   const bool tables = have_tools_ && have_offsets_ && have_programs_;
-  health.lifecycle = !core_.configured() || !tables ? Lifecycle::UNCONFIGURED
-                     : core_.recovered()            ? Lifecycle::ACTIVE
-                                                    : Lifecycle::INACTIVE;
-  health.detail = !core_.configured()  ? "waiting for parameters"
-                  : !tables            ? "waiting for tools, offsets and programs"
-                  : !core_.recovered() ? "waiting for the drive"
-                                       : "";
+  health.lifecycle = core_.unusable()                 ? Lifecycle::FAULT
+                     : !core_.configured() || !tables ? Lifecycle::UNCONFIGURED
+                     : core_.recovered()              ? Lifecycle::ACTIVE
+                                                      : Lifecycle::INACTIVE;
+  health.detail = core_.unusable()      ? core_.unusable()->text
+                  : !core_.configured() ? "waiting for parameters"
+                  : !tables             ? "waiting for tools, offsets and programs"
+                  : !core_.recovered()  ? "waiting for the drive"
+                                        : "";
   health.frames_in = frames_in_;
   health.frames_out = frames_out_;
   health.revision = core_.machine().revision();

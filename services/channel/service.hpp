@@ -11,6 +11,7 @@
 #include "src/channel_core.hpp"
 #include "src/recorder_watch.hpp"
 #include "stream/replica_watch.hpp"
+#include "unusable_parameters.hpp"
 
 namespace trunnion::channel {
 
@@ -51,6 +52,7 @@ class ChannelService : public service::Service {
   service::Node& node_;
   service::ParameterClient parameters_;
   ChannelCore core_;
+  UnusableParameters unusable_;
   service::RequestServer<idl::channel::ChannelRequest, idl::channel::ChannelReply> requests_;
   service::RequestClient<idl::program::ProgramRequest, idl::program::ProgramReply> program_client_;
   service::RequestClient<idl::parameters::ParameterRequest, idl::parameters::ParameterReply> table_client_;

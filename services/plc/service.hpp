@@ -56,6 +56,7 @@ class PlcService : public service::Service {
   service::Node& node_;
   std::optional<RetainedMemory> retained_;
   std::string boot_, fault_;
+  bool usable_ = false;  ///< by every channel: there were such parameters
   service::ParameterClient parameters_;
   PlcCore core_;
   RoundRecorder rounds_;

@@ -134,6 +134,8 @@ class ChannelCore {
   const language::VariableStore* take_variables() {
     return std::exchange(variables_news_, false) ? variables_.get() : nullptr;
   }
+  /// Why it is not configured: the newest parameters cannot be used, and there were no others before.
+  const std::optional<ChannelEvent>& unusable() const { return unusable_; }
   std::vector<ChannelEvent> take_events() { return std::exchange(events_, {}); }
   const idl::channel::ChannelState& state();
   RunningProgram running_program() const;
@@ -360,6 +362,7 @@ class ChannelCore {
   bool variables_news_ = false;
 
   std::vector<ChannelEvent> events_;
+  std::optional<ChannelEvent> unusable_;
   idl::channel::ChannelState state_;
 };
 
