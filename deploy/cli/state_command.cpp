@@ -12,10 +12,10 @@
 #include "cluster/cluster.hpp"
 #include "cluster/cluster_locks.hpp"
 #include "commands.hpp"
-#include "machine/machine.hpp"
 #include "machine_state/backup.hpp"
 #include "machine_state/state_check.hpp"
 #include "service/node.hpp"
+#include "state_place.hpp"
 #include "storage/file.hpp"
 #include "trunnion/version.hpp"
 
@@ -24,38 +24,13 @@ namespace fs = std::filesystem;
 using bus::Json;
 namespace {
 
-struct Place {
-  std::string machine, state;
-};
-
-void add_place_options(CLI::App& command, Place& place) {
-  command.add_option("--machine", place.machine, "Machine whose default state directory it is");
-  command.add_option("--state", place.state, "State directory (default: that of the running cluster)");
-}
-
-// Name of the machine and its state directory.
-Place place_of(const Common& common, Place place) {
-  if (!place.machine.empty())
-    place.machine = machine::load_machine(cluster::find_machine(place.machine)).name;
-  if (!place.state.empty()) {
-    place.state = fs::absolute(place.state).lexically_normal().string();
-    return place;
-  }
-  if (!place.machine.empty()) {
-    place.state = cluster::default_state_directory(place.machine);
-    return place;
-  }
-  const auto cluster = cluster::find_cluster(common.domain);
-  return {cluster.machine, cluster.state_directory};
-}
-
 const char* text_of(storage::KeptState state) {
   constexpr const char* names[] = {"absent", "good", "previous", "unusable"};
   return names[static_cast<int>(state)];
 }
 
-int check_state(const Common& common, const Place& where) {
-  const auto place = place_of(common, where);
+int check_state(const Common& common, const StatePlace& where) {
+  const auto place = state_place(common, where);
   const auto reports = machine_state::check_state(place.state);
   bool good = true;
   Json files = Json::array();
@@ -78,8 +53,8 @@ int check_state(const Common& common, const Place& where) {
   return good ? 0 : 1;
 }
 
-int accept(const Common& common, const Place& where, const std::vector<std::string>& files) {
-  const auto place = place_of(common, where);
+int accept(const Common& common, const StatePlace& where, const std::vector<std::string>& files) {
+  const auto place = state_place(common, where);
   const cluster::StateLock lock(place.state, cluster::make_identity(place.machine, 0, false), 0);
   for (const auto& file : files) machine_state::accept(place.state, file);
   if (common.json)
@@ -90,8 +65,8 @@ int accept(const Common& common, const Place& where, const std::vector<std::stri
   return 0;
 }
 
-int backup(const Common& common, const Place& where, const std::string& file) {
-  const auto place = place_of(common, where);
+int backup(const Common& common, const StatePlace& where, const std::string& file) {
+  const auto place = state_place(common, where);
   const auto state = machine_state::collect(place.state, place.machine, version, service::time_of_day());
   storage::replace_file(fs::absolute(file).string(), machine_state::write_backup(state));
   if (common.json)
@@ -102,14 +77,14 @@ int backup(const Common& common, const Place& where, const std::string& file) {
   return 0;
 }
 
-int restore(const Common& common, Place where, const std::string& file) {
+int restore(const Common& common, StatePlace where, const std::string& file) {
   std::ifstream in(file, std::ios::binary);
   if (!in) throw std::runtime_error(file + ": cannot be opened");
   const std::string bytes(std::istreambuf_iterator<char>(in), {});
   const auto state = machine_state::read_backup(bytes);
   if (where.state.empty() && where.machine.empty())
     where.state = cluster::default_state_directory(state.machine);
-  const auto place = place_of(common, where);
+  const auto place = state_place(common, where);
   std::optional<cluster::StateLock> lock;
   if (fs::exists(place.state))
     lock.emplace(place.state, cluster::make_identity(state.machine, 0, false), 0);
@@ -134,7 +109,7 @@ int restore(const Common& common, Place where, const std::string& file) {
 }  // namespace
 
 void add_state_commands(CLI::App& app, Common& common) {
-  auto place = std::make_shared<Place>();
+  auto place = std::make_shared<StatePlace>();
   auto file = std::make_shared<std::string>();
   auto files = std::make_shared<std::vector<std::string>>();
   auto* state = app.add_subcommand("state", "The files that survive a stop of the cluster");

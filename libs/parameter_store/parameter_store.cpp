@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "parameter_store.hpp"
+#include "parameter_store/parameter_store.hpp"
 
 #include <algorithm>
 #include <nlohmann/json.hpp>

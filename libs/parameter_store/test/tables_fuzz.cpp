@@ -3,7 +3,7 @@
 // or refused with the place in the file.
 #include <cstdlib>
 
-#include "active_set.hpp"
+#include "parameter_store/active_set.hpp"
 #include "testing_support/refusal.hpp"
 #include "tool_tables/tables.hpp"
 

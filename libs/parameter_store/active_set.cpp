@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "active_set.hpp"
+#include "parameter_store/active_set.hpp"
 
 #include <sstream>
 #include <stdexcept>

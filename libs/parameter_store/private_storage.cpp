@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "private_storage.hpp"
+#include "parameter_store/private_storage.hpp"
 
 namespace trunnion::parameters {
 

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <random>
 
-#include "file_storage.hpp"
+#include "parameter_store/file_storage.hpp"
 #include "testing_support/killed_process.hpp"
 
 namespace trunnion::parameters {

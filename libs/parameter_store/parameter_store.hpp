@@ -4,10 +4,10 @@
 
 #include <vector>
 
-#include "active_set.hpp"
 #include "contracts/types.hpp"
 #include "machine/axis_faults.hpp"
-#include "storage.hpp"
+#include "parameter_store/active_set.hpp"
+#include "parameter_store/storage.hpp"
 #include "tool_tables/machine_tables.hpp"
 #include "tool_tables/tables.hpp"
 

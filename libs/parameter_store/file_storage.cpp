@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "file_storage.hpp"
+#include "parameter_store/file_storage.hpp"
 
 #include <fcntl.h>
 

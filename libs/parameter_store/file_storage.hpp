@@ -5,7 +5,7 @@
 
 #include <map>
 
-#include "storage.hpp"
+#include "parameter_store/storage.hpp"
 #include "storage/kept_file.hpp"
 
 namespace trunnion::parameters {

@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "machine/alarm_constants.hpp"
-#include "parameter_store.hpp"
+#include "parameter_store/parameter_store.hpp"
 
 namespace trunnion::parameters {
 namespace {

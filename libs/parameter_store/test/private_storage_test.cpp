@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "private_storage.hpp"
+#include "parameter_store/private_storage.hpp"
 #include "testing_support/damage.hpp"
 
 #include <gtest/gtest.h>
@@ -7,8 +7,8 @@
 
 #include <filesystem>
 
-#include "file_storage.hpp"
-#include "parameter_store.hpp"
+#include "parameter_store/file_storage.hpp"
+#include "parameter_store/parameter_store.hpp"
 
 namespace trunnion::parameters {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <map>
 
-#include "storage.hpp"
+#include "parameter_store/storage.hpp"
 
 namespace trunnion::parameters {
 
