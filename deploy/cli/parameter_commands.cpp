@@ -57,7 +57,7 @@ bus::Json row(std::uint32_t number, const machine::Parameters& parameters) {
 }
 
 machine::Parameters parameters_at(const Common& common, const StatePlace& place) {
-  if (place.given()) return saved_parameters(place);
+  if (place.given()) return saved_parameters(state_place(common, place));
   cluster::Client client(cluster::find_cluster(common.domain).run.domain);
   return active(client);
 }
@@ -163,16 +163,10 @@ void add_parameter_commands(CLI::App& app, Common& common) {
   auto numbers = std::make_shared<std::vector<std::string>>();
   auto text = std::make_shared<std::pair<std::string, std::string>>();
   auto place = std::make_shared<StatePlace>();
-  const auto offline = [place](CLI::App& command) {
-    command.add_option("--state", place->state, "In this state directory, while no cluster uses it");
-    command.add_option("--machine", place->machine,
-                       "Machine whose parameters these are (default: the one with the name of the state "
-                       "directory; without --state: in its own one)");
-  };
   auto* command = add_command(*param, common, "get", "Print active values",
                               [&common, place, numbers] { return get_parameters(common, *place, *numbers); });
   command->add_option("number", *numbers, "Six digits")->required();
-  offline(*command);
+  add_place_options(*command, *place);
   auto take_right = std::make_shared<bool>(false);
   const auto operating = [&common, take_right](auto act) {
     return [&common, take_right, act] {
@@ -180,14 +174,14 @@ void add_parameter_commands(CLI::App& app, Common& common) {
       return act();
     };
   };
-  command =
-      add_command(*param, common, "set", "Change a value",
-                  [&common, text, place,
-                   change = operating([&common, text] { return set(common, text->first, text->second); })] {
-                    if (!place->given()) return change();
-                    return save_parameters(common, *place, set_request(text->first, text->second));
-                  });
-  offline(*command);
+  command = add_command(
+      *param, common, "set", "Change a value",
+      [&common, text, place,
+       change = operating([&common, text] { return set(common, text->first, text->second); })] {
+        if (!place->given()) return change();
+        return save_parameters(common, state_place(common, *place), set_request(text->first, text->second));
+      });
+  add_place_options(*command, *place);
   command->add_option("number", text->first, "Six digits")->required();
   command->add_option("value", text->second, "New value")->required();
   command->add_flag("--take-right", *take_right, cluster::take_right_help);

@@ -3,7 +3,6 @@
 
 #include <filesystem>
 
-#include "cluster/cluster.hpp"
 #include "cluster/cluster_locks.hpp"
 #include "machine/machine.hpp"
 #include "parameter_store/file_storage.hpp"
@@ -14,46 +13,31 @@
 namespace trunnion::cli {
 namespace {
 
-namespace fs = std::filesystem;
 using parameters::FileStorage;
 using parameters::ParameterStore;
 
-struct Saved {
-  machine::MachineConfig machine;
-  std::string directory;
-};
-
-// The directory does not say which machine it belongs to. By default it has the machine's name.
-Saved saved_in(const StatePlace& place) {
-  const auto name = place.machine.empty() ? fs::path(place.state).filename().string() : place.machine;
-  Saved saved;
-  try {
-    saved.machine = machine::load_machine(cluster::find_machine(name));
-  } catch (const std::runtime_error&) {
-    if (!place.machine.empty()) throw;
-    throw std::runtime_error("say with --machine whose parameters " + place.state + " has");
-  }
-  saved.directory = place.state.empty() ? cluster::default_state_directory(saved.machine.name) : place.state;
-  if (!fs::is_directory(saved.directory))
-    throw std::runtime_error(saved.directory + ": there is no such directory");
-  return saved;
+machine::MachineConfig machine_of(const StatePlace& place) {
+  auto machine = machine::load_machine(known_machine(place));
+  if (!std::filesystem::is_directory(place.state))
+    throw std::runtime_error(place.state + ": there is no such directory");
+  return machine;
 }
 
 }  // namespace
 
 machine::Parameters saved_parameters(const StatePlace& place) {
-  const auto saved = saved_in(place);
-  FileStorage files(saved.directory);
+  const auto machine = machine_of(place);
+  FileStorage files(place.state);
   parameters::PrivateStorage copy(files);
-  return machine::parameters_of(ParameterStore(copy, parameters::defaults_of(saved.machine), "").set());
+  return machine::parameters_of(ParameterStore(copy, parameters::defaults_of(machine), "").set());
 }
 
 idl::parameters::ParameterReply change_saved_parameters(const StatePlace& place,
                                                         const idl::parameters::ParameterRequest& request) {
-  const auto saved = saved_in(place);
-  const cluster::StateLock lock(saved.directory, cluster::make_identity(saved.machine.name, 0, false), 0);
-  FileStorage files(saved.directory, true);
-  ParameterStore store(files, parameters::defaults_of(saved.machine), "");
+  const auto machine = machine_of(place);
+  const cluster::StateLock lock(place.state, cluster::make_identity(machine.name, 0, false), 0);
+  FileStorage files(place.state, true);
+  ParameterStore store(files, parameters::defaults_of(machine), "");
   auto reply = store.apply(request, service::time_of_day());
   if (!reply.accepted) throw std::runtime_error(reply.reason);
   return reply;

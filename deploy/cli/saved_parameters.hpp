@@ -8,7 +8,8 @@
 
 namespace trunnion::cli {
 
-/// What will be active from the next start on. Reads only. Throws std::runtime_error.
+/// What will be active from the next start on; `place` as state_place() gives it. Reads only. Throws
+/// std::runtime_error.
 machine::Parameters saved_parameters(const StatePlace& place);
 
 /// Changes them as the parameters service does, its journal included. Throws std::runtime_error when a
