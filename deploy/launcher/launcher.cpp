@@ -38,6 +38,12 @@ std::uint32_t instance_on(const LaunchOptions& options) {
          static_cast<std::uint32_t>(here == hosts.end() ? 0 : here - hosts.begin());
 }
 
+std::vector<std::string> hosts_of(const LaunchOptions& options) {
+  std::vector<std::string> names;
+  for (const auto& host : options.machine.hosts) names.push_back(host.name);
+  return names;
+}
+
 // The directories of the locks.
 cluster::Identity prepare(const LaunchOptions& options) {
   options.run.make();
@@ -85,6 +91,7 @@ Launcher::Launcher(LaunchOptions options)
       bus_(bus::Vendor::cyclonedds, options_.network),
       alarms_(bus_, instance_on(options_), "launcher"),
       presence_(bus_, identity_),
+      silent_hosts_(hosts_of(options_), options_.host),
       states_(bus_.reader(topics::service_state)),
       announcements_(bus_.reader(topics::announcement)),
       resets_(bus_.reader(topics::alarm_reset)),
@@ -221,17 +228,14 @@ void Launcher::watch_local(ServiceProcess& process, double now) {
   }
 }
 
-// Silence is all that can be seen of another host. Its own launcher reports a process that died; the first
-// host's reports the others' silence, and they report the first host's.
+// Silence is all that can be seen of another host. Its own launcher reports a process that died.
 void Launcher::watch_remote(ServiceProcess& process, double now) {
   if (process.pid == 0) return;
   if (process.policy.pulse(now) == Pulse::beating) return;
   process.pid = 0;
   process.lifecycle = idl::service::Lifecycle::UNCONFIGURED;
   process.detail = "host " + process.entry.host + " is silent";
-  const auto& first = options_.machine.hosts.front().name;
-  if (was_ready_ && (is_first_host() || process.entry.host == first))
-    lose(process, "on host " + process.entry.host + " is silent");
+  if (was_ready_) lose(process, "on host " + process.entry.host + " is silent");
 }
 
 void Launcher::listen() {
@@ -275,12 +279,22 @@ void Launcher::watch() {
   update_alarms(now);
 }
 
+void Launcher::add_causes_of_services(double now, std::vector<AlarmCause>& causes) {
+  std::vector<RemoteService> remote;
+  for (const auto& process : processes_)
+    if (process.local)
+      process.fault.add_causes(process.entry.instance, causes);
+    else
+      remote.push_back({process.entry.host, process.name(), process.entry.instance, &process.fault});
+  silent_hosts_.add_causes(remote, now, causes);
+}
+
 // Alarms about processes belong to what causes them and can be reset when it is gone.
 void Launcher::update_alarms(double now) {
   bus_.backend().discover(writers_);
   foreign_.discovered(writers_);
   std::vector<AlarmCause> causes;
-  for (const auto& process : processes_) process.fault.add_causes(process.entry.instance, causes);
+  add_causes_of_services(now, causes);
   foreign_.add_causes(now, causes);
   if (const auto other = presence_.other())
     causes.push_back({&alarm::domain_shared, 0,

@@ -20,6 +20,7 @@
 #include "service/request.hpp"
 #include "service/running_time.hpp"
 #include "service_process.hpp"
+#include "silent_hosts.hpp"
 #include "swap.hpp"
 
 namespace trunnion::launcher {
@@ -42,6 +43,7 @@ class Launcher {
   void stop_all();
   std::string listen_for_others();
   void update_alarms(double now);
+  void add_causes_of_services(double now, std::vector<AlarmCause>& causes);
   std::string refused(const idl::service::SwapRequest& request) const;
   void report_refused(const idl::service::SwapRequest& request, const std::string& why);
   bool collect_ended(std::string& failure);
@@ -74,6 +76,7 @@ class Launcher {
   Presence presence_;
   ForeignServices foreign_;
   AlarmCauses causes_;
+  SilentHosts silent_hosts_;
   std::vector<bus::DiscoveredWriter> writers_;
   bus::Reader<idl::service::ServiceState> states_;
   bus::Reader<idl::service::Announcement> announcements_;
