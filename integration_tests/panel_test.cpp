@@ -45,25 +45,16 @@ class Panel {
     hold(key);
     const bool reached = cluster_.until(condition);
     release(key);
-    // The next press of the key is one only when the PLC has seen it released.
-    EXPECT_TRUE(cluster_.until([&] { return !pressed(key); }));
     return reached;
   }
   /// A bit of Y.
   bool lamp(std::uint32_t byte, int bit) {
-    look();
+    while (images_.take(image_)) {
+    }
     return byte < image_.y.size() && (image_.y[byte] >> bit & 1) != 0;
   }
 
  private:
-  void look() {
-    while (images_.take(image_)) {
-    }
-  }
-  bool pressed(Key key) {
-    look();
-    return key.byte < image_.x.size() && (image_.x[key.byte] >> key.bit & 1) != 0;
-  }
   Cluster& cluster_;
   service::RequestClient<idl::plc::PanelRequest, idl::plc::PanelReply> client_;
   bus::Reader<idl::plc::Image> images_;

@@ -235,31 +235,6 @@ void PlcCore::press_emergency_stop(const View::Press& press) {
   input(emergency_button_, 1);
 }
 
-std::string PlcCore::panel(const idl::plc::PanelRequest& request) {
-  using idl::plc::PanelRequestKind;
-  switch (request.kind) {
-    case PanelRequestKind::PRESS_EMERGENCY_STOP:
-      press_emergency_stop({request.client, request.number});
-      break;
-    case PanelRequestKind::RELEASE_EMERGENCY_STOP:
-      input(emergency_button_, 0);
-      view_.press_acted = true;
-      break;
-    case PanelRequestKind::RESET_EMERGENCY_STOP:
-      press_reset();
-      break;
-    case PanelRequestKind::FORCE_INPUT:
-      if (request.address >= register_count)
-        return "input byte " + std::to_string(request.address) + " is outside 0 .. 511";
-      if (request.value > 255) return "value " + std::to_string(request.value) + " is outside 0 .. 255";
-      input({Area::x, static_cast<std::uint16_t>(request.address), -1}, request.value);
-      break;
-    case PanelRequestKind::CHANNEL_ANSWER:
-      return order_answered(request);
-  }
-  return "";
-}
-
 bool PlcCore::at_standstill(std::size_t channel) const {
   if (!virtual_time_ || view_.stopped_waiting) return true;
   return view_.drive_seen && !view_.channels[channel].active &&
@@ -404,6 +379,7 @@ void PlcCore::advance(std::uint64_t tick) {
   if (view_.changed || ended || timer_due(memory_.blocks, now) || structured_.timer_due(now)) settle();
   view_.changed = false;
   view_.press_acted = view_.press_acted || emergency_stop();
+  unscanned_.reset();
 }
 
 Registers PlcCore::rescanned() const {

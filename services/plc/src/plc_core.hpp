@@ -3,6 +3,7 @@
 // it.
 #pragma once
 
+#include <bitset>
 #include <optional>
 #include <vector>
 
@@ -63,7 +64,8 @@ class PlcCore {
   void set_request(const idl::channel::AuxiliaryRequest& request);
   void set_feedback(const idl::stream::FeedbackFrame& frame);
   void set_alarms(bool any, bool stops);
-  /// Returns an empty text or why the request is refused.
+  /// Returns an empty text or why the request is refused. The programs see every change of an input byte: a
+  /// second one of the same byte scans the first before.
   std::string panel(const idl::plc::PanelRequest& request);
   /// Also starts programs again that a fault has stopped.
   void press_reset();
@@ -121,6 +123,7 @@ class PlcCore {
   };
   void input(Address address, std::int64_t value);
   void press_emergency_stop(const View::Press& press);
+  void scan_before(std::size_t byte);
   void scan(bool main, bool present);
   void run_task(TaskName task, const il::Program& program);
   bool continues_main() const { return memory_.program.main.interrupted != 0; }
@@ -162,7 +165,8 @@ class PlcCore {
   std::int64_t main_part_ = StructuredText::most_statements;  ///< statements of the main task in one scan
   Memory memory_;
   View view_;
-  ProgramVariables settling_;  ///< before the scan
+  std::bitset<register_count> unscanned_;  ///< bytes of X that the panel has set since the last scan
+  ProgramVariables settling_;              ///< before the scan
   ScanTrace* trace_ = nullptr;
   TaskTimes* times_ = nullptr;
   PanelOrders* orders_ = nullptr;

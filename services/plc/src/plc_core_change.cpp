@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What changes a running PLC core from outside its programs: other programs, forces.
+// What changes a running PLC core from outside its programs: other programs, forces, the operator panel.
 #include <algorithm>
+#include <string>
 #include <utility>
 
 #include "plc_core.hpp"
@@ -80,6 +81,40 @@ void PlcCore::drop_forces_of_variables() {
   for (std::uint32_t i = memory_.forces.count; i-- > 0;)
     if (const auto force = memory_.forces.values[i]; force.cell >= st::image_cells)
       release(force.cell, force.bit);
+}
+
+// A press that arrives together with the release before it would otherwise be no change at all.
+void PlcCore::scan_before(std::size_t byte) {
+  if (unscanned_[byte]) advance(memory_.tick);
+  unscanned_.set(byte);
+}
+
+std::string PlcCore::panel(const idl::plc::PanelRequest& request) {
+  using idl::plc::PanelRequestKind;
+  switch (request.kind) {
+    case PanelRequestKind::PRESS_EMERGENCY_STOP:
+      scan_before(emergency_button_.index);
+      press_emergency_stop({request.client, request.number});
+      break;
+    case PanelRequestKind::RELEASE_EMERGENCY_STOP:
+      scan_before(emergency_button_.index);
+      input(emergency_button_, 0);
+      view_.press_acted = true;
+      break;
+    case PanelRequestKind::RESET_EMERGENCY_STOP:
+      press_reset();
+      break;
+    case PanelRequestKind::FORCE_INPUT:
+      if (request.address >= register_count)
+        return "input byte " + std::to_string(request.address) + " is outside 0 .. 511";
+      if (request.value > 255) return "value " + std::to_string(request.value) + " is outside 0 .. 255";
+      scan_before(request.address);
+      input({Area::x, static_cast<std::uint16_t>(request.address), -1}, request.value);
+      break;
+    case PanelRequestKind::CHANNEL_ANSWER:
+      return order_answered(request);
+  }
+  return "";
 }
 
 }  // namespace trunnion::plc

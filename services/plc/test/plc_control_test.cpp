@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "plc_core.hpp"
+#include "running_core.hpp"
 
 namespace trunnion::plc {
 namespace {
@@ -119,6 +120,56 @@ TEST(PlcControl, TheAnswerToAnOrderIsShownUntilTheNextOneIsAccepted) {
   request.kind = idl::plc::PanelRequestKind::FORCE_INPUT;
   request.address = 512;
   EXPECT_EQ(plc.core.panel(request), "input byte 512 is outside 0 .. 511");
+}
+
+struct Counted {
+  Counted()
+      : plc("PROGRAM main\n"
+            "VAR before : BOOL; presses : UDINT; stops : UDINT; button : BOOL; END_VAR\n"
+            "IF %X20.3 AND NOT before THEN presses := presses + 1; END_IF; before := %X20.3;\n"
+            "IF %X0.0 AND NOT button THEN stops := stops + 1; END_IF; button := %X0.0;\n"
+            "END_PROGRAM\n") {}
+  void panel(idl::plc::PanelRequestKind kind) {
+    idl::plc::PanelRequest request;
+    request.kind = kind, request.client = 7, request.number = ++number;
+    EXPECT_EQ(plc.core.panel(request), "");
+  }
+  Running plc;
+  std::uint64_t number = 0;
+};
+
+TEST(PlcControl, EveryChangeOfAKeyIsSeenByThePrograms) {
+  Counted counted;
+  auto& plc = counted.plc;
+  // All within one scan: press, release, press, release.
+  for (const std::uint32_t value : {8u, 0u, 8u, 0u}) plc.input(20, value);
+  plc.pass(1);
+  EXPECT_EQ(plc.value("main.presses"), "2");
+  // Another key of the same byte in between, and another byte.
+  for (const std::uint32_t value : {8u, 9u, 1u, 9u}) plc.input(20, value), plc.input(21, value);
+  plc.pass(1);
+  EXPECT_EQ(plc.value("main.presses"), "4");
+  EXPECT_EQ(plc.core.memory().registers.x[20], 9);
+  EXPECT_EQ(plc.core.memory().registers.x[21], 9);
+}
+
+TEST(PlcControl, ChangesOfOneByteTakeNoTime) {
+  Counted counted;
+  auto& plc = counted.plc;
+  const auto tick = plc.core.memory().tick, scans = plc.core.memory().scans;
+  for (int i = 0; i < 1000; ++i) plc.input(20, i % 2 == 0 ? 8 : 0);
+  EXPECT_EQ(plc.core.memory().tick, tick);
+  EXPECT_EQ(plc.core.memory().scans, scans);
+  plc.pass(1);
+  EXPECT_EQ(plc.value("main.presses"), "500");
+}
+
+TEST(PlcControl, TheEmergencyStopIsSeenAlsoWhenItIsReleasedWithinTheSameScan) {
+  Counted counted;
+  counted.panel(idl::plc::PanelRequestKind::PRESS_EMERGENCY_STOP);
+  counted.panel(idl::plc::PanelRequestKind::RELEASE_EMERGENCY_STOP);
+  counted.plc.pass(1);
+  EXPECT_EQ(counted.plc.value("main.stops"), "1");
 }
 
 }  // namespace
