@@ -25,3 +25,12 @@ line=$!
 await_alarm ' 151 '
 "$trunnion" channel start --take-right --domain "$domain"
 wait "$line" || fail "$(cat "$work/message")"
+
+# A line that repeats for ever is shown, does not keep the other channel from moving, ends by reset, and blames nobody.
+if "$trunnion" mdi "M99" --timeout 3 --domain "$domain" 2> "$work/said"; then fail "a line without an end ends"; fi
+grep -q 'within 3 s: line 1: .* lines were read without a motion; reset ends it' "$work/said" || fail "$(cat "$work/said")"
+"$trunnion" mdi "G0 X19" --channel 1 --domain "$domain" > "$work/said" 2>&1 || fail "$(cat "$work/said")"
+"$trunnion" channel reset --domain "$domain"
+"$trunnion" mdi "G0 X3" --domain "$domain" > "$work/said" 2>&1 || fail "$(cat "$work/said")"
+"$trunnion" alarms --domain "$domain" > "$work/alarms"
+if grep -q ' 172 ' "$work/alarms"; then fail "$(cat "$work/alarms")"; fi

@@ -31,7 +31,7 @@ idl::channel::ChannelState run_line(cluster::Client& client, std::uint16_t chann
   client.mdi(channel, text);
   auto reader = client.reader_from_now(topics::channel_state);
   const double until = service::monotonic_seconds() + timeout;
-  std::string alarm;
+  std::string alarm, detail;
   std::optional<std::vector<double>> before;  // at the end of the line
   constexpr double settled = 1e-4;            // mm or deg between two states
   while (service::monotonic_seconds() < until) {
@@ -39,6 +39,7 @@ idl::channel::ChannelState run_line(cluster::Client& client, std::uint16_t chann
     idl::channel::ChannelState state;
     while (!end && reader.take(state)) {
       if (state.channel != channel) continue;
+      detail = state.detail;
       if (state.state != RunState::INTERRUPTED && state.state != RunState::IDLE) {
         before.reset();
         continue;
@@ -62,7 +63,7 @@ idl::channel::ChannelState run_line(cluster::Client& client, std::uint16_t chann
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   }
   throw std::runtime_error("the line did not finish within " + std::to_string(static_cast<int>(timeout)) +
-                           " s");
+                           " s" + (detail.empty() ? "" : ": " + detail));
 }
 
 struct Line {

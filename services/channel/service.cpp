@@ -12,9 +12,10 @@
 
 namespace trunnion::channel {
 namespace {
-constexpr double history_pause = 1.0;  // without feedback: longer than a drive that lives is ever silent
-constexpr double cycle_timeout = 3.0;  // of the service of a cycle, to say that it has the call
-constexpr double text_timeout = 0.5;   // without the text that motion waits for, before the alarm
+constexpr double history_pause = 1.0;   // without feedback: longer than a drive that lives is ever silent
+constexpr double cycle_timeout = 3.0;   // of the service of a cycle, to say that it has the call
+constexpr double text_timeout = 0.5;    // without the text that motion waits for, before the alarm
+constexpr double longest_read = 0.004;  // of a loop without motion, and then a pause as long
 }  // namespace
 
 ChannelService::ChannelService(service::Node& node)
@@ -301,6 +302,7 @@ void ChannelService::pump() {
   answer_requests();
   fetch_text();
   core_.advance();
+  read_on();
   if (const auto request = core_.take_stream_request()) stream_writer_.write(*request);
   while (core_.produce(frame_)) {
     frame_writer_->write(frame_);
@@ -323,6 +325,14 @@ void ChannelService::pump() {
     }
   }
   publish();
+}
+
+void ChannelService::read_on() {
+  const double began = service::monotonic_seconds();
+  if (began < read_on_at_) return;
+  double now = began;
+  while (now - began < longest_read && core_.read_on()) now = service::monotonic_seconds();
+  read_on_at_ = now + (now - began);
 }
 
 void ChannelService::publish() {

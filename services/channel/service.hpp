@@ -41,6 +41,7 @@ class ChannelService : public service::Service {
   void read_record();
   void keep_record();
   void watch_text();
+  void read_on();
   void watch_cycle();
   void read_hand_over();
   void watch_alarms();
@@ -87,7 +88,7 @@ class ChannelService : public service::Service {
   std::string record_file_;
   RecordKeeper record_;
   RunningProgram kept_;
-  double kept_at_ = 0, text_missing_since_ = 0, cycle_unheard_since_ = -1;
+  double kept_at_ = 0, text_missing_since_ = 0, cycle_unheard_since_ = -1, read_on_at_ = 0;
   bool record_failed_ = false;
   bool plc_hold_ = false;
   bool have_tools_ = false, have_offsets_ = false, have_programs_ = false;

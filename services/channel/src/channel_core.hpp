@@ -124,6 +124,10 @@ class ChannelCore {
   // What the service takes away. Call advance() first; produce() until it returns false.
   void advance();
   bool produce(idl::stream::PathFrame& frame);
+  /// Many lines have brought no motion.
+  bool loops() const;
+  /// Some thousand lines more, once the axes are at rest. False when there is nothing to do.
+  bool read_on();
   std::optional<idl::stream::StreamRequest> take_stream_request() { return stream_.link().take_request(); }
   std::optional<idl::channel::AuxiliaryRequest> take_auxiliary() { return handshake_.take_request(); }
   std::optional<idl::parameters::ParameterRequest> take_table_request() {
