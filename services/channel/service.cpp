@@ -70,7 +70,7 @@ void ChannelService::watch_text() {
   const auto channel = static_cast<std::uint32_t>(node_.options().channel);
   const double now = service::monotonic_seconds();
   if (!core_.waits_for_text()) {
-    if (text_missing_since_ < 0) node_.alarms().release(alarm::text_late, channel);
+    if (text_missing_since_ < 0) node_.alarms().clear(alarm::text_late, channel);
     text_missing_since_ = 0;
   } else if (text_missing_since_ == 0) {
     text_missing_since_ = now;
@@ -315,15 +315,7 @@ void ChannelService::pump() {
   if (core_.recovered()) keep_record();
   watch_text();
   watch_cycle();
-  for (const auto& event : core_.take_events()) {
-    const auto channel = static_cast<std::uint32_t>(node_.options().channel);
-    if (event.alarm == nullptr) {
-      node_.alarms().raise_number(event.number, channel, event.text, core_.link().executed());
-    } else {
-      node_.alarms().raise(*event.alarm, channel, event.text, core_.link().executed());
-      node_.alarms().release(*event.alarm, channel);
-    }
-  }
+  report_events();
   publish();
 }
 
@@ -333,6 +325,21 @@ void ChannelService::read_on() {
   double now = began;
   while (now - began < longest_read && core_.read_on()) now = service::monotonic_seconds();
   read_on_at_ = now + (now - began);
+}
+
+// An event is news also when the same one is still shown: it is published each time.
+void ChannelService::report_events() {
+  const auto channel = static_cast<std::uint32_t>(node_.options().channel);
+  for (const auto& event : core_.take_events()) {
+    if (event.alarm == nullptr) {
+      node_.alarms().raise_number(event.number, channel, event.text, core_.link().executed());
+      continue;
+    }
+    node_.alarms().clear(*event.alarm, channel);
+    node_.alarms().raise(*event.alarm, channel, event.text, core_.link().executed());
+    node_.alarms().release(*event.alarm, channel);
+  }
+  if (!core_.held_at_line()) node_.alarms().clear(alarm::search_done, channel);
 }
 
 void ChannelService::publish() {

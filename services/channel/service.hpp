@@ -42,6 +42,7 @@ class ChannelService : public service::Service {
   void keep_record();
   void watch_text();
   void read_on();
+  void report_events();
   void watch_cycle();
   void read_hand_over();
   void watch_alarms();

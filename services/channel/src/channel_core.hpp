@@ -146,6 +146,8 @@ class ChannelCore {
   bool program_under_way() const {
     return !lock_.any() && (states_.is(Activity::program) || states_.suspended() != nullptr);
   }
+  /// A program is held where a search has ended, and alarm 171 announces what cycle start does.
+  bool held_at_line() const { return states_.in<Held>() && states_.preparing() != nullptr && !restart_; }
   /// Motion, or the search for a line, cannot continue before a part of the program's text has arrived.
   bool waits_for_text() const { return states_.in<Running>() && states_.running()->text_missing; }
 
