@@ -96,6 +96,10 @@ Answer problem_answer(unsigned status, const std::string& detail, const std::str
   return answer;
 }
 
+Answer busy_answer() {
+  return error_answer(503, std::to_string(Worker::most_waiting) + " requests wait already: try again");
+}
+
 Answer list_answer(Json body, const char* member, const std::string& query) {
   const auto total = cut_to_page(body[member], query);
   auto answer = json_answer(200, body);
@@ -113,6 +117,12 @@ Answer unrouted(RouteResult result) {
 }
 
 void Api::handle(const Match& match, const RequestText& request, const Respond& respond) {
+  if (is_short(match.operation)) return carry_out(match, request, respond);
+  if (!requests_.offer([this, match, request, respond] { carry_out(match, request, respond); }))
+    respond(busy_answer());
+}
+
+void Api::carry_out(const Match& match, const RequestText& request, const Respond& respond) {
   const auto& [query, body] = std::tie(request.query, request.body);
   try {
     switch (match.operation) {
@@ -418,7 +428,12 @@ void Api::plan(const Match& match, const std::string& query, const Respond& resp
   planner_.submit({match.parts.at(0), static_cast<std::uint16_t>(*number), snapshot, respond});
 }
 
-Answer Api::page(std::string_view path, bool gzip) const {
+void Api::page(const std::string& path, bool gzip, const Respond& respond) {
+  if (!requests_.offer([this, path, gzip, respond] { respond(file_of_page(path, gzip)); }))
+    respond(busy_answer());
+}
+
+Answer Api::file_of_page(std::string_view path, bool gzip) const {
   const auto file = find_static(web_, path);
   if (!file) return error_answer(404, "no such file");
   auto name = file->path;

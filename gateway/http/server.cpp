@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "http/server.hpp"
 
+#include <pthread.h>
+
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
 #include <stdexcept>
@@ -29,7 +31,10 @@ struct HttpServer::Inside {
     listen_on(acceptor, address, port);
     hub.start();
     accept();
-    thread = std::thread([this] { context.run(); });
+    thread = std::thread([this] {
+      pthread_setname_np(pthread_self(), "gateway-http");
+      context.run();
+    });
   }
 
   void accept() {

@@ -119,7 +119,8 @@ void HttpSession::on_header() {
     return answer_and_close(error_answer(403, "a page of another site must not operate this machine"));
   if (!is_api) {
     if (request.method() != http::verb::get) return answer_and_close(unrouted(RouteResult::no_method));
-    return answer(api_.page(path, gzip_));
+    connection_.activity = Activity::transferring;
+    return api_.page(path, gzip_, answer_here());
   }
   if (match_.result != RouteResult::found) return answer_and_close(unrouted(match_.result));
   user_ =
@@ -202,10 +203,14 @@ void HttpSession::dispatch() {
                          header(http::field::cookie),
                          connection_.peer,
                          user_};
-  api_.handle(match_, text, [self = shared_from_this()](Answer made) {
+  api_.handle(match_, text, answer_here());
+}
+
+Respond HttpSession::answer_here() {
+  return [self = shared_from_this()](Answer made) {
     net::post(self->stream_.get_executor(),
               [self, made = std::move(made)]() mutable { self->answer(std::move(made)); });
-  });
+  };
 }
 
 void HttpSession::journal(unsigned status, const Asked& asked, std::function<void()> then) {
@@ -245,10 +250,21 @@ void HttpSession::answer(Answer made) {
 void HttpSession::send(Answer made) {
   connection_.activity = Activity::transferring;
   if (made.source) return send_source(std::move(made));
-  if (gzip_ && made.encoding.empty() && made.body.size() >= least_compressed && is_compressible(made.type)) {
-    made.body = gzip(made.body, 1);  // the fastest: orders wait meanwhile
+  if (gzip_ && made.encoding.empty() && made.body.size() >= least_compressed && is_compressible(made.type))
+    return compress(std::move(made));
+  write(std::move(made));
+}
+
+void HttpSession::compress(Answer made) {
+  api_.requests().post([self = shared_from_this(), made = std::move(made)]() mutable {
+    made.body = gzip(made.body, 1);  // the fastest: others wait meanwhile
     made.encoding = "gzip";
-  }
+    net::post(self->stream_.get_executor(),
+              [self, made = std::move(made)]() mutable { self->write(std::move(made)); });
+  });
+}
+
+void HttpSession::write(Answer made) {
   response_ = {static_cast<http::status>(made.status), http_version};
   set_fields(response_, made);
   if (const auto shown = api_.mailbox().newest())

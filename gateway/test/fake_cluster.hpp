@@ -19,6 +19,8 @@ class FakeCluster {
 
   /// Answers what has arrived and publishes what is due. Call every few milliseconds.
   void step();
+  /// `programs` is another list.
+  void publish_programs();
 
   /// What the services were asked, in the order it arrived.
   std::vector<idl::channel::ChannelRequest> channel_requests;
@@ -37,7 +39,6 @@ class FakeCluster {
   void answer_program();
   void answer_others();
   void publish_once();
-  void publish_programs();
   void publish_motion(double now);
   idl::channel::ChannelReply apply(const idl::channel::ChannelRequest& request);
 

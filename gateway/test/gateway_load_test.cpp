@@ -69,6 +69,34 @@ TEST_F(Gateway, OrdersAreAnsweredDuringThreeDownloadsOfAMillionCycles) {
       table.body.size() >> 20, lasted.count(), p99(alone), p99(busy), busy.size());
 }
 
+/// Seconds that the thread `name` of a process has run.
+double processor_time(pid_t process, const std::string& name) {
+  for (const auto& thread :
+       std::filesystem::directory_iterator("/proc/" + std::to_string(process) + "/task")) {
+    std::string called;
+    std::getline(std::ifstream(thread.path() / "comm"), called);
+    double nanoseconds = 0;
+    if (called == name && std::ifstream(thread.path() / "schedstat") >> nanoseconds)
+      return 1e-9 * nanoseconds;
+  }
+  return 0;
+}
+
+TEST_F(Gateway, LargeBodiesAndAnswersDoNotOccupyTheThreadThatReadsTheConnections) {
+  publish_4000_programs();
+  std::string values = R"({"values": [)";
+  while (values.size() < 1'000'000) values += "[1.25,2.5,3],";
+  values += "0]}";
+  const auto used = [&](const char* thread) { return processor_time(process_->pid(), thread); };
+  const auto connections = used("gateway-http"), requests = used("gateway-work");
+  for (int i = 0; i < 30; ++i) {
+    const auto packed = http_client::request(port_, "GET", "/api/programs", "", "Accept-Encoding: gzip\r\n");
+    EXPECT_EQ(packed.headers.at("content-encoding"), "gzip");
+    EXPECT_EQ(http_client::request(port_, "PUT", "/api/parameters", values).status, 400);
+  }
+  EXPECT_LT(used("gateway-http") - connections, 0.25 * (used("gateway-work") - requests));
+}
+
 // The program service writes another program to a slow disk meanwhile.
 TEST_F(Gateway, AnUploadWaitsLongerThanAnOrderForTheProgramService) {
   const std::string text(40 * million, 'N');

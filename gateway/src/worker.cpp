@@ -1,25 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "file_worker.hpp"
+#include "src/worker.hpp"
 
+#include <pthread.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <limits>
+
 namespace trunnion::gateway {
 
-void FileWorker::post(std::function<void()> job) {
+bool Worker::offer(std::function<void()> job) { return add(std::move(job), most_); }
+
+void Worker::post(std::function<void()> job) { add(std::move(job), std::numeric_limits<std::size_t>::max()); }
+
+bool Worker::add(std::function<void()> job, std::size_t most) {
   const std::lock_guard lock(mutex_);
-  if (stopping_) return;
+  if (stopping_ || jobs_.size() >= most) return false;
   jobs_.push_back(std::move(job));
   if (!thread_.joinable()) thread_ = std::thread([this] { work(); });
   wake_.notify_one();
+  return true;
 }
 
-std::size_t FileWorker::waiting() const {
-  const std::lock_guard lock(mutex_);
-  return jobs_.size();
-}
-
-void FileWorker::stop() {
+void Worker::stop() {
   std::deque<std::function<void()>> dropped;
   {
     const std::lock_guard lock(mutex_);
@@ -30,7 +33,9 @@ void FileWorker::stop() {
   if (thread_.joinable()) thread_.join();
 }
 
-void FileWorker::work() {
+void Worker::work() {
+  pthread_setname_np(pthread_self(), name_.c_str());
+  // Without the permission it is as any other thread.
   setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), 10);
   for (;;) {
     std::function<void()> job;
