@@ -178,8 +178,6 @@ void HttpSession::dispatch() {
   if (match_.operation == Operation::stream || match_.operation == Operation::plc_watch) {
     if (!beast::websocket::is_upgrade(body_->get()))
       return answer(error_answer(426, "this path is for WebSocket only"));
-    if (const auto refusal = hub_.refusal(connection_.peer); !refusal.empty())
-      return answer(error_answer(503, refusal));
     const auto& headers = body_->get();
     Visitor visitor{sender(headers, stream_.secure()), connection_.peer,
                     std::string(view(headers[http::field::cookie])),

@@ -21,7 +21,7 @@ using std::chrono::milliseconds;
 
 constexpr milliseconds heartbeat_period{250};
 constexpr std::size_t most_answers = 16;
-constexpr std::size_t most_streams = 128, most_of_a_peer = 64;
+constexpr std::size_t most_streams = 128;
 
 std::shared_ptr<const std::string> text(const bus::Json& json) {
   return std::make_shared<const std::string>(bus::text_of(json));
@@ -50,19 +50,25 @@ void StreamHub::show() {
 
 void StreamHub::join(const std::shared_ptr<Viewer>& viewer) {
   show();  // a new client begins with what is known now
-  viewers_.insert(viewer);
+  if (viewers_.size() >= most_streams)
+    if (const auto chosen = one_to_close(connections())) close(*chosen);
+  viewers_.push_back(viewer);
   count_ = viewers_.size();
 }
 
-std::string StreamHub::refusal(const std::string& peer) const {
-  if (viewers_.size() >= most_streams) return std::to_string(most_streams) + " streams are open: close one";
-  const auto own = std::ranges::count(viewers_, peer, [](const auto& viewer) { return viewer->peer(); });
-  if (own < static_cast<std::ptrdiff_t>(most_of_a_peer)) return {};
-  return peer + " has " + std::to_string(own) + " streams open: close one";
+std::vector<Connection> StreamHub::connections() const {
+  std::vector<Connection> all;
+  for (const auto& viewer : viewers_) all.push_back({viewer->peer(), Activity::streaming});
+  return all;
+}
+
+void StreamHub::close(std::size_t index) {
+  const auto chosen = viewers_.at(index);
+  chosen->close();
 }
 
 void StreamHub::leave(const std::shared_ptr<Viewer>& viewer) {
-  viewers_.erase(viewer);
+  std::erase(viewers_, viewer);
   count_ = viewers_.size();
 }
 
