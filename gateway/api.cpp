@@ -3,6 +3,7 @@
 
 #include <fstream>
 
+#include "machine/alarm_constants.hpp"
 #include "src/paging.hpp"
 #include "src/precondition.hpp"
 #include "src/requests.hpp"
@@ -449,7 +450,10 @@ Answer Api::file_of_page(std::string_view path, bool gzip) const {
 }
 
 Answer program_refusal(const ProgramReply& reply) {
-  return reply ? refused_answer(reply->alarm, reply->reason) : silent("program");
+  if (!reply) return silent("program");
+  auto answer = refused_answer(reply->alarm, reply->reason);
+  if (reply->alarm == alarm::storage_failed.number) answer.status = 507;
+  return answer;
 }
 
 idl::program::ProgramRequest ProgramUpload::request(idl::program::Operation operation) {

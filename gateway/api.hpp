@@ -124,7 +124,7 @@ class Api {
 using ProgramReply = std::optional<idl::program::ProgramReply>;
 using ProgramDone = std::function<void(const ProgramReply&)>;
 
-/// The answer when a request to the program service was not accepted.
+/// The answer when a request to the program service was not accepted: 507 when there is no room.
 Answer program_refusal(const ProgramReply& reply);
 
 /// One upload: begin, write as often as needed, commit; abort when it cannot be finished. One call at a time.

@@ -273,6 +273,7 @@ void FakeCluster::answer_program() {
         break;
       case Operation::WRITE:
         reply.accepted = request.offset == upload.size();
+        if (request.offset + request.data.size() > largest_program) reply.accepted = false, reply.alarm = 150;
         largest_write = std::max<std::uint64_t>(largest_write, request.data.size());
         upload.insert(upload.end(), request.data.begin(), request.data.end());
         break;
@@ -295,7 +296,7 @@ void FakeCluster::answer_program() {
         break;
     }
     if (!reply.accepted) {
-      reply.alarm = 141;
+      if (reply.alarm == 0) reply.alarm = 141;
       reply.reason = "not possible with " + request.name;
     }
     program_server_.reply(request, reply);

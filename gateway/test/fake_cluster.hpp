@@ -30,7 +30,8 @@ class FakeCluster {
   /// The channel service hears, but does not answer.
   bool channel_is_silent = false;
   std::map<std::string, std::vector<std::uint8_t>> programs;
-  std::map<std::string, int> stored_by;  ///< the role of each program that was stored
+  std::uint64_t largest_program = 1u << 30;  ///< bytes for which there is room
+  std::map<std::string, int> stored_by;      ///< the role of each program that was stored
   idl::channel::ChannelState channel;
   std::uint64_t largest_write = 0;  ///< bytes in the largest part of an upload
 

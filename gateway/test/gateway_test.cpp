@@ -100,6 +100,10 @@ TEST_F(Gateway, BadInputNeverReachesTheBus) {
       http_client::request(port_, "PUT", "/api/programs/BIG", "", "Content-Length: 200000000\r\n").status,
       413);
   EXPECT_EQ(http_client::request(port_, "PUT", "/api/programs/..%2fX", "G0").status, 400);
+  cluster([](auto& c) { c.largest_program = 1; });
+  const auto no_room = http_client::request(port_, "PUT", "/api/programs/NO-ROOM", "G0");
+  EXPECT_EQ(no_room.status, 507);
+  EXPECT_EQ(json::parse(no_room.body)["alarm"], 150);
   EXPECT_THAT(raw_exchange(port_, "nonsense\r\n\r\n"), HasSubstr("400"));
   cluster([](auto& c) { EXPECT_TRUE(c.channel_requests.empty()); });
 }
