@@ -6,6 +6,7 @@
 #include "bus/registry.hpp"
 #include "contracts/topics.hpp"
 #include "gateway_fixture.hpp"
+#include "held_connections.hpp"
 #include "hold_times.hpp"
 #include "recording/file_stream.hpp"
 #include "recording/mcap_writer.hpp"
@@ -95,6 +96,27 @@ TEST_F(Gateway, LargeBodiesAndAnswersDoNotOccupyTheThreadThatReadsTheConnections
     EXPECT_EQ(http_client::request(port_, "PUT", "/api/parameters", values).status, 400);
   }
   EXPECT_LT(used("gateway-http") - connections, 0.25 * (used("gateway-work") - requests));
+}
+
+double resident_megabytes(pid_t process) {
+  double size = 0, resident = 0;
+  std::ifstream("/proc/" + std::to_string(process) + "/statm") >> size >> resident;
+  return 1e-6 * resident * static_cast<double>(sysconf(_SC_PAGESIZE));
+}
+
+TEST_F(Gateway, MemoryThatLargeAnswersHeldIsGivenBack) {
+  publish_4000_programs();
+  const auto list = [&] { EXPECT_EQ(get("/api/programs").status, 200); };
+  const auto resident = [&] { return resident_megabytes(process_->pid()); };
+  list();
+  const double before = resident();
+  {
+    HeldConnections held(port_);
+    for (int i = 0; i < 120; ++i) held.open("GET /api/programs HTTP/1.1\r\nHost: 127.0.0.1\r\n\r\n");
+    EXPECT_TRUE(eventually([&] { return resident() > 1.5 * before; })) << resident() << " of " << before;
+    list();
+  }
+  EXPECT_TRUE(eventually([&] { return resident() < 1.1 * before; })) << resident() << " of " << before;
 }
 
 // The program service writes another program to a slow disk meanwhile.
