@@ -22,6 +22,8 @@ class ClusterView {
                                            bool with_replies = false);
   AlarmHistory& alarm_history() { return history_; }
   std::uint64_t frames() const { return frames_; }
+  /// As of StateDocument.
+  bool executed() const { return document_.executed(); }
   /// Of the emergency stop, that the drive holds; number 0 = none.
   const idl::plc::Press& press() const { return press_; }
   /// Of the parameters, 0 = none yet.

@@ -29,6 +29,9 @@ class FakeCluster {
   std::vector<idl::parameters::ParameterRequest> parameter_requests;
   /// The channel service hears, but does not answer.
   bool channel_is_silent = false;
+  /// The drive executes no cycle, and says so by frames without rows; how many there were.
+  bool at_rest = false;
+  std::size_t frames_at_rest = 0;
   std::map<std::string, std::vector<std::uint8_t>> programs;
   std::uint64_t largest_program = 1u << 30;  ///< bytes for which there is room
   std::map<std::string, int> stored_by;      ///< the role of each program that was stored
@@ -41,6 +44,8 @@ class FakeCluster {
   void answer_others();
   void publish_once();
   void publish_motion(double now);
+  /// Of the axes, on the circle.
+  std::vector<double> positions() const;
   idl::channel::ChannelReply apply(const idl::channel::ChannelRequest& request);
 
   bus::Bus bus_;

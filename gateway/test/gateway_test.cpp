@@ -118,6 +118,45 @@ TEST_F(Gateway, APageOfAnotherSiteMustNotOperateTheMachine) {
   cluster([](auto& c) { EXPECT_EQ(c.channel_requests.size(), 1u); });
 }
 
+// The swap of a gateway on a machine that has been at rest for longer than the history of the feedback.
+TEST_F(Gateway, OneThatStandsByAfterALongRestKnowsWhereTheAxesAreAndMatches) {
+  EXPECT_TRUE(
+      eventually([&] { return get("/api/channels/0").body.find("\"actual\"") != std::string::npos; }));
+  cluster([](auto& c) { c.at_rest = true; });
+  const std::size_t history = bus::writer_qos(bus::QosKind::frame, {}).depth;
+  EXPECT_TRUE(eventually([&] { return cluster([&](auto& c) { return c.frames_at_rest > history; }); }));
+  bus::Bus bus(bus::Vendor::cyclonedds, {domain});
+  auto beats = bus.reader(topics::service_state);
+  auto arguments = command_line(port_, web_);
+  arguments.emplace_back("--shadow");
+  const Process standby(arguments, web_ + "/standby.txt");
+  idl::service::ServiceState state{}, newest{};
+  using idl::service::StandbyState;
+  EXPECT_TRUE(eventually([&] {
+    while (beats.take(state))
+      if (state.pid == standby.pid()) newest = state;
+    return newest.standby == StandbyState::MATCHING || newest.standby == StandbyState::DIFFERING;
+  }));
+  EXPECT_EQ(newest.standby, StandbyState::MATCHING) << newest.difference;
+}
+
+TEST_F(Gateway, OneThatStartsAfterALongRestShowsTheAxesWhereTheyAre) {
+  cluster([](auto& c) { c.at_rest = true; });
+  const std::size_t history = bus::writer_qos(bus::QosKind::frame, {}).depth;
+  EXPECT_TRUE(eventually([&] { return cluster([&](auto& c) { return c.frames_at_rest > history; }); }));
+  process_.reset();
+  process_ = std::make_unique<Process>(command_line(port_, web_), web_ + "/stderr.txt");
+  json first;
+  EXPECT_TRUE(eventually([&] {
+    const auto answer = get("/api/channels/0");
+    if (answer.status != 200) return false;
+    first = json::parse(answer.body)["positions"][0];
+    return first.contains("actual");
+  })) << first;
+  EXPECT_EQ(first["actual"], first["position"]);
+  EXPECT_EQ(first["actual"], 50);
+}
+
 TEST_F(Gateway, ASilentServiceIsAGatewayTimeoutAndOthersGoOnMeanwhile) {
   cluster([](auto& c) { c.channel_is_silent = true; });
   Response slow;
