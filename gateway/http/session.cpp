@@ -128,9 +128,6 @@ void HttpSession::on_header() {
                              prolongs_session(match_.operation));
   if (line_ && user_) set_user(*line_, *user_);
   if (auto refusal = api_.access().refusal(user_, match_)) return answer_and_close(std::move(*refusal));
-  const auto station =
-      api_.operating().station_of(view(request[http::field::cookie]), connection_.peer, user_);
-  if (auto refusal = api_.operating().refusal(station, match_)) return answer_and_close(std::move(*refusal));
   if (match_.operation == Operation::write_program) {
     connection_.activity = Activity::transferring;
     return continue_then(&HttpSession::begin_upload);
@@ -192,6 +189,10 @@ void HttpSession::dispatch() {
   const auto& request = body_->get();
   connection_.activity = request.method() == http::verb::get ? Activity::transferring : Activity::answering;
   if (match_.operation == Operation::read_program) return begin_download();
+  // Now that all of it is here: an order that never ends must not hold the right.
+  const auto station =
+      api_.operating().station_of(view(request[http::field::cookie]), connection_.peer, user_);
+  if (auto refusal = api_.operating().refusal(station, match_, order_)) return answer(std::move(*refusal));
   const auto header = [&](http::field name) { return std::string(view(request[name])); };
   const RequestText text{query_,
                          request.body(),
@@ -233,6 +234,7 @@ void HttpSession::note_plc(unsigned status) {
 }
 
 void HttpSession::answer(Answer made) {
+  api_.operating().answered(std::exchange(order_, nullptr), made.status);
   if (!line_) {
     if (user_ && is_of_plc_programs(match_.operation) && body_ && body_->get().method() != http::verb::get)
       note_plc(made.status);

@@ -99,6 +99,7 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
   Match match_;
   std::string query_;
   std::optional<access::Identity> user_;  ///< of the request under way
+  std::shared_ptr<OrderUnderWay> order_;  ///< the request under way, when it is one that needs the right
   bool keep_alive_ = false;
   std::chrono::steady_clock::time_point waits_since_{};
   bool complete_ = false;              ///< the request that is being read has arrived whole

@@ -141,13 +141,16 @@ void StreamSession::take_order(const std::string& text) {
                         error_answer(404, "only " + commands::routes_by_stream() + " come by the stream"));
   const auto user = api_.access().identify(visitor_.cookies, visitor_.authorization, false);
   const auto station = api_.operating().station_of(visitor_.cookies, visitor_.peer, user);
-  if (const auto refusal = api_.operating().refusal(station, found)) return answer_order(order, *refusal);
+  std::shared_ptr<OrderUnderWay> under_way;
+  if (const auto refusal = api_.operating().refusal(station, found, under_way))
+    return answer_order(order, *refusal);
   const auto body = member("body", bus::Json::object()).dump();
   auto line = std::make_shared<JournalLine>(begin_line(visitor_.sender, visitor_.peer, "POST", target));
   if (user) set_user(*line, *user);
   add_body(*line, body);
-  api_.handle(found, {"", body}, [self = shared_from_this(), order, line](Answer made) {
-    boost::asio::post(self->socket_.get_executor(), [self, order, line, made = std::move(made)] {
+  api_.handle(found, {"", body}, [self = shared_from_this(), order, line, under_way](Answer made) {
+    boost::asio::post(self->socket_.get_executor(), [self, order, line, under_way, made = std::move(made)] {
+      self->api_.operating().answered(under_way, made.status);
       add_answer(*line, made.body);
       line->status = static_cast<std::uint16_t>(made.status);
       set_asked(*line, made.asked);
