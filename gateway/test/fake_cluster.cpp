@@ -233,6 +233,7 @@ idl::channel::ChannelReply FakeCluster::apply(const idl::channel::ChannelRequest
 }
 
 void FakeCluster::answer_channel() {
+  if (channel_hangs) return;
   idl::channel::ChannelRequest request;
   while (channel_server_.take(request)) {
     channel_requests.push_back(request);

@@ -29,6 +29,8 @@ class FakeCluster {
   std::vector<idl::parameters::ParameterRequest> parameter_requests;
   /// The channel service hears, but does not answer.
   bool channel_is_silent = false;
+  /// It does not hear either, until it goes on.
+  bool channel_hangs = false;
   /// The drive executes no cycle, and says so by frames without rows; how many there were.
   bool at_rest = false;
   std::size_t frames_at_rest = 0;

@@ -157,6 +157,22 @@ TEST_F(Gateway, OneThatStartsAfterALongRestShowsTheAxesWhereTheyAre) {
   EXPECT_EQ(first["actual"], 50);
 }
 
+TEST_F(Gateway, AStopIsAcceptedWhileTheChannelHangsAndTakenWhenItGoesOn) {
+  cluster([](auto& c) { c.channel_hangs = true, c.channel.state = idl::channel::RunState::RUNNING; });
+  const auto held = post("/api/channels/0/feed-hold");
+  EXPECT_EQ(held.status, 202);
+  EXPECT_EQ(json::parse(held.body)["accepted"], true);
+  EXPECT_THAT(held.body, HasSubstr("feed hold is repeated until channel 0 answers"));
+  const auto jog = post("/api/channels/0/jog-stop", {{"axis", "X"}});
+  EXPECT_EQ(jog.status, 202);
+  EXPECT_THAT(jog.body, HasSubstr("jog stop is repeated until channel 0 answers"));
+  EXPECT_EQ(post("/api/channels/0/single-block", {{"on", true}}).status, 504) << "any other order";
+  cluster([](auto& c) { c.channel_hangs = false; });
+  EXPECT_TRUE(eventually(
+      [&] { return cluster([](auto& c) { return c.channel.state == idl::channel::RunState::HELD; }); }));
+  EXPECT_EQ(post("/api/channels/0/feed-hold").status, 200);
+}
+
 TEST_F(Gateway, ASilentServiceIsAGatewayTimeoutAndOthersGoOnMeanwhile) {
   cluster([](auto& c) { c.channel_is_silent = true; });
   Response slow;
