@@ -56,7 +56,7 @@ int main(int argc, char** argv) {
   std::int64_t clock_offset = 0;
   app.add_option("--clock-offset", clock_offset, "ns from the monotonic clock to the time in messages");
   app.add_flag("--keep-faulty", options.keep_faulty,
-               "Go on when a service runs and cannot take part, so that it can be corrected");
+               "Continue when a service runs and cannot take part, so that it can be corrected");
   app.add_option("--session", options.session, "Session that may stop it without naming it");
   app.add_option("--owner", options.owner, "Process id: stop when this process ends");
   bool one_host = false;
