@@ -12,7 +12,7 @@ FUZZ_SECONDS ?= 6
 # Ninja shows how many of how many steps are done, and for how long it has been at it.
 export NINJA_STATUS := [%f/%t, %es]$(subst ,, )
 
-.PHONY: run check test build product configure packages sanitize threads fuzz lint format generate bench faults soak recordings histories \
+.PHONY: run check test build product configure packages sanitize threads fuzz lint format generate bench faults soak hostile_bus recordings histories \
   nightly coverage package clean
 
 run: product
@@ -101,6 +101,11 @@ SEED ?= 1
 MINUTES ?= 10
 soak: build
 	TRUNNION_SOAK_SEED=$(SEED) TRUNNION_SOAK_SECONDS=$$(( $(MINUTES) * 60 )) $(BUILD)/bin/fault_soak_test
+
+# A foreign process writes every topic of a running cluster. SEED=, SECONDS=
+SECONDS ?= 60
+hostile_bus: build
+	TRUNNION_HOSTILE_SEED=$(SEED) TRUNNION_HOSTILE_SECONDS=$(SECONDS) $(BUILD)/bin/hostile_bus_test
 
 # Recordings of every machine in every state of use, on other vendors and in real time, verified. Half an hour.
 recordings: build

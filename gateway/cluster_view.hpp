@@ -8,6 +8,7 @@
 #include "src/alarm_history.hpp"
 #include "src/snapshot.hpp"
 #include "src/state_document.hpp"
+#include "stream/frame_reader.hpp"
 
 namespace trunnion::gateway {
 
@@ -35,7 +36,7 @@ class ClusterView {
   bus::Reader<idl::service::Alarm> alarms_;
   bus::Reader<idl::service::Cluster> cluster_;
   bus::Reader<idl::channel::ChannelState> channel_states_;
-  bus::Reader<idl::stream::FeedbackFrame> feedback_;
+  stream::FrameReader<idl::stream::FeedbackFrame> feedback_;
   bus::Reader<idl::plc::Outputs> outputs_;
   bus::Reader<idl::plc::Image> image_;
   bus::Reader<idl::channel::Variables> variables_;

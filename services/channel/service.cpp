@@ -12,6 +12,7 @@
 
 namespace trunnion::channel {
 namespace {
+constexpr auto most_frames = stream::FrameWindow<idl::stream::PathFrame>::slots;  // more than may be ahead
 constexpr double history_pause = 1.0;   // without feedback: longer than a drive that lives is ever silent
 constexpr double cycle_timeout = 3.0;   // of the service of a cycle, to say that it has the call
 constexpr double text_timeout = 0.5;    // without the text that motion waits for, before the alarm
@@ -101,10 +102,8 @@ void ChannelService::watch_cycle() {
 void ChannelService::start_stream() {
   node_.bus().set_depth({stream::stream_depth(core_.machine().stream(node_.options().virtual_time), 1)});
   frame_writer_.emplace(node_.bus().writer(topics::path_frame));
-  auto& bus = node_.bus();
-  present_reader_.emplace(
-      bus.backend().reader(bus::describe(topics::feedback_frame), {false, 0}, &bus.signal()));
-  feedback_reader_.emplace(bus.reader(topics::feedback_frame));
+  present_reader_.emplace(stream::present_reader(node_.bus(), topics::feedback_frame));
+  feedback_reader_.emplace(node_.bus(), topics::feedback_frame);
 }
 
 void ChannelService::watch_alarms() {
@@ -304,7 +303,8 @@ void ChannelService::pump() {
   core_.advance();
   read_on();
   if (const auto request = core_.take_stream_request()) stream_writer_.write(*request);
-  while (core_.produce(frame_)) {
+  // Feedback that is ahead of the drive must not let a whole program be computed without a sign of life.
+  for (std::size_t n = 0; n < most_frames && core_.produce(frame_); ++n) {
     frame_writer_->write(frame_);
     ++frames_out_;
   }

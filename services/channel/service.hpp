@@ -10,6 +10,7 @@
 #include "service/request.hpp"
 #include "src/channel_core.hpp"
 #include "src/recorder_watch.hpp"
+#include "stream/frame_reader.hpp"
 #include "stream/replica_watch.hpp"
 #include "unusable_parameters.hpp"
 
@@ -76,8 +77,8 @@ class ChannelService : public service::Service {
   bus::Writer<CycleRequest> cycle_writer_;
   bus::Writer<idl::stream::StreamRequest> stream_writer_;
   std::optional<bus::Writer<idl::stream::PathFrame>> frame_writer_;
-  std::optional<bus::Reader<idl::stream::FeedbackFrame>> feedback_reader_;
-  std::optional<bus::Reader<idl::stream::FeedbackFrame>>
+  std::optional<stream::FrameReader<idl::stream::FeedbackFrame>> feedback_reader_;
+  std::optional<stream::FrameReader<idl::stream::FeedbackFrame>>
       present_reader_;  ///< without history; until recovered
 
   using AlarmKey = std::array<std::uint32_t, 3>;

@@ -53,7 +53,7 @@ PlcService::PlcService(service::Node& node)
       round_writer_(node.options().state_directory + rounds_file),
       online_(node, core_, rounds_, boot_,
               [this](std::int64_t time) { applied(idl::stream::Input::ONLINE_REQUEST, time); }),
-      feedback_(node.bus().reader(topics::feedback_frame)),
+      feedback_(node.bus(), topics::feedback_frame),
       channels_(node.bus().reader(topics::channel_state)),
       requests_(node.bus().reader(topics::auxiliary_request)),
       alarms_(node.bus().reader(topics::alarm)),

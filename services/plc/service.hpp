@@ -15,6 +15,7 @@
 #include "service/parameter_client.hpp"
 #include "service/request.hpp"
 #include "standby_service.hpp"
+#include "stream/frame_reader.hpp"
 
 namespace trunnion::plc {
 
@@ -63,7 +64,7 @@ class PlcService : public service::Service {
   RoundWriter round_writer_;
   bus::Bytes round_bytes_;
   OnlineService online_;
-  bus::Reader<idl::stream::FeedbackFrame> feedback_;
+  stream::FrameReader<idl::stream::FeedbackFrame> feedback_;
   bus::Reader<idl::channel::ChannelState> channels_;
   bus::Reader<idl::channel::AuxiliaryRequest> requests_;
   bus::Reader<idl::service::Alarm> alarms_;

@@ -28,6 +28,7 @@
 #include "service/node.hpp"
 #include "service/request.hpp"
 #include "snapshot_client.hpp"
+#include "stream/whole_frame.hpp"
 #include "topic_source.hpp"
 
 namespace trunnion::recorder {
@@ -136,7 +137,8 @@ Sources::Drained Sources::drain(MessageQueue& queue) {
       message_.topic = static_cast<std::uint16_t>(i);
       message_.sequence = ++sequences_[i];
       message_.source_time = info.source_timestamp;
-      if (topics_[i].is_feedback() && bus::decode(message_.cdr, feedback_))
+      if (topics_[i].is_feedback() && bus::decode(message_.cdr, feedback_) &&
+          stream::fault_of(feedback_).empty())
         progress_.read(feedback_, message_.cdr.size());
       queue.push(message_);
     }
