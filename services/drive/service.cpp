@@ -91,26 +91,23 @@ void DriveService::restore() {
   using storage::KeptState;
   auto kept = encoders_.load();
   Memory memory;
-  if (const auto old = memory_of_format_0(encoders_.path(), core_.memory())) {
-    core_.restore(*old);
-    return;
-  }
-  if (kept.state == KeptState::absent) return;
   if (!kept.content.empty()) std::memcpy(&memory, kept.content.data(), sizeof memory);
-  if (kept.state == KeptState::good) {
-    core_.restore(memory);
-    if (!core_.unreferenced().empty())
-      kept.problem = "it has not been referenced since its position was lost, or is new";
-  } else {
+  const auto old = memory_of_format_0(encoders_.path(), core_.memory());
+  const bool damaged = !old && kept.state != KeptState::good && kept.state != KeptState::absent;
+  if (old)
+    core_.restore(*old);
+  else if (damaged)
     core_.restore_without_positions(memory);
-  }
+  else if (kept.state == KeptState::good)
+    core_.restore(memory);
+  if (!damaged) kept.problem = "it has not been referenced since its position was lost, or is new";
   unreferenced_ = core_.unreferenced();
   for (const auto& axis : unreferenced_)
     node_.alarms().raise(alarm::not_homed, axis.number,
                          "The position of axis " + axis.name + " is not known (" + kept.problem +
                              "): select mode REF, then reference return of the axis",
                          core_.next());
-  if (unreferenced_.empty() && kept.state != KeptState::good)
+  if (unreferenced_.empty() && damaged)
     service::report_damage(node_.alarms(), 0, encoders_.path(), {kept.state, "", 0, kept.problem},
                            "cycle numbers");
 }

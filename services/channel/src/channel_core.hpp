@@ -183,6 +183,7 @@ class ChannelCore {
   // channel_commands.cpp: what an operator may ask, and when.
   Answer refuse(const machine::AlarmDefinition& alarm, std::string reason) const;
   Answer refuse(Refusal refusal) const { return refuse(*refusal.alarm, std::move(refusal.reason)); }
+  Answer operable() const;
   Answer startable() const;
   Answer may_start() const;
   Answer may_move_by_hand() const;
