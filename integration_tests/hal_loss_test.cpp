@@ -76,6 +76,25 @@ TEST_F(Hal, AFaultOfADriveSwitchesAllOffAndIsNamed) {
       << cluster->told();
 }
 
+TEST_F(Hal, AnOpenEmergencyStopChainIsToldAgainAfterEachReset) {
+  make_encoders_absolute();
+  up();
+  output_of("halcmd sets chain-closed 0");
+  EXPECT_TRUE(cluster->until([&] { return cluster->has_alarm(114, "switched the drives off"); }))
+      << cluster->told();
+  for (int i = 0; i < 2; ++i) {
+    cluster->reset_alarms();
+    EXPECT_TRUE(cluster->until([&] { return !cluster->has_alarm(114); })) << cluster->told();
+    EXPECT_TRUE(cluster->until([&] { return cluster->has_alarm(114, "not on 2 s after their enable"); }))
+        << cluster->told();
+  }
+  EXPECT_EQ(cluster->feedback.mode, DriveMode::OFF);
+  output_of("halcmd sets chain-closed 1");
+  cluster->reset_alarms();
+  EXPECT_TRUE(cluster->until([&] { return cluster->feedback.mode == DriveMode::FOLLOWING; }))
+      << cluster->told();
+}
+
 // The signal of the encoder keeps its last value, and the control of HAL drives the motor ever faster behind
 // its setpoints.
 TEST_F(Hal, AnAxisWhoseEncoderIsLostIsSwitchedOffAndBrakedByHal) {

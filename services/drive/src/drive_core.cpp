@@ -237,7 +237,8 @@ void DriveCore::step() {
   if (mode_ == Mode::OFF && enabled_)
     switch_on();
   else if (mode_ != Mode::OFF && !hardware_->enabled())
-    lose_control();
+    lose_control("The hardware has switched the drives off");
+  await_drives();
   switch (mode_) {
     case Mode::OFF:
       break;
