@@ -156,18 +156,18 @@ bool Launcher::collect_ended(std::string& failure) {
     if (process.retiring) continue;
     alarms_of_services_.end(process.entry.instance);
     const auto& e = process.entry;
-    const std::string how = WIFSIGNALED(*status)
-                                ? "was ended by signal " + std::to_string(WTERMSIG(*status))
-                                : "ended with status " + std::to_string(WEXITSTATUS(*status));
+    const auto line = cluster::last_line(process.log);
+    std::string how = WIFSIGNALED(*status) ? "was ended by signal " + std::to_string(WTERMSIG(*status))
+                                           : "ended with status " + std::to_string(WEXITSTATUS(*status));
     if (!was_ready_ && WIFSIGNALED(*status)) {
       ++process.restarts;
       continue;
     }
     if (!was_ready_) {
-      const auto line = cluster::last_line(process.log);
       failure = line.empty() ? e.service + " " + how : line;
       return false;
     }
+    if (WIFEXITED(*status) && WEXITSTATUS(*status) != 0 && !line.empty()) how += ", " + line;
     lose(process, how);
     if (process.policy.gave_up())
       process.fault.give_up("Service " + process.name() + " does not stay up: it ended " +
