@@ -189,8 +189,14 @@ def mtconnect_streams(me):
     time.sleep(0.01)
 
 
-@attack("64 silent Modbus clients")
+@attack("64 silent Modbus clients", silent=True)
 def modbus_idle(me):
+    me.hold(64, me.connect("modbus"))
+    time.sleep(0.01)
+
+
+@attack("64 Modbus clients that send half of a request, or none that could be one")
+def modbus_halves(me):
     connection = me.connect("modbus")
     me.send(connection, me.one_of([b"\0", struct.pack(">HHHB", 1, 0, 6, 1), b"\xff" * 260]))
     me.hold(64, connection)
