@@ -39,8 +39,8 @@ class ServiceFault {
   /// It takes part as a replica again.
   void in_step();
   bool lost() const { return !lost_.empty(); }
-  /// Another replica of its stage ran when it was lost.
-  bool redundant() const { return redundant_; }
+  /// Its loss, if it is lost, holds the channels.
+  bool holds() const { return loss_ == Loss::holds; }
 
   /// Adds what is wrong with it.
   void add_causes(std::uint32_t instance, std::vector<AlarmCause>& causes) const;

@@ -19,7 +19,7 @@ SilentHosts::Silences SilentHosts::look(const std::vector<RemoteService>& servic
     }
     ++host.lost;
     since_.try_emplace(service.instance, now);
-    if (!service.fault->redundant()) host.names += (host.names.empty() ? "" : ", ") + service.name;
+    if (service.fault->holds()) host.names += (host.names.empty() ? "" : ", ") + service.name;
   }
   for (const auto& [name, host] : silences) {
     if (host.lost == host.services) silent_.insert(name);
@@ -60,7 +60,7 @@ void SilentHosts::add_causes(const std::vector<RemoteService>& services, double 
     causes.push_back({&alarm::service_lost, instance_of(here_),
                       "Host " + here_ + " hears no other host: check its network (" + others + ")"});
   for (const auto& service : services) {
-    if (!service.fault->redundant() &&
+    if (service.fault->holds() &&
         (silent_.contains(service.host) ||
          (service.fault->lost() && now - since_.at(service.instance) < alone_after)))
       continue;

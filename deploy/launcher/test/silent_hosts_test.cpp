@@ -29,7 +29,8 @@ class Host {
   void lose(const std::string& name, bool redundant = false) {
     for (std::size_t i = 0; i < services_.size(); ++i)
       if (services_[i].name == name || services_[i].host == name)
-        faults_[i].lose("Service " + services_[i].name + " is silent", redundant);
+        faults_[i].lose("Service " + services_[i].name + " is silent",
+                        redundant ? Loss::redundant : Loss::holds);
   }
   void hear(const std::string& name) {
     for (std::size_t i = 0; i < services_.size(); ++i)
