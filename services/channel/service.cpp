@@ -106,18 +106,21 @@ void ChannelService::start_stream() {
   feedback_reader_.emplace(node_.bus(), topics::feedback_frame);
 }
 
+void ChannelService::tell_unreferenced() {
+  std::set<std::uint16_t> axes;
+  for (const auto& [instance, number, axis] : unreferenced_) axes.insert(static_cast<std::uint16_t>(axis));
+  core_.set_unreferenced(std::move(axes));
+}
+
 void ChannelService::watch_alarms() {
   idl::service::Alarm alarm;
   bool news = false;
   while (alarm_reader_.take(alarm)) {
     const AlarmKey key{alarm.instance, alarm.number, alarm.part};
-    if (alarm.number == alarm::not_homed.number) {
-      const auto axis = static_cast<std::uint16_t>(alarm.part);
-      if (alarm.active)
-        unreferenced_.insert(axis);
-      else
-        unreferenced_.erase(axis);
-    }
+    if (alarm.active && alarm.number == alarm::not_homed.number)
+      unreferenced_.insert(key);
+    else
+      unreferenced_.erase(key);
     const bool holds = alarm.active && alarm.reaction != idl::service::Reaction::SHOW;
     if (holds)
       holding_alarms_[key] = "Alarm " + std::to_string(alarm.number) + ": " + alarm.text;
@@ -131,7 +134,7 @@ void ChannelService::watch_alarms() {
     news = true;
   }
   if (!news) return;
-  core_.set_unreferenced(unreferenced_);
+  tell_unreferenced();
   core_.set_hold(!holding_alarms_.empty() ? holding_alarms_.begin()->second
                  : plc_hold_              ? "Feed hold of the PLC"
                                           : "");
@@ -267,7 +270,7 @@ service::SnapshotAnswer ChannelService::snapshot() {
   bus::Json state = {{"core", core_.explicit_state(answer.detail)}};
   if (!answer.detail.empty()) return answer;
   state["holding_alarms"] = snapshot::written(holding_alarms_);
-  state["unreferenced"] = std::vector<std::uint16_t>(unreferenced_.begin(), unreferenced_.end());
+  state["not_homed"] = unreferenced_;
   state["plc_hold"] = plc_hold_;
   return {SnapshotKind::GIVEN, "", bus::text_of(state)};
 }
@@ -276,8 +279,8 @@ void ChannelService::continue_from_snapshot() {
   const auto& state = *node_.snapshot();
   core_.continue_from(state.at("core"));
   snapshot::read(state.at("holding_alarms"), holding_alarms_);
-  unreferenced_ = state.value("unreferenced", std::set<std::uint16_t>());
-  core_.set_unreferenced(unreferenced_);
+  unreferenced_ = state.value("not_homed", std::set<AlarmKey>());
+  tell_unreferenced();
   plc_hold_ = state.at("plc_hold").get<bool>();
   present_reader_.reset();
 }

@@ -47,6 +47,7 @@ class ChannelService : public service::Service {
   void watch_cycle();
   void read_hand_over();
   void watch_alarms();
+  void tell_unreferenced();
   void take_outputs(const idl::plc::Outputs& outputs);
   void watch_replicas();
   void watch_recorders();
@@ -83,7 +84,7 @@ class ChannelService : public service::Service {
 
   using AlarmKey = std::array<std::uint32_t, 3>;
   std::map<AlarmKey, std::string> holding_alarms_;
-  std::set<std::uint16_t> unreferenced_;  ///< axes of alarm 115
+  std::set<AlarmKey> unreferenced_;  ///< alarms 115; those of two drives while one is swapped
   std::string hand_over_file_;
   std::optional<HandOver> hand_over_;  ///< from the process before
   std::string variables_file_, saved_variables_, boot_;
