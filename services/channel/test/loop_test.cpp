@@ -106,8 +106,8 @@ TEST_F(Loop, ALongCalculationEndsAndThePathDoesNotDependOnHowFastItIsRead) {
 }
 
 TEST_F(Loop, ASubprogramWhoseTextIsOnItsWayIsNone) {
-  subprograms["O7.nc"] = {"N5 GOTO 5\nM99\n"};
-  load("M98 P7\nM30\n");
+  subprograms["O1007.nc"] = {"N5 GOTO 5\nM99\n"};
+  load("M98 P1007\nM30\n");
   ASSERT_TRUE(ask(CommandKind::CYCLE_START).accepted);
   core->advance();
   EXPECT_TRUE(core->waits_for_text());
