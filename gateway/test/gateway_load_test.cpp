@@ -83,11 +83,16 @@ double processor_time(pid_t process, const std::string& name) {
   return 0;
 }
 
-TEST_F(Gateway, LargeBodiesAndAnswersDoNotOccupyTheThreadThatReadsTheConnections) {
-  publish_4000_programs();
+/// A body of 1 MB that is read whole and then refused: numbers are no values of parameters.
+std::string large_body() {
   std::string values = R"({"values": [)";
   while (values.size() < 1'000'000) values += "0.12345678901234567,";
-  values += "0]}";
+  return values + "0]}";
+}
+
+TEST_F(Gateway, LargeBodiesAndAnswersDoNotOccupyTheThreadThatReadsTheConnections) {
+  publish_4000_programs();
+  const auto values = large_body();
   const auto used = [&](const char* thread) { return processor_time(process_->pid(), thread); };
   const auto connections = used("gateway-http"), requests = used("gateway-work");
   for (int i = 0; i < 30; ++i) {
@@ -106,15 +111,27 @@ double resident_megabytes(pid_t process) {
 
 TEST_F(Gateway, MemoryThatLargeAnswersHeldIsGivenBack) {
   publish_4000_programs();
-  const auto list = [&] { EXPECT_EQ(get("/api/programs").status, 200); };
+  const auto values = large_body();
+  const auto ask = [&] {
+    EXPECT_EQ(get("/api/programs").status, 200);
+    EXPECT_EQ(get("/api/parameters?limit=5000").status, 200);
+    EXPECT_EQ(http_client::request(port_, "PUT", "/api/parameters", values).status, 400);
+  };
   const auto resident = [&] { return resident_megabytes(process_->pid()); };
-  list();
+  ask();
   const double before = resident();
-  {
+  const std::string host = " HTTP/1.1\r\nHost: 127.0.0.1\r\n";
+  for (int round = 0; round < 3; ++round) {
     HeldConnections held(port_);
-    for (int i = 0; i < 120; ++i) held.open("GET /api/programs HTTP/1.1\r\nHost: 127.0.0.1\r\n\r\n");
+    for (int i = 0; i < 100; ++i) {
+      held.open("GET /api/parameters?limit=5000" + host + "\r\n");
+      held.open("GET /api/stream" + host +
+                "Connection: Upgrade\r\nUpgrade: websocket\r\nSec-WebSocket-Version: 13\r\n"
+                "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\r\n");
+      if (i % 4 == 0) held.open("GET /api/programs" + host + "\r\n");
+      if (i % 10 == 0) ask();
+    }
     EXPECT_TRUE(eventually([&] { return resident() > 1.2 * before; })) << resident() << " of " << before;
-    list();
   }
   EXPECT_TRUE(eventually([&] { return resident() < 1.1 * before; })) << resident() << " of " << before;
 }
