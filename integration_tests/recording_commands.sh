@@ -59,7 +59,7 @@ named='bytes [0-9]* to [0-9]*, messages of .*Z to .*Z: the chunk '
 "$trunnion" info "$work/damaged.mcap" > "$work/info"
 grep -q "^damaged    $named" "$work/info" || fail "$(cat "$work/info")"
 last() { "$trunnion" export "$1" --csv feedback_frame 2> "$work/said" | tail -1; }
-[ "$(last "$work/damaged.mcap")" = "$(last "$whole")" ] || fail "nothing is read behind the damage"
+[ "$(last "$whole")" = "$(last "$work/damaged.mcap")" ] || fail "nothing is read behind the damage"
 grep -q "$work/damaged.mcap: warning: damaged, $named" "$work/said" || fail "export: $(cat "$work/said")"
 # refuses COMMAND...: with status 1, and names what is missing.
 refuses() {
