@@ -49,8 +49,8 @@ recovers() {
   stop_cluster
 }
 
-recovers '"300020": 1\n"300022": 50\n"300023": 10\n"000910": 20' 'parameter 000910 \(volumetric_values_maximum\) permits 20 values' 000910 100
-recovers '"301030": 1' 'parameter 301031 \(squareness_first_axis\)' 301030 0
+recovers '"300020": 1\n"300022": 50\n"300023": 10\n"000910": 20' 'parameter 000910 .volumetric_values_maximum. permits 20 values' 000910 100
+recovers '"301030": 1' 'parameter 301031 .squareness_first_axis.' 301030 0
 recovers '"040425": 3' 'parameters 040429 .. 040431: the direction of an axis is zero' 040425 0
 
 # The same without a cluster.
