@@ -203,10 +203,11 @@ class ForgerOf : public HostileWriter::Forger {
 
 }  // namespace
 
-HostileWriter::HostileWriter(const bus::NetworkSettings& network, std::uint64_t seed)
+HostileWriter::HostileWriter(const bus::NetworkSettings& network, std::uint64_t seed,
+                             const std::set<std::string>& spared)
     : random_(seed), bus_(bus::Vendor::cyclonedds, network) {
   for_every_topic([&]<class T>(const bus::Topic<T>& topic) {
-    forgers_.push_back(std::make_unique<ForgerOf<T>>(bus_, topic));
+    if (!spared.contains(topic.name)) forgers_.push_back(std::make_unique<ForgerOf<T>>(bus_, topic));
   });
 }
 

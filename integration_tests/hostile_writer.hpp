@@ -6,6 +6,7 @@
 
 #include <memory>
 #include <random>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -15,7 +16,9 @@ namespace trunnion::integration {
 
 class HostileWriter {
  public:
-  HostileWriter(const bus::NetworkSettings& network, std::uint64_t seed);
+  /// Topics of `spared` are not written.
+  HostileWriter(const bus::NetworkSettings& network, std::uint64_t seed,
+                const std::set<std::string>& spared = {});
   ~HostileWriter();
 
   /// Takes what has arrived and writes one message of a topic that has one.
