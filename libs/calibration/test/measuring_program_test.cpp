@@ -143,7 +143,7 @@ TEST(MeasuringProgramText, AnAxisThatCountsModulo360TurnsAsPlanned) {
   const auto turns = [](RotaryWay way, double from, double to) {
     TrueMachine machine(geometry::ac_table(), geometry::ac_table());
     machine.measured.outline.axes[5] = {true, -1e12, 1e12, way};
-    AxisPosition start{0, 0, 0, 0, 0, from}, end{0, 0, 0, 0, 0, to};
+    AxisPosition start{0, 0, 0, 0, 0, from}, end{1, 0, 0, 0, 0, to};
     const auto text =
         positioning_program(default_inputs(machine.measured), machine.measured, {start, end}, {7});
     return turns_of(text, way, from);
