@@ -123,13 +123,13 @@ TEST_F(OperatorCommands, OutsideTheirLimitsAreRefusedAndChangeNothing) {
 }
 
 TEST_F(OperatorCommands, AResetIsTakenWithParametersThatCannotBeUsedAndCorrectedOnesAreUsed) {
-  auto two_of_one_letter = testing::three_axes();
-  two_of_one_letter->values[40425] = {33, ""};
+  auto without_direction = testing::three_axes();
+  without_direction->values[40425] = {33, ""};
   core = std::make_unique<ChannelCore>(0, true);
-  core->set_parameters(two_of_one_letter);
+  core->set_parameters(without_direction);
   ASSERT_TRUE(core->unusable());
   EXPECT_EQ(core->unusable()->text,
-            "channel 0, parameters 040400 .. 040437: two rotary axes have the same letter");
+            "channel 0, parameters 040426 .. 040428: the direction of an axis is zero");
   EXPECT_TRUE(core->take_events().empty());
   EXPECT_TRUE(ask(CommandKind::RESET).accepted);
   EXPECT_EQ(core->state().reset_count, 1u);
