@@ -183,8 +183,9 @@ class Check {
     if (!inputs) return;
     const auto file = path("machine.yaml");
     const auto node = machine::parse_yaml(machine::read_text(file), file)["gateway_loss"]["continue_with"];
-    for (const auto& [name, input] :
+    for (const auto& entry :
          {std::pair("feed_hold", inputs->feed_hold), std::pair("emergency_stop", inputs->emergency_stop)}) {
+      const std::string name = entry.first, input = entry.second;
       const auto refuse = [&](const std::string& why) {
         add(machine::at(file, node[name]) + name + " is " + input + ", " + why, file);
       };
