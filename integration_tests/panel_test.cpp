@@ -193,7 +193,7 @@ TEST_P(PanelOnCluster, AHeldJogKeyMovesAsFarAsItsSpeedSaysAndNothingElseMovesAnA
   const auto rests = [&] {
     const double before = x();
     cluster.until([] { return false; }, 0.5);
-    return x() == before && cluster.state() == RunState::IDLE;
+    return x() == before && cluster.state() != RunState::RUNNING;
   };
   cluster.client().set_mode(0, Mode::JOG);
   panel.set(jog_feed_switch, 7);  // 1000 mm/min
@@ -204,7 +204,9 @@ TEST_P(PanelOnCluster, AHeldJogKeyMovesAsFarAsItsSpeedSaysAndNothingElseMovesAnA
   cluster.until([&] { return cluster.feedback.tick >= tick + 1000; });
   panel.release(x_plus);
   const double seconds = static_cast<double>(cluster.feedback.tick - tick) / 1000;
-  EXPECT_TRUE(cluster.until(rests));
+  ASSERT_TRUE(cluster.until(rests));
+  // The drive stops where the host takes the processor away: no measurement, which host-witness repeats.
+  ASSERT_EQ(cluster.state(), RunState::IDLE) << cluster.told();
   // It begins within the requests' way and the lead, and ends so much later: 0.15 s for either.
   EXPECT_NEAR(x() - begin, speed * seconds, speed * 0.15);
   std::printf("held for %.3f s at %.3f mm/s: %.3f mm\n", seconds, speed, x() - begin);
